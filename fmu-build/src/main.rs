@@ -1,0 +1,2 @@
+//! `cargo fmu`.
+fn main() {}

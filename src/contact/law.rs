@@ -1,0 +1,89 @@
+//! The catalogue of impact laws: their names in a scene, the keys that each one has and what each one is.
+//!
+//! A law is added here, with one line of [`LawKind`] and its row of [`LawKind::info`]; scene, FMU variables and
+//! documentation read this table.
+
+/// The impact laws, under their scene names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LawKind {
+    /// `linear`
+    Linear,
+    /// `kelvin_voigt`
+    KelvinVoigt,
+    /// `kelvin_voigt_no_tension`
+    KelvinVoigtNoTension,
+    /// `hertz`
+    Hertz,
+}
+
+/// A number that a law takes from the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LawKey {
+    /// `stiffness` k, N/m^exponent, > 0
+    Stiffness,
+    /// `exponent` n of the penetration, 1 <= n <= 3
+    Exponent,
+    /// `restitution` e, 0 < e <= 1
+    Restitution,
+}
+
+/// What the catalogue knows of one law.
+#[derive(Clone, Copy, Debug)]
+pub struct LawInfo {
+    /// Name in a scene.
+    pub name: &'static str,
+    /// The keys that the law has, all required but `exponent`.
+    pub keys: &'static [LawKey],
+    /// One sentence for a user: force, source and what to know.
+    pub about: &'static str,
+}
+
+impl LawKind {
+    /// All laws, in the order in which the documentation shows them.
+    pub const ALL: &'static [LawKind] =
+        &[LawKind::Linear, LawKind::KelvinVoigt, LawKind::KelvinVoigtNoTension, LawKind::Hertz];
+
+    /// The law's row of the catalogue.
+    pub const fn info(self) -> LawInfo {
+        match self {
+            LawKind::Linear => LawInfo {
+                name: "linear",
+                keys: &[LawKey::Stiffness],
+                about: "F = k d; elastic, restitution 1 (seed paper, eq. 3)",
+            },
+            LawKind::KelvinVoigt => LawInfo {
+                name: "kelvin_voigt",
+                keys: &[LawKey::Stiffness, LawKey::Restitution],
+                about: "F = k d + c v until d = 0, tension kept; restitution of a free impact exactly e (eqs. 4, 5)",
+            },
+            LawKind::KelvinVoigtNoTension => LawInfo {
+                name: "kelvin_voigt_no_tension",
+                keys: &[LawKey::Stiffness, LawKey::Restitution],
+                about: "F = max(0, k d + c v); returns more than e, 0.5503 for e = 0.5 (sec. 2.2)",
+            },
+            LawKind::Hertz => LawInfo {
+                name: "hertz",
+                keys: &[LawKey::Stiffness, LawKey::Exponent],
+                about: "F = k d^n; elastic, restitution 1 (eq. 6)",
+            },
+        }
+    }
+
+    /// The law of that name in a scene.
+    pub fn from_name(name: &str) -> Option<LawKind> {
+        Self::ALL.iter().copied().find(|kind| kind.info().name == name)
+    }
+}
+
+/// A law with its numbers. Numbers that the law does not have keep their neutral value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImpactLaw {
+    /// Which law.
+    pub kind: LawKind,
+    /// k, N/m^exponent.
+    pub stiffness: f64,
+    /// n, exponent of the penetration (neutral: 1).
+    pub exponent: f64,
+    /// e, restitution of a free impact that the law aims at (neutral: 1).
+    pub restitution: f64,
+}

@@ -1,0 +1,1 @@
+//! The two buildings: mass, stiffness, damping, modes, and their exact response.
