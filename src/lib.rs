@@ -7,6 +7,7 @@
 
 pub mod contact;
 pub mod engine;
+mod quadrature;
 pub mod record;
 pub mod scene;
 pub mod structure;

@@ -1,6 +1,7 @@
 //! Power series of the contact force from that of the penetration, term by term, while a step is expanded.
 
 use super::force::{Force, Guard};
+use crate::quadrature::gauss;
 
 /// Highest power of any series.
 pub const MAX_ORDER: usize = 30;
@@ -80,14 +81,13 @@ impl PairSeries {
         if damping == 0.0 {
             return 0.0;
         }
-        // c times the integral of v^2, by the product of the series of v with itself.
-        let rate = |n: usize| (n + 1) as f64 * self.penetration[n + 1];
-        let mut sum = 0.0;
-        for s in (0..=self.order).rev() {
-            let product: f64 = (0..=s).map(|i| rate(i) * rate(s - i)).sum();
-            sum = sum * x + product / (s + 1) as f64;
-        }
-        damping * sum * x / scale
+        let work: f64 = gauss(x)
+            .map(|(x, weight)| {
+                let (_, rate) = value_and_slope(&self.penetration[..=self.order + 2], x);
+                weight * rate * rate
+            })
+            .sum();
+        damping * work / scale
     }
 }
 

@@ -5,17 +5,8 @@
 use super::model::Model;
 use super::state::*;
 use super::{EnergyPoint, Point};
+use crate::quadrature::gauss;
 use crate::structure::{ModalSeries, flight_order};
-
-/// Nodes on -1..1 and weights of the 12-point Gauss-Legendre rule [AbramowitzStegun1964, table 25.4].
-const GAUSS: [(f64, f64); 6] = [
-    (0.125_233_408_511_468_92, 0.249_147_045_813_402_8),
-    (0.367_831_498_998_180_2, 0.233_492_536_538_354_8),
-    (0.587_317_954_286_617_5, 0.203_167_426_723_065_92),
-    (0.769_902_674_194_304_7, 0.160_078_328_543_346_23),
-    (0.904_117_256_370_474_9, 0.106_939_325_995_318_43),
-    (0.981_560_634_246_719_3, 0.047_175_336_386_511_83),
-];
 
 /// Work over a stretch of time, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -100,13 +91,12 @@ impl Model {
         done: &mut Work,
     ) {
         let (q, v) = (&mut work.node_q, &mut work.node_v);
-        for (node, weight) in GAUSS.iter().flat_map(|(node, weight)| [(-node, *weight), (*node, *weight)]) {
-            let t = 0.5 * length * (1.0 + node);
+        for (t, weight) in gauss(length) {
             series.evaluate(t / series.scale, q, v);
             let acceleration = base.segment.acceleration_at(base.elapsed + from + t);
             let push: f64 = v.iter().zip(&self.structure.participation).map(|(v, p)| v * p).sum();
-            done.input -= 0.5 * length * weight * acceleration * push;
-            done.viscous += 0.5 * length * weight * self.structure.viscous_power(v);
+            done.input -= weight * acceleration * push;
+            done.viscous += weight * self.structure.viscous_power(v);
         }
     }
 
