@@ -6,6 +6,7 @@
 #![deny(unsafe_code)]
 
 pub mod contact;
+pub mod description;
 pub mod engine;
 pub mod record;
 pub mod scene;
