@@ -6,7 +6,7 @@ use super::model::Model;
 use super::state::*;
 use super::{EnergyPoint, Point};
 use crate::quadrature::gauss;
-use crate::structure::{ModalSeries, flight_order};
+use crate::structure::flight_order;
 
 /// Work over a stretch of time, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -46,11 +46,19 @@ impl Model {
     /// Work from the base over `length` seconds.
     fn work_over(&self, base: &Base, step: &Step, inputs: &Inputs, work: &mut Workspace, length: f64) -> Work {
         let mut done = Work::default();
-        if step.kind == StepKind::Contact {
-            self.integrate(base, &step.series, (0.0, length), work, &mut done);
-            step.series.evaluate(length / step.series.scale, &mut work.q, &mut work.v);
-        } else {
-            self.integrate_flight(base, inputs, work, length, &mut done);
+        match step.kind {
+            _ if length == 0.0 => return done,
+            StepKind::Contact => {
+                let series = &step.series;
+                self.integrate(base, |t, q, v| series.evaluate(t / series.scale, q, v), (0.0, length), work, &mut done);
+                series.evaluate(length / series.scale, &mut work.q, &mut work.v);
+            }
+            StepKind::Onset => {
+                let onset = &step.onset;
+                self.integrate(base, |t, q, v| onset.evaluate(t / onset.scale, q, v), (0.0, length), work, &mut done);
+                onset.evaluate(length / onset.scale, &mut work.q, &mut work.v);
+            }
+            StepKind::Flight | StepKind::Unknown => self.integrate_flight(base, inputs, work, length, &mut done),
         }
         work.load.fill(0.0);
         self.add_floor_forces(inputs, &mut work.load);
@@ -71,7 +79,7 @@ impl Model {
         for i in 0..pieces {
             let start = (work.q.as_slice(), work.v.as_slice());
             series.expand_flight(&self.structure, start, (&work.load, &work.slope), (h, order));
-            self.integrate(base, &series, (i as f64 * h, h), work, done);
+            self.integrate(base, |t, q, v| series.evaluate(t / h, q, v), (i as f64 * h, h), work, done);
             series.evaluate(1.0, &mut work.q, &mut work.v);
             for (load, slope) in work.load.iter_mut().zip(&work.slope) {
                 *load += slope * h;
@@ -80,19 +88,19 @@ impl Model {
         work.series = series;
     }
 
-    /// Adds the work of the ground motion and of structural damping over a series, which begins `from` seconds after
-    /// the base and is integrated over `length` seconds.
+    /// Adds the work of the ground motion and of structural damping over a solution `motion`(t, q, v), which begins
+    /// `from` seconds after the base and is integrated over `length` seconds.
     fn integrate(
         &self,
         base: &Base,
-        series: &ModalSeries,
+        motion: impl Fn(f64, &mut [f64], &mut [f64]),
         (from, length): (f64, f64),
         work: &mut Workspace,
         done: &mut Work,
     ) {
         let (q, v) = (&mut work.node_q, &mut work.node_v);
         for (t, weight) in gauss(length) {
-            series.evaluate(t / series.scale, q, v);
+            motion(t, q, v);
             let acceleration = base.segment.acceleration_at(base.elapsed + from + t);
             let push: f64 = v.iter().zip(&self.structure.participation).map(|(v, p)| v * p).sum();
             done.input -= weight * acceleration * push;
