@@ -160,7 +160,8 @@ impl Fmu {
         let log = Box::new(Log::default());
         let logger = arguments.with_logger.then_some(note as Logger);
         let environment = ptr::from_ref(&*log).cast_mut().cast();
-        let callbacks = Callbacks { logger, allocate: ptr::null(), free: ptr::null(), finished: ptr::null(), environment };
+        let callbacks =
+            Callbacks { logger, allocate: ptr::null(), free: ptr::null(), finished: ptr::null(), environment };
         let text = |text: &Option<CString>| text.as_ref().map_or(ptr::null(), |text| text.as_ptr());
         // SAFETY: the signature is that of the standard, the strings and callbacks outlive the call.
         let component = unsafe {
@@ -354,18 +355,18 @@ impl Instance<'_> {
 
     pub fn string(&self, name: &str) -> String {
         let mut text = ptr::null::<c_char>();
-        assert_eq!(self.get_raw("fmi2GetString", &raw const self.fmu.vr(name), 1, &raw mut text), OK);
+        assert_eq!(self.get_raw("fmi2GetString", &self.fmu.vr(name), 1, &raw mut text), OK);
         // SAFETY: a string of the FMU, which lives until the next call.
         unsafe { CStr::from_ptr(text) }.to_str().unwrap().to_owned()
     }
 
     pub fn set_real(&self, name: &str, value: f64) -> c_int {
-        self.set_raw("fmi2SetReal", &raw const self.fmu.vr(name), 1, &raw const value)
+        self.set_raw("fmi2SetReal", &self.fmu.vr(name), 1, &raw const value)
     }
 
     pub fn set_string(&self, name: &str, value: &str) -> c_int {
         let text = CString::new(value).unwrap();
-        self.set_raw("fmi2SetString", &raw const self.fmu.vr(name), 1, &raw const text.as_ptr())
+        self.set_raw("fmi2SetString", &self.fmu.vr(name), 1, &text.as_ptr())
     }
 
     /// The bits of every Real output and every Integer output.
