@@ -199,6 +199,11 @@ impl Pair {
         (dot(&self.row, q) - self.gap, dot(&self.row, v))
     }
 
+    /// m, rounding error of a penetration that was added up from numbers of that size: a touch below it is none.
+    pub fn noise(&self, size: f64) -> f64 {
+        2.0 * f64::EPSILON * (size + self.gap.abs())
+    }
+
     /// A pair that overlaps at the start is an episode without approach velocity.
     fn at_start(&self, index: usize, time: f64, q: &[f64], v: &[f64]) -> Contact {
         let (penetration, rate) = self.penetration(q, v);

@@ -91,7 +91,7 @@ impl Model {
     /// The grid that all entering pairs share, and the time in which the quickest of them would turn round.
     fn onset_grid(&self, base: &Base, work: &mut Workspace, remaining: f64) -> Option<(Grid, f64)> {
         let mut found: Option<Grid> = None;
-        let mut scale = remaining;
+        let mut scale = self.series_scale(base, remaining);
         let allowed = self.step_tolerance * base.velocity_scale;
         self.structure.accelerate(&base.q, &base.v, &work.load, &mut work.q);
         for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| contact.is_singular()) {
@@ -183,16 +183,16 @@ impl Model {
         }
     }
 
-    /// How far the last two terms of all rows together stay below the tolerance.
+    /// How far the last terms stay below the tolerance: those within one step of either exponent of the end, for free
+    /// masses have terms in every other row only.
     fn onset_reach(&self, base: &Base, onset: &OnsetSeries, grid: &Grid) -> f64 {
         let allowed = self.step_tolerance * base.velocity_scale * onset.scale;
         let mut last = [0.0; MOST_TERMS];
-        for j in 0..grid.rows {
-            for i in grid.last(j).saturating_sub(1).max(2)..=grid.last(j) {
-                let index = grid.index(i, j);
-                last[index] = grid.exponent(i, j) * self.worst_floor(onset.term(index));
+        grid.each(|index, exponent| {
+            if exponent > HIGHEST - grid.beta.max(2.0) {
+                last[index] = exponent * self.worst_floor(onset.term(index));
             }
-        }
+        });
         // The sum goes nearly as a power of x: a few secant steps in logarithms.
         let mut x = 1.0;
         for _ in 0..3 {
