@@ -90,6 +90,16 @@ pub enum Scaling {
     Pga(f64),
 }
 
+impl Scaling {
+    /// The factor on a record.
+    pub fn factor(self, record: &Record) -> Result<f64, Problem> {
+        match self {
+            Scaling::Scale(factor) => Ok(factor),
+            Scaling::Pga(pga) => Ok(pga / record.peak()),
+        }
+    }
+}
+
 /// Two facing floors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactPair {

@@ -1,5 +1,8 @@
 //! Contact of two floors: the laws of the impact force and what is known of them.
 
+pub mod force;
 pub mod law;
+pub mod series;
 
+pub use force::{EpisodeForce, Force, Guard};
 pub use law::{ImpactLaw, LawKey, LawKind};

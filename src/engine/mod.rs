@@ -2,25 +2,19 @@
 //!
 //! [`Model`] never changes during a run, [`State`] is plain data; a communication point is read into a [`Point`].
 
-use crate::record::Record;
-use crate::scene::{Scene, SceneError};
+mod advance;
+mod contact_step;
+mod energy;
+mod flight;
+mod ground;
+mod model;
+mod observe;
+mod roots;
+mod state;
 
-/// Which building.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Side {
-    /// On the left.
-    Left,
-    /// On the right.
-    Right,
-}
-
-/// Everything that stays as it is during a run.
-#[derive(Debug)]
-pub struct Model {}
-
-/// Everything that changes during a run.
-#[derive(Clone, Debug)]
-pub struct State {}
+pub use crate::structure::Side;
+pub use model::Model;
+pub use state::{Counters, State};
 
 /// The solution at one time, as floors and contacts show it.
 #[derive(Clone, Debug, Default)]
@@ -35,6 +29,11 @@ pub struct Point {
     pub impacts: u64,
     /// Present where the scene asks for it.
     pub energy: Option<EnergyPoint>,
+    /// Modal displacements, velocities and accelerations (absolute), from which a floor is read when asked for.
+    q: Vec<f64>,
+    v: Vec<f64>,
+    acceleration: Vec<f64>,
+    work: Option<Box<state::Workspace>>,
 }
 
 /// One contact at one time. Names and meaning as in the FMU variables `contact[p].*`.
@@ -78,7 +77,7 @@ pub struct EnergyPoint {
 }
 
 /// One contact episode.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Episode {
     /// Contact, counted from 0.
     pub contact: usize,
@@ -108,88 +107,4 @@ pub struct Episode {
 pub struct EngineError {
     /// For a person.
     pub message: String,
-}
-
-impl Model {
-    /// Prepares a checked scene. `record` is there when `scene.ground.record` is.
-    pub fn new(_scene: &Scene, _record: Option<&Record>) -> Result<Model, SceneError> {
-        todo!()
-    }
-
-    /// Number of floors of a building.
-    pub fn floors(&self, _side: Side) -> usize {
-        todo!()
-    }
-
-    /// Hz, natural frequencies of one building alone, ascending.
-    pub fn natural_frequencies(&self, _side: Side) -> &[f64] {
-        todo!()
-    }
-
-    /// The initial state at a time, s.
-    pub fn start(&self, _time: f64) -> State {
-        todo!()
-    }
-
-    /// Brings the state to a time, s, and reports each episode when it ends.
-    pub fn advance(
-        &self,
-        _state: &mut State,
-        _until: f64,
-        _on_episode: &mut dyn FnMut(&Episode),
-    ) -> Result<(), EngineError> {
-        todo!()
-    }
-
-    /// Reads the state at its present time; the buffers of `point` are reused.
-    pub fn observe(&self, _state: &State, _point: &mut Point) {
-        todo!()
-    }
-
-    /// m, relative to the ground; floors counted from 0.
-    pub fn displacement(&self, _point: &Point, _side: Side, _floor: usize) -> f64 {
-        todo!()
-    }
-
-    /// m/s, relative to the ground.
-    pub fn velocity(&self, _point: &Point, _side: Side, _floor: usize) -> f64 {
-        todo!()
-    }
-
-    /// m/s2, absolute.
-    pub fn acceleration(&self, _point: &Point, _side: Side, _floor: usize) -> f64 {
-        todo!()
-    }
-
-    /// N, force of the building on the ground.
-    pub fn base_shear(&self, _point: &Point, _side: Side) -> f64 {
-        todo!()
-    }
-
-    /// m, largest drift of the storey below the floor so far.
-    pub fn peak_drift(&self, _state: &State, _side: Side, _floor: usize) -> f64 {
-        todo!()
-    }
-
-    /// The episode that a contact is in, if it is in one.
-    pub fn open_episode(&self, _state: &State, _contact: usize) -> Option<Episode> {
-        todo!()
-    }
-}
-
-impl State {
-    /// s, the communication time.
-    pub fn time(&self) -> f64 {
-        todo!()
-    }
-
-    /// m/s2, held from now on; only where the scene has no record.
-    pub fn set_ground_acceleration(&mut self, _acceleration: f64) {
-        todo!()
-    }
-
-    /// N, held from now on; only where the scene has floor forces.
-    pub fn set_floor_force(&mut self, _side: Side, _floor: usize, _force: f64) {
-        todo!()
-    }
 }

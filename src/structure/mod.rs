@@ -1,1 +1,317 @@
-//! The two buildings: mass, stiffness, damping, modes, and their exact response.
+//! The two buildings: mass, stiffness and damping in modal coordinates, and their exact response apart from contact.
+//!
+//! Both buildings' modes stand in one vector, the left building's first, padded with resting modes to a multiple of
+//! [`LANES`] so that every loop over modes vectorises:
+//!
+//! ```text
+//! q'' + c q' + w^2 q = load,   load = -participation * ground acceleration + shape' * floor forces - pair * contact force
+//! ```
+
+mod modes;
+mod propagator;
+mod series;
+
+pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
+pub use propagator::{CoupledIncrement, ModeIncrement};
+pub use series::{ModalSeries, dot, flight_order};
+
+use crate::scene::Building;
+use nalgebra::DMatrix;
+
+/// Modal vectors are padded to a multiple of this.
+pub const LANES: usize = 4;
+
+/// Which building.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Side {
+    /// On the left.
+    Left,
+    /// On the right.
+    Right,
+}
+
+/// Both buildings in modal coordinates.
+#[derive(Clone, Debug)]
+pub struct Structure {
+    buildings: [Modes; 2],
+    /// Length of a modal vector.
+    pub lanes: usize,
+    /// w^2 of each mode, 1/s^2; 0 in the padding, as everywhere below.
+    pub omega2: Vec<f64>,
+    /// Damping of each mode by its own velocity, 1/s.
+    pub damping: Vec<f64>,
+    /// kg^1/2.
+    pub participation: Vec<f64>,
+    /// Largest entry of each mode's shape, kg^-1/2: turns a modal error into the worst floor's.
+    pub weight: Vec<f64>,
+    /// Largest w or c of all modes, 1/s: the fastest thing that the structure does.
+    pub fastest: f64,
+    coupling: Vec<Coupling>,
+}
+
+/// Off-diagonal damping of one building, 1/s.
+#[derive(Clone, Debug)]
+struct Coupling {
+    offset: usize,
+    matrix: DMatrix<f64>,
+}
+
+impl Structure {
+    /// Solves both eigenproblems.
+    pub fn new(left: &Building, right: &Building) -> Result<Structure, (Side, NotPositiveDefinite)> {
+        let left = Modes::of(left).map_err(|e| (Side::Left, e))?;
+        let right = Modes::of(right).map_err(|e| (Side::Right, e))?;
+        let lanes = (left.omega.len() + right.omega.len()).next_multiple_of(LANES);
+        let mut structure = Structure {
+            lanes,
+            omega2: vec![0.0; lanes],
+            damping: vec![0.0; lanes],
+            participation: vec![0.0; lanes],
+            weight: vec![0.0; lanes],
+            fastest: 0.0,
+            coupling: Vec::new(),
+            buildings: [left, right],
+        };
+        for side in [Side::Left, Side::Right] {
+            structure.spread(side);
+        }
+        Ok(structure)
+    }
+
+    /// Lays one building's modes into the common vectors.
+    fn spread(&mut self, side: Side) {
+        let offset = self.offset(side);
+        let modes = &self.buildings[side as usize];
+        for (m, w) in modes.omega.iter().enumerate() {
+            self.omega2[offset + m] = w * w;
+            self.participation[offset + m] = modes.participation[m];
+            self.weight[offset + m] = modes.shape.column(m).amax();
+            self.fastest = self.fastest.max(*w);
+        }
+        match &modes.damping {
+            ModalDamping::Diagonal(c) => {
+                self.damping[offset..offset + c.len()].copy_from_slice(c);
+                self.fastest = c.iter().fold(self.fastest, |fastest, c| fastest.max(*c));
+            }
+            ModalDamping::Coupled(c) => {
+                let mut matrix = c.clone();
+                for m in 0..c.nrows() {
+                    self.damping[offset + m] = c[(m, m)];
+                    matrix[(m, m)] = 0.0;
+                }
+                self.fastest = self.fastest.max(c.abs().row_sum().max());
+                self.coupling.push(Coupling { offset, matrix });
+            }
+        }
+    }
+
+    /// The modes of one building.
+    pub fn modes(&self, side: Side) -> &Modes {
+        &self.buildings[side as usize]
+    }
+
+    /// Number of floors, which is also that of modes, of one building.
+    pub fn floors(&self, side: Side) -> usize {
+        self.modes(side).omega.len()
+    }
+
+    /// Where a building's modes begin in a modal vector.
+    pub fn offset(&self, side: Side) -> usize {
+        match side {
+            Side::Left => 0,
+            Side::Right => self.floors(Side::Left),
+        }
+    }
+
+    /// Whether no mode is coupled to another by damping.
+    pub fn is_classical(&self) -> bool {
+        self.coupling.is_empty()
+    }
+
+    /// One floor's motion from a modal vector of displacements, velocities or accelerations.
+    pub fn at_floor(&self, side: Side, floor: usize, modal: &[f64]) -> f64 {
+        let offset = self.offset(side);
+        self.modes(side).shape.row(floor).iter().zip(&modal[offset..]).map(|(shape, q)| shape * q).sum()
+    }
+
+    /// The modal vector of floor displacements or velocities: shape' M u.
+    pub fn to_modal(&self, side: Side, mass: &[f64], floors: &[f64], modal: &mut [f64]) {
+        let offset = self.offset(side);
+        for (m, column) in self.modes(side).shape.column_iter().enumerate() {
+            modal[offset + m] = column.iter().zip(mass).zip(floors).map(|((shape, m), u)| shape * m * u).sum();
+        }
+    }
+
+    /// Adds what a force [N] on one floor does to each mode.
+    pub fn add_floor_force(&self, side: Side, floor: usize, force: f64, load: &mut [f64]) {
+        let offset = self.offset(side);
+        for (shape, load) in self.modes(side).shape.row(floor).iter().zip(&mut load[offset..]) {
+            *load += shape * force;
+        }
+    }
+
+    /// q'' for given q, q' and load per mode.
+    pub fn accelerate(&self, q: &[f64], v: &[f64], load: &[f64], acceleration: &mut [f64]) {
+        for m in 0..self.lanes {
+            acceleration[m] = load[m] - self.damping[m] * v[m] - self.omega2[m] * q[m];
+        }
+        self.subtract_coupling(v, 1.0, acceleration);
+    }
+
+    /// `out` -= factor * (off-diagonal damping) * `velocity`.
+    fn subtract_coupling(&self, velocity: &[f64], factor: f64, out: &mut [f64]) {
+        for Coupling { offset, matrix } in &self.coupling {
+            for (j, column) in matrix.column_iter().enumerate() {
+                let v = factor * velocity[offset + j];
+                for (c, out) in column.iter().zip(&mut out[*offset..]) {
+                    *out -= c * v;
+                }
+            }
+        }
+    }
+
+    /// Force of a building on the ground, N: sum over its floors of K u + C v.
+    pub fn base_shear(&self, side: Side, q: &[f64], v: &[f64]) -> f64 {
+        let offset = self.offset(side);
+        let modes = self.modes(side);
+        let mut shear = 0.0;
+        for (m, participation) in modes.participation.iter().enumerate() {
+            let i = offset + m;
+            let mut resisting = self.omega2[i] * q[i] + self.damping[i] * v[i];
+            if let ModalDamping::Coupled(c) = &modes.damping {
+                resisting += (0..c.ncols()).filter(|j| *j != m).map(|j| c[(m, j)] * v[offset + j]).sum::<f64>();
+            }
+            shear += participation * resisting;
+        }
+        shear
+    }
+
+    /// Kinetic and strain energy, J.
+    pub fn energies(&self, q: &[f64], v: &[f64]) -> (f64, f64) {
+        let kinetic: f64 = v.iter().map(|v| v * v).sum();
+        let strain: f64 = q.iter().zip(&self.omega2).map(|(q, w2)| w2 * q * q).sum();
+        (0.5 * kinetic, 0.5 * strain)
+    }
+
+    /// Power that structural damping takes, W.
+    pub fn viscous_power(&self, v: &[f64]) -> f64 {
+        let mut power: f64 = v.iter().zip(&self.damping).map(|(v, c)| c * v * v).sum();
+        for Coupling { offset, matrix } in &self.coupling {
+            for (j, column) in matrix.column_iter().enumerate() {
+                power += v[offset + j] * column.iter().zip(&v[*offset..]).map(|(c, v)| c * v).sum::<f64>();
+            }
+        }
+        power
+    }
+
+    /// A bound on |q''''| of each mode over any time to come in which the load is linear in time and no contact acts.
+    ///
+    /// y = q'' then has no load: y'' + c y' + w^2 y = 0, its energy y'^2 + w^2 y^2 never grows, and
+    /// |y''| <= (w + c) sqrt(energy). `load` and `slope` are the modal load now and its rate. Returns the bounds
+    /// weighted and summed: sum of weights * |q''''|.
+    pub fn fourth_derivative_bound(
+        &self,
+        (q, v): (&[f64], &[f64]),
+        (load, slope): (&[f64], &[f64]),
+        weights: &[f64],
+        scratch: &mut Scratch,
+    ) -> f64 {
+        let Scratch { y, jerk, .. } = scratch;
+        self.accelerate(q, v, load, y);
+        for m in 0..self.lanes {
+            jerk[m] = slope[m] - self.damping[m] * y[m] - self.omega2[m] * v[m];
+        }
+        self.subtract_coupling(y, 1.0, jerk);
+        if self.is_classical() {
+            let mut bound = 0.0;
+            for m in 0..self.lanes {
+                let (w2, c) = (self.omega2[m], self.damping[m]);
+                let energy = jerk[m] * jerk[m] + w2 * y[m] * y[m];
+                bound += weights[m] * (w2.sqrt() + c) * energy.sqrt();
+            }
+            return bound;
+        }
+        // Coupled modes exchange energy: only the whole sum never grows.
+        let energy: f64 = (0..self.lanes).map(|m| jerk[m] * jerk[m] + self.omega2[m] * y[m] * y[m]).sum();
+        2.0 * self.fastest * energy.sqrt() * weights.iter().sum::<f64>()
+    }
+}
+
+/// Modal vectors for intermediate results.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    y: Vec<f64>,
+    jerk: Vec<f64>,
+    ahead: Vec<f64>,
+}
+
+impl Scratch {
+    /// For modal vectors of that length.
+    pub fn new(lanes: usize) -> Scratch {
+        Scratch { y: vec![0.0; lanes], jerk: vec![0.0; lanes], ahead: vec![0.0; 2 * lanes] }
+    }
+}
+
+/// The exact flight of all modes over one interval length.
+#[derive(Clone, Debug)]
+pub struct Interval {
+    /// s.
+    pub length: f64,
+    modes: Vec<ModeIncrement>,
+    coupled: Vec<(usize, CoupledIncrement)>,
+}
+
+impl Interval {
+    /// Prepares the flight over `length` seconds.
+    pub fn new(structure: &Structure, length: f64) -> Interval {
+        let mut interval =
+            Interval { length, modes: vec![ModeIncrement::default(); structure.lanes], coupled: Vec::new() };
+        interval.prepare(structure, length);
+        interval
+    }
+
+    /// Prepares the flight over another length. Allocates only where damping couples modes.
+    pub fn prepare(&mut self, structure: &Structure, length: f64) {
+        self.length = length;
+        self.coupled.clear();
+        for side in [Side::Left, Side::Right] {
+            let offset = structure.offset(side);
+            let building = structure.modes(side);
+            match &building.damping {
+                ModalDamping::Diagonal(c) => {
+                    for (m, w) in building.omega.iter().enumerate() {
+                        self.modes[offset + m] = ModeIncrement::new(*w, c[m], length);
+                    }
+                }
+                ModalDamping::Coupled(c) => {
+                    self.coupled.push((offset, CoupledIncrement::new(&building.omega, c, length)));
+                }
+            }
+        }
+    }
+
+    /// Flies `q`, `v` over the interval under a modal load and its slope.
+    pub fn fly(&self, [q, v]: [&mut [f64]; 2], [load, slope]: [&[f64]; 2], scratch: &mut Scratch) {
+        // Coupled modes read all of the old state before any of it is overwritten.
+        let mut ahead = &mut scratch.ahead[..];
+        for (offset, increment) in &self.coupled {
+            let (own, rest) = ahead.split_at_mut(increment.matrix.nrows());
+            increment.step(*offset, [q, v, load, slope], own);
+            ahead = rest;
+        }
+        for (m, i) in self.modes.iter().enumerate() {
+            let (q0, v0, l0, l1) = (q[m], v[m], load[m], slope[m]);
+            q[m] = q0 + (i.dqq * q0 + i.dqv * v0 + (i.rq0 * l0 + i.rq1 * l1));
+            v[m] = v0 + (i.dvq * q0 + i.dvv * v0 + (i.rv0 * l0 + i.rv1 * l1));
+        }
+        let mut ahead = &scratch.ahead[..];
+        for (offset, increment) in &self.coupled {
+            let n = increment.matrix.nrows() / 2;
+            for m in 0..n {
+                q[offset + m] += ahead[m];
+                v[offset + m] += ahead[n + m];
+            }
+            ahead = &ahead[2 * n..];
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! The contact force as the engine integrates it: each law, with its episode's numbers filled in, is one of a few
+//! analytic [`Force`]s on either side of a [`Guard`].
+
+use super::{ImpactLaw, LawKind};
+
+/// One analytic piece of a contact force. d is the penetration [m], v its rate [m/s].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Force {
+    /// F = 0.
+    None,
+    /// F = k d + c v.
+    Linear {
+        /// k, N/m.
+        stiffness: f64,
+        /// c, N s/m.
+        damping: f64,
+    },
+    /// F = k d^n.
+    Power {
+        /// k, N/m^n.
+        stiffness: f64,
+        /// n.
+        exponent: f64,
+    },
+}
+
+impl Force {
+    /// N.
+    pub fn value(&self, d: f64, v: f64) -> f64 {
+        match *self {
+            Force::None => 0.0,
+            Force::Linear { stiffness, damping } => stiffness * d + damping * v,
+            Force::Power { stiffness, exponent } => stiffness * power(d, exponent),
+        }
+    }
+
+    /// J, energy that the elastic part holds at penetration d and would give back.
+    pub fn stored_energy(&self, d: f64) -> f64 {
+        match *self {
+            Force::None => 0.0,
+            Force::Linear { stiffness, .. } => 0.5 * stiffness * d * d,
+            Force::Power { stiffness, exponent } => stiffness * power(d, exponent + 1.0) / (exponent + 1.0),
+        }
+    }
+
+    /// Whether the force is a polynomial in d and v, so that nothing is singular at d = 0.
+    pub fn is_regular(&self) -> bool {
+        !matches!(self, Force::Power { .. })
+    }
+}
+
+/// d^n for d >= 0, from the same function on every platform.
+pub fn power(d: f64, exponent: f64) -> f64 {
+    if d <= 0.0 {
+        return 0.0;
+    }
+    if exponent == 1.5 { d * d.sqrt() } else { libm::pow(d, exponent) }
+}
+
+/// Where the force passes from one branch to the other: engaged while constant + stiffness d + damping v > 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Guard {
+    /// Term without d and v.
+    pub constant: f64,
+    /// Factor of d.
+    pub stiffness: f64,
+    /// Factor of v.
+    pub damping: f64,
+}
+
+impl Guard {
+    /// The quantity whose sign decides.
+    pub fn value(&self, d: f64, v: f64) -> f64 {
+        self.constant + self.stiffness * d + self.damping * v
+    }
+}
+
+/// A law in one episode.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EpisodeForce {
+    /// While the guard is positive, or always where there is none.
+    pub engaged: Force,
+    /// While the guard is not positive.
+    pub slack: Force,
+    /// What decides between the two.
+    pub guard: Option<Guard>,
+}
+
+impl EpisodeForce {
+    /// The force of a law between floors of reduced mass `mass` [kg], m_left m_right / (m_left + m_right).
+    pub fn new(law: &ImpactLaw, mass: f64) -> EpisodeForce {
+        let stiffness = law.stiffness;
+        let always = |engaged| EpisodeForce { engaged, slack: Force::None, guard: None };
+        match law.kind {
+            LawKind::Linear => always(Force::Linear { stiffness, damping: 0.0 }),
+            LawKind::KelvinVoigt => {
+                always(Force::Linear { stiffness, damping: kelvin_damping(law.restitution, stiffness, mass) })
+            }
+            LawKind::KelvinVoigtNoTension => {
+                let damping = kelvin_damping(law.restitution, stiffness, mass);
+                let guard = (damping > 0.0).then_some(Guard { constant: 0.0, stiffness, damping });
+                EpisodeForce { engaged: Force::Linear { stiffness, damping }, slack: Force::None, guard }
+            }
+            LawKind::Hertz if law.exponent == 1.0 => always(Force::Linear { stiffness, damping: 0.0 }),
+            LawKind::Hertz => always(Force::Power { stiffness, exponent: law.exponent }),
+        }
+    }
+
+    /// The branch for a guard that is positive (or absent) or not.
+    pub fn branch(&self, engaged: bool) -> Force {
+        if engaged { self.engaged } else { self.slack }
+    }
+
+    /// Whether the force is engaged at d and v.
+    pub fn is_engaged(&self, d: f64, v: f64) -> bool {
+        self.guard.is_none_or(|guard| guard.value(d, v) > 0.0)
+    }
+}
+
+/// c = 2 xi sqrt(k m), xi = -ln e / sqrt(pi^2 + ln^2 e) (Anagnostopoulos 1988; seed paper, eq. 5), N s/m.
+///
+/// A free impact that is held until d = 0 returns exactly e.
+pub fn kelvin_damping(restitution: f64, stiffness: f64, mass: f64) -> f64 {
+    let log = libm::log(restitution);
+    let ratio = -log / (std::f64::consts::PI * std::f64::consts::PI + log * log).sqrt();
+    2.0 * ratio * (stiffness * mass).sqrt()
+}

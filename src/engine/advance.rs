@@ -1,0 +1,192 @@
+//! Advancing: plan a step, take it, handle its event, until the communication time is reached.
+
+use super::ground::Segment;
+use super::model::Model;
+use super::state::*;
+use super::{EngineError, Episode, roots};
+use crate::contact::series::{PairSeries, value, value_and_slope};
+
+/// Steps that may follow each other without any time passing.
+const MOST_STEPS_AT_ONCE: u32 = 100_000;
+
+impl Model {
+    /// Brings the state to a time, s, and reports each episode when it ends.
+    ///
+    /// With a record inside, the engine's own steps are segments, events and contact steps, whatever `until` is.
+    /// Where a master drives the ground or the floors, its input acts from one communication point to the next, so
+    /// these cut the steps too.
+    pub fn advance(
+        &self,
+        state: &mut State,
+        until: f64,
+        on_episode: &mut dyn FnMut(&Episode),
+    ) -> Result<(), EngineError> {
+        if self.ground.is_none() {
+            let acceleration = state.inputs.ground_acceleration;
+            state.base.segment = Segment::under_input(state.time, until - state.time, acceleration);
+            state.base.elapsed = 0.0;
+        }
+        if self.is_driven() {
+            state.step.kind = StepKind::Unknown;
+        }
+        let mut stalled = 0;
+        loop {
+            let segment = &state.base.segment;
+            let limit = if self.is_driven() { segment.length.min(until - segment.start) } else { segment.length };
+            if limit > state.base.elapsed || !self.is_driven() {
+                self.plan(state, limit);
+                let segment = &state.base.segment;
+                let end = if state.step.reaches_limit { limit } else { state.base.elapsed + state.step.length };
+                if until - segment.start < end {
+                    break;
+                }
+                stalled = if end > state.base.elapsed { 0 } else { stalled + 1 };
+                self.take(state, end, on_episode);
+                self.check(state, stalled)?;
+            }
+            if state.base.elapsed >= state.base.segment.length {
+                let Some(ground) = &self.ground else { break };
+                state.base.segment = ground.following(&state.base.segment);
+                state.base.elapsed = 0.0;
+            } else if self.is_driven() && state.base.elapsed >= limit {
+                break;
+            }
+        }
+        state.time = until;
+        Ok(())
+    }
+
+    /// Works out the next step, unless that has been done already.
+    fn plan(&self, state: &mut State, limit: f64) {
+        if state.step.kind != StepKind::Unknown {
+            return;
+        }
+        if state.base.contacts.iter().any(Contact::in_contact) {
+            self.plan_contact(state, limit);
+        } else {
+            self.plan_flight(state, limit);
+        }
+    }
+
+    /// Takes the planned step, which ends at `end` (s since the segment's start), and handles its event.
+    fn take(&self, state: &mut State, end: f64, on_episode: &mut dyn FnMut(&Episode)) {
+        self.add_work(state, state.step.length);
+        let State { base, step, counters, work, .. } = state;
+        let x = step.length / step.series.scale;
+        for (contact, pair) in base.contacts.iter_mut().zip(&step.pairs) {
+            if contact.in_contact() && step.kind == StepKind::Contact {
+                let start = base.segment.start + base.elapsed;
+                contact.follow(pair, step.series.scale, x, start);
+            }
+        }
+        std::mem::swap(&mut base.q, &mut step.q);
+        std::mem::swap(&mut base.v, &mut step.v);
+        base.elapsed = end;
+        for (contact, pair) in base.contacts.iter_mut().zip(&self.pairs) {
+            let (penetration, rate) = pair.penetration(&base.q, &base.v);
+            if !contact.in_contact() {
+                contact.penetration = penetration;
+            }
+            contact.rate = rate;
+            if step.length > 0.0 {
+                contact.at_surface = false;
+                contact.at_guard = false;
+            }
+        }
+        self.update_peak_drift(base, work);
+        if let Some(event) = step.event {
+            counters.events += 1;
+            self.handle(base, event, on_episode);
+        }
+        step.kind = StepKind::Unknown;
+    }
+
+    fn handle(&self, base: &mut Base, event: Event, on_episode: &mut dyn FnMut(&Episode)) {
+        let time = base.segment.start + base.elapsed;
+        match event {
+            Event::Entry(p) => {
+                let contact = &mut base.contacts[p];
+                contact.penetration = 0.0;
+                contact.at_surface = true;
+                contact.begin(time, contact.rate.max(0.0));
+                base.impacts += 1;
+                // The first series of an episode finds its own scale.
+                base.last_length = 0.0;
+            }
+            Event::Release(p) => {
+                let contact = &mut base.contacts[p];
+                contact.penetration = 0.0;
+                contact.at_surface = true;
+                contact.settle();
+                contact.phase = Phase::Apart;
+                contact.episode = contact.present_episode();
+                contact.episode.end = Some(time);
+                contact.episode.separation_velocity = -contact.rate;
+                on_episode(&contact.episode);
+            }
+            Event::Branch(p) => {
+                let contact = &mut base.contacts[p];
+                contact.settle();
+                contact.phase = if contact.phase == Phase::Engaged { Phase::Slack } else { Phase::Engaged };
+                contact.stored_reference = contact.branch().stored_energy(contact.penetration);
+                contact.at_guard = true;
+            }
+        }
+    }
+
+    /// Nothing may run for ever or on without numbers.
+    fn check(&self, state: &State, stalled: u32) -> Result<(), EngineError> {
+        let base = &state.base;
+        let time = base.segment.start + base.elapsed;
+        if stalled > MOST_STEPS_AT_ONCE {
+            let open: Vec<String> = (base.contacts.iter().enumerate())
+                .filter(|(_, contact)| contact.in_contact())
+                .map(|(p, _)| format!("contact[{}]", p + 1))
+                .collect();
+            return Err(EngineError {
+                message: format!(
+                    "no progress at t = {time} s after {stalled} steps in a row, in contact: {}; \
+                     a softer contact stiffness or a larger solver.relative_tolerance would help",
+                    if open.is_empty() { "none".into() } else { open.join(", ") }
+                ),
+            });
+        }
+        if base.q.iter().chain(&base.v).all(|value| value.is_finite()) {
+            return Ok(());
+        }
+        Err(EngineError {
+            message: format!(
+                "the motion exceeds what double precision can hold at t = {time} s; \
+                 check the units of masses, stiffnesses and ground acceleration"
+            ),
+        })
+    }
+}
+
+impl Contact {
+    /// Follows the contact over 0..=x of a step: penetration, impulse, peaks, work.
+    pub(super) fn follow(&mut self, pair: &PairSeries, scale: f64, x: f64, start: f64) {
+        let force = self.branch();
+        let impulse = pair.impulse(x, scale);
+        self.impulse += impulse;
+        self.work += pair.damping_work(&force, x, scale);
+        if let Some((at, peak)) = roots::maximum_above(&pair.force[..=pair.order], x, self.episode.peak_force) {
+            self.episode.peak_force = peak;
+            self.episode.peak_time = start + at * scale;
+            self.peak_force = self.peak_force.max(peak);
+        }
+        let penetration = &pair.penetration[..=pair.order + 2];
+        if let Some((_, peak)) = roots::maximum_above(penetration, x, self.episode.peak_penetration) {
+            self.episode.peak_penetration = peak;
+        }
+        self.penetration = value(penetration, x);
+        self.rate = value_and_slope(penetration, x).1 / scale;
+        self.episode.impulse += impulse;
+    }
+
+    /// Books what the elastic part has taken since the reference.
+    fn settle(&mut self) {
+        self.work += self.branch().stored_energy(self.penetration) - self.stored_reference;
+        self.stored_reference = 0.0;
+    }
+}

@@ -1,0 +1,239 @@
+//! A step in contact: power series in time of all modes, with the forces of the floors in contact.
+//!
+//! The modes are linear, so each power of their series follows from the ones before at the cost of a few vector
+//! operations; only the contact forces need products of scalar series. The step is as long as the last terms allow.
+
+use super::model::{Model, Pair};
+use super::roots;
+use super::state::*;
+use crate::contact::Force;
+use crate::contact::series::MAX_ORDER;
+use crate::structure::{LANES, dot};
+
+/// Share of `relative_tolerance` that one step may use: an episode takes some ten steps, and an earthquake some
+/// hundred episodes, whose errors add up.
+const STEP_SHARE: f64 = 0.02;
+
+/// Rate of a force that is left out at the singular start of a power law, as a share of a step's tolerance.
+const START_SHARE: f64 = 0.1;
+
+/// Velocity error of one step relative to the velocity scale, and the order of the series, for a scene's tolerance.
+pub(super) fn accuracy(relative_tolerance: f64) -> (f64, usize) {
+    let tolerance = STEP_SHARE * relative_tolerance;
+    // The cheapest order grows by about 1.2 for each digit: measured on hertz and kelvin_voigt scenes.
+    let order = (-1.2 * libm::log10(tolerance)).round().clamp(8.0, (MAX_ORDER - 2) as f64);
+    (tolerance, order as usize)
+}
+
+impl Model {
+    /// Works out the step in contact from the base until `limit` (s since the segment's start) or the next event.
+    pub(super) fn plan_contact(&self, state: &mut State, limit: f64) {
+        let State { base, step, inputs, counters, work, .. } = state;
+        counters.contact_steps += 1;
+        let remaining = limit - base.elapsed;
+        base.velocity_scale = base.velocity_scale.max(self.present_velocity(base));
+        self.load(base, inputs, &mut work.load, &mut work.slope);
+        let scale = if base.last_length > 0.0 { base.last_length.min(remaining) } else { remaining };
+        self.expand(base, step, work, scale);
+        let reach = self.accurate_reach(base, step, remaining / scale);
+        let whole = remaining / scale <= reach;
+        let end = if whole { remaining / scale } else { reach };
+        let event = self.first_event(base, step, work, end);
+        let x = event.map_or(end, |(x, _)| x);
+        step.kind = StepKind::Contact;
+        step.event = event.map(|(_, event)| event);
+        step.reaches_limit = whole && event.is_none();
+        step.length = if step.reaches_limit { remaining } else { x * scale };
+        step.series.evaluate(x, &mut step.q, &mut step.v);
+        base.last_length = reach * scale;
+    }
+
+    /// The series of modes, penetrations and forces from the base on.
+    fn expand(&self, base: &Base, step: &mut Step, work: &Workspace, scale: f64) {
+        let Step { series, pairs, .. } = step;
+        series.start(scale, &base.q, &base.v);
+        let touching = || base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact());
+        for (p, contact) in touching() {
+            pairs[p].penetration[0] = contact.penetration;
+            pairs[p].penetration[1] = contact.rate * scale;
+        }
+        for n in 0..self.order {
+            for (p, contact) in touching() {
+                pairs[p].extend_force(&contact.starting_force(), n, scale);
+            }
+            series.extend(&self.structure, |out| {
+                match n {
+                    0 => out.copy_from_slice(&work.load),
+                    1 => out.iter_mut().zip(&work.slope).for_each(|(out, slope)| *out = slope * scale),
+                    _ => {}
+                }
+                for (p, _) in touching() {
+                    let force = pairs[p].force[n];
+                    for (out, row) in out.iter_mut().zip(&self.pairs[p].row) {
+                        *out -= row * force;
+                    }
+                }
+            });
+            for (p, _) in touching() {
+                pairs[p].penetration[n + 2] = dot(&self.pairs[p].row, series.term(n + 2));
+            }
+        }
+    }
+
+    /// How far, in units of the series' scale, its last two terms stay below the tolerance.
+    ///
+    /// It is the velocity that is controlled: over a contact of a millisecond a displacement error is a velocity error
+    /// a thousand times larger.
+    fn accurate_reach(&self, base: &Base, step: &Step, whole: f64) -> f64 {
+        let series = &step.series;
+        let mut allowed = self.step_tolerance * base.velocity_scale * series.scale;
+        if allowed == 0.0 {
+            // At rest and unloaded so far: relative to the velocities that this step brings about.
+            let start = (2..=series.order).map(|n| self.worst_floor(series.term(n)) * n as f64).fold(0.0, f64::max);
+            allowed = self.step_tolerance * start;
+        }
+        let mut reach = f64::INFINITY;
+        for n in [series.order - 1, series.order] {
+            let term = n as f64 * self.worst_floor(series.term(n));
+            if term > 0.0 {
+                reach = reach.min(libm::pow(allowed / term, 1.0 / (n - 1) as f64));
+            }
+        }
+        reach *= 0.9;
+        for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| contact.is_singular()) {
+            let allowed = START_SHARE * self.step_tolerance * base.velocity_scale * self.pairs[p].mass;
+            let terms = &step.pairs[p].penetration[..=series.order];
+            reach = reach.min(self.forceless_reach(&contact.branch(), terms, series.scale, allowed, whole));
+        }
+        reach
+    }
+
+    /// How far a power law's force may be left out after an entry: its impulse stays below `allowed` [N s].
+    fn forceless_reach(&self, force: &Force, terms: &[f64], scale: f64, allowed: f64, whole: f64) -> f64 {
+        let impulse = |x: f64| {
+            let penetration = terms.iter().rev().fold(0.0, |sum, c| sum * x + c.abs());
+            force.value(penetration, 0.0) * x * scale
+        };
+        let mut x = whole;
+        while impulse(x) > allowed && x > f64::MIN_POSITIVE {
+            x *= 0.5;
+        }
+        x
+    }
+
+    /// Largest floor velocity of a modal vector, up to the sum over modes.
+    fn worst_floor(&self, modal: &[f64]) -> f64 {
+        let mut largest = [0.0_f64; LANES];
+        for (modal, weight) in modal.chunks_exact(LANES).zip(self.structure.weight.chunks_exact(LANES)) {
+            for i in 0..LANES {
+                largest[i] = largest[i].max(modal[i].abs() * weight[i]);
+            }
+        }
+        largest.iter().fold(0.0, |a, b| a.max(*b))
+    }
+
+    /// The velocity that contact errors are measured against: of the floors, or what the springs can give them.
+    fn present_velocity(&self, base: &Base) -> f64 {
+        let springs = base.contacts.iter().zip(&self.pairs).map(|(contact, pair)| {
+            (2.0 * contact.branch().stored_energy(contact.penetration.max(0.0)) / pair.mass).sqrt()
+        });
+        springs.fold(self.worst_floor(&base.v), f64::max)
+    }
+
+    /// The first event in 0..=end of the step's series.
+    fn first_event(&self, base: &Base, step: &Step, work: &mut Workspace, end: f64) -> Option<(f64, Event)> {
+        let mut first: Option<(f64, Event)> = None;
+        let growth = self.growth(step, end);
+        for (p, (contact, pair)) in base.contacts.iter().zip(&self.pairs).enumerate() {
+            let until = first.map_or(end, |(x, _)| x);
+            let found = if contact.in_contact() {
+                self.leaving(p, contact, step, work, until)
+            } else {
+                self.entering(p, contact, pair, step, work, until, growth)
+            };
+            first = found.or(first);
+        }
+        first
+    }
+
+    /// Bound on what the powers from 2 on add to any penetration within the step, m.
+    fn growth(&self, step: &Step, end: f64) -> f64 {
+        let series = &step.series;
+        let mut sum = 0.0;
+        for n in (2..=series.order).rev() {
+            let term: f64 = series.term(n).iter().zip(&self.pair_weight).map(|(q, weight)| q.abs() * weight).sum();
+            sum = (sum + term) * end;
+        }
+        sum * end
+    }
+
+    /// Release or change of branch of a pair in contact.
+    fn leaving(
+        &self,
+        p: usize,
+        contact: &Contact,
+        step: &Step,
+        work: &mut Workspace,
+        end: f64,
+    ) -> Option<(f64, Event)> {
+        let (series, pair) = (&step.series, &step.pairs[p]);
+        let terms = ..=series.order;
+        // Distance to the surface, positive once d has passed 0 downwards.
+        let distance = &mut work.scalar[terms];
+        for (out, d) in distance.iter_mut().zip(&pair.penetration[terms]) {
+            *out = -d;
+        }
+        let first = roots::first_rise(distance, end, 0.0).map(|x| (x, Event::Release(p)));
+        let Some(guard) = contact.force.guard else { return first };
+        let until = first.map_or(end, |(x, _)| x);
+        let sense = if contact.phase == Phase::Engaged { -1.0 } else { 1.0 };
+        pair.guard(&guard, series.scale, &mut work.scalar);
+        let value = &mut work.scalar[..=pair.order];
+        for out in value.iter_mut() {
+            *out *= sense;
+        }
+        if contact.at_guard {
+            value[0] = 0.0;
+        }
+        match roots::first_rise(value, until, 0.0) {
+            Some(x) if x < until || first.is_none() => Some((x, Event::Branch(p))),
+            _ => first,
+        }
+    }
+
+    /// Entry of a pair that is apart.
+    #[expect(clippy::too_many_arguments, reason = "one place in the loop over pairs")]
+    fn entering(
+        &self,
+        p: usize,
+        contact: &Contact,
+        pair: &Pair,
+        step: &Step,
+        work: &mut Workspace,
+        end: f64,
+        growth: f64,
+    ) -> Option<(f64, Event)> {
+        let series = &step.series;
+        let start = if contact.at_surface { 0.0 } else { contact.penetration.min(0.0) };
+        if start + (contact.rate * series.scale * end).max(0.0) + growth < 0.0 {
+            return None;
+        }
+        let penetration = &mut work.scalar[..=series.order];
+        series.project(&pair.row, penetration);
+        let noise = 2.0 * f64::EPSILON * (penetration[0].abs() + pair.gap.abs());
+        penetration[0] = start;
+        roots::first_rise(penetration, end, noise).map(|x| (x, Event::Entry(p)))
+    }
+}
+
+impl Contact {
+    /// Just entered under a force that has no power series at d = 0.
+    fn is_singular(&self) -> bool {
+        self.in_contact() && self.penetration <= 0.0 && !self.branch().is_regular()
+    }
+
+    /// The force that the series of the next step uses.
+    fn starting_force(&self) -> Force {
+        if self.is_singular() { Force::None } else { self.branch() }
+    }
+}

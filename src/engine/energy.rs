@@ -1,0 +1,138 @@
+//! The energy account, in motion relative to the ground. Only kept where the scene asks for it.
+//!
+//! Every term is integrated by itself, none is the remainder of the others, so that their sum tests the solution.
+
+use super::model::Model;
+use super::state::*;
+use super::{EnergyPoint, Point};
+use crate::structure::{ModalSeries, flight_order};
+
+/// Nodes on -1..1 and weights of the 12-point Gauss-Legendre rule [AbramowitzStegun1964, table 25.4].
+const GAUSS: [(f64, f64); 6] = [
+    (0.125_233_408_511_468_92, 0.249_147_045_813_402_8),
+    (0.367_831_498_998_180_2, 0.233_492_536_538_354_8),
+    (0.587_317_954_286_617_5, 0.203_167_426_723_065_92),
+    (0.769_902_674_194_304_7, 0.160_078_328_543_346_23),
+    (0.904_117_256_370_474_9, 0.106_939_325_995_318_43),
+    (0.981_560_634_246_719_3, 0.047_175_336_386_511_83),
+];
+
+/// Work over a stretch of time, J.
+#[derive(Clone, Copy, Debug, Default)]
+struct Work {
+    input: f64,
+    viscous: f64,
+    external: f64,
+}
+
+impl Model {
+    /// Opens the account with the energy that is there at the start.
+    pub(super) fn open_account(&self, base: &mut Base) {
+        let (kinetic, strain) = self.structure.energies(&base.q, &base.v);
+        if let Some(account) = &mut base.energy {
+            account.initial = kinetic + strain;
+            account.largest = account.initial;
+        }
+    }
+
+    /// Adds the work of the first `length` seconds of the planned step to the account of the base.
+    pub(super) fn add_work(&self, state: &mut State, length: f64) {
+        let State { base, step, inputs, work, .. } = state;
+        if base.energy.is_none() {
+            return;
+        }
+        let done = self.work_over(base, step, inputs, work, length);
+        let impact: f64 = base.contacts.iter().map(Contact::dissipated_energy).sum();
+        let (kinetic, strain) = self.structure.energies(&base.q, &base.v);
+        if let Some(account) = &mut base.energy {
+            account.input += done.input;
+            account.viscous += done.viscous;
+            account.external += done.external;
+            account.update_largest([kinetic, strain, impact]);
+        }
+    }
+
+    /// Work from the base over `length` seconds.
+    fn work_over(&self, base: &Base, step: &Step, inputs: &Inputs, work: &mut Workspace, length: f64) -> Work {
+        let mut done = Work::default();
+        if step.kind == StepKind::Contact {
+            self.integrate(base, &step.series, (0.0, length), work, &mut done);
+            step.series.evaluate(length / step.series.scale, &mut work.q, &mut work.v);
+        } else {
+            self.integrate_flight(base, inputs, work, length, &mut done);
+        }
+        work.load.fill(0.0);
+        self.add_floor_forces(inputs, &mut work.load);
+        done.external = (0..self.structure.lanes).map(|m| work.load[m] * (work.q[m] - base.q[m])).sum();
+        done
+    }
+
+    /// Flies in pieces that a series reaches; leaves the end in `work.q`, `work.v`.
+    fn integrate_flight(&self, base: &Base, inputs: &Inputs, work: &mut Workspace, length: f64, done: &mut Work) {
+        const REACH: f64 = 1.5;
+        let pieces = (self.structure.fastest * length / REACH).ceil().max(1.0) as u64;
+        let h = length / pieces as f64;
+        let order = flight_order(self.structure.fastest * h).unwrap_or(crate::contact::series::MAX_ORDER);
+        self.load(base, inputs, &mut work.load, &mut work.slope);
+        work.q.copy_from_slice(&base.q);
+        work.v.copy_from_slice(&base.v);
+        let mut series = std::mem::take(&mut work.series);
+        for i in 0..pieces {
+            let start = (work.q.as_slice(), work.v.as_slice());
+            series.expand_flight(&self.structure, start, (&work.load, &work.slope), (h, order));
+            self.integrate(base, &series, (i as f64 * h, h), work, done);
+            series.evaluate(1.0, &mut work.q, &mut work.v);
+            for (load, slope) in work.load.iter_mut().zip(&work.slope) {
+                *load += slope * h;
+            }
+        }
+        work.series = series;
+    }
+
+    /// Adds the work of the ground motion and of structural damping over a series, which begins `from` seconds after
+    /// the base and is integrated over `length` seconds.
+    fn integrate(
+        &self,
+        base: &Base,
+        series: &ModalSeries,
+        (from, length): (f64, f64),
+        work: &mut Workspace,
+        done: &mut Work,
+    ) {
+        let (q, v) = (&mut work.node_q, &mut work.node_v);
+        for (node, weight) in GAUSS.iter().flat_map(|(node, weight)| [(-node, *weight), (*node, *weight)]) {
+            let t = 0.5 * length * (1.0 + node);
+            series.evaluate(t / series.scale, q, v);
+            let acceleration = base.segment.acceleration_at(base.elapsed + from + t);
+            let push: f64 = v.iter().zip(&self.structure.participation).map(|(v, p)| v * p).sum();
+            done.input -= 0.5 * length * weight * acceleration * push;
+            done.viscous += 0.5 * length * weight * self.structure.viscous_power(v);
+        }
+    }
+
+    /// Reads the account at a time since the base; `point` holds the motion and the contacts there.
+    pub(super) fn read_energy(&self, state: &State, elapsed: f64, work: &mut Workspace, point: &mut Point) {
+        point.energy = state.base.energy.map(|mut account| {
+            if elapsed > 0.0 {
+                let done = self.work_over(&state.base, &state.step, &state.inputs, work, elapsed);
+                account.input += done.input;
+                account.viscous += done.viscous;
+                account.external += done.external;
+            }
+            let (kinetic, strain) = self.structure.energies(&point.q, &point.v);
+            let impact = point.contacts.iter().map(|contact| contact.dissipated_energy).sum();
+            account.update_largest([kinetic, strain, impact]);
+            let Account { initial, input, external, viscous, largest } = account;
+            let imbalance = initial + input + external - kinetic - strain - viscous - impact;
+            let residual = if largest > 0.0 { imbalance / largest } else { 0.0 };
+            EnergyPoint { input, kinetic, strain, viscous, impact, external, residual }
+        });
+    }
+}
+
+impl Account {
+    fn update_largest(&mut self, others: [f64; 3]) {
+        let terms = [self.initial, self.input, self.external, self.viscous];
+        self.largest = terms.iter().chain(&others).fold(self.largest, |largest, term| largest.max(term.abs()));
+    }
+}

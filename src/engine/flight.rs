@@ -1,0 +1,104 @@
+//! Flight: both buildings swing by themselves, exactly, until the segment ends or two floors meet.
+
+use super::model::Model;
+use super::roots;
+use super::state::*;
+use crate::structure::flight_order;
+
+impl Model {
+    /// Works out the flight from the base until `limit` (s since the segment's start) or the first entry.
+    pub(super) fn plan_flight(&self, state: &mut State, limit: f64) {
+        let State { base, step, inputs, counters, work, .. } = state;
+        counters.flight_steps += 1;
+        let remaining = limit - base.elapsed;
+        step.kind = StepKind::Flight;
+        step.length = remaining;
+        step.reaches_limit = true;
+        step.event = None;
+        self.load(base, inputs, &mut work.load, &mut work.slope);
+        self.fly(base, remaining, work);
+        step.q.copy_from_slice(&work.q);
+        step.v.copy_from_slice(&work.v);
+        if self.pairs.is_empty() {
+            return;
+        }
+        // Largest that |d''''| of any pair can be; each penetration stays this close to its cubic interpolant.
+        let (load, slope) = (&work.load, &work.slope);
+        let bound = self.structure.fourth_derivative_bound(
+            (&base.q, &base.v),
+            (load, slope),
+            &self.pair_weight,
+            &mut work.scratch,
+        );
+        let deviation = remaining.powi(4) / 384.0 * bound;
+        let certified = self.pairs.iter().zip(&base.contacts).all(|(pair, contact)| {
+            counters.pairs_evaluated += 1;
+            let (end, end_rate) = pair.penetration(&step.q, &step.v);
+            let start = contact.flight_start();
+            let near_start = start + remaining / 3.0 * contact.rate;
+            let near_end = end - remaining / 3.0 * end_rate;
+            start.max(near_start).max(near_end).max(end) + deviation < 0.0
+        });
+        if !certified {
+            self.look_closer(base, step, counters, work, remaining);
+        }
+    }
+
+    /// Flies q, v of the base over `h` into `work.q`, `work.v`, under `work.load` and `work.slope`.
+    pub(super) fn fly(&self, base: &Base, h: f64, work: &mut Workspace) {
+        let Workspace { load, slope, q, v, scratch, series, interval, .. } = work;
+        let whole = base.elapsed == 0.0 && h == base.segment.length;
+        let prepared = self.ground.as_ref().filter(|_| whole).and_then(|ground| ground.prepared(&base.segment));
+        if prepared.is_none()
+            && let Some(order) = flight_order(self.structure.fastest * h)
+        {
+            series.expand_flight(&self.structure, (&base.q, &base.v), (load, slope), (h, order));
+            series.evaluate(1.0, q, v);
+            return;
+        }
+        q.copy_from_slice(&base.q);
+        v.copy_from_slice(&base.v);
+        let interval = prepared.unwrap_or_else(|| {
+            interval.prepare(&self.structure, h);
+            interval
+        });
+        interval.fly([q, v], [load, slope], scratch);
+    }
+
+    /// Finds the first entry in the flight, from the power series of the penetrations. A flight too long for one
+    /// series is shortened to what one series reaches.
+    fn look_closer(&self, base: &Base, step: &mut Step, counters: &mut Counters, work: &mut Workspace, remaining: f64) {
+        const REACH: f64 = 1.5;
+        counters.closer_looks += 1;
+        let fastest = self.structure.fastest;
+        let h = if fastest * remaining > REACH { REACH / fastest } else { remaining };
+        let order = flight_order(fastest * h).unwrap_or(crate::contact::series::MAX_ORDER);
+        let (load, slope) = (&work.load, &work.slope);
+        work.series.expand_flight(&self.structure, (&base.q, &base.v), (load, slope), (h, order));
+        let mut first: Option<(f64, usize)> = None;
+        for (p, (pair, contact)) in self.pairs.iter().zip(&base.contacts).enumerate() {
+            let penetration = &mut work.scalar[..=work.series.order];
+            work.series.project(&pair.row, penetration);
+            let noise = 2.0 * f64::EPSILON * (penetration[0].abs() + pair.gap.abs());
+            penetration[0] = contact.flight_start();
+            let end = first.map_or(1.0, |(x, _)| x);
+            if let Some(x) = roots::first_rise(penetration, end, noise) {
+                first = Some((x, p));
+            }
+        }
+        let x = first.map_or(1.0, |(x, _)| x);
+        if first.is_some() || h < remaining {
+            work.series.evaluate(x, &mut step.q, &mut step.v);
+            step.length = x * h;
+            step.reaches_limit = false;
+            step.event = first.map(|(_, p)| Event::Entry(p));
+        }
+    }
+}
+
+impl Contact {
+    /// Penetration at the start of a flight: exactly 0 just after a release, never above 0.
+    fn flight_start(&self) -> f64 {
+        if self.at_surface { 0.0 } else { self.penetration.min(0.0) }
+    }
+}

@@ -1,0 +1,133 @@
+//! Ground acceleration as a sequence of segments, in each of which it is linear in time.
+
+use crate::record::Record;
+use crate::structure::{Interval, Structure};
+
+/// Records with up to this many different sample spacings have their exact flight prepared for each.
+const MOST_PREPARED: usize = 8;
+
+/// A stretch of time in which the ground acceleration is linear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// s.
+    pub start: f64,
+    /// s.
+    pub length: f64,
+    /// m/s2 at the start.
+    pub acceleration: f64,
+    /// m/s3.
+    pub slope: f64,
+    place: Place,
+}
+
+/// Where a segment lies relative to the record.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Place {
+    /// Before the first sample, or a stretch under an input.
+    Outside,
+    /// From this sample to the next.
+    Sample(usize),
+    /// This many segments after the last sample.
+    After(u64),
+}
+
+/// A scaled record, cut into segments.
+#[derive(Debug)]
+pub struct GroundMotion {
+    times: Vec<f64>,
+    accelerations: Vec<f64>,
+    /// s, typical spacing: also the length of segments outside the record.
+    spacing: f64,
+    /// s, length of each segment.
+    lengths: Vec<f64>,
+    prepared: Vec<Interval>,
+}
+
+impl GroundMotion {
+    /// Prepares a record times `factor` for a structure.
+    pub fn new(record: &Record, factor: f64, structure: &Structure) -> GroundMotion {
+        let times = record.times.clone();
+        let accelerations = record.accelerations.iter().map(|a| a * factor).collect();
+        let lengths = segment_lengths(&times);
+        let spacing = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
+        let mut distinct: Vec<f64> = lengths.clone();
+        distinct.sort_by(f64::total_cmp);
+        distinct.dedup();
+        distinct.truncate(MOST_PREPARED);
+        let prepared = distinct.into_iter().map(|length| Interval::new(structure, length)).collect();
+        GroundMotion { times, accelerations, spacing, lengths, prepared }
+    }
+
+    /// The segment that holds a time.
+    pub fn segment_at(&self, time: f64) -> Segment {
+        let first = self.times.first().copied().unwrap_or(time);
+        if time < first {
+            return Segment {
+                start: time,
+                length: self.spacing.min(first - time),
+                acceleration: 0.0,
+                slope: 0.0,
+                place: Place::Outside,
+            };
+        }
+        let sample = self.times.partition_point(|t| *t <= time) - 1;
+        if sample < self.lengths.len() {
+            return self.sample(sample);
+        }
+        let end = self.times[sample];
+        self.after(((time - end) / self.spacing).floor().max(0.0) as u64)
+    }
+
+    /// The segment that follows one.
+    pub fn following(&self, segment: &Segment) -> Segment {
+        match segment.place {
+            Place::Outside => self.segment_at(segment.start + segment.length),
+            Place::Sample(i) if i + 1 < self.lengths.len() => self.sample(i + 1),
+            Place::Sample(_) => self.after(0),
+            Place::After(k) => self.after(k + 1),
+        }
+    }
+
+    /// The exact flight over a whole segment, where it has been prepared.
+    pub fn prepared(&self, segment: &Segment) -> Option<&Interval> {
+        self.prepared.iter().find(|interval| interval.length == segment.length)
+    }
+
+    fn sample(&self, i: usize) -> Segment {
+        let (a0, a1, length) = (self.accelerations[i], self.accelerations[i + 1], self.lengths[i]);
+        Segment { start: self.times[i], length, acceleration: a0, slope: (a1 - a0) / length, place: Place::Sample(i) }
+    }
+
+    fn after(&self, k: u64) -> Segment {
+        let end = self.times[self.times.len() - 1];
+        Segment {
+            start: end + k as f64 * self.spacing,
+            length: self.spacing,
+            acceleration: 0.0,
+            slope: 0.0,
+            place: Place::After(k),
+        }
+    }
+}
+
+impl Segment {
+    /// A stretch under an input.
+    pub fn under_input(start: f64, length: f64, acceleration: f64) -> Segment {
+        Segment { start, length, acceleration, slope: 0.0, place: Place::Outside }
+    }
+
+    /// m/s2 at a time since the start.
+    pub fn acceleration_at(&self, elapsed: f64) -> f64 {
+        self.acceleration + self.slope * elapsed
+    }
+}
+
+/// Differences of the sample times. Times that are a multiple of one spacing but for their rounding get that spacing,
+/// so that one prepared interval serves them all.
+fn segment_lengths(times: &[f64]) -> Vec<f64> {
+    let n = times.len() - 1;
+    let spacing = (times[n] - times[0]) / n as f64;
+    let rounding = 4.0 * f64::EPSILON * times[0].abs().max(times[n].abs());
+    let even = times.iter().enumerate().all(|(k, t)| (t - (times[0] + k as f64 * spacing)).abs() <= rounding);
+    if even { vec![spacing; n] } else { times.windows(2).map(|pair| pair[1] - pair[0]).collect() }
+}

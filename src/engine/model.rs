@@ -1,0 +1,276 @@
+//! The model: everything about a scene that stays as it is during a run.
+
+use super::ground::{GroundMotion, Segment};
+use super::state::*;
+use super::{Episode, contact_step};
+use crate::contact::series::{MAX_ORDER, PairSeries};
+use crate::contact::{EpisodeForce, ImpactLaw};
+use crate::record::Record;
+use crate::scene::{Building, Problem, Scene, SceneError};
+use crate::structure::{ModalSeries, Side, Structure};
+use nalgebra::DMatrix;
+use std::f64::consts::PI;
+
+/// Everything that stays as it is during a run.
+#[derive(Debug)]
+pub struct Model {
+    pub(super) structure: Structure,
+    pub(super) pairs: Vec<Pair>,
+    /// Largest |row| entry of each mode over all pairs.
+    pub(super) pair_weight: Vec<f64>,
+    /// Absent where the acceleration is an input.
+    pub(super) ground: Option<GroundMotion>,
+    pub(super) floor_forces: bool,
+    pub(super) energy: bool,
+    /// Velocity error allowed to one contact step, relative to the velocity scale.
+    pub(super) step_tolerance: f64,
+    /// Order of the contact series.
+    pub(super) order: usize,
+    /// Storeys x modes of each building: drifts from modal displacements.
+    drift_shape: [DMatrix<f64>; 2],
+    frequencies: [Vec<f64>; 2],
+    initial: [Vec<f64>; 2],
+}
+
+/// Two facing floors.
+#[derive(Clone, Debug)]
+pub(super) struct Pair {
+    /// Penetration = row . q - gap; the force F loads the modes with -row F.
+    pub row: Vec<f64>,
+    /// m.
+    pub gap: f64,
+    pub law: ImpactLaw,
+    /// kg, reduced mass of the two floors.
+    pub mass: f64,
+}
+
+impl Model {
+    /// Prepares a checked scene. `record` is there when `scene.ground.record` is.
+    pub fn new(scene: &Scene, record: Option<&Record>) -> Result<Model, SceneError> {
+        let structure = Structure::new(&scene.left, &scene.right).map_err(|(side, _)| not_positive_definite(side))?;
+        let pairs: Vec<Pair> = scene.contacts.iter().map(|pair| Pair::new(pair, scene, &structure)).collect();
+        let mut pair_weight = vec![0.0_f64; structure.lanes];
+        for pair in &pairs {
+            for (weight, row) in pair_weight.iter_mut().zip(&pair.row) {
+                *weight = weight.max(row.abs());
+            }
+        }
+        let ground = match record {
+            Some(record) => {
+                let factor = scene.ground.scaling.factor(record).map_err(|p| SceneError { problems: vec![p] })?;
+                Some(GroundMotion::new(record, factor, &structure))
+            }
+            None => None,
+        };
+        let (step_tolerance, order) = contact_step::accuracy(scene.solver.relative_tolerance);
+        Ok(Model {
+            drift_shape: [Side::Left, Side::Right].map(|side| drift_shape(&structure.modes(side).shape)),
+            frequencies: [Side::Left, Side::Right]
+                .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
+            initial: initial_state(scene, &structure),
+            floor_forces: scene.floor_forces,
+            energy: scene.energy,
+            structure,
+            pairs,
+            pair_weight,
+            ground,
+            step_tolerance,
+            order,
+        })
+    }
+
+    /// Number of floors of a building.
+    pub fn floors(&self, side: Side) -> usize {
+        self.structure.floors(side)
+    }
+
+    /// Hz, natural frequencies of one building alone, ascending.
+    pub fn natural_frequencies(&self, side: Side) -> &[f64] {
+        &self.frequencies[side as usize]
+    }
+
+    /// Whether the engine's steps are cut at communication points: where a master's inputs act.
+    pub(super) fn is_driven(&self) -> bool {
+        self.ground.is_none() || self.floor_forces
+    }
+
+    /// The initial state at a time, s.
+    pub fn start(&self, time: f64) -> State {
+        let lanes = self.structure.lanes;
+        let highest = MAX_ORDER + 2;
+        let [q, v] = self.initial.clone();
+        let segment = match &self.ground {
+            Some(ground) => ground.segment_at(time),
+            None => Segment::under_input(time, 0.0, 0.0),
+        };
+        let floors = self.floors(Side::Left) + self.floors(Side::Right);
+        let mut state = State {
+            time,
+            base: Base {
+                segment,
+                elapsed: time - segment.start,
+                contacts: self.pairs.iter().enumerate().map(|(p, pair)| pair.at_start(p, time, &q, &v)).collect(),
+                peak_drift: vec![0.0; floors],
+                energy: self.energy.then(Account::default),
+                velocity_scale: 0.0,
+                last_length: 0.0,
+                impacts: 0,
+                q,
+                v,
+            },
+            step: Step {
+                kind: StepKind::Unknown,
+                length: 0.0,
+                reaches_limit: false,
+                event: None,
+                q: vec![0.0; lanes],
+                v: vec![0.0; lanes],
+                series: ModalSeries::new(lanes, highest),
+                pairs: vec![PairSeries::default(); self.pairs.len()],
+            },
+            inputs: Inputs {
+                ground_acceleration: 0.0,
+                floor_forces: vec![0.0; if self.floor_forces { floors } else { 0 }],
+                left_floors: self.floors(Side::Left),
+            },
+            counters: Counters::default(),
+            work: Workspace::new(&self.structure),
+        };
+        state.base.impacts = state.base.contacts.iter().map(|contact| contact.impacts).sum();
+        self.update_peak_drift(&mut state.base, &mut state.work);
+        self.open_account(&mut state.base);
+        state
+    }
+
+    /// Raises the peak drifts to those of the base.
+    pub(super) fn update_peak_drift(&self, base: &mut Base, work: &mut Workspace) {
+        let mut first = 0;
+        for side in [Side::Left, Side::Right] {
+            let (shape, offset) = (&self.drift_shape[side as usize], self.structure.offset(side));
+            let drift = &mut work.floors[..shape.nrows()];
+            drift.fill(0.0);
+            for (column, q) in shape.column_iter().zip(&base.q[offset..]) {
+                for (drift, shape) in drift.iter_mut().zip(column.iter()) {
+                    *drift += shape * q;
+                }
+            }
+            for (peak, drift) in base.peak_drift[first..].iter_mut().zip(drift.iter()) {
+                *peak = peak.max(drift.abs());
+            }
+            first += shape.nrows();
+        }
+    }
+
+    /// The modal load at the base and its rate until the segment's end.
+    pub(super) fn load(&self, base: &Base, inputs: &Inputs, load: &mut [f64], slope: &mut [f64]) {
+        let acceleration = base.segment.acceleration_at(base.elapsed);
+        for (m, participation) in self.structure.participation.iter().enumerate() {
+            load[m] = -participation * acceleration;
+            slope[m] = -participation * base.segment.slope;
+        }
+        self.add_floor_forces(inputs, load);
+    }
+
+    /// Adds the external forces on the floors to a modal load.
+    pub(super) fn add_floor_forces(&self, inputs: &Inputs, load: &mut [f64]) {
+        let left = self.floors(Side::Left);
+        for (i, force) in inputs.floor_forces.iter().enumerate().filter(|(_, force)| **force != 0.0) {
+            let (side, floor) = if i < left { (Side::Left, i) } else { (Side::Right, i - left) };
+            self.structure.add_floor_force(side, floor, *force, load);
+        }
+    }
+}
+
+impl Pair {
+    fn new(pair: &crate::scene::ContactPair, scene: &Scene, structure: &Structure) -> Pair {
+        let (left, right) = (pair.left_floor - 1, pair.right_floor - 1);
+        let mut row = vec![0.0; structure.lanes];
+        structure.add_floor_force(Side::Left, left, 1.0, &mut row);
+        structure.add_floor_force(Side::Right, right, -1.0, &mut row);
+        let (m1, m2) = (scene.left.mass[left], scene.right.mass[right]);
+        Pair { row, gap: pair.gap, law: pair.law, mass: m1 * m2 / (m1 + m2) }
+    }
+
+    /// m and m/s.
+    pub fn penetration(&self, q: &[f64], v: &[f64]) -> (f64, f64) {
+        use crate::structure::dot;
+        (dot(&self.row, q) - self.gap, dot(&self.row, v))
+    }
+
+    /// A pair that overlaps at the start is an episode without approach velocity.
+    fn at_start(&self, index: usize, time: f64, q: &[f64], v: &[f64]) -> Contact {
+        let (penetration, rate) = self.penetration(q, v);
+        let force = EpisodeForce::new(&self.law, self.mass);
+        let mut contact = Contact {
+            phase: Phase::Apart,
+            force,
+            penetration,
+            rate,
+            at_surface: penetration == 0.0,
+            at_guard: false,
+            impacts: 0,
+            impulse: 0.0,
+            work: 0.0,
+            stored_reference: 0.0,
+            peak_force: 0.0,
+            episode: Episode { contact: index, ..Episode::default() },
+            work_before: 0.0,
+        };
+        if penetration > 0.0 {
+            contact.begin(time, 0.0);
+        }
+        contact
+    }
+}
+
+impl Contact {
+    /// Begins an episode at the present penetration.
+    pub(super) fn begin(&mut self, time: f64, approach_velocity: f64) {
+        self.impacts += 1;
+        self.phase = if self.force.is_engaged(self.penetration, self.rate) { Phase::Engaged } else { Phase::Slack };
+        self.stored_reference = self.branch().stored_energy(self.penetration);
+        self.work_before = self.work;
+        let force = self.present_force();
+        self.peak_force = self.peak_force.max(force);
+        self.episode = Episode {
+            contact: self.episode.contact,
+            start: time,
+            end: None,
+            approach_velocity,
+            separation_velocity: 0.0,
+            peak_force: force,
+            peak_time: time,
+            peak_penetration: self.penetration,
+            impulse: 0.0,
+            dissipated_energy: 0.0,
+        };
+    }
+}
+
+fn drift_shape(shape: &DMatrix<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(shape.nrows(), shape.ncols(), |i, j| shape[(i, j)] - if i > 0 { shape[(i - 1, j)] } else { 0.0 })
+}
+
+fn initial_state(scene: &Scene, structure: &Structure) -> [Vec<f64>; 2] {
+    let mut state = [vec![0.0; structure.lanes], vec![0.0; structure.lanes]];
+    for (side, building) in [(Side::Left, &scene.left), (Side::Right, &scene.right)] {
+        let Building { mass, initial_displacement, initial_velocity, .. } = building;
+        structure.to_modal(side, mass, initial_displacement, &mut state[0]);
+        structure.to_modal(side, mass, initial_velocity, &mut state[1]);
+    }
+    state
+}
+
+fn not_positive_definite(side: Side) -> SceneError {
+    let building = match side {
+        Side::Left => "left",
+        Side::Right => "right",
+    };
+    SceneError {
+        problems: vec![Problem {
+            path: format!("{building}.stiffness"),
+            found: String::new(),
+            expected: "a positive definite stiffness with natural frequencies that double precision can hold".into(),
+        }],
+    }
+}

@@ -1,0 +1,136 @@
+//! Reading the solution at the communication time, out of the dense solution of the step under way.
+
+use super::model::Model;
+use super::state::*;
+use super::{ContactPoint, Episode, Point, Side};
+
+impl Model {
+    /// Reads the state at its present time; the buffers of `point` are reused.
+    ///
+    /// Floors are not computed here but when one is asked for.
+    pub fn observe(&self, state: &State, point: &mut Point) {
+        let lanes = self.structure.lanes;
+        for vector in [&mut point.q, &mut point.v, &mut point.acceleration] {
+            vector.resize(lanes, 0.0);
+        }
+        point.time = state.time;
+        let elapsed = state.time - (state.base.segment.start + state.base.elapsed);
+        let elapsed = if state.step.kind == StepKind::Unknown { 0.0 } else { elapsed.max(0.0) };
+        let mut work = point.work.take().unwrap_or_else(|| Box::new(Workspace::new(&self.structure)));
+        self.read_modes(state, elapsed, &mut work, point);
+        let State { base, step, inputs, .. } = state;
+        point.ground_acceleration = match &self.ground {
+            Some(_) => base.segment.acceleration_at(state.time - base.segment.start),
+            None => inputs.ground_acceleration,
+        };
+        point.contacts.resize(self.pairs.len(), ContactPoint::default());
+        for p in 0..self.pairs.len() {
+            point.contacts[p] = self.read_contact(base, step, p, elapsed, point);
+        }
+        point.impacts = base.impacts;
+        work.load.fill(0.0);
+        self.add_floor_forces(inputs, &mut work.load);
+        for (pair, contact) in self.pairs.iter().zip(&point.contacts) {
+            for (load, row) in work.load.iter_mut().zip(&pair.row) {
+                *load -= row * contact.force;
+            }
+        }
+        // Without the ground's load these are absolute accelerations.
+        self.structure.accelerate(&point.q, &point.v, &work.load, &mut point.acceleration);
+        self.read_energy(state, elapsed, &mut work, point);
+        point.work = Some(work);
+    }
+
+    /// q and v at a time since the base.
+    fn read_modes(&self, state: &State, elapsed: f64, work: &mut Workspace, point: &mut Point) {
+        let State { base, step, inputs, .. } = state;
+        if elapsed == 0.0 {
+            point.q.copy_from_slice(&base.q);
+            point.v.copy_from_slice(&base.v);
+        } else if step.kind == StepKind::Contact {
+            step.series.evaluate(elapsed / step.series.scale, &mut point.q, &mut point.v);
+        } else {
+            self.load(base, inputs, &mut work.load, &mut work.slope);
+            self.fly(base, elapsed, work);
+            point.q.copy_from_slice(&work.q);
+            point.v.copy_from_slice(&work.v);
+        }
+    }
+
+    fn read_contact(&self, base: &Base, step: &Step, p: usize, elapsed: f64, point: &Point) -> ContactPoint {
+        let contact = self.contact_at(base, step, p, elapsed);
+        let penetration =
+            if contact.in_contact() { contact.penetration } else { self.pairs[p].penetration(&point.q, &point.v).0 };
+        ContactPoint {
+            force: contact.present_force(),
+            penetration,
+            active: contact.in_contact(),
+            impacts: contact.impacts,
+            peak_force: contact.peak_force,
+            impulse: contact.impulse,
+            dissipated_energy: contact.dissipated_energy(),
+            approach_velocity: contact.episode.approach_velocity,
+        }
+    }
+
+    /// A contact at a time since the base.
+    fn contact_at(&self, base: &Base, step: &Step, p: usize, elapsed: f64) -> Contact {
+        let mut contact = base.contacts[p];
+        if contact.in_contact() && step.kind == StepKind::Contact && elapsed > 0.0 {
+            let scale = step.series.scale;
+            contact.follow(&step.pairs[p], scale, elapsed / scale, base.segment.start + base.elapsed);
+        }
+        contact
+    }
+
+    /// m, relative to the ground; floors counted from 0.
+    pub fn displacement(&self, point: &Point, side: Side, floor: usize) -> f64 {
+        self.structure.at_floor(side, floor, &point.q)
+    }
+
+    /// m/s, relative to the ground.
+    pub fn velocity(&self, point: &Point, side: Side, floor: usize) -> f64 {
+        self.structure.at_floor(side, floor, &point.v)
+    }
+
+    /// m/s2, absolute.
+    pub fn acceleration(&self, point: &Point, side: Side, floor: usize) -> f64 {
+        self.structure.at_floor(side, floor, &point.acceleration)
+    }
+
+    /// N, force of the building on the ground.
+    pub fn base_shear(&self, point: &Point, side: Side) -> f64 {
+        self.structure.base_shear(side, &point.q, &point.v)
+    }
+
+    /// m, largest drift of the storey below the floor so far, at the engine's own steps.
+    pub fn peak_drift(&self, state: &State, side: Side, floor: usize) -> f64 {
+        let first = match side {
+            Side::Left => 0,
+            Side::Right => self.floors(Side::Left),
+        };
+        state.base.peak_drift[first + floor]
+    }
+
+    /// The episode that a contact is in at the communication time, if it is in one.
+    pub fn open_episode(&self, state: &State, contact: usize) -> Option<Episode> {
+        let elapsed = state.time - (state.base.segment.start + state.base.elapsed);
+        let contact = self.contact_at(&state.base, &state.step, contact, elapsed.max(0.0));
+        contact.in_contact().then(|| contact.present_episode())
+    }
+}
+
+impl State {
+    /// m/s2, held from now on; only where the scene has no record.
+    pub fn set_ground_acceleration(&mut self, acceleration: f64) {
+        self.inputs.ground_acceleration = acceleration;
+    }
+
+    /// N, held from now on; only where the scene has floor forces. Floors counted from 0.
+    pub fn set_floor_force(&mut self, side: Side, floor: usize, force: f64) {
+        let first = if side == Side::Left { 0 } else { self.inputs.left_floors };
+        if let Some(held) = self.inputs.floor_forces.get_mut(first + floor) {
+            *held = force;
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! Certified roots and maxima of the polynomials that describe a step.
+//!
+//! On a piece of width w the cubic Hermite interpolant of a function from its end values and slopes is off by at most
+//! w^4/384 max|f''''|, and a cubic in Bernstein form lies between its four control points. A piece on which the
+//! control points and the bound stay on one side of 0 holds no root; a piece on which the slope keeps its sign holds
+//! at most one; any other piece is halved. So the first root is found, or there is none: nothing is sampled.
+
+use crate::contact::series::{value, value_and_slope};
+
+/// Pieces are not halved below this fraction of the step: two roots closer than this are one touch without duration.
+const NARROWEST: f64 = 1e-9;
+
+/// A polynomial on 0..=end with the bound on its fourth derivative.
+struct Curve<'a> {
+    coefficients: &'a [f64],
+    fourth: f64,
+    noise: f64,
+}
+
+/// One end of a piece.
+#[derive(Clone, Copy)]
+struct End {
+    x: f64,
+    value: f64,
+    slope: f64,
+}
+
+impl<'a> Curve<'a> {
+    fn new(coefficients: &'a [f64], end: f64, noise: f64) -> Curve<'a> {
+        Curve { coefficients, fourth: fourth_derivative(coefficients, end), noise }
+    }
+
+    fn at(&self, x: f64) -> End {
+        let (value, slope) = value_and_slope(self.coefficients, x);
+        End { x, value, slope }
+    }
+
+    /// Upper bound over a piece.
+    fn ceiling(&self, a: End, b: End) -> f64 {
+        let w = b.x - a.x;
+        let [first, second] = [a.value + w * a.slope / 3.0, b.value - w * b.slope / 3.0];
+        a.value.max(first).max(second).max(b.value) + w.powi(4) / 384.0 * self.fourth
+    }
+
+    /// Whether the curve only rises over a piece (the slope of the interpolant is off by at most sqrt(3)/216 w^3 max|f''''|).
+    fn rises(&self, a: End, b: End) -> bool {
+        let w = b.x - a.x;
+        let middle = (b.value - a.value) - w * (a.slope + b.slope) / 3.0;
+        // Control values of the interpolant's slope: a.slope, 3 middle / w, b.slope.
+        a.slope.min(3.0 * middle / w).min(b.slope) > 0.00802 * w.powi(3) * self.fourth
+    }
+
+    /// The first x in the piece at which the curve passes 0 upwards, given that it is below 0 before the piece.
+    fn first_rise(&self, a: End, b: End) -> Option<f64> {
+        if self.ceiling(a, b) <= self.noise {
+            return None;
+        }
+        if a.value >= 0.0 && a.slope > 0.0 {
+            return Some(a.x);
+        }
+        if b.value > 0.0 && self.rises(a, b) {
+            return Some(self.bisect_newton(a, b));
+        }
+        if b.x - a.x < NARROWEST {
+            return (b.value > self.noise).then(|| self.bisect_newton(a, b));
+        }
+        let middle = self.at(0.5 * (a.x + b.x));
+        self.first_rise(a, middle).or_else(|| self.first_rise(middle, b))
+    }
+
+    /// The root between a point below 0 and one above: Newton, kept inside a shrinking bracket.
+    fn bisect_newton(&self, a: End, b: End) -> f64 {
+        let (mut low, mut high) = (a.x, b.x);
+        let mut x = low + (high - low) * (a.value / (a.value - b.value)).clamp(0.0, 1.0);
+        for _ in 0..100 {
+            let (f, slope) = value_and_slope(self.coefficients, x);
+            if f > 0.0 {
+                high = x;
+            } else {
+                low = x;
+            }
+            let step = x - f / slope;
+            let next = if step > low && step < high { step } else { 0.5 * (low + high) };
+            if next == x || next <= low && low == x || high - low <= f64::EPSILON * high {
+                return next;
+            }
+            if (next - x).abs() <= 0.25 * f64::EPSILON * x {
+                return next;
+            }
+            x = next;
+        }
+        x
+    }
+
+    /// Raises `best` = (x, value) to the largest value over a piece.
+    fn maximum(&self, a: End, b: End, best: &mut (f64, f64)) {
+        for end in [a, b] {
+            if end.value > best.1 {
+                *best = (end.x, end.value);
+            }
+        }
+        if self.ceiling(a, b) <= best.1 || b.x - a.x < NARROWEST {
+            return;
+        }
+        if self.is_concave(a, b) {
+            if a.slope > 0.0 && b.slope < 0.0 {
+                let x = self.top(a, b);
+                let value = value(self.coefficients, x);
+                if value > best.1 {
+                    *best = (x, value);
+                }
+            }
+            return;
+        }
+        let middle = self.at(0.5 * (a.x + b.x));
+        self.maximum(a, middle, best);
+        self.maximum(middle, b, best);
+    }
+
+    /// Whether the curvature is negative over a piece (that of the interpolant is off by at most w^2/12 max|f''''|).
+    fn is_concave(&self, a: End, b: End) -> bool {
+        let w = b.x - a.x;
+        let secant = (b.value - a.value) / w;
+        let at_a = (6.0 * secant - 4.0 * a.slope - 2.0 * b.slope) / w;
+        let at_b = (-6.0 * secant + 2.0 * a.slope + 4.0 * b.slope) / w;
+        at_a.max(at_b) < -w * w / 12.0 * self.fourth
+    }
+
+    /// Where the slope of a concave piece passes 0: Newton, kept inside a shrinking bracket.
+    fn top(&self, a: End, b: End) -> f64 {
+        let (mut low, mut high) = (a.x, b.x);
+        let mut x = a.x + (b.x - a.x) * (a.slope / (a.slope - b.slope)).clamp(0.0, 1.0);
+        for _ in 0..60 {
+            let slope = value_and_slope(self.coefficients, x).1;
+            if slope > 0.0 {
+                low = x;
+            } else {
+                high = x;
+            }
+            let newton = x - slope / self.curvature(x);
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            // The value at the top is flat: half of the digits of x give all digits of the value.
+            if (next - x).abs() <= 1e-12 * (b.x - a.x) {
+                return next;
+            }
+            x = next;
+        }
+        x
+    }
+
+    fn curvature(&self, x: f64) -> f64 {
+        let mut sum = 0.0;
+        for (n, c) in self.coefficients.iter().enumerate().skip(2).rev() {
+            sum = sum * x + (n * (n - 1)) as f64 * c;
+        }
+        sum
+    }
+}
+
+/// Bound on |f''''| over 0..=end.
+fn fourth_derivative(coefficients: &[f64], end: f64) -> f64 {
+    let mut sum = 0.0;
+    for (n, c) in coefficients.iter().enumerate().skip(4).rev() {
+        sum = sum * end + (n * (n - 1) * (n - 2) * (n - 3)) as f64 * c.abs();
+    }
+    sum
+}
+
+/// Where a polynomial, taken as below 0 (or on its way up from exactly 0) at x = 0, first passes 0 upwards in 0..=end.
+///
+/// A start above 0 counts as exactly 0, which is what it is but for rounding. A rise that stays below `noise`, the
+/// rounding error of the coefficients, is none.
+pub fn first_rise(coefficients: &mut [f64], end: f64, noise: f64) -> Option<f64> {
+    coefficients[0] = coefficients[0].min(0.0);
+    if coefficients[0] == 0.0 {
+        return first_rise_from_zero(coefficients, end, noise);
+    }
+    let curve = Curve::new(coefficients, end, noise);
+    curve.first_rise(curve.at(0.0), curve.at(end))
+}
+
+/// As above with the root at x = 0 divided out: the sign just after it is that of the first power that is not 0.
+fn first_rise_from_zero(coefficients: &[f64], end: f64, noise: f64) -> Option<f64> {
+    let whole = Curve::new(coefficients, end, noise);
+    if whole.ceiling(whole.at(0.0), whole.at(end)) <= noise {
+        return None;
+    }
+    let leading = coefficients.iter().position(|c| *c != 0.0)?;
+    let rest = &coefficients[leading..];
+    if rest[0] > 0.0 {
+        return Some(0.0);
+    }
+    let curve = Curve::new(rest, end, noise);
+    curve.first_rise(curve.at(0.0), curve.at(end))
+}
+
+/// Where a polynomial is largest in 0..=end, if it exceeds `known` there: (x, value).
+pub fn maximum_above(coefficients: &[f64], end: f64, known: f64) -> Option<(f64, f64)> {
+    let curve = Curve::new(coefficients, end, 0.0);
+    let mut best = (f64::NAN, known);
+    curve.maximum(curve.at(0.0), curve.at(end), &mut best);
+    best.0.is_finite().then_some(best)
+}

@@ -1,0 +1,235 @@
+//! Everything that changes during a run: plain data, cloned to save it.
+
+use super::Episode;
+use super::ground::Segment;
+use crate::contact::EpisodeForce;
+use crate::contact::series::{MAX_ORDER, PairSeries};
+use crate::structure::{Interval, ModalSeries, Scratch, Structure};
+
+/// Everything that changes during a run.
+///
+/// `base` is the engine's own last step end at or before the communication time, and `step` is the dense solution
+/// from there on. `step` follows from `base` alone, so it is the same whatever the communication points are.
+#[derive(Clone, Debug)]
+pub struct State {
+    /// s, the communication time.
+    pub(super) time: f64,
+    pub(super) base: Base,
+    pub(super) step: Step,
+    pub(super) inputs: Inputs,
+    pub(super) counters: Counters,
+    pub(super) work: Workspace,
+}
+
+/// What a master sets, held until it sets it again.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Inputs {
+    /// m/s2, where there is no record.
+    pub ground_acceleration: f64,
+    /// N, left floors then right floors; empty without floor forces.
+    pub floor_forces: Vec<f64>,
+    pub left_floors: usize,
+}
+
+/// The solution at the end of an internal step.
+#[derive(Clone, Debug)]
+pub(super) struct Base {
+    pub segment: Segment,
+    /// s since the start of the segment.
+    pub elapsed: f64,
+    /// Modal displacements, m kg^1/2.
+    pub q: Vec<f64>,
+    /// Modal velocities.
+    pub v: Vec<f64>,
+    pub contacts: Vec<Contact>,
+    /// m, left storeys then right storeys.
+    pub peak_drift: Vec<f64>,
+    pub energy: Option<Account>,
+    /// m/s, largest floor velocity that a contact step has seen: what its error is relative to.
+    pub velocity_scale: f64,
+    /// s, length of the last contact step: the unit of the next series.
+    pub last_length: f64,
+    pub impacts: u64,
+}
+
+/// Work done since the start, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Account {
+    pub initial: f64,
+    pub input: f64,
+    pub external: f64,
+    pub viscous: f64,
+    /// Largest magnitude that any term has had.
+    pub largest: f64,
+}
+
+/// What a contact is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Phase {
+    /// No force.
+    Apart,
+    /// In contact, the law's force acts.
+    Engaged,
+    /// In contact, on the other side of the law's guard.
+    Slack,
+}
+
+/// One contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Contact {
+    pub phase: Phase,
+    pub force: EpisodeForce,
+    /// m. During an episode it is carried along by its own increments, not taken from the floors' displacements,
+    /// which are larger and would bury its last digits.
+    pub penetration: f64,
+    /// m/s.
+    pub rate: f64,
+    /// Stands exactly at d = 0, just released or just entered.
+    pub at_surface: bool,
+    /// Stands exactly at the guard, just passed.
+    pub at_guard: bool,
+    pub impacts: u64,
+    pub impulse: f64,
+    /// J, integral of F v, but for what `stored_energy` has changed since `stored_reference`.
+    pub work: f64,
+    pub stored_reference: f64,
+    pub peak_force: f64,
+    /// The latest episode, up to the base, but for its energy.
+    pub episode: Episode,
+    /// J, `work` when the latest episode began.
+    pub work_before: f64,
+}
+
+impl Contact {
+    pub fn in_contact(&self) -> bool {
+        self.phase != Phase::Apart
+    }
+
+    /// J, integral of F v so far.
+    pub fn dissipated_energy(&self) -> f64 {
+        match self.phase {
+            Phase::Apart => self.work,
+            _ => self.work + (self.branch().stored_energy(self.penetration) - self.stored_reference),
+        }
+    }
+
+    /// The force law in this phase.
+    pub fn branch(&self) -> crate::contact::Force {
+        match self.phase {
+            Phase::Apart => crate::contact::Force::None,
+            Phase::Engaged => self.force.engaged,
+            Phase::Slack => self.force.slack,
+        }
+    }
+
+    /// The latest episode as far as it has come.
+    pub fn present_episode(&self) -> Episode {
+        Episode { dissipated_energy: self.dissipated_energy() - self.work_before, ..self.episode }
+    }
+
+    /// N, at the base.
+    pub fn present_force(&self) -> f64 {
+        self.branch().value(self.penetration, self.rate)
+    }
+}
+
+/// The dense solution from the base on.
+#[derive(Clone, Debug)]
+pub(super) struct Step {
+    pub kind: StepKind,
+    /// s.
+    pub length: f64,
+    /// Whether the step ends where the segment (or the communication step that cuts it) does.
+    pub reaches_limit: bool,
+    pub event: Option<Event>,
+    /// Modal state at the end.
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    /// For a contact step, and for a flight that looked closer.
+    pub series: ModalSeries,
+    /// One per contact; filled for those in contact.
+    pub pairs: Vec<PairSeries>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StepKind {
+    /// Not worked out yet.
+    Unknown,
+    Flight,
+    Contact,
+}
+
+/// What ends a step, at which contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Event {
+    /// Penetration passes 0 upwards.
+    Entry(usize),
+    /// Penetration is back at 0.
+    Release(usize),
+    /// The force passes from one branch to the other.
+    Branch(usize),
+}
+
+/// How much work a run has been: counted, not timed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Internal flight steps.
+    pub flight_steps: u64,
+    /// Flights that were expanded into a series to look for a contact.
+    pub closer_looks: u64,
+    /// Pairs whose penetration was evaluated for a flight.
+    pub pairs_evaluated: u64,
+    /// Internal steps in contact.
+    pub contact_steps: u64,
+    /// Entries, releases and branch changes.
+    pub events: u64,
+}
+
+/// Buffers; their content means nothing between calls.
+#[derive(Clone, Debug)]
+pub(super) struct Workspace {
+    pub load: Vec<f64>,
+    pub slope: Vec<f64>,
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    pub scratch: Scratch,
+    pub series: ModalSeries,
+    pub interval: Interval,
+    pub floors: Vec<f64>,
+    /// Modal state at an integration node.
+    pub node_q: Vec<f64>,
+    pub node_v: Vec<f64>,
+    pub scalar: [f64; MAX_ORDER + 3],
+}
+
+impl Workspace {
+    pub fn new(structure: &Structure) -> Workspace {
+        let lanes = structure.lanes;
+        let vector = || vec![0.0; lanes];
+        Workspace {
+            load: vector(),
+            slope: vector(),
+            q: vector(),
+            v: vector(),
+            scratch: Scratch::new(lanes),
+            series: ModalSeries::new(lanes, MAX_ORDER + 2),
+            interval: Interval::new(structure, 0.0),
+            floors: vector(),
+            node_q: vector(),
+            node_v: vector(),
+            scalar: [0.0; MAX_ORDER + 3],
+        }
+    }
+}
+
+impl State {
+    /// s, the communication time.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Work done so far.
+    pub fn counters(&self) -> Counters {
+        self.counters
+    }
+}

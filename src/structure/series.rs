@@ -1,0 +1,130 @@
+//! Power series in time of all modes: the dense solution of a step.
+
+use super::Structure;
+
+/// Order at which the flight series over `reach` = (fastest rate) x (time) is exact to rounding; `None` where the
+/// interval is too long for a series.
+pub fn flight_order(reach: f64) -> Option<usize> {
+    const REMAINDER: f64 = 1e-19;
+    if reach > 2.0 {
+        return None;
+    }
+    let (mut term, mut order) = (1.0, 0);
+    while term > REMAINDER || order < 4 {
+        order += 1;
+        term *= reach / order as f64;
+    }
+    Some(order)
+}
+
+/// q(x) = sum of rows[n] x^n with x = t / scale, of all modes.
+#[derive(Clone, Debug, Default)]
+pub struct ModalSeries {
+    lanes: usize,
+    /// s, unit of x: near the length of the step, so that the terms tell the error and never overflow.
+    pub scale: f64,
+    /// Highest power.
+    pub order: usize,
+    coefficients: Vec<f64>,
+}
+
+impl ModalSeries {
+    /// Room for powers up to `highest`.
+    pub fn new(lanes: usize, highest: usize) -> ModalSeries {
+        ModalSeries { lanes, scale: 1.0, order: 0, coefficients: vec![0.0; lanes * (highest + 1)] }
+    }
+
+    /// Starts a series from a state.
+    pub fn start(&mut self, scale: f64, q: &[f64], v: &[f64]) {
+        self.scale = scale;
+        self.order = 1;
+        let (first, rest) = self.coefficients.split_at_mut(self.lanes);
+        first.copy_from_slice(q);
+        for (c, v) in rest.iter_mut().zip(v) {
+            *c = v * scale;
+        }
+    }
+
+    /// The coefficients of power `n`.
+    pub fn term(&self, n: usize) -> &[f64] {
+        &self.coefficients[n * self.lanes..(n + 1) * self.lanes]
+    }
+
+    /// Appends power n + 2 from the load's power n (in 1/scale^n), by (n+1)(n+2) q_{n+2} = load_n - c (n+1) q_{n+1} - w^2 q_n.
+    ///
+    /// `load` adds the modal load of power n to its argument, which holds zeros, in units of the load itself.
+    pub fn extend(&mut self, structure: &Structure, load: impl FnOnce(&mut [f64])) {
+        let n = self.order - 1;
+        let lanes = self.lanes;
+        let (known, next) = self.coefficients.split_at_mut((n + 2) * lanes);
+        let (q0, q1) = (&known[n * lanes..(n + 1) * lanes], &known[(n + 1) * lanes..]);
+        let next = &mut next[..lanes];
+        next.fill(0.0);
+        load(next);
+        let (k1, k2) = ((n + 1) as f64, (n + 2) as f64);
+        let rate = k1 / self.scale;
+        for m in 0..lanes {
+            next[m] -= rate * structure.damping[m] * q1[m] + structure.omega2[m] * q0[m];
+        }
+        structure.subtract_coupling(q1, rate, next);
+        let factor = self.scale * self.scale / (k1 * k2);
+        for value in next.iter_mut() {
+            *value *= factor;
+        }
+        self.order += 1;
+    }
+
+    /// Expands a flight: load and slope only.
+    pub fn expand_flight(
+        &mut self,
+        structure: &Structure,
+        (q, v): (&[f64], &[f64]),
+        (load, slope): (&[f64], &[f64]),
+        (scale, order): (f64, usize),
+    ) {
+        self.start(scale, q, v);
+        while self.order < order.max(2) {
+            let n = self.order - 1;
+            self.extend(structure, |out| match n {
+                0 => out.copy_from_slice(load),
+                1 => out.iter_mut().zip(slope).for_each(|(out, slope)| *out = slope * scale),
+                _ => {}
+            });
+        }
+    }
+
+    /// q and v at x.
+    pub fn evaluate(&self, x: f64, q: &mut [f64], v: &mut [f64]) {
+        q.copy_from_slice(self.term(self.order));
+        v.fill(0.0);
+        for n in (0..self.order).rev() {
+            let term = self.term(n);
+            for m in 0..self.lanes {
+                v[m] = v[m] * x + q[m];
+                q[m] = q[m] * x + term[m];
+            }
+        }
+        let rate = 1.0 / self.scale;
+        for v in v.iter_mut() {
+            *v *= rate;
+        }
+    }
+
+    /// The scalar series row . q, written to `out[n]`.
+    pub fn project(&self, row: &[f64], out: &mut [f64]) {
+        for (n, out) in out.iter_mut().enumerate().take(self.order + 1) {
+            *out = dot(row, self.term(n));
+        }
+    }
+}
+
+/// Sum of products in a fixed order: one partial sum per lane, then the lanes from left to right.
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut lanes = [0.0; super::LANES];
+    for (a, b) in a.chunks_exact(super::LANES).zip(b.chunks_exact(super::LANES)) {
+        for i in 0..super::LANES {
+            lanes[i] += a[i] * b[i];
+        }
+    }
+    lanes.iter().sum()
+}
