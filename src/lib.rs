@@ -8,6 +8,10 @@
 pub mod contact;
 pub mod description;
 pub mod engine;
+#[allow(unsafe_code)]
+mod fmi;
 pub mod record;
 pub mod scene;
+pub mod slave;
 pub mod structure;
+pub mod variables;
