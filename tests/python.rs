@@ -36,7 +36,8 @@ fn built(what: &[&str]) -> PathBuf {
         .expect("cargo starts");
     require(&output, "cargo build");
     let messages = String::from_utf8(output.stdout).unwrap();
-    let executable = |line: &str| Some(line.split_once("\"executable\":\"")?.1.split_once('"')?.0.replace("\\\\", "\\"));
+    let executable =
+        |line: &str| Some(line.split_once("\"executable\":\"")?.1.split_once('"')?.0.replace("\\\\", "\\"));
     messages.lines().find_map(executable).expect("cargo says where the program is").into()
 }
 
