@@ -92,7 +92,9 @@ fn try_out(fmu: &Path) -> Result<(ModelDescription, Outcome)> {
 fn report(package: &Package, destination: &Path, description: &ModelDescription, outcome: &Outcome) -> String {
     let mut text = format!("{}: {}\n", package.scene.name, package.scene.description);
     let size = std::fs::metadata(destination).map_or(0, |file| file.len());
-    let _ = writeln!(text, "  file         {} ({} kB)", destination.display(), size.div_ceil(1000));
+    let here = std::env::current_dir().unwrap_or_default();
+    let shown = destination.strip_prefix(here).unwrap_or(destination).display();
+    let _ = writeln!(text, "  file         {shown} ({} kB)", size.div_ceil(1000));
     let _ = writeln!(text, "  guid         {}", description.guid);
     text + &summary::text(description, outcome, stop_reason(package))
 }

@@ -115,9 +115,10 @@ impl Run<'_> {
                 let seen = self.seen(&format!("contact[{contact}].{quantity}"));
                 seen.map_or(String::new(), |seen| digits(pick(seen)))
             };
+            let gap = self.seen(&format!("contact[{contact}].gap"));
             table.row([
                 contact.to_string(),
-                number("gap", |seen| seen.last),
+                gap.map_or(String::new(), |seen| format!("{}", seen.last)),
                 number("impacts", |seen| seen.last),
                 number("peak_force", |seen| seen.last),
                 number("approach_velocity", |seen| seen.largest),

@@ -42,10 +42,14 @@ impl Workspace {
     }
 
     /// Compiles the library in its release profile and returns where it is.
+    ///
+    /// Naming the target, even this machine's, gives the library a directory of its own. Without it cargo would put it
+    /// where it puts the library that this program is linked with, and compile both anew each time, since their flags
+    /// differ.
     pub fn compile_library(&self) -> Result<PathBuf> {
         let output = self
             .cargo("build")
-            .args(["--release", "--lib", "--package", PACKAGE, "--quiet"])
+            .args(["--release", "--lib", "--package", PACKAGE, "--target", &self.host()?, "--quiet"])
             .arg("--message-format=json-render-diagnostics")
             .args(["--config", &path_remapping(&self.root)?])
             .output()
@@ -69,6 +73,14 @@ impl Workspace {
             bail!("cargo tree failed:\n{}", String::from_utf8_lossy(&output.stderr).trim_end());
         }
         Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+    }
+
+    /// The target triple of this machine, as the toolchain calls it.
+    fn host(&self) -> Result<String> {
+        let output = self.cargo("--version").arg("--verbose").output().context("cannot start cargo")?;
+        let text = String::from_utf8_lossy(&output.stdout);
+        let host = text.lines().find_map(|line| line.strip_prefix("host: "));
+        Ok(host.context("cargo --version --verbose names no host")?.to_owned())
     }
 
     fn cargo(&self, command: &str) -> Command {
