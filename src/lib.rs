@@ -10,6 +10,7 @@ pub mod description;
 pub mod engine;
 #[allow(unsafe_code)]
 mod fmi;
+mod quadrature;
 pub mod record;
 pub mod scene;
 pub mod slave;

@@ -15,12 +15,21 @@ pub enum Force {
         /// c, N s/m.
         damping: f64,
     },
-    /// F = k d^n.
+    /// F = k d^n (1 + b v).
     Power {
         /// k, N/m^n.
         stiffness: f64,
         /// n.
         exponent: f64,
+        /// b, s/m.
+        damping: f64,
+    },
+    /// F = k d^1.5 + b d^0.25 v.
+    Root {
+        /// k, N/m^1.5.
+        stiffness: f64,
+        /// b, N s/m^1.25.
+        damping: f64,
     },
 }
 
@@ -30,7 +39,28 @@ impl Force {
         match *self {
             Force::None => 0.0,
             Force::Linear { stiffness, damping } => stiffness * d + damping * v,
-            Force::Power { stiffness, exponent } => stiffness * power(d, exponent),
+            Force::Power { stiffness, exponent, damping } => stiffness * power(d, exponent) * (1.0 + damping * v),
+            Force::Root { stiffness, damping } => stiffness * power(d, 1.5) + damping * power(d, 0.25) * v,
+        }
+    }
+
+    /// W, power of the damping part.
+    pub fn damping_power(&self, d: f64, v: f64) -> f64 {
+        match *self {
+            Force::None => 0.0,
+            Force::Linear { damping, .. } => damping * v * v,
+            Force::Power { stiffness, exponent, damping } => stiffness * power(d, exponent) * damping * v * v,
+            Force::Root { damping, .. } => damping * power(d, 0.25) * v * v,
+        }
+    }
+
+    /// Whether the force has a damping part.
+    pub fn is_damped(&self) -> bool {
+        match *self {
+            Force::None => false,
+            Force::Linear { damping, .. } | Force::Power { damping, .. } | Force::Root { damping, .. } => {
+                damping != 0.0
+            }
         }
     }
 
@@ -39,13 +69,14 @@ impl Force {
         match *self {
             Force::None => 0.0,
             Force::Linear { stiffness, .. } => 0.5 * stiffness * d * d,
-            Force::Power { stiffness, exponent } => stiffness * power(d, exponent + 1.0) / (exponent + 1.0),
+            Force::Power { stiffness, exponent, .. } => stiffness * power(d, exponent + 1.0) / (exponent + 1.0),
+            Force::Root { stiffness, .. } => stiffness * power(d, 2.5) / 2.5,
         }
     }
 
     /// Whether the force is a polynomial in d and v, so that nothing is singular at d = 0.
     pub fn is_regular(&self) -> bool {
-        !matches!(self, Force::Power { .. })
+        matches!(self, Force::None | Force::Linear { .. })
     }
 }
 
@@ -54,7 +85,14 @@ pub fn power(d: f64, exponent: f64) -> f64 {
     if d <= 0.0 {
         return 0.0;
     }
-    if exponent == 1.5 { d * d.sqrt() } else { libm::pow(d, exponent) }
+    // Roots are exact to rounding and several times cheaper than a general power.
+    match exponent {
+        0.25 => d.sqrt().sqrt(),
+        1.25 => d * d.sqrt().sqrt(),
+        1.5 => d * d.sqrt(),
+        2.5 => d * d * d.sqrt(),
+        _ => libm::pow(d, exponent),
+    }
 }
 
 /// Where the force passes from one branch to the other: engaged while constant + stiffness d + damping v > 0.
@@ -102,7 +140,7 @@ impl EpisodeForce {
                 EpisodeForce { engaged: Force::Linear { stiffness, damping }, slack: Force::None, guard }
             }
             LawKind::Hertz if law.exponent == 1.0 => always(Force::Linear { stiffness, damping: 0.0 }),
-            LawKind::Hertz => always(Force::Power { stiffness, exponent: law.exponent }),
+            LawKind::Hertz => always(Force::Power { stiffness, exponent: law.exponent, damping: 0.0 }),
         }
     }
 

@@ -2,6 +2,7 @@
 
 pub mod force;
 pub mod law;
+pub mod onset;
 pub mod series;
 
 pub use force::{EpisodeForce, Force, Guard};

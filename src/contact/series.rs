@@ -1,6 +1,7 @@
 //! Power series of the contact force from that of the penetration, term by term, while a step is expanded.
 
 use super::force::{Force, Guard};
+use crate::quadrature::gauss;
 
 /// Highest power of any series.
 pub const MAX_ORDER: usize = 30;
@@ -14,6 +15,8 @@ pub struct PairSeries {
     pub force: [f64; MAX_ORDER + 3],
     /// d^n of a power law.
     power: [f64; MAX_ORDER + 3],
+    /// d^1.25 of a root law.
+    root: [f64; MAX_ORDER + 3],
     /// Powers of the penetration and force that are filled.
     pub order: usize,
 }
@@ -21,7 +24,7 @@ pub struct PairSeries {
 impl Default for PairSeries {
     fn default() -> Self {
         let zeros = [0.0; MAX_ORDER + 3];
-        PairSeries { penetration: zeros, force: zeros, power: zeros, order: 0 }
+        PairSeries { penetration: zeros, force: zeros, power: zeros, root: zeros, order: 0 }
     }
 }
 
@@ -35,25 +38,37 @@ impl PairSeries {
             Force::Linear { stiffness, damping } => {
                 stiffness * self.penetration[n] + (damping / scale) * (n + 1) as f64 * self.penetration[n + 1]
             }
-            Force::Power { stiffness, exponent } => {
+            Force::Power { stiffness, exponent, damping } => {
                 self.extend_power(exponent, n);
-                stiffness * self.power[n]
+                let mut term = self.power[n];
+                if damping != 0.0 {
+                    let mut product = 0.0;
+                    for j in 0..=n {
+                        product += (j + 1) as f64 * self.penetration[j + 1] * self.power[n - j];
+                    }
+                    term += damping / scale * product;
+                }
+                stiffness * term
+            }
+            // d^0.25 d' = (4/5) (d^1.25)': no product of series.
+            Force::Root { stiffness, damping } => {
+                if n == 0 {
+                    self.root[0] = super::force::power(self.penetration[0], 1.25);
+                }
+                self.extend_power(1.5, n);
+                extend_power(&mut self.root, &self.penetration, 1.25, n + 1);
+                stiffness * self.power[n] + 0.8 * damping / scale * (n + 1) as f64 * self.root[n + 1]
             }
         };
         self.order = n;
     }
 
     fn extend_power(&mut self, exponent: f64, n: usize) {
-        let d = &self.penetration;
-        self.power[n] = if n == 0 {
-            super::force::power(d[0], exponent)
+        if n == 0 {
+            self.power[0] = super::force::power(self.penetration[0], exponent);
         } else {
-            let mut sum = 0.0;
-            for j in 0..n {
-                sum += (exponent * (n - j) as f64 - j as f64) * d[n - j] * self.power[j];
-            }
-            sum / (n as f64 * d[0])
-        };
+            extend_power(&mut self.power, &self.penetration, exponent, n);
+        }
     }
 
     /// The series of a guard, up to the order of the force.
@@ -74,21 +89,26 @@ impl PairSeries {
         sum * x * scale
     }
 
-    /// J, work of the damping part of the force over 0..x.
+    /// J, work of the damping part of the force over 0..=x.
     pub fn damping_work(&self, force: &Force, x: f64, scale: f64) -> f64 {
-        let Force::Linear { damping, .. } = *force else { return 0.0 };
-        if damping == 0.0 {
+        if !force.is_damped() {
             return 0.0;
         }
-        // c times the integral of v^2, by the product of the series of v with itself.
-        let rate = |n: usize| (n + 1) as f64 * self.penetration[n + 1];
-        let mut sum = 0.0;
-        for s in (0..=self.order).rev() {
-            let product: f64 = (0..=s).map(|i| rate(i) * rate(s - i)).sum();
-            sum = sum * x + product / (s + 1) as f64;
-        }
-        damping * sum * x / scale
+        let power = |x| {
+            let (d, rate) = value_and_slope(&self.penetration[..=self.order + 2], x);
+            force.damping_power(d, rate / scale)
+        };
+        scale * gauss(x).map(|(x, weight)| weight * power(x)).sum::<f64>()
     }
+}
+
+/// Term n > 0 of the series of d^exponent.
+fn extend_power(power: &mut [f64], d: &[f64], exponent: f64, n: usize) {
+    let mut sum = 0.0;
+    for j in 0..n {
+        sum += (exponent * (n - j) as f64 - j as f64) * d[n - j] * power[j];
+    }
+    power[n] = sum / (n as f64 * d[0]);
 }
 
 /// Value of a polynomial at x.

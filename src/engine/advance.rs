@@ -72,12 +72,9 @@ impl Model {
     fn take(&self, state: &mut State, end: f64, on_episode: &mut dyn FnMut(&Episode)) {
         self.add_work(state, state.step.length);
         let State { base, step, counters, work, .. } = state;
-        let x = step.length / step.series.scale;
-        for (contact, pair) in base.contacts.iter_mut().zip(&step.pairs) {
-            if contact.in_contact() && step.kind == StepKind::Contact {
-                let start = base.segment.start + base.elapsed;
-                contact.follow(pair, step.series.scale, x, start);
-            }
+        let start = base.segment.start + base.elapsed;
+        for contact in base.contacts.iter_mut().filter(|contact| contact.in_contact()) {
+            contact.follow(step, step.length, start);
         }
         std::mem::swap(&mut base.q, &mut step.q);
         std::mem::swap(&mut base.v, &mut step.v);
@@ -164,8 +161,20 @@ impl Model {
 }
 
 impl Contact {
-    /// Follows the contact over 0..=x of a step: penetration, impulse, peaks, work.
-    pub(super) fn follow(&mut self, pair: &PairSeries, scale: f64, x: f64, start: f64) {
+    /// Follows the contact over the first `elapsed` seconds of a step that begins at `start` [s].
+    pub(super) fn follow(&mut self, step: &Step, elapsed: f64, start: f64) {
+        match step.kind {
+            StepKind::Onset => self.follow_onset(&step.onset, elapsed / step.onset.scale, start),
+            StepKind::Contact if elapsed > 0.0 => {
+                let pair = &step.pairs[self.episode.contact];
+                self.follow_series(pair, step.series.scale, elapsed / step.series.scale, start);
+            }
+            _ => {}
+        }
+    }
+
+    /// Penetration, impulse, peaks and work over 0..=x of a series.
+    fn follow_series(&mut self, pair: &PairSeries, scale: f64, x: f64, start: f64) {
         let force = self.branch();
         let impulse = pair.impulse(x, scale);
         self.impulse += impulse;

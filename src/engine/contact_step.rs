@@ -28,10 +28,24 @@ pub(super) fn accuracy(relative_tolerance: f64) -> (f64, usize) {
 impl Model {
     /// Works out the step in contact from the base until `limit` (s since the segment's start) or the next event.
     pub(super) fn plan_contact(&self, state: &mut State, limit: f64) {
+        let scale = state.base.velocity_scale.max(self.present_velocity(&state.base));
+        state.base.velocity_scale = scale;
+        if let Some(p) = self.entry_at_once(&state.base) {
+            state.step.kind = StepKind::Contact;
+            state.step.event = Some(Event::Entry(p));
+            state.step.reaches_limit = false;
+            state.step.length = 0.0;
+            state.step.series.scale = 1.0;
+            state.step.q.copy_from_slice(&state.base.q);
+            state.step.v.copy_from_slice(&state.base.v);
+            return;
+        }
+        if touching(&state.base).any(|(_, contact)| contact.is_singular()) && self.plan_onset(state, limit) {
+            return;
+        }
         let State { base, step, inputs, counters, work, .. } = state;
         counters.contact_steps += 1;
         let remaining = limit - base.elapsed;
-        base.velocity_scale = base.velocity_scale.max(self.present_velocity(base));
         self.load(base, inputs, &mut work.load, &mut work.slope);
         let scale = if base.last_length > 0.0 { base.last_length.min(remaining) } else { remaining };
         self.expand(base, step, work, scale);
@@ -48,17 +62,22 @@ impl Model {
         base.last_length = reach * scale;
     }
 
+    /// A pair that stands at the surface and approaches: it enters now, together with another.
+    fn entry_at_once(&self, base: &Base) -> Option<usize> {
+        let at_surface = |contact: &Contact| contact.at_surface || contact.penetration >= 0.0;
+        base.contacts.iter().position(|contact| !contact.in_contact() && at_surface(contact) && contact.rate > 0.0)
+    }
+
     /// The series of modes, penetrations and forces from the base on.
     fn expand(&self, base: &Base, step: &mut Step, work: &Workspace, scale: f64) {
         let Step { series, pairs, .. } = step;
         series.start(scale, &base.q, &base.v);
-        let touching = || base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact());
-        for (p, contact) in touching() {
+        for (p, contact) in touching(base) {
             pairs[p].penetration[0] = contact.penetration;
             pairs[p].penetration[1] = contact.rate * scale;
         }
         for n in 0..self.order {
-            for (p, contact) in touching() {
+            for (p, contact) in touching(base) {
                 pairs[p].extend_force(&contact.starting_force(), n, scale);
             }
             series.extend(&self.structure, |out| {
@@ -67,14 +86,14 @@ impl Model {
                     1 => out.iter_mut().zip(&work.slope).for_each(|(out, slope)| *out = slope * scale),
                     _ => {}
                 }
-                for (p, _) in touching() {
+                for (p, _) in touching(base) {
                     let force = pairs[p].force[n];
                     for (out, row) in out.iter_mut().zip(&self.pairs[p].row) {
                         *out -= row * force;
                     }
                 }
             });
-            for (p, _) in touching() {
+            for (p, _) in touching(base) {
                 pairs[p].penetration[n + 2] = dot(&self.pairs[p].row, series.term(n + 2));
             }
         }
@@ -122,7 +141,7 @@ impl Model {
     }
 
     /// Largest floor velocity of a modal vector, up to the sum over modes.
-    fn worst_floor(&self, modal: &[f64]) -> f64 {
+    pub(super) fn worst_floor(&self, modal: &[f64]) -> f64 {
         let mut largest = [0.0_f64; LANES];
         for (modal, weight) in modal.chunks_exact(LANES).zip(self.structure.weight.chunks_exact(LANES)) {
             for i in 0..LANES {
@@ -226,9 +245,14 @@ impl Model {
     }
 }
 
+/// The contacts that are in contact, with their number.
+pub(super) fn touching(base: &Base) -> impl Iterator<Item = (usize, &Contact)> {
+    base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact())
+}
+
 impl Contact {
     /// Just entered under a force that has no power series at d = 0.
-    fn is_singular(&self) -> bool {
+    pub(super) fn is_singular(&self) -> bool {
         self.in_contact() && self.penetration <= 0.0 && !self.branch().is_regular()
     }
 

@@ -5,17 +5,8 @@
 use super::model::Model;
 use super::state::*;
 use super::{EnergyPoint, Point};
-use crate::structure::{ModalSeries, flight_order};
-
-/// Nodes on -1..1 and weights of the 12-point Gauss-Legendre rule [AbramowitzStegun1964, table 25.4].
-const GAUSS: [(f64, f64); 6] = [
-    (0.125_233_408_511_468_92, 0.249_147_045_813_402_8),
-    (0.367_831_498_998_180_2, 0.233_492_536_538_354_8),
-    (0.587_317_954_286_617_5, 0.203_167_426_723_065_92),
-    (0.769_902_674_194_304_7, 0.160_078_328_543_346_23),
-    (0.904_117_256_370_474_9, 0.106_939_325_995_318_43),
-    (0.981_560_634_246_719_3, 0.047_175_336_386_511_83),
-];
+use crate::quadrature::gauss;
+use crate::structure::flight_order;
 
 /// Work over a stretch of time, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -55,11 +46,19 @@ impl Model {
     /// Work from the base over `length` seconds.
     fn work_over(&self, base: &Base, step: &Step, inputs: &Inputs, work: &mut Workspace, length: f64) -> Work {
         let mut done = Work::default();
-        if step.kind == StepKind::Contact {
-            self.integrate(base, &step.series, (0.0, length), work, &mut done);
-            step.series.evaluate(length / step.series.scale, &mut work.q, &mut work.v);
-        } else {
-            self.integrate_flight(base, inputs, work, length, &mut done);
+        match step.kind {
+            _ if length == 0.0 => return done,
+            StepKind::Contact => {
+                let series = &step.series;
+                self.integrate(base, |t, q, v| series.evaluate(t / series.scale, q, v), (0.0, length), work, &mut done);
+                series.evaluate(length / series.scale, &mut work.q, &mut work.v);
+            }
+            StepKind::Onset => {
+                let onset = &step.onset;
+                self.integrate(base, |t, q, v| onset.evaluate(t / onset.scale, q, v), (0.0, length), work, &mut done);
+                onset.evaluate(length / onset.scale, &mut work.q, &mut work.v);
+            }
+            StepKind::Flight | StepKind::Unknown => self.integrate_flight(base, inputs, work, length, &mut done),
         }
         work.load.fill(0.0);
         self.add_floor_forces(inputs, &mut work.load);
@@ -80,7 +79,7 @@ impl Model {
         for i in 0..pieces {
             let start = (work.q.as_slice(), work.v.as_slice());
             series.expand_flight(&self.structure, start, (&work.load, &work.slope), (h, order));
-            self.integrate(base, &series, (i as f64 * h, h), work, done);
+            self.integrate(base, |t, q, v| series.evaluate(t / h, q, v), (i as f64 * h, h), work, done);
             series.evaluate(1.0, &mut work.q, &mut work.v);
             for (load, slope) in work.load.iter_mut().zip(&work.slope) {
                 *load += slope * h;
@@ -89,24 +88,23 @@ impl Model {
         work.series = series;
     }
 
-    /// Adds the work of the ground motion and of structural damping over a series, which begins `from` seconds after
-    /// the base and is integrated over `length` seconds.
+    /// Adds the work of the ground motion and of structural damping over a solution `motion`(t, q, v), which begins
+    /// `from` seconds after the base and is integrated over `length` seconds.
     fn integrate(
         &self,
         base: &Base,
-        series: &ModalSeries,
+        motion: impl Fn(f64, &mut [f64], &mut [f64]),
         (from, length): (f64, f64),
         work: &mut Workspace,
         done: &mut Work,
     ) {
         let (q, v) = (&mut work.node_q, &mut work.node_v);
-        for (node, weight) in GAUSS.iter().flat_map(|(node, weight)| [(-node, *weight), (*node, *weight)]) {
-            let t = 0.5 * length * (1.0 + node);
-            series.evaluate(t / series.scale, q, v);
+        for (t, weight) in gauss(length) {
+            motion(t, q, v);
             let acceleration = base.segment.acceleration_at(base.elapsed + from + t);
             let push: f64 = v.iter().zip(&self.structure.participation).map(|(v, p)| v * p).sum();
-            done.input -= 0.5 * length * weight * acceleration * push;
-            done.viscous += 0.5 * length * weight * self.structure.viscous_power(v);
+            done.input -= weight * acceleration * push;
+            done.viscous += weight * self.structure.viscous_power(v);
         }
     }
 

@@ -9,6 +9,7 @@ mod flight;
 mod ground;
 mod model;
 mod observe;
+mod onset_step;
 mod roots;
 mod state;
 

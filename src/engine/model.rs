@@ -1,6 +1,7 @@
 //! The model: everything about a scene that stays as it is during a run.
 
 use super::ground::{GroundMotion, Segment};
+use super::onset_step::OnsetSeries;
 use super::state::*;
 use super::{Episode, contact_step};
 use crate::contact::series::{MAX_ORDER, PairSeries};
@@ -127,6 +128,7 @@ impl Model {
                 v: vec![0.0; lanes],
                 series: ModalSeries::new(lanes, highest),
                 pairs: vec![PairSeries::default(); self.pairs.len()],
+                onset: OnsetSeries::new(lanes, self.pairs.len()),
             },
             inputs: Inputs {
                 ground_acceleration: 0.0,

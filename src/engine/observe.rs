@@ -44,16 +44,19 @@ impl Model {
     /// q and v at a time since the base.
     fn read_modes(&self, state: &State, elapsed: f64, work: &mut Workspace, point: &mut Point) {
         let State { base, step, inputs, .. } = state;
-        if elapsed == 0.0 {
-            point.q.copy_from_slice(&base.q);
-            point.v.copy_from_slice(&base.v);
-        } else if step.kind == StepKind::Contact {
-            step.series.evaluate(elapsed / step.series.scale, &mut point.q, &mut point.v);
-        } else {
-            self.load(base, inputs, &mut work.load, &mut work.slope);
-            self.fly(base, elapsed, work);
-            point.q.copy_from_slice(&work.q);
-            point.v.copy_from_slice(&work.v);
+        match step.kind {
+            _ if elapsed == 0.0 => {
+                point.q.copy_from_slice(&base.q);
+                point.v.copy_from_slice(&base.v);
+            }
+            StepKind::Contact => step.series.evaluate(elapsed / step.series.scale, &mut point.q, &mut point.v),
+            StepKind::Onset => step.onset.evaluate(elapsed / step.onset.scale, &mut point.q, &mut point.v),
+            StepKind::Flight | StepKind::Unknown => {
+                self.load(base, inputs, &mut work.load, &mut work.slope);
+                self.fly(base, elapsed, work);
+                point.q.copy_from_slice(&work.q);
+                point.v.copy_from_slice(&work.v);
+            }
         }
     }
 
@@ -76,9 +79,8 @@ impl Model {
     /// A contact at a time since the base.
     fn contact_at(&self, base: &Base, step: &Step, p: usize, elapsed: f64) -> Contact {
         let mut contact = base.contacts[p];
-        if contact.in_contact() && step.kind == StepKind::Contact && elapsed > 0.0 {
-            let scale = step.series.scale;
-            contact.follow(&step.pairs[p], scale, elapsed / scale, base.segment.start + base.elapsed);
+        if contact.in_contact() && elapsed > 0.0 {
+            contact.follow(step, elapsed, base.segment.start + base.elapsed);
         }
         contact
     }

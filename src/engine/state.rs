@@ -2,6 +2,7 @@
 
 use super::Episode;
 use super::ground::Segment;
+use super::onset_step::OnsetSeries;
 use crate::contact::EpisodeForce;
 use crate::contact::series::{MAX_ORDER, PairSeries};
 use crate::structure::{Interval, ModalSeries, Scratch, Structure};
@@ -149,6 +150,8 @@ pub(super) struct Step {
     pub series: ModalSeries,
     /// One per contact; filled for those in contact.
     pub pairs: Vec<PairSeries>,
+    /// For the first step after an entry.
+    pub onset: OnsetSeries,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -157,6 +160,8 @@ pub(super) enum StepKind {
     Unknown,
     Flight,
     Contact,
+    /// In contact, the first step after an entry under a power law.
+    Onset,
 }
 
 /// What ends a step, at which contact.

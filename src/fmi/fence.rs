@@ -64,21 +64,35 @@ pub fn panic_message(panic: &(dyn Any + Send)) -> &str {
 mod tests {
     #![allow(clippy::panic)]
     use super::*;
-    use crate::fmi::test_support::{component, messages};
+    use crate::fmi::test_support::Logged;
+
+    fn call(component: Component, call: Call, body: impl FnOnce()) -> c_int {
+        // SAFETY: the component is live, and of this thread only.
+        unsafe { with_instance(component, call, |_| Ok(body())) }
+    }
 
     #[test]
     fn a_panic_is_fatal_and_stays_so() {
-        let component = component();
-        // SAFETY: the component is live, and of this thread only.
-        let mut call = |call, panics: bool| unsafe {
-            with_instance(component, call, |_| if panics { panic!("100% #1") } else { Ok(()) })
-        };
-        assert_eq!(call(Call::SetReal, false), Status::Ok as c_int);
-        assert_eq!(call(Call::SetReal, true), Status::Fatal as c_int);
-        assert_eq!(call(Call::SetReal, false), Status::Fatal as c_int);
-        assert_eq!(call(Call::Reset, false), Status::Fatal as c_int);
-        let logged = messages(component);
-        assert_eq!(logged.len(), 1);
-        assert!(logged[0].contains("fmi2SetReal: internal failure: 100%% ##1"), "{logged:?}");
+        let logged = Logged::new();
+        let c = logged.component;
+        assert_eq!(call(c, Call::SetReal, || ()), Status::Ok as c_int);
+        assert_eq!(call(c, Call::SetReal, || panic!("at 100%")), Status::Fatal as c_int);
+        assert_eq!(logged.messages(), ["fmi2SetReal: internal failure: at 100%%"]);
+        for after in [Call::SetReal, Call::Reset] {
+            assert_eq!(call(c, after, || unreachable!("the instance is poisoned")), Status::Fatal as c_int);
+        }
+    }
+
+    #[test]
+    fn a_call_out_of_sequence_does_not_reach_the_body() {
+        let logged = Logged::new();
+        let status = call(logged.component, Call::DoStep, || panic!("not allowed yet"));
+        assert_eq!(status, Status::Error as c_int);
+        assert_eq!(logged.messages(), ["fmi2DoStep: called in phase Instantiated: expected in StepComplete"]);
+    }
+
+    #[test]
+    fn no_component_is_an_error() {
+        assert_eq!(call(std::ptr::null_mut(), Call::Reset, || panic!("no instance")), Status::Error as c_int);
     }
 }

@@ -16,5 +16,7 @@ mod life;
 mod logger;
 mod optional;
 mod step;
+#[cfg(test)]
+mod test_support;
 mod types;
 mod values;

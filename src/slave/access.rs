@@ -82,7 +82,7 @@ impl Slave {
             }
         }
         if let Some(changed) = changed {
-            changed.scene.check()?;
+            changed.check()?;
             (self.settings, self.simulation) = (changed, None);
         }
         Ok(())

@@ -159,7 +159,7 @@ impl Structure {
     }
 
     /// `out` -= factor * (off-diagonal damping) * `velocity`.
-    fn subtract_coupling(&self, velocity: &[f64], factor: f64, out: &mut [f64]) {
+    pub fn subtract_coupling(&self, velocity: &[f64], factor: f64, out: &mut [f64]) {
         for Coupling { offset, matrix } in &self.coupling {
             for (j, column) in matrix.column_iter().enumerate() {
                 let v = factor * velocity[offset + j];

@@ -83,7 +83,9 @@ impl Settings {
             }
             Parameter::GroundScale => match scene.ground.scaling {
                 Scaling::Scale(factor) => factor,
-                Scaling::Pga(peak) => self.record().map_or(0.0, |record| peak / record.peak()),
+                scaling @ Scaling::Pga(_) => {
+                    self.record().and_then(|record| scaling.factor(record).ok()).unwrap_or_default()
+                }
             },
             Parameter::Mass(side, floor) => building(scene, side).mass[floor],
             Parameter::Stiffness(side, storey) => match &building(scene, side).stiffness {
@@ -102,7 +104,16 @@ impl Settings {
         })
     }
 
-    /// Sets a parameter to a value of its row's type. [`Scene::check`] is for the caller: once, after everything that
+    /// Everything that is wrong with the numbers, by themselves and with the record.
+    pub fn check(&self) -> Result<(), SceneError> {
+        self.scene.check()?;
+        match self.record().map(|record| self.scene.ground.scaling.factor(record)) {
+            Some(Err(problem)) => Err(SceneError { problems: vec![problem] }),
+            Some(Ok(_)) | None => Ok(()),
+        }
+    }
+
+    /// Sets a parameter to a value of its row's type. [`Settings::check`] is for the caller: once, after everything that
     /// is set together.
     pub fn write(&mut self, parameter: Parameter, value: Value<'_>) -> Result<(), SceneError> {
         let number = match value {
@@ -142,9 +153,6 @@ impl Settings {
         };
         let bytes = std::fs::read(path).map_err(|error| refused(format!("a readable record file ({error})")))?;
         let record = Record::parse(path, &bytes).map_err(|error| refused(format!("a record file ({error})")))?;
-        if matches!(self.scene.ground.scaling, Scaling::Pga(_)) && record.peak() == 0.0 {
-            return Err(refused("a record that is not 0 throughout, to scale it to ground.pga".to_owned()));
-        }
         self.other_record = Some((path.to_owned(), Arc::new(record)));
         Ok(())
     }
