@@ -1,0 +1,88 @@
+//! Records as PEER ground motion database files, `.AT2`.
+
+use super::{Record, RecordError, excerpt};
+
+/// m/s2 in one g.
+const STANDARD_GRAVITY: f64 = 9.80665;
+const HEADER_LINES: usize = 4;
+
+pub(super) fn parse(bytes: &[u8]) -> Result<Record, RecordError> {
+    let mut lines = bytes.split(|&byte| byte == b'\n').enumerate().map(|(i, line)| (i + 1, line));
+    let header: Vec<_> = lines.by_ref().take(HEADER_LINES).collect();
+    check_unit(&header)?;
+    let Some(&(number, last)) = header.get(HEADER_LINES - 1) else {
+        return Err(RecordError::new(format!("{} lines: expected 4 header lines and the samples", header.len())));
+    };
+    let Sampling { samples, step } = Sampling::find(last).ok_or_else(|| {
+        RecordError::at(number, format!("{}: expected NPTS=..., DT=... or \"... ... NPTS, DT\"", excerpt(last)))
+    })?;
+    let mut record = Record::with_capacity(samples.min(bytes.len() / 2));
+    for (number, line) in lines {
+        for field in line.split(u8::is_ascii_whitespace).filter(|field| !field.is_empty()) {
+            let time = record.times.len() as f64 * step;
+            let value = fortran_number(field).ok_or_else(|| format!("{}: expected a number", excerpt(field)));
+            let added = value.and_then(|value| record.push(time, value * STANDARD_GRAVITY));
+            added.map_err(|error| RecordError::at(number, error))?;
+        }
+    }
+    if record.times.len() != samples {
+        let found = record.times.len();
+        return Err(RecordError::at(
+            number,
+            format!("NPTS = {samples}: expected {found}, the number of samples in the file"),
+        ));
+    }
+    record.complete()
+}
+
+/// What the fourth line says.
+struct Sampling {
+    samples: usize,
+    /// s
+    step: f64,
+}
+
+impl Sampling {
+    /// Reads `NPTS=  4000, DT=  .0100 SEC` and the older `4000  0.0100  NPTS, DT`.
+    fn find(line: &[u8]) -> Option<Sampling> {
+        let text = String::from_utf8_lossy(line).to_ascii_uppercase();
+        let separators = |c: char| c.is_whitespace() || matches!(c, ',' | '=' | ':');
+        let words: Vec<&str> = text.split(separators).filter(|word| !word.is_empty()).collect();
+        let place = |name: &str| words.iter().position(|&word| word == name);
+        let (npts, dt) = (place("NPTS")?, place("DT")?);
+        let after = Self::read(words.get(npts + 1), words.get(dt + 1));
+        after.or_else(|| Self::read(words.first(), words.get(1)))
+    }
+
+    fn read(samples: Option<&&str>, step: Option<&&str>) -> Option<Sampling> {
+        let step = step?.trim_end_matches("SEC");
+        let step = fortran_number(step.as_bytes()).filter(|step| step.is_finite() && *step > 0.0)?;
+        Some(Sampling { samples: samples?.parse().ok()?, step })
+    }
+}
+
+/// Velocity and displacement files of the same database (`.VT2`, `.DT2`) have the same form and another unit.
+fn check_unit(header: &[(usize, &[u8])]) -> Result<(), RecordError> {
+    for (number, line) in header {
+        let text = String::from_utf8_lossy(line).to_ascii_uppercase();
+        let words_after = text.split_once("UNITS OF").map(|(_, after)| after.split([' ', '\t', '\r', ',', '.']));
+        if words_after.and_then(|mut words| words.find(|word| !word.is_empty())).is_some_and(|unit| unit != "G") {
+            return Err(RecordError::at(*number, format!("{}: expected UNITS OF G", excerpt(line))));
+        }
+    }
+    Ok(())
+}
+
+/// A number as Fortran writes it: `.1234E-02`, `-0.5D-03`, and `.1234-102` where the exponent has three digits.
+fn fortran_number(field: &[u8]) -> Option<f64> {
+    let text = std::str::from_utf8(field).ok()?;
+    if let Ok(value) = text.parse() {
+        return Some(value);
+    }
+    let with_e = text.replace(['d', 'D'], "E");
+    with_e.parse().ok().or_else(|| {
+        let sign = with_e.rfind(['+', '-']).filter(|&place| place > 0)?;
+        let (mantissa, exponent) = with_e.split_at_checked(sign)?;
+        format!("{mantissa}E{exponent}").parse().ok()
+    })
+}

@@ -1,0 +1,167 @@
+//! Every rule about a scene that has its types: ranges, lengths, combinations. Shapes of matrices: `matrix`.
+//!
+//! Where the number of floors is unknown (no mass at all, a problem by itself) nothing is compared with it.
+
+use super::problem::{self, Problem};
+use super::rule::{self, Rule};
+use super::{Building, ContactPair, Damping, Ground, Scaling, Scene, Stiffness, identifier, law_key, matrix};
+use crate::contact::ImpactLaw;
+use std::collections::HashMap;
+use std::fmt::Display;
+
+/// Everything that is wrong with the values of a scene, in the order of the fields.
+pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
+    let mut check = Checker::default();
+    check.texts(scene);
+    scene.stop_time.inspect(|&time| check.number("stop_time", time, rule::STOP_TIME));
+    check.building("left", &scene.left);
+    check.building("right", &scene.right);
+    check.ground(&scene.ground);
+    for (i, pair) in scene.contacts.iter().enumerate() {
+        check.contact(&format!("contact[{}]", i + 1), pair, scene);
+    }
+    check.pairs_differ(&scene.contacts);
+    check.number("solver.relative_tolerance", scene.solver.relative_tolerance, rule::RELATIVE_TOLERANCE);
+    check.number("solver.min_approach_velocity", scene.solver.min_approach_velocity, rule::MIN_APPROACH_VELOCITY);
+    check.problems
+}
+
+#[derive(Default)]
+pub(super) struct Checker {
+    problems: Vec<Problem>,
+}
+
+impl Checker {
+    pub(super) fn refuse(&mut self, path: impl Display, found: impl Into<String>, expected: impl Into<String>) {
+        self.problems.push(Problem::new(path.to_string(), found, expected));
+    }
+
+    pub(super) fn number(&mut self, path: impl Display, value: f64, rule: Rule) {
+        self.problems.extend(rule.problem(path, value));
+    }
+
+    pub(super) fn numbers(&mut self, path: impl Display, values: &[f64], rule: Rule) {
+        for (i, &value) in values.iter().enumerate() {
+            self.number(format_args!("{path}[{}]", i + 1), value, rule);
+        }
+    }
+
+    /// One number per floor, storey or mode, as `each` says.
+    pub(super) fn list(&mut self, path: impl Display, values: &[f64], rule: Rule, floors: usize, each: &str) {
+        if floors > 0 && values.len() != floors {
+            let expected = format!("{}, one per {each}, not {}", problem::count(floors, "number"), values.len());
+            self.refuse(&path, problem::excerpt(&problem::numbers(values)), expected);
+        }
+        self.numbers(path, values, rule);
+    }
+
+    fn texts(&mut self, scene: &Scene) {
+        if let Err(expected) = identifier::check(&scene.name) {
+            self.refuse("name", problem::quoted(&scene.name), expected);
+        }
+        // XML, and so the FMU's description, has no way to write the others.
+        let unprintable = |c: char| c.is_control() && !matches!(c, '\t' | '\n' | '\r');
+        if scene.description.contains(unprintable) {
+            self.refuse("description", problem::quoted(&scene.description), "text without control characters");
+        }
+    }
+
+    fn building(&mut self, path: &str, building: &Building) {
+        let floors = building.mass.len();
+        if floors == 0 {
+            self.refuse(format_args!("{path}.mass"), "[]", "at least one floor");
+        }
+        self.numbers(format_args!("{path}.mass"), &building.mass, rule::MASS);
+        match &building.stiffness {
+            Stiffness::Shear(storeys) => {
+                self.list(format_args!("{path}.stiffness"), storeys, rule::STOREY_STIFFNESS, floors, "storey");
+            }
+            Stiffness::Matrix(rows) => {
+                self.matrix(&format!("{path}.stiffness_matrix"), rows, floors, matrix::STIFFNESS);
+            }
+        }
+        self.damping(&format!("{path}.damping"), &building.damping, floors);
+        let displacement = &building.initial_displacement;
+        self.list(format_args!("{path}.initial_displacement"), displacement, rule::DISPLACEMENT, floors, "floor");
+        let velocity = &building.initial_velocity;
+        self.list(format_args!("{path}.initial_velocity"), velocity, rule::VELOCITY, floors, "floor");
+    }
+
+    fn damping(&mut self, path: &str, damping: &Damping, floors: usize) {
+        match damping {
+            Damping::Ratio(ratio) => self.number(format_args!("{path}.ratio"), *ratio, rule::DAMPING_RATIO),
+            Damping::Ratios(ratios) => {
+                self.list(format_args!("{path}.ratios"), ratios, rule::DAMPING_RATIO, floors, "mode");
+            }
+            Damping::Rayleigh { ratio, modes } => {
+                self.number(format_args!("{path}.rayleigh.ratio"), *ratio, rule::DAMPING_RATIO);
+                self.rayleigh_modes(&format!("{path}.rayleigh.modes"), *modes, floors);
+            }
+            Damping::Matrix(rows) => self.matrix(&format!("{path}.matrix"), rows, floors, matrix::DAMPING),
+        }
+    }
+
+    fn rayleigh_modes(&mut self, path: &str, modes: [usize; 2], floors: usize) {
+        let [first, second] = modes;
+        if floors == 1 {
+            let expected = "a building with at least 2 floors; with 1 floor give damping = { ratio = ... }";
+            self.refuse(path, format!("[{first}, {second}]"), expected);
+            return;
+        }
+        let in_range = |mode: usize| mode >= 1 && (floors == 0 || mode <= floors);
+        for (i, mode) in modes.into_iter().enumerate().filter(|&(_, mode)| !in_range(mode)) {
+            let expected = if floors == 0 { "a mode from 1 on".into() } else { format!("a mode from 1 to {floors}") };
+            self.refuse(format_args!("{path}[{}]", i + 1), mode.to_string(), expected);
+        }
+        if first == second && in_range(first) {
+            self.refuse(path, format!("[{first}, {second}]"), "two different modes");
+        }
+    }
+
+    fn ground(&mut self, ground: &Ground) {
+        if let Some(name) = ground.record.as_deref().filter(|name| name.trim().is_empty()) {
+            self.refuse("ground.record", problem::quoted(name), "the name of a record file");
+        }
+        match ground.scaling {
+            Scaling::Scale(scale) => self.number("ground.scale", scale, rule::SCALE),
+            Scaling::Pga(pga) => self.number("ground.pga", pga, rule::PGA),
+        }
+    }
+
+    fn contact(&mut self, path: &str, pair: &ContactPair, scene: &Scene) {
+        self.floor(path, "left", pair.left_floor, &scene.left);
+        self.floor(path, "right", pair.right_floor, &scene.right);
+        self.number(format_args!("{path}.gap"), pair.gap, rule::GAP);
+        self.law(path, &pair.law);
+    }
+
+    fn floor(&mut self, path: &str, side: &str, floor: usize, building: &Building) {
+        let floors = building.mass.len();
+        if floor >= 1 && (floors == 0 || floor <= floors) {
+            return;
+        }
+        let range = if floors == 0 { "from 1 on".to_owned() } else { format!("from 1 to {floors}") };
+        let expected = format!("a floor of the {side} building, {range}");
+        self.refuse(format_args!("{path}.{side}_floor"), floor.to_string(), expected);
+    }
+
+    fn law(&mut self, path: &str, law: &ImpactLaw) {
+        for &key in law.kind.info().keys {
+            let key = law_key::number(key);
+            self.number(format_args!("{path}.{}", key.name), (key.get)(law), key.rule);
+        }
+    }
+
+    fn pairs_differ(&mut self, contacts: &[ContactPair]) {
+        let mut seen = HashMap::new();
+        for (i, pair) in contacts.iter().enumerate() {
+            let floors = (pair.left_floor, pair.right_floor);
+            let first = *seen.entry(floors).or_insert(i);
+            if first != i && floors.0 > 0 && floors.1 > 0 {
+                let found = format!("left_floor {}, right_floor {}", floors.0, floors.1);
+                let expected = format!("a pair of floors other than that of contact[{}]", first + 1);
+                self.refuse(format_args!("contact[{}]", i + 1), found, expected);
+            }
+        }
+    }
+}

@@ -1,0 +1,264 @@
+//! A TOML text as a tree that is read value by value and reports everything that does not fit.
+//!
+//! A value that does not fit is reported once, where it stands, and a neutral value is handed on in its place.
+
+use super::problem::{Problem, SceneError, excerpt};
+use std::cell::RefCell;
+use std::collections::HashMap;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// The text and what was found wrong with it so far.
+pub(super) struct Document<'t> {
+    text: &'t str,
+    problems: RefCell<Vec<Problem>>,
+}
+
+/// One table of the document; an absent one reads as empty and reports nothing as missing.
+pub(super) struct Section<'t> {
+    document: &'t Document<'t>,
+    path: String,
+    source: &'t str,
+    table: Option<&'t DeTable<'t>>,
+    known: Vec<&'static str>,
+}
+
+/// One value of the document.
+pub(super) struct Item<'t> {
+    document: &'t Document<'t>,
+    path: String,
+    value: &'t Spanned<DeValue<'t>>,
+}
+
+/// Parses the text; a text that is not TOML is one problem, with line and column.
+pub(super) fn parse(text: &str) -> Result<DeTable<'_>, SceneError> {
+    DeTable::parse(text).map(Spanned::into_inner).map_err(|error| {
+        let before = text.get(..error.span().map_or(0, |span| span.start)).unwrap_or(text);
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
+        let expected = format!("valid TOML, but {}", error.message());
+        Problem::new(format!("line {line}, column {column}"), "", expected).into()
+    })
+}
+
+/// Where each path starts in the text, in bytes.
+pub(super) fn positions(table: &DeTable<'_>) -> HashMap<String, usize> {
+    fn table_positions(path: &str, table: &DeTable<'_>, positions: &mut HashMap<String, usize>) {
+        for (key, value) in table.iter() {
+            let path = join(path, key.get_ref());
+            value_positions(&path, value.get_ref(), positions);
+            positions.insert(path, key.span().start);
+        }
+    }
+    fn value_positions(path: &str, value: &DeValue<'_>, positions: &mut HashMap<String, usize>) {
+        match value {
+            DeValue::Table(table) => table_positions(path, table, positions),
+            DeValue::Array(entries) => {
+                for (i, entry) in entries.iter().enumerate() {
+                    let path = format!("{path}[{}]", i + 1);
+                    value_positions(&path, entry.get_ref(), positions);
+                    positions.insert(path, entry.span().start);
+                }
+            }
+            _ => {}
+        }
+    }
+    let mut positions = HashMap::new();
+    table_positions("", table, &mut positions);
+    positions
+}
+
+impl<'t> Document<'t> {
+    pub(super) fn new(text: &'t str) -> Document<'t> {
+        Document { text, problems: RefCell::default() }
+    }
+
+    pub(super) fn root(&'t self, table: &'t DeTable<'t>) -> Section<'t> {
+        Section { document: self, path: String::new(), source: self.text, table: Some(table), known: Vec::new() }
+    }
+
+    pub(super) fn into_problems(self) -> Vec<Problem> {
+        self.problems.into_inner()
+    }
+
+    fn report(&self, path: &str, found: &str, expected: impl Into<String>) {
+        self.problems.borrow_mut().push(Problem::new(path, excerpt(found), expected));
+    }
+
+    fn source(&self, value: &Spanned<DeValue<'_>>) -> &'t str {
+        self.text.get(value.span()).unwrap_or_default()
+    }
+}
+
+impl<'t> Section<'t> {
+    /// The value of a key, if it is there.
+    pub(super) fn get(&mut self, key: &'static str) -> Option<Item<'t>> {
+        self.known.push(key);
+        let value = self.table?.get(key)?;
+        Some(Item { document: self.document, path: join(&self.path, key), value })
+    }
+
+    /// The value of a key that must be there; `what` says what for.
+    pub(super) fn require(&mut self, key: &'static str, what: &str) -> Option<Item<'t>> {
+        let item = self.get(key);
+        if item.is_none() {
+            self.missing(key, what);
+        }
+        item
+    }
+
+    /// Reports that a key is missing; `what` says what for.
+    pub(super) fn missing(&self, key: &str, what: &str) {
+        if self.table.is_some() {
+            self.document.report(&join(&self.path, key), "", format!("{what} (missing)"));
+        }
+    }
+
+    /// The table of a key; absent where the key is.
+    pub(super) fn section(&mut self, key: &'static str) -> Section<'t> {
+        let path = join(&self.path, key);
+        self.get(key).map_or_else(|| self.absent(path), |item| item.section())
+    }
+
+    /// The table of a key that must be there; `what` says what for.
+    pub(super) fn require_section(&mut self, key: &'static str, what: &str) -> Section<'t> {
+        let path = join(&self.path, key);
+        self.require(key, what).map_or_else(|| self.absent(path), |item| item.section())
+    }
+
+    /// Reports that something is wrong with the table as a whole.
+    pub(super) fn refuse(&self, expected: impl Into<String>) {
+        if self.table.is_some() {
+            self.document.report(&self.path, self.source, expected);
+        }
+    }
+
+    /// Reports the keys that nobody has asked for; `what` says what kind of key is expected.
+    pub(super) fn close(self, what: &str) {
+        for (key, value) in self.table.into_iter().flat_map(DeTable::iter) {
+            let key = key.get_ref();
+            if !self.known.contains(&key.as_ref()) {
+                let expected = one_of(what, &self.known, key);
+                self.document.report(&join(&self.path, key), self.document.source(value), expected);
+            }
+        }
+    }
+
+    fn absent(&self, path: String) -> Section<'t> {
+        Section { document: self.document, path, source: "", table: None, known: Vec::new() }
+    }
+}
+
+impl<'t> Item<'t> {
+    pub(super) fn refuse(&self, expected: impl Into<String>) {
+        self.document.report(&self.path, self.document.source(self.value), expected);
+    }
+
+    /// Neutral: NaN.
+    pub(super) fn number(&self) -> f64 {
+        let value = match self.value.get_ref() {
+            DeValue::Float(float) => float.as_str().parse().ok().filter(|&v: &f64| {
+                // What TOML calls a number but is too large for a double would read as infinite.
+                v.is_finite() || float.as_str().contains(['n', 'N'])
+            }),
+            DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
+            DeValue::Integer(integer) => {
+                u64::from_str_radix(integer.as_str(), integer.radix()).ok().map(|value| value as f64)
+            }
+            _ => None,
+        };
+        value.unwrap_or_else(|| {
+            self.refuse("a number");
+            f64::NAN
+        })
+    }
+
+    /// Neutral: 0.
+    pub(super) fn count(&self) -> usize {
+        let integer = self.value.get_ref().as_integer();
+        let value = integer.and_then(|integer| usize::from_str_radix(integer.as_str(), integer.radix()).ok());
+        value.unwrap_or_else(|| {
+            self.refuse("a whole number from 1 on");
+            0
+        })
+    }
+
+    /// Neutral: false.
+    pub(super) fn boolean(&self) -> bool {
+        self.value.get_ref().as_bool().unwrap_or_else(|| {
+            self.refuse("true or false");
+            false
+        })
+    }
+
+    pub(super) fn text(&self) -> Option<&'t str> {
+        let text = self.value.get_ref().as_str();
+        if text.is_none() {
+            self.refuse("text in quotation marks");
+        }
+        text
+    }
+
+    /// `None` where it is no list; `what` says what kind of list is expected.
+    pub(super) fn list(&self, what: &str) -> Option<Vec<Item<'t>>> {
+        let Some(entries) = self.value.get_ref().as_array() else {
+            self.refuse(what);
+            return None;
+        };
+        let item = |(i, value)| Item { document: self.document, path: format!("{}[{}]", self.path, i + 1), value };
+        Some(entries.iter().enumerate().map(item).collect())
+    }
+
+    /// Neutral: empty.
+    pub(super) fn numbers(&self) -> Vec<f64> {
+        self.list("a list of numbers").iter().flatten().map(Item::number).collect()
+    }
+
+    /// Neutral: empty.
+    pub(super) fn rows(&self) -> Vec<Vec<f64>> {
+        self.list("a list of rows, each a list of numbers").iter().flatten().map(Item::numbers).collect()
+    }
+
+    /// Neutral: absent.
+    pub(super) fn section(&self) -> Section<'t> {
+        let table = self.value.get_ref().as_table();
+        if table.is_none() {
+            self.refuse("a table");
+        }
+        let source = self.document.source(self.value);
+        Section { document: self.document, path: self.path.clone(), source, table, known: Vec::new() }
+    }
+}
+
+/// A choice among names, with the nearest one where the difference looks like a slip.
+pub(super) fn one_of(what: &str, names: &[&str], found: &str) -> String {
+    let suggestion = nearest(names, found).map(|name| format!("; did you mean {name}?")).unwrap_or_default();
+    format!("{what} ({}){suggestion}", names.join(", "))
+}
+
+fn nearest<'n>(names: &[&'n str], found: &str) -> Option<&'n str> {
+    let (distance, name) = names.iter().map(|&name| (edits(name, found), name)).min()?;
+    (distance <= 1 + name.len() / 4).then_some(name)
+}
+
+/// Letters inserted, left out or changed between two words (Levenshtein's distance).
+fn edits(from: &str, to: &str) -> usize {
+    let mut row: Vec<usize> = (0..=to.chars().count()).collect();
+    for (i, a) in from.chars().enumerate() {
+        let mut diagonal = i;
+        let mut left = i + 1;
+        for (cell, b) in row.iter_mut().skip(1).zip(to.chars()) {
+            let changed = diagonal + usize::from(a != b);
+            diagonal = *cell;
+            left = changed.min(left + 1).min(*cell + 1);
+            *cell = left;
+        }
+    }
+    row.last().copied().unwrap_or_default()
+}
+
+fn join(path: &str, key: &str) -> String {
+    let bare = !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+    let key = if bare { key.to_owned() } else { format!("{key:?}") };
+    if path.is_empty() { key } else { format!("{path}.{key}") }
+}

@@ -1,0 +1,218 @@
+//! The keys of a scene file, one after the other.
+
+use super::document::{self, Document, Item, Section, one_of};
+use super::problem::{Problem, SceneError};
+use super::{Building, ContactPair, Damping, Ground, Scaling, Scene, Solver, Stiffness, check, law_key};
+use crate::contact::{ImpactLaw, LawKind};
+
+/// A scene as far as it could be read, with what is wrong with it.
+pub(super) struct Draft<'t> {
+    text: &'t str,
+    pub(super) scene: Scene,
+    problems: Vec<Problem>,
+}
+
+impl<'t> Draft<'t> {
+    /// Reads all keys and checks all values; fails only where the text is not TOML.
+    pub(super) fn read(text: &'t str) -> Result<Draft<'t>, SceneError> {
+        let table = document::parse(text)?;
+        let document = Document::new(text);
+        let scene = scene(document.root(&table));
+        let mut problems = document.into_problems();
+        // A value that does not fit is represented in the scene by a neutral one, about which there is nothing to say.
+        let mut wrong_values = check::problems(&scene);
+        wrong_values.retain(|wrong| !problems.iter().any(|unfit| unfit.covers(&wrong.path)));
+        problems.append(&mut wrong_values);
+        Ok(Draft { text, scene, problems })
+    }
+
+    /// Adds what has been found wrong later, unless something has been said about that value.
+    pub(super) fn add(&mut self, problem: Problem) {
+        if !self.problems.iter().any(|known| known.covers(&problem.path)) {
+            self.problems.push(problem);
+        }
+    }
+
+    /// The scene, if nothing is wrong with it.
+    pub(super) fn finish(self) -> Result<Scene, SceneError> {
+        if self.problems.is_empty() {
+            return Ok(self.scene);
+        }
+        let mut problems = self.problems;
+        let positions = document::positions(&document::parse(self.text)?);
+        // What is missing stands where the table stands that it is missing from.
+        problems.sort_by_cached_key(|problem| {
+            let ends = problem.path.char_indices().rev().filter(|&(_, c)| matches!(c, '.' | '[')).map(|(i, _)| i);
+            let mut prefixes =
+                std::iter::once(problem.path.len()).chain(ends).filter_map(|end| problem.path.get(..end));
+            prefixes.find_map(|prefix| positions.get(prefix).copied()).unwrap_or_default()
+        });
+        Err(SceneError { problems })
+    }
+}
+
+const KEY: &str = "a known key";
+
+fn scene(mut root: Section<'_>) -> Scene {
+    let name = root.require("name", "a C identifier").and_then(|item| item.text()).unwrap_or_default();
+    let description = root.get("description").and_then(|item| item.text()).unwrap_or_default();
+    let stop_time = root.get("stop_time").map(|item| item.number());
+    let left = building(root.require_section("left", "the building on the left"));
+    let right = building(root.require_section("right", "the building on the right"));
+    let ground = ground(root.section("ground"));
+    let floor_forces = switch(root.section("inputs"), "floor_forces");
+    let contacts = root.get("contact").and_then(|item| item.list("[[contact]] tables"));
+    let contacts = contacts.iter().flatten().map(|item| contact(item.section())).collect();
+    let energy = switch(root.section("outputs"), "energy");
+    let solver = solver(root.section("solver"));
+    root.close(KEY);
+    let (name, description) = (name.to_owned(), description.to_owned());
+    Scene { name, description, stop_time, left, right, ground, floor_forces, contacts, energy, solver }
+}
+
+fn building(mut section: Section<'_>) -> Building {
+    let mass = section.require("mass", "a list of masses in kg, one per floor").map(|item| item.numbers());
+    let mass = mass.unwrap_or_default();
+    let at_rest = || vec![0.0; mass.len()];
+    let stiffness = stiffness(&mut section);
+    let damping = section.require_section("damping", "a table with one of ratio, ratios, rayleigh, matrix");
+    let damping = self::damping(damping);
+    let initial_displacement = section.get("initial_displacement").map_or_else(at_rest, |item| item.numbers());
+    let initial_velocity = section.get("initial_velocity").map_or_else(at_rest, |item| item.numbers());
+    section.close(KEY);
+    Building { stiffness, damping, initial_displacement, initial_velocity, mass }
+}
+
+fn stiffness(section: &mut Section<'_>) -> Stiffness {
+    match (section.get("stiffness"), section.get("stiffness_matrix")) {
+        (None, Some(matrix)) => Stiffness::Matrix(matrix.rows()),
+        (Some(storeys), None) => Stiffness::Shear(storeys.numbers()),
+        (Some(storeys), Some(matrix)) => {
+            matrix.refuse("either stiffness or stiffness_matrix, not both");
+            Stiffness::Shear(storeys.numbers())
+        }
+        (None, None) => {
+            section.missing("stiffness", "a list in N/m, one per storey, or stiffness_matrix");
+            Stiffness::Shear(Vec::new())
+        }
+    }
+}
+
+fn damping(mut section: Section<'_>) -> Damping {
+    type Kind = (&'static str, fn(&Item<'_>) -> Damping);
+    const KINDS: [Kind; 4] = [
+        ("ratio", |item| Damping::Ratio(item.number())),
+        ("ratios", |item| Damping::Ratios(item.numbers())),
+        ("rayleigh", |item| rayleigh(item.section())),
+        ("matrix", |item| Damping::Matrix(item.rows())),
+    ];
+    let mut damping = None;
+    for (kind, read) in KINDS {
+        match (section.get(kind), &damping) {
+            (None, _) => {}
+            (Some(item), None) => damping = Some(read(&item)),
+            (Some(item), Some(_)) => item.refuse("one kind of damping only"),
+        }
+    }
+    if damping.is_none() {
+        section.refuse("one of ratio, ratios, rayleigh, matrix");
+    }
+    section.close(KEY);
+    damping.unwrap_or(Damping::Ratio(0.0))
+}
+
+fn rayleigh(mut section: Section<'_>) -> Damping {
+    let ratio = section.require("ratio", "the damping ratio in both modes").map_or(0.0, |item| item.number());
+    let modes = section.require("modes", "two modes, counted from 1").map_or([1, 2], |item| two_modes(&item));
+    section.close(KEY);
+    Damping::Rayleigh { ratio, modes }
+}
+
+fn two_modes(item: &Item<'_>) -> [usize; 2] {
+    let expected = "two modes, counted from 1";
+    match item.list(expected).as_deref() {
+        Some([first, second]) => return [first.count(), second.count()],
+        Some(_) => item.refuse(expected),
+        None => {}
+    }
+    [1, 2]
+}
+
+fn ground(mut section: Section<'_>) -> Ground {
+    let record = section.get("record");
+    let scale = section.get("scale");
+    let pga = section.get("pga");
+    section.close(KEY);
+    if record.is_none() {
+        for item in scale.iter().chain(&pga) {
+            item.refuse("a record to scale, in ground.record");
+        }
+    } else if let (Some(_), Some(pga)) = (&scale, &pga) {
+        pga.refuse("either scale or pga, not both");
+    }
+    let scaling = match (scale, pga) {
+        (Some(scale), _) => Scaling::Scale(scale.number()),
+        (None, Some(pga)) => Scaling::Pga(pga.number()),
+        (None, None) => Scaling::Scale(1.0),
+    };
+    let record = record.and_then(|item| item.text()).map(str::to_owned);
+    Ground { record, scaling }
+}
+
+fn switch(mut section: Section<'_>, key: &'static str) -> bool {
+    let on = section.get(key).is_some_and(|item| item.boolean());
+    section.close(KEY);
+    on
+}
+
+fn solver(mut section: Section<'_>) -> Solver {
+    let default = Solver::default();
+    let relative_tolerance = section.get("relative_tolerance").map_or(default.relative_tolerance, |item| item.number());
+    let min_approach_velocity =
+        section.get("min_approach_velocity").map_or(default.min_approach_velocity, |item| item.number());
+    section.close(KEY);
+    Solver { relative_tolerance, min_approach_velocity }
+}
+
+fn contact(mut section: Section<'_>) -> ContactPair {
+    let floor = "a floor, counted from 1";
+    let left_floor = section.require("left_floor", floor).map_or(0, |item| item.count());
+    let right_floor = section.require("right_floor", floor).map_or(0, |item| item.count());
+    let gap = section.require("gap", "the clear distance at rest in m").map_or(f64::NAN, |item| item.number());
+    let law = law(section);
+    ContactPair { left_floor, right_floor, gap, law }
+}
+
+fn law(mut section: Section<'_>) -> ImpactLaw {
+    let Some(kind) = law_kind(&mut section) else {
+        // Which keys belong here, and what they may be, is the law's business: only their types can be looked at.
+        for key in law_key::all() {
+            section.get(law_key::number(key).name).inspect(|item| _ = item.number());
+        }
+        section.close(KEY);
+        return law_key::neutral(LawKind::Linear);
+    };
+    let mut law = law_key::neutral(kind);
+    for &key in kind.info().keys {
+        let key = law_key::number(key);
+        let item = match key.default {
+            None => section.require(key.name, key.rule.expected),
+            Some(_) => section.get(key.name),
+        };
+        let value = item.map(|item| item.number()).or(key.default);
+        (key.set)(&mut law, value.unwrap_or(f64::NAN));
+    }
+    section.close(&format!("a key of law {}", kind.info().name));
+    law
+}
+
+fn law_kind(section: &mut Section<'_>) -> Option<LawKind> {
+    let names: Vec<_> = LawKind::ALL.iter().map(|kind| kind.info().name).collect();
+    let item = section.require("law", &format!("a law ({})", names.join(", ")))?;
+    let name = item.text()?;
+    let kind = LawKind::from_name(name);
+    if kind.is_none() {
+        item.refuse(one_of("a known law", &names, name));
+    }
+    kind
+}

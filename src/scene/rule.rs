@@ -1,0 +1,62 @@
+//! Which numbers a scene may hold: one rule per kind of number, for the file and for the FMU's parameters alike.
+
+use super::problem::{Problem, number};
+
+/// What one number of a scene must satisfy.
+#[derive(Clone, Copy, Debug)]
+pub struct Rule {
+    /// For a person, after "expected".
+    pub expected: &'static str,
+    holds: fn(f64) -> bool,
+}
+
+impl Rule {
+    /// Whether the number is allowed; never so for one that is not finite.
+    pub fn holds(&self, value: f64) -> bool {
+        value.is_finite() && (self.holds)(value)
+    }
+
+    /// The problem with a number found at a path, if there is one.
+    ///
+    /// ```
+    /// use pounding::scene::rule;
+    ///
+    /// let problem = rule::RESTITUTION.problem("contact[2].restitution", 1.4).unwrap();
+    /// assert_eq!(problem.to_string(), "contact[2].restitution = 1.4: expected 0 < e <= 1");
+    /// ```
+    pub fn problem(&self, path: impl ToString, value: f64) -> Option<Problem> {
+        (!self.holds(value)).then(|| Problem::new(path.to_string(), number(value), self.expected))
+    }
+}
+
+/// Any finite number: entries of matrices.
+pub const ENTRY: Rule = Rule { expected: "a finite number", holds: |_| true };
+/// `stop_time`, s.
+pub const STOP_TIME: Rule = Rule { expected: "a finite time > 0 s", holds: |t| t > 0.0 };
+/// `mass`, kg.
+pub const MASS: Rule = Rule { expected: "a finite mass > 0 kg", holds: |m| m > 0.0 };
+/// `stiffness` of a storey, N/m.
+pub const STOREY_STIFFNESS: Rule = Rule { expected: "a finite stiffness > 0 N/m", holds: |k| k > 0.0 };
+/// Every damping ratio, 1 = critical.
+pub const DAMPING_RATIO: Rule = Rule { expected: "a finite damping ratio >= 0", holds: |ratio| ratio >= 0.0 };
+/// `initial_displacement`, m.
+pub const DISPLACEMENT: Rule = Rule { expected: "a finite displacement in m", holds: |_| true };
+/// `initial_velocity`, m/s.
+pub const VELOCITY: Rule = Rule { expected: "a finite velocity in m/s", holds: |_| true };
+/// `ground.scale`.
+pub const SCALE: Rule = Rule { expected: "a finite factor", holds: |_| true };
+/// `ground.pga`, m/s2.
+pub const PGA: Rule = Rule { expected: "a finite peak acceleration > 0 m/s2", holds: |a| a > 0.0 };
+/// `gap`, m: 0 is contact at rest, less is pre-compressed.
+pub const GAP: Rule = Rule { expected: "a finite distance in m", holds: |_| true };
+/// `stiffness` of a contact, N/m^exponent.
+pub const CONTACT_STIFFNESS: Rule = Rule { expected: "a finite stiffness > 0", holds: |k| k > 0.0 };
+/// `exponent` of a contact.
+pub const EXPONENT: Rule = Rule { expected: "1 <= n <= 3", holds: |n| (1.0..=3.0).contains(&n) };
+/// `restitution` of a contact.
+pub const RESTITUTION: Rule = Rule { expected: "0 < e <= 1", holds: |e| e > 0.0 && e <= 1.0 };
+/// `relative_tolerance`: from rounding errors to a solution that is one in name only.
+pub const RELATIVE_TOLERANCE: Rule =
+    Rule { expected: "1e-15 < tolerance <= 1e-2", holds: |tolerance| tolerance > 1e-15 && tolerance <= 1e-2 };
+/// `min_approach_velocity`, m/s.
+pub const MIN_APPROACH_VELOCITY: Rule = Rule { expected: "a finite velocity > 0 m/s", holds: |v| v > 0.0 };

@@ -1,0 +1,179 @@
+//! Record files: every form that is found in the wild, every refusal with its words.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use pounding::record::{Format, Record};
+use proptest::prelude::*;
+
+const HEADERS: [&str; 6] = [
+    "NPTS=   4, DT=   .0100 SEC",
+    "4 0.0100 NPTS, DT",
+    "NPTS=  4, DT=   .0100 SEC,",
+    "   4    0.0100    NPTS, DT",
+    "NPTS=4,DT=.01SEC",
+    "npts: 4   dt: 1.0E-02 sec",
+];
+
+fn at2(sampling: &str, samples: &str) -> String {
+    format!(
+        "PEER STRONG MOTION DATABASE\nSOMEWHERE, 000\nACCELERATION TIME SERIES IN UNITS OF G\n{sampling}\n{samples}\n"
+    )
+}
+
+fn csv(rows: &str) -> String {
+    format!("# a comment\ntime_s,accel_m_s2\n{rows}")
+}
+
+fn parsed(name: &str, text: impl AsRef<[u8]>) -> Record {
+    Record::parse(name, text.as_ref()).unwrap()
+}
+
+fn refused(name: &str, text: impl AsRef<[u8]>) -> String {
+    Record::parse(name, text.as_ref()).unwrap_err().to_string()
+}
+
+#[test]
+fn the_name_tells_the_format() {
+    for name in ["a.at2", "a.AT2", "b.c/RSN6.At2"] {
+        assert_eq!(Format::of(name), Format::PeerAt2);
+    }
+    for name in ["a.csv", "a.txt", "at2", "a.at2.csv", ""] {
+        assert_eq!(Format::of(name), Format::Csv);
+    }
+}
+
+#[test]
+fn csv_as_it_should_be() {
+    let record = parsed("a.csv", csv("-1.5,0.25\n0,-3e0\n1e-3,2\n"));
+    assert_eq!(record.times, [-1.5, 0.0, 0.001]);
+    assert_eq!(record.accelerations, [0.25, -3.0, 2.0]);
+    assert_eq!(record.peak(), 3.0);
+}
+
+#[test]
+fn csv_as_editors_leave_it() {
+    let plain = parsed("a.csv", csv("0,1\n1,2\n2,3\n"));
+    for text in [
+        "\u{feff}# c\r\ntime_s,accel_m_s2\r\n0,1\r\n1,2\r\n2,3\r\n",
+        "time_s,accel_m_s2\n0,1\n1,2\n2,3",
+        "\n  # c, with \"comma\n  time_s , accel_m_s2 \n\n 0 ,\t1\n   \n1,2\n# in between\n2,3\n\n",
+        "\"time_s\",\"accel_m_s2\"\n0.0,1.0\n+1,2.\n2,3\n",
+    ] {
+        assert_eq!(parsed("a.csv", text), plain, "{text:?}");
+    }
+    // A comment in the encoding of another decade.
+    assert_eq!(parsed("a.csv", b"# M\xe9xico\ntime_s,accel_m_s2\n0,1\n1,2\n2,3\n"), plain);
+}
+
+#[test]
+fn csv_that_is_refused() {
+    let rows = |rows: &str| refused("a.csv", csv(rows));
+    assert_eq!(refused("a.csv", ""), "no header line: expected time_s,accel_m_s2");
+    assert_eq!(refused("a.csv", "# c\n\n# d\n"), "no header line: expected time_s,accel_m_s2");
+    assert_eq!(refused("a.csv", "# c\n\nt,a\n0,1\n"), "line 3: header t,a: expected time_s,accel_m_s2");
+    assert_eq!(refused("a.csv", "0,1\n1,2\n"), "line 1: header 0,1: expected time_s,accel_m_s2");
+    let semicolons = "line 1: header time_s;accel_m_s2: expected time_s,accel_m_s2";
+    assert_eq!(refused("a.csv", "time_s;accel_m_s2\n0;1\n"), semicolons);
+    let columns = "line 1: header time_s,accel_m_s2,more: expected time_s,accel_m_s2";
+    assert_eq!(refused("a.csv", "time_s,accel_m_s2,more\n0,1,2\n"), columns);
+    assert_eq!(rows("0,1\n\n# c\n1,2,3\n"), "line 6: 1,2,3: expected 2 values, time_s and accel_m_s2, not 3");
+    assert_eq!(rows("0,1\r\n\r\n1\r\n"), "line 5: 1: expected 2 values, time_s and accel_m_s2, not 1");
+    assert_eq!(rows("0,1\n1,x"), "line 4: accel_m_s2 = x: expected a number");
+    assert_eq!(rows("0,1\n,2\n"), "line 4: time_s = : expected a number");
+    assert_eq!(rows("0,1\n1,nan\n"), "line 4: acceleration NaN m/s2: expected a finite acceleration");
+    assert_eq!(rows("0,1\n1e999,2\n"), "line 4: time inf s: expected a finite time");
+    assert_eq!(rows("0,1\n0.5,1\n0.5,2\n"), "line 5: time 0.5 s: expected more than the time before it, 0.5 s");
+    assert_eq!(rows("0,1\n"), "1 sample: expected at least 2");
+    assert_eq!(rows(""), "0 samples: expected at least 2");
+}
+
+#[test]
+fn at2_in_every_spelling_of_its_header() {
+    const G: f64 = 9.80665;
+    for header in HEADERS {
+        let text = at2(header, "  .1234E-02  -.5000D-03\n\n 1.0 -2d0");
+        let record = parsed("RSN1.AT2", &text);
+        assert_eq!(record.times, [0.0, 0.01, 0.02, 0.03], "{header}");
+        assert_eq!(record.accelerations, [0.001234 * G, -0.0005 * G, G, -2.0 * G], "{header}");
+        assert_eq!(parsed("a.at2", format!("\u{feff}{}", text.replace('\n', "\r\n"))), record);
+    }
+    // Fortran drops the letter where the exponent has three digits.
+    let record = parsed("a.at2", at2("NPTS= 3, DT= .5 SEC", ".1234-102 -.5+001 +.25"));
+    assert_eq!(record.accelerations, [0.1234e-102 * G, -5.0 * G, 0.25 * G]);
+}
+
+#[test]
+fn at2_that_is_refused() {
+    let header = HEADERS[0];
+    assert_eq!(refused("a.at2", "one\ntwo"), "2 lines: expected 4 header lines and the samples");
+    let unknown = |line: &str| format!("line 4: {line}: expected NPTS=..., DT=... or \"... ... NPTS, DT\"");
+    for line in
+        ["4 0.01", "NPTS= 4", "NPTS= four, DT= .01", "NPTS= 4, DT= 0.0", "NPTS= 4, DT= -.01 SEC", "NPTS= -4, DT= 1"]
+    {
+        assert_eq!(refused("a.at2", at2(line, "1 2 3 4")), unknown(line));
+    }
+    let short = "line 4: NPTS = 4: expected 3, the number of samples in the file";
+    assert_eq!(refused("a.at2", at2(header, "1 2 3")), short);
+    let long = "line 4: NPTS = 4: expected 5, the number of samples in the file";
+    assert_eq!(refused("a.at2", at2(header, "1 2 3\n4 5")), long);
+    assert_eq!(refused("a.at2", at2(header, "1 2\n3 x.y")), "line 6: x.y: expected a number");
+    let infinite = "line 5: acceleration inf m/s2: expected a finite acceleration";
+    assert_eq!(refused("a.at2", at2(header, "1 2 1e999 4")), infinite);
+    assert_eq!(refused("a.at2", at2("NPTS= 1, DT= 1 SEC", "1")), "1 sample: expected at least 2");
+    let velocity =
+        at2(header, "1 2 3 4").replace("ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY IN UNITS OF CM/S");
+    assert_eq!(refused("a.at2", velocity), "line 3: VELOCITY IN UNITS OF CM/S: expected UNITS OF G");
+    let filtered = at2(header, "1 2 3 4").replace("OF G", "OF G. FILTER POINTS: HP=0.1 HZ");
+    assert_eq!(parsed("a.at2", filtered).times.len(), 4);
+    let huge = "line 4: NPTS = 99999999999999: expected 2, the number of samples in the file";
+    assert_eq!(refused("a.at2", at2("NPTS= 99999999999999, DT= 1 SEC", "1 2")), huge);
+}
+
+#[test]
+fn the_real_record_of_the_project() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/records/el_centro_1940_ns.csv");
+    let record = parsed(path, std::fs::read(path).unwrap());
+    assert_eq!(record.times.len(), 1560);
+    assert_eq!((record.times[102], record.accelerations[102], record.peak()), (2.04, -3.12656, 3.12656));
+}
+
+fn is_sound(record: &Record) -> bool {
+    let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
+    record.times.len() >= 2
+        && record.times.len() == record.accelerations.len()
+        && finite(&record.times)
+        && finite(&record.accelerations)
+        && record.times.windows(2).all(|pair| pair[0] < pair[1])
+}
+
+proptest! {
+    #[test]
+    fn any_bytes_are_read_or_refused(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
+        for name in ["a.csv", "a.at2"] {
+            prop_assert!(Record::parse(name, &bytes).as_ref().map_or(true, is_sound));
+        }
+    }
+
+    #[test]
+    fn any_rows_are_read_or_refused(
+        csv_rows in "([-+0-9.eE]{0,4},[-0-9.]{0,3}(,|\r)?\n){0,5}", at2_rows in "([-+0-9.eEdD]{0,5}[ \n]){0,6}",
+        header in "(NPTS|DT|[0-9.]{1,3}|=|,| |SEC){0,8}",
+    ) {
+        prop_assert!(Record::parse("a.csv", csv(&csv_rows).as_bytes()).as_ref().map_or(true, is_sound));
+        prop_assert!(Record::parse("a.at2", at2(HEADERS[0], &at2_rows).as_bytes()).as_ref().map_or(true, is_sound));
+        prop_assert!(Record::parse("a.at2", at2(&header, &at2_rows).as_bytes()).as_ref().map_or(true, is_sound));
+    }
+
+    /// What is printed with all its digits reads back as the same numbers.
+    #[test]
+    fn csv_keeps_every_bit(steps in proptest::collection::vec((1e-4_f64..0.1, -20.0_f64..20.0), 2..50)) {
+        let mut record = Record { times: vec![], accelerations: vec![] };
+        let mut text = csv("");
+        for (step, acceleration) in steps {
+            let time = record.times.last().unwrap_or(&0.0) + step;
+            text += &format!("{time},{acceleration}\n");
+            record.times.push(time);
+            record.accelerations.push(acceleration);
+        }
+        prop_assert_eq!(parsed("a.csv", text), record);
+    }
+}

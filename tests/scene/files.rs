@@ -1,0 +1,117 @@
+//! Scenes on disk, with their records.
+
+use super::SHORT;
+use pounding::record::Record;
+use pounding::scene::{self, Scaling, SceneError};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const CSV: &str = "time_s,accel_m_s2\n0,1.0\n0.5,-4.0\n";
+
+/// A folder with `scene.toml`, where `[ground]` is as given, and `records/` with the files given.
+fn folder(ground: &str, records: &[(&str, &[u8])]) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("records")).unwrap();
+    for (name, bytes) in records {
+        fs::write(folder.path().join("records").join(name), bytes).unwrap();
+    }
+    let scene = folder.path().join("scene.toml");
+    fs::write(&scene, format!("{SHORT}\n[ground]\n{ground}\n")).unwrap();
+    (folder, scene)
+}
+
+fn said(error: SceneError) -> Vec<String> {
+    error.problems.iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn the_example_loads_with_its_record() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/feup.toml");
+    let (scene, record) = scene::load(&path).unwrap();
+    let record = record.unwrap();
+    assert_eq!((scene.left.mass.len(), scene.right.mass.len(), scene.contacts.len()), (2, 3, 2));
+    // As the header of the record says.
+    assert_eq!((record.times.len(), record.peak()), (1560, 3.12656));
+    assert_eq!((record.times[102], record.accelerations[102]), (2.04, -3.12656));
+}
+
+#[test]
+fn a_scene_without_a_record_has_none() {
+    let (_folder, path) = folder("", &[]);
+    assert_eq!(scene::load(&path).unwrap().1, None);
+    let files = scene::load_files(&path).unwrap();
+    assert_eq!(files.resources.iter().map(|file| file.name).collect::<Vec<_>>(), ["scene.toml"]);
+}
+
+#[test]
+fn what_an_fmu_carries_reads_back_the_same() {
+    let at2 = b"a\nb\nc\nNPTS= 2, DT= .5 SEC\n.1E+00 -.2E+00\n";
+    for (name, bytes, resource) in
+        [("a.csv", CSV.as_bytes(), "record.csv"), ("a.dat", CSV.as_bytes(), "record.csv"), ("A.AT2", at2, "record.at2")]
+    {
+        let (_folder, path) = folder(&format!("record = \"records/{name}\"\npga = 1.0"), &[(name, bytes)]);
+        let files = scene::load_files(&path).unwrap();
+        assert_eq!(files.scene.ground.scaling, Scaling::Pga(1.0));
+        let [scene_file, record_file] = files.resources.as_slice() else { panic!("{:?}", files.resources) };
+        assert_eq!((scene_file.name, &scene_file.bytes), ("scene.toml", &fs::read(&path).unwrap()));
+        assert_eq!((record_file.name, record_file.bytes.as_slice()), (resource, bytes));
+        let resources = tempfile::tempdir().unwrap();
+        for file in &files.resources {
+            fs::write(resources.path().join(file.name), &file.bytes).unwrap();
+        }
+        let (scene, record) = scene::load_resources(resources.path()).unwrap();
+        assert_eq!(scene, files.scene);
+        assert_eq!(record, files.record);
+        assert_eq!(record, Some(Record::parse(name, bytes).unwrap()));
+    }
+}
+
+#[test]
+fn a_missing_record_is_named_with_the_place_where_it_was_looked_for() {
+    let (folder, path) = folder("record = \"records/none.csv\"", &[]);
+    let said = said(scene::load(&path).unwrap_err());
+    let [message] = said.as_slice() else { panic!("{said:?}") };
+    let place = folder.path().join("records/none.csv");
+    let expected = format!("ground.record = \"records/none.csv\": expected a record file, but {}: ", place.display());
+    assert!(message.starts_with(&expected), "{message}");
+}
+
+#[test]
+fn a_bad_record_is_refused_with_its_line() {
+    let bad = b"time_s,accel_m_s2\n0,1\n0,2\n";
+    let (_folder, path) = folder("record = \"records/bad.csv\"", &[("bad.csv", bad)]);
+    let expected = "ground.record = \"records/bad.csv\": expected a record file, but line 3: time 0 s: expected more than \
+                    the time before it, 0 s";
+    assert_eq!(said(scene::load(&path).unwrap_err()), [expected]);
+}
+
+#[test]
+fn a_record_without_motion_has_no_peak() {
+    let flat = b"time_s,accel_m_s2\n0,0\n1,0\n";
+    let (_folder, path) = folder("record = \"records/flat.csv\"\npga = 2.0", &[("flat.csv", flat)]);
+    let expected = "ground.pga = 2.0: expected a record with a peak, but all its accelerations are 0";
+    assert_eq!(said(scene::load(&path).unwrap_err()), [expected]);
+}
+
+#[test]
+fn problems_of_scene_and_record_come_together_in_the_order_of_the_file() {
+    let ground = "colour = 1\nrecord = \"records/bad.csv\"\npga = -1\n[solver]\nrelative_tolerance = 1.0";
+    let (_folder, path) = folder(ground, &[("bad.csv", b"")]);
+    let expected = [
+        "ground.colour = 1: expected a known key (record, scale, pga)",
+        "ground.record = \"records/bad.csv\": expected a record file, but no header line: expected time_s,accel_m_s2",
+        "ground.pga = -1.0: expected a finite peak acceleration > 0 m/s2",
+        "solver.relative_tolerance = 1.0: expected 1e-15 < tolerance <= 1e-2",
+    ];
+    assert_eq!(said(scene::load(&path).unwrap_err()), expected);
+}
+
+#[test]
+fn a_scene_file_that_cannot_be_read() {
+    let said = said(scene::load(Path::new("no/such.toml")).unwrap_err());
+    assert!(said.len() == 1 && said[0].starts_with("no/such.toml: expected a scene file, but "), "{said:?}");
+    let (_folder, path) = folder("", &[]);
+    fs::write(&path, b"name = \"a\"\n# \xff\n").unwrap();
+    let error = scene::load(&path).unwrap_err().to_string();
+    assert_eq!(error, format!("{}: expected a scene file, but line 2 is not UTF-8 text", path.display()));
+}
