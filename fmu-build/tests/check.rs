@@ -17,8 +17,9 @@ fn check(fmu: &Path) -> (Option<i32>, Value) {
 
 /// The findings under one name.
 fn findings(report: &Value, name: &str) -> String {
-    let checks = report["checks"].as_array().unwrap();
-    checks.iter().filter(|check| check["name"] == name).map(|check| check["findings"].to_string()).collect()
+    let checks = report["checks"].as_array().unwrap().iter().filter(|check| check["name"] == name);
+    let findings = checks.flat_map(|check| check["findings"].as_array().unwrap());
+    findings.map(|finding| finding.as_str().unwrap().to_owned() + "\n").collect()
 }
 
 /// Plants a defect in a good FMU and requires the check of that name to find it and to say so.
@@ -83,10 +84,7 @@ fn defects_of_the_description_that_validators_miss() {
     plant_in_description(negative, lint, "left.mass[1]: start -3.65");
     let upside_down = |text: &str| in_variable(text, "left.mass[1]", "start=", "min=\"9\" max=\"2\" start=");
     plant_in_description(|text| upside_down(&text.replace("min=\"0\"", "")), lint, "min 9 is greater than max 2");
-    let nominal = |text: &str| {
-        let text = in_variable(text, "left.displacement[1]", "nominal=\"", "nominal=\"-");
-        text
-    };
+    let nominal = |text: &str| in_variable(text, "left.displacement[1]", "nominal=\"", "nominal=\"-");
     plant_in_description(nominal, lint, "left.displacement[1]: nominal");
     let twice = |text: &str| replace_once(text, "<Category ", "<Category name=\"logAll\"/><Category ");
     plant_in_description(twice, lint, "log category \"logAll\": more than once");
@@ -139,7 +137,7 @@ fn a_library_that_does_not_belong_to_the_description() {
     };
     plant_in_description(guid, "start values", "GUID");
     let start = |text: &str| in_variable(text, "left.mass[1]", "start=\"3.65\"", "start=\"3.66\"");
-    plant_in_description(start, "start values", "left.mass[1]: start is \\\"3.66\\\", the library has Real(3.65)");
+    plant_in_description(start, "start values", "left.mass[1]: start is \"3.66\", the library has Real(3.65)");
     let scene = |mut files: Files| {
         files[2].1 = replace_once(std::str::from_utf8(&files[2].1).unwrap(), "gap = 0.005", "gap = 0.004").into_bytes();
         files

@@ -77,10 +77,9 @@ fn every_spelling_of_the_resource_location() {
 
 #[test]
 fn altered_resources_do_not_pass() {
-    for alter in [
-        |fmu: &Fmu| append(fmu, "scene.toml", "\n# a comment\n"),
-        |fmu: &Fmu| append(fmu, "record.csv", "99.0,0.0\n"),
-    ] {
+    for alter in
+        [|fmu: &Fmu| append(fmu, "scene.toml", "\n# a comment\n"), |fmu: &Fmu| append(fmu, "record.csv", "99.0,0.0\n")]
+    {
         let fmu = Fmu::new(RECORD_SCENE);
         alter(&fmu);
         let (instance, log) = fmu.instantiate(&Arguments::of(&fmu));

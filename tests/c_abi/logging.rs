@@ -43,7 +43,9 @@ fn each_episode_is_an_event() {
     let active = ["contact[1].active", "contact[2].active"].map(|name| fmu.vr(name));
     let open = instance.get::<i32>("fmi2GetBoolean", &active).unwrap().iter().sum::<i32>();
     assert_eq!(i32::try_from(events.len()).unwrap(), instance.integer("impacts") - open);
-    assert!(events[0].message.starts_with("contact[1] from 0.0") || events[0].message.starts_with("contact[2] from 0.0"));
+    assert!(
+        events[0].message.starts_with("contact[1] from 0.0") || events[0].message.starts_with("contact[2] from 0.0")
+    );
 }
 
 #[test]

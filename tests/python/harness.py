@@ -77,11 +77,11 @@ class Fmu:
 
     def instance(self, name="test", guid=None, resources=None):
         """A new instance; what it logs is in its `.messages`."""
-        return Instance(self, name, guid, resources)
+        return FMU2Instance(self, name, guid, resources)
 
 
-class Instance(FMU2Slave):
-    """An instance with its own logger."""
+class FMU2Instance(FMU2Slave):
+    """An instance with its own logger. FMPy loads the functions that the beginning of the class's name stands for."""
 
     def __init__(self, fmu, name, guid, resources):
         super().__init__(

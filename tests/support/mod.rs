@@ -160,7 +160,8 @@ impl Fmu {
         let log = Box::new(Log::default());
         let logger = arguments.with_logger.then_some(note as Logger);
         let environment = ptr::from_ref(&*log).cast_mut().cast();
-        let callbacks = Callbacks { logger, allocate: ptr::null(), free: ptr::null(), finished: ptr::null(), environment };
+        let callbacks =
+            Callbacks { logger, allocate: ptr::null(), free: ptr::null(), finished: ptr::null(), environment };
         let text = |text: &Option<CString>| text.as_ref().map_or(ptr::null(), |text| text.as_ptr());
         // SAFETY: the signature is that of the standard, the strings and callbacks outlive the call.
         let component = unsafe {
