@@ -78,6 +78,9 @@ fn csv_that_is_refused() {
     assert_eq!(rows("0,1\n\n# c\n1,2,3\n"), "line 6: 1,2,3: expected 2 values, time_s and accel_m_s2, not 3");
     assert_eq!(rows("0,1\r\n\r\n1\r\n"), "line 5: 1: expected 2 values, time_s and accel_m_s2, not 1");
     assert_eq!(rows("0,1\n1,x"), "line 4: accel_m_s2 = x: expected a number");
+    assert_eq!(rows("0,\"1\n1,2\n2,3\n"), "line 3: accel_m_s2 = \"1: expected a number");
+    let long = format!("0,1\n1,\0{}\n", "x".repeat(50));
+    assert_eq!(rows(&long), format!("line 4: accel_m_s2 = \u{fffd}{}...: expected a number", "x".repeat(39)));
     assert_eq!(rows("0,1\n,2\n"), "line 4: time_s = : expected a number");
     assert_eq!(rows("0,1\n1,nan\n"), "line 4: acceleration NaN m/s2: expected a finite acceleration");
     assert_eq!(rows("0,1\n1e999,2\n"), "line 4: time inf s: expected a finite time");

@@ -47,7 +47,7 @@ impl Model {
         counters.contact_steps += 1;
         let remaining = limit - base.elapsed;
         self.load(base, inputs, &mut work.load, &mut work.slope);
-        let scale = if base.last_length > 0.0 { base.last_length.min(remaining) } else { remaining };
+        let scale = self.series_scale(base, remaining);
         self.expand(base, step, work, scale);
         let reach = self.accurate_reach(base, step, remaining / scale);
         let whole = remaining / scale <= reach;
@@ -60,6 +60,16 @@ impl Model {
         step.length = if step.reaches_limit { remaining } else { x * scale };
         step.series.evaluate(x, &mut step.q, &mut step.v);
         base.last_length = reach * scale;
+    }
+
+    /// The unit of time of the next series, s: near the length of the step, so that its terms neither overflow nor
+    /// vanish. A power law's series reaches no further than to its singularity at d = 0.
+    pub(super) fn series_scale(&self, base: &Base, remaining: f64) -> f64 {
+        let last = if base.last_length > 0.0 { base.last_length } else { remaining };
+        touching(base)
+            .filter(|(_, contact)| contact.penetration > 0.0 && !contact.branch().is_regular() && contact.rate != 0.0)
+            .map(|(_, contact)| contact.penetration / contact.rate.abs())
+            .fold(last.min(remaining), f64::min)
     }
 
     /// A pair that stands at the surface and approaches: it enters now, together with another.
@@ -238,8 +248,7 @@ impl Model {
             return None;
         }
         let penetration = &mut work.scalar[..=series.order];
-        series.project(&pair.row, penetration);
-        let noise = 2.0 * f64::EPSILON * (penetration[0].abs() + pair.gap.abs());
+        let noise = pair.noise(series.project(&pair.row, penetration));
         penetration[0] = start;
         roots::first_rise(penetration, end, noise).map(|x| (x, Event::Entry(p)))
     }

@@ -78,8 +78,7 @@ impl Model {
         let mut first: Option<(f64, usize)> = None;
         for (p, (pair, contact)) in self.pairs.iter().zip(&base.contacts).enumerate() {
             let penetration = &mut work.scalar[..=work.series.order];
-            work.series.project(&pair.row, penetration);
-            let noise = 2.0 * f64::EPSILON * (penetration[0].abs() + pair.gap.abs());
+            let noise = pair.noise(work.series.project(&pair.row, penetration));
             penetration[0] = contact.flight_start();
             let end = first.map_or(1.0, |(x, _)| x);
             if let Some(x) = roots::first_rise(penetration, end, noise) {

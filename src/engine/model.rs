@@ -95,6 +95,10 @@ impl Model {
         self.ground.is_none() || self.floor_forces
     }
 
+    fn has_singular_law(&self) -> bool {
+        self.pairs.iter().any(|pair| !EpisodeForce::new(&pair.law, pair.mass).engaged.is_regular())
+    }
+
     /// The initial state at a time, s.
     pub fn start(&self, time: f64) -> State {
         let lanes = self.structure.lanes;
@@ -128,7 +132,7 @@ impl Model {
                 v: vec![0.0; lanes],
                 series: ModalSeries::new(lanes, highest),
                 pairs: vec![PairSeries::default(); self.pairs.len()],
-                onset: OnsetSeries::new(lanes, self.pairs.len()),
+                onset: OnsetSeries::new(lanes, self.pairs.len(), self.has_singular_law()),
             },
             inputs: Inputs {
                 ground_acceleration: 0.0,
@@ -197,6 +201,11 @@ impl Pair {
     pub fn penetration(&self, q: &[f64], v: &[f64]) -> (f64, f64) {
         use crate::structure::dot;
         (dot(&self.row, q) - self.gap, dot(&self.row, v))
+    }
+
+    /// m, rounding error of a penetration that was added up from numbers of that size: a touch below it is none.
+    pub fn noise(&self, size: f64) -> f64 {
+        2.0 * f64::EPSILON * (size + self.gap.abs())
     }
 
     /// A pair that overlaps at the start is an episode without approach velocity.

@@ -26,8 +26,13 @@ pub(super) struct OnsetSeries {
 }
 
 impl OnsetSeries {
-    pub fn new(lanes: usize, pairs: usize) -> OnsetSeries {
-        OnsetSeries { lanes, pairs: vec![OnsetPair::default(); pairs], ..OnsetSeries::default() }
+    /// Room for the largest grid; none where no law needs one.
+    pub fn new(lanes: usize, pairs: usize, needed: bool) -> OnsetSeries {
+        if !needed {
+            return OnsetSeries::default();
+        }
+        let terms = vec![0.0; MOST_TERMS * lanes];
+        OnsetSeries { grid: None, lanes, terms, pairs: vec![OnsetPair::default(); pairs], scale: 1.0 }
     }
 
     fn term(&self, index: usize) -> &[f64] {
@@ -91,7 +96,7 @@ impl Model {
     /// The grid that all entering pairs share, and the time in which the quickest of them would turn round.
     fn onset_grid(&self, base: &Base, work: &mut Workspace, remaining: f64) -> Option<(Grid, f64)> {
         let mut found: Option<Grid> = None;
-        let mut scale = remaining;
+        let mut scale = self.series_scale(base, remaining);
         let allowed = self.step_tolerance * base.velocity_scale;
         self.structure.accelerate(&base.q, &base.v, &work.load, &mut work.q);
         for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| contact.is_singular()) {
@@ -118,8 +123,7 @@ impl Model {
         let lanes = self.structure.lanes;
         onset.grid = Some(grid);
         onset.scale = scale;
-        onset.terms.clear();
-        onset.terms.resize(grid.terms() * lanes, 0.0);
+        onset.terms[2 * lanes..grid.terms() * lanes].fill(0.0);
         onset.terms[..lanes].copy_from_slice(&base.q);
         for (term, v) in onset.terms[lanes..].iter_mut().zip(&base.v) {
             *term = v * scale;
@@ -183,16 +187,16 @@ impl Model {
         }
     }
 
-    /// How far the last two terms of all rows together stay below the tolerance.
+    /// How far the last terms stay below the tolerance: those within one step of either exponent of the end, for free
+    /// masses have terms in every other row only.
     fn onset_reach(&self, base: &Base, onset: &OnsetSeries, grid: &Grid) -> f64 {
         let allowed = self.step_tolerance * base.velocity_scale * onset.scale;
         let mut last = [0.0; MOST_TERMS];
-        for j in 0..grid.rows {
-            for i in grid.last(j).saturating_sub(1).max(2)..=grid.last(j) {
-                let index = grid.index(i, j);
-                last[index] = grid.exponent(i, j) * self.worst_floor(onset.term(index));
+        grid.each(|index, exponent| {
+            if exponent > HIGHEST - grid.beta.max(2.0) {
+                last[index] = exponent * self.worst_floor(onset.term(index));
             }
-        }
+        });
         // The sum goes nearly as a power of x: a few secant steps in logarithms.
         let mut x = 1.0;
         for _ in 0..3 {

@@ -65,7 +65,6 @@ impl Record {
     /// that does not fit, something that is not a finite number, times that do not increase, fewer than two samples, a
     /// number of samples other than the one announced.
     pub fn parse(name: &str, bytes: &[u8]) -> Result<Record, RecordError> {
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         match Format::of(name) {
             Format::Csv => csv::parse(bytes),
             Format::PeerAt2 => at2::parse(bytes),
@@ -123,7 +122,8 @@ impl RecordError {
 /// Bytes of a file as text for a message: one line, at most 40 characters.
 fn excerpt(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes.get(..200).unwrap_or(bytes));
-    let mut short: String = text.trim().chars().take(40).flat_map(char::escape_debug).collect();
+    let printable = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
+    let mut short: String = text.trim().chars().take(40).map(printable).collect();
     if text.trim().chars().nth(40).is_some() {
         short.push_str("...");
     }

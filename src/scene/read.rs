@@ -4,6 +4,7 @@ use super::document::{self, Document, Item, Section, one_of};
 use super::problem::{Problem, SceneError};
 use super::{Building, ContactPair, Damping, Ground, Scaling, Scene, Solver, Stiffness, check, law_key};
 use crate::contact::{ImpactLaw, LawKind};
+use std::collections::HashMap;
 
 /// A scene as far as it could be read, with what is wrong with it.
 pub(super) struct Draft<'t> {
@@ -40,15 +41,16 @@ impl<'t> Draft<'t> {
         }
         let mut problems = self.problems;
         let positions = document::positions(&document::parse(self.text)?);
-        // What is missing stands where the table stands that it is missing from.
-        problems.sort_by_cached_key(|problem| {
-            let ends = problem.path.char_indices().rev().filter(|&(_, c)| matches!(c, '.' | '[')).map(|(i, _)| i);
-            let mut prefixes =
-                std::iter::once(problem.path.len()).chain(ends).filter_map(|end| problem.path.get(..end));
-            prefixes.find_map(|prefix| positions.get(prefix).copied()).unwrap_or_default()
-        });
+        problems.sort_by_cached_key(|problem| position(&problem.path, &positions));
         Err(SceneError { problems })
     }
+}
+
+/// Where a path stands in the text; what is missing stands where that stands which it is missing from.
+fn position(path: &str, positions: &HashMap<String, usize>) -> usize {
+    let ends = path.char_indices().rev().filter(|&(_, c)| matches!(c, '.' | '[')).map(|(end, _)| end);
+    let mut from_whole_to_root = std::iter::once(path.len()).chain(ends).filter_map(|end| path.get(..end));
+    from_whole_to_root.find_map(|part| positions.get(part).copied()).unwrap_or_default()
 }
 
 const KEY: &str = "a known key";

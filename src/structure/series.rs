@@ -110,11 +110,16 @@ impl ModalSeries {
         }
     }
 
-    /// The scalar series row . q, written to `out[n]`.
-    pub fn project(&self, row: &[f64], out: &mut [f64]) {
+    /// The scalar series row . q, written to `out[n]`. Returns the sum of the sizes of all that was added up, which
+    /// tells the rounding error of a value within 0..=1.
+    pub fn project(&self, row: &[f64], out: &mut [f64]) -> f64 {
+        let mut size = 0.0;
         for (n, out) in out.iter_mut().enumerate().take(self.order + 1) {
-            *out = dot(row, self.term(n));
+            let term = self.term(n);
+            *out = dot(row, term);
+            size += row.iter().zip(term).map(|(row, q)| (row * q).abs()).sum::<f64>();
         }
+        size
     }
 }
 

@@ -94,6 +94,13 @@ fn a_record_without_motion_has_no_peak() {
 }
 
 #[test]
+fn a_wrong_scale_is_reported_once() {
+    let (_folder, path) = folder("record = \"records/a.csv\"\npga = inf", &[("a.csv", CSV.as_bytes())]);
+    let expected = "ground.pga = inf: expected a finite peak acceleration > 0 m/s2";
+    assert_eq!(said(scene::load(&path).unwrap_err()), [expected]);
+}
+
+#[test]
 fn problems_of_scene_and_record_come_together_in_the_order_of_the_file() {
     let ground = "colour = 1\nrecord = \"records/bad.csv\"\npga = -1\n[solver]\nrelative_tolerance = 1.0";
     let (_folder, path) = folder(ground, &[("bad.csv", b"")]);

@@ -284,10 +284,28 @@ fn contacts() {
         ),
         ("gap = 0.002\n", "", &["contact[1].gap: expected the clear distance at rest in m (missing)"]),
         ("gap = 0.002\n", "gap = nan\n", &["contact[1].gap = nan: expected a finite distance in m"]),
+        // A key that is the beginning of another does not hide it.
+        (
+            "gap = 0.002\n",
+            "g = 1\ngap = nan\n",
+            &[
+                "contact[1].g = 1: expected a key of law kelvin_voigt (left_floor, right_floor, gap, law, stiffness, \
+                 restitution)",
+                "contact[1].gap = nan: expected a finite distance in m",
+            ],
+        ),
     ]);
     let contact = |value: &str| messages(&format!("contact = {value}\n{SHORT}"));
     assert_eq!(contact("3"), ["contact = 3: expected [[contact]] tables"]);
     assert_eq!(contact("[3]"), ["contact[1] = 3: expected a table"]);
+    // Two contacts whose floors are unknown are not the same pair.
+    let missing =
+        |i: usize| ["left_floor", "right_floor", "gap", "law"].map(|key| format!("contact[{i}].{key}: expected "));
+    let said = contact("[{}, {}]");
+    assert_eq!(said.len(), 8, "{said:?}");
+    for (line, start) in said.iter().zip([missing(1), missing(2)].iter().flatten()) {
+        assert!(line.starts_with(start) && line.ends_with("(missing)"), "{line}");
+    }
     let one_table = format!("{SHORT}\n[contact]\ngap = 1");
     assert_eq!(messages(&one_table), ["contact = [contact]: expected [[contact]] tables"]);
 }

@@ -1,0 +1,116 @@
+//! Small scenes with known answers, and the runs of them that the tests share.
+#![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use pounding::engine::{Episode, Model, Point, Side, State};
+use pounding::record::Record;
+use pounding::scene::Scene;
+
+/// A scene from TOML text; panics with every problem.
+pub fn scene(toml: &str) -> Scene {
+    Scene::from_toml(toml).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Two single masses on springs so soft that they are free: left 50 t with `speed` [m/s], right 75 t at rest, 1 mm apart.
+pub fn free_impact(law: &str, speed: f64) -> Scene {
+    scene(&format!(
+        "name = \"Free\"
+        [left]
+        mass = [5.0e4]
+        stiffness = [1.0e-20]
+        damping = {{ ratio = 0.0 }}
+        initial_velocity = [{speed:?}]
+        [right]
+        mass = [7.5e4]
+        stiffness = [1.0e-20]
+        damping = {{ ratio = 0.0 }}
+        [outputs]
+        energy = true
+        [[contact]]
+        left_floor = 1
+        right_floor = 1
+        gap = 0.001
+        {law}"
+    ))
+}
+
+/// kg, reduced mass of the two masses of [`free_impact`].
+pub const FREE_MASS: f64 = 3.0e4;
+
+/// A record with evenly spaced samples from t = 0.
+pub fn record(step: f64, accelerations: &[f64]) -> Record {
+    Record { times: (0..accelerations.len()).map(|k| k as f64 * step).collect(), accelerations: accelerations.to_vec() }
+}
+
+/// A run with all that it reported.
+pub struct Run {
+    pub model: Model,
+    pub state: State,
+    pub point: Point,
+    pub episodes: Vec<Episode>,
+}
+
+impl Run {
+    pub fn new(scene: &Scene, record: Option<&Record>) -> Run {
+        Run::from(scene, record, 0.0)
+    }
+
+    pub fn from(scene: &Scene, record: Option<&Record>, start: f64) -> Run {
+        let model = Model::new(scene, record).unwrap_or_else(|error| panic!("{error}"));
+        let state = model.start(start);
+        Run { model, state, point: Point::default(), episodes: Vec::new() }
+    }
+
+    /// Advances to a time and reads it.
+    pub fn to(&mut self, time: f64) -> &mut Run {
+        let episodes = &mut self.episodes;
+        self.model.advance(&mut self.state, time, &mut |episode| episodes.push(*episode)).unwrap();
+        self.model.observe(&self.state, &mut self.point);
+        self
+    }
+
+    /// Advances to a time in steps, reading at each.
+    pub fn in_steps(&mut self, step: f64, stop: f64) -> &mut Run {
+        let start = self.state.time();
+        let count = ((stop - start) / step).round() as usize;
+        for k in 1..=count {
+            self.to(if k == count { stop } else { start + k as f64 * step });
+        }
+        self
+    }
+
+    pub fn displacement(&self, side: Side, floor: usize) -> f64 {
+        self.model.displacement(&self.point, side, floor)
+    }
+
+    pub fn velocity(&self, side: Side, floor: usize) -> f64 {
+        self.model.velocity(&self.point, side, floor)
+    }
+
+    /// Everything that a floor or contact shows, as bits.
+    pub fn bits(&self) -> Vec<u64> {
+        let mut values = Vec::new();
+        for side in [Side::Left, Side::Right] {
+            for floor in 0..self.model.floors(side) {
+                values.push(self.displacement(side, floor));
+                values.push(self.velocity(side, floor));
+                values.push(self.model.acceleration(&self.point, side, floor));
+                values.push(self.model.peak_drift(&self.state, side, floor));
+            }
+        }
+        for contact in &self.point.contacts {
+            values.extend([contact.force, contact.penetration, contact.peak_force, contact.impulse]);
+            values.extend([contact.dissipated_energy, contact.approach_velocity, contact.impacts as f64]);
+        }
+        values.into_iter().map(f64::to_bits).collect()
+    }
+}
+
+/// Relative difference, for a message.
+#[track_caller]
+pub fn assert_close(got: f64, expected: f64, tolerance: f64, what: &str) {
+    let error = (got - expected).abs() / expected.abs().max(f64::MIN_POSITIVE);
+    assert!(
+        error <= tolerance,
+        "{what}: {got:e} instead of {expected:e}, off by {error:.1e} (allowed {tolerance:.0e})"
+    );
+}

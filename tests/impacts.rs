@@ -1,0 +1,97 @@
+//! One free impact under each law, against its closed form.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::{FREE_MASS, Run, assert_close, free_impact};
+use pounding::engine::{Episode, Side};
+use std::f64::consts::PI;
+
+fn impact(law: &str, speed: f64) -> Episode {
+    let mut run = Run::new(&free_impact(law, speed), None);
+    run.to(0.002 / speed).in_steps(0.05 / speed, 0.6 / speed + 3.0);
+    assert_eq!(run.episodes.len(), 1, "one impact under {law} at {speed} m/s");
+    let episode = run.episodes[0];
+    assert_close(episode.start, 0.001 / speed, 1e-14, "entry");
+    assert_close(episode.approach_velocity, speed, 1e-14, "approach velocity");
+    assert_close(episode.impulse, FREE_MASS * (speed + episode.separation_velocity), 1e-12, "impulse = momentum");
+    let momentum = 5e4 * run.velocity(Side::Left, 0) + 7.5e4 * run.velocity(Side::Right, 0);
+    assert_close(momentum, 5e4 * speed, 1e-14, "momentum");
+    let lost = 0.5 * FREE_MASS * (speed * speed - episode.separation_velocity * episode.separation_velocity);
+    let energy = 0.5 * FREE_MASS * speed * speed;
+    assert!((episode.dissipated_energy - lost).abs() < 1e-12 * energy, "{} and {lost}", episode.dissipated_energy);
+    assert!(run.point.energy.unwrap().residual.abs() < 2e-13, "{:?}", run.point.energy);
+    episode
+}
+
+#[test]
+fn linear_is_a_half_sine() {
+    for (stiffness, speed) in [(3e7, 0.5), (1e5, 10.0), (1e12, 1e-4), (1e12, 10.0)] {
+        let e = impact(&format!("law = \"linear\"\nstiffness = {stiffness:?}"), speed);
+        let omega = (stiffness / FREE_MASS).sqrt();
+        assert_close(e.separation_velocity, speed, 1e-12, "restitution");
+        assert_close(e.peak_force, speed * (stiffness * FREE_MASS).sqrt(), 1e-12, "peak force");
+        assert_close(e.peak_penetration, speed / omega, 1e-12, "peak penetration");
+        // Times since t = 0 carry the rounding of the time of entry.
+        let rounding = 4.0 * f64::EPSILON * e.start * omega;
+        assert_close((e.end.unwrap() - e.start) * omega, PI, 1e-12 + rounding, "half a period");
+        assert_close((e.peak_time - e.start) * omega, PI / 2.0, 1e-6, "peak in the middle");
+        assert_eq!(e.dissipated_energy, 0.0, "an elastic loop encloses nothing");
+    }
+}
+
+#[test]
+fn kelvin_voigt_returns_exactly_e() {
+    for (e, stiffness, speed) in
+        [(0.5, 3e7, 0.5), (0.1, 1e9, 2.0), (0.65, 1e12, 1e-3), (0.95, 1e6, 1e-4), (1.0, 3e7, 0.5)]
+    {
+        let episode = impact(&format!("law = \"kelvin_voigt\"\nstiffness = {stiffness:?}\nrestitution = {e:?}"), speed);
+        assert_close(episode.separation_velocity / speed, e, 1e-12, "restitution");
+        let xi = -e.ln() / (PI * PI + e.ln().powi(2)).sqrt();
+        let rest = (1.0 - xi * xi).sqrt();
+        // Largest at the entry itself for xi >= 1/2.
+        let peak = if xi < 0.5 { (-xi / rest * (PI / 2.0 - 3.0 * xi.asin())).exp() } else { 2.0 * xi };
+        assert_close(episode.peak_force, speed * (stiffness * FREE_MASS).sqrt() * peak, 1e-12, "peak force");
+        let omega = (stiffness / FREE_MASS).sqrt() * rest;
+        let deepest = speed / (stiffness / FREE_MASS).sqrt() * (-xi / rest * xi.acos()).exp();
+        assert_close(episode.peak_penetration, deepest, 1e-12, "peak penetration");
+        let rounding = 4.0 * f64::EPSILON * episode.start * omega;
+        assert_close((episode.end.unwrap() - episode.start) * omega, PI, 1e-11 + rounding, "duration");
+    }
+}
+
+#[test]
+fn kelvin_voigt_without_tension_returns_more_than_e() {
+    for (e, stiffness, speed) in [(0.5, 3e7, 0.5), (0.1, 1e9, 2.0), (0.65, 1e12, 1e-3), (0.95, 1e6, 1e-4)] {
+        let law = format!("law = \"kelvin_voigt_no_tension\"\nstiffness = {stiffness:?}\nrestitution = {e:?}");
+        let xi: f64 = -f64::ln(e) / (PI * PI + f64::ln(e).powi(2)).sqrt();
+        let returned = (-2.0 * xi * xi.acos() / (1.0 - xi * xi).sqrt()).exp();
+        assert_close(impact(&law, speed).separation_velocity / speed, returned, 1e-12, "restitution");
+    }
+    // The value of the paper's reading for e = 0.5, printed to 16 digits.
+    let law = "law = \"kelvin_voigt_no_tension\"\nstiffness = 3.0e7\nrestitution = 0.5";
+    assert_close(impact(law, 0.5).separation_velocity / 0.5, 0.550_283_169_627_115_7, 1e-12, "restitution");
+}
+
+#[test]
+fn hertz_is_elastic_with_its_peak_where_energy_says() {
+    for (n, stiffness, speed) in [
+        (1.5, 3e7, 0.5),
+        (1.5, 1e5, 10.0),
+        (1.5, 1e12, 1e-4),
+        (1.3, 3e7, 0.5),
+        (2.0, 3e9, 0.5),
+        (3.0, 1e12, 0.2),
+        (1.0, 3e7, 0.5),
+    ] {
+        let e = impact(&format!("law = \"hertz\"\nstiffness = {stiffness:?}\nexponent = {n:?}"), speed);
+        assert_close(e.separation_velocity, speed, 1e-12, "restitution");
+        let deepest = (0.5 * (n + 1.0) * FREE_MASS * speed * speed / stiffness).powf(1.0 / (n + 1.0));
+        assert_close(e.peak_penetration, deepest, 1e-12, "peak penetration");
+        assert_close(e.peak_force, stiffness * deepest.powf(n), 1e-12, "peak force");
+        assert_eq!(e.dissipated_energy, 0.0, "an elastic loop encloses nothing");
+    }
+    // k^0.4 (1.25 m V^2)^0.6: 236.609 kN in the paper's reference impact.
+    let e = impact("law = \"hertz\"\nstiffness = 3.0e7\nexponent = 1.5", 0.5);
+    assert!((e.peak_force - 236_609.0).abs() < 0.5, "{}", e.peak_force);
+}
