@@ -9,4 +9,4 @@ mod structure;
 mod xml;
 
 pub use log_category::Category;
-pub use package::{Package, PackagedRecord, SCENE_RESOURCE};
+pub use package::{Package, PackagedRecord};

@@ -2,12 +2,9 @@
 
 use super::xml;
 use crate::record::Record;
-use crate::scene::{Problem, Scene, SceneError};
+use crate::scene::{self, Scene, SceneError, SceneFiles};
 use std::path::Path;
 use uuid::Uuid;
-
-/// The scene file in the `resources` directory of an FMU.
-pub const SCENE_RESOURCE: &str = "scene.toml";
 
 /// Namespace of the GUIDs: any constant will do, and it may never change.
 const NAMESPACE: Uuid = Uuid::from_u128(0x8f8a_0c6e_51b7_4d0a_9d35_6f0b_7c1e_42a9);
@@ -40,24 +37,28 @@ pub struct PackagedRecord {
 impl Package {
     /// Reads a scene file and the record that it names, relative to the scene file.
     pub fn from_scene_file(path: &Path) -> Result<Package, SceneError> {
-        let directory = path.parent().unwrap_or(Path::new(""));
-        Package::read(path, |record| directory.join(record))
+        scene::load_files(path).map(Package::of)
     }
 
     /// Reads the `resources` directory of an unpacked FMU.
     pub fn from_resources(directory: &Path) -> Result<Package, SceneError> {
-        Package::read(&directory.join(SCENE_RESOURCE), |record| directory.join(resource_name(record)))
+        scene::load_resources(directory).map(Package::of)
     }
 
-    fn read(path: &Path, record_file: impl Fn(&str) -> std::path::PathBuf) -> Result<Package, SceneError> {
-        let scene_text = std::fs::read_to_string(path)
-            .map_err(|error| problem("scene", path, format!("a readable scene file ({error})")))?;
-        let scene = Scene::from_toml(&scene_text)?;
-        let record = match &scene.ground.record {
-            Some(name) => Some(PackagedRecord::read(name, &record_file(name))?),
-            None => None,
-        };
-        Ok(Package { scene_text, scene, record })
+    fn of(files: SceneFiles) -> Package {
+        let mut package = Package { scene_text: String::new(), scene: files.scene, record: None };
+        let mut record = files.record;
+        for resource in files.resources {
+            match record.take_if(|_| resource.name != scene::SCENE_RESOURCE) {
+                Some(record) => {
+                    let resource_name = resource.name.to_owned();
+                    package.record = Some(PackagedRecord { resource_name, bytes: resource.bytes, record });
+                }
+                // It has been read as UTF-8.
+                None => package.scene_text = String::from_utf8_lossy(&resource.bytes).into_owned(),
+            }
+        }
+        package
     }
 
     /// The text of `modelDescription.xml`; the same package gives the same bytes.
@@ -82,24 +83,4 @@ impl Package {
         let end_of_record = || self.record.as_ref()?.record.times.last().copied().filter(|&end| end > 0.0);
         self.scene.stop_time.or_else(end_of_record)
     }
-}
-
-impl PackagedRecord {
-    fn read(name: &str, file: &Path) -> Result<PackagedRecord, SceneError> {
-        let bytes = std::fs::read(file)
-            .map_err(|error| problem("ground.record", file, format!("a readable record file ({error})")))?;
-        let record = Record::parse(name, &bytes)
-            .map_err(|error| problem("ground.record", file, format!("a record file ({error})")))?;
-        Ok(PackagedRecord { resource_name: resource_name(name).to_owned(), bytes, record })
-    }
-}
-
-/// The name inside the FMU keeps the format of the record apart.
-fn resource_name(record: &str) -> &'static str {
-    let at2 = Path::new(record).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("at2"));
-    if at2 { "record.at2" } else { "record.csv" }
-}
-
-fn problem(path: &str, file: &Path, expected: String) -> SceneError {
-    SceneError { problems: vec![Problem { path: path.to_owned(), found: format!("{}", file.display()), expected }] }
 }

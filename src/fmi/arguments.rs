@@ -37,11 +37,9 @@ pub unsafe fn slice_out<'a, T>(name: &str, array: *mut T, n: usize) -> Result<&'
 /// # Safety
 /// As for [`slice_out`] with one element.
 pub unsafe fn store<T>(name: &str, place: *mut T, value: T) -> Result<(), Refusal> {
-    // SAFETY: the caller's promise.
-    for place in unsafe { slice_out(name, place, 1) }? {
-        place.write(value);
-        break;
-    }
+    check_array(name, place, 1)?;
+    // SAFETY: not null, aligned, and the rest is the caller's promise.
+    unsafe { place.write(value) };
     Ok(())
 }
 

@@ -34,7 +34,10 @@ unsafe extern "C" fn fmi2GetString(c: Component, vr: *const ValueReference, n: u
         with_instance(c, Call::GetString, |instance| {
             let (vr, values) = (slice_in("vr", vr, n)?, slice_out("value", values, n)?);
             let mut strings = Vec::new();
-            instance.slave.get(vr, "String", |_, value| Some(strings.push(c_string(value.string()?))))?;
+            instance.slave.get(vr, "String", |_, value| {
+                strings.push(c_string(value.string()?));
+                Some(())
+            })?;
             for (place, string) in values.iter_mut().zip(&strings) {
                 place.write(string.as_ptr());
             }

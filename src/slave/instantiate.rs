@@ -2,7 +2,8 @@
 
 use super::resource_location::paths;
 use super::{Log, Refusal, Slave};
-use crate::description::{Package, SCENE_RESOURCE};
+use crate::description::Package;
+use crate::scene::SCENE_RESOURCE;
 
 /// Loads the resources of the FMU and checks that they are those of the description.
 pub fn instantiate(guid: &str, resource_location: &[u8], log: Log) -> Result<Slave, Refusal> {

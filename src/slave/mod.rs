@@ -117,8 +117,9 @@ impl Slave {
     }
 
     /// From here on everything computed can be read.
-    pub fn enter_initialization(&mut self) {
+    pub fn enter_initialization(&mut self) -> Status {
         self.phase = Phase::Initialization;
+        Status::Ok
     }
 
     /// The parameters are fixed from here on.
@@ -129,16 +130,18 @@ impl Slave {
     }
 
     /// No more steps.
-    pub fn terminate(&mut self) {
+    pub fn terminate(&mut self) -> Status {
         self.phase = Phase::Terminated;
+        Status::Ok
     }
 
     /// As after instantiation. The logging stays as the master has chosen it.
-    pub fn reset(&mut self) {
+    pub fn reset(&mut self) -> Status {
         self.settings = self.defaults.clone();
         self.inputs = Inputs::new(&self.settings.scene);
         (self.time, self.stop_time, self.simulation) = (0.0, None, None);
         self.phase = Phase::Instantiated;
+        Status::Ok
     }
 
     /// One communication step, s: from the last communication point, give or take the rounding of the master.

@@ -3,7 +3,8 @@
 use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, building};
 use crate::engine::{ContactPoint, EnergyPoint, Model, Point, Side, State};
 use crate::record::Record;
-use crate::scene::{Building, Damping, Problem, Scaling, Scene, SceneError, Stiffness};
+use crate::scene::{Building, Damping, Scaling, Scene, SceneError, Stiffness, read_record};
+use std::path::Path;
 use std::sync::Arc;
 
 /// A value of a variable.
@@ -108,7 +109,7 @@ impl Settings {
     pub fn check(&self) -> Result<(), SceneError> {
         self.scene.check()?;
         match self.record().map(|record| self.scene.ground.scaling.factor(record)) {
-            Some(Err(problem)) => Err(SceneError { problems: vec![problem] }),
+            Some(Err(problem)) => Err(problem.into()),
             Some(Ok(_)) | None => Ok(()),
         }
     }
@@ -147,12 +148,7 @@ impl Settings {
             self.other_record = None;
             return Ok(());
         }
-        let refused = |expected: String| {
-            let (path, found) = ("ground.record".to_owned(), format!("{path:?}"));
-            SceneError { problems: vec![Problem { path, found, expected }] }
-        };
-        let bytes = std::fs::read(path).map_err(|error| refused(format!("a readable record file ({error})")))?;
-        let record = Record::parse(path, &bytes).map_err(|error| refused(format!("a record file ({error})")))?;
+        let (record, _) = read_record(path, Path::new(path), self.scene.ground.scaling)?;
         self.other_record = Some((path.to_owned(), Arc::new(record)));
         Ok(())
     }

@@ -54,7 +54,7 @@ fn unknown_references_and_wrong_types_are_all_named() {
         ("fmi2GetString", "ground.acceleration"),
     ] {
         let mut value = 0_u64;
-        let status = started(&fmu).get_raw(function, &raw const fmu.vr(name), 1, &raw mut value);
+        let status = started(&fmu).get_raw(function, &fmu.vr(name), 1, &raw mut value);
         assert_eq!(status, ERROR, "{function} of {name}");
     }
 }

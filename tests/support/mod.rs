@@ -355,18 +355,18 @@ impl Instance<'_> {
 
     pub fn string(&self, name: &str) -> String {
         let mut text = ptr::null::<c_char>();
-        assert_eq!(self.get_raw("fmi2GetString", &raw const self.fmu.vr(name), 1, &raw mut text), OK);
+        assert_eq!(self.get_raw("fmi2GetString", &self.fmu.vr(name), 1, &raw mut text), OK);
         // SAFETY: a string of the FMU, which lives until the next call.
         unsafe { CStr::from_ptr(text) }.to_str().unwrap().to_owned()
     }
 
     pub fn set_real(&self, name: &str, value: f64) -> c_int {
-        self.set_raw("fmi2SetReal", &raw const self.fmu.vr(name), 1, &raw const value)
+        self.set_raw("fmi2SetReal", &self.fmu.vr(name), 1, &raw const value)
     }
 
     pub fn set_string(&self, name: &str, value: &str) -> c_int {
         let text = CString::new(value).unwrap();
-        self.set_raw("fmi2SetString", &raw const self.fmu.vr(name), 1, &raw const text.as_ptr())
+        self.set_raw("fmi2SetString", &self.fmu.vr(name), 1, &text.as_ptr())
     }
 
     /// The bits of every Real output and every Integer output.
