@@ -206,6 +206,7 @@ pub fn maximum_above(coefficients: &[f64], end: f64, known: f64) -> Option<(f64,
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 
