@@ -1,7 +1,7 @@
 //! Power series of the contact force from that of the penetration, term by term, while a step is expanded.
 
 use super::force::{Force, Guard};
-use crate::quadrature::gauss;
+use crate::quadrature::{TWELVE, gauss};
 
 /// Highest power of any series.
 pub const MAX_ORDER: usize = 30;
@@ -98,7 +98,7 @@ impl PairSeries {
             let (d, rate) = value_and_slope(&self.penetration[..=self.order + 2], x);
             force.damping_power(d, rate / scale)
         };
-        scale * gauss(x).map(|(x, weight)| weight * power(x)).sum::<f64>()
+        scale * gauss(TWELVE, x).map(|(x, weight)| weight * power(x)).sum::<f64>()
     }
 }
 

@@ -2,15 +2,17 @@
 
 use super::Structure;
 
-/// Order at which the flight series over `reach` = (fastest rate) x (time) is exact to rounding; `None` where the
-/// interval is too long for a series.
-pub fn flight_order(reach: f64) -> Option<usize> {
-    const REMAINDER: f64 = 1e-19;
+/// Remainder of a series that is exact to rounding.
+pub const EXACT: f64 = 1e-19;
+
+/// Order at which the flight series over `reach` = (fastest rate) x (time) is good to a relative `remainder`; `None`
+/// where the interval is too long for a series.
+pub fn flight_order(reach: f64, remainder: f64) -> Option<usize> {
     if reach > 2.0 {
         return None;
     }
     let (mut term, mut order) = (1.0, 0);
-    while term > REMAINDER || order < 4 {
+    while term > remainder || order < 4 {
         order += 1;
         term *= reach / order as f64;
     }
@@ -102,6 +104,24 @@ impl ModalSeries {
             for m in 0..self.lanes {
                 v[m] = v[m] * x + q[m];
                 q[m] = q[m] * x + term[m];
+            }
+        }
+        let rate = 1.0 / self.scale;
+        for v in v.iter_mut() {
+            *v *= rate;
+        }
+    }
+
+    /// v alone at x.
+    pub fn velocity(&self, x: f64, v: &mut [f64]) {
+        let top = self.order as f64;
+        for (v, term) in v.iter_mut().zip(self.term(self.order)) {
+            *v = top * term;
+        }
+        for n in (1..self.order).rev() {
+            let power = n as f64;
+            for (v, term) in v.iter_mut().zip(self.term(n)) {
+                *v = *v * x + power * term;
             }
         }
         let rate = 1.0 / self.scale;
