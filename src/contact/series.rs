@@ -74,8 +74,8 @@ impl PairSeries {
     /// The series of a guard, up to the order of the force.
     pub fn guard(&self, guard: &Guard, scale: f64, out: &mut [f64; MAX_ORDER + 3]) {
         let rate = guard.damping / scale;
-        for n in 0..=self.order {
-            out[n] = guard.stiffness * self.penetration[n] + rate * (n + 1) as f64 * self.penetration[n + 1];
+        for (n, out) in out.iter_mut().enumerate().take(self.order + 1) {
+            *out = guard.stiffness * self.penetration[n] + rate * (n + 1) as f64 * self.penetration[n + 1];
         }
         out[0] += guard.constant;
     }

@@ -113,14 +113,23 @@ impl ModalSeries {
     /// The scalar series row . q, written to `out[n]`. Returns the sum of the sizes of all that was added up, which
     /// tells the rounding error of a value within 0..=1.
     pub fn project(&self, row: &[f64], out: &mut [f64]) -> f64 {
-        let mut size = 0.0;
+        let mut sum = 0.0;
         for (n, out) in out.iter_mut().enumerate().take(self.order + 1) {
-            let term = self.term(n);
-            *out = dot(row, term);
-            size += row.iter().zip(term).map(|(row, q)| (row * q).abs()).sum::<f64>();
+            let (value, size) = difference(row, self.term(n));
+            *out = value;
+            sum += size;
         }
-        size
+        sum
     }
+}
+
+/// The sum of products, 0 where its terms cancel but for rounding, and the sum of their sizes.
+///
+/// Two floors that move alike have a distance of 0 to rounding; the sign of that rounding must not decide what happens.
+pub fn difference(row: &[f64], modal: &[f64]) -> (f64, f64) {
+    let value = dot(row, modal);
+    let size: f64 = row.iter().zip(modal).map(|(row, q)| (row * q).abs()).sum();
+    if value.abs() <= 4.0 * f64::EPSILON * size { (0.0, size) } else { (value, size) }
 }
 
 /// Sum of products in a fixed order: one partial sum per lane, then the lanes from left to right.
