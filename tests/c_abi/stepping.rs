@@ -193,7 +193,7 @@ fn values_may_be_set_before_the_experiment_is_set_up() {
     assert_eq!(early.real("ground.acceleration"), 0.25);
 }
 
-/// A single mass on a spring under a constant force has a closed form; it moves the same from any start time.
+/// Without a record nothing knows the time: a run from 1e6 s is that from 0 s, to the rounding of its times.
 #[test]
 fn a_late_start_is_a_start() {
     let fmu = Fmu::new(SCENE);
