@@ -27,8 +27,13 @@
 #![deny(unsafe_code)]
 
 pub mod contact;
+pub mod description;
 pub mod engine;
+#[allow(unsafe_code)]
+mod fmi;
 mod quadrature;
 pub mod record;
 pub mod scene;
+pub mod slave;
 pub mod structure;
+pub mod variables;

@@ -1,2 +1,117 @@
-//! `cargo fmu`.
-fn main() {}
+//! `cargo fmu`: compiles a scene of two pounding buildings into an FMU, and checks FMUs.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `main.rs` | arguments, exit codes |
+//! | `recipe.rs` | from a scene file to an FMU that has been seen to run, step by step |
+//! | `workspace.rs` | where the checkout is; compiling the library with cargo |
+//! | `licenses.rs` | the licence texts that travel inside the FMU |
+//! | `archive.rs` | the zip: writing it reproducibly, unpacking it safely |
+//! | `platform.rs` | where FMI 2.0 wants the library of each platform |
+//! | `c_interface.rs` | the library's C functions, called by hand (the only unsafe code here) |
+//! | `importer.rs` | the same through an importer that is not ours |
+//! | `log.rs` | what an FMU says through its logger |
+//! | `experiment.rs` | one run of an FMU over its default experiment, through either |
+//! | `summary.rs` | what happened in that run, for a person |
+//! | `check/` | `cargo fmu check`: what is wrong with an FMU |
+#![deny(unsafe_code)]
+
+mod archive;
+#[allow(unsafe_code)]
+mod c_interface;
+mod check;
+mod experiment;
+mod importer;
+mod licenses;
+mod log;
+mod platform;
+mod progress;
+mod recipe;
+mod summary;
+mod workspace;
+
+use clap::{Args, Parser, Subcommand};
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Compiles a scene into an FMU (FMI 2.0, co-simulation), runs it once and says what happened.
+#[derive(Parser)]
+#[command(name = "cargo fmu", bin_name = "cargo fmu", version, args_conflicts_with_subcommands = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    build: BuildArguments,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Opens an FMU with an independent importer, validates it and runs it; exit code 1 where anything is wrong.
+    Check(CheckArguments),
+}
+
+#[derive(Args)]
+struct BuildArguments {
+    /// The scene; without it, examples/scenes/feup.toml.
+    #[arg(value_name = "SCENE.toml")]
+    scene: Option<PathBuf>,
+    /// Where the FMU goes; without it, target/fmu/<name of the scene>.fmu.
+    #[arg(short, long, value_name = "FILE.fmu")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Args)]
+struct CheckArguments {
+    /// The FMU.
+    #[arg(value_name = "FILE.fmu")]
+    fmu: PathBuf,
+    /// Findings for a program to read.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What a command has to say on standard output, and whether all is well.
+struct Verdict {
+    text: String,
+    well: bool,
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    std::panic::set_hook(Box::new(|_| {}));
+    let verdict = std::panic::catch_unwind(|| run(arguments)).unwrap_or_else(|panic| Err(bug(panic.as_ref())));
+    match verdict {
+        Ok(verdict) => {
+            // A reader that has seen enough (`| head`) closes the pipe: no error of ours.
+            let _ = std::io::stdout().write_all(verdict.text.as_bytes());
+            if verdict.well { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+        }
+        Err(error) => {
+            let _ = writeln!(std::io::stderr(), "error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: Arguments) -> anyhow::Result<Verdict> {
+    match arguments.command {
+        None => {
+            let text = recipe::build(arguments.build.scene.as_deref(), arguments.build.output.as_deref())?;
+            Ok(Verdict { text, well: true })
+        }
+        Some(Command::Check(check)) => {
+            let report = check::check(&check.fmu);
+            let text = if check.json { report.json()? } else { report.text() };
+            Ok(Verdict { text, well: report.is_valid() })
+        }
+    }
+}
+
+/// A panic is a bug of this program and not the user's: said in one line, without the panic's own output.
+fn bug(panic: &(dyn std::any::Any + Send)) -> anyhow::Error {
+    let what = (panic.downcast_ref::<&str>().copied())
+        .or_else(|| panic.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or("of unknown kind");
+    anyhow::anyhow!("cargo fmu has met a bug of its own ({what}); please report it together with the scene")
+}

@@ -95,6 +95,10 @@ impl Model {
         self.ground.is_none() || self.floor_forces
     }
 
+    fn has_singular_law(&self) -> bool {
+        self.pairs.iter().any(|pair| !EpisodeForce::new(&pair.law, pair.mass).engaged.is_regular())
+    }
+
     /// The initial state at a time, s.
     pub fn start(&self, time: f64) -> State {
         let lanes = self.structure.lanes;
@@ -128,7 +132,7 @@ impl Model {
                 v: vec![0.0; lanes],
                 series: ModalSeries::new(lanes, highest),
                 pairs: vec![PairSeries::default(); self.pairs.len()],
-                onset: OnsetSeries::new(lanes, self.pairs.len()),
+                onset: OnsetSeries::new(lanes, self.pairs.len(), self.has_singular_law()),
             },
             inputs: Inputs {
                 ground_acceleration: 0.0,

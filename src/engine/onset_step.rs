@@ -8,7 +8,7 @@ use super::model::Model;
 use super::state::*;
 use crate::contact::Force;
 use crate::contact::onset::{Grid, MOST_TERMS, OnsetPair, value_and_slope};
-use crate::quadrature::gauss;
+use crate::quadrature::{TWELVE, gauss};
 use crate::structure::{LANES, dot};
 
 /// Highest power of x of the double series: its cost grows with the square, its reach hardly.
@@ -26,8 +26,13 @@ pub(super) struct OnsetSeries {
 }
 
 impl OnsetSeries {
-    pub fn new(lanes: usize, pairs: usize) -> OnsetSeries {
-        OnsetSeries { lanes, pairs: vec![OnsetPair::default(); pairs], ..OnsetSeries::default() }
+    /// Room for the largest grid; none where no law needs one.
+    pub fn new(lanes: usize, pairs: usize, needed: bool) -> OnsetSeries {
+        if !needed {
+            return OnsetSeries::default();
+        }
+        let terms = vec![0.0; MOST_TERMS * lanes];
+        OnsetSeries { grid: None, lanes, terms, pairs: vec![OnsetPair::default(); pairs], scale: 1.0 }
     }
 
     fn term(&self, index: usize) -> &[f64] {
@@ -118,8 +123,7 @@ impl Model {
         let lanes = self.structure.lanes;
         onset.grid = Some(grid);
         onset.scale = scale;
-        onset.terms.clear();
-        onset.terms.resize(grid.terms() * lanes, 0.0);
+        onset.terms[2 * lanes..grid.terms() * lanes].fill(0.0);
         onset.terms[..lanes].copy_from_slice(&base.q);
         for (term, v) in onset.terms[lanes..].iter_mut().zip(&base.v) {
             *term = v * scale;
@@ -304,7 +308,7 @@ impl Contact {
         if law.is_damped() {
             // In s with x = s^4 the quarter powers of the root law are smooth.
             let end = x.sqrt().sqrt();
-            let work = gauss(end).map(|(s, weight)| {
+            let work = gauss(TWELVE, end).map(|(s, weight)| {
                 let (d, rate) = penetration(s * s * s * s);
                 weight * 4.0 * s * s * s * law.damping_power(d, rate / scale)
             });

@@ -27,7 +27,8 @@ pub struct Resource {
     pub bytes: Vec<u8>,
 }
 
-const SCENE_RESOURCE: &str = "scene.toml";
+/// Name of the scene file in the `resources` folder of an FMU.
+pub const SCENE_RESOURCE: &str = "scene.toml";
 
 fn record_resource(name: &str) -> &'static str {
     match Format::of(name) {
@@ -58,9 +59,8 @@ pub fn load_files(path: &Path) -> Result<SceneFiles, SceneError> {
 ///
 /// # Errors
 /// As [`load`].
-pub fn load_resources(folder: &Path) -> Result<(Scene, Option<Record>), SceneError> {
-    let files = read_files(&folder.join(SCENE_RESOURCE), |record| folder.join(record_resource(record)))?;
-    Ok((files.scene, files.record))
+pub fn load_resources(folder: &Path) -> Result<SceneFiles, SceneError> {
+    read_files(&folder.join(SCENE_RESOURCE), |record| folder.join(record_resource(record)))
 }
 
 fn read_files(path: &Path, record_path: impl Fn(&str) -> PathBuf) -> Result<SceneFiles, SceneError> {
@@ -84,7 +84,8 @@ fn read_files(path: &Path, record_path: impl Fn(&str) -> PathBuf) -> Result<Scen
     Ok(SceneFiles { scene, record, resources: std::iter::once(scene_file).chain(record_file).collect() })
 }
 
-fn read_record(name: &str, path: &Path, scaling: Scaling) -> Result<(Record, Vec<u8>), Problem> {
+/// Reads a record file, named as `ground.record` names it, that this scaling fits.
+pub(crate) fn read_record(name: &str, path: &Path, scaling: Scaling) -> Result<(Record, Vec<u8>), Problem> {
     let problem = |expected: String| Problem::new("ground.record", quoted(name), expected);
     let unreadable = |error| problem(format!("a record file, but {}: {error}", path.display()));
     let bytes = fs::read(path).map_err(unreadable)?;

@@ -62,7 +62,8 @@ mod problem;
 mod read;
 pub mod rule;
 
-pub use files::{Resource, SceneFiles, load, load_files, load_resources};
+pub(crate) use files::read_record;
+pub use files::{Resource, SCENE_RESOURCE, SceneFiles, load, load_files, load_resources};
 pub use problem::{Problem, SceneError};
 
 use crate::contact::ImpactLaw;

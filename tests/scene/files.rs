@@ -2,7 +2,7 @@
 
 use super::SHORT;
 use pounding::record::Record;
-use pounding::scene::{self, Scaling, SceneError};
+use pounding::scene::{self, Scaling, SceneError, SceneFiles};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -59,7 +59,7 @@ fn what_an_fmu_carries_reads_back_the_same() {
         for file in &files.resources {
             fs::write(resources.path().join(file.name), &file.bytes).unwrap();
         }
-        let (scene, record) = scene::load_resources(resources.path()).unwrap();
+        let SceneFiles { scene, record, .. } = scene::load_resources(resources.path()).unwrap();
         assert_eq!(scene, files.scene);
         assert_eq!(record, files.record);
         assert_eq!(record, Some(Record::parse(name, bytes).unwrap()));

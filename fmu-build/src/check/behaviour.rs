@@ -1,0 +1,81 @@
+//! What the library of an FMU does, compared with what its description says.
+
+use crate::archive::Unpacked;
+use crate::c_interface::{Binary, Instance};
+use crate::experiment::{CoSimulation, Experiment};
+use crate::platform;
+use anyhow::{Context, Result, bail};
+use fmi::model_description::fmi2::{ModelDescription, ScalarVariable, VariableType};
+
+/// The library for this machine.
+pub fn library(fmu: &Unpacked, description: &ModelDescription) -> Result<Binary> {
+    let Some(interface) = &description.coSimulation else { bail!("the FMU has no co-simulation interface") };
+    let path = platform::library_path(&interface.modelIdentifier);
+    if !fmu.path(&path).is_file() {
+        let there = fmu.names.iter().filter(|name| name.starts_with("binaries/")).cloned().collect::<Vec<_>>();
+        bail!("the FMU has no {path}, the library for this machine; it has: {}", there.join(", "));
+    }
+    Binary::load(&fmu.path(&path))
+}
+
+/// A finding for each function that the library does not export.
+pub fn missing_functions(binary: &Binary) -> Vec<String> {
+    binary.missing_functions().into_iter().map(|name| format!("{name} is not exported")).collect()
+}
+
+/// The library must refuse a GUID that is not its own, else it cannot notice a description that is not its own.
+pub fn wrong_guid_accepted(fmu: &Unpacked, description: &ModelDescription, binary: &Binary) -> Vec<String> {
+    let other = "{00000000-0000-0000-0000-000000000000}";
+    match Instance::new(binary, &description.modelName, other, &fmu.resource_uri()) {
+        Ok(_) => vec![format!("fmi2Instantiate accepts the GUID {other} beside {}", description.guid)],
+        Err(_) => Vec::new(),
+    }
+}
+
+/// No importer writes the start values of the description into the FMU: the library must have the same ones.
+pub fn start_values(description: &ModelDescription, fmu: &dyn CoSimulation) -> Result<Vec<String>> {
+    let experiment = Experiment::of(description)?;
+    fmu.set_up(experiment.start, experiment.stop)?;
+    let mut findings = Vec::new();
+    for variable in &description.modelVariables {
+        let Some(start) = variable.variableType.start() else { continue };
+        let actual = value(variable, fmu).with_context(|| format!("{} cannot be read", variable.name))?;
+        if !actual.is(start) {
+            findings.push(format!("{}: start is {start:?}, the library has {actual:?}", variable.name));
+        }
+    }
+    Ok(findings)
+}
+
+#[derive(Debug)]
+enum Value {
+    Real(f64),
+    Integer(i32),
+    Boolean(bool),
+    String(String),
+}
+
+impl Value {
+    /// Whether the text of an XML attribute says the same.
+    fn is(&self, text: &str) -> bool {
+        match self {
+            Value::Real(value) => text.parse() == Ok(*value),
+            Value::Integer(value) => text.parse() == Ok(*value),
+            Value::Boolean(value) => matches!((value, text), (true, "true" | "1") | (false, "false" | "0")),
+            Value::String(value) => text == value,
+        }
+    }
+}
+
+fn value(variable: &ScalarVariable, fmu: &dyn CoSimulation) -> Result<Value> {
+    let reference = [variable.valueReference];
+    let value = match variable.variableType {
+        VariableType::Real { .. } => fmu.reals(&reference)?.pop().map(Value::Real),
+        VariableType::Integer { .. } | VariableType::Enumeration { .. } => {
+            fmu.integers(&reference)?.pop().map(Value::Integer)
+        }
+        VariableType::Boolean { .. } => fmu.booleans(&reference)?.pop().map(Value::Boolean),
+        VariableType::String { .. } => fmu.strings(&reference)?.pop().map(Value::String),
+    };
+    value.context("the library returns no value")
+}

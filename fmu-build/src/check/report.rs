@@ -1,0 +1,111 @@
+//! What a check has found, for a person and for a program.
+
+use crate::experiment::Outcome;
+use crate::summary;
+use anyhow::Result;
+use fmi::model_description::fmi2::ModelDescription;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::Path;
+
+/// Checks in the order in which they were made, and what the run has shown where it came to that.
+#[derive(Serialize)]
+pub struct Report {
+    file: String,
+    valid: bool,
+    checks: Vec<Check>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    run: Option<Run>,
+}
+
+#[derive(Serialize)]
+struct Check {
+    name: &'static str,
+    /// Empty where all is well.
+    findings: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct Run {
+    /// s
+    start: f64,
+    /// s
+    stop: f64,
+    /// s
+    step: f64,
+    /// s, spent in `fmi2DoStep`
+    solve_seconds: f64,
+    /// Every number at the end of the run.
+    values: BTreeMap<String, f64>,
+    warnings: Vec<String>,
+    #[serde(skip)]
+    summary: String,
+}
+
+impl Report {
+    /// Of a file that nothing is known about yet.
+    pub fn new(file: &Path) -> Report {
+        Report { file: file.display().to_string(), valid: true, checks: Vec::new(), run: None }
+    }
+
+    /// Adds what a check has found; checks of the same name are one.
+    pub fn add(&mut self, name: &'static str, findings: Vec<String>) {
+        self.valid &= findings.is_empty();
+        match self.checks.iter_mut().find(|check| check.name == name) {
+            Some(check) => check.findings.extend(findings),
+            None => self.checks.push(Check { name, findings }),
+        }
+    }
+
+    /// Notes a step that the next ones need: its error is a finding, its value what they go on with.
+    pub fn need<T>(&mut self, name: &'static str, result: Result<T>) -> Option<T> {
+        let (value, findings) = match result {
+            Ok(value) => (Some(value), Vec::new()),
+            Err(error) => (None, vec![format!("{error:#}")]),
+        };
+        self.add(name, findings);
+        value
+    }
+
+    /// Notes the run.
+    pub fn ran(&mut self, description: &ModelDescription, outcome: Outcome) {
+        let summary = summary::text(description, &outcome, "default experiment of the FMU");
+        self.run = Some(Run {
+            start: outcome.experiment.start,
+            stop: outcome.experiment.stop,
+            step: outcome.experiment.step,
+            solve_seconds: outcome.solving.as_secs_f64(),
+            values: outcome.seen.into_iter().map(|(name, seen)| (name, seen.last)).collect(),
+            warnings: outcome.warnings,
+            summary,
+        });
+    }
+
+    /// Whether nothing has been found.
+    pub fn is_valid(&self) -> bool {
+        self.valid
+    }
+
+    /// For a person.
+    pub fn text(&self) -> String {
+        let mut text = format!("{}\n", self.file);
+        for Check { name, findings } in &self.checks {
+            let _ = writeln!(text, "  {name:<20} {}", if findings.is_empty() { "ok" } else { "WRONG" });
+            for finding in findings {
+                let _ = writeln!(text, "    {finding}");
+            }
+        }
+        if let Some(run) = &self.run {
+            let _ = write!(text, "\n{}", run.summary);
+        }
+        let verdict = if self.valid { "nothing wrong found" } else { "this FMU is not in order" };
+        let _ = writeln!(text, "\n{verdict}");
+        text
+    }
+
+    /// For a program.
+    pub fn json(&self) -> Result<String> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
+    }
+}

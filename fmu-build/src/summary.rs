@@ -1,0 +1,194 @@
+//! What happened in a run, for a person to check by eye.
+
+use crate::experiment::{Outcome, Seen};
+use fmi::model_description::fmi2::{Causality, ModelDescription};
+use std::fmt::Write;
+
+/// The summary; `stop_reason` says where the end of the experiment comes from.
+pub fn text(description: &ModelDescription, outcome: &Outcome, stop_reason: &str) -> String {
+    let run = Run(outcome);
+    let mut text = overview(description, &run, stop_reason);
+    for table in [run.floors(), run.contacts(), run.energy()].into_iter().flatten() {
+        text.push('\n');
+        text.push_str(&table.aligned());
+    }
+    for warning in &outcome.warnings {
+        let _ = writeln!(text, "\n  warning      {warning}");
+    }
+    text
+}
+
+fn overview(description: &ModelDescription, run: &Run, stop_reason: &str) -> String {
+    let with = |causality| description.modelVariables.iter().filter(|v| v.causality == causality).count();
+    let (inputs, outputs) = (with(Causality::Input), with(Causality::Output));
+    let total = description.modelVariables.len();
+    let experiment = run.0.experiment;
+    let mut text = String::new();
+    let mut line = |name: &str, what: String| {
+        let _ = writeln!(text, "  {name:<12} {what}");
+    };
+    line("buildings", {
+        let [left, right] = SIDES.map(|side| run.count(&format!("{side}.displacement")));
+        format!("left {left} floors, right {right} floors, {} contacts", run.count_contacts())
+    });
+    line("variables", format!("{total}: {inputs} inputs, {outputs} outputs, {} parameters", total - inputs - outputs));
+    for side in SIDES {
+        let name = format!("{side}.frequency");
+        let frequencies: Vec<String> = run.array(&name).map(|frequency| format!("{:.4}", frequency.last)).collect();
+        line("frequencies", format!("{side} {} Hz", frequencies.join(", ")));
+    }
+    line(
+        "experiment",
+        format!(
+            "{} s to {} s ({stop_reason}), {} steps of {} s, solved in {:.2} ms",
+            experiment.start,
+            experiment.stop,
+            run.0.steps,
+            experiment.step,
+            run.0.solving.as_secs_f64() * 1e3
+        ),
+    );
+    if let Some(impacts) = run.seen("impacts") {
+        line("impacts", format!("{}", impacts.last));
+    }
+    text
+}
+
+const SIDES: [&str; 2] = ["left", "right"];
+
+/// The run by the names of the FMU's variables. What an FMU does not have is left out.
+struct Run<'a>(&'a Outcome);
+
+impl Run<'_> {
+    fn seen(&self, name: &str) -> Option<Seen> {
+        self.0.seen.get(name).copied()
+    }
+
+    /// `name[1]`, `name[2]`, ...
+    fn array(&self, name: &str) -> impl Iterator<Item = Seen> {
+        (1..).map_while(move |index| self.seen(&format!("{name}[{index}]")))
+    }
+
+    fn count(&self, name: &str) -> usize {
+        self.array(name).count()
+    }
+
+    fn count_contacts(&self) -> usize {
+        (1..).take_while(|contact| self.seen(&format!("contact[{contact}].impacts")).is_some()).count()
+    }
+
+    fn floors(&self) -> Option<Table> {
+        let mut table = Table::new(&[
+            ("floor", ""),
+            ("largest displacement", "m"),
+            ("largest acceleration", "m/s2"),
+            ("peak storey drift", "m"),
+        ]);
+        for side in SIDES {
+            for floor in 1..=self.count(&format!("{side}.displacement")) {
+                let number = |quantity, pick: fn(Seen) -> f64| {
+                    self.seen(&format!("{side}.{quantity}[{floor}]")).map_or(String::new(), |seen| digits(pick(seen)))
+                };
+                table.row([
+                    format!("{side} {floor}"),
+                    number("displacement", |seen| seen.largest),
+                    number("acceleration", |seen| seen.largest),
+                    number("peak_drift", |seen| seen.last),
+                ]);
+            }
+        }
+        table.unless_empty()
+    }
+
+    fn contacts(&self) -> Option<Table> {
+        let mut table = Table::new(&[
+            ("contact", ""),
+            ("gap", "m"),
+            ("impacts", ""),
+            ("peak force", "N"),
+            ("largest approach velocity", "m/s"),
+            ("impulse", "N s"),
+            ("dissipated", "J"),
+        ]);
+        for contact in 1..=self.count_contacts() {
+            let number = |quantity, pick: fn(Seen) -> f64| {
+                let seen = self.seen(&format!("contact[{contact}].{quantity}"));
+                seen.map_or(String::new(), |seen| digits(pick(seen)))
+            };
+            let gap = self.seen(&format!("contact[{contact}].gap"));
+            table.row([
+                contact.to_string(),
+                gap.map_or(String::new(), |seen| format!("{}", seen.last)),
+                number("impacts", |seen| seen.last),
+                number("peak_force", |seen| seen.last),
+                number("approach_velocity", |seen| seen.largest),
+                number("impulse", |seen| seen.last),
+                number("dissipated_energy", |seen| seen.last),
+            ]);
+        }
+        table.unless_empty()
+    }
+
+    fn energy(&self) -> Option<Table> {
+        let mut table = Table::new(&[("energy at the end", ""), ("", "J")]);
+        for name in ["input", "external", "kinetic", "strain", "viscous", "impact"] {
+            if let Some(energy) = self.seen(&format!("energy.{name}")) {
+                table.row([name.into(), digits(energy.last)]);
+            }
+        }
+        if let Some(residual) = self.seen("energy.residual") {
+            table.row(["residual / largest".into(), format!("{:.1e}", residual.last)]);
+        }
+        table.unless_empty()
+    }
+}
+
+/// Five significant digits: 0.034512, 1234.5, 1.2345e-7; whole numbers as they are.
+fn digits(value: f64) -> String {
+    let size = value.abs();
+    if value == value.trunc() && size < 1e9 {
+        format!("{value}")
+    } else if (1e-4..1e6).contains(&size) {
+        let decimals = 4 - size.log10().floor() as i32;
+        format!("{value:.*}", usize::try_from(decimals).unwrap_or(0))
+    } else {
+        format!("{value:.4e}")
+    }
+}
+
+/// Columns of text: the first to the left, the others to the right, units below the headings.
+struct Table {
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    fn new(headings: &[(&str, &str)]) -> Table {
+        let names = headings.iter().map(|(name, _)| (*name).into()).collect();
+        let units = headings.iter().map(|(_, unit)| (*unit).into()).collect();
+        Table { rows: vec![names, units] }
+    }
+
+    fn row(&mut self, cells: impl Into<Vec<String>>) {
+        self.rows.push(cells.into());
+    }
+
+    fn unless_empty(self) -> Option<Table> {
+        (self.rows.len() > 2).then_some(self)
+    }
+
+    fn aligned(&self) -> String {
+        let columns = self.rows.first().map_or(0, Vec::len);
+        let width = |column: usize| self.rows.iter().filter_map(|row| row.get(column)).map(String::len).max();
+        let widths: Vec<usize> = (0..columns).map(|column| width(column).unwrap_or(0)).collect();
+        let mut text = String::new();
+        for row in &self.rows {
+            let mut line = String::from("  ");
+            for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
+                let _ = if column == 0 { write!(line, "{cell:<width$}") } else { write!(line, "  {cell:>width$}") };
+            }
+            text.push_str(line.trim_end());
+            text.push('\n');
+        }
+        text
+    }
+}

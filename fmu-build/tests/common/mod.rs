@@ -1,0 +1,96 @@
+//! `cargo fmu` as a user runs it, and FMUs to run it on.
+#![allow(dead_code)] // each test file uses its share
+
+use std::fs::File;
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+use tempfile::TempDir;
+
+/// The checkout.
+pub fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
+}
+
+/// Runs `cargo fmu` in a directory, its output in a pipe.
+pub fn cargo_fmu_in(directory: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_cargo-fmu")).args(arguments).current_dir(directory).output().unwrap()
+}
+
+/// Runs `cargo fmu` in the checkout.
+pub fn cargo_fmu(arguments: &[&str]) -> Output {
+    cargo_fmu_in(root(), arguments)
+}
+
+pub fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+pub fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// Builds a scene that must build.
+pub fn build(scene: &Path, fmu: &Path) -> Output {
+    let output = cargo_fmu(&[scene.to_str().unwrap(), "-o", fmu.to_str().unwrap()]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    output
+}
+
+/// The default scene.
+pub fn feup() -> PathBuf {
+    root().join("examples/scenes/feup.toml")
+}
+
+/// The default scene, changed; its record is beside it.
+pub fn changed_feup(directory: &Path, change: impl Fn(&str) -> String) -> PathBuf {
+    let text = std::fs::read_to_string(feup()).unwrap();
+    let text = replace_once(&text, "../records/el_centro_1940_ns.csv", "record.csv");
+    std::fs::copy(root().join("examples/records/el_centro_1940_ns.csv"), directory.join("record.csv")).unwrap();
+    let scene = directory.join("scene.toml");
+    std::fs::write(&scene, change(&text)).unwrap();
+    scene
+}
+
+/// The FMU of the default scene.
+pub fn feup_fmu() -> &'static Path {
+    static FMU: OnceLock<(TempDir, PathBuf)> = OnceLock::new();
+    let (_, path) = FMU.get_or_init(|| {
+        let directory = TempDir::new().unwrap();
+        let path = directory.path().join("feup.fmu");
+        build(&feup(), &path);
+        (directory, path)
+    });
+    path
+}
+
+/// Names and contents of the files of an FMU, in their order.
+pub type Files = Vec<(String, Vec<u8>)>;
+
+pub fn files(fmu: &Path) -> Files {
+    let mut archive = zip::ZipArchive::new(File::open(fmu).unwrap()).unwrap();
+    (0..archive.len())
+        .map(|index| {
+            let mut file = archive.by_index(index).unwrap();
+            let mut bytes = Vec::new();
+            file.read_to_end(&mut bytes).unwrap();
+            (String::from_utf8(file.name_raw().to_vec()).unwrap(), bytes)
+        })
+        .collect()
+}
+
+pub fn write_fmu(path: &Path, files: &Files) {
+    let mut archive = zip::ZipWriter::new(File::create(path).unwrap());
+    for (name, bytes) in files {
+        archive.start_file(name.as_str(), zip::write::SimpleFileOptions::default()).unwrap();
+        archive.write_all(bytes).unwrap();
+    }
+    archive.finish().unwrap();
+}
+
+/// The text with its only (or first) `old` replaced; a test that finds nothing to replace tests nothing.
+pub fn replace_once(text: &str, old: &str, new: &str) -> String {
+    assert!(text.contains(old), "no {old:?} to replace");
+    text.replacen(old, new, 1)
+}

@@ -1,0 +1,134 @@
+//! `cargo fmu SCENE.toml`: what it writes, what it says, and how it fails.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::{build, cargo_fmu, cargo_fmu_in, changed_feup, feup, feup_fmu, files, replace_once, root, stderr, stdout};
+use std::path::Path;
+use tempfile::TempDir;
+
+#[test]
+fn the_same_scene_gives_the_same_bytes() {
+    let directory = TempDir::new().unwrap();
+    let (one, other) = (directory.path().join("one.fmu"), directory.path().join("other.fmu"));
+    build(&feup(), &one);
+    // From another place, through another file of the same content, a clock tick later.
+    std::thread::sleep(std::time::Duration::from_millis(2100));
+    let copy = directory.path().join("scenes");
+    std::fs::create_dir_all(directory.path().join("records")).unwrap();
+    std::fs::create_dir_all(&copy).unwrap();
+    let record = "records/el_centro_1940_ns.csv";
+    std::fs::copy(root().join("examples").join(record), directory.path().join(record)).unwrap();
+    std::fs::copy(feup(), copy.join("feup.toml")).unwrap();
+    build(&copy.join("feup.toml"), &other);
+    assert!(std::fs::read(one).unwrap() == std::fs::read(other).unwrap());
+}
+
+#[test]
+fn another_scene_gives_another_guid() {
+    let guid = |fmu: &Path| {
+        let description = String::from_utf8(files(fmu)[0].1.clone()).unwrap();
+        description.split("guid=\"").nth(1).unwrap().split('"').next().unwrap().to_owned()
+    };
+    let directory = TempDir::new().unwrap();
+    let scene = changed_feup(directory.path(), |text| replace_once(text, "gap = 0.005", "gap = 0.006"));
+    let fmu = directory.path().join("other.fmu");
+    build(&scene, &fmu);
+    assert_ne!(guid(&fmu), guid(feup_fmu()));
+}
+
+#[test]
+fn the_archive_has_the_layout_of_fmi() {
+    let names: Vec<String> = files(feup_fmu()).into_iter().map(|(name, _)| name).collect();
+    let library = if cfg!(windows) { "binaries/win64/FeupFrames.dll" } else { "binaries/linux64/FeupFrames.so" };
+    assert_eq!(
+        names,
+        [
+            "modelDescription.xml",
+            library,
+            "resources/scene.toml",
+            "resources/record.csv",
+            "documentation/licenses/license.txt",
+            "documentation/licenses/LICENSE-APACHE",
+            "documentation/licenses/LICENSE-MIT",
+        ]
+    );
+}
+
+#[test]
+fn the_default_scene_goes_to_the_default_place_and_says_what_happened() {
+    let fmu = root().join("target/fmu/FeupFrames.fmu");
+    let _ = std::fs::remove_file(&fmu);
+    let output = cargo_fmu(&[]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(stderr(&output), "", "quiet in a pipe");
+    assert!(fmu.is_file());
+    let said = stdout(&output);
+    // Frequencies as in the seed paper, section 3.2.
+    for expected in ["2.7774, 7.2712 Hz", "2.0000, 5.6038, 8.0977 Hz", "0 s to 20 s (stop_time of the scene)", "guid"] {
+        assert!(said.contains(expected), "no {expected:?} in\n{said}");
+    }
+}
+
+#[test]
+fn the_scene_is_relative_to_the_current_directory() {
+    let directory = TempDir::new().unwrap();
+    changed_feup(directory.path(), str::to_owned);
+    let output = cargo_fmu_in(directory.path(), &["scene.toml", "-o", "sub/here.fmu"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(directory.path().join("sub/here.fmu").is_file());
+}
+
+#[test]
+fn every_problem_is_named_and_an_old_fmu_stays() {
+    let directory = TempDir::new().unwrap();
+    let scene = changed_feup(directory.path(), |text| {
+        let text = replace_once(text, "mass = [3.65, 3.65]", "mass = [3.65, -1.0]");
+        let text = replace_once(&text, "restitution = 0.65", "restitution = 1.4");
+        replace_once(&text, "[outputs]", "[outputs]\nnonsense = 1")
+    });
+    let fmu = directory.path().join("old.fmu");
+    std::fs::write(&fmu, "old").unwrap();
+    let output = cargo_fmu(&[scene.to_str().unwrap(), "-o", fmu.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(stdout(&output), "");
+    let said = stderr(&output);
+    for expected in ["left.mass[2] = -1", "contact[1].restitution = 1.4: expected 0 < e <= 1", "nonsense"] {
+        assert!(said.contains(expected), "no {expected:?} in\n{said}");
+    }
+    assert!(!said.contains("panicked"), "{said}");
+    assert_eq!(std::fs::read_to_string(&fmu).unwrap(), "old");
+    assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 3, "nothing half-written is left");
+}
+
+#[test]
+fn what_cannot_be_read_or_written_is_named() {
+    let directory = TempDir::new().unwrap();
+    let refused = |arguments: &[&str], expected: &str| {
+        let output = cargo_fmu(arguments);
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+        assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+        assert!(!stderr(&output).contains("panicked"), "{}", stderr(&output));
+    };
+    refused(&["no/such/scene.toml"], "no/such/scene.toml");
+    refused(&[directory.path().to_str().unwrap()], directory.path().to_str().unwrap());
+    let scene = changed_feup(directory.path(), |text| replace_once(text, "record.csv", "elsewhere.csv"));
+    refused(&[scene.to_str().unwrap()], "elsewhere.csv");
+    let scene = changed_feup(directory.path(), str::to_owned);
+    refused(&[scene.to_str().unwrap(), "-o", directory.path().to_str().unwrap()], "is a directory");
+    std::fs::write(directory.path().join("file"), "").unwrap();
+    let below = directory.path().join("file/x.fmu");
+    refused(&[scene.to_str().unwrap(), "-o", below.to_str().unwrap()], "cannot write");
+    std::fs::write(&scene, [0xff, 0xfe, 0x00]).unwrap();
+    refused(&[scene.to_str().unwrap()], scene.to_str().unwrap());
+}
+
+#[test]
+fn wrong_usage_has_its_own_exit_code() {
+    for arguments in [&["--nonsense"][..], &["a.toml", "b.toml"], &["check"], &["-o"], &["check", "a.fmu", "b.fmu"]] {
+        let output = cargo_fmu(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).contains("try '--help'"), "{}", stderr(&output));
+        assert_eq!(stdout(&output), "");
+    }
+}

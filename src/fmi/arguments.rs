@@ -1,0 +1,113 @@
+//! Pointers into slices, strings, flags.
+
+use super::types::{Boolean, Text};
+use crate::slave::{Refusal, StatusKind};
+use std::ffi::{CStr, c_int};
+use std::mem::MaybeUninit;
+use std::slice;
+
+/// An array of the caller's; null is good enough for no elements.
+///
+/// # Safety
+/// Where `array` is not null it points to `n` elements that nobody changes during `'a`.
+pub unsafe fn slice_in<'a, T>(name: &str, array: *const T, n: usize) -> Result<&'a [T], Refusal> {
+    if n == 0 {
+        return Ok(&[]);
+    }
+    check_array(name, array, n)?;
+    // SAFETY: not null, aligned, of a size that exists, and the rest is the caller's promise.
+    Ok(unsafe { slice::from_raw_parts(array, n) })
+}
+
+/// An array that the call fills; null is good enough for no elements.
+///
+/// # Safety
+/// Where `array` is not null it points to room for `n` elements that nobody else uses during `'a`.
+pub unsafe fn slice_out<'a, T>(name: &str, array: *mut T, n: usize) -> Result<&'a mut [MaybeUninit<T>], Refusal> {
+    if n == 0 {
+        return Ok(&mut []);
+    }
+    check_array(name, array, n)?;
+    // SAFETY: not null, aligned, of a size that exists, and the rest is the caller's promise.
+    Ok(unsafe { slice::from_raw_parts_mut(array.cast(), n) })
+}
+
+/// One value that the call fills.
+///
+/// # Safety
+/// As for [`slice_out`] with one element.
+pub unsafe fn store<T>(name: &str, place: *mut T, value: T) -> Result<(), Refusal> {
+    check_array(name, place, 1)?;
+    // SAFETY: not null, aligned, and the rest is the caller's promise.
+    unsafe { place.write(value) };
+    Ok(())
+}
+
+fn check_array<T>(name: &str, array: *const T, n: usize) -> Result<(), Refusal> {
+    let fits = n.checked_mul(size_of::<T>()).is_some_and(|bytes| isize::try_from(bytes).is_ok());
+    if array.is_null() || !array.is_aligned() || !fits {
+        return Err(Refusal::from(format!("{name} = {array:?}: expected {n} elements")));
+    }
+    Ok(())
+}
+
+/// A string of the caller's, verbatim.
+///
+/// # Safety
+/// `text` is null or ends with a zero, and nobody changes it during `'a`.
+pub unsafe fn bytes_in<'a>(name: &str, text: Text) -> Result<&'a CStr, Refusal> {
+    if text.is_null() {
+        return Err(Refusal::from(format!("{name} is null: expected a string")));
+    }
+    // SAFETY: not null, and the rest is the caller's promise.
+    Ok(unsafe { CStr::from_ptr(text) })
+}
+
+/// A string of the caller's.
+///
+/// # Safety
+/// As for [`bytes_in`].
+pub unsafe fn str_in<'a>(name: &str, text: Text) -> Result<&'a str, Refusal> {
+    // SAFETY: the caller's promise.
+    let bytes = unsafe { bytes_in(name, text) }?;
+    bytes.to_str().map_err(|error| Refusal::from(format!("{name} = {:?}: expected UTF-8 ({error})", bytes)))
+}
+
+/// An array of strings of the caller's, or everything that is wrong with them.
+///
+/// # Safety
+/// As for [`slice_in`] and [`bytes_in`].
+pub unsafe fn strs_in<'a>(name: &str, array: *const Text, n: usize) -> Result<Vec<&'a str>, Refusal> {
+    // SAFETY: the caller's promise.
+    let texts = unsafe { slice_in(name, array, n) }?;
+    let (mut strings, mut problems) = (Vec::new(), Vec::new());
+    for (i, &text) in texts.iter().enumerate() {
+        // SAFETY: the caller's promise.
+        match unsafe { str_in(&format!("{name}[{i}]"), text) } {
+            Ok(string) => strings.push(string),
+            Err(refusal) => problems.extend(refusal.problems),
+        }
+    }
+    Refusal::unless_empty(problems)?;
+    Ok(strings)
+}
+
+/// `fmi2Boolean`
+pub fn boolean(name: &str, value: Boolean) -> Result<bool, Refusal> {
+    match value {
+        0 => Ok(false),
+        1 => Ok(true),
+        _ => Err(Refusal::from(format!("{name} = {value}: expected fmi2False (0) or fmi2True (1)"))),
+    }
+}
+
+/// `fmi2StatusKind`
+pub fn status_kind(value: c_int) -> Result<StatusKind, Refusal> {
+    match value {
+        0 => Ok(StatusKind::DoStepStatus),
+        1 => Ok(StatusKind::PendingStatus),
+        2 => Ok(StatusKind::LastSuccessfulTime),
+        3 => Ok(StatusKind::Terminated),
+        _ => Err(Refusal::from(format!("fmi2StatusKind {value}: expected 0 to 3"))),
+    }
+}

@@ -1,0 +1,66 @@
+//! Functions of co-simulation: the step and its status.
+
+use super::arguments::{status_kind, store};
+use super::fence::with_instance;
+use super::types::{Boolean, Component, Text};
+use crate::slave::{Call, Status, StatusKind};
+use std::ffi::c_int;
+
+/// What the master says about its plans for earlier states is not used: masters say it wrongly.
+#[unsafe(no_mangle)]
+unsafe extern "C" fn fmi2DoStep(c: Component, current: f64, step: f64, _no_set_state_before: Boolean) -> c_int {
+    // SAFETY: as the module says.
+    unsafe { with_instance(c, Call::DoStep, |instance| instance.slave.do_step(current, step)) }
+}
+
+#[unsafe(no_mangle)]
+unsafe extern "C" fn fmi2GetStatus(c: Component, kind: c_int, _value: *mut c_int) -> c_int {
+    // SAFETY: as the module says.
+    unsafe {
+        with_instance(c, Call::GetStatus, |instance| Ok(instance.slave.no_status(Call::GetStatus, status_kind(kind)?)))
+    }
+}
+
+#[unsafe(no_mangle)]
+unsafe extern "C" fn fmi2GetRealStatus(c: Component, kind: c_int, value: *mut f64) -> c_int {
+    // SAFETY: as the module says.
+    unsafe {
+        with_instance(c, Call::GetRealStatus, |instance| match status_kind(kind)? {
+            StatusKind::LastSuccessfulTime => {
+                store("value", value, instance.slave.last_successful_time()).map(Status::from)
+            }
+            other => Ok(instance.slave.no_status(Call::GetRealStatus, other)),
+        })
+    }
+}
+
+#[unsafe(no_mangle)]
+unsafe extern "C" fn fmi2GetIntegerStatus(c: Component, kind: c_int, _value: *mut c_int) -> c_int {
+    // SAFETY: as the module says.
+    unsafe {
+        with_instance(c, Call::GetIntegerStatus, |instance| {
+            Ok(instance.slave.no_status(Call::GetIntegerStatus, status_kind(kind)?))
+        })
+    }
+}
+
+#[unsafe(no_mangle)]
+unsafe extern "C" fn fmi2GetBooleanStatus(c: Component, kind: c_int, value: *mut Boolean) -> c_int {
+    // SAFETY: as the module says.
+    unsafe {
+        with_instance(c, Call::GetBooleanStatus, |instance| match status_kind(kind)? {
+            StatusKind::Terminated => store("value", value, 0).map(Status::from),
+            other => Ok(instance.slave.no_status(Call::GetBooleanStatus, other)),
+        })
+    }
+}
+
+#[unsafe(no_mangle)]
+unsafe extern "C" fn fmi2GetStringStatus(c: Component, kind: c_int, _value: *mut Text) -> c_int {
+    // SAFETY: as the module says.
+    unsafe {
+        with_instance(c, Call::GetStringStatus, |instance| {
+            Ok(instance.slave.no_status(Call::GetStringStatus, status_kind(kind)?))
+        })
+    }
+}

@@ -1,0 +1,100 @@
+//! Getting and setting values by value reference.
+
+use super::{Phase, Refusal, Slave};
+use crate::variables::{Row, Slot, Value};
+
+impl Slave {
+    /// Reads each variable in turn and hands over its place and value; `take` is `None` where it is not of `wanted` type.
+    pub fn get(
+        &mut self,
+        references: &[u32],
+        wanted: &str,
+        mut take: impl FnMut(usize, Value<'_>) -> Option<()>,
+    ) -> Result<(), Refusal> {
+        let mut problems = Vec::new();
+        for (i, &reference) in references.iter().enumerate() {
+            let Some(slot) = self.table.row(reference).map(|row| row.slot) else {
+                problems.push(self.unknown(reference));
+                continue;
+            };
+            let value = match slot {
+                Slot::Input(input) => Value::Real(self.inputs.read(input)),
+                Slot::Parameter(parameter) => self.settings.read(parameter),
+                Slot::Frequency(side, mode) => Value::Real(self.start()?.frequency(side, mode)),
+                Slot::Output(output) => self.start()?.now().read(output),
+            };
+            if take(i, value).is_none() {
+                problems.push(self.wrong_type(reference, wanted));
+            }
+        }
+        Refusal::unless_empty(problems)
+    }
+
+    /// Sets each variable to the value of its place: all of them, or none where anything is wrong.
+    pub fn set<'v>(&mut self, references: &[u32], value: impl Fn(usize) -> Value<'v>) -> Result<(), Refusal> {
+        let pairs = || references.iter().enumerate().map(|(i, &reference)| (reference, value(i)));
+        let problems = pairs().filter_map(|(reference, value)| self.refuse(reference, value));
+        Refusal::unless_empty(problems.collect())?;
+        self.set_parameters(pairs())?;
+        for (reference, value) in pairs() {
+            if let (Some(Slot::Input(input)), Value::Real(value)) = (self.table.row(reference).map(|r| r.slot), value) {
+                self.inputs.write(input, value);
+                if let Some(simulation) = &mut self.simulation {
+                    simulation.set_input(input, value);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What is wrong with setting a variable now, by itself.
+    fn refuse(&self, reference: u32, value: Value<'_>) -> Option<String> {
+        let Some(row) = self.table.row(reference) else { return Some(self.unknown(reference)) };
+        if row.ty.name() != value.type_name() {
+            return Some(self.wrong_type(reference, value.type_name()));
+        }
+        match (row.slot, self.phase) {
+            (Slot::Input(_), _) | (Slot::Parameter(_), Phase::Instantiated | Phase::Initialization) => {}
+            (Slot::Parameter(_), _) => {
+                return Some(format!(
+                    "{}: a fixed parameter can only be set before the end of initialisation",
+                    row.name
+                ));
+            }
+            (Slot::Frequency(..) | Slot::Output(_), _) => {
+                return Some(format!("{}: computed by the FMU, it cannot be set", row.name));
+            }
+        }
+        match value {
+            Value::Real(value) if !value.is_finite() => {
+                Some(format!("{} = {value}: expected a finite number", row.name))
+            }
+            _ => None,
+        }
+    }
+
+    /// Takes the parameters over if the scene that they make passes its checks.
+    fn set_parameters<'v>(&mut self, pairs: impl Iterator<Item = (u32, Value<'v>)>) -> Result<(), Refusal> {
+        let mut changed = None;
+        for (reference, value) in pairs {
+            if let Some(&Row { slot: Slot::Parameter(parameter), .. }) = self.table.row(reference) {
+                changed.get_or_insert_with(|| self.settings.clone()).write(parameter, value)?;
+            }
+        }
+        if let Some(changed) = changed {
+            changed.check()?;
+            (self.settings, self.simulation) = (changed, None);
+        }
+        Ok(())
+    }
+
+    fn unknown(&self, reference: u32) -> String {
+        format!("value reference {reference}: expected one below {}", self.table.rows.len())
+    }
+
+    fn wrong_type(&self, reference: u32, wanted: &str) -> String {
+        let row = self.table.row(reference).map(|row| (row.name.as_str(), row.ty.name()));
+        let (name, ty) = row.unwrap_or_default();
+        format!("{name} (value reference {reference}) is {ty}, not {wanted}")
+    }
+}

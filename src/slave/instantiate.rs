@@ -1,0 +1,27 @@
+//! From what a master passes to an instance, or everything that is wrong with it.
+
+use super::resource_location::paths;
+use super::{Log, Refusal, Slave};
+use crate::description::Package;
+use crate::scene::SCENE_RESOURCE;
+
+/// Loads the resources of the FMU and checks that they are those of the description.
+pub fn instantiate(guid: &str, resource_location: &[u8], log: Log) -> Result<Slave, Refusal> {
+    let candidates = paths(resource_location);
+    let shown = String::from_utf8_lossy(resource_location);
+    if candidates.is_empty() {
+        return Err(Refusal::from(format!("fmuResourceLocation {shown:?}: expected a directory of this machine")));
+    }
+    let Some(directory) = candidates.iter().find(|directory| directory.join(SCENE_RESOURCE).is_file()) else {
+        let expected = format!("expected the resources directory of the FMU, with {SCENE_RESOURCE} in it");
+        return Err(Refusal::from(format!("fmuResourceLocation {shown:?}: {expected}")));
+    };
+    let package = Package::from_resources(directory)?;
+    let expected = package.guid();
+    if guid != expected {
+        return Err(Refusal::from(format!(
+            "fmuGUID {guid:?}: expected {expected:?}, that of the scene in the resources"
+        )));
+    }
+    Ok(Slave::new(package, log))
+}

@@ -1,0 +1,208 @@
+//! The rows of the table: which variables a scene has, and what a user reads about them.
+
+use super::{
+    ContactOutput, EnergyOutput, Input, Output, Parameter, Row, Slot, Table, Type, Unit, Variability, building,
+};
+use crate::contact::LawKey;
+use crate::engine::Side;
+use crate::scene::{Building, ContactPair, Damping, Scene, Stiffness};
+
+// The motion that the nominal values stand for: m, m/s and m/s2.
+const DISPLACEMENT: f64 = 0.01;
+const VELOCITY: f64 = 0.1;
+const ACCELERATION: f64 = 1.0;
+
+const ONE: Type = Type::Real(Unit::One);
+const METRE: Type = Type::Real(Unit::Metre);
+const METRE_PER_SECOND: Type = Type::Real(Unit::MetrePerSecond);
+const METRE_PER_SECOND_SQUARED: Type = Type::Real(Unit::MetrePerSecondSquared);
+const NEWTON: Type = Type::Real(Unit::Newton);
+const NEWTON_SECOND: Type = Type::Real(Unit::NewtonSecond);
+const JOULE: Type = Type::Real(Unit::Joule);
+
+impl Table {
+    /// The variables of a scene.
+    pub fn new(scene: &Scene) -> Table {
+        let mut table = Table { rows: Vec::new() };
+        table.add_ground(scene);
+        for (side, name) in [(Side::Left, "left"), (Side::Right, "right")] {
+            let building = building(scene, side);
+            for floor in 0..building.mass.len() {
+                table.add_floor(building, (side, name), floor, scene.floor_forces);
+            }
+            table.add_building(building, (side, name));
+        }
+        for (p, pair) in scene.contacts.iter().enumerate() {
+            table.add_contact(p, pair);
+            table.add_law(p, pair);
+            let mass = scene.left.mass[pair.left_floor - 1] + scene.right.mass[pair.right_floor - 1];
+            table.add_contact_outputs(p, pair, mass);
+        }
+        table
+            .add(Output::Impacts, "impacts", Type::Integer, "contact episodes begun so far, all contacts")
+            .at_least(0.0);
+        if scene.energy {
+            table.add_energy(scene.left.mass.iter().chain(&scene.right.mass).sum());
+        }
+        let about = "error of each contact episode, relative to the velocities in it";
+        table.add(Parameter::RelativeTolerance, "solver.relative_tolerance", ONE, about).at_least(0.0);
+        table
+    }
+
+    fn add_ground(&mut self, scene: &Scene) {
+        let (name, ty) = ("ground.acceleration", METRE_PER_SECOND_SQUARED);
+        if scene.ground.record.is_none() {
+            let about = "ground acceleration, positive to the right";
+            self.add(Input::GroundAcceleration, name, ty, about).nominal(ACCELERATION);
+            return;
+        }
+        let about = "ground acceleration of the scaled record, positive to the right";
+        self.add(Output::GroundAcceleration, name, ty, about).nominal(ACCELERATION);
+        self.add(Parameter::GroundScale, "ground.scale", ONE, "factor on the record");
+        let about = "path of another record file (CSV or AT2) to run instead; empty: the one inside the FMU";
+        self.add(Parameter::GroundRecord, "ground.record", Type::String, about);
+    }
+
+    fn add_floor(&mut self, building: &Building, (side, name): (Side, &str), floor: usize, floor_forces: bool) {
+        let i = floor + 1;
+        if floor_forces {
+            let about = format!("external force on floor {i}, positive to the right");
+            let row = self.add(Input::Force(side, floor), &format!("{name}.force[{i}]"), NEWTON, &about);
+            row.nominal(building.mass[floor] * ACCELERATION);
+        }
+        for (output, quantity, ty, frame, scale) in [
+            (Output::Displacement(side, floor), "displacement", METRE, "relative to the ground", DISPLACEMENT),
+            (Output::Velocity(side, floor), "velocity", METRE_PER_SECOND, "relative to the ground", VELOCITY),
+            (Output::Acceleration(side, floor), "acceleration", METRE_PER_SECOND_SQUARED, "absolute", ACCELERATION),
+        ] {
+            let about = format!("{quantity} of floor {i}, {frame}");
+            self.add(output, &format!("{name}.{quantity}[{i}]"), ty, &about).nominal(scale);
+        }
+        let about = format!("largest drift of storey {i} so far, also between communication points");
+        let row = self.add(Output::PeakDrift(side, floor), &format!("{name}.peak_drift[{i}]"), METRE, &about);
+        row.at_least(0.0).nominal(DISPLACEMENT);
+        let (about, ty) = (format!("mass of floor {i}"), Type::Real(Unit::Kilogram));
+        self.add(Parameter::Mass(side, floor), &format!("{name}.mass[{i}]"), ty, &about).at_least(0.0);
+        if let Stiffness::Shear(_) = building.stiffness {
+            let (about, ty) = (format!("lateral stiffness of storey {i}"), Type::Real(Unit::NewtonPerMetre));
+            self.add(Parameter::Stiffness(side, floor), &format!("{name}.stiffness[{i}]"), ty, &about).at_least(0.0);
+        }
+    }
+
+    fn add_building(&mut self, building: &Building, (side, name): (Side, &str)) {
+        let about = "force of the building on the ground: sum of K u + C v over its floors";
+        let row = self.add(Output::BaseShear(side), &format!("{name}.base_shear"), NEWTON, about);
+        row.nominal(building.mass.iter().sum::<f64>() * ACCELERATION);
+        if let Damping::Ratio(_) = building.damping {
+            let about = "ratio of critical damping in every mode";
+            self.add(Parameter::DampingRatio(side), &format!("{name}.damping_ratio"), ONE, about).at_least(0.0);
+        }
+        for mode in 0..building.mass.len() {
+            let (i, ty) = (mode + 1, Type::Real(Unit::Hertz));
+            let about = format!("natural frequency of mode {i} of the {name} building alone");
+            self.add(Slot::Frequency(side, mode), &format!("{name}.frequency[{i}]"), ty, &about).at_least(0.0);
+        }
+    }
+
+    fn add_contact(&mut self, p: usize, pair: &ContactPair) {
+        let about = format!("clear distance at rest {}", between(pair));
+        self.add(Parameter::Gap(p), &format!("contact[{}].gap", p + 1), METRE, &about);
+    }
+
+    fn add_law(&mut self, p: usize, pair: &ContactPair) {
+        let keys = pair.law.kind.info().keys;
+        // Where the exponent is a parameter, the unit of the stiffness follows it.
+        let stiffness_unit =
+            if keys.contains(&LawKey::Exponent) { Unit::NewtonPerMetreToTheExponent } else { Unit::NewtonPerMetre };
+        for key in keys {
+            let (parameter, name, unit, max, about) = match key {
+                LawKey::Stiffness => {
+                    (Parameter::ContactStiffness(p), "stiffness", stiffness_unit, None, "stiffness of the contact")
+                }
+                LawKey::Exponent => {
+                    (Parameter::Exponent(p), "exponent", Unit::One, Some(3.0), "exponent of the penetration")
+                }
+                LawKey::Restitution => {
+                    (Parameter::Restitution(p), "restitution", Unit::One, Some(1.0), "coefficient of restitution")
+                }
+            };
+            let name = format!("contact[{}].{name}", p + 1);
+            let row = self.add(parameter, &name, Type::Real(unit), &format!("{about} {}", between(pair)));
+            row.max = max;
+            row.at_least(if *key == LawKey::Exponent { 1.0 } else { 0.0 });
+        }
+    }
+
+    fn add_contact_outputs(&mut self, p: usize, pair: &ContactPair, mass: f64) {
+        use ContactOutput as C;
+        let (force, impulse, energy) = (mass * ACCELERATION, mass * VELOCITY, mass * VELOCITY * VELOCITY);
+        for (output, name, ty, scale, about) in [
+            (C::Force, "force", NEWTON, force, "contact force, compression positive,"),
+            (C::Penetration, "penetration", METRE, DISPLACEMENT, "penetration, negative while apart,"),
+            (C::Active, "active", Type::Boolean, 1.0, "contact now"),
+            (C::Impacts, "impacts", Type::Integer, 1.0, "contact episodes begun so far"),
+            (C::PeakForce, "peak_force", NEWTON, force, "largest force so far, also between communication points,"),
+            (C::Impulse, "impulse", NEWTON_SECOND, impulse, "integral of the force so far"),
+            (C::DissipatedEnergy, "dissipated_energy", JOULE, energy, "work done so far on the contact"),
+            (C::ApproachVelocity, "approach_velocity", METRE_PER_SECOND, VELOCITY, "latest approach velocity"),
+        ] {
+            let (name, about) = (format!("contact[{}].{name}", p + 1), format!("{about} {}", between(pair)));
+            let row = self.add(Output::Contact(p, output), &name, ty, &about);
+            row.nominal(scale);
+            if matches!(output, C::Impacts | C::PeakForce) {
+                row.at_least(0.0);
+            }
+            if output == C::ApproachVelocity {
+                row.variability = Variability::Discrete;
+            }
+        }
+    }
+
+    fn add_energy(&mut self, mass: f64) {
+        use EnergyOutput as E;
+        for (term, name, about) in [
+            (E::Input, "input", "work of the inertia forces of the ground motion so far"),
+            (E::Kinetic, "kinetic", "kinetic energy of the motion relative to the ground"),
+            (E::Strain, "strain", "strain energy of the storeys"),
+            (E::Viscous, "viscous", "energy dissipated by structural damping so far"),
+            (E::Impact, "impact", "work done on the contacts so far, with what their springs will give back"),
+            (E::External, "external", "work of the external floor forces so far"),
+        ] {
+            let row = self.add(Output::Energy(term), &format!("energy.{name}"), JOULE, about);
+            row.nominal(mass * VELOCITY * VELOCITY);
+        }
+        let about = "imbalance of the energy account relative to the largest magnitude of its terms so far";
+        self.add(Output::Energy(E::Residual), "energy.residual", ONE, about);
+    }
+
+    fn add(&mut self, slot: impl Into<Slot>, name: &str, ty: Type, description: &str) -> &mut Row {
+        let slot = slot.into();
+        let variability = match slot {
+            Slot::Parameter(_) | Slot::Frequency(..) => Variability::Fixed,
+            Slot::Input(_) | Slot::Output(_) if matches!(ty, Type::Real(_)) => Variability::Continuous,
+            Slot::Input(_) | Slot::Output(_) => Variability::Discrete,
+        };
+        let (name, description) = (name.to_owned(), description.to_owned());
+        let place = self.rows.len();
+        self.rows.push(Row { name, slot, variability, ty, min: None, max: None, nominal: None, description });
+        &mut self.rows[place]
+    }
+}
+
+impl Row {
+    fn at_least(&mut self, min: f64) -> &mut Row {
+        self.min = Some(min);
+        self
+    }
+
+    /// Reals only, and where the numbers of the scene give a magnitude that the standard accepts.
+    fn nominal(&mut self, value: f64) -> &mut Row {
+        let accepted = matches!(self.ty, Type::Real(_)) && value > 0.0 && value.is_finite();
+        self.nominal = accepted.then_some(value);
+        self
+    }
+}
+
+fn between(pair: &ContactPair) -> String {
+    format!("between left floor {} and right floor {}", pair.left_floor, pair.right_floor)
+}

@@ -1,0 +1,87 @@
+//! The units of the variables.
+
+/// A unit, as the description declares it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Unit {
+    /// Dimensionless.
+    One,
+    /// m
+    Metre,
+    /// m/s
+    MetrePerSecond,
+    /// m/s2
+    MetrePerSecondSquared,
+    /// Hz
+    Hertz,
+    /// kg
+    Kilogram,
+    /// N
+    Newton,
+    /// N s
+    NewtonSecond,
+    /// N/m
+    NewtonPerMetre,
+    /// N/m^n, n being the `exponent` parameter of the same contact. FMI base units have whole exponents and a unit
+    /// cannot follow a parameter, so this one is declared by its name alone.
+    NewtonPerMetreToTheExponent,
+    /// J
+    Joule,
+}
+
+/// What the description says of a unit.
+#[derive(Clone, Copy, Debug)]
+pub struct UnitInfo {
+    /// Name in the description.
+    pub name: &'static str,
+    /// Powers of the SI base units; `None` where they are not whole numbers.
+    pub base: Option<&'static [(&'static str, i32)]>,
+    /// Name and factor of the unit to show to a person: shown value = factor * value.
+    pub display: Option<(&'static str, f64)>,
+}
+
+/// g, m/s2: the standard acceleration of free fall.
+const STANDARD_GRAVITY: f64 = 9.80665;
+
+impl Unit {
+    /// All units, in the order of the description.
+    pub const ALL: [Unit; 11] = [
+        Unit::One,
+        Unit::Metre,
+        Unit::MetrePerSecond,
+        Unit::MetrePerSecondSquared,
+        Unit::Hertz,
+        Unit::Kilogram,
+        Unit::Newton,
+        Unit::NewtonSecond,
+        Unit::NewtonPerMetre,
+        Unit::NewtonPerMetreToTheExponent,
+        Unit::Joule,
+    ];
+
+    /// What the description says of this unit.
+    pub const fn info(self) -> UnitInfo {
+        match self {
+            Unit::One => unit("1", Some(&[]), None),
+            Unit::Metre => unit("m", Some(&[("m", 1)]), Some(("mm", 1e3))),
+            Unit::MetrePerSecond => unit("m/s", Some(&[("m", 1), ("s", -1)]), None),
+            Unit::MetrePerSecondSquared => {
+                unit("m/s2", Some(&[("m", 1), ("s", -2)]), Some(("g", 1.0 / STANDARD_GRAVITY)))
+            }
+            Unit::Hertz => unit("Hz", Some(&[("s", -1)]), None),
+            Unit::Kilogram => unit("kg", Some(&[("kg", 1)]), Some(("t", 1e-3))),
+            Unit::Newton => unit("N", Some(&[("kg", 1), ("m", 1), ("s", -2)]), Some(("kN", 1e-3))),
+            Unit::NewtonSecond => unit("N.s", Some(&[("kg", 1), ("m", 1), ("s", -1)]), Some(("kN.s", 1e-3))),
+            Unit::NewtonPerMetre => unit("N/m", Some(&[("kg", 1), ("s", -2)]), Some(("kN/m", 1e-3))),
+            Unit::NewtonPerMetreToTheExponent => unit("N/m^exponent", None, None),
+            Unit::Joule => unit("J", Some(&[("kg", 1), ("m", 2), ("s", -2)]), Some(("kJ", 1e-3))),
+        }
+    }
+}
+
+const fn unit(
+    name: &'static str,
+    base: Option<&'static [(&'static str, i32)]>,
+    display: Option<(&'static str, f64)>,
+) -> UnitInfo {
+    UnitInfo { name, base, display }
+}

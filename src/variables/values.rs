@@ -1,0 +1,284 @@
+//! Reading and writing what a slot stands for: each one match over all slots.
+
+use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, building};
+use crate::engine::{ContactPoint, EnergyPoint, Model, Point, Side, State};
+use crate::record::Record;
+use crate::scene::{Building, Damping, Problem, Scaling, Scene, SceneError, Stiffness, read_record};
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A value of a variable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value<'a> {
+    /// `Real`, in the unit of the row.
+    Real(f64),
+    /// `Integer`
+    Integer(i32),
+    /// `Boolean`
+    Boolean(bool),
+    /// `String`
+    String(&'a str),
+}
+
+impl<'a> Value<'a> {
+    /// The number, if it is one.
+    pub const fn real(self) -> Option<f64> {
+        if let Value::Real(value) = self { Some(value) } else { None }
+    }
+
+    /// The integer, if it is one.
+    pub const fn integer(self) -> Option<i32> {
+        if let Value::Integer(value) = self { Some(value) } else { None }
+    }
+
+    /// The Boolean, if it is one.
+    pub const fn boolean(self) -> Option<bool> {
+        if let Value::Boolean(value) = self { Some(value) } else { None }
+    }
+
+    /// The string, if it is one.
+    pub const fn string(self) -> Option<&'a str> {
+        if let Value::String(value) = self { Some(value) } else { None }
+    }
+
+    /// Name of the FMI type.
+    pub const fn type_name(self) -> &'static str {
+        match self {
+            Value::Real(_) => "Real",
+            Value::Integer(_) => "Integer",
+            Value::Boolean(_) => "Boolean",
+            Value::String(_) => "String",
+        }
+    }
+}
+
+/// The parameters: a scene and the record that runs.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// With every parameter that has been set.
+    pub scene: Scene,
+    /// What `scene.ground.record` names, unless `ground.record` names another.
+    packaged_record: Option<Arc<Record>>,
+    /// `ground.record` and what it names.
+    other_record: Option<(String, Arc<Record>)>,
+}
+
+impl Settings {
+    /// The parameters as the scene gives them.
+    pub fn new(scene: Scene, record: Option<Record>) -> Settings {
+        Settings { scene, packaged_record: record.map(Arc::new), other_record: None }
+    }
+
+    /// The record that runs.
+    pub fn record(&self) -> Option<&Record> {
+        let other = self.other_record.as_ref().map(|(_, record)| record);
+        other.or(self.packaged_record.as_ref()).map(Arc::as_ref)
+    }
+
+    /// The value of a parameter. A parameter that the scene does not have reads as 0; no row of its table names one.
+    pub fn read(&self, parameter: Parameter) -> Value<'_> {
+        let scene = &self.scene;
+        Value::Real(match parameter {
+            Parameter::GroundRecord => {
+                return Value::String(self.other_record.as_ref().map_or("", |(path, _)| path.as_str()));
+            }
+            Parameter::GroundScale => match scene.ground.scaling {
+                Scaling::Scale(factor) => factor,
+                scaling @ Scaling::Pga(_) => {
+                    self.record().and_then(|record| scaling.factor(record).ok()).unwrap_or_default()
+                }
+            },
+            Parameter::Mass(side, floor) => building(scene, side).mass[floor],
+            Parameter::Stiffness(side, storey) => match &building(scene, side).stiffness {
+                Stiffness::Shear(stiffness) => stiffness[storey],
+                Stiffness::Matrix(_) => 0.0,
+            },
+            Parameter::DampingRatio(side) => match building(scene, side).damping {
+                Damping::Ratio(ratio) => ratio,
+                Damping::Ratios(_) | Damping::Rayleigh { .. } | Damping::Matrix(_) => 0.0,
+            },
+            Parameter::Gap(p) => scene.contacts[p].gap,
+            Parameter::ContactStiffness(p) => scene.contacts[p].law.stiffness,
+            Parameter::Exponent(p) => scene.contacts[p].law.exponent,
+            Parameter::Restitution(p) => scene.contacts[p].law.restitution,
+            Parameter::RelativeTolerance => scene.solver.relative_tolerance,
+        })
+    }
+
+    /// Everything that is wrong with the numbers, by themselves and with the record.
+    pub fn check(&self) -> Result<(), SceneError> {
+        self.scene.check()?;
+        match self.record().map(|record| self.scene.ground.scaling.factor(record)) {
+            Some(Err(problem)) => Err(problem.into()),
+            Some(Ok(_)) | None => Ok(()),
+        }
+    }
+
+    /// Sets a parameter to a value of its row's type. [`Settings::check`] is for the caller: once, after everything that
+    /// is set together.
+    pub fn write(&mut self, parameter: Parameter, value: Value<'_>) -> Result<(), SceneError> {
+        let number = match value {
+            Value::Real(number) => number,
+            Value::String(path) => return self.choose_record(path),
+            Value::Integer(_) | Value::Boolean(_) => return Ok(()), // no parameter has these types
+        };
+        let scene = &mut self.scene;
+        match parameter {
+            Parameter::GroundRecord => {}
+            Parameter::GroundScale => scene.ground.scaling = Scaling::Scale(number),
+            Parameter::Mass(side, floor) => building_mut(scene, side).mass[floor] = number,
+            Parameter::Stiffness(side, storey) => {
+                if let Stiffness::Shear(stiffness) = &mut building_mut(scene, side).stiffness {
+                    stiffness[storey] = number;
+                }
+            }
+            Parameter::DampingRatio(side) => building_mut(scene, side).damping = Damping::Ratio(number),
+            Parameter::Gap(p) => scene.contacts[p].gap = number,
+            Parameter::ContactStiffness(p) => scene.contacts[p].law.stiffness = number,
+            Parameter::Exponent(p) => scene.contacts[p].law.exponent = number,
+            Parameter::Restitution(p) => scene.contacts[p].law.restitution = number,
+            Parameter::RelativeTolerance => scene.solver.relative_tolerance = number,
+        }
+        Ok(())
+    }
+
+    /// Another record file, or with an empty path again the packaged one.
+    fn choose_record(&mut self, path: &str) -> Result<(), SceneError> {
+        if path.is_empty() {
+            self.other_record = None;
+            return Ok(());
+        }
+        // A device or a pipe may have no end.
+        if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
+            let expected = "a record file, but it is none";
+            return Err(Problem::new("ground.record", format!("{path:?}"), expected).into());
+        }
+        let (record, _) = read_record(path, Path::new(path), self.scene.ground.scaling)?;
+        self.other_record = Some((path.to_owned(), Arc::new(record)));
+        Ok(())
+    }
+}
+
+/// The inputs.
+#[derive(Clone, Debug)]
+pub struct Inputs {
+    ground_acceleration: f64,
+    left_force: Vec<f64>,
+    right_force: Vec<f64>,
+}
+
+impl Inputs {
+    /// All 0.
+    pub fn new(scene: &Scene) -> Inputs {
+        let zeros = |building: &Building| vec![0.0; building.mass.len()];
+        Inputs { ground_acceleration: 0.0, left_force: zeros(&scene.left), right_force: zeros(&scene.right) }
+    }
+
+    /// The value of an input.
+    pub fn read(&self, input: Input) -> f64 {
+        match input {
+            Input::GroundAcceleration => self.ground_acceleration,
+            Input::Force(Side::Left, floor) => self.left_force[floor],
+            Input::Force(Side::Right, floor) => self.right_force[floor],
+        }
+    }
+
+    /// Sets an input.
+    pub fn write(&mut self, input: Input, value: f64) {
+        match input {
+            Input::GroundAcceleration => self.ground_acceleration = value,
+            Input::Force(Side::Left, floor) => self.left_force[floor] = value,
+            Input::Force(Side::Right, floor) => self.right_force[floor] = value,
+        }
+    }
+}
+
+impl Input {
+    /// Hands the value to the engine, which holds it from the present time on.
+    pub fn apply(self, value: f64, state: &mut State) {
+        match self {
+            Input::GroundAcceleration => state.set_ground_acceleration(value),
+            Input::Force(side, floor) => state.set_floor_force(side, floor, value),
+        }
+    }
+}
+
+/// The solution at one time.
+#[derive(Clone, Copy, Debug)]
+pub struct Instant<'a> {
+    /// What is solved.
+    pub model: &'a Model,
+    /// The solution.
+    pub state: &'a State,
+    /// What `model` observes in `state`.
+    pub point: &'a Point,
+}
+
+impl Instant<'_> {
+    /// The value of an output.
+    pub fn read(&self, output: Output) -> Value<'static> {
+        let Instant { model, state, point } = *self;
+        Value::Real(match output {
+            Output::GroundAcceleration => point.ground_acceleration,
+            Output::Displacement(side, floor) => model.displacement(point, side, floor),
+            Output::Velocity(side, floor) => model.velocity(point, side, floor),
+            Output::Acceleration(side, floor) => model.acceleration(point, side, floor),
+            Output::BaseShear(side) => model.base_shear(point, side),
+            Output::PeakDrift(side, storey) => model.peak_drift(state, side, storey),
+            Output::Contact(p, output) => return read_contact(&point.contacts[p], output),
+            Output::Impacts => return count(point.impacts),
+            Output::Energy(term) => read_energy(&point.energy.unwrap_or_default(), term),
+        })
+    }
+}
+
+fn read_contact(contact: &ContactPoint, output: ContactOutput) -> Value<'static> {
+    Value::Real(match output {
+        ContactOutput::Force => contact.force,
+        ContactOutput::Penetration => contact.penetration,
+        ContactOutput::Active => return Value::Boolean(contact.active),
+        ContactOutput::Impacts => return count(contact.impacts),
+        ContactOutput::PeakForce => contact.peak_force,
+        ContactOutput::Impulse => contact.impulse,
+        ContactOutput::DissipatedEnergy => contact.dissipated_energy,
+        ContactOutput::ApproachVelocity => contact.approach_velocity,
+    })
+}
+
+fn read_energy(energy: &EnergyPoint, term: EnergyOutput) -> f64 {
+    match term {
+        EnergyOutput::Input => energy.input,
+        EnergyOutput::Kinetic => energy.kinetic,
+        EnergyOutput::Strain => energy.strain,
+        EnergyOutput::Viscous => energy.viscous,
+        EnergyOutput::Impact => energy.impact,
+        EnergyOutput::External => energy.external,
+        EnergyOutput::Residual => energy.residual,
+    }
+}
+
+/// FMI integers have 32 bits: a count beyond stays at their largest.
+fn count(n: u64) -> Value<'static> {
+    Value::Integer(i32::try_from(n).unwrap_or(i32::MAX))
+}
+
+fn building_mut(scene: &mut Scene, side: Side) -> &mut Building {
+    match side {
+        Side::Left => &mut scene.left,
+        Side::Right => &mut scene.right,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_stay_at_the_largest_integer() {
+        let largest = i32::MAX as u64;
+        for (n, expected) in [(0, 0), (largest, i32::MAX), (largest + 1, i32::MAX), (u64::MAX, i32::MAX)] {
+            assert_eq!(count(n), Value::Integer(expected));
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! No memory is asked for once a run has started.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::{Run, record, scene};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+struct Counting;
+
+static CALLS: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: every call goes to the system's allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        CALLS.fetch_add(1, Ordering::Relaxed);
+        // SAFETY: the caller's contract is that of the system's allocator.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: as above.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// One test only: the count is of the whole process.
+#[test]
+fn a_run_allocates_nothing_after_its_start() {
+    let building = |mass: f64| {
+        format!(
+            "mass = [{mass:?}, {mass:?}, {mass:?}]\nstiffness = [2910.0, 2910.0, 2910.0]\ndamping = {{ ratio = 0.01 }}"
+        )
+    };
+    for (law, with_record) in [
+        ("law = \"kelvin_voigt_no_tension\"\nstiffness = 1.0e6\nrestitution = 0.6", true),
+        ("law = \"hertz\"\nstiffness = 1.0e7", true),
+        ("law = \"hertz\"\nstiffness = 1.0e7", false),
+    ] {
+        let contact = |floor| format!("[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = 0.005\n{law}");
+        let text = format!(
+            "name = \"A\"\n[left]\n{}\n[right]\n{}\n{}\n{}\n[outputs]\nenergy = true",
+            building(3.65),
+            building(5.0),
+            contact(2),
+            contact(3)
+        );
+        let mut scene = scene(&text);
+        let motion = record(0.02, &(0..500).map(|k| 3.0 * (f64::from(k) * 0.21).sin()).collect::<Vec<_>>());
+        if with_record {
+            scene.ground.record = Some("r.csv".into());
+        }
+        let mut run = Run::new(&scene, with_record.then_some(&motion));
+        run.episodes.reserve(10_000);
+        // The first reading makes the buffers of the point.
+        run.to(0.01);
+        let before = CALLS.load(Ordering::Relaxed);
+        for k in 2..=1000 {
+            run.state.set_ground_acceleration(motion.accelerations[k / 2 % 500]);
+            run.to(k as f64 * 0.01);
+        }
+        let calls = CALLS.load(Ordering::Relaxed) - before;
+        assert!(run.point.impacts > 10, "{law}: {} impacts", run.point.impacts);
+        assert_eq!(calls, 0, "{law}, record inside: {with_record}");
+    }
+}

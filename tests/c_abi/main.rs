@@ -1,0 +1,14 @@
+//! The compiled library through its C interface, as a master uses it and as it should not.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod arguments;
+mod instantiation;
+mod logging;
+mod outputs;
+mod sequence;
+mod stepping;
+mod symbols;
+mod values;

@@ -1,0 +1,71 @@
+//! What the library exports.
+
+use crate::support::{Fmu, SCENE, library_path};
+use object::Object;
+use std::collections::BTreeSet;
+use std::ffi::{CStr, c_char};
+
+const FUNCTIONS: [&str; 34] = [
+    "fmi2GetTypesPlatform",
+    "fmi2GetVersion",
+    "fmi2SetDebugLogging",
+    "fmi2Instantiate",
+    "fmi2FreeInstance",
+    "fmi2SetupExperiment",
+    "fmi2EnterInitializationMode",
+    "fmi2ExitInitializationMode",
+    "fmi2Terminate",
+    "fmi2Reset",
+    "fmi2GetReal",
+    "fmi2GetInteger",
+    "fmi2GetBoolean",
+    "fmi2GetString",
+    "fmi2SetReal",
+    "fmi2SetInteger",
+    "fmi2SetBoolean",
+    "fmi2SetString",
+    "fmi2GetFMUstate",
+    "fmi2SetFMUstate",
+    "fmi2FreeFMUstate",
+    "fmi2SerializedFMUstateSize",
+    "fmi2SerializeFMUstate",
+    "fmi2DeSerializeFMUstate",
+    "fmi2GetDirectionalDerivative",
+    "fmi2SetRealInputDerivatives",
+    "fmi2GetRealOutputDerivatives",
+    "fmi2DoStep",
+    "fmi2CancelStep",
+    "fmi2GetStatus",
+    "fmi2GetRealStatus",
+    "fmi2GetIntegerStatus",
+    "fmi2GetBooleanStatus",
+    "fmi2GetStringStatus",
+];
+
+#[test]
+fn exactly_the_functions_of_co_simulation_are_exported() {
+    let bytes = std::fs::read(library_path()).unwrap();
+    let file = object::File::parse(&*bytes).unwrap();
+    // On macOS C symbols begin with an underscore.
+    let name = |name: Option<&[u8]>| String::from_utf8_lossy(name.unwrap()).trim_start_matches('_').to_owned();
+    let exported = file.exports().unwrap().map(|export| name(export.unwrap().name().name())).collect::<BTreeSet<_>>();
+    assert_eq!(exported, FUNCTIONS.map(str::to_owned).into());
+}
+
+#[test]
+fn every_function_is_found_by_name() {
+    let fmu = Fmu::new(SCENE);
+    for name in FUNCTIONS {
+        let _ = fmu.symbol::<unsafe extern "C" fn()>(name);
+    }
+}
+
+#[test]
+fn version_and_platform() {
+    let fmu = Fmu::new(SCENE);
+    for (function, expected) in [("fmi2GetVersion", c"2.0"), ("fmi2GetTypesPlatform", c"default")] {
+        let function = fmu.symbol::<unsafe extern "C" fn() -> *const c_char>(function);
+        // SAFETY: both take nothing and return a constant string.
+        assert_eq!(unsafe { CStr::from_ptr(function()) }, expected);
+    }
+}

@@ -1,0 +1,252 @@
+//! `modelDescription.xml`: valid for an importer that is not ours, clean in what validators miss, stable.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod golden;
+mod lint;
+
+use fmi::model_description::fmi2::{Causality, ModelDescription, ScalarVariable, Variability, VariableType};
+use pounding::description::{Package, PackagedRecord};
+use pounding::record::Record;
+use pounding::scene::Scene;
+use support::{RECORD_SCENE, SCENE, record};
+
+const NO_CONTACT: &str = "name = \"Apart\"\ndescription = \"a < b & \\\"c\\\"\"\n\
+    [left]\nmass = [1e5]\nstiffness = [1e7]\ndamping = { matrix = [[1e3]] }\n\
+    [right]\nmass = [2e5]\nstiffness = [1e7]\ndamping = { ratio = 0 }\n";
+
+fn package(scene_text: &str) -> Package {
+    let scene = Scene::from_toml(scene_text).unwrap();
+    let record = scene.ground.record.is_some().then(|| {
+        let bytes = record().into_bytes();
+        PackagedRecord { resource_name: "record.csv".into(), record: Record::parse("r.csv", &bytes).unwrap(), bytes }
+    });
+    Package { scene_text: scene_text.to_owned(), scene, record }
+}
+
+fn describe(scene_text: &str) -> ModelDescription {
+    ModelDescription::from_string(&package(scene_text).model_description()).unwrap()
+}
+
+#[test]
+fn another_importer_finds_it_valid_and_so_does_the_lint() {
+    for scene in [SCENE, RECORD_SCENE, NO_CONTACT] {
+        let text = package(scene).model_description();
+        let description = ModelDescription::from_string(&text).unwrap();
+        let problems = description.validate().into_iter().map(|problem| problem.message).collect::<Vec<_>>();
+        assert!(problems.is_empty(), "{problems:#?}");
+        assert!(lint::findings(&text).is_empty(), "{:#?}", lint::findings(&text));
+    }
+}
+
+/// Name, causality and type of every variable, in the words of the contract with the users.
+#[test]
+fn a_scene_without_record_has_these_variables() {
+    let mut expected = vec!["ground.acceleration input Real m/s2", "impacts output Integer"];
+    let mut names = Vec::new();
+    for (side, floors) in [("left", 2), ("right", 3)] {
+        names.extend([format!("{side}.base_shear output Real N"), format!("{side}.damping_ratio parameter Real 1")]);
+        for i in 1..=floors {
+            names.extend(
+                [
+                    "force[i] input Real N",
+                    "displacement[i] output Real m",
+                    "velocity[i] output Real m/s",
+                    "acceleration[i] output Real m/s2",
+                    "peak_drift[i] output Real m",
+                    "mass[i] parameter Real kg",
+                    "stiffness[i] parameter Real N/m",
+                    "frequency[i] calculatedParameter Real Hz",
+                ]
+                .map(|line| format!("{side}.{}", line.replace("[i]", &format!("[{i}]")))),
+            );
+        }
+    }
+    for p in 1..=2 {
+        names.extend(
+            [
+                "gap parameter Real m",
+                "force output Real N",
+                "penetration output Real m",
+                "active output Boolean",
+                "impacts output Integer",
+                "peak_force output Real N",
+                "impulse output Real N.s",
+                "dissipated_energy output Real J",
+                "approach_velocity output Real m/s",
+            ]
+            .map(|line| format!("contact[{p}].{line}")),
+        );
+    }
+    expected.extend([
+        "contact[1].stiffness parameter Real N/m",
+        "contact[1].restitution parameter Real 1",
+        "contact[2].stiffness parameter Real N/m^exponent",
+        "contact[2].exponent parameter Real 1",
+        "energy.input output Real J",
+        "energy.kinetic output Real J",
+        "energy.strain output Real J",
+        "energy.viscous output Real J",
+        "energy.impact output Real J",
+        "energy.external output Real J",
+        "energy.residual output Real 1",
+        "solver.relative_tolerance parameter Real 1",
+    ]);
+    expected.extend(names.iter().map(String::as_str));
+    expected.sort_unstable();
+    let description = describe(SCENE);
+    let mut found = description.modelVariables.iter().map(in_words).collect::<Vec<_>>();
+    found.sort_unstable();
+    assert_eq!(found, expected);
+}
+
+fn in_words(variable: &ScalarVariable) -> String {
+    let causality = match variable.causality {
+        Causality::Parameter => "parameter",
+        Causality::CalculatedParameter => "calculatedParameter",
+        Causality::Input => "input",
+        Causality::Output => "output",
+        _ => "other",
+    };
+    let unit = match &variable.variableType {
+        VariableType::Real { unit, .. } => format!(" {}", unit.as_deref().unwrap_or("without unit")),
+        _ => String::new(),
+    };
+    format!("{} {causality} {}{unit}", variable.name, variable.variableType.name())
+}
+
+#[test]
+fn what_a_scene_does_not_have_is_no_variable() {
+    let names = |scene| describe(scene).modelVariables.iter().map(in_words).collect::<Vec<_>>();
+    let under_a_record = names(RECORD_SCENE);
+    for expected in [
+        "ground.acceleration output Real m/s2",
+        "ground.scale parameter Real 1",
+        "ground.record parameter String",
+        "right.stiffness[3] parameter Real N/m",
+        "contact[1].restitution parameter Real 1",
+    ] {
+        assert!(under_a_record.iter().any(|name| name == expected), "{expected}");
+    }
+    for absent in ["left.stiffness", "damping_ratio", "force[", "energy.", "contact[1].exponent", "contact[2]"] {
+        assert!(!under_a_record.iter().any(|name| name.contains(absent)), "{absent}");
+    }
+    let apart = names(NO_CONTACT);
+    assert!(apart.iter().any(|name| name.starts_with("right.damping_ratio")));
+    assert!(!apart.iter().any(|name| name.contains("contact") || name.contains("left.damping")));
+}
+
+#[test]
+fn parameters_are_fixed_and_events_are_discrete() {
+    for variable in describe(SCENE).modelVariables {
+        let expected = match (&variable.causality, variable.variableType.name()) {
+            (Causality::Parameter | Causality::CalculatedParameter, _) => Variability::Fixed,
+            (_, "Real") if !variable.name.ends_with("approach_velocity") => Variability::Continuous,
+            _ => Variability::Discrete,
+        };
+        assert_eq!(variable.variability, expected, "{}", variable.name);
+    }
+}
+
+#[test]
+fn outputs_depend_at_once_on_the_force_on_their_own_floor_only() {
+    let description = describe(SCENE);
+    for unknown in &description.outputs {
+        let name = &description.variable_by_index(unknown.index).unwrap().name;
+        let known = unknown.dependencies.as_ref().unwrap_or_else(|| panic!("{name}: all dependencies"));
+        let known = known.iter().map(|index| description.variable_by_index(*index).unwrap().name.clone());
+        let expected = name.contains(".acceleration").then(|| name.replace("acceleration", "force"));
+        let expected = expected.filter(|force| force != "ground.force").into_iter().collect::<Vec<_>>();
+        assert_eq!(known.collect::<Vec<_>>(), expected, "{name}");
+    }
+}
+
+#[test]
+fn initial_unknowns_name_what_they_are_made_of() {
+    let description = describe(SCENE);
+    let known_of = |name: &str| {
+        let index = u32::try_from(description.variable_index_by_name(name).unwrap()).unwrap();
+        let position = [index, index + 1];
+        let unknown = description.initialUnknowns.iter().find(|unknown| {
+            position.contains(&unknown.index) && description.variable_by_index(unknown.index).unwrap().name == name
+        });
+        let known = unknown.unwrap().dependencies.clone().unwrap();
+        known.iter().map(|index| description.variable_by_index(*index).unwrap().name.clone()).collect::<Vec<_>>()
+    };
+    let building = ["left.mass[1]", "left.stiffness[1]", "left.mass[2]", "left.stiffness[2]"];
+    assert_eq!(known_of("left.frequency[2]"), building);
+    assert_eq!(known_of("left.base_shear").len(), 5, "and the damping ratio");
+    assert_eq!(known_of("right.displacement[1]"), [""; 0]);
+    assert_eq!(known_of("contact[2].penetration"), ["contact[2].gap"]);
+    assert_eq!(known_of("impacts"), ["contact[1].gap", "contact[2].gap"]);
+    assert!(known_of("left.acceleration[2]").contains(&"contact[2].exponent".to_owned()));
+    assert!(!known_of("left.acceleration[2]").contains(&"contact[1].restitution".to_owned()));
+}
+
+#[test]
+fn units_have_their_dimensions_and_what_people_read() {
+    let text = package(SCENE).model_description();
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let unit = |name| document.descendants().find(|n| n.has_tag_name("Unit") && n.attribute("name") == Some(name));
+    for (name, dimensions, display) in [
+        ("1", [0, 0, 0], None),
+        ("m", [0, 1, 0], Some(("mm", 1000.0))),
+        ("m/s", [0, 1, -1], None),
+        ("m/s2", [0, 1, -2], Some(("g", 1.0 / 9.80665))),
+        ("Hz", [0, 0, -1], None),
+        ("kg", [1, 0, 0], Some(("t", 0.001))),
+        ("N", [1, 1, -2], Some(("kN", 0.001))),
+        ("N.s", [1, 1, -1], Some(("kN.s", 0.001))),
+        ("N/m", [1, 0, -2], Some(("kN/m", 0.001))),
+        ("J", [1, 2, -2], Some(("kJ", 0.001))),
+    ] {
+        let children = unit(name).unwrap().children().filter(roxmltree::Node::is_element).collect::<Vec<_>>();
+        let power = |base| children[0].attribute(base).map_or(0, |power| power.parse::<i32>().unwrap());
+        assert_eq!(["kg", "m", "s"].map(power), dimensions, "{name}");
+        assert!(children[0].has_tag_name("BaseUnit") && !children[0].has_attribute("factor"), "{name}");
+        let shown = children.get(1).map(|shown| {
+            (shown.attribute("name").unwrap(), shown.attribute("factor").unwrap().parse::<f64>().unwrap())
+        });
+        assert_eq!(shown, display, "{name}");
+    }
+    assert!(!unit("N/m^exponent").unwrap().has_children(), "no whole powers");
+}
+
+#[test]
+fn the_default_experiment_ends_with_the_scene_or_with_the_record() {
+    let stop = |scene: &str| describe(scene).defaultExperiment.unwrap().stopTime;
+    assert_eq!(stop(SCENE).as_deref(), Some("4"));
+    assert_eq!(stop(RECORD_SCENE).as_deref(), Some("2"));
+    assert_eq!(stop(&RECORD_SCENE.replace("stop_time = 2.0", "")).as_deref(), Some("2"), "the record's last sample");
+    assert_eq!(stop(NO_CONTACT), None);
+}
+
+#[test]
+fn the_guid_is_a_fingerprint() {
+    let (package, guid) = (package(RECORD_SCENE), |package: &Package| package.guid());
+    assert_eq!(guid(&package), guid(&package.clone()));
+    assert!(package.model_description().contains(&guid(&package)));
+    let mut commented = package.clone();
+    commented.scene_text.push_str("# a remark");
+    let mut other_record = package.clone();
+    other_record.record.as_mut().unwrap().bytes.push(b'\n');
+    let mut moved = package.clone();
+    let last = moved.scene_text.pop().unwrap();
+    moved.record.as_mut().unwrap().bytes.insert(0, last as u8);
+    let guids = [&package, &commented, &other_record, &moved].map(guid);
+    for (i, guid) in guids.iter().enumerate() {
+        assert!(!guids[..i].contains(guid), "{guids:?}");
+        assert_eq!((guid.len(), &guid[15..16]), (38, "5"), "a UUID of version 5");
+    }
+}
+
+#[test]
+fn text_that_xml_cannot_hold_does_not_break_it() {
+    let mut package = package(NO_CONTACT);
+    assert_eq!(describe(NO_CONTACT).description.as_deref(), Some("a < b & \"c\""));
+    package.scene.description = "bell \u{7} and\nline <\u{fffe}>".to_owned();
+    let description = ModelDescription::from_string(&package.model_description()).unwrap();
+    assert_eq!(description.description.as_deref(), Some("bell   and line < >"));
+}

@@ -1,0 +1,74 @@
+//! What a scene does not need is not done: shown by counts of work, not by a clock.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::{Run, record, scene};
+use pounding::record::Record;
+use pounding::scene::Scene;
+
+fn frames(contacts: &str) -> (Scene, Record) {
+    let frame = |floors: usize| {
+        format!("mass = {:?}\nstiffness = {:?}\ndamping = {{ ratio = 0.01 }}", vec![3.65; floors], vec![2910.0; floors])
+    };
+    let mut scene = scene(&format!("name = \"W\"\n[left]\n{}\n[right]\n{}\n{contacts}", frame(2), frame(3)));
+    scene.ground.record = Some("r.csv".into());
+    (scene, record(0.02, &(0..1000).map(|k| 2.0 * (f64::from(k) * 0.17).sin()).collect::<Vec<_>>()))
+}
+
+fn contact(gap: f64) -> String {
+    format!("[[contact]]\nleft_floor = 2\nright_floor = 2\ngap = {gap:?}\nlaw = \"hertz\"\nstiffness = 1.0e7\n")
+}
+
+#[test]
+fn a_scene_without_contacts_does_no_contact_work() {
+    let (scene, record) = frames("");
+    let mut run = Run::new(&scene, Some(&record));
+    let counters = run.to(19.98).state.counters();
+    assert_eq!(counters.pairs_evaluated + counters.contact_steps + counters.closer_looks + counters.events, 0);
+    assert_eq!(counters.flight_steps, 999, "one flight for each interval of the record");
+}
+
+#[test]
+fn buildings_far_apart_are_dismissed_without_a_closer_look() {
+    let (scene, record) = frames(&contact(1.0));
+    let mut run = Run::new(&scene, Some(&record));
+    let counters = run.to(19.98).state.counters();
+    assert_eq!(counters.closer_looks + counters.contact_steps + counters.events, 0);
+}
+
+#[test]
+fn communication_steps_cost_no_engine_steps() {
+    let (scene, record) = frames(&contact(0.01));
+    let counters = [20.0, 0.02, 0.0013].map(|step| {
+        let mut run = Run::new(&scene, Some(&record));
+        run.in_steps(step, 20.0).state.counters()
+    });
+    assert!(counters[0].events > 20, "{:?}", counters[0]);
+    assert_eq!(counters[0], counters[1]);
+    assert_eq!(counters[0], counters[2]);
+}
+
+#[test]
+fn an_episode_takes_a_bounded_number_of_steps() {
+    let (scene, record) = frames(&contact(0.01));
+    let mut run = Run::new(&scene, Some(&record));
+    let counters = run.to(20.0).state.counters();
+    let per_episode = counters.contact_steps as f64 / run.point.impacts as f64;
+    // Measured: 26.4. More means that the step control or the start of the power law has got worse.
+    assert!(per_episode < 29.0, "{per_episode} steps for each of {} episodes", run.point.impacts);
+    assert_eq!(counters.events, 2 * run.point.impacts, "hertz has no event but entry and release");
+}
+
+#[test]
+fn a_contact_that_never_closes_changes_no_bit() {
+    let (alone, record) = frames(&contact(0.01));
+    let far = contact(5.0).replace("_floor = 2", "_floor = 1");
+    let (with_other, _) = frames(&format!("{}{far}", contact(0.01)));
+    let mut a = Run::new(&alone, Some(&record));
+    let mut b = Run::new(&with_other, Some(&record));
+    a.to(20.0);
+    b.to(20.0);
+    assert!(a.point.impacts > 10);
+    assert_eq!(a.bits(), b.bits()[..a.bits().len()]);
+}
