@@ -1,33 +1,46 @@
 //! Gauss-Legendre quadrature.
 
-/// Nodes on -1..1 and weights of the 12-point rule [AbramowitzStegun1964, table 25.4]; the rule is symmetric.
-const HALF: [(f64, f64); 6] = [
-    (0.125_233_408_511_468_92, 0.249_147_045_813_402_8),
+/// Half of a symmetric rule: nodes on 0..1 and their weights [AbramowitzStegun1964, table 25.4].
+pub type Rule = [(f64, f64)];
+
+/// 8 points, exact up to degree 15: for smooth motion in flight.
+pub const EIGHT: &Rule = &[
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
+    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+];
+
+/// 12 points, exact up to degree 23: for steps in contact, which are as long as their series allows.
+pub const TWELVE: &Rule = &[
+    (0.125_233_408_511_468_9, 0.249_147_045_813_402_8),
     (0.367_831_498_998_180_2, 0.233_492_536_538_354_8),
-    (0.587_317_954_286_617_5, 0.203_167_426_723_065_92),
-    (0.769_902_674_194_304_7, 0.160_078_328_543_346_23),
-    (0.904_117_256_370_474_9, 0.106_939_325_995_318_43),
+    (0.587_317_954_286_617_5, 0.203_167_426_723_065_9),
+    (0.769_902_674_194_304_7, 0.160_078_328_543_346_2),
+    (0.904_117_256_370_474_9, 0.106_939_325_995_318_4),
     (0.981_560_634_246_719_3, 0.047_175_336_386_511_83),
 ];
 
-/// Points and weights for the integral over 0..=length; exact for polynomials up to degree 23.
-pub fn gauss(length: f64) -> impl Iterator<Item = (f64, f64)> {
+/// Points and weights for the integral over 0..=length.
+pub fn gauss(rule: &Rule, length: f64) -> impl Iterator<Item = (f64, f64)> {
     let half = 0.5 * length;
-    HALF.iter()
+    rule.iter()
         .flat_map(|(node, weight)| [(-node, *weight), (*node, *weight)])
         .map(move |(node, weight)| (half * (1.0 + node), half * weight))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::gauss;
+    use super::{EIGHT, TWELVE, gauss};
 
     #[test]
     fn powers_are_integrated_to_rounding() {
-        for power in 0..=23 {
-            let sum: f64 = gauss(2.0).map(|(x, weight)| weight * f64::powi(x, power)).sum();
-            let exact = f64::powi(2.0, power + 1) / f64::from(power + 1);
-            assert!((sum - exact).abs() <= 4e-15 * exact, "x^{power}: {sum} instead of {exact}");
+        for (rule, highest) in [(EIGHT, 15), (TWELVE, 23)] {
+            for power in 0..=highest {
+                let sum: f64 = gauss(rule, 2.0).map(|(x, weight)| weight * f64::powi(x, power)).sum();
+                let exact = f64::powi(2.0, power + 1) / f64::from(power + 1);
+                assert!((sum - exact).abs() <= 4e-15 * exact, "x^{power}: {sum} instead of {exact}");
+            }
         }
     }
 }

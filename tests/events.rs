@@ -331,3 +331,44 @@ fn reading_changes_nothing_and_steps_split_without_a_trace() {
         assert_eq!(whole.episodes, split.episodes, "step {step}");
     }
 }
+
+/// Gap 0 and a ground motion that starts from nothing: the floors part, or press, at the fifth power of time.
+#[test]
+fn floors_that_touch_at_rest_are_pressed_by_the_motion_alone() {
+    for law in ["law = \"linear\"\nstiffness = 1.0e10", "law = \"hertz\"\nstiffness = 5.0e11\nexponent = 1.3"] {
+        for (left, right) in [((2e4, 4e9), (1e6, 5e9)), ((17.0, 1.2e6), (9e4, 2e9)), ((3e3, 2e7), (3e2, 4e4))] {
+            for sign in [1.0, -1.0] {
+                let mut scene = scene(&format!(
+                    "name = \"Touching\"
+                    [left]
+                    mass = [{:?}]
+                    stiffness = [{:?}]
+                    damping = {{ ratio = 0.05 }}
+                    [right]
+                    mass = [{:?}]
+                    stiffness = [{:?}]
+                    damping = {{ ratio = 0.02 }}
+                    [outputs]
+                    energy = true
+                    [[contact]]
+                    left_floor = 1
+                    right_floor = 1
+                    gap = 0.0
+                    {law}",
+                    left.0, left.1, right.0, right.1
+                ));
+                scene.ground.record = Some("r.csv".into());
+                let motion: Vec<f64> = (0..50).map(|k| sign * (f64::from(k) * 0.31).sin()).collect();
+                let mut run = Run::new(&scene, Some(&record(0.02, &motion)));
+                run.to(1e-6).to(1e-3);
+                let early = run.point.contacts[0];
+                // Damping tells first: the building with more damping per mass lags behind.
+                assert!(early.penetration.abs() < 1e-9 && early.force.abs() < 1.0, "{law}: {early:?}");
+                run.to(1.0);
+                let residual = run.point.energy.unwrap().residual;
+                assert!(residual.abs() < 1e-12, "{law} {left:?} {right:?} {sign}: residual {residual:e}");
+                assert!(run.point.impacts > 0);
+            }
+        }
+    }
+}

@@ -1,7 +1,7 @@
 //! Power series of the contact force from that of the penetration, term by term, while a step is expanded.
 
 use super::force::{Force, Guard};
-use crate::quadrature::gauss;
+use crate::quadrature::{TWELVE, gauss};
 
 /// Highest power of any series.
 pub const MAX_ORDER: usize = 30;
@@ -74,8 +74,8 @@ impl PairSeries {
     /// The series of a guard, up to the order of the force.
     pub fn guard(&self, guard: &Guard, scale: f64, out: &mut [f64; MAX_ORDER + 3]) {
         let rate = guard.damping / scale;
-        for n in 0..=self.order {
-            out[n] = guard.stiffness * self.penetration[n] + rate * (n + 1) as f64 * self.penetration[n + 1];
+        for (n, out) in out.iter_mut().enumerate().take(self.order + 1) {
+            *out = guard.stiffness * self.penetration[n] + rate * (n + 1) as f64 * self.penetration[n + 1];
         }
         out[0] += guard.constant;
     }
@@ -98,7 +98,7 @@ impl PairSeries {
             let (d, rate) = value_and_slope(&self.penetration[..=self.order + 2], x);
             force.damping_power(d, rate / scale)
         };
-        scale * gauss(x).map(|(x, weight)| weight * power(x)).sum::<f64>()
+        scale * gauss(TWELVE, x).map(|(x, weight)| weight * power(x)).sum::<f64>()
     }
 }
 

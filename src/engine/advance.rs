@@ -5,6 +5,7 @@ use super::model::Model;
 use super::state::*;
 use super::{EngineError, Episode, roots};
 use crate::contact::series::{PairSeries, value, value_and_slope};
+use crate::structure::difference;
 
 /// Steps that may follow each other without any time passing.
 const MOST_STEPS_AT_ONCE: u32 = 100_000;
@@ -104,6 +105,7 @@ impl Model {
             Event::Entry(p) => {
                 let contact = &mut base.contacts[p];
                 contact.penetration = 0.0;
+                contact.rate = difference(&self.pairs[p].row, &base.v).0;
                 contact.at_surface = true;
                 contact.begin(time, contact.rate.max(0.0));
                 base.impacts += 1;

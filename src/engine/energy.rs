@@ -5,7 +5,7 @@
 use super::model::Model;
 use super::state::*;
 use super::{EnergyPoint, Point};
-use crate::quadrature::gauss;
+use crate::quadrature::{EIGHT, Rule, TWELVE, gauss};
 use crate::structure::flight_order;
 
 /// Work over a stretch of time, J.
@@ -50,12 +50,14 @@ impl Model {
             _ if length == 0.0 => return done,
             StepKind::Contact => {
                 let series = &step.series;
-                self.integrate(base, |t, q, v| series.evaluate(t / series.scale, q, v), (0.0, length), work, &mut done);
+                let motion = |t: f64, _: &mut [f64], v: &mut [f64]| series.velocity(t / series.scale, v);
+                self.integrate(base, motion, TWELVE, (0.0, length), work, &mut done);
                 series.evaluate(length / series.scale, &mut work.q, &mut work.v);
             }
             StepKind::Onset => {
                 let onset = &step.onset;
-                self.integrate(base, |t, q, v| onset.evaluate(t / onset.scale, q, v), (0.0, length), work, &mut done);
+                let motion = |t: f64, q: &mut [f64], v: &mut [f64]| onset.evaluate(t / onset.scale, q, v);
+                self.integrate(base, motion, TWELVE, (0.0, length), work, &mut done);
                 onset.evaluate(length / onset.scale, &mut work.q, &mut work.v);
             }
             StepKind::Flight | StepKind::Unknown => self.integrate_flight(base, inputs, work, length, &mut done),
@@ -69,9 +71,11 @@ impl Model {
     /// Flies in pieces that a series reaches; leaves the end in `work.q`, `work.v`.
     fn integrate_flight(&self, base: &Base, inputs: &Inputs, work: &mut Workspace, length: f64, done: &mut Work) {
         const REACH: f64 = 1.5;
+        // The account needs fewer digits than the motion, which it does not feed back into.
+        const REMAINDER: f64 = 1e-16;
         let pieces = (self.structure.fastest * length / REACH).ceil().max(1.0) as u64;
         let h = length / pieces as f64;
-        let order = flight_order(self.structure.fastest * h).unwrap_or(crate::contact::series::MAX_ORDER);
+        let order = flight_order(self.structure.fastest * h, REMAINDER).unwrap_or(crate::contact::series::MAX_ORDER);
         self.load(base, inputs, &mut work.load, &mut work.slope);
         work.q.copy_from_slice(&base.q);
         work.v.copy_from_slice(&base.v);
@@ -79,7 +83,8 @@ impl Model {
         for i in 0..pieces {
             let start = (work.q.as_slice(), work.v.as_slice());
             series.expand_flight(&self.structure, start, (&work.load, &work.slope), (h, order));
-            self.integrate(base, |t, q, v| series.evaluate(t / h, q, v), (i as f64 * h, h), work, done);
+            let motion = |t: f64, _: &mut [f64], v: &mut [f64]| series.velocity(t / h, v);
+            self.integrate(base, motion, EIGHT, (i as f64 * h, h), work, done);
             series.evaluate(1.0, &mut work.q, &mut work.v);
             for (load, slope) in work.load.iter_mut().zip(&work.slope) {
                 *load += slope * h;
@@ -88,18 +93,19 @@ impl Model {
         work.series = series;
     }
 
-    /// Adds the work of the ground motion and of structural damping over a solution `motion`(t, q, v), which begins
-    /// `from` seconds after the base and is integrated over `length` seconds.
+    /// Adds the work of the ground motion and of structural damping over a solution, which begins `from` seconds after
+    /// the base and is integrated over `length` seconds. `motion`(t, q, v) fills v; q is room for it to work in.
     fn integrate(
         &self,
         base: &Base,
         motion: impl Fn(f64, &mut [f64], &mut [f64]),
+        rule: &Rule,
         (from, length): (f64, f64),
         work: &mut Workspace,
         done: &mut Work,
     ) {
         let (q, v) = (&mut work.node_q, &mut work.node_v);
-        for (t, weight) in gauss(length) {
+        for (t, weight) in gauss(rule, length) {
             motion(t, q, v);
             let acceleration = base.segment.acceleration_at(base.elapsed + from + t);
             let push: f64 = v.iter().zip(&self.structure.participation).map(|(v, p)| v * p).sum();

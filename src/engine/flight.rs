@@ -3,7 +3,7 @@
 use super::model::Model;
 use super::roots;
 use super::state::*;
-use crate::structure::flight_order;
+use crate::structure::{EXACT, flight_order};
 
 impl Model {
     /// Works out the flight from the base until `limit` (s since the segment's start) or the first entry.
@@ -50,7 +50,7 @@ impl Model {
         let whole = base.elapsed == 0.0 && h == base.segment.length;
         let prepared = self.ground.as_ref().filter(|_| whole).and_then(|ground| ground.prepared(&base.segment));
         if prepared.is_none()
-            && let Some(order) = flight_order(self.structure.fastest * h)
+            && let Some(order) = flight_order(self.structure.fastest * h, EXACT)
         {
             series.expand_flight(&self.structure, (&base.q, &base.v), (load, slope), (h, order));
             series.evaluate(1.0, q, v);
@@ -72,7 +72,7 @@ impl Model {
         counters.closer_looks += 1;
         let fastest = self.structure.fastest;
         let h = if fastest * remaining > REACH { REACH / fastest } else { remaining };
-        let order = flight_order(fastest * h).unwrap_or(crate::contact::series::MAX_ORDER);
+        let order = flight_order(fastest * h, EXACT).unwrap_or(crate::contact::series::MAX_ORDER);
         let (load, slope) = (&work.load, &work.slope);
         work.series.expand_flight(&self.structure, (&base.q, &base.v), (load, slope), (h, order));
         let mut first: Option<(f64, usize)> = None;

@@ -52,7 +52,9 @@ impl<'a> Curve<'a> {
 
     /// The first x in the piece at which the curve passes 0 upwards, given that it is below 0 before the piece.
     fn first_rise(&self, a: End, b: End) -> Option<f64> {
-        if self.ceiling(a, b) <= self.noise {
+        let ceiling = self.ceiling(a, b);
+        // Numbers that have overflowed have no roots; the state that they lead to is refused.
+        if ceiling <= self.noise || !ceiling.is_finite() {
             return None;
         }
         if a.value >= 0.0 && a.slope > 0.0 {
@@ -99,7 +101,8 @@ impl<'a> Curve<'a> {
                 *best = (end.x, end.value);
             }
         }
-        if self.ceiling(a, b) <= best.1 || b.x - a.x < NARROWEST {
+        let ceiling = self.ceiling(a, b);
+        if ceiling <= best.1 || !ceiling.is_finite() || b.x - a.x < NARROWEST {
             return;
         }
         if self.is_concave(a, b) {
@@ -203,6 +206,7 @@ pub fn maximum_above(coefficients: &[f64], end: f64, known: f64) -> Option<(f64,
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 

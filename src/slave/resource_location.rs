@@ -76,7 +76,6 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn every_way_to_write_a_local_directory() {
-        let expected = Some(PathBuf::from("/tmp/a b/resources"));
         for location in [
             "file:/tmp/a%20b/resources",
             "file:///tmp/a%20b/resources",
@@ -87,7 +86,8 @@ mod tests {
             "file:///tmp/a b/resources",
             "/tmp/a b/resources",
         ] {
-            assert_eq!(first(location), expected, "{location}");
+            // As text: paths are equal whatever their number of slashes.
+            assert_eq!(first(location).unwrap_or_default().to_str(), Some("/tmp/a b/resources"), "{location}");
         }
     }
 

@@ -2,15 +2,17 @@
 
 use super::Structure;
 
-/// Order at which the flight series over `reach` = (fastest rate) x (time) is exact to rounding; `None` where the
-/// interval is too long for a series.
-pub fn flight_order(reach: f64) -> Option<usize> {
-    const REMAINDER: f64 = 1e-19;
+/// Remainder of a series that is exact to rounding.
+pub const EXACT: f64 = 1e-19;
+
+/// Order at which the flight series over `reach` = (fastest rate) x (time) is good to a relative `remainder`; `None`
+/// where the interval is too long for a series.
+pub fn flight_order(reach: f64, remainder: f64) -> Option<usize> {
     if reach > 2.0 {
         return None;
     }
     let (mut term, mut order) = (1.0, 0);
-    while term > REMAINDER || order < 4 {
+    while term > remainder || order < 4 {
         order += 1;
         term *= reach / order as f64;
     }
@@ -110,17 +112,44 @@ impl ModalSeries {
         }
     }
 
+    /// v alone at x.
+    pub fn velocity(&self, x: f64, v: &mut [f64]) {
+        let top = self.order as f64;
+        for (v, term) in v.iter_mut().zip(self.term(self.order)) {
+            *v = top * term;
+        }
+        for n in (1..self.order).rev() {
+            let power = n as f64;
+            for (v, term) in v.iter_mut().zip(self.term(n)) {
+                *v = *v * x + power * term;
+            }
+        }
+        let rate = 1.0 / self.scale;
+        for v in v.iter_mut() {
+            *v *= rate;
+        }
+    }
+
     /// The scalar series row . q, written to `out[n]`. Returns the sum of the sizes of all that was added up, which
     /// tells the rounding error of a value within 0..=1.
     pub fn project(&self, row: &[f64], out: &mut [f64]) -> f64 {
-        let mut size = 0.0;
+        let mut sum = 0.0;
         for (n, out) in out.iter_mut().enumerate().take(self.order + 1) {
-            let term = self.term(n);
-            *out = dot(row, term);
-            size += row.iter().zip(term).map(|(row, q)| (row * q).abs()).sum::<f64>();
+            let (value, size) = difference(row, self.term(n));
+            *out = value;
+            sum += size;
         }
-        size
+        sum
     }
+}
+
+/// The sum of products, 0 where its terms cancel but for rounding, and the sum of their sizes.
+///
+/// Two floors that move alike have a distance of 0 to rounding; the sign of that rounding must not decide what happens.
+pub fn difference(row: &[f64], modal: &[f64]) -> (f64, f64) {
+    let value = dot(row, modal);
+    let size: f64 = row.iter().zip(modal).map(|(row, q)| (row * q).abs()).sum();
+    if value.abs() <= 4.0 * f64::EPSILON * size { (0.0, size) } else { (value, size) }
 }
 
 /// Sum of products in a fixed order: one partial sum per lane, then the lanes from left to right.

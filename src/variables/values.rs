@@ -3,7 +3,8 @@
 use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, building};
 use crate::engine::{ContactPoint, EnergyPoint, Model, Point, Side, State};
 use crate::record::Record;
-use crate::scene::{Building, Damping, Scaling, Scene, SceneError, Stiffness, read_record};
+use crate::scene::{Building, Damping, Problem, Scaling, Scene, SceneError, Stiffness, read_record};
+use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -148,6 +149,11 @@ impl Settings {
             self.other_record = None;
             return Ok(());
         }
+        // A device or a pipe may have no end.
+        if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
+            let expected = "a record file, but it is none";
+            return Err(Problem::new("ground.record", format!("{path:?}"), expected).into());
+        }
         let (record, _) = read_record(path, Path::new(path), self.scene.ground.scaling)?;
         self.other_record = Some((path.to_owned(), Arc::new(record)));
         Ok(())
@@ -261,5 +267,18 @@ fn building_mut(scene: &mut Scene, side: Side) -> &mut Building {
     match side {
         Side::Left => &mut scene.left,
         Side::Right => &mut scene.right,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_stay_at_the_largest_integer() {
+        let largest = i32::MAX as u64;
+        for (n, expected) in [(0, 0), (largest, i32::MAX), (largest + 1, i32::MAX), (u64::MAX, i32::MAX)] {
+            assert_eq!(count(n), Value::Integer(expected));
+        }
     }
 }

@@ -30,8 +30,10 @@ fn null_arrays_are_good_for_no_elements_only() {
 fn a_size_that_no_array_has_is_refused() {
     let fmu = Fmu::new(SCENE);
     let (vr, value) = ([0_u32; 2], [0.0; 2]);
-    assert_eq!(started(&fmu).set_raw("fmi2SetReal", vr.as_ptr(), usize::MAX, value.as_ptr()), ERROR);
-    assert_eq!(started(&fmu).get_raw::<f64>("fmi2GetReal", vr.as_ptr(), usize::MAX / 2, &mut 0.0), ERROR);
+    for n in [usize::MAX, usize::MAX / 2, usize::MAX / 8 + 1] {
+        assert_eq!(started(&fmu).set_raw("fmi2SetReal", vr.as_ptr(), n, value.as_ptr()), ERROR);
+        assert_eq!(started(&fmu).get_raw::<f64>("fmi2GetReal", vr.as_ptr(), n, &mut 0.0), ERROR);
+    }
 }
 
 #[test]
@@ -57,6 +59,19 @@ fn unknown_references_and_wrong_types_are_all_named() {
         let status = started(&fmu).get_raw(function, &fmu.vr(name), 1, &raw mut value);
         assert_eq!(status, ERROR, "{function} of {name}");
     }
+    let text = c"".as_ptr();
+    for (function, name, value) in [
+        ("fmi2SetInteger", "left.mass[1]", (&raw const text).cast::<u8>()),
+        ("fmi2SetBoolean", "ground.acceleration", (&raw const text).cast()),
+        ("fmi2SetString", "left.mass[1]", (&raw const text).cast()),
+        ("fmi2SetReal", "impacts", (&raw const text).cast()),
+    ] {
+        let instance = fmu.instance();
+        instance.enter();
+        assert_eq!(instance.set_raw(function, &fmu.vr(name), 1, value), ERROR, "{function} of {name}");
+        assert!(instance.log()[0].message.contains(", not "), "{function} of {name}");
+        assert_eq!(instance.real("left.mass[1]"), 3.65);
+    }
 }
 
 #[test]
@@ -79,7 +94,7 @@ fn flags_and_kinds_outside_their_enumeration_are_refused() {
     let status = unsafe { fmu.symbol::<Logging>("fmi2SetDebugLogging")(instance.component, 7, 0, null()) };
     assert_eq!(status, ERROR);
     for kind in [-1, 4, c_int::MAX] {
-        assert_eq!(status_of(&started(&fmu), "fmi2GetRealStatus", kind, &mut 0.0), ERROR);
+        assert_eq!(started(&fmu).status("fmi2GetRealStatus", kind, &mut 0.0), ERROR);
     }
 }
 
@@ -89,18 +104,12 @@ fn status_information() {
     let instance = started(&fmu);
     assert_eq!(instance.step(0.0, 0.25), OK);
     let (mut time, mut terminated) = (-1.0, -1);
-    assert_eq!(status_of(&instance, "fmi2GetRealStatus", 2, &mut time), OK);
+    assert_eq!(instance.status("fmi2GetRealStatus", 2, &mut time), OK);
     assert_eq!(time, 0.25);
-    assert_eq!(status_of(&instance, "fmi2GetBooleanStatus", 3, &mut terminated), OK);
+    assert_eq!(instance.status("fmi2GetBooleanStatus", 3, &mut terminated), OK);
     assert_eq!(terminated, 0);
-    assert_eq!(status_of(&instance, "fmi2GetStatus", 0, &mut 0), DISCARD);
-    assert_eq!(status_of(&instance, "fmi2GetRealStatus", 3, &mut time), DISCARD);
+    assert_eq!(instance.status("fmi2GetStatus", 0, &mut 0), DISCARD);
+    assert_eq!(instance.status("fmi2GetRealStatus", 3, &mut time), DISCARD);
     assert_eq!(instance.step(0.25, 0.25), OK, "a discarded question does not stop the simulation");
-    assert_eq!(status_of::<f64>(&instance, "fmi2GetRealStatus", 2, null_mut()), ERROR);
-}
-
-fn status_of<T>(instance: &Instance<'_>, function: &str, kind: c_int, value: *mut T) -> c_int {
-    let get = instance.fmu.symbol::<unsafe extern "C" fn(*mut c_void, c_int, *mut T) -> c_int>(function);
-    // SAFETY: callers pass a place of the function's type, or null.
-    unsafe { get(instance.component, kind, value) }
+    assert_eq!(instance.status::<f64>("fmi2GetRealStatus", 2, null_mut()), ERROR);
 }

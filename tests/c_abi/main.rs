@@ -7,6 +7,7 @@ mod support;
 mod arguments;
 mod instantiation;
 mod logging;
+mod outputs;
 mod sequence;
 mod stepping;
 mod symbols;

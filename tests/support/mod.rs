@@ -369,6 +369,13 @@ impl Instance<'_> {
         self.set_raw("fmi2SetString", &self.fmu.vr(name), 1, &text.as_ptr())
     }
 
+    /// `fmi2GetRealStatus` and the like.
+    pub fn status<T>(&self, name: &str, kind: c_int, value: *mut T) -> c_int {
+        let get = self.fmu.symbol::<unsafe extern "C" fn(Component, c_int, *mut T) -> c_int>(name);
+        // SAFETY: callers pass a place of the function's type, or null.
+        unsafe { get(self.component, kind, value) }
+    }
+
     /// The bits of every Real output and every Integer output.
     pub fn outputs(&self) -> Vec<u64> {
         use fmi::model_description::fmi2::{Causality, VariableType};

@@ -1,0 +1,159 @@
+//! Whole earthquakes against an independent solution in quadruple precision (tests/reference).
+//!
+//! Each golden row says how much errors have grown by then (`sensitivity`). No method in double precision can do
+//! better than its rounding times that; the engine is allowed a fixed error per unit of it: relative to the largest
+//! displacement (velocity, force ...), about three times what was measured when the test was written.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::Run;
+use pounding::engine::{Episode, Side};
+use pounding::scene;
+use std::collections::HashMap;
+use std::path::Path;
+
+/// A CSV file with comments: one map of column to value for each row; empty fields are left out.
+fn table(name: &str) -> Vec<HashMap<String, f64>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/golden").join(name);
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let row = |line: &str| {
+        let fields = header.iter().zip(line.split(','));
+        fields.filter_map(|(name, field)| Some(((*name).to_owned(), field.parse().ok()?))).collect()
+    };
+    lines.map(row).collect()
+}
+
+struct Golden {
+    rows: Vec<HashMap<String, f64>>,
+    impacts: Vec<HashMap<String, f64>>,
+}
+
+impl Golden {
+    fn new(name: &str) -> Golden {
+        Golden { rows: table(&format!("{name}.displacements.csv")), impacts: table(&format!("{name}.impacts.csv")) }
+    }
+
+    /// Growth of errors until a time.
+    fn sensitivity(&self, time: f64) -> f64 {
+        let until = self.rows.iter().find(|row| row["time"] >= time).or(self.rows.last()).unwrap();
+        until["sensitivity"].max(1.0)
+    }
+
+    fn largest(&self, quantity: &str) -> f64 {
+        let all = self.rows.iter().flat_map(|row| row.iter().filter(|(name, _)| name.contains(quantity)));
+        all.fold(0.0, |largest, (_, value)| largest.max(value.abs()))
+    }
+}
+
+/// Worst error per unit of sensitivity of what a run shows at the golden times.
+fn worst_motion(golden: &Golden, run: &mut Run) -> f64 {
+    let mut worst = 0.0_f64;
+    let (u, v, e) = (golden.largest("displacement"), golden.largest("velocity"), golden.largest("energy"));
+    for row in &golden.rows {
+        run.to(row["time"]);
+        let sensitivity = row["sensitivity"].max(1.0);
+        for (side, name) in [(Side::Left, "left"), (Side::Right, "right")] {
+            for floor in 0..run.model.floors(side) {
+                let exact = |quantity: &str| row[&format!("{name}.{quantity}[{}]", floor + 1)];
+                worst = worst.max((run.displacement(side, floor) - exact("displacement")).abs() / u / sensitivity);
+                worst = worst.max((run.velocity(side, floor) - exact("velocity")).abs() / v / sensitivity);
+            }
+        }
+        let energy = run.point.energy.unwrap();
+        for (name, value) in [
+            ("input", energy.input),
+            ("kinetic", energy.kinetic),
+            ("strain", energy.strain),
+            ("viscous", energy.viscous),
+            ("impact", energy.impact),
+        ] {
+            worst = worst.max((value - row[&format!("energy.{name}")]).abs() / e / sensitivity);
+        }
+    }
+    worst
+}
+
+/// Worst error per unit of sensitivity of all episodes.
+fn worst_episode(golden: &Golden, episodes: &[Episode]) -> f64 {
+    let largest =
+        |name: &str| golden.impacts.iter().filter_map(|row| row.get(name)).fold(0.0, |a: f64, b| a.max(b.abs()));
+    let speed = largest("approach_velocity");
+    let mut worst = 0.0_f64;
+    for (row, episode) in golden.impacts.iter().zip(episodes) {
+        assert_eq!(episode.contact + 1, row["contact"] as usize, "at {} s", row["start_s"]);
+        let sensitivity = golden.sensitivity(row["start_s"]);
+        let pairs = [
+            ("start_s", episode.start, 20.0),
+            ("approach_velocity", episode.approach_velocity, speed),
+            ("separation_velocity", episode.separation_velocity, speed),
+            ("peak_force", episode.peak_force, largest("peak_force")),
+            ("peak_penetration", episode.peak_penetration, largest("peak_penetration")),
+            ("impulse", episode.impulse, largest("impulse")),
+            ("dissipated_energy", episode.dissipated_energy, 0.5 * largest("impulse") * speed),
+        ];
+        for (name, got, scale) in pairs {
+            let Some(exact) = row.get(name) else { continue };
+            worst = worst.max((got - exact).abs() / scale / sensitivity);
+        }
+        if let (Some(end), Some(exact)) = (episode.end, row.get("end_s")) {
+            worst = worst.max((end - exact).abs() / 20.0 / sensitivity);
+        }
+    }
+    worst
+}
+
+fn compare(scene_path: &str, name: &str, allowed: f64) {
+    let golden = Golden::new(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(scene_path);
+    let (mut scene, record) = scene::load(&path).unwrap();
+    scene.energy = true;
+    let mut run = Run::new(&scene, record.as_ref());
+    let motion = worst_motion(&golden, &mut run);
+    let mut episodes = run.episodes.clone();
+    let open = (0..scene.contacts.len()).filter_map(|p| run.model.open_episode(&run.state, p));
+    episodes.extend(open);
+    episodes.sort_by(|a, b| a.start.total_cmp(&b.start));
+    assert_eq!(episodes.len(), golden.impacts.len(), "{name}: number of impacts");
+    let impacts = worst_episode(&golden, &episodes);
+    println!("{name}: {motion:.1e}, episodes {impacts:.1e} per unit of sensitivity");
+    assert!(motion <= allowed, "{name}: {motion:.1e} per unit of sensitivity in displacements, velocities or energies");
+    assert!(impacts <= allowed, "{name}: {impacts:.1e} per unit of sensitivity in the episodes");
+}
+
+#[test]
+fn kelvin_voigt_on_the_laboratory_frames() {
+    compare("examples/scenes/feup.toml", "feup", 2e-13);
+}
+
+#[test]
+fn kelvin_voigt_without_tension_on_the_laboratory_frames() {
+    compare("tests/reference/scenes/feup_kelvin_voigt_no_tension.toml", "feup_kelvin_voigt_no_tension", 1e-13);
+}
+
+#[test]
+fn linear_on_the_laboratory_frames() {
+    compare("tests/reference/scenes/feup_linear.toml", "feup_linear", 5e-13);
+}
+
+#[test]
+fn hertz_on_the_laboratory_frames() {
+    compare("tests/reference/scenes/feup_hertz.toml", "feup_hertz", 2e-12);
+}
+
+#[test]
+fn hertz_with_a_free_exponent_on_the_laboratory_frames() {
+    compare("tests/reference/scenes/feup_hertz_1_3.toml", "feup_hertz_1_3", 6e-12);
+}
+
+#[test]
+fn full_stiffness_and_non_classical_damping() {
+    compare("tests/reference/scenes/full_matrices.toml", "full_matrices", 6e-14);
+}
+
+#[test]
+fn pressed_and_touching_floors() {
+    compare("tests/reference/scenes/touching.toml", "touching", 1e-13);
+}

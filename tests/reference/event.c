@@ -1,0 +1,211 @@
+/* Where a contact changes its mode: entry, release, turn of the rate, clip. */
+#include "reference.h"
+
+/* ---- guards ---- */
+
+int contact_guards(const Solver *solver, int c, Guard guards[2])
+{
+    const Law *law = &solver->scene->contact[c].law;
+    switch (solver->phases.mode[c]) {
+    case OPEN:
+        guards[0] = (Guard){c, PENETRATION, +1};
+        return 1;
+    case STUCK:
+        guards[0] = (Guard){c, REACTION, -1};
+        return 1;
+    case PUSHING:
+        guards[0] = (Guard){c, PENETRATION, -1};
+        if (law->kind == JANKOWSKI)
+            guards[1] = (Guard){c, RATE, -1};
+        else if (law_is_clipped(law, solver->phases.V[c]))
+            guards[1] = (Guard){c, PUSH, -1};
+        else
+            return 1;
+        return 2;
+    case RESTORING:
+        guards[0] = (Guard){c, PENETRATION, -1};
+        guards[1] = (Guard){c, RATE, +1};
+        return 2;
+    case CLIPPED:
+        guards[0] = (Guard){c, PENETRATION, -1};
+        guards[1] = (Guard){c, PUSH, +1};
+        return 2;
+    }
+    return 0;
+}
+
+real guard_value(const Solver *solver, Guard guard, const Point *p)
+{
+    int c = guard.contact;
+    switch (guard.quantity) {
+    case PENETRATION:
+        return guard.sign * p->d[c];
+    case RATE:
+        return guard.sign * p->rate[c];
+    case PUSH:
+        return guard.sign * law_push(&solver->scene->contact[c].law, solver->phases.V[c], p->d[c], p->rate[c]);
+    case REACTION:
+        return guard.sign * p->force[c];
+    }
+    return 0;
+}
+
+real guard_rate(const Solver *solver, Guard guard, const Point *p)
+{
+    int c = guard.contact;
+    switch (guard.quantity) {
+    case PENETRATION:
+        return guard.sign * p->rate[c];
+    case RATE:
+        return guard.sign * p->rate_change[c];
+    case PUSH:
+        return guard.sign *
+               law_push_rate(&solver->scene->contact[c].law, solver->phases.V[c], p->rate[c], p->rate_change[c]);
+    case REACTION:
+        return guard.sign * reaction_rate(solver, c, p);
+    }
+    return 0;
+}
+
+real guard_scale(const Solver *solver, Guard guard)
+{
+    const Contact *contact = &solver->scene->contact[guard.contact];
+    int i = contact->left;
+    switch (guard.quantity) {
+    case PENETRATION:
+        return solver->u_scale;
+    case RATE:
+        return solver->v_scale;
+    case PUSH:
+        return fabsq(law_push(&contact->law, solver->v_scale, solver->u_scale, solver->v_scale));
+    case REACTION:
+        return contact->mass * solver->k_over_m[i][i] * solver->u_scale;
+    }
+    return 0;
+}
+
+/* ---- finding them in a solved step ---- */
+
+/* Illinois variant of false position; f is negative (or 0) at lo and positive at hi. */
+real dense_root(const Solver *solver, const Step *step, real lo, real hi, PointFunction *f, const void *context)
+{
+    static Point p;
+    dense_point(solver, step, lo, &p);
+    real f_lo = f(solver, context, &p);
+    dense_point(solver, step, hi, &p);
+    real f_hi = f(solver, context, &p);
+    int side = 0;
+    for (int i = 0; i < 60 && hi - lo > 1e-16Q * hi; i++) {
+        real x = f_hi > f_lo ? lo - f_lo * (hi - lo) / (f_hi - f_lo) : lo;
+        if (!(x > lo && x < hi))
+            x = (lo + hi) / 2;
+        dense_point(solver, step, x, &p);
+        real f_x = f(solver, context, &p);
+        if (f_x > 0) {
+            hi = x, f_hi = f_x;
+            if (side == 1)
+                f_lo /= 2;
+            side = 1;
+        } else {
+            lo = x, f_lo = f_x;
+            if (side == -1)
+                f_hi /= 2;
+            side = -1;
+        }
+    }
+    return hi;
+}
+
+static real value_of(const Solver *solver, const void *guard, const Point *p)
+{
+    return guard_value(solver, *(const Guard *)guard, p);
+}
+
+static real falling(const Solver *solver, const void *guard, const Point *p)
+{
+    return -guard_rate(solver, *(const Guard *)guard, p);
+}
+
+static real rising(const Solver *solver, const void *guard, const Point *p)
+{
+    return guard_rate(solver, *(const Guard *)guard, p);
+}
+
+/* What the value of a guard at point k of a step may be wrong by: the polynomial is most exact at its end. */
+static real doubt(const Solver *solver, Guard guard, int k, real error)
+{
+    bool inside = k > 0 && k <= solver->gauss.stages;
+    return guard_scale(solver, guard) * (inside ? error + 1e-33Q : 1e-33Q);
+}
+
+/* The crossing before point k, where the guard is positive. */
+static real crossing_before(const Solver *solver, const Step *step, Guard guard, int k, real hi, real error)
+{
+    const Point *p = step->point;
+    int j = k - 1;
+    while (j > 0 && fabsq(guard_value(solver, guard, &p[j])) <= doubt(solver, guard, j, error))
+        j--;
+    real lo = step->x[j];
+    if (j == 0 && guard_value(solver, guard, &p[0]) >= 0) {
+        /* 0 because the contact has just changed its mode there, or because the floors touch at rest */
+        if (guard_rate(solver, guard, &p[0]) >= 0)
+            return 0;
+        lo = dense_root(solver, step, lo, hi, rising, &guard); /* it falls first */
+    }
+    return dense_root(solver, step, lo, hi, value_of, &guard);
+}
+
+/* The first x at which the guard turns positive. It counts as negative at the start of the step. */
+static bool first_crossing(const Solver *solver, const Step *step, Guard guard, real error, real *x)
+{
+    const Point *p = step->point;
+    static Point peak;
+    for (int k = 1; k < solver->gauss.stages + 2; k++) {
+        real hi = step->x[k], least = doubt(solver, guard, k, error);
+        bool crossed = guard_value(solver, guard, &p[k]) > least;
+        if (!crossed && guard_rate(solver, guard, &p[k - 1]) > 0 && guard_rate(solver, guard, &p[k]) < 0) {
+            hi = dense_root(solver, step, step->x[k - 1], hi, falling, &guard); /* a maximum in between */
+            dense_point(solver, step, hi, &peak);
+            crossed = guard_value(solver, guard, &peak) > least;
+        }
+        if (crossed) {
+            *x = crossing_before(solver, step, guard, k, hi, error);
+            return true;
+        }
+    }
+    return false;
+}
+
+bool first_event(const Solver *solver, const Step *step, real error, Event *event)
+{
+    bool found = false;
+    for (int c = 0; c < solver->scene->contacts; c++) {
+        Guard guards[2];
+        int count = contact_guards(solver, c, guards);
+        for (int g = 0; g < count; g++) {
+            real x;
+            if (first_crossing(solver, step, guards[g], error, &x) && (!found || x < event->x)) {
+                *event = (Event){guards[g], x};
+                found = true;
+            }
+        }
+    }
+    return found;
+}
+
+/* ---- exactly ---- */
+
+bool locate(Solver *solver, Step *step, Clock clock, real H, Guard guard)
+{
+    real start = H, small = 1e-33Q * guard_scale(solver, guard);
+    for (int i = 0; i < 12; i++) {
+        if (!(H > 0 && H < 4 * start) || !solve_step(solver, step, clock, H))
+            return false;
+        const Point *end = step_end(solver, step);
+        real value = guard_value(solver, guard, end), correction = value / guard_rate(solver, guard, end);
+        if (fabsq(value) <= small || fabsq(correction) <= 1e-31Q * H)
+            return true;
+        H -= correction;
+    }
+    return false;
+}

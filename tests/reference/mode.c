@@ -1,0 +1,151 @@
+/* What happens to a contact at an event: entry, release, turn, clip, exchange of momentum. */
+#include "reference.h"
+
+/* A time in which the contact force turns the approach around, roughly. */
+static real contact_time(const Contact *contact, real V)
+{
+    real n = contact->law.n;
+    return powq(contact->mass / (contact->law.k * powq(fmaxq(V, 1e-6Q), n - 1)), 1 / (n + 1));
+}
+
+static void close_contact(Run *run, int c, real V, bool damped)
+{
+    const Contact *contact = &run->scene->contact[c];
+    Phases *phases = &run->solver.phases;
+    phases->mode[c] = PUSHING;
+    phases->V[c] = V;
+    if (contact->law.kind == HERTZ_DAMPED)
+        phases->V[c] = damped ? fmaxq(V, run->scene->min_approach_velocity) : 0;
+    if (run->H_entry[c] == 0)
+        run->H_entry[c] = contact_time(contact, V) / 4;
+    run->H_closed = run->H_entry[c];
+    begin_episode(&run->solution->episodes, c, &run->now, V);
+}
+
+void close_at_start(Run *run)
+{
+    for (int c = 0; c < run->scene->contacts; c++) {
+        const Law *law = &run->scene->contact[c].law;
+        real d = run->now.d[c], rate = run->now.rate[c];
+        if (d <= 0)
+            continue;
+        if (law->kind == STEREOMECHANICAL)
+            fail("contact %d: stereomechanical with penetration at the start", c + 1);
+        close_contact(run, c, 0, false);
+        if (law->kind == JANKOWSKI && rate <= 0)
+            run->solver.phases.mode[c] = RESTORING;
+        else if (law_is_clipped(law, 0) && law_push(law, 0, d, rate) < 0)
+            run->solver.phases.mode[c] = CLIPPED;
+    }
+}
+
+/* Gives both floors their common velocity, exactly. */
+void equalise(Run *run, int c)
+{
+    const Contact *contact = &run->scene->contact[c];
+    Point *p = &run->now;
+    real ml = run->scene->mass[contact->left], mr = run->scene->mass[contact->right];
+    p->v[contact->left] = p->v[contact->right] = (ml * p->v[contact->left] + mr * p->v[contact->right]) / (ml + mr);
+}
+
+static void stick(Run *run, int c)
+{
+    real rate = run->now.rate[c], lost = run->scene->contact[c].mass * rate * rate / 2;
+    equalise(run, c);
+    run->solver.phases.mode[c] = STUCK;
+    begin_episode(&run->solution->episodes, c, &run->now, 0)->dissipated = lost;
+    run->energy.impact += lost;
+}
+
+/* Exchange of momentum. A rebound too slow to matter ends a dying sequence: the floors stay together if pressed. */
+static void impact(Run *run, int c)
+{
+    const Contact *contact = &run->scene->contact[c];
+    Point *p = &run->now;
+    real V = p->rate[c], e = contact->law.e, m = contact->mass;
+    real impulse = (1 + e) * m * V, lost = m * (1 - e * e) * V * V / 2;
+    Episode *episode = begin_episode(&run->solution->episodes, c, p, V);
+    p->v[contact->left] -= impulse / run->scene->mass[contact->left];
+    p->v[contact->right] += impulse / run->scene->mass[contact->right];
+    if (e == 0)
+        equalise(run, c);
+    complete_point(&run->solver, p);
+    episode->impulse = impulse;
+    episode->dissipated = lost;
+    run->energy.impact += lost;
+    end_episode(&run->solution->episodes, c, p);
+    bool pressed = p->rate_change[c] > 0 || V < 1e-29Q * run->solver.v_scale; /* with no speed, only pressure closes */
+    if (e * V < 1e-15Q * run->solver.v_scale && pressed)
+        stick(run, c);
+}
+
+static void enter(Run *run, int c)
+{
+    run->now.d[c] = 0;
+    if (run->scene->contact[c].law.kind == STEREOMECHANICAL) {
+        impact(run, c);
+        return;
+    }
+    close_contact(run, c, run->now.rate[c], true);
+    run->fresh[c] = run->scene->contact[c].law.clock > 1;
+}
+
+static void release(Run *run, int c)
+{
+    run->now.d[c] = 0;
+    run->fresh[c] = false;
+    run->solver.phases.mode[c] = OPEN;
+    end_episode(&run->solution->episodes, c, &run->now);
+}
+
+static void change_mode(Run *run, Guard guard)
+{
+    int c = guard.contact;
+    Mode *mode = &run->solver.phases.mode[c];
+    switch (guard.quantity) {
+    case PENETRATION:
+        if (*mode == OPEN)
+            enter(run, c);
+        else
+            release(run, c);
+        break;
+    case REACTION:
+        release(run, c);
+        break;
+    case RATE:
+        *mode = *mode == PUSHING ? RESTORING : PUSHING;
+        break;
+    case PUSH:
+        *mode = *mode == PUSHING ? CLIPPED : PUSHING;
+        break;
+    }
+    complete_point(&run->solver, &run->now);
+}
+
+/* A guard of another contact that is 0 at the same time. */
+static bool simultaneous_guard(const Run *run, Guard *guard)
+{
+    for (int c = 0; c < run->scene->contacts; c++) {
+        Guard guards[2];
+        int count = contact_guards(&run->solver, c, guards);
+        for (int g = 0; g < count; g++) {
+            real least = 1e-30Q * guard_scale(&run->solver, guards[g]);
+            if (fabsq(guard_value(&run->solver, guards[g], &run->now)) <= least &&
+                guard_rate(&run->solver, guards[g], &run->now) > least) {
+                *guard = guards[g];
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+void fire(Run *run, Guard guard)
+{
+    change_mode(run, guard);
+    for (int i = 0; simultaneous_guard(run, &guard); i++) {
+        if (i > 4 * MAX_CONTACTS)
+            fail("mode changes without end at t = %.17g", (double)run->now.t);
+        change_mode(run, guard);
+    }
+}

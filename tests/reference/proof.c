@@ -1,0 +1,82 @@
+/* How far a solution can be trusted: a second one, and how errors grow. */
+#include "reference.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static real largest_difference(const Scene *scene, const Row *a, const Row *b, bool velocity)
+{
+    real largest = 0;
+    for (int i = 0; i < scene->floors; i++)
+        largest = fmaxq(largest, velocity ? fabsq(a->v[i] - b->v[i]) : fabsq(a->u[i] - b->u[i]));
+    return largest;
+}
+
+static real largest_value(const Scene *scene, const Solution *s, bool velocity)
+{
+    static const Row zero;
+    real largest = 0;
+    for (int r = 0; r < s->rows; r++)
+        largest = fmaxq(largest, largest_difference(scene, &s->row[r], &zero, velocity));
+    return largest > 0 ? largest : 1;
+}
+
+static void compare(const Scene *scene, const Solution *best, Proof *proof)
+{
+    const Solution *second = &proof->second;
+    real du = 0, dv = 0, dt = 0;
+    for (int r = 0; r < best->rows; r++) {
+        du = fmaxq(du, largest_difference(scene, &best->row[r], &second->row[r], false));
+        dv = fmaxq(dv, largest_difference(scene, &best->row[r], &second->row[r], true));
+    }
+    proof->same_impacts = best->episodes.count == second->episodes.count;
+    for (int i = 0; proof->same_impacts && i < best->episodes.count; i++) {
+        const Episode *x = &best->episodes.list[i], *y = &second->episodes.list[i];
+        proof->same_impacts = x->contact == y->contact && x->open == y->open;
+        dt = fmaxq(dt, fmaxq(fabsq(x->start - y->start), fabsq(x->end - y->end)));
+    }
+    proof->u = (double)(du / largest_value(scene, best, false));
+    proof->v = (double)(dv / largest_value(scene, best, true));
+    proof->time = (double)dt;
+}
+
+/* 1 + part or 1 - part, always in the same order (linear congruential generator). */
+static real shaken(real part)
+{
+    static unsigned long long state = 1;
+    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+    return state >> 63 ? 1 + part : 1 - part;
+}
+
+static void find_sensitivity(const Scene *scene, Proof *proof)
+{
+    static Scene changed;
+    static Solution solution;
+    const real part = 1e-18Q;
+    changed = *scene;
+    changed.record.acceleration = malloc((scene->record.count + 1) * sizeof(real));
+    for (int i = 0; i < scene->record.count; i++)
+        changed.record.acceleration[i] = scene->record.acceleration[i] * shaken(part);
+    for (int i = 0; i < scene->floors; i++) {
+        changed.u0[i] *= shaken(part);
+        changed.v0[i] *= shaken(part);
+    }
+    solve(&changed, proof->second.stages, proof->second.tolerance, &solution);
+    real largest = 0, scale = part * largest_value(scene, &proof->second, false);
+    proof->sensitivity = calloc(solution.rows, sizeof(double));
+    for (int r = 0; r < solution.rows; r++) {
+        largest = fmaxq(largest, largest_difference(scene, &solution.row[r], &proof->second.row[r], false) / scale);
+        proof->sensitivity[r] = (double)largest;
+    }
+}
+
+void prove(const Scene *scene, const Solution *best, Proof *proof)
+{
+    solve(scene, best->stages * 3 / 4, best->tolerance * 1000, &proof->second);
+    print_run(&proof->second);
+    compare(scene, best, proof);
+    printf("agreement: displacements %.1e, velocities %.1e, impact times %.1e s, impacts %s\n", proof->u, proof->v,
+           proof->time, proof->same_impacts ? "the same" : "DIFFERENT");
+    find_sensitivity(scene, proof);
+    printf("sensitivity: %.1e\n", proof->sensitivity[best->rows - 1]);
+}

@@ -1,0 +1,281 @@
+/* Types that all parts of the reference solver share. SI units; d > 0 is penetration, a force > 0 is compression. */
+#ifndef REFERENCE_H
+#define REFERENCE_H
+
+#include <quadmath.h>
+#include <stdbool.h>
+
+typedef __float128 real;
+
+enum { MAX_FLOORS = 64, MAX_CONTACTS = 32, MAX_STAGES = 32 };
+
+/* ---- scene.c: what is to be solved ---- */
+
+typedef enum {
+    LINEAR, KELVIN_VOIGT, KELVIN_VOIGT_NO_TENSION, HERTZ, JANKOWSKI, HERTZ_DAMPED, STEREOMECHANICAL
+} LawKind;
+
+typedef struct {
+    LawKind kind;
+    real k;           /* N/m^n */
+    real n;           /* exponent of d */
+    real e;           /* restitution */
+    real damping;     /* kelvin_voigt*: c, N s/m; jankowski: 2 xi sqrt(k m); hertz_damped: a */
+    int clock;        /* q: in s = t^(1/q) the force is smooth where d passes 0; 1: it is smooth in t */
+    bool exact_clock; /* false: no such q up to 10 exists, s only tames the singularity */
+} Law;
+
+typedef struct {
+    int left, right; /* floors, counted from 0 in the vector of all floors */
+    real gap;
+    real mass; /* m_left m_right / (m_left + m_right) */
+    Law law;
+} Contact;
+
+typedef struct {
+    int count;
+    real *time, *acceleration; /* scaled */
+} Record;
+
+typedef struct {
+    int left_floors, right_floors, floors; /* left floors first in every vector */
+    real mass[MAX_FLOORS], u0[MAX_FLOORS], v0[MAX_FLOORS];
+    real K[MAX_FLOORS][MAX_FLOORS], C[MAX_FLOORS][MAX_FLOORS];
+    int contacts;
+    Contact contact[MAX_CONTACTS];
+    Record record;
+    real min_approach_velocity;
+    double output_step, stop;
+} Scene;
+
+/* Reads an input file ("-": standard input); ends the program with a message where it is wrong. */
+void read_scene(const char *path, Scene *scene);
+
+/* Ends the program with a message. */
+_Noreturn void fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* ---- structure.c: damping matrices from ratios ---- */
+
+/* Writes the damping matrix of one building (floors first .. first+n-1) into scene->C. */
+void damping_from_ratios(Scene *scene, int first, int n, const real *ratios);
+void damping_rayleigh(Scene *scene, int first, int n, real ratio, int mode_1, int mode_2);
+
+/* ---- law.c: impact laws ---- */
+
+/* What a contact is doing. Closed contacts are in every mode but OPEN. */
+typedef enum {
+    OPEN,
+    PUSHING,   /* the law with its damping */
+    RESTORING, /* jankowski while v <= 0: spring only */
+    CLIPPED,   /* the law would pull: no force */
+    STUCK      /* stereomechanical: held together by the reaction */
+} Mode;
+
+/* Completes a law from its constants; m is the effective mass, formula the name of the damping formula or NULL. */
+void prepare_law(Law *law, real m, const char *formula);
+/* Force and its time derivative for penetration d, rate v and its derivative a; V: approach velocity, 0 for none. */
+real law_force(const Law *law, Mode mode, real V, real d, real v);
+real law_force_rate(const Law *law, Mode mode, real V, real d, real v, real a);
+/* A quantity that is negative where the law would pull (laws that are clipped), and its time derivative. */
+real law_push(const Law *law, real V, real d, real v);
+real law_push_rate(const Law *law, real V, real v, real a);
+bool law_is_clipped(const Law *law, real V);
+
+/* ---- gauss.c: Gauss-Legendre collocation on [0, 1] ---- */
+
+typedef struct {
+    int stages;
+    real node[MAX_STAGES], weight[MAX_STAGES];
+    real integral[MAX_STAGES][MAX_STAGES]; /* [i][j]: integral from 0 to node i of the Lagrange polynomial j */
+    real tail[2][MAX_STAGES];              /* rows giving the last two Legendre coefficients of stage values */
+} Gauss;
+
+void prepare_gauss(Gauss *gauss, int stages);
+/* row[j]: integral from 0 to x of the Lagrange polynomial j. */
+void integral_row(const Gauss *gauss, real x, real *row);
+
+/* ---- step.c: one step ---- */
+
+/* Everything known at one time. */
+typedef struct {
+    real t, ground;
+    real u[MAX_FLOORS], v[MAX_FLOORS], a[MAX_FLOORS]; /* relative to the ground */
+    real d[MAX_CONTACTS], rate[MAX_CONTACTS], rate_change[MAX_CONTACTS], force[MAX_CONTACTS];
+} Point;
+
+/* How time runs with x in [0, 1]: t = t0 + H x, H x^q, or H (1 - (1-x)^q). */
+typedef enum { PLAIN, FROM_ENTRY, TO_RELEASE } ClockKind;
+typedef struct {
+    ClockKind kind;
+    int q;
+} Clock;
+
+/* State of the contacts during one step. */
+typedef struct {
+    Mode mode[MAX_CONTACTS];
+    real V[MAX_CONTACTS]; /* divisor of the law: approach velocity, not below the floor; 0: no damping */
+} Phases;
+
+typedef struct {
+    Clock clock;
+    real H;
+    Point point[MAX_STAGES + 2];      /* start, stages, end */
+    real x[MAX_STAGES + 2];
+    real dt_dx[MAX_STAGES];           /* at the stages */
+    real tail;                        /* of the Legendre series of the velocities' derivative, m/s */
+    int iterations;
+    bool solved; /* the stage values belong to this start, clock and about this H; set false with another start */
+} Step;
+
+/* What the steps of one run share. */
+typedef struct {
+    const Scene *scene;
+    Gauss gauss;
+    int entries[MAX_FLOORS], column[MAX_FLOORS][MAX_FLOORS]; /* non-zero columns of K and C, row by row */
+    real k_over_m[MAX_FLOORS][MAX_FLOORS], c_over_m[MAX_FLOORS][MAX_FLOORS];
+    real segment_time, segment_ground, segment_slope; /* ground acceleration of the present piece */
+    Phases phases;
+    real u_scale, v_scale; /* largest values so far */
+    long steps, rejected, iterations;
+} Solver;
+
+void prepare_solver(Solver *solver, const Scene *scene, int stages);
+/* Fills rates, forces and accelerations of a point from its t, u, v, d. */
+void complete_point(const Solver *solver, Point *p);
+/* Time derivative of the force of a stuck contact. */
+real reaction_rate(const Solver *solver, int contact, const Point *p);
+/* Solves the collocation equations from step->point[0] over H; false where the iteration does not converge. */
+bool solve_step(Solver *solver, Step *step, Clock clock, real H);
+/* The collocation polynomial at x. */
+void dense_point(const Solver *solver, const Step *step, real x, Point *p);
+/* Time from the start of the step at x. */
+real clock_time(Clock clock, real H, real x);
+static inline Point *step_end(const Solver *solver, Step *step) { return &step->point[solver->gauss.stages + 1]; }
+
+/* ---- correct.c ---- */
+
+/* Turns the residuals of the stages' accelerations into their Newton corrections; false where that fails. */
+bool correct_stages(const Solver *solver, const Step *step, real residual[MAX_STAGES][MAX_FLOORS]);
+
+/* ---- event.c: where a contact changes its mode ---- */
+
+typedef enum { PENETRATION, RATE, PUSH, REACTION } Quantity;
+
+/* The mode of a contact changes when `sign` times the quantity becomes positive. */
+typedef struct {
+    int contact;
+    Quantity quantity;
+    int sign;
+} Guard;
+
+typedef struct {
+    Guard guard;
+    real x; /* in the step in which it was found */
+} Event;
+
+/* The guards of a contact in its present mode; returns their number (at most 2). */
+int contact_guards(const Solver *solver, int contact, Guard guards[2]);
+real guard_value(const Solver *solver, Guard guard, const Point *p); /* times sign */
+real guard_rate(const Solver *solver, Guard guard, const Point *p);  /* times sign */
+/* Size of the rounding errors of a guard is about 1e-34 times this. */
+real guard_scale(const Solver *solver, Guard guard);
+/* The first event within a solved step, on its polynomial, which is good to the given part of the largest values. */
+bool first_event(const Solver *solver, const Step *step, real error, Event *event);
+/* The first x between points from and to at which f(p) turns from negative to positive, on the polynomial. */
+typedef real PointFunction(const Solver *solver, const void *context, const Point *p);
+real dense_root(const Solver *solver, const Step *step, real lo, real hi, PointFunction *f, const void *context);
+/* Changes the length of a step until the guard is 0 at its end, starting from H; false where that fails. */
+bool locate(Solver *solver, Step *step, Clock clock, real H, Guard guard);
+
+/* ---- episode.c: what is recorded of each contact ---- */
+
+typedef struct {
+    int contact;
+    bool open;
+    real start, end, approach_velocity, separation_velocity;
+    real peak_force, peak_time, peak_penetration, impulse, dissipated;
+} Episode;
+
+typedef struct {
+    int count, capacity;
+    Episode *list;
+    int current[MAX_CONTACTS]; /* open episode of each contact, -1 */
+} Episodes;
+
+Episode *begin_episode(Episodes *episodes, int contact, const Point *p, real V);
+void end_episode(Episodes *episodes, int contact, const Point *p);
+/* Adds impulse and work of an accepted step and looks for peaks in it. `scratch` is used for shorter steps. */
+void record_step(Solver *solver, Episodes *episodes, const Step *step, Step *scratch);
+
+/* ---- solve.c: one solution ---- */
+
+typedef struct {
+    real input, kinetic, strain, viscous, impact;
+} Energy;
+
+typedef struct {
+    real time, u[MAX_FLOORS], v[MAX_FLOORS];
+    Energy energy;
+} Row;
+
+typedef struct {
+    int stages;
+    real tolerance;
+    int rows;
+    Row *row;
+    Episodes episodes;
+    long steps, rejected, iterations;
+    double seconds, energy_residual;
+} Solution;
+
+void solve(const Scene *scene, int stages, real tolerance, Solution *solution);
+
+/* Everything that changes while a scene is solved. */
+typedef struct {
+    const Scene *scene;
+    Solver solver;
+    Solution *solution;
+    real tolerance;
+    Point now;
+    Step step, scratch;
+    bool fresh[MAX_CONTACTS];   /* just entered: its law has a root where the next step starts */
+    real H_open, H_closed;      /* proposed step */
+    real H_entry[MAX_CONTACTS]; /* first step of the last episode */
+    Energy energy;
+    real initial_energy;
+} Run;
+
+/* ---- mode.c: what happens to a contact at an event ---- */
+
+/* Contacts with d > 0 at the start are closed, without approach velocity. */
+void close_at_start(Run *run);
+/* Changes the mode of the guard's contact, and of others whose guards are 0 at the same time. */
+void fire(Run *run, Guard guard);
+/* Gives both floors of a contact their common velocity, exactly. */
+void equalise(Run *run, int contact);
+
+/* ---- march.c ---- */
+
+/* Integrates to t_end, over which the ground acceleration is one linear piece. */
+void advance(Run *run, real t_end);
+void update_scales(Run *run);
+
+/* ---- proof.c: how far the solution can be trusted ---- */
+
+typedef struct {
+    Solution second;
+    double u, v, time; /* largest differences; u and v relative to the largest value, time in s */
+    bool same_impacts;
+    double *sensitivity; /* per row */
+} Proof;
+
+/* Solves the scene again in another way, and another one that differs in the 18th digit. */
+void prove(const Scene *scene, const Solution *best, Proof *proof);
+
+/* ---- output.c ---- */
+
+void print_run(const Solution *solution);
+/* Writes OUTPUT.displacements.csv and OUTPUT.impacts.csv; proof: NULL without one. */
+void write_files(const char *output, const char *made_by, const Scene *scene, const Solution *best, const Proof *proof);
+
+#endif

@@ -1,0 +1,315 @@
+/* Reads the input file. Its format is described at the head of reference.c. */
+#include "reference.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void fail(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    fprintf(stderr, "reference: ");
+    vfprintf(stderr, format, arguments);
+    fprintf(stderr, "\n");
+    va_end(arguments);
+    exit(1);
+}
+
+/* ---- words and numbers of a line ---- */
+
+enum { MAX_WORDS = 256, MAX_LINE = 8192 };
+
+typedef struct {
+    int number, count;
+    char text[MAX_LINE], *word[MAX_WORDS];
+} Line;
+
+static bool next_line(FILE *file, Line *line)
+{
+    while (fgets(line->text, MAX_LINE, file)) {
+        line->number++;
+        char *comment = strchr(line->text, '#');
+        if (comment)
+            *comment = '\0';
+        line->count = 0;
+        for (char *word = strtok(line->text, " \t\r\n"); word; word = strtok(NULL, " \t\r\n")) {
+            if (line->count == MAX_WORDS)
+                fail("line %d: too many words", line->number);
+            line->word[line->count++] = word;
+        }
+        if (line->count > 0)
+            return true;
+    }
+    return false;
+}
+
+/* A decimal number becomes the nearest double, as in the engine, and is exact from there on. */
+static double number(const char *text, const char *where, int line)
+{
+    char *end;
+    double x = strtod(text, &end);
+    if (end == text || *end || !isfinite(x))
+        fail("%s, line %d: '%s' is not a finite number", where, line, text);
+    return x;
+}
+
+static const char *word(const Line *line, int i)
+{
+    if (i >= line->count)
+        fail("line %d: '%s' wants more words", line->number, line->word[0]);
+    return line->word[i];
+}
+
+static double value(const Line *line, int i) { return number(word(line, i), "input", line->number); }
+
+static void values(const Line *line, int from, int n, real *out)
+{
+    if (line->count != from + n)
+        fail("line %d: '%s' wants %d numbers", line->number, line->word[0], n);
+    for (int i = 0; i < n; i++)
+        out[i] = value(line, from + i);
+}
+
+/* ---- record ---- */
+
+static void read_record(const char *path, Record *record)
+{
+    FILE *file = fopen(path, "r");
+    if (!file)
+        fail("cannot open the record %s", path);
+    int capacity = 0, line_number = 0;
+    char line[512];
+    while (fgets(line, sizeof line, file)) {
+        line_number++;
+        line[strcspn(line, "\r\n")] = '\0';
+        char *comma = strchr(line, ',');
+        if (line[0] == '#' || line[0] == '\0' || strncmp(line, "time_s", 6) == 0)
+            continue;
+        if (!comma)
+            fail("%s, line %d: expected time_s,accel_m_s2", path, line_number);
+        *comma = '\0';
+        if (record->count == capacity) {
+            capacity = capacity ? 2 * capacity : 4096;
+            record->time = realloc(record->time, capacity * sizeof(real));
+            record->acceleration = realloc(record->acceleration, capacity * sizeof(real));
+        }
+        record->time[record->count] = number(line, path, line_number);
+        record->acceleration[record->count] = number(comma + 1, path, line_number);
+        if (record->count > 0 && record->time[record->count] <= record->time[record->count - 1])
+            fail("%s, line %d: times must increase", path, line_number);
+        record->count++;
+    }
+    fclose(file);
+    if (record->count < 2)
+        fail("%s: fewer than two samples", path);
+}
+
+static void scale_record(Record *record, real scale, real pga)
+{
+    if (pga > 0) {
+        real peak = 0;
+        for (int i = 0; i < record->count; i++)
+            peak = fmaxq(peak, fabsq(record->acceleration[i]));
+        scale = pga / peak;
+    }
+    for (int i = 0; i < record->count; i++)
+        record->acceleration[i] *= scale;
+}
+
+/* ---- buildings ---- */
+
+typedef struct {
+    Scene *scene;
+    int first, floors; /* the building that is being read */
+    int stiffness_rows, damping_rows;
+} Reader;
+
+static void shear_stiffness(Scene *scene, int first, int n, const real *storey)
+{
+    for (int i = 0; i < n; i++) {
+        int floor = first + i;
+        scene->K[floor][floor] += storey[i];
+        if (i > 0) {
+            scene->K[floor - 1][floor - 1] += storey[i];
+            scene->K[floor][floor - 1] -= storey[i];
+            scene->K[floor - 1][floor] -= storey[i];
+        }
+    }
+}
+
+static void begin_building(Reader *reader, int floors)
+{
+    Scene *scene = reader->scene;
+    if (floors < 1 || scene->floors + floors > MAX_FLOORS)
+        fail("1 to %d floors altogether", MAX_FLOORS);
+    reader->first = scene->floors;
+    reader->floors = floors;
+    reader->stiffness_rows = reader->damping_rows = 0;
+    scene->floors += floors;
+    if (reader->first == 0)
+        scene->left_floors = floors;
+    else
+        scene->right_floors = floors;
+}
+
+static void read_damping(Reader *reader, const Line *line)
+{
+    Scene *scene = reader->scene;
+    const char *kind = word(line, 1);
+    real numbers[MAX_FLOORS];
+    int n = reader->floors;
+    if (strcmp(kind, "ratio") == 0) {
+        values(line, 2, 1, numbers);
+        for (int i = 1; i < n; i++)
+            numbers[i] = numbers[0];
+        damping_from_ratios(scene, reader->first, n, numbers);
+    } else if (strcmp(kind, "ratios") == 0) {
+        values(line, 2, n, numbers);
+        damping_from_ratios(scene, reader->first, n, numbers);
+    } else if (strcmp(kind, "rayleigh") == 0) {
+        values(line, 2, 3, numbers);
+        int mode_1 = (int)numbers[1], mode_2 = (int)numbers[2];
+        if (mode_1 < 1 || mode_1 > n || mode_2 < 1 || mode_2 > n)
+            fail("line %d: modes out of range", line->number);
+        damping_rayleigh(scene, reader->first, n, numbers[0], mode_1, mode_2);
+    } else {
+        fail("line %d: unknown damping '%s'", line->number, kind);
+    }
+}
+
+/* true where the line is one of a building. */
+static bool read_building_line(Reader *reader, const Line *line)
+{
+    Scene *scene = reader->scene;
+    const char *key = line->word[0];
+    int first = reader->first, n = reader->floors;
+    if (n == 0)
+        return false;
+    if (strcmp(key, "mass") == 0) {
+        values(line, 1, n, scene->mass + first);
+    } else if (strcmp(key, "stiffness") == 0) {
+        real storey[MAX_FLOORS];
+        values(line, 1, n, storey);
+        shear_stiffness(scene, first, n, storey);
+    } else if (strcmp(key, "stiffness_row") == 0) {
+        if (reader->stiffness_rows == n)
+            fail("line %d: more rows than floors", line->number);
+        values(line, 1, n, scene->K[first + reader->stiffness_rows++] + first);
+    } else if (strcmp(key, "damping") == 0) {
+        read_damping(reader, line);
+    } else if (strcmp(key, "damping_row") == 0) {
+        if (reader->damping_rows == n)
+            fail("line %d: more rows than floors", line->number);
+        values(line, 1, n, scene->C[first + reader->damping_rows++] + first);
+    } else if (strcmp(key, "displacement") == 0) {
+        values(line, 1, n, scene->u0 + first);
+    } else if (strcmp(key, "velocity") == 0) {
+        values(line, 1, n, scene->v0 + first);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/* ---- contacts ---- */
+
+static LawKind law_kind(const char *name, int line)
+{
+    static const char *const names[] = {"linear", "kelvin_voigt",  "kelvin_voigt_no_tension", "hertz",
+                                        "jankowski", "hertz_damped", "stereomechanical"};
+    for (unsigned i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(name, names[i]) == 0)
+            return (LawKind)i;
+    fail("line %d: unknown law '%s'", line, name);
+}
+
+/* contact LEFT_FLOOR RIGHT_FLOOR GAP LAW [key value ...] */
+static void read_contact(Scene *scene, const Line *line)
+{
+    if (scene->contacts == MAX_CONTACTS)
+        fail("at most %d contacts", MAX_CONTACTS);
+    Contact *contact = &scene->contact[scene->contacts++];
+    int left = (int)value(line, 1), right = (int)value(line, 2);
+    if (left < 1 || left > scene->left_floors || right < 1 || right > scene->right_floors)
+        fail("line %d: no such floor", line->number);
+    contact->left = left - 1;
+    contact->right = scene->left_floors + right - 1;
+    contact->gap = value(line, 3);
+    contact->law = (Law){.kind = law_kind(word(line, 4), line->number), .n = 1, .e = 1};
+    if (contact->law.kind == HERTZ || contact->law.kind == HERTZ_DAMPED)
+        contact->law.n = 1.5Q;
+    const char *formula = NULL;
+    for (int i = 5; i < line->count; i += 2) {
+        const char *key = line->word[i];
+        if (strcmp(key, "stiffness") == 0)
+            contact->law.k = value(line, i + 1);
+        else if (strcmp(key, "exponent") == 0)
+            contact->law.n = value(line, i + 1);
+        else if (strcmp(key, "restitution") == 0)
+            contact->law.e = value(line, i + 1);
+        else if (strcmp(key, "damping_formula") == 0)
+            formula = word(line, i + 1);
+        else
+            fail("line %d: unknown key '%s'", line->number, key);
+    }
+    real left_mass = scene->mass[contact->left], right_mass = scene->mass[contact->right];
+    contact->mass = left_mass * right_mass / (left_mass + right_mass);
+    prepare_law(&contact->law, contact->mass, formula);
+}
+
+/* The reaction of a stuck contact is computed for each contact by itself: no floor may have two. */
+static void check_shared_floors(const Scene *scene)
+{
+    for (int i = 0; i < scene->contacts; i++)
+        for (int j = 0; j < i; j++) {
+            const Contact *a = &scene->contact[i], *b = &scene->contact[j];
+            if ((a->left == b->left || a->right == b->right) &&
+                (a->law.kind == STEREOMECHANICAL || b->law.kind == STEREOMECHANICAL))
+                fail("a floor in two contacts, one of them stereomechanical, is not implemented");
+        }
+}
+
+void read_scene(const char *path, Scene *scene)
+{
+    FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "r");
+    if (!file)
+        fail("cannot open %s", path);
+    *scene = (Scene){.stop = -1, .min_approach_velocity = 1e-4 /* the nearest double */};
+    static Line line;
+    Reader reader = {.scene = scene};
+    real scale = 1, pga = 0;
+    while (next_line(file, &line)) {
+        const char *key = line.word[0];
+        if (strcmp(key, "stop") == 0)
+            scene->stop = value(&line, 1);
+        else if (strcmp(key, "output_step") == 0)
+            scene->output_step = value(&line, 1);
+        else if (strcmp(key, "record") == 0)
+            read_record(word(&line, 1), &scene->record);
+        else if (strcmp(key, "scale") == 0)
+            scale = value(&line, 1);
+        else if (strcmp(key, "pga") == 0)
+            pga = value(&line, 1);
+        else if (strcmp(key, "min_approach_velocity") == 0)
+            scene->min_approach_velocity = value(&line, 1);
+        else if (strcmp(key, "building") == 0 && !scene->right_floors)
+            begin_building(&reader, (int)value(&line, 1));
+        else if (strcmp(key, "contact") == 0 && scene->right_floors)
+            read_contact(scene, &line);
+        else if (!read_building_line(&reader, &line))
+            fail("line %d: '%s' not understood here", line.number, key);
+    }
+    if (file != stdin)
+        fclose(file);
+    if (!scene->right_floors || !(scene->stop > 0) || !(scene->output_step > 0))
+        fail("%s: two buildings, stop and output_step are needed", path);
+    for (int i = 0; i < scene->floors; i++)
+        if (!(scene->mass[i] > 0))
+            fail("%s: every floor needs a mass > 0", path);
+    check_shared_floors(scene);
+    if (scene->record.count)
+        scale_record(&scene->record, scale, pga);
+}

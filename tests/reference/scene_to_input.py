@@ -1,0 +1,92 @@
+"""Converts a scene (TOML) to the input of the reference solver (format: head of reference.c).
+
+    python3 tests/reference/scene_to_input.py SCENE.toml [--step S] [--stop T] [--record FILE] > INPUT
+
+Python 3.11, standard library only. Numbers go through float64, as in the engine.
+"""
+import argparse
+import os
+import tomllib
+
+
+def numbers(values):
+    return " ".join(repr(float(value)) for value in values)
+
+
+def damping_lines(damping):
+    (kind, value), = damping.items()
+    if kind == "ratio":
+        return [f"damping ratio {numbers([value])}"]
+    if kind == "ratios":
+        return [f"damping ratios {numbers(value)}"]
+    if kind == "rayleigh":
+        first, second = value["modes"]
+        return [f"damping rayleigh {numbers([value['ratio']])} {first} {second}"]
+    if kind == "matrix":
+        return [f"damping_row {numbers(row)}" for row in value]
+    raise SystemExit(f"damping: unknown kind {kind!r}")
+
+
+def building_lines(building):
+    lines = [f"building {len(building['mass'])}", f"mass {numbers(building['mass'])}"]
+    if "stiffness" in building:
+        lines.append(f"stiffness {numbers(building['stiffness'])}")
+    else:
+        lines += [f"stiffness_row {numbers(row)}" for row in building["stiffness_matrix"]]
+    lines += damping_lines(building["damping"])
+    for key in ("displacement", "velocity"):
+        if f"initial_{key}" in building:
+            lines.append(f"{key} {numbers(building[f'initial_{key}'])}")
+    return lines
+
+
+def contact_line(contact):
+    words = ["contact", str(contact["left_floor"]), str(contact["right_floor"])]
+    words += [numbers([contact["gap"]]), contact["law"]]
+    for key in ("stiffness", "exponent", "restitution"):
+        if key in contact:
+            words += [key, numbers([contact[key]])]
+    if "damping_formula" in contact:
+        words += ["damping_formula", contact["damping_formula"]]
+    return " ".join(words)
+
+
+def record_lines(ground, scene_folder, other_record):
+    record = other_record
+    if record is None and "record" in ground:
+        record = os.path.normpath(os.path.join(scene_folder, ground["record"]))
+    if record is None:
+        return []
+    if not record.lower().endswith(".csv"):
+        raise SystemExit(f"{record}: only CSV records")
+    lines = [f"record {record}"]
+    for key in ("scale", "pga"):
+        if key in ground:
+            lines.append(f"{key} {numbers([ground[key]])}")
+    return lines
+
+
+def convert(path, step, stop, record):
+    with open(path, "rb") as file:
+        scene = tomllib.load(file)
+    lines = [f"stop {numbers([scene['stop_time'] if stop is None else stop])}", f"output_step {numbers([step])}"]
+    lines += record_lines(scene.get("ground", {}), os.path.dirname(path), record)
+    if "min_approach_velocity" in scene.get("solver", {}):
+        lines.append(f"min_approach_velocity {numbers([scene['solver']['min_approach_velocity']])}")
+    lines += building_lines(scene["left"]) + building_lines(scene["right"])
+    lines += [contact_line(contact) for contact in scene.get("contact", [])]
+    return lines
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scene")
+    parser.add_argument("--step", type=float, default=0.5, help="output step, s")
+    parser.add_argument("--stop", type=float, help="end, s; default: stop_time of the scene")
+    parser.add_argument("--record", help="another record (CSV)")
+    options = parser.parse_args()
+    print("\n".join(convert(options.scene, options.step, options.stop, options.record)))
+
+
+if __name__ == "__main__":
+    main()
