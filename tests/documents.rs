@@ -1,0 +1,175 @@
+//! The documents say what the code says: sources, quoted files, scene keys, laws, variables, file names.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use pounding::contact::LawKind;
+use pounding::scene::{Scene, law_key};
+use pounding::variables::Table;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const DOCUMENTS: [&str; 3] = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md"];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn read(name: &str) -> String {
+    let text = fs::read_to_string(root().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+    // Git may have changed the ends of the lines.
+    text.replace('\r', "")
+}
+
+/// Files below a directory, with one of the endings.
+fn files(directory: &str, endings: &[&str]) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut directories = vec![root().join(directory)];
+    while let Some(directory) = directories.pop() {
+        for entry in fs::read_dir(&directory).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                directories.push(path);
+            } else if path.extension().is_some_and(|ending| endings.iter().any(|wanted| ending == *wanted)) {
+                found.push(path);
+            }
+        }
+    }
+    found
+}
+
+/// What stands between two marks, each time.
+fn between<'t>(text: &'t str, open: &'t str, close: &'t str) -> impl Iterator<Item = &'t str> {
+    text.split(open).skip(1).filter_map(move |rest| rest.split_once(close)).map(|(inside, _)| inside)
+}
+
+/// Keys of sources, a name and a year, where one begins a bracket: `[Key]`, `[Key, place]`, `\[Key\]`.
+fn citations(text: &str) -> BTreeSet<String> {
+    let key = |rest: &str| {
+        let end = rest.find([',', ']', '\\'])?;
+        let (name, year) = rest.get(..end)?.split_at_checked(end.checked_sub(4)?)?;
+        let is_key = name.starts_with(|c: char| c.is_ascii_uppercase())
+            && name.chars().all(|c| c.is_ascii_alphabetic())
+            && year.chars().all(|c| c.is_ascii_digit());
+        is_key.then(|| format!("{name}{year}"))
+    };
+    text.split('[').skip(1).filter_map(key).collect()
+}
+
+#[test]
+fn every_citation_has_its_source_and_every_source_is_cited() {
+    let mut cited = BTreeSet::new();
+    for directory in ["src", "fmu-build", "tests", "examples"] {
+        for file in files(directory, &["rs", "py", "toml", "csv", "md"]) {
+            cited.extend(citations(&fs::read_to_string(file).unwrap()));
+        }
+    }
+    cited.extend(DOCUMENTS.iter().flat_map(|name| citations(&read(name))));
+    let bibliography = read("REFERENCES.bib");
+    let entries: BTreeSet<String> = (bibliography.lines().filter(|line| line.starts_with('@')))
+        .map(|line| between(line, "{", ",").next().unwrap().to_owned())
+        .collect();
+    assert_eq!(cited, entries);
+}
+
+#[test]
+fn the_readme_quotes_the_example_as_it_is() {
+    let quoted = read("README.md");
+    assert!(quoted.contains(&format!("```python\n{}```", read("examples/drive_with_fmpy.py"))));
+}
+
+#[test]
+fn the_scene_of_the_readme_is_a_scene() {
+    let readme = read("README.md");
+    let scenes: Vec<&str> = between(&readme, "```toml\n", "```").collect();
+    assert_eq!(scenes.len(), 1);
+    Scene::from_toml(scenes[0]).unwrap();
+}
+
+/// The first cells of all table rows of the README, as they stand in backquotes.
+fn first_cells(readme: &str) -> BTreeSet<&str> {
+    let rows = readme.lines().filter_map(|line| line.strip_prefix("| ")?.split_once(" | "));
+    rows.flat_map(|(cell, _)| cell.split('`').skip(1).step_by(2)).collect()
+}
+
+#[test]
+fn every_scene_key_is_in_the_readme() {
+    // A key that nobody knows is answered by the keys that there are.
+    let building = "mass = [1.0]\nstiffness = [1.0]\nx = 0\ndamping = { ratio = 0.0, x = 0 }\n";
+    let mut text = format!("x = 0\nname = \"A\"\n[left]\n{building}[right]\n{building}");
+    for section in ["ground", "inputs", "outputs", "solver"] {
+        text += &format!("[{section}]\nx = 0\n");
+    }
+    for law in LawKind::ALL {
+        text += &format!("[[contact]]\nleft_floor = 1\nright_floor = 1\nlaw = \"{}\"\nx = 0\n", law.info().name);
+    }
+    let readme = read("README.md");
+    let cells = first_cells(&readme);
+    let mut sections = BTreeSet::new();
+    for problem in Scene::from_toml(&text).unwrap_err().problems {
+        let Some(path) = problem.path.strip_suffix('x') else { continue };
+        let section = path.split('[').next().unwrap().trim_end_matches('.').replace("right", "left");
+        for key in between(&problem.expected, " (", ")").next().unwrap().split(", ") {
+            let is_table = ["left", "right", "ground", "inputs", "contact", "outputs", "solver"].contains(&key);
+            let name = format!("{section}.{key}");
+            let known = is_table && section.is_empty()
+                || cells.contains(name.trim_start_matches('.'))
+                || section == "left.damping" && readme.contains(&format!("`{{ {key} = "));
+            assert!(known, "{name} is not in the README");
+        }
+        sections.insert(section);
+    }
+    assert_eq!(sections.len(), 8, "{sections:?}");
+}
+
+#[test]
+fn every_law_is_in_the_readme_with_its_keys() {
+    let readme = read("README.md");
+    for law in LawKind::ALL {
+        let start = format!("| `{}` | ", law.info().name);
+        let row = readme.lines().find(|line| line.starts_with(&start)).unwrap_or_else(|| panic!("no row {start}"));
+        let keys: Vec<String> = law.info().keys.iter().map(|key| format!("`{}`", law_key::number(*key).name)).collect();
+        assert_eq!(row.split(" | ").nth(2), Some(keys.join(", ").as_str()), "{row}");
+    }
+}
+
+#[test]
+fn the_variables_of_the_readme_are_those_of_the_table() {
+    let text = read("README.md");
+    let scene = between(&text, "```toml\n", "```").next().unwrap();
+    let with_hertz = scene.replace("kelvin_voigt_no_tension", "hertz").replace("restitution = 0.65", "exponent = 1.5");
+    let driven = scene.lines().filter(|line| !line.starts_with("record") && !line.starts_with("pga"));
+    let driven: String = driven.flat_map(|line| [line, "\n"]).collect();
+    let mut variables = BTreeSet::new();
+    for scene in [scene, &with_hertz, &driven] {
+        let scene =
+            Scene::from_toml(&format!("{scene}[inputs]\nfloor_forces = true\n[outputs]\nenergy = true")).unwrap();
+        for row in Table::new(&scene).rows {
+            let name = row.name.replace("right", "left");
+            let (before, rest) = name.split_once('[').unwrap_or((&name, ""));
+            let counter = if before == "contact" { "p" } else { "i" };
+            let (_, after) = rest.split_once(']').unwrap_or(("", ""));
+            variables.insert(if rest.is_empty() { name.clone() } else { format!("{before}[{counter}]{after}") });
+        }
+    }
+    let (_, section) = text.split_once("## What the numbers mean").unwrap();
+    let (section, _) = section.split_once("\n## ").unwrap();
+    let described: BTreeSet<String> = first_cells(section).into_iter().map(str::to_owned).collect();
+    assert_eq!(described, variables);
+}
+
+#[test]
+fn the_files_that_the_documents_name_exist() {
+    for document in DOCUMENTS {
+        let text = read(document);
+        for link in between(&text, "](", ")").filter(|link| !link.contains("://")) {
+            assert!(root().join(link).exists(), "{document}: {link}");
+        }
+    }
+    for document in ["ARCHITECTURE.md", "src/lib.rs"] {
+        let text = read(document);
+        for name in text.split('`').skip(1).step_by(2).filter(|name| name.ends_with(".rs") || name.ends_with('/')) {
+            let exists = ["", "src"].iter().any(|directory| root().join(directory).join(name).exists());
+            assert!(exists, "{document}: {name}");
+        }
+    }
+}
