@@ -157,3 +157,18 @@ fn full_stiffness_and_non_classical_damping() {
 fn pressed_and_touching_floors() {
     compare("tests/reference/scenes/touching.toml", "touching", 1e-13);
 }
+
+#[test]
+fn jankowski_on_the_laboratory_frames() {
+    compare("tests/reference/scenes/feup_jankowski.toml", "feup_jankowski", 1e-12);
+}
+
+#[test]
+fn damped_hertz_on_the_laboratory_frames() {
+    compare("tests/reference/scenes/feup_hertz_damped_ye.toml", "feup_hertz_damped_ye", 1e-12);
+}
+
+#[test]
+fn damped_contact_of_exponent_2_on_the_laboratory_frames() {
+    compare("tests/reference/scenes/feup_hertz_damped_exact_2.toml", "feup_hertz_damped_exact_2", 1e-12);
+}

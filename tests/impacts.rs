@@ -95,3 +95,106 @@ fn hertz_is_elastic_with_its_peak_where_energy_says() {
     let e = impact("law = \"hertz\"\nstiffness = 3.0e7\nexponent = 1.5", 0.5);
     assert!((e.peak_force - 236_609.0).abs() < 0.5, "{}", e.peak_force);
 }
+
+/// What F = k d^n (1 + a v / V) returns: a (1 + e) = ln[(1 + a) / (1 - a e)] (Gonthier 2004), solved by bisection.
+fn returned(a: f64) -> f64 {
+    let g = |e: f64| a * (1.0 + e) - ((1.0 + a) / (1.0 - a * e)).ln();
+    let (mut low, mut high) = (0.0, 1.0_f64.min(1.0 / a));
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        // g is positive below the root: for e = 0 it is a - ln(1 + a).
+        if g(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+/// Each formula for a with a(0.5) and the restitution that it achieves at 0.5, as printed in the paper's reading.
+const FORMULAS: [(&str, f64, f64); 15] = [
+    ("lankarani_nikravesh", 0.5625, 0.725_24),
+    ("ye_printed", 0.5625, 0.725_24),
+    ("ye", 1.6, 0.470_44),
+    ("barros_khatami", 1.6, 0.470_44),
+    ("barros_khatami_damper", 2.4, 0.362_87),
+    ("exact", 1.432_750_533_271_38, 0.5),
+    ("hunt_crossley", 0.75, 0.662_96),
+    ("herbert_mcwhannell", 1.0, 0.593_62),
+    ("lee_wang", 0.375, 0.799_20),
+    ("gonthier", 1.5, 0.487_74),
+    ("zhiying_qishao", 1.529, 0.482_61),
+    ("gharib_hurmuzlu", 2.0, 0.410_72),
+    ("hu_guo", 1.5, 0.487_74),
+    ("safaeifar_farshidianfar", 1.25, 0.536_16),
+    ("carvalho_martins", 1.431_82, 0.500_17),
+];
+
+#[test]
+fn hertz_damped_returns_what_its_coefficient_says_for_any_exponent_stiffness_and_speed() {
+    use pounding::contact::DampingFormula;
+    assert_eq!(FORMULAS.len(), DampingFormula::ALL.len());
+    for (name, a_at_half, achieved_at_half) in FORMULAS {
+        let formula = DampingFormula::from_name(name).unwrap();
+        assert!(
+            (formula.coefficient(0.5) - a_at_half).abs() < 5e-4 * a_at_half,
+            "{name}: {}",
+            formula.coefficient(0.5)
+        );
+        assert!((returned(formula.coefficient(0.5)) - achieved_at_half).abs() < 6e-6, "{name}");
+        for (e, n, stiffness, speed) in [
+            (0.5, 1.5, 3e7, 0.5),
+            (0.1, 1.0, 1e6, 0.1),
+            (0.3, 1.3, 1e8, 2.0),
+            (0.65, 1.5, 1e12, 1e-3),
+            (0.8, 2.0, 3e9, 0.5),
+            (0.9, 3.0, 1e12, 1.0),
+            (1.0, 1.5, 3e7, 0.5),
+        ] {
+            let law = format!(
+                "law = \"hertz_damped\"\nstiffness = {stiffness:?}\nexponent = {n:?}\nrestitution = {e:?}
+                damping_formula = \"{name}\""
+            );
+            let a = formula.coefficient(e);
+            let episode = impact(&law, speed);
+            let achieved = if a == 0.0 { 1.0 } else { returned(a) };
+            assert_close(episode.separation_velocity / speed, achieved, 1e-12, &format!("{law}\nrestitution"));
+            let spring = stiffness * if name == "barros_khatami" { 1.5 } else { 1.0 };
+            let lost = if a == 0.0 { 0.5 } else { (a - a.ln_1p()) / (a * a) };
+            let deepest = ((n + 1.0) * FREE_MASS * speed * speed * lost / spring).powf(1.0 / (n + 1.0));
+            assert_close(episode.peak_penetration, deepest, 1e-12, &format!("{law}\npeak penetration"));
+            if name == "exact" {
+                assert_close(episode.separation_velocity / speed, e, 1e-12, "exact is exact");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_approach_velocity_that_damping_divides_by_has_a_floor() {
+    // At a tenth of the floor of 1e-4 m/s the damping is a tenth: a' = a V / floor.
+    let law = "law = \"hertz_damped\"\nstiffness = 3.0e7\nexponent = 1.5\nrestitution = 0.5\ndamping_formula = \"ye\"";
+    assert_close(impact(law, 1e-5).separation_velocity / 1e-5, returned(0.16), 1e-12, "restitution");
+}
+
+#[test]
+fn jankowski_is_scale_free_and_returns_what_an_integration_says() {
+    // Achieved restitution and reference impact, integrated with d = s^4 for the paper's reading.
+    for (e, achieved) in
+        [(0.1, 0.093_32), (0.3, 0.291_75), (0.5, 0.494_59), (0.65, 0.647_03), (0.8, 0.798_94), (0.9, 0.899_72)]
+    {
+        let law = |stiffness: f64| format!("law = \"jankowski\"\nstiffness = {stiffness:?}\nrestitution = {e:?}");
+        let first = impact(&law(3e7), 0.5);
+        assert!(
+            (first.separation_velocity / 0.5 - achieved).abs() < 6e-6,
+            "e = {e}: {}",
+            first.separation_velocity / 0.5
+        );
+        for (stiffness, speed) in [(1e5, 1.0), (1e12, 1e-3), (1e10, 10.0)] {
+            let other = impact(&law(stiffness), speed);
+            assert_close(other.separation_velocity / speed, first.separation_velocity / 0.5, 1e-12, "scale");
+        }
+    }
+    let e = impact("law = \"jankowski\"\nstiffness = 3.0e7\nrestitution = 0.5", 0.5);
+    assert!((e.peak_force - 188_124.0).abs() < 0.6, "{}", e.peak_force);
+    assert!((e.peak_penetration - 0.022_56).abs() < 0.6e-5, "{}", e.peak_penetration);
+    let elastic = impact("law = \"jankowski\"\nstiffness = 3.0e7\nrestitution = 1.0", 0.5);
+    assert_eq!(elastic.dissipated_energy, 0.0);
+}

@@ -172,3 +172,25 @@ fn look<'a>(groups: &'a Groups, fmu: &dyn CoSimulation, time: f64, seen: &mut Ha
         Some((name, value)) => bail!("{name} is {value} at {time} s"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Experiment;
+
+    #[test]
+    fn steps_end_at_the_stop_time_and_rounding_adds_none() {
+        for (start, stop, step, steps) in [
+            (0.0, 20.0, 0.01, 2000),
+            (0.0, 20.0, 0.037, 541),
+            (0.0, 0.3, 0.1, 3),
+            (0.0, 0.005, 0.01, 1),
+            (5.0, 6.0, 0.1, 10),
+        ] {
+            let experiment = Experiment { start, stop, step };
+            assert_eq!(experiment.steps(), steps);
+            assert_eq!(experiment.point(0), start);
+            assert_eq!(experiment.point(steps), stop);
+            assert!(experiment.point(steps - 1) < stop);
+        }
+    }
+}

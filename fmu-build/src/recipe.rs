@@ -18,6 +18,7 @@ use tempfile::NamedTempFile;
 /// loaded and has run: what fails leaves no FMU behind, and an older one where it was.
 pub fn build(scene: Option<&Path>, output: Option<&Path>) -> Result<String> {
     let progress = Progress::start();
+    progress.step("reading the scene");
     let workspace = Workspace::find()?;
     let scene_file = scene.map_or_else(|| workspace.default_scene(), Path::to_path_buf);
     let package = read(&scene_file)?;

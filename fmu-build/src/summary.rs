@@ -192,3 +192,23 @@ impl Table {
         text
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::digits;
+
+    #[test]
+    fn five_digits_whatever_the_size() {
+        for (value, text) in [
+            (0.0, "0"),
+            (-3.0, "-3"),
+            (1234.56, "1234.6"),
+            (0.0123456, "0.012346"),
+            (-999_999.5, "-1000000"),
+            (1.5e-7, "1.5000e-7"),
+            (2.5e9 + 0.5, "2.5000e9"),
+        ] {
+            assert_eq!(digits(value), text);
+        }
+    }
+}

@@ -1,7 +1,7 @@
 //! The contact force as the engine integrates it: each law, with its episode's numbers filled in, is one of a few
 //! analytic [`Force`]s on either side of a [`Guard`].
 
-use super::{ImpactLaw, LawKind};
+use super::{DampingFormula, ImpactLaw, LawKind};
 
 /// One analytic piece of a contact force. d is the penetration [m], v its rate [m/s].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,8 +125,10 @@ pub struct EpisodeForce {
 }
 
 impl EpisodeForce {
-    /// The force of a law between floors of reduced mass `mass` [kg], m_left m_right / (m_left + m_right).
-    pub fn new(law: &ImpactLaw, mass: f64) -> EpisodeForce {
+    /// The force of a law between floors of reduced mass `mass`, kg, m_left m_right / (m_left + m_right), entered at
+    /// the approach velocity `approach`, m/s; `None` for a pair that overlaps from the start, which has no damping in
+    /// the laws that divide by it.
+    pub fn new(law: &ImpactLaw, mass: f64, approach: Option<f64>) -> EpisodeForce {
         let stiffness = law.stiffness;
         let always = |engaged| EpisodeForce { engaged, slack: Force::None, guard: None };
         match law.kind {
@@ -141,6 +143,23 @@ impl EpisodeForce {
             }
             LawKind::Hertz if law.exponent == 1.0 => always(Force::Linear { stiffness, damping: 0.0 }),
             LawKind::Hertz => always(Force::Power { stiffness, exponent: law.exponent, damping: 0.0 }),
+            LawKind::Jankowski => {
+                let spring = Force::Power { stiffness, exponent: 1.5, damping: 0.0 };
+                let damping = 2.0 * jankowski_ratio(law.restitution) * (stiffness * mass).sqrt();
+                if damping <= 0.0 {
+                    return always(spring);
+                }
+                let guard = Guard { constant: 0.0, stiffness: 0.0, damping: 1.0 };
+                EpisodeForce { engaged: Force::Root { stiffness, damping }, slack: spring, guard: Some(guard) }
+            }
+            LawKind::HertzDamped => {
+                let formula = law.damping_formula.unwrap_or(DampingFormula::Exact);
+                let stiffness = stiffness * formula.spring_factor();
+                let damping = approach.map_or(0.0, |speed| formula.coefficient(law.restitution) / speed);
+                let guard = (damping > 0.0).then_some(Guard { constant: 1.0, stiffness: 0.0, damping });
+                let engaged = Force::Power { stiffness, exponent: law.exponent, damping };
+                EpisodeForce { engaged, slack: Force::None, guard }
+            }
         }
     }
 
@@ -162,4 +181,11 @@ pub fn kelvin_damping(restitution: f64, stiffness: f64, mass: f64) -> f64 {
     let log = libm::log(restitution);
     let ratio = -log / (std::f64::consts::PI * std::f64::consts::PI + log * log).sqrt();
     2.0 * ratio * (stiffness * mass).sqrt()
+}
+
+/// xi = (9 sqrt(5) / 2) (1 - e^2) / (e (e (9 pi - 16) + 16)) (Jankowski 2006; seed paper, eq. 8).
+///
+/// An approximation: a free impact returns 0.4946 for e = 0.5.
+pub fn jankowski_ratio(e: f64) -> f64 {
+    4.5 * 5.0_f64.sqrt() * (1.0 - e * e) / (e * (e * (9.0 * std::f64::consts::PI - 16.0) + 16.0))
 }

@@ -3,6 +3,8 @@
 //! A law is added here, with one line of [`LawKind`] and its row of [`LawKind::info`]; scene, FMU variables and
 //! documentation read this table.
 
+use super::DampingFormula;
+
 /// The impact laws, under their scene names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LawKind {
@@ -14,6 +16,10 @@ pub enum LawKind {
     KelvinVoigtNoTension,
     /// `hertz`
     Hertz,
+    /// `jankowski`
+    Jankowski,
+    /// `hertz_damped`
+    HertzDamped,
 }
 
 /// A number that a law takes from the scene.
@@ -34,14 +40,22 @@ pub struct LawInfo {
     pub name: &'static str,
     /// The keys that the law has, all required but `exponent`.
     pub keys: &'static [LawKey],
+    /// Whether the law has the key `damping_formula`.
+    pub has_damping_formula: bool,
     /// One sentence for a user: force, source and what to know.
     pub about: &'static str,
 }
 
 impl LawKind {
     /// All laws, in the order in which the documentation shows them.
-    pub const ALL: &'static [LawKind] =
-        &[LawKind::Linear, LawKind::KelvinVoigt, LawKind::KelvinVoigtNoTension, LawKind::Hertz];
+    pub const ALL: &'static [LawKind] = &[
+        LawKind::Linear,
+        LawKind::KelvinVoigt,
+        LawKind::KelvinVoigtNoTension,
+        LawKind::Hertz,
+        LawKind::Jankowski,
+        LawKind::HertzDamped,
+    ];
 
     /// The law's row of the catalogue.
     pub const fn info(self) -> LawInfo {
@@ -50,21 +64,37 @@ impl LawKind {
                 name: "linear",
                 keys: &[LawKey::Stiffness],
                 about: "F = k d; elastic, restitution 1 (seed paper, eq. 3)",
+                has_damping_formula: false,
             },
             LawKind::KelvinVoigt => LawInfo {
                 name: "kelvin_voigt",
                 keys: &[LawKey::Stiffness, LawKey::Restitution],
                 about: "F = k d + c v until d = 0, tension kept; restitution of a free impact exactly e (eqs. 4, 5)",
+                has_damping_formula: false,
             },
             LawKind::KelvinVoigtNoTension => LawInfo {
                 name: "kelvin_voigt_no_tension",
                 keys: &[LawKey::Stiffness, LawKey::Restitution],
                 about: "F = max(0, k d + c v); returns more than e, 0.5503 for e = 0.5 (sec. 2.2)",
+                has_damping_formula: false,
             },
             LawKind::Hertz => LawInfo {
                 name: "hertz",
                 keys: &[LawKey::Stiffness, LawKey::Exponent],
                 about: "F = k d^n; elastic, restitution 1 (eq. 6)",
+                has_damping_formula: false,
+            },
+            LawKind::Jankowski => LawInfo {
+                name: "jankowski",
+                keys: &[LawKey::Stiffness, LawKey::Restitution],
+                about: "F = k d^1.5 + c v while v > 0, k d^1.5 after; returns 0.4946 for e = 0.5 (eqs. 7, 8)",
+                has_damping_formula: false,
+            },
+            LawKind::HertzDamped => LawInfo {
+                name: "hertz_damped",
+                keys: &[LawKey::Stiffness, LawKey::Exponent, LawKey::Restitution],
+                about: "F = k d^n max(0, 1 + a v / V), a by damping_formula (eqs. 9-11, 14)",
+                has_damping_formula: true,
             },
         }
     }
@@ -86,4 +116,6 @@ pub struct ImpactLaw {
     pub exponent: f64,
     /// e, restitution of a free impact that the law aims at (neutral: 1).
     pub restitution: f64,
+    /// Where the law has one.
+    pub damping_formula: Option<DampingFormula>,
 }

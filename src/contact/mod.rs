@@ -1,9 +1,11 @@
 //! Contact of two floors: the laws of the impact force and what is known of them.
 
+pub mod damping_formula;
 pub mod force;
 pub mod law;
 pub mod onset;
 pub mod series;
 
+pub use damping_formula::DampingFormula;
 pub use force::{EpisodeForce, Force, Guard};
 pub use law::{ImpactLaw, LawKey, LawKind};

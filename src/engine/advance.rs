@@ -4,6 +4,7 @@ use super::ground::Segment;
 use super::model::Model;
 use super::state::*;
 use super::{EngineError, Episode, roots};
+use crate::contact::EpisodeForce;
 use crate::contact::series::{PairSeries, value, value_and_slope};
 use crate::structure::difference;
 
@@ -107,6 +108,8 @@ impl Model {
                 contact.penetration = 0.0;
                 contact.rate = difference(&self.pairs[p].row, &base.v).0;
                 contact.at_surface = true;
+                let (pair, approach) = (&self.pairs[p], contact.rate.max(self.least_approach));
+                contact.force = EpisodeForce::new(&pair.law, pair.mass, Some(approach));
                 contact.begin(time, contact.rate.max(0.0));
                 base.impacts += 1;
                 // The first series of an episode finds its own scale.

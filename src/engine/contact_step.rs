@@ -133,8 +133,9 @@ impl Model {
             let law = contact.branch();
             let terms = &step.pairs[p].penetration[..=series.order];
             let left_out = |x: f64| {
-                let penetration = terms.iter().rev().fold(0.0, |sum, c| sum * x + c.abs());
-                law.value(penetration, 0.0) * x * series.scale / self.pairs[p].mass
+                let (penetration, rate) =
+                    terms.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * x + c.abs(), slope * x + value));
+                law.value(penetration, rate / series.scale) * x * series.scale / self.pairs[p].mass
             };
             reach = reach.min(self.forceless_reach(left_out, base.velocity_scale, series, whole));
         }

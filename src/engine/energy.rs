@@ -5,7 +5,7 @@
 use super::model::Model;
 use super::state::*;
 use super::{EnergyPoint, Point};
-use crate::quadrature::{EIGHT, Rule, TWELVE, gauss};
+use crate::quadrature::{EIGHT, TWELVE, gauss, graded};
 use crate::structure::{dot, flight_order};
 
 /// Work over a stretch of time, J.
@@ -51,13 +51,13 @@ impl Model {
             StepKind::Contact => {
                 let series = &step.series;
                 let motion = |t: f64, _: &mut [f64], v: &mut [f64]| series.velocity(t / series.scale, v);
-                self.integrate(base, motion, TWELVE, (0.0, length), work, &mut done);
+                self.integrate(base, motion, gauss(TWELVE, length), 0.0, work, &mut done);
                 series.evaluate(length / series.scale, &mut work.q, &mut work.v);
             }
             StepKind::Onset => {
                 let onset = &step.onset;
                 let motion = |t: f64, q: &mut [f64], v: &mut [f64]| onset.evaluate(t / onset.scale, q, v);
-                self.integrate(base, motion, TWELVE, (0.0, length), work, &mut done);
+                self.integrate(base, motion, graded(TWELVE, length), 0.0, work, &mut done);
                 onset.evaluate(length / onset.scale, &mut work.q, &mut work.v);
             }
             StepKind::Flight | StepKind::Unknown => self.integrate_flight(base, inputs, work, length, &mut done),
@@ -84,7 +84,7 @@ impl Model {
             let start = (work.q.as_slice(), work.v.as_slice());
             series.expand_flight(&self.structure, start, (&work.load, &work.slope), (h, order));
             let motion = |t: f64, _: &mut [f64], v: &mut [f64]| series.velocity(t / h, v);
-            self.integrate(base, motion, EIGHT, (i as f64 * h, h), work, done);
+            self.integrate(base, motion, gauss(EIGHT, h), i as f64 * h, work, done);
             series.evaluate(1.0, &mut work.q, &mut work.v);
             for (load, slope) in work.load.iter_mut().zip(&work.slope) {
                 *load += slope * h;
@@ -93,19 +93,19 @@ impl Model {
         work.series = series;
     }
 
-    /// Adds the work of the ground motion and of structural damping over a solution, which begins `from` seconds after
-    /// the base and is integrated over `length` seconds. `motion`(t, q, v) fills v; q is room for it to work in.
+    /// Adds the work of the ground motion and of structural damping over a solution that begins `from` seconds after
+    /// the base, at the nodes and weights of a quadrature. `motion`(t, q, v) fills v; q is room for it to work in.
     fn integrate(
         &self,
         base: &Base,
         motion: impl Fn(f64, &mut [f64], &mut [f64]),
-        rule: &Rule,
-        (from, length): (f64, f64),
+        nodes: impl Iterator<Item = (f64, f64)>,
+        from: f64,
         work: &mut Workspace,
         done: &mut Work,
     ) {
         let (q, v) = (&mut work.node_q, &mut work.node_v);
-        for (t, weight) in gauss(rule, length) {
+        for (t, weight) in nodes {
             motion(t, q, v);
             let acceleration = base.segment.acceleration_at(base.elapsed + from + t);
             done.input -= weight * acceleration * dot(&self.structure.participation, v);

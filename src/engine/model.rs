@@ -17,6 +17,8 @@ use std::f64::consts::PI;
 pub struct Model {
     pub(super) structure: Structure,
     pub(super) pairs: Vec<Pair>,
+    /// m/s, floor on the approach velocity where a law divides by it.
+    pub(super) least_approach: f64,
     /// Largest |row| entry of each mode over all pairs.
     pub(super) pair_weight: Vec<f64>,
     /// Absent where the acceleration is an input.
@@ -72,6 +74,7 @@ impl Model {
             initial: initial_state(scene, &structure),
             floor_forces: scene.floor_forces,
             energy: scene.energy,
+            least_approach: scene.solver.min_approach_velocity,
             structure,
             pairs,
             pair_weight,
@@ -97,7 +100,7 @@ impl Model {
     }
 
     fn has_singular_law(&self) -> bool {
-        self.pairs.iter().any(|pair| !EpisodeForce::new(&pair.law, pair.mass).engaged.is_regular())
+        self.pairs.iter().any(|pair| !EpisodeForce::new(&pair.law, pair.mass, None).engaged.is_regular())
     }
 
     /// The initial state at a time, s.
@@ -212,7 +215,7 @@ impl Pair {
     /// A pair that overlaps at the start is an episode without approach velocity.
     fn at_start(&self, index: usize, time: f64, q: &[f64], v: &[f64]) -> Contact {
         let (penetration, rate) = self.penetration(q, v);
-        let force = EpisodeForce::new(&self.law, self.mass);
+        let force = EpisodeForce::new(&self.law, self.mass, None);
         let mut contact = Contact {
             phase: Phase::Apart,
             force,

@@ -8,7 +8,7 @@ use super::model::Model;
 use super::state::*;
 use crate::contact::Force;
 use crate::contact::onset::{Grid, MOST_TERMS, OnsetPair, value_and_slope};
-use crate::quadrature::{TWELVE, gauss};
+use crate::quadrature::{TWELVE, graded};
 use crate::structure::{LANES, dot};
 
 /// Highest power of x of the double series: its cost grows with the square, its reach hardly.
@@ -306,11 +306,9 @@ impl Contact {
         self.impulse += impulse * scale;
         self.episode.impulse += impulse * scale;
         if law.is_damped() {
-            // In s with x = s^4 the quarter powers of the root law are smooth.
-            let end = x.sqrt().sqrt();
-            let work = gauss(TWELVE, end).map(|(s, weight)| {
-                let (d, rate) = penetration(s * s * s * s);
-                weight * 4.0 * s * s * s * law.damping_power(d, rate / scale)
+            let work = graded(TWELVE, x).map(|(x, weight)| {
+                let (d, rate) = penetration(x);
+                weight * law.damping_power(d, rate / scale)
             });
             self.work += scale * work.sum::<f64>();
         }

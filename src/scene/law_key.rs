@@ -58,5 +58,5 @@ pub(super) fn all() -> Vec<LawKey> {
 
 /// A law whose numbers are still the neutral ones.
 pub(super) fn neutral(kind: LawKind) -> ImpactLaw {
-    ImpactLaw { kind, stiffness: 1.0, exponent: 1.0, restitution: 1.0 }
+    ImpactLaw { kind, stiffness: 1.0, exponent: 1.0, restitution: 1.0, damping_formula: None }
 }

@@ -3,7 +3,7 @@
 use super::document::{self, Document, Item, Section, one_of};
 use super::problem::{Problem, SceneError};
 use super::{Building, ContactPair, Damping, Ground, Scaling, Scene, Solver, Stiffness, check, law_key};
-use crate::contact::{ImpactLaw, LawKind};
+use crate::contact::{DampingFormula, ImpactLaw, LawKind};
 use std::collections::HashMap;
 
 /// A scene as far as it could be read, with what is wrong with it.
@@ -191,6 +191,7 @@ fn law(mut section: Section<'_>) -> ImpactLaw {
         for key in law_key::all() {
             section.get(law_key::number(key).name).inspect(|item| _ = item.number());
         }
+        section.get("damping_formula").inspect(|item| _ = item.text());
         section.close(KEY);
         return law_key::neutral(LawKind::Linear);
     };
@@ -204,8 +205,22 @@ fn law(mut section: Section<'_>) -> ImpactLaw {
         let value = item.map(|item| item.number()).or(key.default);
         (key.set)(&mut law, value.unwrap_or(f64::NAN));
     }
+    if kind.info().has_damping_formula {
+        law.damping_formula = damping_formula(&mut section);
+    }
     section.close(&format!("a key of law {}", kind.info().name));
     law
+}
+
+fn damping_formula(section: &mut Section<'_>) -> Option<DampingFormula> {
+    let names: Vec<_> = DampingFormula::ALL.iter().map(|formula| formula.name()).collect();
+    let item = section.require("damping_formula", &format!("a damping formula ({})", names.join(", ")))?;
+    let name = item.text()?;
+    let formula = DampingFormula::from_name(name);
+    if formula.is_none() {
+        item.refuse(one_of("a known damping formula", &names, name));
+    }
+    formula
 }
 
 fn law_kind(section: &mut Section<'_>) -> Option<LawKind> {

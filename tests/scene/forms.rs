@@ -1,7 +1,7 @@
 //! What a user may write.
 
 use super::{SCENE, SHORT, edited, messages};
-use pounding::contact::{ImpactLaw, LawKind};
+use pounding::contact::{DampingFormula, ImpactLaw, LawKind};
 use pounding::record::Record;
 use pounding::scene::{Damping, Scaling, Scene, Stiffness};
 
@@ -23,10 +23,17 @@ fn every_key_arrives() {
     assert!(scene.floor_forces && scene.energy);
     let [first, second] = scene.contacts.as_slice() else { panic!("two contacts") };
     assert_eq!((first.left_floor, first.right_floor, first.gap), (1, 1, 0.002));
-    let law = ImpactLaw { kind: LawKind::KelvinVoigt, stiffness: 1e6, exponent: 1.0, restitution: 0.65 };
+    let law = ImpactLaw {
+        kind: LawKind::KelvinVoigt,
+        stiffness: 1e6,
+        exponent: 1.0,
+        restitution: 0.65,
+        damping_formula: None,
+    };
     assert_eq!(first.law, law);
     assert_eq!((second.left_floor, second.right_floor, second.gap), (2, 2, -0.001));
-    let law = ImpactLaw { kind: LawKind::Hertz, stiffness: 2e6, exponent: 1.5, restitution: 1.0 };
+    let law =
+        ImpactLaw { kind: LawKind::Hertz, stiffness: 2e6, exponent: 1.5, restitution: 1.0, damping_formula: None };
     assert_eq!(second.law, law);
     assert_eq!((scene.solver.relative_tolerance, scene.solver.min_approach_velocity), (1e-10, 1e-3));
     assert_eq!(scene.check(), Ok(()));
@@ -40,9 +47,26 @@ fn every_law_of_the_catalogue_is_read_with_its_keys() {
             // 1 is allowed for each of them, and is not the default of `exponent`.
             table += &format!("{} = 1.0\n", pounding::scene::law_key::number(key).name);
         }
+        let damping_formula = kind.info().has_damping_formula.then_some(DampingFormula::HuGuo);
+        if damping_formula.is_some() {
+            table += "damping_formula = \"hu_guo\"\n";
+        }
         let text = format!("{SHORT}\n[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.1\n{table}");
         let law = Scene::from_toml(&text).unwrap().contacts[0].law;
-        assert_eq!(law, ImpactLaw { kind, stiffness: 1.0, exponent: 1.0, restitution: 1.0 });
+        assert_eq!(law, ImpactLaw { kind, stiffness: 1.0, exponent: 1.0, restitution: 1.0, damping_formula });
+    }
+}
+
+#[test]
+fn every_damping_formula_is_read_by_its_name() {
+    for &formula in DampingFormula::ALL {
+        let text = format!(
+            "{SHORT}\n[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.1\nlaw = \"hertz_damped\"\n\
+             stiffness = 1.0\nrestitution = 0.5\ndamping_formula = \"{}\"\n",
+            formula.name()
+        );
+        let law = Scene::from_toml(&text).unwrap().contacts[0].law;
+        assert_eq!((law.damping_formula, law.exponent), (Some(formula), 1.5));
     }
 }
 

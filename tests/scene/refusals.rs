@@ -355,6 +355,28 @@ fn laws_that_do_not_exist() {
 }
 
 #[test]
+fn damping_formulas_that_do_not_fit() {
+    let damped = |rest: &str| edited("law = \"hertz\"\nstiffness = 2.0e6", &format!("law = {rest}\nstiffness = 2.0e6"));
+    let said = messages(&damped("\"hertz_damped\"\nrestitution = 0.5"));
+    let [missing] = said.as_slice() else { panic!("{said:?}") };
+    assert!(missing.starts_with("contact[2].damping_formula: expected a damping formula (lankarani_"), "{missing}");
+    assert!(missing.ends_with(") (missing)"), "{missing}");
+    let said = messages(&damped("\"hertz_damped\"\nrestitution = 0.5\ndamping_formula = \"exakt\""));
+    let [unknown] = said.as_slice() else { panic!("{said:?}") };
+    assert!(
+        unknown.starts_with("contact[2].damping_formula = \"exakt\": expected a known damping formula"),
+        "{unknown}"
+    );
+    assert!(unknown.ends_with("; did you mean exact?"), "{unknown}");
+    let said = messages(&damped("\"hertz_damped\"\nrestitution = 0.5\ndamping_formula = 3"));
+    assert_eq!(said, ["contact[2].damping_formula = 3: expected text in quotation marks"]);
+    let said = messages(&damped("\"jankowski\"\nrestitution = 0.0\ndamping_formula = \"ye\""));
+    let [restitution, formula] = said.as_slice() else { panic!("{said:?}") };
+    assert_eq!(restitution, "contact[2].restitution = 0.0: expected 0 < e <= 1");
+    assert!(formula.starts_with("contact[2].damping_formula = \"ye\": expected a key of law jankowski"), "{formula}");
+}
+
+#[test]
 fn text_that_is_not_toml() {
     let unclosed = messages(&edited("mass = [3.0, 4.0]", "mass = [3.0, 4.0"));
     assert_eq!(unclosed.len(), 1, "{unclosed:?}");
