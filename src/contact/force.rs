@@ -3,7 +3,7 @@
 
 use super::{ImpactLaw, LawKind};
 
-/// One analytic piece of a contact force. d is the penetration [m], v its rate [m/s].
+/// One analytic piece of a contact force. d is the penetration, m, v its rate, m/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Force {
     /// F = 0.
@@ -125,7 +125,7 @@ pub struct EpisodeForce {
 }
 
 impl EpisodeForce {
-    /// The force of a law between floors of reduced mass `mass` [kg], m_left m_right / (m_left + m_right).
+    /// The force of a law between floors of reduced mass `mass`, kg: m_left m_right / (m_left + m_right).
     pub fn new(law: &ImpactLaw, mass: f64) -> EpisodeForce {
         let stiffness = law.stiffness;
         let always = |engaged| EpisodeForce { engaged, slack: Force::None, guard: None };

@@ -142,7 +142,7 @@ impl Structure {
         }
     }
 
-    /// Adds what a force [N] on one floor does to each mode.
+    /// Adds what a force, N, on one floor does to each mode.
     pub fn add_floor_force(&self, side: Side, floor: usize, force: f64, load: &mut [f64]) {
         let offset = self.offset(side);
         for (shape, load) in self.modes(side).shape.row(floor).iter().zip(&mut load[offset..]) {
