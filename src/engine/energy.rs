@@ -6,7 +6,7 @@ use super::model::Model;
 use super::state::*;
 use super::{EnergyPoint, Point};
 use crate::quadrature::{EIGHT, Rule, TWELVE, gauss};
-use crate::structure::flight_order;
+use crate::structure::{dot, flight_order};
 
 /// Work over a stretch of time, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -108,8 +108,7 @@ impl Model {
         for (t, weight) in gauss(rule, length) {
             motion(t, q, v);
             let acceleration = base.segment.acceleration_at(base.elapsed + from + t);
-            let push: f64 = v.iter().zip(&self.structure.participation).map(|(v, p)| v * p).sum();
-            done.input -= weight * acceleration * push;
+            done.input -= weight * acceleration * dot(&self.structure.participation, v);
             done.viscous += weight * self.structure.viscous_power(v);
         }
     }

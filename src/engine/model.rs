@@ -57,6 +57,7 @@ impl Model {
             }
         }
         let ground = match record {
+            Some(record) if record.times.len() < 2 => return Err(too_short(record)),
             Some(record) => {
                 let factor = scene.ground.scaling.factor(record).map_err(|p| SceneError { problems: vec![p] })?;
                 Some(GroundMotion::new(record, factor, &structure))
@@ -272,16 +273,16 @@ fn initial_state(scene: &Scene, structure: &Structure) -> [Vec<f64>; 2] {
     state
 }
 
+fn too_short(record: &Record) -> SceneError {
+    let found = format!("{} samples", record.times.len());
+    Problem::new("ground.record", found, "at least 2 samples, to be linear between").into()
+}
+
 fn not_positive_definite(side: Side) -> SceneError {
     let building = match side {
         Side::Left => "left",
         Side::Right => "right",
     };
-    SceneError {
-        problems: vec![Problem {
-            path: format!("{building}.stiffness"),
-            found: String::new(),
-            expected: "a positive definite stiffness with natural frequencies that double precision can hold".into(),
-        }],
-    }
+    let expected = "a positive definite stiffness with natural frequencies that double precision can hold";
+    Problem::new(format!("{building}.stiffness"), "", expected).into()
 }

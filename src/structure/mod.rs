@@ -195,7 +195,13 @@ impl Structure {
 
     /// Power that structural damping takes, W.
     pub fn viscous_power(&self, v: &[f64]) -> f64 {
-        let mut power: f64 = v.iter().zip(&self.damping).map(|(v, c)| c * v * v).sum();
+        let mut lanes = [0.0; LANES];
+        for (v, c) in v.as_chunks::<LANES>().0.iter().zip(self.damping.as_chunks::<LANES>().0) {
+            for i in 0..LANES {
+                lanes[i] += c[i] * v[i] * v[i];
+            }
+        }
+        let mut power: f64 = lanes.iter().sum();
         for Coupling { offset, matrix } in &self.coupling {
             for (j, column) in matrix.column_iter().enumerate() {
                 power += v[offset + j] * column.iter().zip(&v[*offset..]).map(|(c, v)| c * v).sum::<f64>();

@@ -1,6 +1,20 @@
 //! Power series in time of all modes: the dense solution of a step.
 
-use super::Structure;
+use super::{LANES, Structure};
+
+/// Powers that a series may have.
+const MOST_POWERS: usize = 40;
+
+/// 1 / ((n + 1) (n + 2)).
+const RECIPROCAL: [f64; MOST_POWERS] = {
+    let mut table = [0.0; MOST_POWERS];
+    let mut n = 0;
+    while n < MOST_POWERS {
+        table[n] = 1.0 / ((n + 1) * (n + 2)) as f64;
+        n += 1;
+    }
+    table
+};
 
 /// Remainder of a series that is exact to rounding.
 pub const EXACT: f64 = 1e-19;
@@ -84,6 +98,9 @@ impl ModalSeries {
         (load, slope): (&[f64], &[f64]),
         (scale, order): (f64, usize),
     ) {
+        if structure.is_classical() {
+            return self.expand_single_modes(structure, (q, v), (load, slope), (scale, order));
+        }
         self.start(scale, q, v);
         while self.order < order.max(2) {
             let n = self.order - 1;
@@ -95,38 +112,79 @@ impl ModalSeries {
         }
     }
 
-    /// q and v at x.
-    pub fn evaluate(&self, x: f64, q: &mut [f64], v: &mut [f64]) {
-        q.copy_from_slice(self.term(self.order));
-        v.fill(0.0);
-        for n in (0..self.order).rev() {
-            let term = self.term(n);
-            for m in 0..self.lanes {
-                v[m] = v[m] * x + q[m];
-                q[m] = q[m] * x + term[m];
+    /// A flight without coupling: each mode by itself, a few at a time, which then stay in registers.
+    fn expand_single_modes(
+        &mut self,
+        structure: &Structure,
+        (q, v): (&[f64], &[f64]),
+        (load, slope): (&[f64], &[f64]),
+        (scale, order): (f64, usize),
+    ) {
+        self.scale = scale;
+        self.order = order.max(3);
+        let width = self.lanes / LANES;
+        let scale2 = scale * scale;
+        let [(q, _), (v, _), (load, _), (slope, _), (damping, _), (omega2, _)] =
+            [q, v, load, slope, &structure.damping, &structure.omega2].map(|vector| vector.as_chunks::<LANES>());
+        let (terms, _) = self.coefficients.as_chunks_mut::<LANES>();
+        for c in 0..width {
+            let a = damping[c].map(|damping| damping * scale);
+            let b = omega2[c].map(|omega2| omega2 * scale2);
+            let mut before = q[c];
+            let mut last = v[c].map(|v| v * scale);
+            terms[c] = before;
+            terms[width + c] = last;
+            for n in 0..self.order - 1 {
+                let mut next = match n {
+                    0 => load[c].map(|load| load * scale2),
+                    1 => slope[c].map(|slope| slope * (scale2 * scale)),
+                    _ => [0.0; LANES],
+                };
+                let (k1, factor) = ((n + 1) as f64, RECIPROCAL[n]);
+                for i in 0..LANES {
+                    next[i] = (next[i] - (k1 * a[i] * last[i] + b[i] * before[i])) * factor;
+                }
+                terms[(n + 2) * width + c] = next;
+                (before, last) = (last, next);
             }
         }
+    }
+
+    /// q and v at x.
+    pub fn evaluate(&self, x: f64, q: &mut [f64], v: &mut [f64]) {
+        let width = self.lanes / LANES;
         let rate = 1.0 / self.scale;
-        for v in v.iter_mut() {
-            *v *= rate;
+        let (terms, _) = self.coefficients.as_chunks::<LANES>();
+        let [(q, _), (v, _)] = [q, v].map(|vector| vector.as_chunks_mut::<LANES>());
+        for c in 0..width {
+            let (mut value, mut slope) = (terms[self.order * width + c], [0.0; LANES]);
+            for n in (0..self.order).rev() {
+                let term = &terms[n * width + c];
+                for i in 0..LANES {
+                    slope[i] = slope[i] * x + value[i];
+                    value[i] = value[i] * x + term[i];
+                }
+            }
+            q[c] = value;
+            v[c] = slope.map(|slope| slope * rate);
         }
     }
 
     /// v alone at x.
     pub fn velocity(&self, x: f64, v: &mut [f64]) {
-        let top = self.order as f64;
-        for (v, term) in v.iter_mut().zip(self.term(self.order)) {
-            *v = top * term;
-        }
-        for n in (1..self.order).rev() {
-            let power = n as f64;
-            for (v, term) in v.iter_mut().zip(self.term(n)) {
-                *v = *v * x + power * term;
-            }
-        }
+        let width = self.lanes / LANES;
         let rate = 1.0 / self.scale;
-        for v in v.iter_mut() {
-            *v *= rate;
+        let (terms, _) = self.coefficients.as_chunks::<LANES>();
+        let (v, _) = v.as_chunks_mut::<LANES>();
+        for c in 0..width {
+            let mut slope = [0.0; LANES];
+            for n in (1..=self.order).rev() {
+                let (power, term) = (n as f64, &terms[n * width + c]);
+                for i in 0..LANES {
+                    slope[i] = slope[i] * x + power * term[i];
+                }
+            }
+            v[c] = slope.map(|slope| slope * rate);
         }
     }
 
@@ -154,9 +212,9 @@ pub fn difference(row: &[f64], modal: &[f64]) -> (f64, f64) {
 
 /// Sum of products in a fixed order: one partial sum per lane, then the lanes from left to right.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut lanes = [0.0; super::LANES];
-    for (a, b) in a.chunks_exact(super::LANES).zip(b.chunks_exact(super::LANES)) {
-        for i in 0..super::LANES {
+    let mut lanes = [0.0; LANES];
+    for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
+        for i in 0..LANES {
             lanes[i] += a[i] * b[i];
         }
     }
