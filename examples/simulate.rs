@@ -8,9 +8,8 @@
 //! contact episode.
 
 use clap::Parser;
-use pounding::description::Package;
+use pounding::description::{Package, PackagedRecord};
 use pounding::engine::{Episode, Model, Point, State};
-use pounding::record::Record;
 use pounding::scene::Scene;
 use pounding::variables::{self, Output, Slot, Table, Value};
 use std::error::Error;
@@ -61,17 +60,15 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
-    let package = Package::from_scene_file(&arguments.scene)?;
-    let stop = arguments.stop.or(package.stop_time());
-    let (mut scene, mut record) = (package.scene, package.record.map(|packaged| packaged.record));
+    let mut package = Package::from_scene_file(&arguments.scene)?;
     if let Some(file) = &arguments.record {
-        record = Some(give_record(&mut scene, file)?);
+        give_record(&mut package, file)?;
     }
-    let end_of_record = || record.as_ref()?.times.last().copied().filter(|end| *end > 0.0);
-    let stop = stop.or_else(end_of_record).unwrap_or(10.0);
+    let stop = arguments.stop.or_else(|| package.stop_time()).unwrap_or(10.0);
 
-    let model = Model::new(&scene, record.as_ref())?;
-    let mut motion = arguments.csv.as_deref().map(|file| Motion::create(file, &scene)).transpose()?;
+    let Package { scene, record, .. } = &package;
+    let model = Model::new(scene, record.as_ref().map(|packaged| &packaged.record))?;
+    let mut motion = arguments.csv.as_deref().map(|file| Motion::create(file, scene)).transpose()?;
     let impacts = arguments.impacts.as_deref().map(create).transpose()?;
     let solution = solve(&model, arguments.step, stop, motion.as_mut())?;
     if let Some(motion) = motion {
@@ -80,21 +77,22 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     if let Some(table) = impacts {
         write_impacts(table, &solution.episodes)?;
     }
-    let text = format!("{}solve_seconds={}\n", summary(&scene, stop, &solution), solution.time.as_secs_f64());
+    let text = format!("{}solve_seconds={}\n", summary(scene, stop, &solution), solution.time.as_secs_f64());
     std::io::stdout().write_all(text.as_bytes())?;
     Ok(())
 }
 
 /// Reads a record and makes it the scene's.
-fn give_record(scene: &mut Scene, file: &Path) -> Result<Record, Box<dyn Error>> {
-    if let Some(own) = &scene.ground.record {
+fn give_record(package: &mut Package, file: &Path) -> Result<(), Box<dyn Error>> {
+    if let Some(own) = &package.scene.ground.record {
         return Err(format!("--record is for a scene without one; this one has ground.record = {own:?}").into());
     }
     let name = file.to_string_lossy().into_owned();
     let bytes = std::fs::read(file).map_err(|error| format!("cannot read {name}: {error}"))?;
-    let record = Record::parse(&name, &bytes).map_err(|error| format!("{name}: {error}"))?;
-    scene.ground.record = Some(name);
-    Ok(record)
+    let record = PackagedRecord::parse(&name, bytes).map_err(|error| format!("{name}: {error}"))?;
+    package.record = Some(record);
+    package.scene.ground.record = Some(name);
+    Ok(())
 }
 
 struct Solution {

@@ -1,7 +1,7 @@
 //! The documents say what the code says: sources, quoted files, scene keys, laws, variables, file names.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use pounding::contact::LawKind;
+use pounding::contact::{DampingFormula, LawKind};
 use pounding::scene::{Scene, law_key};
 use pounding::variables::Table;
 use std::collections::BTreeSet;
@@ -127,9 +127,14 @@ fn every_law_is_in_the_readme_with_its_keys() {
     for law in LawKind::ALL {
         let start = format!("| `{}` | ", law.info().name);
         let row = readme.lines().find(|line| line.starts_with(&start)).unwrap_or_else(|| panic!("no row {start}"));
-        let keys: Vec<String> = law.info().keys.iter().map(|key| format!("`{}`", law_key::number(*key).name)).collect();
+        let numbers = law.info().keys.iter().map(|key| law_key::number(*key).name);
+        let formula = law.info().has_damping_formula.then_some("damping_formula");
+        let keys: Vec<String> = numbers.chain(formula).map(|key| format!("`{key}`")).collect();
         assert_eq!(row.split(" | ").nth(2), Some(keys.join(", ").as_str()), "{row}");
     }
+    let formulas = readme.split("`damping_formula` is one of ").nth(1).unwrap().split(':').next().unwrap();
+    let named: BTreeSet<&str> = formulas.split('`').skip(1).step_by(2).collect();
+    assert_eq!(named, DampingFormula::ALL.iter().map(|formula| formula.name()).collect());
 }
 
 #[test]

@@ -8,6 +8,7 @@
 //! | `licenses.rs` | the licence texts that travel inside the FMU |
 //! | `archive.rs` | the zip: writing it reproducibly, unpacking it safely |
 //! | `platform.rs` | where FMI 2.0 wants the library of each platform |
+//! | `functions.rs` | the names of the library's C functions |
 //! | `c_interface.rs` | the library's C functions, called by hand (the only unsafe code here) |
 //! | `importer.rs` | the same through an importer that is not ours |
 //! | `log.rs` | what an FMU says through its logger |
@@ -21,6 +22,7 @@ mod archive;
 mod c_interface;
 mod check;
 mod experiment;
+mod functions;
 mod importer;
 mod licenses;
 mod log;
@@ -56,7 +58,7 @@ struct BuildArguments {
     /// The scene; without it, examples/scenes/feup.toml.
     #[arg(value_name = "SCENE.toml")]
     scene: Option<PathBuf>,
-    /// Where the FMU goes; without it, target/fmu/<name of the scene>.fmu.
+    /// Where the FMU goes; without it, target/fmu/NAME.fmu (NAME: that of the scene).
     #[arg(short, long, value_name = "FILE.fmu")]
     output: Option<PathBuf>,
 }

@@ -49,11 +49,8 @@ fn entries(package: &Package, library: &Path, workspace: &Workspace) -> Result<V
     let mut entries = vec![
         Entry::file("modelDescription.xml", package.model_description().into_bytes()),
         Entry::library(&platform::library_path(&package.scene.name), binary),
-        Entry::file("resources/scene.toml", package.scene_text.clone().into_bytes()),
     ];
-    if let Some(record) = &package.record {
-        entries.push(Entry::file(&format!("resources/{}", record.resource_name), record.bytes.clone()));
-    }
+    entries.extend(package.resources().map(|(name, bytes)| Entry::file(&format!("resources/{name}"), bytes.to_vec())));
     entries.extend(licenses::entries(workspace)?);
     Ok(entries)
 }

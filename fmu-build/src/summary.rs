@@ -69,6 +69,11 @@ impl Run<'_> {
         (1..).map_while(move |index| self.seen(&format!("{name}[{index}]")))
     }
 
+    /// Empty where the FMU has no such variable.
+    fn cell(&self, name: &str, pick: fn(Seen) -> f64) -> String {
+        self.seen(name).map_or(String::new(), |seen| digits(pick(seen)))
+    }
+
     fn count(&self, name: &str) -> usize {
         self.array(name).count()
     }
@@ -86,9 +91,7 @@ impl Run<'_> {
         ]);
         for side in SIDES {
             for floor in 1..=self.count(&format!("{side}.displacement")) {
-                let number = |quantity, pick: fn(Seen) -> f64| {
-                    self.seen(&format!("{side}.{quantity}[{floor}]")).map_or(String::new(), |seen| digits(pick(seen)))
-                };
+                let number = |quantity, pick| self.cell(&format!("{side}.{quantity}[{floor}]"), pick);
                 table.row([
                     format!("{side} {floor}"),
                     number("displacement", |seen| seen.largest),
@@ -111,10 +114,7 @@ impl Run<'_> {
             ("dissipated", "J"),
         ]);
         for contact in 1..=self.count_contacts() {
-            let number = |quantity, pick: fn(Seen) -> f64| {
-                let seen = self.seen(&format!("contact[{contact}].{quantity}"));
-                seen.map_or(String::new(), |seen| digits(pick(seen)))
-            };
+            let number = |quantity, pick| self.cell(&format!("contact[{contact}].{quantity}"), pick);
             let gap = self.seen(&format!("contact[{contact}].gap"));
             table.row([
                 contact.to_string(),

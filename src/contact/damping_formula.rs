@@ -1,7 +1,7 @@
 //! Damping of the law F = k d^n (1 + a v/V): the formulas for a from the coefficient of restitution e.
 //!
 //! A free impact of this law returns e_out with a (1 + e_out) = ln[(1 + a) / (1 - a e_out)], whatever n, k, the masses
-//! and V are [Gonthier2004]. Only `exact` inverts that relation; each other formula has its own error, which its
+//! and V are \[Gonthier2004\]. Only `exact` inverts that relation; each other formula has its own error, which its
 //! description states at e = 0.5.
 
 /// A formula for a(e).

@@ -3,7 +3,7 @@
 
 use super::{DampingFormula, ImpactLaw, LawKind};
 
-/// One analytic piece of a contact force. d is the penetration [m], v its rate [m/s].
+/// One analytic piece of a contact force. d is the penetration, m, v its rate, m/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Force {
     /// F = 0.

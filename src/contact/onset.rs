@@ -118,7 +118,7 @@ impl Default for OnsetPair {
 }
 
 impl OnsetPair {
-    /// Starts from a penetration [m] and its rate times the scale [m].
+    /// Starts from a penetration, m, and its rate times the scale, m.
     pub fn start(&mut self, grid: &Grid, penetration: f64, step_rate: f64, enters: bool) {
         self.penetration[..grid.terms()].fill(0.0);
         self.force[..grid.terms()].fill(0.0);

@@ -1,12 +1,12 @@
 //! From a scene to `modelDescription.xml` and its GUID.
 //!
-//! `package.rs` holds what travels inside an FMU and its fingerprint, `xml.rs` the document, `structure.rs` its model
-//! structure.
+//! `package.rs` says what a scene and its record give an FMU: description, fingerprint, default experiment; `xml.rs`
+//! writes the document, `structure.rs` its model structure.
 
 mod log_category;
 mod package;
 mod structure;
 mod xml;
 
+pub use crate::scene::{Package, PackagedRecord};
 pub use log_category::Category;
-pub use package::{Package, PackagedRecord};

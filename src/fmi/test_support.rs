@@ -1,10 +1,11 @@
 //! A component and what it logs, for the unit tests of this folder.
+#![allow(clippy::unwrap_used)]
 
 use super::instance::Instance;
 use super::logger::Logger;
 use super::types::{Component, ComponentEnvironment, LoggerFunction, Text};
 use crate::description::Package;
-use crate::scene::{Building, Damping, Ground, Scaling, Scene, Solver, Stiffness};
+use crate::scene::Scene;
 use crate::slave::{Log, Slave};
 use std::ffi::{CStr, c_int};
 use std::mem;
@@ -54,24 +55,8 @@ unsafe extern "C" fn note(messages: ComponentEnvironment, _name: Text, _status: 
 }
 
 fn package() -> Package {
-    let building = Building {
-        mass: vec![1.0],
-        stiffness: Stiffness::Shear(vec![100.0]),
-        damping: Damping::Ratio(0.0),
-        initial_displacement: vec![0.0],
-        initial_velocity: vec![0.0],
-    };
-    let scene = Scene {
-        name: "Test".to_owned(),
-        description: String::new(),
-        stop_time: None,
-        left: building.clone(),
-        right: building,
-        ground: Ground { record: None, scaling: Scaling::Scale(1.0) },
-        floor_forces: false,
-        contacts: Vec::new(),
-        energy: false,
-        solver: Solver { relative_tolerance: 1e-12, min_approach_velocity: 1e-4 },
-    };
-    Package { scene_text: String::new(), scene, record: None }
+    let building = "{ mass = [1.0], stiffness = [100.0], damping = { ratio = 0.0 } }";
+    let scene_text = format!("name = \"Test\"\nleft = {building}\nright = {building}\n");
+    let scene = Scene::from_toml(&scene_text).unwrap();
+    Package { scene_text, scene, record: None }
 }

@@ -3,32 +3,34 @@
 use super::problem::{Problem, SceneError, quoted};
 use super::read::Draft;
 use super::{Scaling, Scene};
-use crate::record::{Format, Record};
+use crate::record::{Format, Record, RecordError};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A scene with its record, and the files as they are, for an FMU to carry.
+/// A scene with everything that travels inside its FMU.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SceneFiles {
-    /// The scene.
+pub struct Package {
+    /// The scene file, verbatim.
+    pub scene_text: String,
+    /// What it says.
     pub scene: Scene,
-    /// The record of `scene.ground.record`, unscaled.
-    pub record: Option<Record>,
-    /// The scene file and, where there is one, the record file.
-    pub resources: Vec<Resource>,
+    /// The record that `scene.ground.record` names.
+    pub record: Option<PackagedRecord>,
 }
 
-/// A file in the `resources` folder of an FMU.
+/// A record inside an FMU.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Resource {
-    /// `scene.toml`, `record.csv` or `record.at2`.
-    pub name: &'static str,
-    /// The bytes of the user's file, unchanged.
+pub struct PackagedRecord {
+    /// File name in `resources/`: `record.csv` or `record.at2`.
+    pub resource_name: &'static str,
+    /// The file, verbatim.
     pub bytes: Vec<u8>,
+    /// What it says, unscaled.
+    pub record: Record,
 }
 
 /// Name of the scene file in the `resources` folder of an FMU.
-pub const SCENE_RESOURCE: &str = "scene.toml";
+pub(crate) const SCENE_RESOURCE: &str = "scene.toml";
 
 fn record_resource(name: &str) -> &'static str {
     match Format::of(name) {
@@ -37,61 +39,87 @@ fn record_resource(name: &str) -> &'static str {
     }
 }
 
-/// Reads a scene file and the record that it names, relative to the folder of the scene file.
+/// Reads a scene file and the record that it names, without what only an FMU needs.
 ///
 /// # Errors
-/// All problems of the scene; a record that is missing, cannot be read or cannot be scaled is one at `ground.record`,
-/// `ground.scale` or `ground.pga`. A scene file that cannot be read is a single problem at the file's name.
+/// As [`Package::from_scene_file`].
 pub fn load(path: &Path) -> Result<(Scene, Option<Record>), SceneError> {
-    load_files(path).map(|files| (files.scene, files.record))
+    let package = Package::from_scene_file(path)?;
+    Ok((package.scene, package.record.map(|packaged| packaged.record)))
 }
 
-/// Like [`load`], with the bytes of both files under the names that they have in an FMU.
-///
-/// # Errors
-/// As [`load`].
-pub fn load_files(path: &Path) -> Result<SceneFiles, SceneError> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    read_files(path, |record| folder.join(record))
+impl Package {
+    /// Reads a scene file and the record that it names, relative to the folder of the scene file.
+    ///
+    /// # Errors
+    /// All problems of the scene; a record that is missing, cannot be read or cannot be scaled is one at
+    /// `ground.record`, `ground.scale` or `ground.pga`. A scene file that cannot be read is a single problem at the
+    /// file's name.
+    pub fn from_scene_file(path: &Path) -> Result<Package, SceneError> {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Package::read(path, |record| folder.join(record))
+    }
+
+    /// Reads a package back from the `resources` folder of an unpacked FMU.
+    ///
+    /// # Errors
+    /// As [`Package::from_scene_file`].
+    pub fn from_resources(folder: &Path) -> Result<Package, SceneError> {
+        Package::read(&folder.join(SCENE_RESOURCE), |record| folder.join(record_resource(record)))
+    }
+
+    /// The files in the `resources` folder of the FMU, name and bytes: the scene file and, where there is one, the
+    /// record file, as the user has them.
+    pub fn resources(&self) -> impl Iterator<Item = (&'static str, &[u8])> {
+        let record = self.record.as_ref().map(|packaged| (packaged.resource_name, packaged.bytes.as_slice()));
+        std::iter::once((SCENE_RESOURCE, self.scene_text.as_bytes())).chain(record)
+    }
+
+    fn read(path: &Path, record_path: impl Fn(&str) -> PathBuf) -> Result<Package, SceneError> {
+        let scene_text = read_text(path)?;
+        let mut draft = Draft::read(&scene_text)?;
+        let mut record = None;
+        if let Some(name) = draft.scene.ground.record.clone() {
+            match read_record(&name, &record_path(&name), draft.scene.ground.scaling) {
+                Ok(packaged) => record = Some(packaged),
+                Err(problem) => draft.add(problem),
+            }
+        }
+        let scene = draft.finish()?;
+        Ok(Package { scene_text, scene, record })
+    }
 }
 
-/// Reads a scene and its record back from the `resources` folder of an FMU: [`SceneFiles::resources`] as files.
-///
-/// # Errors
-/// As [`load`].
-pub fn load_resources(folder: &Path) -> Result<SceneFiles, SceneError> {
-    read_files(&folder.join(SCENE_RESOURCE), |record| folder.join(record_resource(record)))
+impl PackagedRecord {
+    /// A record from the bytes of its file; the name tells the format.
+    ///
+    /// # Errors
+    /// As [`Record::parse`].
+    pub fn parse(name: &str, bytes: Vec<u8>) -> Result<PackagedRecord, RecordError> {
+        let record = Record::parse(name, &bytes)?;
+        Ok(PackagedRecord { resource_name: record_resource(name), bytes, record })
+    }
 }
 
-fn read_files(path: &Path, record_path: impl Fn(&str) -> PathBuf) -> Result<SceneFiles, SceneError> {
+fn read_text(path: &Path) -> Result<String, Problem> {
     let unreadable =
         |reason: String| Problem::new(path.display().to_string(), "", format!("a scene file, but {reason}"));
     let bytes = fs::read(path).map_err(|error| unreadable(error.to_string()))?;
-    let text = str::from_utf8(&bytes).map_err(|error| unreadable(not_utf8(&bytes, error.valid_up_to())))?;
-    let mut draft = Draft::read(text)?;
-    let (mut record, mut record_file) = (None, None);
-    if let Some(name) = draft.scene.ground.record.clone() {
-        match read_record(&name, &record_path(&name), draft.scene.ground.scaling) {
-            Ok((parsed, bytes)) => {
-                record = Some(parsed);
-                record_file = Some(Resource { name: record_resource(&name), bytes });
-            }
-            Err(problem) => draft.add(problem),
-        }
-    }
-    let scene = draft.finish()?;
-    let scene_file = Resource { name: SCENE_RESOURCE, bytes };
-    Ok(SceneFiles { scene, record, resources: std::iter::once(scene_file).chain(record_file).collect() })
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        unreadable(not_utf8(error.as_bytes(), valid))
+    })
 }
 
 /// Reads a record file, named as `ground.record` names it, that this scaling fits.
-pub(crate) fn read_record(name: &str, path: &Path, scaling: Scaling) -> Result<(Record, Vec<u8>), Problem> {
+pub(crate) fn read_record(name: &str, path: &Path, scaling: Scaling) -> Result<PackagedRecord, Problem> {
     let problem = |expected: String| Problem::new("ground.record", quoted(name), expected);
     let unreadable = |error| problem(format!("a record file, but {}: {error}", path.display()));
     let bytes = fs::read(path).map_err(unreadable)?;
-    let record = Record::parse(name, &bytes).map_err(|error| problem(format!("a record file, but {error}")))?;
-    scaling.factor(&record)?;
-    Ok((record, bytes))
+    let packaged =
+        PackagedRecord::parse(name, bytes).map_err(|error| problem(format!("a record file, but {error}")))?;
+    scaling.factor(&packaged.record)?;
+    Ok(packaged)
 }
 
 fn not_utf8(bytes: &[u8], valid: usize) -> String {

@@ -62,8 +62,8 @@ mod problem;
 mod read;
 pub mod rule;
 
-pub(crate) use files::read_record;
-pub use files::{Resource, SCENE_RESOURCE, SceneFiles, load, load_files, load_resources};
+pub use files::{Package, PackagedRecord, load};
+pub(crate) use files::{SCENE_RESOURCE, read_record};
 pub use problem::{Problem, SceneError};
 
 use crate::contact::ImpactLaw;

@@ -37,7 +37,7 @@ pub struct ModeIncrement {
 const SERIES_REACH: f64 = 0.5;
 
 impl ModeIncrement {
-    /// For frequency `omega` [rad/s], damping `c` = 2 zeta omega [1/s] and an interval `h` [s].
+    /// For frequency `omega`, rad/s, damping `c` = 2 zeta omega, 1/s, and an interval `h`, s.
     ///
     /// Short intervals are summed as a series, which loses nothing to cancellation however small w h is; long ones
     /// take the closed form of an underdamped oscillator. Heavily damped modes double a short interval instead,
@@ -148,7 +148,7 @@ pub struct CoupledIncrement {
 }
 
 impl CoupledIncrement {
-    /// For frequencies `omega` [rad/s] and modal damping `c` [1/s] over `h` [s]: a series over a fraction of the
+    /// For frequencies `omega`, rad/s, and modal damping `c`, 1/s, over `h`, s: a series over a fraction of the
     /// interval, then doubled.
     pub fn new(omega: &[f64], c: &DMatrix<f64>, h: f64) -> CoupledIncrement {
         let fastest = omega.iter().fold(c.abs().row_sum().max(), |fastest, w| fastest.max(*w));

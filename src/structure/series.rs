@@ -33,7 +33,7 @@ pub fn flight_order(reach: f64, remainder: f64) -> Option<usize> {
     Some(order)
 }
 
-/// q(x) = sum of rows[n] x^n with x = t / scale, of all modes.
+/// q(x) = sum of `rows[n]` x^n with x = t / scale, of all modes.
 #[derive(Clone, Debug, Default)]
 pub struct ModalSeries {
     lanes: usize,

@@ -154,8 +154,8 @@ impl Settings {
             let expected = "a record file, but it is none";
             return Err(Problem::new("ground.record", format!("{path:?}"), expected).into());
         }
-        let (record, _) = read_record(path, Path::new(path), self.scene.ground.scaling)?;
-        self.other_record = Some((path.to_owned(), Arc::new(record)));
+        let packaged = read_record(path, Path::new(path), self.scene.ground.scaling)?;
+        self.other_record = Some((path.to_owned(), Arc::new(packaged.record)));
         Ok(())
     }
 }

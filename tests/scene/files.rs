@@ -2,7 +2,7 @@
 
 use super::SHORT;
 use pounding::record::Record;
-use pounding::scene::{self, Scaling, SceneError, SceneFiles};
+use pounding::scene::{self, Package, Scaling, SceneError};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -39,8 +39,8 @@ fn the_example_loads_with_its_record() {
 fn a_scene_without_a_record_has_none() {
     let (_folder, path) = folder("", &[]);
     assert_eq!(scene::load(&path).unwrap().1, None);
-    let files = scene::load_files(&path).unwrap();
-    assert_eq!(files.resources.iter().map(|file| file.name).collect::<Vec<_>>(), ["scene.toml"]);
+    let package = Package::from_scene_file(&path).unwrap();
+    assert_eq!(package.resources().map(|(name, _)| name).collect::<Vec<_>>(), ["scene.toml"]);
 }
 
 #[test]
@@ -50,19 +50,16 @@ fn what_an_fmu_carries_reads_back_the_same() {
         [("a.csv", CSV.as_bytes(), "record.csv"), ("a.dat", CSV.as_bytes(), "record.csv"), ("A.AT2", at2, "record.at2")]
     {
         let (_folder, path) = folder(&format!("record = \"records/{name}\"\npga = 1.0"), &[(name, bytes)]);
-        let files = scene::load_files(&path).unwrap();
-        assert_eq!(files.scene.ground.scaling, Scaling::Pga(1.0));
-        let [scene_file, record_file] = files.resources.as_slice() else { panic!("{:?}", files.resources) };
-        assert_eq!((scene_file.name, &scene_file.bytes), ("scene.toml", &fs::read(&path).unwrap()));
-        assert_eq!((record_file.name, record_file.bytes.as_slice()), (resource, bytes));
+        let package = Package::from_scene_file(&path).unwrap();
+        assert_eq!(package.scene.ground.scaling, Scaling::Pga(1.0));
+        let files = package.resources().collect::<Vec<_>>();
+        assert_eq!(files, [("scene.toml", fs::read(&path).unwrap().as_slice()), (resource, bytes)]);
         let resources = tempfile::tempdir().unwrap();
-        for file in &files.resources {
-            fs::write(resources.path().join(file.name), &file.bytes).unwrap();
+        for (name, bytes) in files {
+            fs::write(resources.path().join(name), bytes).unwrap();
         }
-        let SceneFiles { scene, record, .. } = scene::load_resources(resources.path()).unwrap();
-        assert_eq!(scene, files.scene);
-        assert_eq!(record, files.record);
-        assert_eq!(record, Some(Record::parse(name, bytes).unwrap()));
+        assert_eq!(Package::from_resources(resources.path()).unwrap(), package);
+        assert_eq!(package.record.unwrap().record, Record::parse(name, bytes).unwrap());
     }
 }
 
