@@ -30,7 +30,7 @@ impl Model {
             &self.pair_weight,
             &mut work.scratch,
         );
-        let deviation = remaining.powi(4) / 384.0 * bound;
+        let deviation = (remaining * remaining) * (remaining * remaining) / 384.0 * bound;
         let certified = self.pairs.iter().zip(&base.contacts).all(|(pair, contact)| {
             counters.pairs_evaluated += 1;
             let (end, end_rate) = pair.penetration(&step.q, &step.v);

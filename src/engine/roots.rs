@@ -39,7 +39,7 @@ impl<'a> Curve<'a> {
     fn ceiling(&self, a: End, b: End) -> f64 {
         let w = b.x - a.x;
         let [first, second] = [a.value + w * a.slope / 3.0, b.value - w * b.slope / 3.0];
-        a.value.max(first).max(second).max(b.value) + w.powi(4) / 384.0 * self.fourth
+        a.value.max(first).max(second).max(b.value) + (w * w) * (w * w) / 384.0 * self.fourth
     }
 
     /// Whether the curve only rises over a piece (the slope of the interpolant is off by at most sqrt(3)/216 w^3 max|f''''|).
@@ -47,7 +47,7 @@ impl<'a> Curve<'a> {
         let w = b.x - a.x;
         let middle = (b.value - a.value) - w * (a.slope + b.slope) / 3.0;
         // Control values of the interpolant's slope: a.slope, 3 middle / w, b.slope.
-        a.slope.min(3.0 * middle / w).min(b.slope) > 0.00802 * w.powi(3) * self.fourth
+        a.slope.min(3.0 * middle / w).min(b.slope) > 0.00802 * w * w * w * self.fourth
     }
 
     /// The first x in the piece at which the curve passes 0 upwards, given that it is below 0 before the piece.
