@@ -88,7 +88,8 @@ fn try_out(fmu: &Path) -> Result<(ModelDescription, Outcome)> {
 }
 
 fn report(package: &Package, destination: &Path, description: &ModelDescription, outcome: &Outcome) -> String {
-    let mut text = format!("{}: {}\n", package.scene.name, package.scene.description);
+    let about = &package.scene.description;
+    let mut text = package.scene.name.clone() + if about.is_empty() { "" } else { ": " } + about + "\n";
     let size = std::fs::metadata(destination).map_or(0, |file| file.len());
     let here = std::env::current_dir().unwrap_or_default();
     let shown = destination.strip_prefix(here).unwrap_or(destination).display();

@@ -12,6 +12,9 @@ pub fn text(description: &ModelDescription, outcome: &Outcome, stop_reason: &str
         text.push('\n');
         text.push_str(&table.aligned());
     }
+    // Masters see the same: what lasts milliseconds falls between their points.
+    text.push_str("\n  largest displacement, acceleration and approach velocity: as read every ");
+    let _ = writeln!(text, "{} s", outcome.experiment.step);
     for warning in &outcome.warnings {
         let _ = writeln!(text, "\n  warning      {warning}");
     }
@@ -29,7 +32,9 @@ fn overview(description: &ModelDescription, run: &Run, stop_reason: &str) -> Str
     };
     line("buildings", {
         let [left, right] = SIDES.map(|side| run.count(&format!("{side}.displacement")));
-        format!("left {left} floors, right {right} floors, {} contacts", run.count_contacts())
+        let count = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+        let contacts = count(run.count_contacts(), "contact");
+        format!("left {}, right {}, {contacts}", count(left, "floor"), count(right, "floor"))
     });
     line("variables", format!("{total}: {inputs} inputs, {outputs} outputs, {} parameters", total - inputs - outputs));
     for side in SIDES {

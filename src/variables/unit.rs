@@ -21,6 +21,8 @@ pub enum Unit {
     NewtonSecond,
     /// N/m
     NewtonPerMetre,
+    /// N/m^1.5, without base units for the same reason as the next.
+    NewtonPerMetreToTheThreeHalves,
     /// N/m^n, n being the `exponent` parameter of the same contact. FMI base units have whole exponents and a unit
     /// cannot follow a parameter, so this one is declared by its name alone.
     NewtonPerMetreToTheExponent,
@@ -44,7 +46,7 @@ const STANDARD_GRAVITY: f64 = 9.80665;
 
 impl Unit {
     /// All units, in the order of the description.
-    pub const ALL: [Unit; 11] = [
+    pub const ALL: [Unit; 12] = [
         Unit::One,
         Unit::Metre,
         Unit::MetrePerSecond,
@@ -54,6 +56,7 @@ impl Unit {
         Unit::Newton,
         Unit::NewtonSecond,
         Unit::NewtonPerMetre,
+        Unit::NewtonPerMetreToTheThreeHalves,
         Unit::NewtonPerMetreToTheExponent,
         Unit::Joule,
     ];
@@ -72,6 +75,7 @@ impl Unit {
             Unit::Newton => unit("N", Some(&[("kg", 1), ("m", 1), ("s", -2)]), Some(("kN", 1e-3))),
             Unit::NewtonSecond => unit("N.s", Some(&[("kg", 1), ("m", 1), ("s", -1)]), Some(("kN.s", 1e-3))),
             Unit::NewtonPerMetre => unit("N/m", Some(&[("kg", 1), ("s", -2)]), Some(("kN/m", 1e-3))),
+            Unit::NewtonPerMetreToTheThreeHalves => unit("N/m^1.5", None, None),
             Unit::NewtonPerMetreToTheExponent => unit("N/m^exponent", None, None),
             Unit::Joule => unit("J", Some(&[("kg", 1), ("m", 2), ("s", -2)]), Some(("kJ", 1e-3))),
         }
