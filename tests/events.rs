@@ -372,3 +372,12 @@ fn floors_that_touch_at_rest_are_pressed_by_the_motion_alone() {
         }
     }
 }
+
+#[test]
+fn a_motion_whose_energy_overflows_is_refused() {
+    let mut run = Run::new(&pendulum("", "[inputs]\nfloor_forces = true\n[outputs]\nenergy = true"), None);
+    run.state.set_floor_force(Side::Left, 0, 1e300);
+    // Displacements of 1e299 m are finite, their squares are not.
+    let refused = (1..=20).find_map(|k| run.model.advance(&mut run.state, f64::from(k) * 0.05, &mut |_| ()).err());
+    assert!(refused.unwrap().message.contains("double precision"));
+}

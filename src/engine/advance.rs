@@ -11,6 +11,17 @@ use crate::structure::difference;
 /// Steps that may follow each other without any time passing.
 const MOST_STEPS_AT_ONCE: u32 = 100_000;
 
+/// Internal steps that one communication step may take: some ten seconds of work. A whole earthquake takes thousands.
+const MOST_STEPS: u64 = 10_000_000;
+
+/// What one communication step has taken so far.
+#[derive(Default)]
+struct Progress {
+    steps: u64,
+    /// Steps in a row without any time passing.
+    stalled: u32,
+}
+
 impl Model {
     /// Brings the state to a time, s, and reports each episode when it ends.
     ///
@@ -31,7 +42,7 @@ impl Model {
         if self.is_driven() {
             state.step.kind = StepKind::Unknown;
         }
-        let mut stalled = 0;
+        let mut progress = Progress::default();
         loop {
             let segment = &state.base.segment;
             let limit = if self.is_driven() { segment.length.min(until - segment.start) } else { segment.length };
@@ -42,9 +53,10 @@ impl Model {
                 if until - segment.start < end {
                     break;
                 }
-                stalled = if end > state.base.elapsed { 0 } else { stalled + 1 };
+                progress.steps += 1;
+                progress.stalled = if end > state.base.elapsed { 0 } else { progress.stalled + 1 };
                 self.take(state, end, on_episode);
-                self.check(state, stalled)?;
+                self.check(state, &progress)?;
             }
             if state.base.elapsed >= state.base.segment.length {
                 let Some(ground) = &self.ground else { break };
@@ -137,9 +149,19 @@ impl Model {
     }
 
     /// Nothing may run for ever or on without numbers.
-    fn check(&self, state: &State, stalled: u32) -> Result<(), EngineError> {
+    fn check(&self, state: &State, progress: &Progress) -> Result<(), EngineError> {
         let base = &state.base;
         let time = base.segment.start + base.elapsed;
+        let Progress { steps, stalled } = *progress;
+        if steps > MOST_STEPS {
+            return Err(EngineError {
+                message: format!(
+                    "{MOST_STEPS} internal steps in one communication step, at t = {time} s; the fastest rate of the \
+                     buildings is {:e} 1/s: check stiffnesses, masses and damping, or take smaller communication steps",
+                    self.structure.fastest
+                ),
+            });
+        }
         if stalled > MOST_STEPS_AT_ONCE {
             let open: Vec<String> = (base.contacts.iter().enumerate())
                 .filter(|(_, contact)| contact.in_contact())
@@ -153,7 +175,10 @@ impl Model {
                 ),
             });
         }
-        if base.q.iter().chain(&base.v).all(|value| value.is_finite()) {
+        let motion = base.q.iter().chain(&base.v).all(|value| value.is_finite());
+        let account = base.energy.is_none_or(|account| account.largest.is_finite());
+        let sums = |contact: &Contact| (contact.impulse + contact.work + contact.peak_force).is_finite();
+        if motion && account && base.contacts.iter().all(sums) {
             return Ok(());
         }
         Err(EngineError {
