@@ -101,7 +101,6 @@ impl Model {
             contact.rate = rate;
             if step.length > 0.0 {
                 contact.at_surface = false;
-                contact.at_guard = false;
             }
         }
         self.update_peak_drift(base, work);
@@ -143,7 +142,6 @@ impl Model {
                 contact.settle();
                 contact.phase = if contact.phase == Phase::Engaged { Phase::Slack } else { Phase::Engaged };
                 contact.stored_reference = contact.branch().stored_energy(contact.penetration);
-                contact.at_guard = true;
             }
         }
     }

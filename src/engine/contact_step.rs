@@ -241,9 +241,6 @@ impl Model {
         for out in value.iter_mut() {
             *out *= sense;
         }
-        if contact.at_guard {
-            value[0] = 0.0;
-        }
         match roots::first_rise(value, until, 0.0) {
             Some(x) if x < until || first.is_none() => Some((x, Event::Branch(p))),
             _ => first,

@@ -5,8 +5,8 @@
 use super::model::Model;
 use super::state::*;
 use super::{EnergyPoint, Point};
-use crate::quadrature::{EIGHT, TWELVE, gauss, graded};
-use crate::structure::{dot, flight_order};
+use crate::quadrature::{EIGHT, Rule, TWELVE, gauss, graded};
+use crate::structure::{ModalSeries, dot, flight_order};
 
 /// Work over a stretch of time, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -50,8 +50,7 @@ impl Model {
             _ if length == 0.0 => return done,
             StepKind::Contact => {
                 let series = &step.series;
-                let motion = |t: f64, _: &mut [f64], v: &mut [f64]| series.velocity(t / series.scale, v);
-                self.integrate(base, motion, gauss(TWELVE, length), 0.0, work, &mut done);
+                self.integrate_series::<12>(base, series, TWELVE, (0.0, length), work, &mut done);
                 series.evaluate(length / series.scale, &mut work.q, &mut work.v);
             }
             StepKind::Onset => {
@@ -83,14 +82,48 @@ impl Model {
         for i in 0..pieces {
             let start = (work.q.as_slice(), work.v.as_slice());
             series.expand_flight(&self.structure, start, (&work.load, &work.slope), (h, order));
-            let motion = |t: f64, _: &mut [f64], v: &mut [f64]| series.velocity(t / h, v);
-            self.integrate(base, motion, gauss(EIGHT, h), i as f64 * h, work, done);
+            self.integrate_series::<8>(base, &series, EIGHT, (i as f64 * h, h), work, done);
             series.evaluate(1.0, &mut work.q, &mut work.v);
             for (load, slope) in work.load.iter_mut().zip(&work.slope) {
                 *load += slope * h;
             }
         }
         work.series = series;
+    }
+
+    /// Adds the work over a series that begins `from` seconds after the base and is integrated over `length` seconds,
+    /// by a rule of N points. Modes that are not coupled take all points at once.
+    fn integrate_series<const N: usize>(
+        &self,
+        base: &Base,
+        series: &ModalSeries,
+        rule: &Rule,
+        (from, length): (f64, f64),
+        work: &mut Workspace,
+        done: &mut Work,
+    ) {
+        if !self.structure.is_classical() {
+            let motion = |t: f64, _: &mut [f64], v: &mut [f64]| series.velocity(t / series.scale, v);
+            return self.integrate(base, motion, gauss(rule, length), from, work, done);
+        }
+        let (mut times, mut weights) = ([0.0; N], [0.0; N]);
+        for (i, (t, weight)) in gauss(rule, length).enumerate().take(N) {
+            (times[i], weights[i]) = (t, weight);
+        }
+        let x = times.map(|t| t / series.scale);
+        let (mut push, mut power) = ([0.0; N], [0.0; N]);
+        for (m, (participation, c)) in self.structure.participation.iter().zip(&self.structure.damping).enumerate() {
+            let v = series.velocities(m, &x);
+            for i in 0..N {
+                push[i] += participation * v[i];
+                power[i] += c * v[i] * v[i];
+            }
+        }
+        for i in 0..N {
+            let acceleration = base.segment.acceleration_at(base.elapsed + from + times[i]);
+            done.input -= weights[i] * acceleration * push[i];
+            done.viscous += weights[i] * power[i];
+        }
     }
 
     /// Adds the work of the ground motion and of structural damping over a solution that begins `from` seconds after

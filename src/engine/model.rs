@@ -222,7 +222,6 @@ impl Pair {
             penetration,
             rate,
             at_surface: penetration == 0.0,
-            at_guard: false,
             impacts: 0,
             impulse: 0.0,
             work: 0.0,

@@ -87,8 +87,6 @@ pub(super) struct Contact {
     pub rate: f64,
     /// Stands exactly at d = 0, just released or just entered.
     pub at_surface: bool,
-    /// Stands exactly at the guard, just passed.
-    pub at_guard: bool,
     pub impacts: u64,
     pub impulse: f64,
     /// J, integral of F v, but for what `stored_energy` has changed since `stored_reference`.

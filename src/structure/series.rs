@@ -188,6 +188,19 @@ impl ModalSeries {
         }
     }
 
+    /// v of one mode at many x at once.
+    pub fn velocities<const N: usize>(&self, mode: usize, x: &[f64; N]) -> [f64; N] {
+        let mut slope = [0.0; N];
+        for n in (1..=self.order).rev() {
+            let term = n as f64 * self.coefficients[n * self.lanes + mode];
+            for i in 0..N {
+                slope[i] = slope[i] * x[i] + term;
+            }
+        }
+        let rate = 1.0 / self.scale;
+        slope.map(|slope| slope * rate)
+    }
+
     /// The scalar series row . q, written to `out[n]`. Returns the sum of the sizes of all that was added up, which
     /// tells the rounding error of a value within 0..=1.
     pub fn project(&self, row: &[f64], out: &mut [f64]) -> f64 {
