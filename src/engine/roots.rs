@@ -269,6 +269,9 @@ mod tests {
         assert!((found - 0.5).abs() < 1e-15, "{found}");
         // A start above 0 by rounding is a start at 0.
         assert_eq!(first_rise(&mut [1e-17, -1.0], 1.0, 1e-16), None);
+        // However high it starts: it counts as 0, leaves downwards and comes back at x = 0.001.
+        let found = first_rise(&mut [1e-3, -1e-3, 1.0], 1.0, 1e-16).unwrap();
+        assert!((found - 1e-3).abs() < 1e-15, "{found}");
     }
 
     #[test]
