@@ -165,7 +165,7 @@ fn jankowski_on_the_laboratory_frames() {
 
 #[test]
 fn damped_hertz_on_the_laboratory_frames() {
-    compare("tests/reference/scenes/feup_hertz_damped_ye.toml", "feup_hertz_damped_ye", 1e-12);
+    compare("tests/reference/scenes/feup_hertz_damped_ye.toml", "feup_hertz_damped_ye", 2e-13);
 }
 
 #[test]

@@ -8,34 +8,64 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DampingFormula {
     /// a = 3 (1 - e^2) / 4 (seed paper, eq. 10)
+    ///
+    /// Derived for e near 1 \[LankaraniNikravesh1990\]: a never exceeds 3/4, so no impact returns less than 0.663.
     LankaraniNikravesh,
     /// a = 3 (1 - e^2) / (8 e) (seed paper, eq. 11 as printed)
+    ///
+    /// As printed: the same as lankarani_nikravesh at e = 0.5, and half of what is needed as e goes to 1.
     YePrinted,
     /// a = 8 (1 - e) / (5 e)
+    ///
+    /// Returns 0.470 for e = 0.5 \[YeLiZhu2009\].
     Ye,
     /// a = 8 (1 - e) / (5 e) with spring 3 k / 2 (seed paper, eq. 14)
+    ///
+    /// That of ye with the spring at 3 k / 2; returns 0.470 for e = 0.5.
     BarrosKhatami,
     /// a = 24 (1 - e) / (10 e) with spring k (seed paper, eq. 14 on the damper only)
+    ///
+    /// Returns 0.363 for e = 0.5.
     BarrosKhatamiDamper,
     /// a (1 + e) = ln[(1 + a) / (1 - a e)]
+    ///
+    /// Returns e.
     Exact,
     /// a = 3 (1 - e) / 2
+    ///
+    /// For e near 1 \[HuntCrossley1975\]; returns 0.663 for e = 0.5.
     HuntCrossley,
     /// a = 6 (1 - e) / ((2 e - 1)^2 + 3)
+    ///
+    /// Returns 0.594 for e = 0.5.
     HerbertMcWhannell,
     /// a = 3 (1 - e) / 4
+    ///
+    /// Half of what is needed as e goes to 1; returns 0.799 for e = 0.5.
     LeeWang,
     /// a = (1 - e^2) / e
+    ///
+    /// Explicit fit \[Gonthier2004\]; returns 0.488 for e = 0.5.
     Gonthier,
     /// a = 3 (1 - e^2) exp(2 (1 - e)) / 4
+    ///
+    /// Returns 0.483 for e = 0.5.
     ZhiyingQishao,
     /// a = 1 / e
+    ///
+    /// For e near 0: dissipates even at e = 1; returns 0.411 for e = 0.5.
     GharibHurmuzlu,
     /// a = 3 (1 - e) / (2 e)
+    ///
+    /// Returns 0.488 for e = 0.5.
     HuGuo,
     /// a = 5 (1 - e) / (4 e)
+    ///
+    /// Returns 0.536 for e = 0.5.
     SafaeifarFarshidianfar,
     /// a = 3 (1 - e) (11 - e) / (2 (1 + 9 e))
+    ///
+    /// Returns 0.5002 for e = 0.5, within 2e-4 from there to 1.
     CarvalhoMartins,
 }
 
@@ -59,40 +89,25 @@ impl DampingFormula {
         DampingFormula::CarvalhoMartins,
     ];
 
-    /// Name in a scene, and what a user should know: source and defect.
-    pub const fn info(self) -> (&'static str, &'static str) {
-        match self {
-            Self::LankaraniNikravesh => (
-                "lankarani_nikravesh",
-                "derived for e near 1 [LankaraniNikravesh1990]: a never exceeds 3/4, so no impact returns less than 0.663",
-            ),
-            Self::YePrinted => (
-                "ye_printed",
-                "as printed: the same as lankarani_nikravesh at e = 0.5, and half of what is needed as e goes to 1",
-            ),
-            Self::Ye => ("ye", "returns 0.470 for e = 0.5 [YeLiZhu2009]"),
-            Self::BarrosKhatami => {
-                ("barros_khatami", "that of ye with the spring at 3 k / 2; returns 0.470 for e = 0.5")
-            }
-            Self::BarrosKhatamiDamper => ("barros_khatami_damper", "returns 0.363 for e = 0.5"),
-            Self::Exact => ("exact", "returns e"),
-            Self::HuntCrossley => ("hunt_crossley", "for e near 1 [HuntCrossley1975]; returns 0.663 for e = 0.5"),
-            Self::HerbertMcWhannell => ("herbert_mcwhannell", "returns 0.594 for e = 0.5"),
-            Self::LeeWang => ("lee_wang", "half of what is needed as e goes to 1; returns 0.799 for e = 0.5"),
-            Self::Gonthier => ("gonthier", "explicit fit [Gonthier2004]; returns 0.488 for e = 0.5"),
-            Self::ZhiyingQishao => ("zhiying_qishao", "returns 0.483 for e = 0.5"),
-            Self::GharibHurmuzlu => {
-                ("gharib_hurmuzlu", "for e near 0: dissipates even at e = 1; returns 0.411 for e = 0.5")
-            }
-            Self::HuGuo => ("hu_guo", "returns 0.488 for e = 0.5"),
-            Self::SafaeifarFarshidianfar => ("safaeifar_farshidianfar", "returns 0.536 for e = 0.5"),
-            Self::CarvalhoMartins => ("carvalho_martins", "returns 0.5002 for e = 0.5, within 2e-4 from there to 1"),
-        }
-    }
-
     /// Name in a scene.
     pub const fn name(self) -> &'static str {
-        self.info().0
+        match self {
+            Self::LankaraniNikravesh => "lankarani_nikravesh",
+            Self::YePrinted => "ye_printed",
+            Self::Ye => "ye",
+            Self::BarrosKhatami => "barros_khatami",
+            Self::BarrosKhatamiDamper => "barros_khatami_damper",
+            Self::Exact => "exact",
+            Self::HuntCrossley => "hunt_crossley",
+            Self::HerbertMcWhannell => "herbert_mcwhannell",
+            Self::LeeWang => "lee_wang",
+            Self::Gonthier => "gonthier",
+            Self::ZhiyingQishao => "zhiying_qishao",
+            Self::GharibHurmuzlu => "gharib_hurmuzlu",
+            Self::HuGuo => "hu_guo",
+            Self::SafaeifarFarshidianfar => "safaeifar_farshidianfar",
+            Self::CarvalhoMartins => "carvalho_martins",
+        }
     }
 
     /// The formula of that name in a scene.

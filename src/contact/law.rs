@@ -1,24 +1,24 @@
 //! The catalogue of impact laws: their names in a scene, the keys that each one has and what each one is.
 //!
 //! A law is added here, with one line of [`LawKind`] and its row of [`LawKind::info`]; scene, FMU variables and
-//! documentation read this table.
+//! the test of the documents read this table.
 
 use super::DampingFormula;
 
 /// The impact laws, under their scene names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LawKind {
-    /// `linear`
+    /// `linear`: F = k d; elastic, restitution 1 (seed paper, eq. 3)
     Linear,
-    /// `kelvin_voigt`
+    /// `kelvin_voigt`: F = k d + c v until d = 0, tension kept; restitution of a free impact exactly e (eqs. 4, 5)
     KelvinVoigt,
-    /// `kelvin_voigt_no_tension`
+    /// `kelvin_voigt_no_tension`: F = max(0, k d + c v); returns more than e, 0.5503 for e = 0.5 (sec. 2.2)
     KelvinVoigtNoTension,
-    /// `hertz`
+    /// `hertz`: F = k d^n; elastic, restitution 1 (eq. 6)
     Hertz,
-    /// `jankowski`
+    /// `jankowski`: F = k d^1.5 + c v while v > 0, k d^1.5 after; returns 0.4946 for e = 0.5 (eqs. 7, 8)
     Jankowski,
-    /// `hertz_damped`
+    /// `hertz_damped`: F = k d^n max(0, 1 + a v / V), a by damping_formula (eqs. 9-11, 14)
     HertzDamped,
 }
 
@@ -42,8 +42,6 @@ pub struct LawInfo {
     pub keys: &'static [LawKey],
     /// Whether the law has the key `damping_formula`.
     pub has_damping_formula: bool,
-    /// One sentence for a user: force, source and what to know.
-    pub about: &'static str,
 }
 
 impl LawKind {
@@ -60,40 +58,28 @@ impl LawKind {
     /// The law's row of the catalogue.
     pub const fn info(self) -> LawInfo {
         match self {
-            LawKind::Linear => LawInfo {
-                name: "linear",
-                keys: &[LawKey::Stiffness],
-                about: "F = k d; elastic, restitution 1 (seed paper, eq. 3)",
-                has_damping_formula: false,
-            },
+            LawKind::Linear => LawInfo { name: "linear", keys: &[LawKey::Stiffness], has_damping_formula: false },
             LawKind::KelvinVoigt => LawInfo {
                 name: "kelvin_voigt",
                 keys: &[LawKey::Stiffness, LawKey::Restitution],
-                about: "F = k d + c v until d = 0, tension kept; restitution of a free impact exactly e (eqs. 4, 5)",
                 has_damping_formula: false,
             },
             LawKind::KelvinVoigtNoTension => LawInfo {
                 name: "kelvin_voigt_no_tension",
                 keys: &[LawKey::Stiffness, LawKey::Restitution],
-                about: "F = max(0, k d + c v); returns more than e, 0.5503 for e = 0.5 (sec. 2.2)",
                 has_damping_formula: false,
             },
-            LawKind::Hertz => LawInfo {
-                name: "hertz",
-                keys: &[LawKey::Stiffness, LawKey::Exponent],
-                about: "F = k d^n; elastic, restitution 1 (eq. 6)",
-                has_damping_formula: false,
-            },
+            LawKind::Hertz => {
+                LawInfo { name: "hertz", keys: &[LawKey::Stiffness, LawKey::Exponent], has_damping_formula: false }
+            }
             LawKind::Jankowski => LawInfo {
                 name: "jankowski",
                 keys: &[LawKey::Stiffness, LawKey::Restitution],
-                about: "F = k d^1.5 + c v while v > 0, k d^1.5 after; returns 0.4946 for e = 0.5 (eqs. 7, 8)",
                 has_damping_formula: false,
             },
             LawKind::HertzDamped => LawInfo {
                 name: "hertz_damped",
                 keys: &[LawKey::Stiffness, LawKey::Exponent, LawKey::Restitution],
-                about: "F = k d^n max(0, 1 + a v / V), a by damping_formula (eqs. 9-11, 14)",
                 has_damping_formula: true,
             },
         }

@@ -36,6 +36,12 @@ pub struct ModeIncrement {
 /// Largest w h (and c h) over which a power series in h is summed directly.
 const SERIES_REACH: f64 = 0.5;
 
+/// How often an interval `h`, s, is halved until a series reaches over it, and its length then.
+fn halve(reach: f64, h: f64) -> (i32, f64) {
+    let halvings = (libm::log2(reach / SERIES_REACH).ceil().max(0.0) as i32).min(1000);
+    (halvings, libm::ldexp(h, -halvings))
+}
+
 impl ModeIncrement {
     /// For frequency `omega`, rad/s, damping `c` = 2 zeta omega, 1/s, and an interval `h`, s.
     ///
@@ -50,8 +56,7 @@ impl ModeIncrement {
         if c < 1.9 * omega {
             return Self::underdamped(omega, c, h);
         }
-        let doublings = (libm::log2(reach / SERIES_REACH).ceil().max(0.0) as i32).min(1000);
-        let mut short = libm::ldexp(h, -doublings);
+        let (doublings, mut short) = halve(reach, h);
         let mut increment = Self::series(omega, c, short);
         for _ in 0..doublings {
             increment = increment.twice(short);
@@ -152,8 +157,7 @@ impl CoupledIncrement {
     /// interval, then doubled.
     pub fn new(omega: &[f64], c: &DMatrix<f64>, h: f64) -> CoupledIncrement {
         let fastest = omega.iter().fold(c.abs().row_sum().max(), |fastest, w| fastest.max(*w));
-        let doublings = (libm::log2(fastest * h / SERIES_REACH).ceil().max(0.0) as i32).min(1000);
-        let mut short = libm::ldexp(h, -doublings);
+        let (doublings, mut short) = halve(fastest * h, h);
         let mut increment = Self::series(omega, c, short);
         for _ in 0..doublings {
             increment = increment.twice(short);
