@@ -132,6 +132,8 @@ impl EpisodeForce {
         let stiffness = law.stiffness;
         let always = |engaged| EpisodeForce { engaged, slack: Force::None, guard: None };
         match law.kind {
+            // The engine works out impulses and reactions from the motion of all floors together.
+            LawKind::Stereomechanical => always(Force::None),
             LawKind::Linear => always(Force::Linear { stiffness, damping: 0.0 }),
             LawKind::KelvinVoigt => {
                 always(Force::Linear { stiffness, damping: kelvin_damping(law.restitution, stiffness, mass) })

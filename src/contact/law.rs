@@ -8,6 +8,9 @@ use super::DampingFormula;
 /// The impact laws, under their scene names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LawKind {
+    /// `stereomechanical`: no force but an instantaneous exchange of momentum that returns e; held together where
+    /// rebounds die out (seed paper, eqs. 1, 2)
+    Stereomechanical,
     /// `linear`: F = k d; elastic, restitution 1 (seed paper, eq. 3)
     Linear,
     /// `kelvin_voigt`: F = k d + c v until d = 0, tension kept; restitution of a free impact exactly e (eqs. 4, 5)
@@ -31,6 +34,8 @@ pub enum LawKey {
     Exponent,
     /// `restitution` e, 0 < e <= 1
     Restitution,
+    /// `restitution` e of an instantaneous impact, 0 <= e <= 1
+    ImpulseRestitution,
 }
 
 /// What the catalogue knows of one law.
@@ -47,6 +52,7 @@ pub struct LawInfo {
 impl LawKind {
     /// All laws, in the order in which the documentation shows them.
     pub const ALL: &'static [LawKind] = &[
+        LawKind::Stereomechanical,
         LawKind::Linear,
         LawKind::KelvinVoigt,
         LawKind::KelvinVoigtNoTension,
@@ -58,6 +64,9 @@ impl LawKind {
     /// The law's row of the catalogue.
     pub const fn info(self) -> LawInfo {
         match self {
+            LawKind::Stereomechanical => {
+                LawInfo { name: "stereomechanical", keys: &[LawKey::ImpulseRestitution], has_damping_formula: false }
+            }
             LawKind::Linear => LawInfo { name: "linear", keys: &[LawKey::Stiffness], has_damping_formula: false },
             LawKind::KelvinVoigt => LawInfo {
                 name: "kelvin_voigt",
@@ -104,4 +113,11 @@ pub struct ImpactLaw {
     pub restitution: f64,
     /// Where the law has one.
     pub damping_formula: Option<DampingFormula>,
+}
+
+impl ImpactLaw {
+    /// Whether the floors cannot overlap: impulses and reactions instead of a force of penetration.
+    pub fn is_rigid(&self) -> bool {
+        self.kind == LawKind::Stereomechanical
+    }
 }

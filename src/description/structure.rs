@@ -13,7 +13,7 @@ pub(super) fn write(xml: &mut Xml, scene: &Scene, table: &Table) -> io::Result<(
         xml.create_element("Outputs").write_inner_content(|xml| {
             let is_output = |row: &Row| matches!(row.slot, Slot::Output(_));
             write_unknowns(xml, table, is_output, |unknown, known| match (unknown, known) {
-                (Slot::Output(output), Slot::Input(input)) => at_communication_points(output, input),
+                (Slot::Output(output), Slot::Input(input)) => at_communication_points(scene, output, input),
                 _ => false,
             })
         })?;

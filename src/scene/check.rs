@@ -132,7 +132,27 @@ impl Checker {
         self.floor(path, "left", pair.left_floor, &scene.left);
         self.floor(path, "right", pair.right_floor, &scene.right);
         self.number(format_args!("{path}.gap"), pair.gap, rule::GAP);
+        if pair.law.is_rigid() {
+            self.no_overlap(path, pair, scene);
+        }
         self.law(path, &pair.law);
+    }
+
+    /// Floors that cannot overlap cannot begin so, but for the rounding of the numbers that say where they are.
+    fn no_overlap(&mut self, path: &str, pair: &ContactPair, scene: &Scene) {
+        let at_start = |building: &Building, floor: usize| {
+            floor.checked_sub(1).and_then(|floor| building.initial_displacement.get(floor)).copied().unwrap_or(0.0)
+        };
+        let (left, right) = (at_start(&scene.left, pair.left_floor), at_start(&scene.right, pair.right_floor));
+        let overlap = left - right - pair.gap;
+        if overlap > 4.0 * f64::EPSILON * (left.abs() + right.abs() + pair.gap.abs()) {
+            let expected = format!(
+                "at least {} for law {}: the floors must not overlap at the start",
+                problem::number(left - right),
+                pair.law.kind.info().name
+            );
+            self.refuse(format_args!("{path}.gap"), problem::number(pair.gap), expected);
+        }
     }
 
     fn floor(&mut self, path: &str, side: &str, floor: usize, building: &Building) {

@@ -35,13 +35,18 @@ pub fn number(key: LawKey) -> LawNumber {
             get: |law| law.exponent,
             set: |law, value| law.exponent = value,
         },
-        LawKey::Restitution => LawNumber {
-            name: "restitution",
-            rule: rule::RESTITUTION,
-            default: None,
-            get: |law| law.restitution,
-            set: |law, value| law.restitution = value,
-        },
+        LawKey::Restitution => restitution(rule::RESTITUTION),
+        LawKey::ImpulseRestitution => restitution(rule::IMPULSE_RESTITUTION),
+    }
+}
+
+fn restitution(rule: Rule) -> LawNumber {
+    LawNumber {
+        name: "restitution",
+        rule,
+        default: None,
+        get: |law| law.restitution,
+        set: |law, value| law.restitution = value,
     }
 }
 

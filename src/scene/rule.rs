@@ -55,6 +55,8 @@ pub const CONTACT_STIFFNESS: Rule = Rule { expected: "a finite stiffness > 0", h
 pub const EXPONENT: Rule = Rule { expected: "1 <= n <= 3", holds: |n| (1.0..=3.0).contains(&n) };
 /// `restitution` of a contact.
 pub const RESTITUTION: Rule = Rule { expected: "0 < e <= 1", holds: |e| e > 0.0 && e <= 1.0 };
+/// `restitution` of an instantaneous impact; 0 is a plastic one.
+pub const IMPULSE_RESTITUTION: Rule = Rule { expected: "0 <= e <= 1", holds: |e| (0.0..=1.0).contains(&e) };
 /// `relative_tolerance`: from rounding errors to a solution that is one in name only.
 pub const RELATIVE_TOLERANCE: Rule =
     Rule { expected: "1e-15 < tolerance <= 1e-2", holds: |tolerance| tolerance > 1e-15 && tolerance <= 1e-2 };

@@ -6,12 +6,17 @@ use crate::scene::Scene;
 
 /// Whether an output at a communication point answers at once to an input that is set there.
 ///
-/// Displacements, velocities and all that follows from them do not, contact forces included; a force on a floor
-/// accelerates that floor. The ground acceleration cancels out of the absolute accelerations.
-pub fn at_communication_points(output: Output, input: Input) -> bool {
+/// Displacements, velocities and all that follows from them do not; a force on a floor accelerates that floor, and
+/// where floors are held together it accelerates all of them and changes the forces between them. The ground
+/// acceleration cancels out of the absolute accelerations.
+pub fn at_communication_points(scene: &Scene, output: Output, input: Input) -> bool {
     match (output, input) {
         (Output::Acceleration(side, floor), Input::Force(forced_side, forced_floor)) => {
             (side, floor) == (forced_side, forced_floor)
+                || held_with(scene, (side, floor)).contains(&(forced_side, forced_floor))
+        }
+        (Output::Contact(p, ContactOutput::Force), Input::Force(side, floor)) => {
+            scene.contacts[p].law.is_rigid() && held_with(scene, floors(scene, p)[0]).contains(&(side, floor))
         }
         (
             Output::GroundAcceleration
@@ -50,7 +55,8 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
             Output::Contact(p, ContactOutput::Penetration | ContactOutput::Active | ContactOutput::Impacts) => {
                 known == Slot::Parameter(Parameter::Gap(p))
             }
-            Output::Contact(p, _) => contact(scene, p, known),
+            // Impulses and reactions begin with the first step.
+            Output::Contact(p, _) => !scene.contacts[p].law.is_rigid() && contact(scene, p, known),
             Output::Impacts => matches!(known, Slot::Parameter(Parameter::Gap(_))),
             Output::Energy(_) => energy(scene, known),
         },
@@ -91,4 +97,21 @@ fn energy(scene: &Scene, known: Slot) -> bool {
 fn floors(scene: &Scene, p: usize) -> [(Side, usize); 2] {
     let pair = &scene.contacts[p];
     [(Side::Left, pair.left_floor - 1), (Side::Right, pair.right_floor - 1)]
+}
+
+/// The floors that move as one with a floor while all rigid contacts are closed, that floor included.
+fn held_with(scene: &Scene, floor: (Side, usize)) -> Vec<(Side, usize)> {
+    let mut group = vec![floor];
+    let mut reached = 0;
+    while reached < group.len() {
+        let floor = group[reached];
+        let rigid = (0..scene.contacts.len()).filter(|&p| scene.contacts[p].law.is_rigid());
+        for facing in rigid.map(|p| floors(scene, p)).filter(|pair| pair.contains(&floor)).flatten() {
+            if !group.contains(&facing) {
+                group.push(facing);
+            }
+        }
+        reached += 1;
+    }
+    group
 }

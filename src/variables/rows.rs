@@ -114,6 +114,7 @@ impl Table {
         // Where the exponent is a parameter, the unit of the stiffness follows it.
         let stiffness_unit = match pair.law.kind {
             LawKind::Jankowski => Unit::NewtonPerMetreToTheThreeHalves,
+            LawKind::Stereomechanical => Unit::One,
             LawKind::Linear | LawKind::KelvinVoigt | LawKind::KelvinVoigtNoTension => Unit::NewtonPerMetre,
             LawKind::Hertz | LawKind::HertzDamped => Unit::NewtonPerMetreToTheExponent,
         };
@@ -125,7 +126,7 @@ impl Table {
                 LawKey::Exponent => {
                     (Parameter::Exponent(p), "exponent", Unit::One, Some(3.0), "exponent of the penetration")
                 }
-                LawKey::Restitution => {
+                LawKey::Restitution | LawKey::ImpulseRestitution => {
                     (Parameter::Restitution(p), "restitution", Unit::One, Some(1.0), "coefficient of restitution")
                 }
             };
