@@ -28,6 +28,8 @@ void end_episode(Episodes *episodes, int contact, const Point *p)
 static void see_point(Episode *episode, const Point *p)
 {
     int c = episode->contact;
+    if (p->t < episode->start) /* sustained contact that is about to begin */
+        return;
     if (p->force[c] > episode->peak_force) {
         episode->peak_force = p->force[c];
         episode->peak_time = p->t;

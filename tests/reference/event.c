@@ -146,6 +146,9 @@ static real crossing_before(const Solver *solver, const Step *step, Guard guard,
     while (j > 0 && fabsq(guard_value(solver, guard, &p[j])) <= doubt(solver, guard, j, error))
         j--;
     real lo = step->x[j];
+    /* a reaction jumps with the ground acceleration, and where an impact on another floor changes a damping force */
+    if (j == 0 && guard.quantity == REACTION && guard_value(solver, guard, &p[0]) > 1e-25Q * guard_scale(solver, guard))
+        return 0;
     if (j == 0 && guard_value(solver, guard, &p[0]) >= 0) {
         /* 0 because the contact has just changed its mode there, or because the floors touch at rest */
         if (guard_rate(solver, guard, &p[0]) >= 0)

@@ -29,6 +29,10 @@ void close_at_start(Run *run)
         real d = run->now.d[c], rate = run->now.rate[c];
         if (d <= 0)
             continue;
+        if (law->kind == STEREOMECHANICAL && d < 1e-15Q * run->solver.u_scale) { /* touching, as written in the scene */
+            run->now.d[c] = 0;
+            continue;
+        }
         if (law->kind == STEREOMECHANICAL)
             fail("contact %d: stereomechanical with penetration at the start", c + 1);
         close_contact(run, c, 0, false);
@@ -48,22 +52,28 @@ void equalise(Run *run, int c)
     p->v[contact->left] = p->v[contact->right] = (ml * p->v[contact->left] + mr * p->v[contact->right]) / (ml + mr);
 }
 
-static void stick(Run *run, int c)
+/* Sustained contact. It begins where the geometric series of rebounds not followed up any more ends, `rest` from now;
+   what happens until then is below the digits of everything else. */
+static void stick(Run *run, int c, real rest)
 {
-    real rate = run->now.rate[c], lost = run->scene->contact[c].mass * rate * rate / 2;
+    Point *p = &run->now;
+    if (rest > 1e-9Q)
+        fail("contact %d: rebounds at t = %.17g die too slowly to be summed up", c + 1, (double)p->t);
     equalise(run, c);
     run->solver.phases.mode[c] = STUCK;
-    begin_episode(&run->solution->episodes, c, &run->now, 0)->dissipated = lost;
-    run->energy.impact += lost;
+    complete_point(&run->solver, p);
+    Episode *episode = begin_episode(&run->solution->episodes, c, p, 0);
+    episode->start = episode->peak_time = p->t + rest;
+    episode->peak_force = p->force[c] + rest * reaction_rate(&run->solver, c, p);
+    episode->impulse = -p->force[c] * rest;
 }
 
-/* Exchange of momentum. A rebound too slow to matter ends a dying sequence: the floors stay together if pressed. */
-static void impact(Run *run, int c)
+/* One impulse, after which the floors part at e V. */
+static void exchange_momentum(Run *run, int c, real e)
 {
     const Contact *contact = &run->scene->contact[c];
     Point *p = &run->now;
-    real V = p->rate[c], e = contact->law.e, m = contact->mass;
-    real impulse = (1 + e) * m * V, lost = m * (1 - e * e) * V * V / 2;
+    real V = p->rate[c], m = contact->mass, impulse = (1 + e) * m * V, lost = m * (1 - e * e) * V * V / 2;
     Episode *episode = begin_episode(&run->solution->episodes, c, p, V);
     p->v[contact->left] -= impulse / run->scene->mass[contact->left];
     p->v[contact->right] += impulse / run->scene->mass[contact->right];
@@ -74,9 +84,21 @@ static void impact(Run *run, int c)
     episode->dissipated = lost;
     run->energy.impact += lost;
     end_episode(&run->solution->episodes, c, p);
-    bool pressed = p->rate_change[c] > 0 || V < 1e-29Q * run->solver.v_scale; /* with no speed, only pressure closes */
-    if (e * V < 1e-15Q * run->solver.v_scale && pressed)
-        stick(run, c);
+}
+
+/* A rebound too slow to matter is none: it ends a dying sequence, and the floors stay together if pressed. Without any
+   speed there is no impulse either: only pressure brings floors together that touch. */
+static void impact(Run *run, int c)
+{
+    real V = run->now.rate[c], e = run->scene->contact[c].law.e, scale = run->solver.v_scale;
+    bool dying = e * V < 1e-15Q * scale, still = V < 1e-29Q * scale;
+    if (!still)
+        exchange_momentum(run, c, dying ? 0 : e);
+    real A = run->now.rate_change[c];
+    if (still)
+        stick(run, c, 0);
+    else if (dying && A > 0)
+        stick(run, c, 2 * e * V / (A * (1 - e)));
 }
 
 static void enter(Run *run, int c)

@@ -131,7 +131,9 @@ static void integrate_displacement(const Solver *solver, const Step *step, const
     }
     /* from the changes, not from u: so d keeps its leading digits where it is small */
     for (int c = 0; c < scene->contacts; c++)
-        p->d[c] = start->d[c] + (change[scene->contact[c].left] - change[scene->contact[c].right]);
+        p->d[c] = solver->phases.mode[c] == STUCK
+                      ? 0
+                      : start->d[c] + (change[scene->contact[c].left] - change[scene->contact[c].right]);
 }
 
 static void time_weights(const Solver *solver, const Step *step, const real *row, real *weight)
