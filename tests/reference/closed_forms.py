@@ -1,4 +1,5 @@
-"""Checks the reference solver itself against closed forms of the free impact of two masses.
+"""Checks the reference solver itself against closed forms: free impacts of two masses, stereomechanical contact of two
+oscillators.
 
     python3 tests/reference/closed_forms.py
 
@@ -66,15 +67,46 @@ def cases():
     yield "stereomechanical restitution 0.7", "restitution", 0.7, 2e-16
 
 
+def pressed_pairs():
+    """(lines of the scene, expected (quantity of the last episode, value, tolerance)...)
+
+    Bounces: two oscillators of one frequency w, whose distance r obeys r'' = -w^2 r, with a gap of -g: each rebound
+    r = -g cos(w t) - (v/w) sin(w t) is back at -g after (2/w) atan(v/(w g)), as fast as it left.
+
+    Held together: m1 and m2 on springs k1, k2 swing as one with W^2 = (k1 + k2)/(m1 + m2); the reaction is
+    m (k2/m2 - k1/m1) u, u = u0 cos(W t), and ends where u passes 0.
+    """
+    w, g, e, speed, m = 3.0, 0.02, 0.4, 0.3, 6.0 / 5.0
+    end = sum(2 / w * math.atan(e**j * speed / (w * g)) for j in range(1, 60))
+    yield (
+        f"stop 3\nbuilding 1\nmass 2\nstiffness {2 * w * w}\ndisplacement {-g}\nvelocity {speed}\n"
+        f"building 1\nmass 3\nstiffness {3 * w * w}\ncontact 1 1 {-g} stereomechanical restitution {e}\n",
+        (("start_s", end, 1e-15), ("peak_force", m * w * w * g, 1e-15), ("approach_velocity", 0.0, 0.0)),
+    )
+    k1, k2, u0 = 50.0, 700.0, 0.03
+    frequency, rate = math.sqrt((k1 + k2) / 5.0), m * (k2 / 3.0 - k1 / 2.0)
+    for law in ("restitution 0", "restitution 0.7", "restitution 1"):
+        yield (
+            f"stop 0.2\nbuilding 1\nmass 2\nstiffness {k1}\ndisplacement {u0}\n"
+            f"building 1\nmass 3\nstiffness {k2}\ndisplacement {u0}\ncontact 1 1 0 stereomechanical {law}\n",
+            (("start_s", 0.0, 0.0), ("end_s", math.pi / 2 / frequency, 1e-15), ("peak_force", rate * u0, 1e-14),
+             ("impulse", rate * u0 / frequency, 1e-15), ("separation_velocity", 0.0, 0.0)),
+        )
+
+
+def episodes(program, folder, scene):
+    subprocess.run([program, "-", folder / "case"], input=scene, text=True, check=True, stdout=subprocess.DEVNULL)
+    lines = [line for line in (folder / "case.impacts.csv").read_text().splitlines() if not line.startswith("#")]
+    return [dict(zip(lines[0].split(","), (float(x or "nan") for x in line.split(",")))) for line in lines[1:]]
+
+
 def impact(program, folder, law):
     scene = f"stop 2\noutput_step 1\nbuilding 1\nmass {M1}\nstiffness 0\nvelocity {V}\n"
     scene += f"building 1\nmass {M2}\nstiffness 0\ncontact 1 1 0.05 {law}\n"
-    subprocess.run([program, "-", folder / "free"], input=scene, text=True, check=True, stdout=subprocess.DEVNULL)
-    lines = [line for line in (folder / "free.impacts.csv").read_text().splitlines() if not line.startswith("#")]
-    if len(lines) != 2:
-        raise SystemExit(f"{law}: {len(lines) - 1} impacts instead of 1")
-    row = dict(zip(lines[0].split(","), map(float, lines[1].split(","))))
-    return {"restitution": row["separation_velocity"] / row["approach_velocity"], **row}
+    rows = episodes(program, folder, scene)
+    if len(rows) != 1:
+        raise SystemExit(f"{law}: {len(rows)} impacts instead of 1")
+    return {"restitution": rows[0]["separation_velocity"] / rows[0]["approach_velocity"], **rows[0]}
 
 
 def main():
@@ -84,8 +116,12 @@ def main():
         program = folder / "reference"
         sources = sorted(HERE.glob("*.c"))
         subprocess.run(["gcc", "-O2", "-o", program, *sources, "-lquadmath", "-lm"], check=True)
-        for law, quantity, expected, tolerance in cases():
-            found = impact(program, folder, law)[quantity]
+        checks = [(law, *case, impact(program, folder, law)) for law, *case in cases()]
+        for scene, expected in pressed_pairs():
+            rows = episodes(program, folder, "output_step 1\n" + scene)
+            checks += [(scene, *case, rows[-1]) for case in expected]
+        for law, quantity, expected, tolerance, row in checks:
+            found = row[quantity]
             count += 1
             if not abs(found - expected) <= tolerance:
                 failures += 1
