@@ -10,17 +10,17 @@ pub fn scene(toml: &str) -> Scene {
     Scene::from_toml(toml).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Two single masses on springs so soft that they are free: left 50 t with `speed` [m/s], right 75 t at rest, 1 mm apart.
-pub fn free_impact(law: &str, speed: f64) -> Scene {
+/// Two single masses [kg] on springs so soft that they are free: left with `speed` [m/s], right at rest, 1 mm apart.
+pub fn free_impact((left, right): (f64, f64), law: &str, speed: f64) -> Scene {
     scene(&format!(
         "name = \"Free\"
         [left]
-        mass = [5.0e4]
+        mass = [{left:?}]
         stiffness = [1.0e-20]
         damping = {{ ratio = 0.0 }}
         initial_velocity = [{speed:?}]
         [right]
-        mass = [7.5e4]
+        mass = [{right:?}]
         stiffness = [1.0e-20]
         damping = {{ ratio = 0.0 }}
         [outputs]
@@ -32,9 +32,6 @@ pub fn free_impact(law: &str, speed: f64) -> Scene {
         {law}"
     ))
 }
-
-/// kg, reduced mass of the two masses of [`free_impact`].
-pub const FREE_MASS: f64 = 3.0e4;
 
 /// A record with evenly spaced samples from t = 0.
 pub fn record(step: f64, accelerations: &[f64]) -> Record {
