@@ -76,7 +76,9 @@ impl Bodies {
             let acting: Vec<usize> = (0..pairs.len()).filter(|k| set >> k & 1 == 1).collect();
             let part = DMatrix::from_fn(acting.len(), acting.len(), |i, j| w[(acting[i], acting[j])]);
             let wanted = DVector::from_iterator(acting.len(), acting.iter().map(|&k| q[k]));
-            let Some(solved) = part.lu().solve(&wanted) else { continue };
+            // nalgebra does not take empty systems; redundant pairs are singular.
+            let solved = if acting.is_empty() { Some(wanted) } else { part.lu().solve(&wanted) };
+            let Some(solved) = solved else { continue };
             let mut p = DVector::zeros(pairs.len());
             acting.iter().zip(solved.iter()).for_each(|(&k, value)| p[k] = *value);
             let rest = q - &w * &p;
@@ -299,8 +301,9 @@ fn a_symmetric_situation_stays_symmetric() {
     let (a, v0) = (1.2_f64, f64::sqrt(0.16 + 0.024));
     let end = 0.02 / (0.4 + v0) + 2.0 * v0 / a;
     let open = [0, 1].map(|p| run.model.open_episode(&run.state, p).unwrap());
-    assert_close(open[0].start, end, 1e-14, "end of the rebounds");
-    assert_close(open[1].start, end, 1e-14, "end of the rebounds");
+    // Rebounds below the rounding of the floors' velocities are not followed up: some hundred eps V / a are missing.
+    assert_close(open[0].start, end, 1e-12, "end of the rebounds");
+    assert_close(open[1].start, end, 1e-12, "end of the rebounds");
     assert_close(run.point.contacts[0].force, 6.0 * 2.0 / 9.0, 1e-14, "reaction");
 }
 

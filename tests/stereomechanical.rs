@@ -1,6 +1,8 @@
 //! Impulses, rebounds that die out and sustained contact of one pair, against closed forms.
 //!
-//! Free masses hang on springs of 1e-20 N/m, which change nothing in the first 20 digits.
+//! Free masses hang on springs of 1e-20 N/m, which change nothing in the first 20 digits. The end of a dying sequence is
+//! compared to 1e-12: rebounds below the rounding of the floors' velocities are not followed up, and the time that they
+//! would take, some hundred eps V / A, is missing.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod common;
@@ -67,7 +69,7 @@ fn velocities_after_an_impact_are_those_of_equations_1_and_2() {
                 let (what, approach, m) = (format!("{m1} and {m2} kg, e = {e}"), v1 - v2, reduced(m1, m2));
                 run.to(0.02 / approach);
                 let first = run.episodes[0];
-                assert_close(first.start, 0.01 / approach, 4e-16, "time");
+                assert_close(first.start, 0.01 / approach, 1e-15, "time");
                 assert_eq!(first.end, Some(first.start), "an impulse takes no time");
                 assert_eq!((first.peak_force, first.peak_penetration), (0.0, 0.0));
                 assert_close(first.approach_velocity, approach, 1e-15, "approach velocity");
@@ -128,7 +130,7 @@ fn rebounds_of_a_pressed_pair_end_when_the_geometric_series_says() {
             let [contact] = sustained(&run)[..] else {
                 panic!("one sustained contact, e = {e}: {:?}", sustained(&run))
             };
-            assert_close(contact.start, end, 1e-14, &format!("end of the rebounds, e = {e}"));
+            assert_close(contact.start, end, 1e-12, &format!("end of the rebounds, e = {e}"));
             assert_eq!((contact.end, contact.dissipated_energy), (None, 0.0));
             let point = run.point.contacts[0];
             assert!(point.active && point.penetration.abs() < 1e-15, "{point:?}");
@@ -166,7 +168,7 @@ fn rebounds_of_two_equal_oscillators_are_arcs_of_a_circle() {
         run.to(5.0);
         let end: f64 = (1..300).map(|n| arc(speed * f64::powi(e, n))).sum();
         let [contact] = sustained(&run)[..] else { panic!("one sustained contact: {:?}", sustained(&run)) };
-        assert_close(contact.start, end, 1e-14, &format!("end of the rebounds, e = {e}"));
+        assert_close(contact.start, end, 1e-12, &format!("end of the rebounds, e = {e}"));
         assert_close(run.point.contacts[0].force, m * w * w * g, 1e-13, "reaction");
         assert_close(contact.impulse, m * w * w * g * (5.0 - end), 1e-13, "impulse of the reaction");
         // The centre of mass swings as if nothing had happened.
