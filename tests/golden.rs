@@ -76,14 +76,22 @@ fn worst_motion(golden: &Golden, run: &mut Run) -> f64 {
     worst
 }
 
-/// How many rebounds of a dying sequence are listed is a convention, and so are touches that hardly press: episodes of a
-/// stereomechanical contact with less than this part of the largest impulse count by their sum only.
+/// How many rebounds of a dying sequence are listed is a convention, and so are touches that hardly press: an episode of
+/// a stereomechanical contact with less than this part of the largest impulse counts with the next one that has more.
 const NEGLIGIBLE: f64 = 1e-9;
 
-/// The episodes of one contact in order, split into those that are compared one by one and the impulse of the rest.
-fn split<T>(episodes: impl Iterator<Item = T>, impulse: impl Fn(&T) -> f64, least: f64) -> (Vec<T>, f64) {
-    let (listed, rest): (Vec<T>, Vec<T>) = episodes.partition(|episode| impulse(episode) > least);
-    (listed, rest.iter().fold(0.0, |sum, episode| sum + impulse(episode)))
+/// The episodes of one contact that are compared one by one, each with its own impulse and that of the negligible ones
+/// before it; and the impulse of those after the last.
+fn listed<T>(episodes: impl Iterator<Item = T>, impulse: impl Fn(&T) -> f64, least: f64) -> (Vec<(T, f64)>, f64) {
+    let (mut listed, mut carried) = (Vec::new(), 0.0);
+    for episode in episodes {
+        carried += impulse(&episode);
+        if impulse(&episode) > least {
+            listed.push((episode, carried));
+            carried = 0.0;
+        }
+    }
+    (listed, carried)
 }
 
 /// Worst error per unit of sensitivity of all episodes of a contact. `episodes` are in the order of their starts.
@@ -93,19 +101,21 @@ fn worst_episode(golden: &Golden, name: &str, rigid: bool, contact: usize, episo
     let speed = largest("approach_velocity");
     let least = if rigid { NEGLIGIBLE * largest("impulse") } else { f64::NEG_INFINITY };
     let rows = golden.impacts.iter().filter(|row| row["contact"] as usize == contact + 1);
-    let (rows, rest) = split(rows, |row| row["impulse"], least);
-    let (episodes, got_rest) = split(episodes.iter().filter(|e| e.contact == contact), |e| e.impulse, least);
+    let (rows, rest) = listed(rows, |row| row["impulse"], least);
+    let (episodes, got_rest) = listed(episodes.iter().filter(|e| e.contact == contact), |e| e.impulse, least);
     assert_eq!(episodes.len(), rows.len(), "{name}: number of impacts of contact {}", contact + 1);
     let mut worst = (got_rest - rest).abs() / largest("impulse") / golden.sensitivity(f64::INFINITY);
-    for (row, episode) in rows.iter().zip(episodes) {
+    for ((row, exact_impulse), (episode, impulse)) in rows.iter().zip(episodes) {
         let sensitivity = golden.sensitivity(row["start_s"]);
+        worst = worst.max((impulse - exact_impulse).abs() / largest("impulse") / sensitivity);
+        // Floors that touch at the start, after rounding, meet sqrt(2 eps u / a) later.
+        let start = if row["start_s"] == 0.0 && episode.start < 1e-7 { 0.0 } else { episode.start };
         let pairs = [
-            ("start_s", episode.start, 20.0),
+            ("start_s", start, 20.0),
             ("approach_velocity", episode.approach_velocity, speed),
             ("separation_velocity", episode.separation_velocity, speed),
             ("peak_force", episode.peak_force, largest("peak_force").max(f64::MIN_POSITIVE)),
             ("peak_penetration", episode.peak_penetration, largest("peak_penetration").max(f64::MIN_POSITIVE)),
-            ("impulse", episode.impulse, largest("impulse")),
             ("dissipated_energy", episode.dissipated_energy, 0.5 * largest("impulse") * speed),
         ];
         for (name, got, scale) in pairs {
@@ -199,17 +209,17 @@ fn damped_contact_of_exponent_2_on_the_laboratory_frames() {
 
 #[test]
 fn impulses_on_the_laboratory_frames() {
-    compare("tests/reference/scenes/feup_stereomechanical.toml", "feup_stereomechanical", 2e-13);
+    compare("tests/reference/scenes/feup_stereomechanical.toml", "feup_stereomechanical", 1e-13);
 }
 
 #[test]
 fn rebounds_that_die_out_and_sustained_contacts() {
-    compare("tests/reference/scenes/feup_stereomechanical_touching.toml", "feup_stereomechanical_touching", 2e-13);
+    compare("tests/reference/scenes/feup_stereomechanical_touching.toml", "feup_stereomechanical_touching", 5e-13);
 }
 
 #[test]
 fn plastic_impacts_on_the_laboratory_frames() {
-    compare("tests/reference/scenes/feup_stereomechanical_plastic.toml", "feup_stereomechanical_plastic", 2e-13);
+    compare("tests/reference/scenes/feup_stereomechanical_plastic.toml", "feup_stereomechanical_plastic", 3e-14);
 }
 
 #[test]
@@ -222,6 +232,6 @@ fn impulses_at_one_floor_and_forces_at_another() {
     compare(
         "tests/reference/scenes/stereomechanical_and_hertz_damped.toml",
         "stereomechanical_and_hertz_damped",
-        2e-13,
+        6e-13,
     );
 }
