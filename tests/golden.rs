@@ -214,7 +214,7 @@ fn impulses_on_the_laboratory_frames() {
 
 #[test]
 fn rebounds_that_die_out_and_sustained_contacts() {
-    compare("tests/reference/scenes/feup_stereomechanical_touching.toml", "feup_stereomechanical_touching", 5e-13);
+    compare("tests/reference/scenes/feup_stereomechanical_touching.toml", "feup_stereomechanical_touching", 3e-13);
 }
 
 #[test]
@@ -224,7 +224,7 @@ fn plastic_impacts_on_the_laboratory_frames() {
 
 #[test]
 fn three_pairs_that_lean_on_each_other_for_seconds() {
-    compare("tests/reference/scenes/leaning.toml", "leaning", 2e-13);
+    compare("tests/reference/scenes/leaning.toml", "leaning", 2e-14);
 }
 
 #[test]
