@@ -141,6 +141,7 @@ fn compare(scene_path: &str, name: &str, allowed: f64) {
     let open = (0..scene.contacts.len()).filter_map(|p| run.model.open_episode(&run.state, p));
     episodes.extend(open);
     episodes.sort_by(|a, b| a.start.total_cmp(&b.start));
+    assert_eq!(run.point.impacts, episodes.len() as u64, "{name}: impacts of all contacts");
     let mut impacts = 0.0_f64;
     for (p, contact) in scene.contacts.iter().enumerate() {
         let count = episodes.iter().filter(|episode| episode.contact == p).count();

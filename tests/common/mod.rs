@@ -1,6 +1,8 @@
 //! Small scenes with known answers, and the runs of them that the tests share.
 #![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+pub mod bodies;
+
 use pounding::engine::{Episode, Model, Point, Side, State};
 use pounding::record::Record;
 use pounding::scene::Scene;
