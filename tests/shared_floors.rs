@@ -248,3 +248,44 @@ fn an_impulse_changes_the_rate_of_a_soft_contact_of_the_same_floor() {
         assert!(run.point.energy.unwrap().residual.abs() < 1e-13, "{:?}", run.point.energy);
     }
 }
+
+/// Constant forces and impulses only: parabolas between impacts, followed one after the other with the roots of
+/// quadratics. A force presses L against R1 and R2, whose rebounds get into each other's way.
+#[test]
+fn rebounds_of_two_pairs_on_one_floor_are_parabolas() {
+    let (masses, force, e, gap) = ([5.0, 2.0, 3.0], 6.0, [0.8, 0.55], [0.01, 0.013]);
+    let bodies = Bodies {
+        left: vec![(masses[0], 0.4)],
+        right: vec![(masses[1], 0.0), (masses[2], 0.0)],
+        pairs: vec![(0, 0, gap[0], e[0]), (0, 1, gap[1], e[1])],
+    };
+    // Penetrations and rates of both pairs, relative acceleration, impacts (time, pair, approach).
+    let (mut d, mut v, a) = ([-gap[0], -gap[1]], [0.4, 0.4], force / masses[0]);
+    let (mut time, mut impacts) = (0.0, Vec::new());
+    while impacts.len() < 12 {
+        let next = |p: usize| {
+            let root = f64::sqrt(v[p] * v[p] - 2.0 * a * d[p]);
+            if v[p] > 0.0 { -2.0 * d[p] / (v[p] + root) } else { (root - v[p]) / a }
+        };
+        let (p, other) = if next(0) < next(1) { (0, 1) } else { (1, 0) };
+        let step = next(p);
+        time += step;
+        d = [0, 1].map(|p| d[p] + v[p] * step + 0.5 * a * step * step);
+        v = [0, 1].map(|p| v[p] + a * step);
+        let m = masses[0] * masses[p + 1] / (masses[0] + masses[p + 1]);
+        impacts.push((time, p, v[p]));
+        v[other] -= (1.0 + e[p]) * m * v[p] / masses[0];
+        v[p] *= -e[p];
+        d[p] = 0.0;
+    }
+    let mut run = Run::new(&bodies.scene(false), None);
+    run.state.set_floor_force(Side::Left, 0, force);
+    run.to(time + 1e-3);
+    for (k, ((time, pair, approach), episode)) in impacts.iter().zip(&run.episodes).enumerate() {
+        let what = format!("impact {k}: {episode:?}");
+        assert_eq!(episode.contact, *pair, "{what}");
+        assert_close(episode.start, *time, 1e-13, &what);
+        assert!((episode.approach_velocity - approach).abs() < 1e-13, "{what}, {approach}");
+    }
+    assert!(run.episodes.len() >= impacts.len());
+}
