@@ -78,6 +78,7 @@ fn motion(scene: &Scene, record: &Record) -> Vec<f64> {
             motion.extend((0..run.model.floors(side)).map(|floor| run.displacement(side, floor)));
         }
     }
+    assert!(run.point.impacts > 100, "contacts take part in it: {} impacts", run.point.impacts);
     motion
 }
 
