@@ -86,34 +86,51 @@ impl Model {
     fn take(&self, state: &mut State, end: f64, on_episode: &mut dyn FnMut(&Episode)) {
         self.add_work(state, state.step.length);
         let State { base, step, counters, work, .. } = state;
-        let start = base.segment.start + base.elapsed;
+        let start = base.time();
         for contact in base.contacts.iter_mut().filter(|contact| contact.in_contact()) {
             contact.follow(step, step.length, start);
         }
         std::mem::swap(&mut base.q, &mut step.q);
         std::mem::swap(&mut base.v, &mut step.v);
         base.elapsed = end;
-        for (contact, pair) in base.contacts.iter_mut().zip(&self.pairs) {
-            let (penetration, rate) = pair.penetration(&base.q, &base.v);
-            if !contact.in_contact() {
-                contact.penetration = penetration;
-            }
-            contact.rate = rate;
-            if step.length > 0.0 {
-                contact.at_surface = false;
-            }
-        }
+        self.move_contacts(base, step);
+        self.keep_together(base, work);
         self.update_peak_drift(base, work);
         if let Some(event) = step.event {
             counters.events += 1;
-            self.handle(base, event, on_episode);
+            self.handle(base, event, work, on_episode);
         }
         step.kind = StepKind::Unknown;
     }
 
-    fn handle(&self, base: &mut Base, event: Event, on_episode: &mut dyn FnMut(&Episode)) {
-        let time = base.segment.start + base.elapsed;
+    /// Penetrations and rates at the end of a step.
+    fn move_contacts(&self, base: &mut Base, step: &Step) {
+        for (p, (contact, pair)) in base.contacts.iter_mut().zip(&self.pairs).enumerate() {
+            if contact.is_held() || contact.carried && step.length == 0.0 {
+                continue;
+            }
+            let (penetration, rate) = pair.penetration(&base.q, &base.v);
+            if step.length > 0.0 {
+                contact.at_surface = false;
+                contact.let_go = false;
+            }
+            if let Some((penetration, rate)) = step.carried[p] {
+                (contact.penetration, contact.rate) = (penetration, rate);
+                contact.carried = self.is_close(p, penetration, &base.q);
+                continue;
+            }
+            contact.carried = false;
+            if !contact.in_contact() {
+                contact.penetration = penetration;
+            }
+            contact.rate = rate;
+        }
+    }
+
+    fn handle(&self, base: &mut Base, event: Event, work: &mut Workspace, on_episode: &mut dyn FnMut(&Episode)) {
+        let time = base.time();
         match event {
+            Event::Entry(p) if self.pairs[p].law.is_rigid() => self.meet(base, p, work, on_episode),
             Event::Entry(p) => {
                 let contact = &mut base.contacts[p];
                 contact.penetration = 0.0;
@@ -126,30 +143,15 @@ impl Model {
                 // The first series of an episode finds its own scale.
                 base.last_length = 0.0;
             }
-            Event::Release(p) => {
-                let contact = &mut base.contacts[p];
-                contact.penetration = 0.0;
-                contact.at_surface = true;
-                contact.settle();
-                contact.phase = Phase::Apart;
-                contact.episode = contact.present_episode();
-                contact.episode.end = Some(time);
-                contact.episode.separation_velocity = -contact.rate;
-                on_episode(&contact.episode);
-            }
-            Event::Branch(p) => {
-                let contact = &mut base.contacts[p];
-                contact.settle();
-                contact.phase = if contact.phase == Phase::Engaged { Phase::Slack } else { Phase::Engaged };
-                contact.stored_reference = contact.branch().stored_energy(contact.penetration);
-            }
+            Event::Release(p) => base.release(p, on_episode),
+            Event::Branch(p) => base.contacts[p].change_branch(),
         }
     }
 
     /// Nothing may run for ever or on without numbers.
     fn check(&self, state: &State, progress: &Progress) -> Result<(), EngineError> {
         let base = &state.base;
-        let time = base.segment.start + base.elapsed;
+        let time = base.time();
         let Progress { steps, stalled } = *progress;
         if steps > MOST_STEPS {
             return Err(EngineError {
@@ -188,7 +190,37 @@ impl Model {
     }
 }
 
+impl Base {
+    /// s.
+    pub(super) fn time(&self) -> f64 {
+        self.segment.start + self.elapsed
+    }
+
+    /// Ends the episode of a contact.
+    pub(super) fn release(&mut self, p: usize, on_episode: &mut dyn FnMut(&Episode)) {
+        let time = self.time();
+        let contact = &mut self.contacts[p];
+        contact.let_go = contact.is_held() && contact.rate == 0.0;
+        contact.carried = contact.is_held();
+        contact.penetration = 0.0;
+        contact.at_surface = true;
+        contact.settle();
+        contact.phase = Phase::Apart;
+        contact.episode = contact.present_episode();
+        contact.episode.end = Some(time);
+        contact.episode.separation_velocity = -contact.rate;
+        on_episode(&contact.episode);
+    }
+}
+
 impl Contact {
+    /// Passes to the force on the other side of the law's guard.
+    pub(super) fn change_branch(&mut self) {
+        self.settle();
+        self.phase = if self.phase == Phase::Engaged { Phase::Slack } else { Phase::Engaged };
+        self.stored_reference = self.branch().stored_energy(self.penetration);
+    }
+
     /// Follows the contact over the first `elapsed` seconds of a step that begins at `start` [s].
     pub(super) fn follow(&mut self, step: &Step, elapsed: f64, start: f64) {
         match step.kind {
@@ -218,6 +250,9 @@ impl Contact {
         }
         self.penetration = value(penetration, x);
         self.rate = value_and_slope(penetration, x).1 / scale;
+        if self.is_held() {
+            self.reaction = value(&pair.force[..=pair.order], x);
+        }
         self.episode.impulse += impulse;
     }
 

@@ -33,17 +33,25 @@ impl Model {
     pub(super) fn plan_contact(&self, state: &mut State, limit: f64) {
         let scale = state.base.velocity_scale.max(self.present_velocity(&state.base));
         state.base.velocity_scale = scale;
-        if let Some(p) = self.entry_at_once(&state.base) {
-            state.step.kind = StepKind::Contact;
-            state.step.event = Some(Event::Entry(p));
-            state.step.reaches_limit = false;
-            state.step.length = 0.0;
-            state.step.series.scale = 1.0;
-            state.step.q.copy_from_slice(&state.base.q);
-            state.step.v.copy_from_slice(&state.base.v);
-            return;
+        let mut limit = limit;
+        let mut cut = false;
+        if self.has_close_rigid_pair(&state.base) {
+            let apart = self.balance(&state.base, &state.inputs, &mut state.work);
+            if let Some(p) = apart {
+                return happen_now(state, Event::Release(p));
+            }
+            let horizon = state.base.elapsed + self.bounce_horizon(&state.base, &state.work.q);
+            cut = horizon < limit;
+            limit = limit.min(horizon);
+            state.work.rigid.close_all(&self.rigid.matrix);
+        } else {
+            state.work.rigid.clear();
         }
-        if touching(&state.base).any(|(_, contact)| contact.is_singular()) && self.plan_onset(state, limit) {
+        if let Some(p) = self.entry_at_once(&state.base) {
+            return happen_now(state, Event::Entry(p));
+        }
+        let is_singular = touching(&state.base).any(|(_, contact)| contact.is_singular());
+        if is_singular && !self.has_close_rigid_pair(&state.base) && self.plan_onset(state, limit) {
             return;
         }
         let State { base, step, inputs, counters, work, .. } = state;
@@ -59,10 +67,19 @@ impl Model {
         let x = event.map_or(end, |(x, _)| x);
         step.kind = StepKind::Contact;
         step.event = event.map(|(_, event)| event);
-        step.reaches_limit = whole && event.is_none();
+        step.reaches_limit = whole && !cut && event.is_none();
         step.length = if step.reaches_limit { remaining } else { x * scale };
         step.series.evaluate(x, &mut step.q, &mut step.v);
+        self.carry(base, &step.series, x, &mut work.scalar, &mut step.carried);
+        for (contact, pair) in base.contacts.iter_mut().zip(&step.pairs).filter(|(contact, _)| contact.is_held()) {
+            contact.reaction = pair.force[0];
+        }
         base.last_length = reach * scale;
+    }
+
+    /// Whether rigid floors are held together, or are about to meet again.
+    fn has_close_rigid_pair(&self, base: &Base) -> bool {
+        self.rigid.pairs.iter().any(|&p| base.contacts[p].is_held() || base.contacts[p].carried)
     }
 
     /// The unit of time of the next series, s: near the length of the step, so that its terms neither overflow nor
@@ -82,31 +99,41 @@ impl Model {
     }
 
     /// The series of modes, penetrations and forces from the base on.
-    fn expand(&self, base: &Base, step: &mut Step, work: &Workspace, scale: f64) {
+    fn expand(&self, base: &Base, step: &mut Step, work: &mut Workspace, scale: f64) {
         let Step { series, pairs, .. } = step;
+        let Workspace { load, slope, rigid, .. } = work;
         series.start(scale, &base.q, &base.v);
         for (p, contact) in touching(base) {
             pairs[p].penetration[0] = contact.penetration;
             pairs[p].penetration[1] = contact.rate * scale;
         }
         for n in 0..self.order {
-            for (p, contact) in touching(base) {
+            for (p, contact) in touching(base).filter(|(_, contact)| !contact.is_held()) {
                 pairs[p].extend_force(&contact.starting_force(), n, scale);
             }
-            series.extend(&self.structure, |out| {
+            let load_of_power = |out: &mut [f64]| {
                 match n {
-                    0 => out.copy_from_slice(&work.load),
-                    1 => out.iter_mut().zip(&work.slope).for_each(|(out, slope)| *out = slope * scale),
+                    0 => out.copy_from_slice(load),
+                    1 => out.iter_mut().zip(&*slope).for_each(|(out, slope)| *out = slope * scale),
                     _ => {}
                 }
-                for (p, _) in touching(base) {
+                for (p, _) in touching(base).filter(|(_, contact)| !contact.is_held()) {
                     let force = pairs[p].force[n];
                     for (out, row) in out.iter_mut().zip(&self.pairs[p].row) {
                         *out -= row * force;
                     }
                 }
-            });
+            };
+            series.extend(&self.structure, load_of_power, |acceleration| self.hold(rigid, acceleration));
+            for (&k, reaction) in rigid.pairs.iter().zip(&rigid.found) {
+                pairs[self.rigid.pairs[k]].force[n] = *reaction;
+            }
             for (p, contact) in touching(base) {
+                if contact.is_held() {
+                    pairs[p].penetration[n + 2] = 0.0;
+                    pairs[p].order = n;
+                    continue;
+                }
                 let (row, term) = (&self.pairs[p].row, series.term(n + 2));
                 pairs[p].penetration[n + 2] = if contact.at_surface { difference(row, term).0 } else { dot(row, term) };
             }
@@ -225,6 +252,9 @@ impl Model {
         work: &mut Workspace,
         end: f64,
     ) -> Option<(f64, Event)> {
+        if contact.is_held() {
+            return self.letting_go(p, step, work, end);
+        }
         let (series, pair) = (&step.series, &step.pairs[p]);
         let terms = ..=series.order;
         // Distance to the surface, positive once d has passed 0 downwards.
@@ -260,15 +290,28 @@ impl Model {
         growth: f64,
     ) -> Option<(f64, Event)> {
         let series = &step.series;
-        let start = if contact.at_surface { 0.0 } else { contact.penetration.min(0.0) };
+        let start = contact.flight_start();
         if start + (contact.rate * series.scale * end).max(0.0) + growth < 0.0 {
             return None;
         }
         let penetration = &mut work.scalar[..=series.order];
-        let noise = pair.noise(series.project(&pair.row, penetration));
-        penetration[0] = start;
+        let noise = pair.noise(series.project(&pair.row, end, penetration));
+        let noise = contact.begin_flight(penetration, series.scale, noise);
         roots::first_rise(penetration, end, noise).map(|x| (x, Event::Entry(p)))
     }
+}
+
+/// An event that needs no step.
+fn happen_now(state: &mut State, event: Event) {
+    let State { base, step, .. } = state;
+    step.kind = StepKind::Contact;
+    step.event = Some(event);
+    step.reaches_limit = false;
+    step.length = 0.0;
+    step.series.scale = 1.0;
+    step.carried.fill(None);
+    step.q.copy_from_slice(&base.q);
+    step.v.copy_from_slice(&base.v);
 }
 
 /// The contacts that are in contact, with their number.

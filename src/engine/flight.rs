@@ -15,6 +15,7 @@ impl Model {
         step.length = remaining;
         step.reaches_limit = true;
         step.event = None;
+        step.carried.fill(None);
         self.load(base, inputs, &mut work.load, &mut work.slope);
         self.fly(base, remaining, work);
         step.q.copy_from_slice(&work.q);
@@ -71,15 +72,19 @@ impl Model {
         const REACH: f64 = 1.5;
         counters.closer_looks += 1;
         let fastest = self.structure.fastest;
-        let h = if fastest * remaining > REACH { REACH / fastest } else { remaining };
+        let mut h = if fastest * remaining > REACH { REACH / fastest } else { remaining };
+        if base.contacts.iter().any(|contact| contact.carried) {
+            self.structure.accelerate(&base.q, &base.v, &work.load, &mut work.q);
+            h = h.min(self.bounce_horizon(base, &work.q));
+        }
         let order = flight_order(fastest * h, EXACT).unwrap_or(crate::contact::series::MAX_ORDER);
         let (load, slope) = (&work.load, &work.slope);
         work.series.expand_flight(&self.structure, (&base.q, &base.v), (load, slope), (h, order));
         let mut first: Option<(f64, usize)> = None;
         for (p, (pair, contact)) in self.pairs.iter().zip(&base.contacts).enumerate() {
             let penetration = &mut work.scalar[..=work.series.order];
-            let noise = pair.noise(work.series.project(&pair.row, penetration));
-            penetration[0] = contact.flight_start();
+            let noise = pair.noise(work.series.project(&pair.row, 1.0, penetration));
+            let noise = contact.begin_flight(penetration, h, noise);
             let end = first.map_or(1.0, |(x, _)| x);
             if let Some(x) = roots::first_rise(penetration, end, noise) {
                 first = Some((x, p));
@@ -92,12 +97,13 @@ impl Model {
             step.reaches_limit = false;
             step.event = first.map(|(_, p)| Event::Entry(p));
         }
+        self.carry(base, &work.series, x, &mut work.scalar, &mut step.carried);
     }
 }
 
 impl Contact {
     /// Penetration at the start of a flight: exactly 0 just after a release, never above 0.
-    fn flight_start(&self) -> f64 {
+    pub(super) fn flight_start(&self) -> f64 {
         if self.at_surface { 0.0 } else { self.penetration.min(0.0) }
     }
 }

@@ -3,6 +3,7 @@
 //! [`Model`] never changes during a run, [`State`] is plain data; a communication point is read into a [`Point`].
 
 mod advance;
+mod complementarity;
 mod contact_step;
 mod energy;
 mod flight;
@@ -10,6 +11,7 @@ mod ground;
 mod model;
 mod observe;
 mod onset_step;
+mod rigid;
 mod roots;
 mod state;
 

@@ -2,6 +2,7 @@
 
 use super::ground::{GroundMotion, Segment};
 use super::onset_step::OnsetSeries;
+use super::rigid::RigidPairs;
 use super::state::*;
 use super::{Episode, contact_step};
 use crate::contact::series::{MAX_ORDER, PairSeries};
@@ -17,6 +18,7 @@ use std::f64::consts::PI;
 pub struct Model {
     pub(super) structure: Structure,
     pub(super) pairs: Vec<Pair>,
+    pub(super) rigid: RigidPairs,
     /// m/s, floor on the approach velocity where a law divides by it.
     pub(super) least_approach: f64,
     /// Largest |row| entry of each mode over all pairs.
@@ -45,6 +47,10 @@ pub(super) struct Pair {
     pub law: ImpactLaw,
     /// kg, reduced mass of the two floors.
     pub mass: f64,
+    /// Left and right floor, counted from 0.
+    pub floors: [usize; 2],
+    /// kg, of these floors.
+    pub masses: [f64; 2],
 }
 
 impl Model {
@@ -76,6 +82,7 @@ impl Model {
             energy: scene.energy,
             least_approach: scene.solver.min_approach_velocity,
             structure,
+            rigid: RigidPairs::of(&pairs),
             pairs,
             pair_weight,
             ground,
@@ -97,6 +104,11 @@ impl Model {
     /// Whether the engine's steps are cut at communication points: where a master's inputs act.
     pub(super) fn is_driven(&self) -> bool {
         self.ground.is_none() || self.floor_forces
+    }
+
+    /// Room to work in.
+    pub(super) fn workspace(&self) -> Workspace {
+        Workspace::new(&self.structure, self.rigid.pairs.len())
     }
 
     fn has_singular_law(&self) -> bool {
@@ -137,6 +149,7 @@ impl Model {
                 series: ModalSeries::new(lanes, highest),
                 pairs: vec![PairSeries::default(); self.pairs.len()],
                 onset: OnsetSeries::new(lanes, self.pairs.len(), self.has_singular_law()),
+                carried: vec![None; self.pairs.len()],
             },
             inputs: Inputs {
                 ground_acceleration: 0.0,
@@ -144,7 +157,7 @@ impl Model {
                 left_floors: self.floors(Side::Left),
             },
             counters: Counters::default(),
-            work: Workspace::new(&self.structure),
+            work: self.workspace(),
         };
         state.base.impacts = state.base.contacts.iter().map(|contact| contact.impacts).sum();
         self.update_peak_drift(&mut state.base, &mut state.work);
@@ -198,7 +211,7 @@ impl Pair {
         structure.add_floor_force(Side::Left, left, 1.0, &mut row);
         structure.add_floor_force(Side::Right, right, -1.0, &mut row);
         let (m1, m2) = (scene.left.mass[left], scene.right.mass[right]);
-        Pair { row, gap: pair.gap, law: pair.law, mass: m1 * m2 / (m1 + m2) }
+        Pair { row, gap: pair.gap, law: pair.law, mass: m1 * m2 / (m1 + m2), floors: [left, right], masses: [m1, m2] }
     }
 
     /// m and m/s.
@@ -222,6 +235,9 @@ impl Pair {
             penetration,
             rate,
             at_surface: penetration == 0.0,
+            carried: false,
+            let_go: false,
+            reaction: 0.0,
             impacts: 0,
             impulse: 0.0,
             work: 0.0,
@@ -230,7 +246,11 @@ impl Pair {
             episode: Episode { contact: index, ..Episode::default() },
             work_before: 0.0,
         };
-        if penetration > 0.0 {
+        if self.law.is_rigid() {
+            // Overlaps by rounding at most: the scene is refused otherwise.
+            contact.at_surface = penetration >= 0.0;
+            contact.penetration = penetration.min(0.0);
+        } else if penetration > 0.0 {
             contact.begin(time, 0.0);
         }
         contact

@@ -16,7 +16,7 @@ impl Model {
         point.time = state.time;
         let elapsed = state.time - (state.base.segment.start + state.base.elapsed);
         let elapsed = if state.step.kind == StepKind::Unknown { 0.0 } else { elapsed.max(0.0) };
-        let mut work = point.work.take().unwrap_or_else(|| Box::new(Workspace::new(&self.structure)));
+        let mut work = point.work.take().unwrap_or_else(|| Box::new(self.workspace()));
         self.read_modes(state, elapsed, &mut work, point);
         let State { base, step, inputs, .. } = state;
         point.ground_acceleration = match &self.ground {
@@ -26,6 +26,13 @@ impl Model {
         point.contacts.resize(self.pairs.len(), ContactPoint::default());
         for p in 0..self.pairs.len() {
             point.contacts[p] = self.read_contact(base, step, p, elapsed, point);
+        }
+        if step.kind == StepKind::Unknown && base.contacts.iter().any(Contact::is_held) {
+            // An input that has just been set changes reactions at once.
+            self.balance(base, inputs, &mut work);
+            for (&k, force) in work.rigid.pairs.iter().zip(&work.rigid.found) {
+                point.contacts[self.rigid.pairs[k]].force = *force;
+            }
         }
         point.impacts = base.impacts;
         work.load.fill(0.0);
@@ -80,7 +87,7 @@ impl Model {
     fn contact_at(&self, base: &Base, step: &Step, p: usize, elapsed: f64) -> Contact {
         let mut contact = base.contacts[p];
         if contact.in_contact() && elapsed > 0.0 {
-            contact.follow(step, elapsed, base.segment.start + base.elapsed);
+            contact.follow(step, elapsed, base.time());
         }
         contact
     }

@@ -84,6 +84,7 @@ impl Model {
             return false;
         };
         counters.contact_steps += 1;
+        step.carried.fill(None);
         step.kind = StepKind::Onset;
         step.event = None;
         step.reaches_limit = x * scale >= remaining;

@@ -1,6 +1,7 @@
 //! Everything that changes during a run: plain data, cloned to save it.
 
 use super::Episode;
+use super::complementarity::Complementarity;
 use super::ground::Segment;
 use super::onset_step::OnsetSeries;
 use crate::contact::EpisodeForce;
@@ -73,6 +74,8 @@ pub(super) enum Phase {
     Engaged,
     /// In contact, on the other side of the law's guard.
     Slack,
+    /// Rigid floors held together by a reaction: penetration and its rate are 0.
+    Held,
 }
 
 /// One contact.
@@ -87,6 +90,13 @@ pub(super) struct Contact {
     pub rate: f64,
     /// Stands exactly at d = 0, just released or just entered.
     pub at_surface: bool,
+    /// Rigid and close to the surface: `penetration` and `rate` are carried along by their own increments while apart
+    /// too. Rebounds that die out are far smaller than the last digits of the floors' motion.
+    pub carried: bool,
+    /// Just let go by a reaction that has fallen to 0: whatever presses the floors together now is rounding.
+    pub let_go: bool,
+    /// N, of floors that are held together.
+    pub reaction: f64,
     pub impacts: u64,
     pub impulse: f64,
     /// J, integral of F v, but for what `stored_energy` has changed since `stored_reference`.
@@ -104,6 +114,10 @@ impl Contact {
         self.phase != Phase::Apart
     }
 
+    pub fn is_held(&self) -> bool {
+        self.phase == Phase::Held
+    }
+
     /// J, integral of F v so far.
     pub fn dissipated_energy(&self) -> f64 {
         match self.phase {
@@ -115,7 +129,7 @@ impl Contact {
     /// The force law in this phase.
     pub fn branch(&self) -> crate::contact::Force {
         match self.phase {
-            Phase::Apart => crate::contact::Force::None,
+            Phase::Apart | Phase::Held => crate::contact::Force::None,
             Phase::Engaged => self.force.engaged,
             Phase::Slack => self.force.slack,
         }
@@ -128,7 +142,10 @@ impl Contact {
 
     /// N, at the base.
     pub fn present_force(&self) -> f64 {
-        self.branch().value(self.penetration, self.rate)
+        match self.phase {
+            Phase::Held => self.reaction,
+            _ => self.branch().value(self.penetration, self.rate),
+        }
     }
 }
 
@@ -150,7 +167,12 @@ pub(super) struct Step {
     pub pairs: Vec<PairSeries>,
     /// For the first step after an entry.
     pub onset: OnsetSeries,
+    /// Penetration and rate at the end of each contact that is carried.
+    pub carried: Carried,
 }
+
+/// Penetration, m, and its rate, m/s, one per contact.
+pub(super) type Carried = Vec<Option<(f64, f64)>>;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StepKind {
@@ -203,10 +225,12 @@ pub(super) struct Workspace {
     pub node_q: Vec<f64>,
     pub node_v: Vec<f64>,
     pub scalar: [f64; MAX_ORDER + 3],
+    pub rigid: Complementarity,
 }
 
 impl Workspace {
-    pub fn new(structure: &Structure) -> Workspace {
+    /// For a structure and that many rigid pairs.
+    pub fn new(structure: &Structure, rigid: usize) -> Workspace {
         let lanes = structure.lanes;
         let vector = || vec![0.0; lanes];
         Workspace {
@@ -221,6 +245,7 @@ impl Workspace {
             node_q: vector(),
             node_v: vector(),
             scalar: [0.0; MAX_ORDER + 3],
+            rigid: Complementarity::new(rigid),
         }
     }
 }

@@ -68,8 +68,9 @@ impl ModalSeries {
 
     /// Appends power n + 2 from the load's power n (in 1/scale^n), by (n+1)(n+2) q_{n+2} = load_n - c (n+1) q_{n+1} - w^2 q_n.
     ///
-    /// `load` adds the modal load of power n to its argument, which holds zeros, in units of the load itself.
-    pub fn extend(&mut self, structure: &Structure, load: impl FnOnce(&mut [f64])) {
+    /// `load` adds the modal load of power n to its argument, which holds zeros, in units of the load itself, and
+    /// `constrain` may change the modal accelerations that follow from it.
+    pub fn extend(&mut self, structure: &Structure, load: impl FnOnce(&mut [f64]), constrain: impl FnOnce(&mut [f64])) {
         let n = self.order - 1;
         let lanes = self.lanes;
         let (known, next) = self.coefficients.split_at_mut((n + 2) * lanes);
@@ -83,6 +84,7 @@ impl ModalSeries {
             next[m] -= rate * structure.damping[m] * q1[m] + structure.omega2[m] * q0[m];
         }
         structure.subtract_coupling(q1, rate, next);
+        constrain(next);
         let factor = self.scale * self.scale / (k1 * k2);
         for value in next.iter_mut() {
             *value *= factor;
@@ -104,11 +106,12 @@ impl ModalSeries {
         self.start(scale, q, v);
         while self.order < order.max(2) {
             let n = self.order - 1;
-            self.extend(structure, |out| match n {
+            let load_of_power = |out: &mut [f64]| match n {
                 0 => out.copy_from_slice(load),
                 1 => out.iter_mut().zip(slope).for_each(|(out, slope)| *out = slope * scale),
                 _ => {}
-            });
+            };
+            self.extend(structure, load_of_power, |_| {});
         }
     }
 
@@ -201,14 +204,15 @@ impl ModalSeries {
         slope.map(|slope| slope * rate)
     }
 
-    /// The scalar series row . q, written to `out[n]`. Returns the sum of the sizes of all that was added up, which
-    /// tells the rounding error of a value within 0..=1.
-    pub fn project(&self, row: &[f64], out: &mut [f64]) -> f64 {
-        let mut sum = 0.0;
+    /// The scalar series row . q, written to `out[n]`. Returns the sum of the sizes of all that is added up at x, which
+    /// tells the rounding error of a value within 0..=x.
+    pub fn project(&self, row: &[f64], x: f64, out: &mut [f64]) -> f64 {
+        let (mut sum, mut power) = (0.0, 1.0);
         for (n, out) in out.iter_mut().enumerate().take(self.order + 1) {
             let (value, size) = difference(row, self.term(n));
             *out = value;
-            sum += size;
+            sum += size * power;
+            power *= x;
         }
         sum
     }
