@@ -106,14 +106,15 @@ impl Model {
     /// Penetrations and rates at the end of a step.
     fn move_contacts(&self, base: &mut Base, step: &Step) {
         for (p, (contact, pair)) in base.contacts.iter_mut().zip(&self.pairs).enumerate() {
+            if step.length > 0.0 {
+                contact.at_surface = false;
+                contact.let_go = false;
+                contact.undecided = false;
+            }
             if contact.is_held() || contact.carried && step.length == 0.0 {
                 continue;
             }
             let (penetration, rate) = pair.penetration(&base.q, &base.v);
-            if step.length > 0.0 {
-                contact.at_surface = false;
-                contact.let_go = false;
-            }
             if let Some((penetration, rate)) = step.carried[p] {
                 (contact.penetration, contact.rate) = (penetration, rate);
                 contact.carried = self.is_close(p, penetration, &base.q);

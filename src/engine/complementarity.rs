@@ -25,7 +25,7 @@ pub(super) struct Complementarity {
     /// Positions in `pairs` that may carry a force.
     active: Vec<usize>,
     trial: Vec<f64>,
-    /// Lower triangle by rows, unit of the active positions; its diagonal holds reciprocals, 0 for a dependent pair.
+    /// L below the diagonal and D on it, by rows, in the order of the active positions; D is 0 for a dependent pair.
     factor: Vec<f64>,
 }
 
@@ -134,23 +134,27 @@ impl Complementarity {
         false
     }
 
-    /// Cholesky factor of the active pairs' matrix.
+    /// Factors the active pairs' matrix into L D L'.
     fn factorise(&mut self, matrix: &DMatrix<f64>) {
         let n = self.active.len();
         for i in 0..n {
             let row = self.pairs[self.active[i]];
             for j in 0..=i {
-                let column = self.pairs[self.active[j]];
-                let mut rest = matrix[(row, column)];
+                let mut rest = matrix[(row, self.pairs[self.active[j]])];
                 for k in 0..j {
-                    rest -= self.factor[i * n + k] * self.factor[j * n + k];
+                    rest -= self.factor[i * n + k] * self.factor[k * n + k] * self.factor[j * n + k];
                 }
-                self.factor[i * n + j] = if j < i {
-                    rest * self.factor[j * n + j]
-                } else if rest > DEPENDENT * matrix[(row, row)] {
-                    1.0 / rest.sqrt()
-                } else {
-                    0.0
+                let pivot = self.factor[j * n + j];
+                self.factor[i * n + j] = match () {
+                    _ if j == i => {
+                        if rest > DEPENDENT * matrix[(row, row)] {
+                            rest
+                        } else {
+                            0.0
+                        }
+                    }
+                    _ if pivot > 0.0 => rest / pivot,
+                    _ => 0.0,
                 };
             }
         }
@@ -164,14 +168,86 @@ impl Complementarity {
             for k in 0..i {
                 rest -= self.factor[i * n + k] * self.trial[k];
             }
-            self.trial[i] = rest * self.factor[i * n + i];
+            self.trial[i] = rest;
         }
         for i in (0..n).rev() {
-            let mut rest = self.trial[i];
+            let pivot = self.factor[i * n + i];
+            if pivot == 0.0 {
+                self.trial[i] = 0.0;
+                continue;
+            }
+            let mut rest = self.trial[i] / pivot;
             for k in i + 1..n {
                 rest -= self.factor[k * n + i] * self.trial[k];
             }
-            self.trial[i] = rest * self.factor[i * n + i];
+            self.trial[i] = rest;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn push(matrix: &DMatrix<f64>, known: &[f64]) -> Vec<f64> {
+        let mut problem = Complementarity::new(known.len());
+        for (pair, known) in known.iter().enumerate() {
+            problem.add(pair, *known, 1e-14);
+        }
+        problem.push(matrix);
+        problem.found
+    }
+
+    /// What every solution satisfies, and no other x (but for pairs that depend on each other).
+    fn assert_solves(matrix: &DMatrix<f64>, known: &[f64], x: &[f64]) {
+        for (i, b) in known.iter().enumerate() {
+            let w: f64 = (0..x.len()).map(|j| matrix[(i, j)] * x[j]).sum::<f64>() - b;
+            assert!(x[i] >= 0.0 && w > -1e-11 && (x[i] * w).abs() < 1e-11, "pair {i}: x {}, w {w:e}", x[i]);
+        }
+    }
+
+    #[test]
+    fn pairs_of_different_floors_do_not_know_each_other() {
+        let matrix = DMatrix::from_diagonal(&nalgebra::DVector::from_vec(vec![2.0, 4.0, 0.5]));
+        assert_eq!(push(&matrix, &[1.0, -1.0, 3.0]), [0.5, 0.0, 6.0]);
+    }
+
+    #[test]
+    fn a_pair_that_would_pull_is_left_out() {
+        // One floor of mass 1 against two of mass 1: what one pair needs drives the other apart.
+        let matrix = DMatrix::from_row_slice(2, 2, &[2.0, 1.0, 1.0, 2.0]);
+        assert_eq!(push(&matrix, &[3.0, 1.0]), [1.5, 0.0]);
+        let both = push(&matrix, &[3.0, 3.0]);
+        assert!(both.iter().all(|x| (x - 1.0).abs() < 1e-15), "{both:?}");
+    }
+
+    #[test]
+    fn pairs_that_depend_on_each_other_share() {
+        // Two floors a side, each against each: four pairs, three independent.
+        let rows = [[1.0, 0.0, -1.0, 0.0], [1.0, 0.0, 0.0, -1.0], [0.0, 1.0, -1.0, 0.0], [0.0, 1.0, 0.0, -1.0]];
+        let row = |i: usize| nalgebra::DVector::from_row_slice(&rows[i]);
+        let matrix = DMatrix::from_fn(4, 4, |i, j| row(i).dot(&row(j)));
+        let known: Vec<f64> =
+            (0..4).map(|i| row(i).dot(&nalgebra::DVector::from_vec(vec![1.0, 0.5, -0.2, -0.4]))).collect();
+        assert_solves(&matrix, &known, &push(&matrix, &known));
+    }
+
+    proptest! {
+        #[test]
+        fn any_pairs_end_with_forces_that_push(
+            pairs in proptest::collection::btree_set((0..4_usize, 0..4_usize), 1..=12),
+            masses in proptest::collection::vec(0.1..10.0_f64, 8),
+            pressing in proptest::collection::vec(-1.0..1.0_f64, 8),
+        ) {
+            let pairs: Vec<_> = pairs.into_iter().collect();
+            let shared = |a: usize, b: usize, mass: f64| if a == b { 1.0 / mass } else { 0.0 };
+            let matrix = DMatrix::from_fn(pairs.len(), pairs.len(), |i, j| {
+                let ((a, b), (c, d)) = (pairs[i], pairs[j]);
+                shared(a, c, masses[a]) + shared(b, d, masses[4 + b])
+            });
+            let known: Vec<f64> = pairs.iter().map(|(a, b)| pressing[*a] - pressing[4 + *b]).collect();
+            assert_solves(&matrix, &known, &push(&matrix, &known));
         }
     }
 }

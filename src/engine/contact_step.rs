@@ -28,6 +28,9 @@ pub(super) fn accuracy(relative_tolerance: f64) -> (f64, usize) {
     (tolerance, order as usize)
 }
 
+/// Share of the time left for which floors are held together that rounding cannot tell from free ones.
+const SHORT_WHILE: f64 = 1e-3;
+
 impl Model {
     /// Works out the step in contact from the base until `limit` (s since the segment's start) or the next event.
     pub(super) fn plan_contact(&self, state: &mut State, limit: f64) {
@@ -40,7 +43,11 @@ impl Model {
             if let Some(p) = apart {
                 return happen_now(state, Event::Release(p));
             }
-            let horizon = state.base.elapsed + self.bounce_horizon(&state.base, &state.work.q);
+            let State { base, work, .. } = &*state;
+            let mut horizon = base.elapsed + self.bounce_horizon(base, &work.q);
+            if base.contacts.iter().any(|contact| contact.undecided) {
+                horizon = horizon.min(base.elapsed + SHORT_WHILE * (limit - base.elapsed));
+            }
             cut = horizon < limit;
             limit = limit.min(horizon);
             state.work.rigid.close_all(&self.rigid.matrix);
@@ -252,6 +259,9 @@ impl Model {
         work: &mut Workspace,
         end: f64,
     ) -> Option<(f64, Event)> {
+        if contact.undecided {
+            return None;
+        }
         if contact.is_held() {
             return self.letting_go(p, step, work, end);
         }

@@ -237,6 +237,7 @@ impl Pair {
             at_surface: penetration == 0.0,
             carried: false,
             let_go: false,
+            undecided: false,
             reaction: 0.0,
             impacts: 0,
             impulse: 0.0,

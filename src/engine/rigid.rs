@@ -178,6 +178,7 @@ impl Model {
         contact.phase = Phase::Held;
         contact.reaction = 0.0;
         contact.carried = false;
+        contact.undecided = contact.let_go;
         contact.let_go = false;
         base.impacts += 1;
         base.last_length = 0.0;
@@ -242,8 +243,9 @@ impl Model {
             }
         }
         let apart = (0..rigid.pairs.len()).find(|&i| {
-            let row = &self.pairs[self.rigid.pairs[rigid.pairs[i]]].row;
-            rigid.found[i] == 0.0 && dot(row, acceleration) < -rigid.noise[i]
+            let p = self.rigid.pairs[rigid.pairs[i]];
+            let moves_apart = dot(&self.pairs[p].row, acceleration) < -rigid.noise[i];
+            rigid.found[i] == 0.0 && moves_apart && !base.contacts[p].undecided
         })?;
         Some(self.rigid.pairs[rigid.pairs[apart]])
     }
@@ -269,11 +271,10 @@ impl Model {
     /// modal accelerations at the base.
     pub(super) fn bounce_horizon(&self, base: &Base, acceleration: &[f64]) -> f64 {
         let apart = base.contacts.iter().zip(&self.pairs).filter(|(contact, _)| contact.carried);
-        apart
-            .map(|(contact, pair)| {
-                4.0 * time_to_surface(contact.penetration, contact.rate, dot(&pair.row, acceleration))
-            })
-            .fold(f64::INFINITY, f64::min)
+        let bounce = |(contact, pair): (&Contact, &Pair)| {
+            4.0 * time_to_surface(contact.penetration, contact.rate, dot(&pair.row, acceleration))
+        };
+        apart.map(bounce).fold(f64::INFINITY, f64::min)
     }
 
     /// Where the pairs that are carried get to at x of a series.
@@ -295,12 +296,20 @@ impl Model {
         penetration > -CLOSE * pair.noise(difference(&pair.row, q).1)
     }
 
+    /// m/s2, rounding error of a pair's relative acceleration in 0..=x of a series.
+    fn acceleration_noise(&self, p: usize, series: &ModalSeries, x: f64) -> f64 {
+        let (mut sum, mut power) = (0.0, 1.0 / (series.scale * series.scale));
+        for n in 2..=series.order {
+            sum += (n * (n - 1)) as f64 * difference(&self.pairs[p].row, series.term(n)).1 * power;
+            power *= x;
+        }
+        8.0 * f64::EPSILON * sum
+    }
+
     /// Where the reaction of a pair that is held together falls to 0 in 0..=end of its series.
     pub(super) fn letting_go(&self, p: usize, step: &Step, work: &mut Workspace, end: f64) -> Option<(f64, Event)> {
-        let rigid = &work.rigid;
-        let i = rigid.pairs.iter().position(|&k| self.rigid.pairs[k] == p)?;
-        let k = rigid.pairs[i];
-        let noise = rigid.noise[i] / self.rigid.matrix[(k, k)];
+        let k = self.rigid.pairs.iter().position(|&pair| pair == p)?;
+        let noise = self.acceleration_noise(p, &step.series, end) / self.rigid.matrix[(k, k)];
         let force = &step.pairs[p].force[..=step.pairs[p].order];
         let pull = &mut work.scalar[..force.len()];
         for (pull, force) in pull.iter_mut().zip(force) {

@@ -95,6 +95,9 @@ pub(super) struct Contact {
     pub carried: bool,
     /// Just let go by a reaction that has fallen to 0: whatever presses the floors together now is rounding.
     pub let_go: bool,
+    /// Held together again at the very instant at which it was let go: rounding cannot tell which is right, so it is
+    /// held for a short while and then asked again.
+    pub undecided: bool,
     /// N, of floors that are held together.
     pub reaction: f64,
     pub impacts: u64,

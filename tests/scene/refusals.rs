@@ -343,11 +343,17 @@ fn laws_that_do_not_exist() {
     // The catalogue grows: only what does not depend on it is compared word by word.
     let said = messages(&edited("\"hertz\"", "\"herz\""));
     let [unknown] = said.as_slice() else { panic!("{said:?}") };
-    assert!(unknown.starts_with("contact[2].law = \"herz\": expected a known law (linear, kelvin_voigt,"), "{unknown}");
+    assert!(
+        unknown.starts_with("contact[2].law = \"herz\": expected a known law (stereomechanical, linear, kelvin_voigt,"),
+        "{unknown}"
+    );
     assert!(unknown.ends_with("; did you mean hertz?"), "{unknown}");
     let said = messages(&edited("law = \"hertz\"\nstiffness = 2.0e6", "lav = 1\nstiffness = \"2\""));
     let [missing, lav, stiffness] = said.as_slice() else { panic!("{said:?}") };
-    assert!(missing.starts_with("contact[2].law: expected a law (linear, kelvin_voigt,"), "{missing}");
+    assert!(
+        missing.starts_with("contact[2].law: expected a law (stereomechanical, linear, kelvin_voigt,"),
+        "{missing}"
+    );
     assert!(missing.ends_with(") (missing)"), "{missing}");
     assert!(lav.starts_with("contact[2].lav = 1: expected a known key (left_floor, right_floor, gap, law,"), "{lav}");
     assert!(lav.ends_with("; did you mean law?"), "{lav}");
