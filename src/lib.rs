@@ -13,6 +13,7 @@
 //! | exact response to a load that is linear in time | `structure/propagator.rs` | \[NigamJennings1969\] |
 //! | a(t), linear between the samples of the record | `engine/ground.rs` | |
 //! | penetration d = u_left - u_right - gap | `engine/model.rs` | |
+//! | `stereomechanical`: impulse p = (1 + e) m V; floors held together by a reaction | `engine/rigid.rs`, `engine/complementarity.rs` | \[Goldsmith1960\], [BarrosKhatami2013, eqs. 1, 2], \[Moreau1988\], \[LawsonHanson1974\] |
 //! | `linear`: F = k d | `contact/law.rs`, `contact/force.rs` | [BarrosKhatami2013, eq. 3] |
 //! | `kelvin_voigt`: F = k d + c v, c = 2 xi sqrt(k m), xi = -ln e / sqrt(pi^2 + ln^2 e) | the same | \[Anagnostopoulos1988\], [BarrosKhatami2013, eqs. 4, 5] |
 //! | `kelvin_voigt_no_tension`: F = max(0, k d + c v) | the same | \[Komodromos2007\], [BarrosKhatami2013, section 2.2] |
