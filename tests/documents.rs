@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const DOCUMENTS: [&str; 3] = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md"];
+const DOCUMENTS: [&str; 4] = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "docs/laws.md"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -169,12 +169,23 @@ fn the_variables_of_the_readme_are_those_of_the_table() {
     assert_eq!(described, variables);
 }
 
+/// The headings of a document, as links name them.
+fn headings(document: &Path) -> Vec<String> {
+    let text = fs::read_to_string(document).unwrap();
+    let headings = text.lines().filter(|line| line.starts_with('#'));
+    headings.map(|line| line.trim_start_matches(['#', ' ']).to_lowercase().replace(' ', "-")).collect()
+}
+
 #[test]
 fn the_files_that_the_documents_name_exist() {
     for document in DOCUMENTS {
         let text = read(document);
+        let folder = root().join(document);
         for link in between(&text, "](", ")").filter(|link| !link.contains("://")) {
-            assert!(root().join(link).exists(), "{document}: {link}");
+            let (file, heading) = link.split_once('#').unwrap_or((link, ""));
+            let linked = folder.with_file_name(file);
+            assert!(linked.exists(), "{document}: {link}");
+            assert!(heading.is_empty() || headings(&linked).contains(&heading.to_owned()), "{document}: {link}");
         }
     }
     for document in ["ARCHITECTURE.md", "src/lib.rs"] {

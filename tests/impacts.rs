@@ -172,6 +172,17 @@ fn the_approach_velocity_that_damping_divides_by_has_a_floor() {
     // At a tenth of the floor of 1e-4 m/s the damping is a tenth: a' = a V / floor.
     let law = "law = \"hertz_damped\"\nstiffness = 3.0e7\nexponent = 1.5\nrestitution = 0.5\ndamping_formula = \"ye\"";
     assert_close(impact(law, 1e-5).separation_velocity / 1e-5, returned(0.16), 1e-12, "restitution");
+    // A floor of the scene's own: from it on nothing changes, below it a' = a V / floor.
+    let law = format!("{law}\n[solver]\nmin_approach_velocity = 0.02");
+    for (speed, a) in [(0.5, 1.6), (0.02, 1.6), (0.019, 1.52), (0.005, 0.4), (1e-4, 0.008)] {
+        assert_close(impact(&law, speed).separation_velocity / speed, returned(a), 1e-12, "restitution");
+    }
+    // Laws that do not divide by V know no floor.
+    for law in ["kelvin_voigt", "jankowski"] {
+        let law = format!("law = \"{law}\"\nstiffness = 3.0e7\nrestitution = 0.5");
+        let with_floor = impact(&format!("{law}\n[solver]\nmin_approach_velocity = 0.02"), 0.005);
+        assert_eq!(with_floor, impact(&law, 0.005));
+    }
 }
 
 #[test]
@@ -192,6 +203,13 @@ fn jankowski_is_scale_free_and_returns_what_an_integration_says() {
             assert_close(other.separation_velocity / speed, first.separation_velocity / 0.5, 1e-12, "scale");
         }
     }
+    // The worst of its approximation from 0.05 to 0.95.
+    let off = |e: f64| {
+        let law = format!("law = \"jankowski\"\nstiffness = 3.0e7\nrestitution = {e:?}");
+        (impact(&law, 0.5).separation_velocity / 0.5 - e).abs()
+    };
+    let worst = (5..=95).map(|percent| off(f64::from(percent) / 100.0)).fold(0.0, f64::max);
+    assert!((worst - 0.0086).abs() < 0.5e-4, "{worst}");
     let e = impact("law = \"jankowski\"\nstiffness = 3.0e7\nrestitution = 0.5", 0.5);
     assert!((e.peak_force - 188_124.0).abs() < 0.6, "{}", e.peak_force);
     assert!((e.peak_penetration - 0.022_56).abs() < 0.6e-5, "{}", e.peak_penetration);

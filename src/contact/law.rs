@@ -36,7 +36,7 @@ pub struct LawInfo {
     pub name: &'static str,
     /// The force while d > 0.
     pub force: &'static str,
-    /// The law's own symbols with their units; k is the stiffness, in [`LawInfo::stiffness_unit`].
+    /// Symbols of its own with their units; k is the stiffness, in [`LawInfo::stiffness_unit`].
     pub symbols: &'static str,
     /// Where it comes from: entries of REFERENCES.bib.
     pub source: &'static str,

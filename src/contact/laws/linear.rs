@@ -6,7 +6,7 @@ use crate::contact::{EpisodeForce, Force, ImpactLaw, LawInfo, LawKey, StiffnessU
 pub const INFO: LawInfo = LawInfo {
     name: "linear",
     force: "k d",
-    symbols: "none of its own",
+    symbols: "",
     source: "[BarrosKhatami2013, eq. 3]",
     returns: "1, pi sqrt(m/k) after the entry",
     valid: "impacts that lose no energy",

@@ -17,7 +17,7 @@ pub const INFO: LawInfo = LawInfo {
     name: "stereomechanical",
     force: "none: an instantaneous exchange of momentum, `impulse`; floors whose rebounds die out are held together, \
             d = 0, while `force` pushes",
-    symbols: "none of its own",
+    symbols: "",
     source: "[Goldsmith1960], [BarrosKhatami2013, eqs. 1, 2]",
     returns: "exactly e",
     valid: "0 <= e <= 1; floors that do not overlap at the start",
