@@ -145,15 +145,10 @@ impl Complementarity {
                     rest -= self.factor[i * n + k] * self.factor[k * n + k] * self.factor[j * n + k];
                 }
                 let pivot = self.factor[j * n + j];
+                let independent = rest > DEPENDENT * matrix[(row, row)];
                 self.factor[i * n + j] = match () {
-                    _ if j == i => {
-                        if rest > DEPENDENT * matrix[(row, row)] {
-                            rest
-                        } else {
-                            0.0
-                        }
-                    }
-                    _ if pivot > 0.0 => rest / pivot,
+                    _ if j == i && independent => rest,
+                    _ if j < i && pivot > 0.0 => rest / pivot,
                     _ => 0.0,
                 };
             }
