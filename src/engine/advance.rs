@@ -6,7 +6,7 @@ use super::state::*;
 use super::{EngineError, Episode, roots};
 use crate::contact::EpisodeForce;
 use crate::contact::series::{PairSeries, value, value_and_slope};
-use crate::structure::difference;
+use crate::structure::{LANES, difference};
 
 /// Steps that may follow each other without any time passing.
 const MOST_STEPS_AT_ONCE: u32 = 100_000;
@@ -95,7 +95,7 @@ impl Model {
         base.elapsed = end;
         self.move_contacts(base, step);
         self.keep_together(base, work);
-        self.update_peak_drift(base, work);
+        self.update_peak_drift(base);
         if let Some(event) = step.event {
             counters.events += 1;
             self.handle(base, event, work, on_episode);
@@ -105,6 +105,16 @@ impl Model {
 
     /// Penetrations and rates at the end of a step.
     fn move_contacts(&self, base: &mut Base, step: &Step) {
+        if !step.ends.is_empty() {
+            for (contact, &(penetration, rate)) in base.contacts.iter_mut().zip(&step.ends) {
+                contact.at_surface = false;
+                contact.let_go = false;
+                contact.carried = false;
+                contact.penetration = penetration;
+                contact.rate = rate;
+            }
+            return;
+        }
         for (p, (contact, pair)) in base.contacts.iter_mut().zip(&self.pairs).enumerate() {
             if step.length > 0.0 {
                 contact.at_surface = false;
@@ -176,10 +186,11 @@ impl Model {
                 ),
             });
         }
-        let motion = base.q.iter().chain(&base.v).all(|value| value.is_finite());
-        let account = base.energy.is_none_or(|account| account.largest.is_finite());
-        let sums = |contact: &Contact| (contact.impulse + contact.work + contact.peak_force).is_finite();
-        if motion && account && base.contacts.iter().all(sums) {
+        // A sum is finite only if all of its terms are.
+        let contacts: f64 =
+            base.contacts.iter().map(|contact| contact.impulse + contact.work + contact.peak_force).sum();
+        let account = base.energy.map_or(0.0, |account| account.largest);
+        if (lanes_sum(&base.q) + lanes_sum(&base.v) + contacts + account).is_finite() {
             return Ok(());
         }
         Err(EngineError {
@@ -189,6 +200,17 @@ impl Model {
             ),
         })
     }
+}
+
+/// Sum of a modal vector.
+fn lanes_sum(modal: &[f64]) -> f64 {
+    let mut sum = [0.0; LANES];
+    for modal in modal.as_chunks::<LANES>().0 {
+        for i in 0..LANES {
+            sum[i] += modal[i];
+        }
+    }
+    sum.iter().sum()
 }
 
 impl Base {

@@ -63,6 +63,7 @@ impl Model {
         }
         let State { base, step, inputs, counters, work, .. } = state;
         counters.contact_steps += 1;
+        step.ends.clear();
         let remaining = limit - base.elapsed;
         self.load(base, inputs, &mut work.load, &mut work.slope);
         let scale = self.series_scale(base, remaining);
@@ -320,6 +321,7 @@ fn happen_now(state: &mut State, event: Event) {
     step.length = 0.0;
     step.series.scale = 1.0;
     step.carried.fill(None);
+    step.ends.clear();
     step.q.copy_from_slice(&base.q);
     step.v.copy_from_slice(&base.v);
 }

@@ -16,10 +16,9 @@ impl Model {
         step.reaches_limit = true;
         step.event = None;
         step.carried.fill(None);
+        step.ends.clear();
         self.load(base, inputs, &mut work.load, &mut work.slope);
-        self.fly(base, remaining, work);
-        step.q.copy_from_slice(&work.q);
-        step.v.copy_from_slice(&work.v);
+        self.fly(base, remaining, work, (&mut step.q, &mut step.v));
         if self.pairs.is_empty() {
             return;
         }
@@ -35,19 +34,21 @@ impl Model {
         let certified = self.pairs.iter().zip(&base.contacts).all(|(pair, contact)| {
             counters.pairs_evaluated += 1;
             let (end, end_rate) = pair.penetration(&step.q, &step.v);
+            step.ends.push((end, end_rate));
             let start = contact.flight_start();
             let near_start = start + remaining / 3.0 * contact.rate;
             let near_end = end - remaining / 3.0 * end_rate;
             start.max(near_start).max(near_end).max(end) + deviation < 0.0
         });
         if !certified {
+            step.ends.clear();
             self.look_closer(base, step, counters, work, remaining);
         }
     }
 
-    /// Flies q, v of the base over `h` into `work.q`, `work.v`, under `work.load` and `work.slope`.
-    pub(super) fn fly(&self, base: &Base, h: f64, work: &mut Workspace) {
-        let Workspace { load, slope, q, v, scratch, series, interval, .. } = work;
+    /// Flies q, v of the base over `h` under `work.load` and `work.slope`.
+    pub(super) fn fly(&self, base: &Base, h: f64, work: &mut Workspace, (q, v): (&mut [f64], &mut [f64])) {
+        let Workspace { load, slope, scratch, series, interval, .. } = work;
         let whole = base.elapsed == 0.0 && h == base.segment.length;
         let prepared = self.ground.as_ref().filter(|_| whole).and_then(|ground| ground.prepared(&base.segment));
         if prepared.is_none()
@@ -57,13 +58,11 @@ impl Model {
             series.evaluate(1.0, q, v);
             return;
         }
-        q.copy_from_slice(&base.q);
-        v.copy_from_slice(&base.v);
         let interval = prepared.unwrap_or_else(|| {
             interval.prepare(&self.structure, h);
             interval
         });
-        interval.fly([q, v], [load, slope], scratch);
+        interval.fly((&base.q, &base.v), (load, slope), (q, v), scratch);
     }
 
     /// Finds the first entry in the flight, from the power series of the penetrations. A flight too long for one

@@ -1,5 +1,6 @@
 //! The model: everything about a scene that stays as it is during a run.
 
+use super::drift::DriftShapes;
 use super::ground::{GroundMotion, Segment};
 use super::onset_step::OnsetSeries;
 use super::rigid::RigidPairs;
@@ -10,7 +11,6 @@ use crate::contact::{EpisodeForce, ImpactLaw};
 use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
 use crate::structure::{ModalSeries, Side, Structure};
-use nalgebra::DMatrix;
 use std::f64::consts::PI;
 
 /// Everything that stays as it is during a run.
@@ -31,8 +31,7 @@ pub struct Model {
     pub(super) step_tolerance: f64,
     /// Order of the contact series.
     pub(super) order: usize,
-    /// Storeys x modes of each building: drifts from modal displacements.
-    drift_shape: [DMatrix<f64>; 2],
+    pub(super) drift: DriftShapes,
     frequencies: [Vec<f64>; 2],
     initial: [Vec<f64>; 2],
 }
@@ -74,7 +73,7 @@ impl Model {
         };
         let (step_tolerance, order) = contact_step::accuracy(scene.solver.relative_tolerance);
         Ok(Model {
-            drift_shape: [Side::Left, Side::Right].map(|side| drift_shape(&structure.modes(side).shape)),
+            drift: DriftShapes::of(&structure),
             frequencies: [Side::Left, Side::Right]
                 .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
             initial: initial_state(scene, &structure),
@@ -131,7 +130,7 @@ impl Model {
                 segment,
                 elapsed: time - segment.start,
                 contacts: self.pairs.iter().enumerate().map(|(p, pair)| pair.at_start(p, time, &q, &v)).collect(),
-                peak_drift: vec![0.0; floors],
+                peak_drift: self.drift.peaks(),
                 energy: self.energy.then(Account::default),
                 velocity_scale: 0.0,
                 last_length: 0.0,
@@ -150,6 +149,7 @@ impl Model {
                 pairs: vec![PairSeries::default(); self.pairs.len()],
                 onset: OnsetSeries::new(lanes, self.pairs.len(), self.has_singular_law()),
                 carried: vec![None; self.pairs.len()],
+                ends: Vec::with_capacity(self.pairs.len()),
             },
             inputs: Inputs {
                 ground_acceleration: 0.0,
@@ -160,36 +160,17 @@ impl Model {
             work: self.workspace(),
         };
         state.base.impacts = state.base.contacts.iter().map(|contact| contact.impacts).sum();
-        self.update_peak_drift(&mut state.base, &mut state.work);
+        self.update_peak_drift(&mut state.base);
         self.open_account(&mut state.base);
         state
-    }
-
-    /// Raises the peak drifts to those of the base.
-    pub(super) fn update_peak_drift(&self, base: &mut Base, work: &mut Workspace) {
-        let mut first = 0;
-        for side in [Side::Left, Side::Right] {
-            let (shape, offset) = (&self.drift_shape[side as usize], self.structure.offset(side));
-            let drift = &mut work.floors[..shape.nrows()];
-            drift.fill(0.0);
-            for (column, q) in shape.column_iter().zip(&base.q[offset..]) {
-                for (drift, shape) in drift.iter_mut().zip(column.iter()) {
-                    *drift += shape * q;
-                }
-            }
-            for (peak, drift) in base.peak_drift[first..].iter_mut().zip(drift.iter()) {
-                *peak = peak.max(drift.abs());
-            }
-            first += shape.nrows();
-        }
     }
 
     /// The modal load at the base and its rate until the segment's end.
     pub(super) fn load(&self, base: &Base, inputs: &Inputs, load: &mut [f64], slope: &mut [f64]) {
         let acceleration = base.segment.acceleration_at(base.elapsed);
-        for (m, participation) in self.structure.participation.iter().enumerate() {
-            load[m] = -participation * acceleration;
-            slope[m] = -participation * base.segment.slope;
+        for ((load, slope), participation) in load.iter_mut().zip(slope).zip(&self.structure.participation) {
+            *load = -participation * acceleration;
+            *slope = -participation * base.segment.slope;
         }
         self.add_floor_forces(inputs, load);
     }
@@ -280,10 +261,6 @@ impl Contact {
             dissipated_energy: 0.0,
         };
     }
-}
-
-fn drift_shape(shape: &DMatrix<f64>) -> DMatrix<f64> {
-    DMatrix::from_fn(shape.nrows(), shape.ncols(), |i, j| shape[(i, j)] - if i > 0 { shape[(i - 1, j)] } else { 0.0 })
 }
 
 fn initial_state(scene: &Scene, structure: &Structure) -> [Vec<f64>; 2] {

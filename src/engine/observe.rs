@@ -60,9 +60,7 @@ impl Model {
             StepKind::Onset => step.onset.evaluate(elapsed / step.onset.scale, &mut point.q, &mut point.v),
             StepKind::Flight | StepKind::Unknown => {
                 self.load(base, inputs, &mut work.load, &mut work.slope);
-                self.fly(base, elapsed, work);
-                point.q.copy_from_slice(&work.q);
-                point.v.copy_from_slice(&work.v);
+                self.fly(base, elapsed, work, (&mut point.q, &mut point.v));
             }
         }
     }
@@ -110,15 +108,6 @@ impl Model {
     /// N, force of the building on the ground.
     pub fn base_shear(&self, point: &Point, side: Side) -> f64 {
         self.structure.base_shear(side, &point.q, &point.v)
-    }
-
-    /// m, largest drift of the storey below the floor so far, at the engine's own steps.
-    pub fn peak_drift(&self, state: &State, side: Side, floor: usize) -> f64 {
-        let first = match side {
-            Side::Left => 0,
-            Side::Right => self.floors(Side::Left),
-        };
-        state.base.peak_drift[first + floor]
     }
 
     /// The episode that a contact is in at the communication time, if it is in one.

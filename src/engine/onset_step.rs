@@ -85,6 +85,7 @@ impl Model {
         };
         counters.contact_steps += 1;
         step.carried.fill(None);
+        step.ends.clear();
         step.kind = StepKind::Onset;
         step.event = None;
         step.reaches_limit = x * scale >= remaining;

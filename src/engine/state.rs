@@ -44,7 +44,7 @@ pub(super) struct Base {
     /// Modal velocities.
     pub v: Vec<f64>,
     pub contacts: Vec<Contact>,
-    /// m, left storeys then right storeys.
+    /// m, left storeys then right storeys, each padded.
     pub peak_drift: Vec<f64>,
     pub energy: Option<Account>,
     /// m/s, largest floor velocity that a contact step has seen: what its error is relative to.
@@ -172,6 +172,8 @@ pub(super) struct Step {
     pub onset: OnsetSeries,
     /// Penetration and rate at the end of each contact that is carried.
     pub carried: Carried,
+    /// Penetration and rate at the end of each contact of a flight that met nothing; empty otherwise.
+    pub ends: Vec<(f64, f64)>,
 }
 
 /// Penetration, m, and its rate, m/s, one per contact.
@@ -223,7 +225,6 @@ pub(super) struct Workspace {
     pub scratch: Scratch,
     pub series: ModalSeries,
     pub interval: Interval,
-    pub floors: Vec<f64>,
     /// Modal state at an integration node.
     pub node_q: Vec<f64>,
     pub node_v: Vec<f64>,
@@ -244,7 +245,6 @@ impl Workspace {
             scratch: Scratch::new(lanes),
             series: ModalSeries::new(lanes, MAX_ORDER + 2),
             interval: Interval::new(structure, 0.0),
-            floors: vector(),
             node_q: vector(),
             node_v: vector(),
             scalar: [0.0; MAX_ORDER + 3],
