@@ -30,6 +30,7 @@ pub mod description;
 pub mod engine;
 #[allow(unsafe_code)]
 mod fmi;
+mod polynomial;
 mod quadrature;
 pub mod record;
 pub mod scene;

@@ -5,7 +5,8 @@ use super::model::Model;
 use super::state::*;
 use super::{EngineError, Episode, roots};
 use crate::contact::EpisodeForce;
-use crate::contact::series::{PairSeries, value, value_and_slope};
+use crate::contact::series::PairSeries;
+use crate::polynomial::Powers;
 use crate::structure::{LANES, difference};
 
 /// Steps that may follow each other without any time passing.
@@ -88,7 +89,7 @@ impl Model {
         let State { base, step, counters, work, .. } = state;
         let start = base.time();
         for contact in base.contacts.iter_mut().filter(|contact| contact.in_contact()) {
-            contact.follow(step, step.length, start);
+            contact.follow(step, step.length, start, &step.end);
         }
         std::mem::swap(&mut base.q, &mut step.q);
         std::mem::swap(&mut base.v, &mut step.v);
@@ -244,39 +245,43 @@ impl Contact {
         self.stored_reference = self.branch().stored_energy(self.penetration);
     }
 
-    /// Follows the contact over the first `elapsed` seconds of a step that begins at `start` [s].
-    pub(super) fn follow(&mut self, step: &Step, elapsed: f64, start: f64) {
+    /// Follows the contact over the first `elapsed` seconds of a step that begins at `start` [s]; for a series in
+    /// time, `powers` are those of the end.
+    pub(super) fn follow(&mut self, step: &Step, elapsed: f64, start: f64, powers: &Powers) {
         match step.kind {
             StepKind::Onset => self.follow_onset(&step.onset, elapsed / step.onset.scale, start),
             StepKind::Contact if elapsed > 0.0 => {
-                let pair = &step.pairs[self.episode.contact];
-                self.follow_series(pair, step.series.scale, elapsed / step.series.scale, start);
+                self.follow_series(&step.pairs[self.episode.contact], step.series.scale, start, powers);
             }
             _ => {}
         }
     }
 
-    /// Penetration, impulse, peaks and work over 0..=x of a series.
-    fn follow_series(&mut self, pair: &PairSeries, scale: f64, x: f64, start: f64) {
-        let force = self.branch();
-        let impulse = pair.impulse(x, scale);
+    /// Penetration, impulse, peaks and work over a series up to the x of the powers.
+    fn follow_series(&mut self, pair: &PairSeries, scale: f64, start: f64, powers: &Powers) {
+        let impulse = scale * powers.integral(&pair.force);
         self.impulse += impulse;
-        self.work += pair.damping_work(&force, x, scale);
-        if let Some((at, peak)) = roots::maximum_above(&pair.force[..=pair.order], x, self.episode.peak_force) {
+        self.episode.impulse += impulse;
+        self.work += pair.damping_work(&self.branch(), scale, powers.x);
+        let force = powers.read(&pair.force);
+        let known = self.episode.peak_force;
+        if let Some((at, peak)) = roots::maximum_above(&pair.force[..=pair.order], powers.x, &force, known) {
             self.episode.peak_force = peak;
             self.episode.peak_time = start + at * scale;
             self.peak_force = self.peak_force.max(peak);
         }
+        if self.is_held() {
+            self.reaction = force.value;
+            return;
+        }
+        let depth = powers.read(&pair.penetration);
+        let known = self.episode.peak_penetration;
         let penetration = &pair.penetration[..=pair.order + 2];
-        if let Some((_, peak)) = roots::maximum_above(penetration, x, self.episode.peak_penetration) {
+        if let Some((_, peak)) = roots::maximum_above(penetration, powers.x, &depth, known) {
             self.episode.peak_penetration = peak;
         }
-        self.penetration = value(penetration, x);
-        self.rate = value_and_slope(penetration, x).1 / scale;
-        if self.is_held() {
-            self.reaction = value(&pair.force[..=pair.order], x);
-        }
-        self.episode.impulse += impulse;
+        self.penetration = depth.value;
+        self.rate = depth.slope / scale;
     }
 
     /// Books what the elastic part has taken since the reference.

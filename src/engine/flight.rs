@@ -48,14 +48,15 @@ impl Model {
 
     /// Flies q, v of the base over `h` under `work.load` and `work.slope`.
     pub(super) fn fly(&self, base: &Base, h: f64, work: &mut Workspace, (q, v): (&mut [f64], &mut [f64])) {
-        let Workspace { load, slope, scratch, series, interval, .. } = work;
+        let Workspace { load, slope, scratch, series, interval, powers, .. } = work;
         let whole = base.elapsed == 0.0 && h == base.segment.length;
         let prepared = self.ground.as_ref().filter(|_| whole).and_then(|ground| ground.prepared(&base.segment));
         if prepared.is_none()
             && let Some(order) = flight_order(self.structure.fastest * h, EXACT)
         {
             series.expand_flight(&self.structure, (&base.q, &base.v), (load, slope), (h, order));
-            series.evaluate(1.0, q, v);
+            powers.set(1.0, series.order);
+            series.evaluate(powers, q, v);
             return;
         }
         let interval = prepared.unwrap_or_else(|| {
@@ -76,7 +77,7 @@ impl Model {
             self.structure.accelerate(&base.q, &base.v, &work.load, &mut work.q);
             h = h.min(self.bounce_horizon(base, &work.q));
         }
-        let order = flight_order(fastest * h, EXACT).unwrap_or(crate::contact::series::MAX_ORDER);
+        let order = flight_order(fastest * h, EXACT).unwrap_or(crate::polynomial::MAX_ORDER);
         let (load, slope) = (&work.load, &work.slope);
         work.series.expand_flight(&self.structure, (&base.q, &base.v), (load, slope), (h, order));
         let mut first: Option<(f64, usize)> = None;
@@ -91,7 +92,8 @@ impl Model {
         }
         let x = first.map_or(1.0, |(x, _)| x);
         if first.is_some() || h < remaining {
-            work.series.evaluate(x, &mut step.q, &mut step.v);
+            work.powers.set(x, work.series.order);
+            work.series.evaluate(&work.powers, &mut step.q, &mut step.v);
             step.length = x * h;
             step.reaches_limit = false;
             step.event = first.map(|(_, p)| Event::Entry(p));

@@ -6,8 +6,9 @@ use super::onset_step::OnsetSeries;
 use super::rigid::RigidPairs;
 use super::state::*;
 use super::{Episode, contact_step};
-use crate::contact::series::{MAX_ORDER, PairSeries};
+use crate::contact::series::PairSeries;
 use crate::contact::{EpisodeForce, ImpactLaw};
+use crate::polynomial::{MAX_ORDER, Powers};
 use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
 use crate::structure::{ModalSeries, Side, Structure};
@@ -18,6 +19,8 @@ use std::f64::consts::PI;
 pub struct Model {
     pub(super) structure: Structure,
     pub(super) pairs: Vec<Pair>,
+    /// The rows of all pairs one after the other.
+    pub(super) rows: Vec<f64>,
     pub(super) rigid: RigidPairs,
     /// m/s, floor on the approach velocity where a law divides by it.
     pub(super) least_approach: f64,
@@ -82,6 +85,7 @@ impl Model {
             least_approach: scene.solver.min_approach_velocity,
             structure,
             rigid: RigidPairs::of(&pairs),
+            rows: pairs.iter().flat_map(|pair| &pair.row).copied().collect(),
             pairs,
             pair_weight,
             ground,
@@ -107,7 +111,7 @@ impl Model {
 
     /// Room to work in.
     pub(super) fn workspace(&self) -> Workspace {
-        Workspace::new(&self.structure, self.rigid.pairs.len())
+        Workspace::new(&self.structure, self.pairs.len(), self.rigid.pairs.len())
     }
 
     fn has_singular_law(&self) -> bool {
@@ -146,6 +150,7 @@ impl Model {
                 q: vec![0.0; lanes],
                 v: vec![0.0; lanes],
                 series: ModalSeries::new(lanes, highest),
+                end: Powers::default(),
                 pairs: vec![PairSeries::default(); self.pairs.len()],
                 onset: OnsetSeries::new(lanes, self.pairs.len(), self.has_singular_law()),
                 carried: vec![None; self.pairs.len()],

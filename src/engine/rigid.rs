@@ -284,7 +284,7 @@ impl Model {
                 let terms = &mut scalar[..=series.order];
                 let noise = pair.noise(series.project(&pair.row, x, terms));
                 contact.begin_flight(terms, series.scale, noise);
-                let (penetration, slope) = crate::contact::series::value_and_slope(terms, x);
+                let (penetration, slope) = crate::polynomial::value_and_slope(terms, x);
                 (penetration, slope / series.scale)
             });
         }

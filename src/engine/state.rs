@@ -5,8 +5,9 @@ use super::complementarity::Complementarity;
 use super::ground::Segment;
 use super::onset_step::OnsetSeries;
 use crate::contact::EpisodeForce;
-use crate::contact::series::{MAX_ORDER, PairSeries};
-use crate::structure::{Interval, ModalSeries, Scratch, Structure};
+use crate::contact::series::PairSeries;
+use crate::polynomial::{Coefficients, MAX_ORDER, Powers, ROOM};
+use crate::structure::{Interval, LANES, ModalSeries, Scratch, Structure};
 
 /// Everything that changes during a run.
 ///
@@ -168,6 +169,8 @@ pub(super) struct Step {
     pub series: ModalSeries,
     /// One per contact; filled for those in contact.
     pub pairs: Vec<PairSeries>,
+    /// Of the end of a contact step, in units of the series' scale.
+    pub end: Powers,
     /// For the first step after an entry.
     pub onset: OnsetSeries,
     /// Penetration and rate at the end of each contact that is carried.
@@ -228,13 +231,18 @@ pub(super) struct Workspace {
     /// Modal state at an integration node.
     pub node_q: Vec<f64>,
     pub node_v: Vec<f64>,
-    pub scalar: [f64; MAX_ORDER + 3],
+    pub scalar: Coefficients,
+    pub powers: Powers,
+    /// Numbers of the soft pairs in contact, with what a power of their series needs.
+    pub soft: Vec<usize>,
+    pub forces: Vec<f64>,
+    pub gathered: Vec<[f64; LANES]>,
     pub rigid: Complementarity,
 }
 
 impl Workspace {
-    /// For a structure and that many rigid pairs.
-    pub fn new(structure: &Structure, rigid: usize) -> Workspace {
+    /// For a structure with that many pairs, of which some are rigid.
+    pub fn new(structure: &Structure, pairs: usize, rigid: usize) -> Workspace {
         let lanes = structure.lanes;
         let vector = || vec![0.0; lanes];
         Workspace {
@@ -247,7 +255,11 @@ impl Workspace {
             interval: Interval::new(structure, 0.0),
             node_q: vector(),
             node_v: vector(),
-            scalar: [0.0; MAX_ORDER + 3],
+            scalar: [0.0; ROOM],
+            powers: Powers::default(),
+            soft: Vec::with_capacity(pairs),
+            forces: vec![0.0; pairs],
+            gathered: vec![[0.0; LANES]; pairs],
             rigid: Complementarity::new(rigid),
         }
     }

@@ -1,6 +1,7 @@
 //! Power series in time of all modes: the dense solution of a step.
 
 use super::{LANES, Structure};
+use crate::polynomial::Powers;
 
 /// Powers that a series may have.
 const MOST_POWERS: usize = 40;
@@ -92,6 +93,54 @@ impl ModalSeries {
         self.order += 1;
     }
 
+    /// The same where damping couples no modes, under the contact forces of some pairs: of pair `active[k]`, whose row is
+    /// that of `rows`, `forces[k]` in units of the load. Leaves row . (the new power) in `gathered[k]`.
+    pub fn extend_in_contact(
+        &mut self,
+        structure: &Structure,
+        load: Option<(&[f64], f64)>,
+        (rows, active, forces): (&[f64], &[usize], &[f64]),
+        gathered: &mut [[f64; LANES]],
+    ) {
+        let n = self.order - 1;
+        let width = self.lanes / LANES;
+        let (terms, _) = self.coefficients.as_chunks_mut::<LANES>();
+        let (known, next_terms) = terms.split_at_mut((n + 2) * width);
+        let (q0, q1) = (&known[n * width..(n + 1) * width], &known[(n + 1) * width..]);
+        let [(damping, _), (omega2, _), (rows, _)] =
+            [&structure.damping, &structure.omega2, rows].map(<[f64]>::as_chunks::<LANES>);
+        let rate = (n + 1) as f64 / self.scale;
+        let factor = self.scale * self.scale * RECIPROCAL[n];
+        gathered.fill([0.0; LANES]);
+        for c in 0..width {
+            let mut next = [0.0; LANES];
+            if let Some((load, unit)) = load {
+                let load = &load.as_chunks::<LANES>().0[c];
+                next = load.map(|load| load * unit);
+            }
+            for i in 0..LANES {
+                next[i] -= rate * damping[c][i] * q1[c][i] + omega2[c][i] * q0[c][i];
+            }
+            for (&p, &force) in active.iter().zip(forces) {
+                let row = &rows[p * width + c];
+                for i in 0..LANES {
+                    next[i] -= row[i] * force;
+                }
+            }
+            for next in &mut next {
+                *next *= factor;
+            }
+            next_terms[c] = next;
+            for (&p, sum) in active.iter().zip(gathered.iter_mut()) {
+                let row = &rows[p * width + c];
+                for i in 0..LANES {
+                    sum[i] += row[i] * next[i];
+                }
+            }
+        }
+        self.order += 1;
+    }
+
     /// Expands a flight: load and slope only.
     pub fn expand_flight(
         &mut self,
@@ -153,23 +202,28 @@ impl ModalSeries {
         }
     }
 
-    /// q and v at x.
-    pub fn evaluate(&self, x: f64, q: &mut [f64], v: &mut [f64]) {
+    /// q and v at the x of the powers.
+    pub fn evaluate(&self, powers: &Powers, q: &mut [f64], v: &mut [f64]) {
         let width = self.lanes / LANES;
         let rate = 1.0 / self.scale;
         let (terms, _) = self.coefficients.as_chunks::<LANES>();
         let [(q, _), (v, _)] = [q, v].map(|vector| vector.as_chunks_mut::<LANES>());
+        let (power, slope) = powers.tables();
         for c in 0..width {
-            let (mut value, mut slope) = (terms[self.order * width + c], [0.0; LANES]);
-            for n in (0..self.order).rev() {
+            // Even and odd powers apart: neither waits for the other.
+            let (mut values, mut slopes) = ([[0.0; LANES]; 2], [[0.0; LANES]; 2]);
+            for n in (0..=self.order).rev() {
                 let term = &terms[n * width + c];
+                let (value, derivative) = (&mut values[n % 2], &mut slopes[n % 2]);
                 for i in 0..LANES {
-                    slope[i] = slope[i] * x + value[i];
-                    value[i] = value[i] * x + term[i];
+                    value[i] += term[i] * power[n];
+                    derivative[i] += term[i] * slope[n];
                 }
             }
-            q[c] = value;
-            v[c] = slope.map(|slope| slope * rate);
+            for i in 0..LANES {
+                q[c][i] = values[0][i] + values[1][i];
+                v[c][i] = (slopes[0][i] + slopes[1][i]) * rate;
+            }
         }
     }
 
