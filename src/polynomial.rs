@@ -86,14 +86,15 @@ impl Powers {
         let square = x * x;
         (self.value[0], self.value[1]) = (1.0, x);
         let end = (self.blocks * BLOCK).min(ROOM);
+        let present = |n: usize, factor: f64| if n <= highest { factor } else { 0.0 };
         for n in 2..end {
-            self.value[n] = if n <= highest { self.value[n - 2] * square } else { 0.0 };
+            self.value[n] = present(n, self.value[n - 2] * square);
         }
-        for n in 1..end {
-            self.slope[n] = if n <= highest { COUNT[n] * self.value[n - 1] } else { 0.0 };
+        for (n, count) in COUNT.iter().enumerate().take(end).skip(1) {
+            self.slope[n] = present(n, count * self.value[n - 1]);
         }
-        for n in 4..end {
-            self.fourth[n] = if n <= highest { FOURTH[n] * self.value[n - 4] } else { 0.0 };
+        for (n, count) in FOURTH.iter().enumerate().take(end).skip(4) {
+            self.fourth[n] = present(n, count * self.value[n - 4]);
         }
     }
 
