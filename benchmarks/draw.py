@@ -77,13 +77,13 @@ def draw_law(axes, rows):
     axes.set(xscale="log", yscale="log")
     axes.labels = []
     for solver, (color, dashes, marker) in STYLES.items():
-        points = sorted((float(row["error"]), 1e3 * float(row["best_s"])) for row in rows if row["solver"] == solver)
+        points = [(float(row["error"]), 1e3 * float(row["best_s"])) for row in rows if row["solver"] == solver]
         points = [(max(error, 1e-15), time) for error, time in points if np.isfinite(error) and error < 0.5]
         if not points:
             continue
         wide = 2.4 if solver == OURS else 1.3
         axes.plot(*zip(*points), dashes, color=color, marker=marker, markersize=4.5, linewidth=wide)
-        axes.labels.append((solver, color, *points[0]))
+        axes.labels.append((solver, color, *min(points)))
     axes.set_xticks([10.0**-exponent for exponent in range(0, 16, 3)])
     # Accurate to the right, with room for the names.
     axes.set_xlim(0.5, 1e-18)
@@ -106,7 +106,7 @@ def label_lines(axes):
         taken.append((x, y + shift, width))
         axes.annotate(
             text, (error, time), (6, shift), textcoords="offset points", color=color, fontsize=8, va="center",
-            weight="bold" if solver == OURS else "normal",
+            weight="bold" if solver == OURS else "normal", bbox={"facecolor": "white", "alpha": 0.7, "pad": 0.3, "linewidth": 0},
         )  # fmt: skip
 
 

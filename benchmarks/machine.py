@@ -33,6 +33,6 @@ def first_line(command):
         return f"{command[0]}: not found"
 
 
-def write(path, missing):
-    lines = describe() + [f"without {name}: {reason}" for name, reason in missing.items()]
+def write(path, missing, notes):
+    lines = describe() + notes + [f"without {name}: {reason}" for name, reason in missing.items()]
     path.write_text("\n".join(lines) + "\n")

@@ -9,6 +9,7 @@ COLUMNS = [
     "scene", "law", "solver", "parameter", "setting", "error", "impacts", "true_impacts", "best_s", "median_s", "repeats",
     "setup_s", "remark",
 ]  # fmt: skip
+TOO_LONG = "left out: would take too long"
 
 
 @dataclass
@@ -52,7 +53,8 @@ class Run:
 
 def compare(case, truth, entries, budget, quick, progress):
     """Rows of the result file. The repeats of all solvers are interleaved, so that noise of the machine hits all alike."""
-    runs = [Run(entry, setting) for entry in entries if case.problem.law not in entry.without for setting in entry.chosen(quick)]
+    able = [entry for entry in entries if case.problem.law not in entry.without]
+    runs = [Run(entry, setting) for entry in able for setting in entry.chosen(quick)]
     first_round(case, truth, runs, budget, progress)
     for _ in range(1, budget.repeats):
         for run in runs:
@@ -63,16 +65,10 @@ def compare(case, truth, entries, budget, quick, progress):
 
 def first_round(case, truth, runs, budget, progress):
     """Makes each solver ready and runs it once: error, impacts and a first time."""
-    latest = None
-    for run in runs:
-        # Ten times finer costs up to ten times more where the setting is a step.
-        growth = latest and (latest.setting / run.setting if run.entry.parameter.startswith("step") else 3.0)
-        if latest and latest.entry is run.entry and (not latest.times or latest.times[0] * growth > budget.longest):
-            run.remark = "left out: too long" if latest.times or latest.remark.startswith("left out") else ""
-            if run.remark:
-                latest = run
-                continue
-        latest = run
+    for coarser, run in zip([None, *runs], runs):
+        if coarser and coarser.entry is run.entry and takes_too_long(coarser, run, budget):
+            run.remark = TOO_LONG
+            continue
         try:
             run.solver = run.entry.make(case, run.setting)
             outcome = repeat(run, progress)
@@ -80,6 +76,12 @@ def first_round(case, truth, runs, budget, progress):
         except Exception as error:  # a peer that gives up is a result, not the end of the benchmark
             run.times.clear()
             run.remark = str(error).splitlines()[0][:200] if str(error) else type(error).__name__
+
+
+def takes_too_long(coarser, run, budget):
+    """As far as the next coarser setting tells: a step's cost goes with its number, a tolerance's more slowly."""
+    growth = coarser.setting / run.setting if run.entry.parameter.startswith("step") else 3.0
+    return coarser.remark == TOO_LONG or bool(coarser.times) and coarser.times[0] * growth > budget.longest
 
 
 def repeat(run, progress):

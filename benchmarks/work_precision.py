@@ -28,7 +28,7 @@ import report  # noqa: E402
 import scenes  # noqa: E402
 import solvers  # noqa: E402
 import truth  # noqa: E402
-from peers import compiled  # noqa: E402
+from peers import compiled, heyoka_taylor  # noqa: E402
 from progress import Progress  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -85,7 +85,8 @@ def run(options, results):
         progress.clear()
         print(report.line(problem, of_this), flush=True)
         write(results / "work_precision.csv", rows)
-    machine.write(results / "machine.txt", missing)
+    loop = f"{report.LOOP} {1e3 * heyoka_taylor.empty_loop(*ground):.2f} ms"
+    machine.write(results / "machine.txt", missing, [loop])
 
 
 def chosen_problems(options):

@@ -15,7 +15,7 @@ typedef struct {
     double *F;                       /* contact forces */
     double *work;                    /* RK4: eight vectors */
     /* Newmark: */
-    double *a, *factor, *u1;
+    double *a, *factor, *change;
     double *compliance;              /* floors x contacts: effective stiffness^-1 B, in rows of contacts */
     double *G;                       /* contacts x contacts: B^T effective stiffness^-1 B */
     double *d, *d0, *v0, *free, *residual, *jacobian;
@@ -130,36 +130,37 @@ static void iterate_contacts(March *m)
     }
 }
 
+/* In increments of the displacement: sums of large terms would leave nothing at small steps. */
 static void newmark_step(March *m, double t)
 {
     const Problem *p = m->p;
     int n = p->floors, w = p->band;
     double h = m->step, ground = ground_acceleration(p, t + h);
     for (int i = 0; i < n; i++) {
-        double sum = p->mass[i] * (4.0 / (h * h) * m->u[i] + 4.0 / h * m->v[i] + m->a[i] - ground);
+        double sum = p->mass[i] * (4.0 / h * m->v[i] + m->a[i] - ground);
         for (int j = i > w ? i - w : 0; j <= i + w && j < n; j++)
-            sum += p->C[(long)i * n + j] * (2.0 / h * m->u[j] + m->v[j]);
-        m->u1[i] = sum;
+            sum += p->C[(long)i * n + j] * m->v[j] - p->K[(long)i * n + j] * m->u[j];
+        m->change[i] = sum;
     }
-    solve_factored(m, m->u1);
+    solve_factored(m, m->change);
     bool touching = false;
     for (int i = 0; i < p->contacts; i++) {
         m->d0[i] = penetration(&p->contact[i], m->u);
         m->v0[i] = rate(&p->contact[i], m->v);
-        m->free[i] = m->d[i] = penetration(&p->contact[i], m->u1);
+        m->free[i] = m->d[i] = m->d0[i] + rate(&p->contact[i], m->change);
         touching |= m->free[i] > 0.0;
     }
     if (touching) {
         iterate_contacts(m);
         for (int j = 0; j < p->contacts; j++)
             for (int i = 0; i < n && m->F[j] != 0.0; i++)
-                m->u1[i] -= m->compliance[(long)j * n + i] * m->F[j];
+                m->change[i] -= m->compliance[(long)j * n + i] * m->F[j];
     }
     for (int i = 0; i < n; i++) {
-        double change = m->u1[i] - m->u[i], v = 2.0 / h * change - m->v[i];
-        m->a[i] = 4.0 / (h * h) * change - 4.0 / h * m->v[i] - m->a[i];
+        double v = 2.0 / h * m->change[i] - m->v[i];
+        m->a[i] = 4.0 / (h * h) * m->change[i] - 4.0 / h * m->v[i] - m->a[i];
         m->v[i] = v;
-        m->u[i] = m->u1[i];
+        m->u[i] += m->change[i];
     }
 }
 
@@ -200,7 +201,7 @@ static March new_march(const Problem *p, double step)
     double *memory = allocate(16L * n + (long)n * n + (long)n * c + 2L * c * c + 8L * c, sizeof *memory);
     March m = {.p = p, .step = step};
     struct { double **vector; long length; } parts[] = {
-        {&m.u, n}, {&m.v, n}, {&m.a, n}, {&m.u1, n}, {&m.work, 8L * n}, {&m.factor, (long)n * n},
+        {&m.u, n}, {&m.v, n}, {&m.a, n}, {&m.change, n}, {&m.work, 8L * n}, {&m.factor, (long)n * n},
         {&m.compliance, (long)n * c}, {&m.G, (long)c * c}, {&m.jacobian, (long)c * c}, {&m.V, c}, {&m.F, c},
         {&m.d, c}, {&m.d0, c}, {&m.v0, c}, {&m.free, c}, {&m.residual, c},
     };
