@@ -26,8 +26,8 @@ const LAWS: [&str; 5] = [
     "law = \"hertz_damped\"\nstiffness = 2.75e9\nrestitution = 0.65\ndamping_formula = \"lankarani_nikravesh\"",
 ];
 
-/// Two buildings with as many contacts of a law as wanted. Without a record their first floors move towards each other at
-/// 0.5 m/s each.
+/// Two buildings with as many contacts of a law as wanted. Without a record their first floors move towards each other
+/// at 0.5 m/s each.
 fn scene_text(floors: [usize; 2], contacts: usize, gap: f64, law: &str, record: bool) -> String {
     let mut text = String::from("name = \"Pieces\"\nstop_time = 20.0\n");
     for (side, floors, velocity) in [("left", floors[0], 0.5), ("right", floors[1], -0.5)] {

@@ -31,6 +31,7 @@ plt.rcParams.update({
     "axes.spines.right": False, "axes.grid": True, "grid.alpha": 0.25, "axes.axisbelow": True,
     "svg.hashsalt": "pounding", "svg.fonttype": "none",
 })  # fmt: skip
+HALO = {"facecolor": "white", "alpha": 0.7, "pad": 0.3, "linewidth": 0}
 PREVIEWS = Path(__file__).resolve().parents[1] / "target/benchmarks/pictures"
 
 
@@ -44,7 +45,9 @@ def draw_scene(scene, rows, folder):
     laws = [law for law in LAWS if len({row["solver"] for row in rows if row["law"] == law}) > 1]
     columns = min(3, len(laws))
     shape = (-(-len(laws) // columns), columns)
-    figure, panels = plt.subplots(*shape, figsize=(4.4 * columns, 3.9 * shape[0]), sharex=True, sharey=True, squeeze=False)
+    figure, panels = plt.subplots(
+        *shape, figsize=(4.4 * columns, 3.9 * shape[0]), sharex=True, sharey=True, squeeze=False
+    )
     for law, axes in zip(laws, panels.flat):
         of_law = [row for row in rows if row["law"] == law]
         draw_law(axes, of_law)
@@ -58,7 +61,8 @@ def draw_scene(scene, rows, folder):
             panels.flat[index].set_xlabel("error of displacements, relative to the largest (smaller to the right)")
             panels.flat[index].xaxis.set_tick_params(labelbottom=True)
             panels.flat[index].xaxis.label.set_size(8)
-    figure.suptitle(f"{scene}: {TEMPLATES[scene].title}. Run time against error, whole record", x=0.01, ha="left", weight="bold")
+    title = f"{scene}: {TEMPLATES[scene].title}. Run time against error, whole record"
+    figure.suptitle(title, x=0.01, ha="left", weight="bold")
     figure.tight_layout()
     for axes in panels.flat[: len(laws)]:
         label_lines(axes)
@@ -106,16 +110,24 @@ def label_lines(axes):
         taken.append((x, y + shift, width))
         axes.annotate(
             text, (error, time), (6, shift), textcoords="offset points", color=color, fontsize=8, va="center",
-            weight="bold" if solver == OURS else "normal", bbox={"facecolor": "white", "alpha": 0.7, "pad": 0.3, "linewidth": 0},
+            weight="bold" if solver == OURS else "normal", bbox=HALO,
         )  # fmt: skip
 
 
 # Series of scaling.py: its column on the x axis, what that is, and how its line is drawn.
 SCALING = [
-    ("storeys", "storeys of both buildings", {"storeys, 0 contacts": "no contact", "storeys, 1 contacts": "1 contact, {} to {} impacts"}),
+    (
+        "storeys",
+        "storeys of both buildings",
+        {"storeys, 0 contacts": "no contact", "storeys, 1 contacts": "1 contact, {} to {} impacts"},
+    ),
     ("contacts", "contacts (20 and 30 storeys)", {"contacts": "{} to {} impacts"}),
     ("impacts", "impacts (two masses, the gap varied)", {"impacts": ""}),
-    ("samples", "samples of the record (two masses)", {"samples": "no contact", "samples, 1 contact": "1 contact, {} impacts"}),
+    (
+        "samples",
+        "samples of the record (two masses)",
+        {"samples": "no contact", "samples, 1 contact": "1 contact, {} impacts"},
+    ),
 ]
 
 
@@ -131,14 +143,21 @@ def scaling(rows, machine, folder):
     tall = [row for row in rows if row["series"] == "storeys, 1 contacts"]
     memory, rate = panels[1, 1], panels[1, 2]
     draw_growth(memory, [(row["storeys"], row["memory_bytes"] / 1e6) for row in tall], "", "#009E73", 0)
-    memory.set(xlabel="storeys of both buildings (record of 2001 samples)", ylabel="memory of an instance [MB]", yscale="linear", ylim=(0, None))
+    memory.set(
+        xlabel="storeys of both buildings (record of 2001 samples)",
+        ylabel="memory of an instance [MB]",
+        yscale="linear",
+        ylim=(0, None),
+    )
     alone = {row["storeys"]: float(row["best_s"]) for row in rows if row["series"] == "storeys, 0 contacts"}
-    per_impact = [(row["storeys"], 1e6 * (float(row["best_s"]) - alone[row["storeys"]]) / row["impacts"]) for row in tall if row["impacts"]]
-    draw_growth(rate, [point for point in per_impact if point[1] > 0.0], "run with 1 contact less run without, per impact", "#009E73", 0)
+    above = [(row, float(row["best_s"]) - alone[row["storeys"]]) for row in tall]
+    per_impact = [(row["storeys"], 1e6 * time / row["impacts"]) for row, time in above if time > 0.0 and row["impacts"]]
+    draw_growth(rate, per_impact, "run with 1 contact less run without, per impact", "#009E73", 0)
     rate.set(xlabel="storeys of both buildings", ylabel="time of an impact [µs]")
     impacts = panels[0, 2]
     impacts.set(xscale="linear", yscale="linear", xlim=(0, None), ylim=(0, None))
-    figure.suptitle(f"Cost of 20 s of ground motion: law hertz, tolerance 1e-10, {machine}", x=0.01, ha="left", weight="bold")
+    title = f"Cost of 20 s of ground motion: law hertz, tolerance 1e-10, {machine}"
+    figure.suptitle(title, x=0.01, ha="left", weight="bold")
     figure.tight_layout()
     save(figure, folder, "scaling")
 

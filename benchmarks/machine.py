@@ -10,7 +10,9 @@ from pathlib import Path
 
 def describe():
     lines = [f"{processor()}, {os.cpu_count()} cores, {platform.system()} {platform.machine()}"]
-    lines += [first_line(["rustc", "--version"]), first_line(["gcc", "--version"]), f"Python {platform.python_version()}"]
+    lines += [first_line([compiler, "--version"]) for compiler in ("rustc", "gcc")] + [
+        f"Python {platform.python_version()}"
+    ]
     for package in ["heyoka", "scipy", "numpy", "openseespy"]:
         try:
             lines.append(f"{package} {importlib.metadata.version(package)}")

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 # The columns of the result file.
 COLUMNS = [
-    "scene", "law", "solver", "parameter", "setting", "error", "impacts", "true_impacts", "best_s", "median_s", "repeats",
-    "setup_s", "remark",
+    "scene", "law", "solver", "parameter", "setting", "error", "impacts", "true_impacts", "best_s", "median_s",
+    "repeats", "setup_s", "remark",
 ]  # fmt: skip
 TOO_LONG = "left out: would take too long"
 
@@ -52,7 +52,7 @@ class Run:
 
 
 def compare(case, truth, entries, budget, quick, progress):
-    """Rows of the result file. The repeats of all solvers are interleaved, so that noise of the machine hits all alike."""
+    """Rows of the result file. Repeats of all solvers are interleaved: noise of the machine hits all alike."""
     able = [entry for entry in entries if case.problem.law not in entry.without]
     runs = [Run(entry, setting) for entry in able for setting in entry.chosen(quick)]
     first_round(case, truth, runs, budget, progress)

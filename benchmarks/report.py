@@ -12,7 +12,8 @@ LOOP = "heyoka, the loop over the samples of the record with an equation that co
 
 def fastest(rows, solver, accuracy):
     """Least time, s, in which a solver was within an error; None where it never was."""
-    times = [float(row["best_s"]) for row in rows if row["solver"] == solver and row["best_s"] and float(row["error"]) <= accuracy]
+    measured = [row for row in rows if row["solver"] == solver and row["best_s"]]
+    times = [float(row["best_s"]) for row in measured if float(row["error"]) <= accuracy]
     return min(times, default=None)
 
 
@@ -61,18 +62,23 @@ def loop_seconds(machine):
 def ratio_table(rows, loop):
     """Time of heyoka over ours, both with the fastest setting that is within the goal."""
     laws = [law for law in COMPARED if law in names(rows, "law")]
-    yield f"heyoka's time over ours, each with its fastest setting whose displacements are within {GOAL:g} of the largest."
-    yield f"In brackets without what the loop over the samples and its calls take by themselves, {milliseconds(loop)} ms of heyoka's time."
+    yield f"heyoka's time over ours, each with its fastest setting whose displacements are within {GOAL:g}."
+    yield f"In brackets: without the {milliseconds(loop)} ms of an empty loop over the samples of the record."
     yield ""
     yield "| scene | " + " | ".join(f"`{law}`" for law in laws) + " | geometric mean |"
     yield "|---" * (len(laws) + 2) + "|"
     for scene in names(rows, "scene"):
         times = [[fastest(of_problem(rows, scene, law), solver, GOAL) for solver in (OURS, "heyoka")] for law in laws]
-        ratios = [(theirs / ours, max(theirs - loop, 0.01 * theirs) / ours) if ours and theirs else None for ours, theirs in times]
+        ratios = [ratio(ours, theirs, loop) if ours and theirs else None for ours, theirs in times]
         reached = [ratio for ratio in ratios if ratio]
         mean = tuple(map(geometric_mean, zip(*reached))) or None
         partial = f", {len(reached)} laws" if None in ratios else ""
         yield f"| {scene} | " + " | ".join(map(ratio_cell, ratios)) + f" | **{ratio_cell(mean)}**{partial} |"
+
+
+def ratio(ours, theirs, loop):
+    """As it is, and without the loop."""
+    return theirs / ours, max(theirs - loop, 0.01 * theirs) / ours
 
 
 def ratio_cell(ratio):
@@ -113,7 +119,8 @@ def losses(rows):
                 for peer in [name for name in names(of_this, "solver") if name != OURS]:
                     theirs = fastest(of_this, peer, accuracy)
                     if theirs and (ours is None or theirs < ours):
-                        found.append(f"* {scene} `{law}` to {accuracy:g}: {peer} {milliseconds(theirs)} ms, ours {milliseconds(ours)} ms")
+                        times = f"{peer} {milliseconds(theirs)} ms, ours {milliseconds(ours)} ms"
+                        found.append(f"* {scene} `{law}` to {accuracy:g}: {times}")
     yield "Where a peer is faster, at an error of 1e-2, 1e-3, 1e-6, 1e-9 or 1e-12:"
     yield ""
     yield from found or ["* nowhere in these runs"]

@@ -1,7 +1,7 @@
-"""How the cost of a run grows: with storeys, contacts, impacts and samples of the record; and the memory of an instance.
+"""How the cost of a run grows: with storeys, contacts, impacts and samples of the record; and the memory.
 
-    python3 examples/run.py benchmarks/scaling.py            # a minute or two; renews docs/benchmark/
-    python3 examples/run.py benchmarks/scaling.py --quick    # seconds, few points: shows that the command works
+python3 examples/run.py benchmarks/scaling.py            # a minute or two; renews docs/benchmark/
+python3 examples/run.py benchmarks/scaling.py --quick    # seconds, few points: shows that the command works
 """
 
 import argparse
@@ -24,7 +24,8 @@ TOLERANCE = 1e-10
 INSTANCES = 50
 LAW = "hertz"
 COLUMNS = [
-    "series", "value", "storeys", "contacts", "impacts", "samples", "best_s", "memory_bytes", "contact_steps", "flight_steps",
+    "series", "value", "storeys", "contacts", "impacts", "samples", "best_s", "memory_bytes",
+    "contact_steps", "flight_steps",
 ]  # fmt: skip
 
 
@@ -62,7 +63,7 @@ def series(quick):
 
 
 def pair_of(template, storeys, contacts):
-    """Two equal numbers of storeys, a contact at the top; the periods kept: stiffness goes with the square of the height."""
+    """Two equal numbers of storeys, a contact at the top; the periods kept: stiffness as the square of the height."""
     half = storeys // 2
 
     def building(like):
@@ -86,7 +87,8 @@ def measure(points, repeats):
             record.write(WORK / motion, step)
         scene = WORK / f"{index}.toml"
         scene.write_text(replace(problem, record=motion).toml())
-        runs.append((name, value, problem, step, scene, compiled.Solver(program, scene, sum(problem.floors), "engine", TOLERANCE)))
+        solver = compiled.Solver(program, scene, sum(problem.floors), "engine", TOLERANCE)
+        runs.append((name, value, problem, step, scene, solver))
     progress, outcomes = Progress(repeats), [[] for _ in runs]
     for _ in range(repeats):
         for run, found in zip(runs, outcomes):

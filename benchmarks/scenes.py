@@ -47,7 +47,8 @@ class Building:
         omega, shapes = self.modes
         if "rayleigh" in self.damping:
             first, second = omega[:2]
-            on_mass, on_stiffness = 2.0 * self.ratio * first * second / (first + second), 2.0 * self.ratio / (first + second)
+            on_stiffness = 2.0 * self.ratio / (first + second)
+            on_mass = on_stiffness * first * second
             return on_mass * np.diag(self.mass) + on_stiffness * self.stiffness_matrix
         weighted = np.array(self.mass)[:, None] * shapes
         return weighted @ np.diag(2.0 * self.ratio * omega) @ weighted.T
@@ -175,25 +176,41 @@ TEMPLATES = {
         "two single masses",
         shear(1, 50e3, 1370778.389040189, "{ ratio = 0.05 }", 0.05),
         shear(1, 75e3, 8224670.334241135, "{ ratio = 0.05 }", 0.05),
-        0.005, 1, 3.0e10, 3.0e10, 0.5,
+        0.005,
+        1,
+        3.0e10,
+        3.0e10,
+        0.5,
     ),
     "S2": Template(
         "laboratory frames, 2 and 3 storeys",
         shear(2, 3.65, 2910.0, "{ ratio = 0.02 }", 0.02),
         shear(3, 3.65, 2910.0, "{ ratio = 0.02 }", 0.02),
-        0.005, 2, 1.0e6, 1.0e6, 0.65,
+        0.005,
+        2,
+        1.0e6,
+        1.0e6,
+        0.65,
     ),
     "S3": Template(
         "3 and 3 storeys",
         shear(3, 25e3, 3460473.388533731, RAYLEIGH, 0.05),
         shear(3, 1000e3, 2214702968.661588, RAYLEIGH, 0.05),
-        0.02, 3, 2.75e9, 2.75e9, 0.65,
+        0.02,
+        3,
+        2.75e9,
+        2.75e9,
+        0.65,
     ),
     "S4": Template(
         "20 and 30 storeys",
         shear(20, 300e3, 5.0e8, RAYLEIGH, 0.05),
         shear(30, 400e3, 6.6e8, RAYLEIGH, 0.05),
-        0.02, 20, 2.75e9, 2.75e9, 0.65,
+        0.02,
+        20,
+        2.75e9,
+        2.75e9,
+        0.65,
     ),
 }
 

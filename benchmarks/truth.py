@@ -30,7 +30,8 @@ def of(problem, folder: Path):
     scene, stem = folder / f"{problem.name}.toml", folder / f"{problem.name}.truth"
     made_of, fingerprint = folder / f"{problem.name}.truth.input", scene_input(scene, folder)
     if not made_of.exists() or made_of.read_text() != fingerprint:
-        subprocess.run([program(folder), "-", stem], input=fingerprint, text=True, check=True, stdout=subprocess.DEVNULL)
+        solve = [program(folder), "-", stem]
+        subprocess.run(solve, input=fingerprint, text=True, check=True, stdout=subprocess.DEVNULL)
         made_of.write_text(fingerprint)
     return read(stem, sum(problem.floors))
 

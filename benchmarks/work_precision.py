@@ -4,9 +4,9 @@
     python3 examples/run.py benchmarks/work_precision.py --quick    # a minute: shows that the command works
     python3 examples/run.py benchmarks/work_precision.py --draw     # pictures and table of the last long run again
 
-Needs Rust, gcc and Python 3.11. Every solver gets the same scenes (scenes.py) and is compared with the quadruple-precision
-program of tests/reference (truth.py), which is run first and whose results are kept below target/. What is measured is
-said in docs/benchmark/README.md.
+Needs Rust, gcc and Python 3.11. Every solver gets the same scenes (scenes.py) and is compared with the
+quadruple-precision program of tests/reference (truth.py), which is run first and whose results are kept below target/.
+What is measured is said in docs/benchmark/README.md.
 """
 
 import argparse

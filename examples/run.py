@@ -3,9 +3,9 @@
     python3 examples/run.py examples/plot_run.py
     python3 examples/run.py benchmarks/work_precision.py --quick
 
-Needs Python 3.11 or later and nothing else. The packages of the requirements.txt beside the program go into an environment
-of their own, target/<folder>-python, which is made at the first use and again when a list of requirements has changed.
-Those of requirements-optional.txt go there too, where they can be had.
+Needs Python 3.11 or later and nothing else. The packages of the requirements.txt beside the program go into an
+environment of their own, target/<folder>-python, which is made at the first use and again when a list of requirements
+has changed. Those of requirements-optional.txt go there too, where they can be had.
 """
 
 import os

@@ -12,7 +12,7 @@ OUTPUT_STEP = 0.05  # s, at which displacements are compared
 
 @dataclass
 class Outcome:
-    """One integration: wall time of the integration alone, floors in rows every OUTPUT_STEP, impacts (None: not counted)."""
+    """Wall time of the integration alone, displacements in rows every OUTPUT_STEP, impacts (None: not counted)."""
 
     seconds: float
     displacements: np.ndarray

@@ -63,9 +63,7 @@ class Solver:
             terms += [-C[i, j] / mass[i] * v[j] for j in range(n) if C[i, j] != 0.0]
             terms += [force * (1.0 / mass[i]) for force in forces[i]]
             system.append((v[i], hy.sum([*terms, -1.0 * ground])))
-        return hy.taylor_adaptive(
-            system, [0.0] * (2 * n), tol=tolerance, t_events=events, compact_mode=n > 10
-        )
+        return hy.taylor_adaptive(system, [0.0] * (2 * n), tol=tolerance, t_events=events, compact_mode=n > 10)
 
     def parameters(self, index):
         """Positions of the parameters of a contact: those that its law has."""

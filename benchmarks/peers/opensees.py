@@ -60,8 +60,9 @@ class Solver:
         for contact in problem.contacts:
             tag += 1
             self.material(contact, tag)
-            # The materials close in compression: the right floor first.
-            ops.element("zeroLength", tag, contact.floor + 1, problem.floors[0] + contact.floor + 1, "-mat", tag, "-dir", 1)
+            # In compression where the left floor moves towards the right one.
+            left, right = contact.floor + 1, problem.floors[0] + contact.floor + 1
+            ops.element("zeroLength", tag, left, right, "-mat", tag, "-dir", 1)
         times, accelerations = self.ground
         ops.timeSeries("Path", 1, "-dt", float(times[1] - times[0]), "-values", *accelerations.tolist())
         ops.pattern("UniformExcitation", 1, 1, "-accel", 1)

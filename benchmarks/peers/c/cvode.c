@@ -1,6 +1,7 @@
 /*
- * SUNDIALS CVODE, Adams with fixed-point iteration, in two ways: `events` (entry, release and every other switch of a law
- * is a root; the integration starts anew there) and `plain` (the right-hand side asks whether d > 0). SETTING is the relative tolerance.
+ * SUNDIALS CVODE, Adams with fixed-point iteration, in two ways: `events` (entry, release and every other switch of a
+ * law is a root; the integration starts anew there) and `plain` (the right-hand side asks whether d > 0). SETTING is
+ * the relative tolerance.
  */
 #include "problem.h"
 

@@ -1,7 +1,7 @@
 /*
- * Fixed steps, as a structural engineer's script has them, in C: `newmark` (constant average acceleration, contact forces
- * iterated by Newton's method to 1e-13 m) and `rk4`. A contact is closed in a step where d > 0; V is the closing velocity
- * at the last step before. SETTING is the step in s.
+ * Fixed steps, as a structural engineer's script has them, in C: `newmark` (constant average acceleration, contact
+ * forces iterated by Newton's method to 1e-13 m) and `rk4`. A contact is closed in a step where d > 0; V is the closing
+ * velocity at the last step before. SETTING is the step in s.
  */
 #include "problem.h"
 
@@ -28,7 +28,8 @@ static void factorise(March *m, double on_mass, double on_damping)
     int n = p->floors, w = p->band;
     for (int i = 0; i < n; i++)
         for (int j = i > w ? i - w : 0; j <= i; j++) {
-            double sum = p->K[(long)i * n + j] + on_damping * p->C[(long)i * n + j] + (i == j ? on_mass * p->mass[i] : 0.0);
+            double sum = p->K[(long)i * n + j] + on_damping * p->C[(long)i * n + j];
+            sum += i == j ? on_mass * p->mass[i] : 0.0;
             for (int k = i > w ? i - w : 0; k < j; k++)
                 sum -= m->factor[(long)i * n + k] * m->factor[(long)j * n + k];
             m->factor[(long)i * n + j] = i == j ? sqrt(sum) : sum / m->factor[(long)j * n + j];
