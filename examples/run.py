@@ -1,9 +1,11 @@
-"""Runs one of the Python examples with the packages that it needs.
+"""Runs a Python program of this project with the packages that it needs.
 
     python3 examples/run.py examples/plot_run.py
+    python3 examples/run.py benchmarks/work_precision.py --quick
 
-Needs Python 3.11 or later and nothing else. The packages of examples/requirements.txt go into an environment of their
-own, target/examples-python, which is made at the first use and again when a list of requirements has changed.
+Needs Python 3.11 or later and nothing else. The packages of the requirements.txt beside the program go into an
+environment of their own, target/<folder>-python, which is made at the first use and again when a list of requirements
+has changed. Those of requirements-optional.txt go there too, where they can be had.
 """
 
 import os
@@ -13,33 +15,49 @@ import venv
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-REQUIREMENTS = ROOT / "examples/requirements.txt"
-ENVIRONMENT = ROOT / "target/examples-python"
-PYTHON = ENVIRONMENT / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
-# Written last: an environment without it is not finished.
-INSTALLED = ENVIRONMENT / "requirements.installed"
 
 
-def wanted():
-    """All requirements, those of the files included."""
-    lines = REQUIREMENTS.read_text().splitlines()
-    included = [REQUIREMENTS.parent / line.removeprefix("-r ") for line in lines if line.startswith("-r ")]
-    return "\n".join(lines + [file.read_text() for file in included])
+class Environment:
+    """The packages for the programs of one folder."""
+
+    def __init__(self, folder):
+        self.requirements = folder / "requirements.txt"
+        self.optional = folder / "requirements-optional.txt"
+        self.folder = ROOT / f"target/{folder.name}-python"
+        self.python = self.folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+        # Written last: an environment without it is not finished.
+        self.installed = self.folder / "requirements.installed"
+
+    def wanted(self):
+        """All requirements, those of the files included."""
+        lines = self.requirements.read_text().splitlines()
+        included = [self.requirements.parent / line.removeprefix("-r ") for line in lines if line.startswith("-r ")]
+        included += [self.optional] if self.optional.exists() else []
+        return "\n".join(lines + [file.read_text() for file in included])
+
+    def prepare(self):
+        """Makes the environment, unless it is there as it should be."""
+        if self.installed.exists() and self.installed.read_text() == self.wanted():
+            return
+        print("making", self.folder.relative_to(ROOT), file=sys.stderr)
+        venv.create(self.folder, clear=True, with_pip=True)
+        pip = [self.python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--requirement"]
+        subprocess.run([*pip, self.requirements], check=True)
+        if self.optional.exists() and subprocess.run([*pip, self.optional]).returncode != 0:
+            print("going on without", self.optional.relative_to(ROOT), file=sys.stderr)
+        self.installed.write_text(self.wanted())
 
 
-def prepare():
-    """Makes the environment, unless it is there as it should be."""
-    if INSTALLED.exists() and INSTALLED.read_text() == wanted():
-        return
-    print("making", ENVIRONMENT.relative_to(ROOT), file=sys.stderr)
-    venv.create(ENVIRONMENT, clear=True, with_pip=True)
-    pip = [PYTHON, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
-    subprocess.run([*pip, "--requirement", REQUIREMENTS], check=True)
-    INSTALLED.write_text(wanted())
+def main():
+    if len(sys.argv) < 2:
+        sys.exit("usage: python3 examples/run.py PROGRAM.py [its arguments]")
+    program = Path(sys.argv[1])
+    if not program.exists():
+        sys.exit(f"{program}: no such file")
+    environment = Environment(program.resolve().parent)
+    environment.prepare()
+    sys.exit(subprocess.run([environment.python, *sys.argv[1:]]).returncode)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 2:
-        sys.exit("usage: python3 examples/run.py EXAMPLE.py [its arguments]")
-    prepare()
-    sys.exit(subprocess.run([PYTHON, *sys.argv[1:]]).returncode)
+    main()

@@ -13,12 +13,9 @@
 //! | exact response to a load that is linear in time | `structure/propagator.rs` | \[NigamJennings1969\] |
 //! | a(t), linear between the samples of the record | `engine/ground.rs` | |
 //! | penetration d = u_left - u_right - gap | `engine/model.rs` | |
-//! | `linear`: F = k d | `contact/law.rs`, `contact/force.rs` | [BarrosKhatami2013, eq. 3] |
-//! | `kelvin_voigt`: F = k d + c v, c = 2 xi sqrt(k m), xi = -ln e / sqrt(pi^2 + ln^2 e) | the same | \[Anagnostopoulos1988\], [BarrosKhatami2013, eqs. 4, 5] |
-//! | `kelvin_voigt_no_tension`: F = max(0, k d + c v) | the same | \[Komodromos2007\], [BarrosKhatami2013, section 2.2] |
-//! | `hertz`: F = k d^n | the same | \[Hertz1882\], \[Goldsmith1960\], [BarrosKhatami2013, eq. 6] |
-//! | `jankowski`: F = k d^1.5 + 2 xi sqrt(k sqrt(d) m) v while v > 0 | the same | \[Jankowski2005\], \[Jankowski2006\], [BarrosKhatami2013, eqs. 7, 8] |
-//! | `hertz_damped`: F = k d^n max(0, 1 + a v / V) | the same, a in `contact/damping_formula.rs` | \[Gonthier2004\], [BarrosKhatami2013, eqs. 9-11, 14] |
+//! | rigid contact (`stereomechanical`): impulse p = (1 + e) m V; floors held together by a reaction | `engine/rigid.rs`, `engine/complementarity.rs` | \[Goldsmith1960\], [BarrosKhatami2013, eqs. 1, 2], \[Moreau1988\], \[LawsonHanson1974\] |
+//! | contact force F(d, v): one file per law, with its source, range and defect | `contact/laws/` | in each file |
+//! | a(e) of `hertz_damped` | `contact/damping_formula.rs` | at each formula |
 //! | motion in contact as a power series in time | `engine/contact_step.rs`, `structure/series.rs`, `contact/series.rs` | |
 //! | motion just after an entry, powers i + beta j of time | `engine/onset_step.rs`, `contact/onset.rs` | |
 //! | bounds of a curve by its cubic Hermite interpolant: no contact, first root, largest value | `engine/flight.rs`, `engine/roots.rs` | \[BirkhoffPriver1967\] |
@@ -33,6 +30,7 @@ pub mod description;
 pub mod engine;
 #[allow(unsafe_code)]
 mod fmi;
+mod polynomial;
 mod quadrature;
 pub mod record;
 pub mod scene;

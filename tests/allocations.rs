@@ -43,6 +43,8 @@ fn a_run_allocates_nothing_after_its_start() {
         ("law = \"kelvin_voigt_no_tension\"\nstiffness = 1.0e6\nrestitution = 0.6", true),
         ("law = \"hertz\"\nstiffness = 1.0e7", true),
         ("law = \"hertz\"\nstiffness = 1.0e7", false),
+        ("law = \"stereomechanical\"\nrestitution = 0.2", true),
+        ("law = \"stereomechanical\"\nrestitution = 0.2", false),
     ] {
         let contact = |floor| format!("[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = 0.005\n{law}");
         let text = format!(

@@ -1,14 +1,14 @@
 //! The documents say what the code says: sources, quoted files, scene keys, laws, variables, file names.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use pounding::contact::{DampingFormula, LawKind};
+use pounding::contact::{DampingFormula, LawInfo, LawKind};
 use pounding::scene::{Scene, law_key};
 use pounding::variables::Table;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const DOCUMENTS: [&str; 3] = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md"];
+const DOCUMENTS: [&str; 4] = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "docs/laws.md"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -122,19 +122,26 @@ fn every_scene_key_is_in_the_readme() {
 }
 
 #[test]
-fn every_law_is_in_the_readme_with_its_keys() {
+fn the_laws_of_the_readme_are_those_of_the_catalogue_in_its_words() {
     let readme = read("README.md");
-    for law in LawKind::ALL {
-        let start = format!("| `{}` | ", law.info().name);
-        let row = readme.lines().find(|line| line.starts_with(&start)).unwrap_or_else(|| panic!("no row {start}"));
-        let numbers = law.info().keys.iter().map(|key| law_key::number(*key).name);
-        let formula = law.info().has_damping_formula.then_some("damping_formula");
-        let keys: Vec<String> = numbers.chain(formula).map(|key| format!("`{key}`")).collect();
-        assert_eq!(row.split(" | ").nth(2), Some(keys.join(", ").as_str()), "{row}");
-    }
+    let (_, section) = readme.split_once("\n### Laws of contact\n").unwrap();
+    let rows: Vec<&str> =
+        section.lines().skip_while(|line| !line.starts_with('|')).take_while(|line| line.starts_with('|')).collect();
+    let expected: Vec<String> = LawKind::ALL.iter().map(|law| row(law.info())).collect();
+    assert_eq!(rows[2..], expected);
     let formulas = readme.split("`damping_formula` is one of ").nth(1).unwrap().split(':').next().unwrap();
-    let named: BTreeSet<&str> = formulas.split('`').skip(1).step_by(2).collect();
-    assert_eq!(named, DampingFormula::ALL.iter().map(|formula| formula.name()).collect());
+    let named: Vec<&str> = formulas.split('`').skip(1).step_by(2).collect();
+    let known: Vec<&str> = DampingFormula::ALL.iter().map(|formula| formula.info().name).collect();
+    assert_eq!(named, known);
+}
+
+/// A law's row of the README.
+fn row(law: &LawInfo) -> String {
+    let LawInfo { name, force, returns, defect, source, .. } = law;
+    let formula = law.has_damping_formula.then_some("damping_formula");
+    let keys = law.keys.iter().map(|key| law_key::number(*key).name).chain(formula);
+    let keys: Vec<String> = keys.map(|key| format!("`{key}`")).collect();
+    format!("| `{name}` | {force} | {} | returns {returns}; {defect} {source} |", keys.join(", "))
 }
 
 #[test]
@@ -162,12 +169,23 @@ fn the_variables_of_the_readme_are_those_of_the_table() {
     assert_eq!(described, variables);
 }
 
+/// The headings of a document, as links name them.
+fn headings(document: &Path) -> Vec<String> {
+    let text = fs::read_to_string(document).unwrap();
+    let headings = text.lines().filter(|line| line.starts_with('#'));
+    headings.map(|line| line.trim_start_matches(['#', ' ']).to_lowercase().replace(' ', "-")).collect()
+}
+
 #[test]
 fn the_files_that_the_documents_name_exist() {
     for document in DOCUMENTS {
         let text = read(document);
+        let folder = root().join(document);
         for link in between(&text, "](", ")").filter(|link| !link.contains("://")) {
-            assert!(root().join(link).exists(), "{document}: {link}");
+            let (file, heading) = link.split_once('#').unwrap_or((link, ""));
+            let linked = folder.with_file_name(file);
+            assert!(linked.exists(), "{document}: {link}");
+            assert!(heading.is_empty() || headings(&linked).contains(&heading.to_owned()), "{document}: {link}");
         }
     }
     for document in ["ARCHITECTURE.md", "src/lib.rs"] {

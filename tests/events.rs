@@ -381,3 +381,42 @@ fn a_motion_whose_energy_overflows_is_refused() {
     let refused = (1..=20).find_map(|k| run.model.advance(&mut run.state, f64::from(k) * 0.05, &mut |_| ()).err());
     assert!(refused.unwrap().message.contains("double precision"));
 }
+
+/// Two floors a side on springs so soft that they are free; the left floors move, the right ones are at rest.
+fn two_free_floors(gaps: [f64; 2], laws: [&str; 2]) -> Scene {
+    let building = |mass: f64, speed: f64| {
+        format!(
+            "mass = [{mass:?}, {mass:?}]\nstiffness = [1.0e-20, 1.0e-20]\ndamping = {{ ratio = 0.0 }}
+            initial_velocity = [{speed:?}, {speed:?}]"
+        )
+    };
+    let contact = |floor: usize, gap: f64, law: &str| {
+        format!("[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = {gap:?}\n{law}")
+    };
+    scene(&format!(
+        "name = \"Free\"\n[left]\n{}\n[right]\n{}\n{}\n{}\n[outputs]\nenergy = true",
+        building(5.0e4, 0.5),
+        building(7.5e4, 0.0),
+        contact(1, gaps[0], laws[0]),
+        contact(2, gaps[1], laws[1])
+    ))
+}
+
+#[test]
+fn an_entry_is_seen_however_soon_after_another() {
+    // The first step of an episode is short, but the unit of time of its series is not known yet and far too long.
+    let linear = "law = \"linear\"\nstiffness = 3.0e11";
+    let rigid = "law = \"stereomechanical\"\nrestitution = 0.5";
+    for laws in [[linear, linear], [linear, rigid], [rigid, linear], [rigid, rigid]] {
+        for later in [1e-9, 1e-7, 1e-5, 1e-3] {
+            let mut run = Run::new(&two_free_floors([0.001, 0.001 + later], laws), None);
+            run.to(0.5);
+            let start = |p: usize| run.episodes.iter().find(|e| e.contact == p).unwrap().start;
+            // The penetration is the difference of positions of 0.001 m, rounded to their last digit.
+            assert!((start(0) - 0.002).abs() < 1e-17, "{} first", start(0));
+            let error = (start(1) - (0.002 + 2.0 * later)).abs();
+            assert!(error < 4e-18, "{} instead of {}: {error:e}, {laws:?}", start(1), 0.002 + 2.0 * later);
+            assert!(run.point.energy.unwrap().residual.abs() < 1e-14, "{:?}", run.point.energy);
+        }
+    }
+}

@@ -1,7 +1,7 @@
 //! The contact force as the engine integrates it: each law, with its episode's numbers filled in, is one of a few
 //! analytic [`Force`]s on either side of a [`Guard`].
 
-use super::{DampingFormula, ImpactLaw, LawKind};
+use super::ImpactLaw;
 
 /// One analytic piece of a contact force. d is the penetration, m, v its rate, m/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -129,40 +129,33 @@ impl EpisodeForce {
     /// the approach velocity `approach`, m/s; `None` for a pair that overlaps from the start, which has no damping in
     /// the laws that divide by it.
     pub fn new(law: &ImpactLaw, mass: f64, approach: Option<f64>) -> EpisodeForce {
-        let stiffness = law.stiffness;
-        let always = |engaged| EpisodeForce { engaged, slack: Force::None, guard: None };
-        match law.kind {
-            // The engine works out impulses and reactions from the motion of all floors together.
-            LawKind::Stereomechanical => always(Force::None),
-            LawKind::Linear => always(Force::Linear { stiffness, damping: 0.0 }),
-            LawKind::KelvinVoigt => {
-                always(Force::Linear { stiffness, damping: kelvin_damping(law.restitution, stiffness, mass) })
-            }
-            LawKind::KelvinVoigtNoTension => {
-                let damping = kelvin_damping(law.restitution, stiffness, mass);
-                let guard = (damping > 0.0).then_some(Guard { constant: 0.0, stiffness, damping });
-                EpisodeForce { engaged: Force::Linear { stiffness, damping }, slack: Force::None, guard }
-            }
-            LawKind::Hertz if law.exponent == 1.0 => always(Force::Linear { stiffness, damping: 0.0 }),
-            LawKind::Hertz => always(Force::Power { stiffness, exponent: law.exponent, damping: 0.0 }),
-            LawKind::Jankowski => {
-                let spring = Force::Power { stiffness, exponent: 1.5, damping: 0.0 };
-                let damping = 2.0 * jankowski_ratio(law.restitution) * (stiffness * mass).sqrt();
-                if damping <= 0.0 {
-                    return always(spring);
-                }
-                let guard = Guard { constant: 0.0, stiffness: 0.0, damping: 1.0 };
-                EpisodeForce { engaged: Force::Root { stiffness, damping }, slack: spring, guard: Some(guard) }
-            }
-            LawKind::HertzDamped => {
-                let formula = law.damping_formula.unwrap_or(DampingFormula::Exact);
-                let stiffness = stiffness * formula.spring_factor();
-                let damping = approach.map_or(0.0, |speed| formula.coefficient(law.restitution) / speed);
-                let guard = (damping > 0.0).then_some(Guard { constant: 1.0, stiffness: 0.0, damping });
-                let engaged = Force::Power { stiffness, exponent: law.exponent, damping };
-                EpisodeForce { engaged, slack: Force::None, guard }
-            }
-        }
+        (law.kind.info().episode)(law, mass, approach)
+    }
+
+    /// A law of one piece.
+    pub const fn always(force: Force) -> EpisodeForce {
+        EpisodeForce { engaged: force, slack: Force::None, guard: None }
+    }
+
+    /// N, the force at penetration d > 0 and rate v.
+    ///
+    /// ```
+    /// use pounding::contact::{DampingFormula, EpisodeForce, ImpactLaw, LawKind};
+    ///
+    /// let law = ImpactLaw {
+    ///     kind: LawKind::HertzDamped,
+    ///     stiffness: 3e7, // N/m^1.5
+    ///     exponent: 1.5,
+    ///     restitution: 0.5,
+    ///     damping_formula: Some(DampingFormula::HuGuo), // a = 1.5
+    /// };
+    /// let force = EpisodeForce::new(&law, 3e4, Some(0.5));
+    /// assert!((force.value(0.01, 0.2) - 3e7 * 1e-3 * (1.0 + 1.5 * 0.2 / 0.5)).abs() < 1e-9);
+    /// // Pulled apart by something else, faster than V/a: no contact pulls under this law.
+    /// assert_eq!(force.value(0.01, -0.4), 0.0);
+    /// ```
+    pub fn value(&self, d: f64, v: f64) -> f64 {
+        self.branch(self.is_engaged(d, v)).value(d, v)
     }
 
     /// The branch for a guard that is positive (or absent) or not.
@@ -174,20 +167,4 @@ impl EpisodeForce {
     pub fn is_engaged(&self, d: f64, v: f64) -> bool {
         self.guard.is_none_or(|guard| guard.value(d, v) > 0.0)
     }
-}
-
-/// c = 2 xi sqrt(k m), xi = -ln e / sqrt(pi^2 + ln^2 e) (Anagnostopoulos 1988; seed paper, eq. 5), N s/m.
-///
-/// A free impact that is held until d = 0 returns exactly e.
-pub fn kelvin_damping(restitution: f64, stiffness: f64, mass: f64) -> f64 {
-    let log = libm::log(restitution);
-    let ratio = -log / (std::f64::consts::PI * std::f64::consts::PI + log * log).sqrt();
-    2.0 * ratio * (stiffness * mass).sqrt()
-}
-
-/// xi = (9 sqrt(5) / 2) (1 - e^2) / (e (e (9 pi - 16) + 16)) (Jankowski 2006; seed paper, eq. 8).
-///
-/// An approximation: a free impact returns 0.4946 for e = 0.5.
-pub fn jankowski_ratio(e: f64) -> f64 {
-    4.5 * 5.0_f64.sqrt() * (1.0 - e * e) / (e * (e * (9.0 * std::f64::consts::PI - 16.0) + 16.0))
 }

@@ -1,104 +1,6 @@
-//! The catalogue of impact laws: their names in a scene, the keys that each one has and what each one is.
-//!
-//! A law is added here, with one line of [`LawKind`] and its row of [`LawKind::info`]; scene, FMU variables and
-//! the test of the documents read this table.
+//! A law with its numbers, and what the catalogue in [`super::laws`] knows of each law.
 
-use super::DampingFormula;
-
-/// The impact laws, under their scene names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum LawKind {
-    /// `stereomechanical`: no force but an instantaneous exchange of momentum that returns e; held together where
-    /// rebounds die out (seed paper, eqs. 1, 2)
-    Stereomechanical,
-    /// `linear`: F = k d; elastic, restitution 1 (seed paper, eq. 3)
-    Linear,
-    /// `kelvin_voigt`: F = k d + c v until d = 0, tension kept; restitution of a free impact exactly e (eqs. 4, 5)
-    KelvinVoigt,
-    /// `kelvin_voigt_no_tension`: F = max(0, k d + c v); returns more than e, 0.5503 for e = 0.5 (sec. 2.2)
-    KelvinVoigtNoTension,
-    /// `hertz`: F = k d^n; elastic, restitution 1 (eq. 6)
-    Hertz,
-    /// `jankowski`: F = k d^1.5 + c v while v > 0, k d^1.5 after; returns 0.4946 for e = 0.5 (eqs. 7, 8)
-    Jankowski,
-    /// `hertz_damped`: F = k d^n max(0, 1 + a v / V), a by damping_formula (eqs. 9-11, 14)
-    HertzDamped,
-}
-
-/// A number that a law takes from the scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum LawKey {
-    /// `stiffness` k, N/m^exponent, > 0
-    Stiffness,
-    /// `exponent` n of the penetration, 1 <= n <= 3
-    Exponent,
-    /// `restitution` e, 0 < e <= 1
-    Restitution,
-    /// `restitution` e of an instantaneous impact, 0 <= e <= 1
-    ImpulseRestitution,
-}
-
-/// What the catalogue knows of one law.
-#[derive(Clone, Copy, Debug)]
-pub struct LawInfo {
-    /// Name in a scene.
-    pub name: &'static str,
-    /// The keys that the law has, all required but `exponent`.
-    pub keys: &'static [LawKey],
-    /// Whether the law has the key `damping_formula`.
-    pub has_damping_formula: bool,
-}
-
-impl LawKind {
-    /// All laws, in the order in which the documentation shows them.
-    pub const ALL: &'static [LawKind] = &[
-        LawKind::Stereomechanical,
-        LawKind::Linear,
-        LawKind::KelvinVoigt,
-        LawKind::KelvinVoigtNoTension,
-        LawKind::Hertz,
-        LawKind::Jankowski,
-        LawKind::HertzDamped,
-    ];
-
-    /// The law's row of the catalogue.
-    pub const fn info(self) -> LawInfo {
-        match self {
-            LawKind::Stereomechanical => {
-                LawInfo { name: "stereomechanical", keys: &[LawKey::ImpulseRestitution], has_damping_formula: false }
-            }
-            LawKind::Linear => LawInfo { name: "linear", keys: &[LawKey::Stiffness], has_damping_formula: false },
-            LawKind::KelvinVoigt => LawInfo {
-                name: "kelvin_voigt",
-                keys: &[LawKey::Stiffness, LawKey::Restitution],
-                has_damping_formula: false,
-            },
-            LawKind::KelvinVoigtNoTension => LawInfo {
-                name: "kelvin_voigt_no_tension",
-                keys: &[LawKey::Stiffness, LawKey::Restitution],
-                has_damping_formula: false,
-            },
-            LawKind::Hertz => {
-                LawInfo { name: "hertz", keys: &[LawKey::Stiffness, LawKey::Exponent], has_damping_formula: false }
-            }
-            LawKind::Jankowski => LawInfo {
-                name: "jankowski",
-                keys: &[LawKey::Stiffness, LawKey::Restitution],
-                has_damping_formula: false,
-            },
-            LawKind::HertzDamped => LawInfo {
-                name: "hertz_damped",
-                keys: &[LawKey::Stiffness, LawKey::Exponent, LawKey::Restitution],
-                has_damping_formula: true,
-            },
-        }
-    }
-
-    /// The law of that name in a scene.
-    pub fn from_name(name: &str) -> Option<LawKind> {
-        Self::ALL.iter().copied().find(|kind| kind.info().name == name)
-    }
-}
+use super::{DampingFormula, EpisodeForce, LawKind};
 
 /// A law with its numbers. Numbers that the law does not have keep their neutral value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,6 +20,73 @@ pub struct ImpactLaw {
 impl ImpactLaw {
     /// Whether the floors cannot overlap: impulses and reactions instead of a force of penetration.
     pub fn is_rigid(&self) -> bool {
-        self.kind == LawKind::Stereomechanical
+        self.kind.info().stiffness_unit.is_none()
+    }
+}
+
+/// What is known of one law: all that is particular to it stands in its file. The texts are for a person and stand in
+/// the README and in docs/laws.md as they are here.
+///
+/// Symbols that all laws share: penetration d, m, its rate v, m/s, and the approach velocity V, m/s, which is v at the
+/// entry; the reduced mass m of the two floors, kg; the coefficient of restitution e, the speed after a free impact
+/// relative to that before.
+#[derive(Clone, Copy, Debug)]
+pub struct LawInfo {
+    /// Name in a scene, and of the law's file.
+    pub name: &'static str,
+    /// The force while d > 0.
+    pub force: &'static str,
+    /// Symbols of its own with their units; k is the stiffness, in [`LawInfo::stiffness_unit`].
+    pub symbols: &'static str,
+    /// Where it comes from: entries of REFERENCES.bib.
+    pub source: &'static str,
+    /// Restitution of a free impact.
+    pub returns: &'static str,
+    /// Range of validity.
+    pub valid: &'static str,
+    /// What is wrong with it.
+    pub defect: &'static str,
+    /// The keys that the law has, all required but `exponent`.
+    pub keys: &'static [LawKey],
+    /// Whether the law has the key `damping_formula`.
+    pub has_damping_formula: bool,
+    /// Unit of k; `None` for rigid floors, which cannot overlap.
+    pub stiffness_unit: Option<StiffnessUnit>,
+    /// The law in one episode: see [`EpisodeForce::new`].
+    pub episode: fn(law: &ImpactLaw, mass: f64, approach: Option<f64>) -> EpisodeForce,
+}
+
+/// A number that a law takes from the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LawKey {
+    /// `stiffness` k, N/m^exponent, > 0
+    Stiffness,
+    /// `exponent` n of the penetration, 1 <= n <= 3
+    Exponent,
+    /// `restitution` e, 0 < e <= 1
+    Restitution,
+    /// `restitution` e of an instantaneous impact, 0 <= e <= 1
+    ImpulseRestitution,
+}
+
+/// Unit of the stiffness k.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StiffnessUnit {
+    /// A linear spring.
+    NewtonPerMetre,
+    /// A spring of exponent 1.5.
+    NewtonPerMetreToTheThreeHalves,
+    /// A spring whose exponent is a number of the law.
+    NewtonPerMetreToTheExponent,
+}
+
+impl StiffnessUnit {
+    /// As it is written.
+    pub const fn name(self) -> &'static str {
+        match self {
+            StiffnessUnit::NewtonPerMetre => "N/m",
+            StiffnessUnit::NewtonPerMetreToTheThreeHalves => "N/m^1.5",
+            StiffnessUnit::NewtonPerMetreToTheExponent => "N/m^exponent",
+        }
     }
 }

@@ -1,11 +1,14 @@
 //! Contact of two floors: the laws of the impact force and what is known of them.
 
+mod catalogue;
 pub mod damping_formula;
 pub mod force;
 pub mod law;
+pub mod laws;
 pub mod onset;
 pub mod series;
 
 pub use damping_formula::DampingFormula;
 pub use force::{EpisodeForce, Force, Guard};
-pub use law::{ImpactLaw, LawKey, LawKind};
+pub use law::{ImpactLaw, LawInfo, LawKey, StiffnessUnit};
+pub use laws::LawKind;

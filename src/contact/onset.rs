@@ -12,7 +12,7 @@
 //! b d^0.25 d'           = (4/5) b (x^1.25 e^1.25)'   0.25 = -1 + beta
 //! ```
 
-use super::force::Force;
+use super::force::{Force, power};
 
 /// Most terms of a double series.
 pub const MOST_TERMS: usize = 128;
@@ -73,7 +73,7 @@ impl Grid {
 
     /// Value at x of a double series.
     pub fn sum(&self, terms: &[f64], x: f64) -> f64 {
-        let z = libm::pow(x, self.beta);
+        let z = power(x, self.beta);
         let mut sum = 0.0;
         for j in (0..self.rows).rev() {
             let row = &terms[self.starts[j]..self.starts[j + 1]];
@@ -249,7 +249,7 @@ fn extend_power(power: &mut Terms, base: &Terms, grid: &Grid, exponent: f64, i: 
 
 /// Value and slope at x of a double series.
 pub fn value_and_slope(grid: &Grid, terms: &[f64], x: f64) -> (f64, f64) {
-    let z = libm::pow(x, grid.beta);
+    let z = power(x, grid.beta);
     let (mut value, mut slope, mut factor) = (0.0, 0.0, 1.0);
     for j in 0..grid.rows {
         let row = &terms[grid.index(0, j)..=grid.index(grid.last(j), j)];

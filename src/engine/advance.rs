@@ -5,8 +5,9 @@ use super::model::Model;
 use super::state::*;
 use super::{EngineError, Episode, roots};
 use crate::contact::EpisodeForce;
-use crate::contact::series::{PairSeries, value, value_and_slope};
-use crate::structure::difference;
+use crate::contact::series::PairSeries;
+use crate::polynomial::Powers;
+use crate::structure::{LANES, difference};
 
 /// Steps that may follow each other without any time passing.
 const MOST_STEPS_AT_ONCE: u32 = 100_000;
@@ -86,34 +87,62 @@ impl Model {
     fn take(&self, state: &mut State, end: f64, on_episode: &mut dyn FnMut(&Episode)) {
         self.add_work(state, state.step.length);
         let State { base, step, counters, work, .. } = state;
-        let start = base.segment.start + base.elapsed;
+        let start = base.time();
         for contact in base.contacts.iter_mut().filter(|contact| contact.in_contact()) {
-            contact.follow(step, step.length, start);
+            contact.follow(step, step.length, start, &step.end);
         }
         std::mem::swap(&mut base.q, &mut step.q);
         std::mem::swap(&mut base.v, &mut step.v);
         base.elapsed = end;
-        for (contact, pair) in base.contacts.iter_mut().zip(&self.pairs) {
-            let (penetration, rate) = pair.penetration(&base.q, &base.v);
-            if !contact.in_contact() {
-                contact.penetration = penetration;
-            }
-            contact.rate = rate;
-            if step.length > 0.0 {
-                contact.at_surface = false;
-            }
-        }
-        self.update_peak_drift(base, work);
+        self.move_contacts(base, step);
+        self.keep_together(base, work);
+        self.update_peak_drift(base);
         if let Some(event) = step.event {
             counters.events += 1;
-            self.handle(base, event, on_episode);
+            self.handle(base, event, work, on_episode);
         }
         step.kind = StepKind::Unknown;
     }
 
-    fn handle(&self, base: &mut Base, event: Event, on_episode: &mut dyn FnMut(&Episode)) {
-        let time = base.segment.start + base.elapsed;
+    /// Penetrations and rates at the end of a step.
+    fn move_contacts(&self, base: &mut Base, step: &Step) {
+        if !step.ends.is_empty() {
+            for (contact, &(penetration, rate)) in base.contacts.iter_mut().zip(&step.ends) {
+                contact.at_surface = false;
+                contact.let_go = false;
+                contact.carried = false;
+                contact.penetration = penetration;
+                contact.rate = rate;
+            }
+            return;
+        }
+        for (p, (contact, pair)) in base.contacts.iter_mut().zip(&self.pairs).enumerate() {
+            if step.length > 0.0 {
+                contact.at_surface = false;
+                contact.let_go = false;
+                contact.undecided = false;
+            }
+            if contact.is_held() || contact.carried && step.length == 0.0 {
+                continue;
+            }
+            let (penetration, rate) = pair.penetration(&base.q, &base.v);
+            if let Some((penetration, rate)) = step.carried[p] {
+                (contact.penetration, contact.rate) = (penetration, rate);
+                contact.carried = self.is_close(p, penetration, &base.q);
+                continue;
+            }
+            contact.carried = false;
+            if !contact.in_contact() {
+                contact.penetration = penetration;
+            }
+            contact.rate = rate;
+        }
+    }
+
+    fn handle(&self, base: &mut Base, event: Event, work: &mut Workspace, on_episode: &mut dyn FnMut(&Episode)) {
+        let time = base.time();
         match event {
+            Event::Entry(p) if self.pairs[p].law.is_rigid() => self.meet(base, p, work, on_episode),
             Event::Entry(p) => {
                 let contact = &mut base.contacts[p];
                 contact.penetration = 0.0;
@@ -126,30 +155,15 @@ impl Model {
                 // The first series of an episode finds its own scale.
                 base.last_length = 0.0;
             }
-            Event::Release(p) => {
-                let contact = &mut base.contacts[p];
-                contact.penetration = 0.0;
-                contact.at_surface = true;
-                contact.settle();
-                contact.phase = Phase::Apart;
-                contact.episode = contact.present_episode();
-                contact.episode.end = Some(time);
-                contact.episode.separation_velocity = -contact.rate;
-                on_episode(&contact.episode);
-            }
-            Event::Branch(p) => {
-                let contact = &mut base.contacts[p];
-                contact.settle();
-                contact.phase = if contact.phase == Phase::Engaged { Phase::Slack } else { Phase::Engaged };
-                contact.stored_reference = contact.branch().stored_energy(contact.penetration);
-            }
+            Event::Release(p) => base.release(p, on_episode),
+            Event::Branch(p) => base.contacts[p].change_branch(),
         }
     }
 
     /// Nothing may run for ever or on without numbers.
     fn check(&self, state: &State, progress: &Progress) -> Result<(), EngineError> {
         let base = &state.base;
-        let time = base.segment.start + base.elapsed;
+        let time = base.time();
         let Progress { steps, stalled } = *progress;
         if steps > MOST_STEPS {
             return Err(EngineError {
@@ -173,10 +187,11 @@ impl Model {
                 ),
             });
         }
-        let motion = base.q.iter().chain(&base.v).all(|value| value.is_finite());
-        let account = base.energy.is_none_or(|account| account.largest.is_finite());
-        let sums = |contact: &Contact| (contact.impulse + contact.work + contact.peak_force).is_finite();
-        if motion && account && base.contacts.iter().all(sums) {
+        // A sum is finite only if all of its terms are.
+        let contacts: f64 =
+            base.contacts.iter().map(|contact| contact.impulse + contact.work + contact.peak_force).sum();
+        let account = base.energy.map_or(0.0, |account| account.largest);
+        if (lanes_sum(&base.q) + lanes_sum(&base.v) + contacts + account).is_finite() {
             return Ok(());
         }
         Err(EngineError {
@@ -188,37 +203,85 @@ impl Model {
     }
 }
 
+/// Sum of a modal vector.
+fn lanes_sum(modal: &[f64]) -> f64 {
+    let mut sum = [0.0; LANES];
+    for modal in modal.as_chunks::<LANES>().0 {
+        for i in 0..LANES {
+            sum[i] += modal[i];
+        }
+    }
+    sum.iter().sum()
+}
+
+impl Base {
+    /// s.
+    pub(super) fn time(&self) -> f64 {
+        self.segment.start + self.elapsed
+    }
+
+    /// Ends the episode of a contact.
+    pub(super) fn release(&mut self, p: usize, on_episode: &mut dyn FnMut(&Episode)) {
+        let time = self.time();
+        let contact = &mut self.contacts[p];
+        contact.let_go = contact.is_held() && contact.rate == 0.0;
+        contact.carried = contact.is_held();
+        contact.penetration = 0.0;
+        contact.at_surface = true;
+        contact.settle();
+        contact.phase = Phase::Apart;
+        contact.episode = contact.present_episode();
+        contact.episode.end = Some(time);
+        contact.episode.separation_velocity = -contact.rate;
+        on_episode(&contact.episode);
+    }
+}
+
 impl Contact {
-    /// Follows the contact over the first `elapsed` seconds of a step that begins at `start` [s].
-    pub(super) fn follow(&mut self, step: &Step, elapsed: f64, start: f64) {
+    /// Passes to the force on the other side of the law's guard.
+    pub(super) fn change_branch(&mut self) {
+        self.settle();
+        self.phase = if self.phase == Phase::Engaged { Phase::Slack } else { Phase::Engaged };
+        self.stored_reference = self.branch().stored_energy(self.penetration);
+    }
+
+    /// Follows the contact over the first `elapsed` seconds of a step that begins at `start` [s]; for a series in
+    /// time, `powers` are those of the end.
+    pub(super) fn follow(&mut self, step: &Step, elapsed: f64, start: f64, powers: &Powers) {
         match step.kind {
             StepKind::Onset => self.follow_onset(&step.onset, elapsed / step.onset.scale, start),
             StepKind::Contact if elapsed > 0.0 => {
-                let pair = &step.pairs[self.episode.contact];
-                self.follow_series(pair, step.series.scale, elapsed / step.series.scale, start);
+                self.follow_series(&step.pairs[self.episode.contact], step.series.scale, start, powers);
             }
             _ => {}
         }
     }
 
-    /// Penetration, impulse, peaks and work over 0..=x of a series.
-    fn follow_series(&mut self, pair: &PairSeries, scale: f64, x: f64, start: f64) {
-        let force = self.branch();
-        let impulse = pair.impulse(x, scale);
+    /// Penetration, impulse, peaks and work over a series up to the x of the powers.
+    fn follow_series(&mut self, pair: &PairSeries, scale: f64, start: f64, powers: &Powers) {
+        let impulse = scale * powers.integral(&pair.force);
         self.impulse += impulse;
-        self.work += pair.damping_work(&force, x, scale);
-        if let Some((at, peak)) = roots::maximum_above(&pair.force[..=pair.order], x, self.episode.peak_force) {
+        self.episode.impulse += impulse;
+        self.work += pair.damping_work(&self.branch(), scale, powers.x);
+        let force = powers.read(&pair.force);
+        let known = self.episode.peak_force;
+        if let Some((at, peak)) = roots::maximum_above(&pair.force[..=pair.order], powers.x, &force, known) {
             self.episode.peak_force = peak;
             self.episode.peak_time = start + at * scale;
             self.peak_force = self.peak_force.max(peak);
         }
+        if self.is_held() {
+            self.reaction = force.value;
+            return;
+        }
+        let depth = powers.read(&pair.penetration);
+        let known = self.episode.peak_penetration;
         let penetration = &pair.penetration[..=pair.order + 2];
-        if let Some((_, peak)) = roots::maximum_above(penetration, x, self.episode.peak_penetration) {
+        if let Some((_, peak)) = roots::maximum_above(penetration, powers.x, &depth, known) {
             self.episode.peak_penetration = peak;
         }
-        self.penetration = value(penetration, x);
-        self.rate = value_and_slope(penetration, x).1 / scale;
-        self.episode.impulse += impulse;
+        self.penetration = depth.value;
+        self.rate = depth.slope / scale;
     }
 
     /// Books what the elastic part has taken since the reference.

@@ -7,7 +7,8 @@ use super::model::{Model, Pair};
 use super::roots;
 use super::state::*;
 use crate::contact::Force;
-use crate::contact::series::MAX_ORDER;
+use crate::contact::series::PairSeries;
+use crate::polynomial::{Coefficients, MAX_ORDER, Powers, rough_root};
 use crate::structure::{LANES, ModalSeries, difference, dot};
 
 /// Share of `relative_tolerance` that one step may use: an episode takes some thirty steps and an earthquake some
@@ -28,26 +29,41 @@ pub(super) fn accuracy(relative_tolerance: f64) -> (f64, usize) {
     (tolerance, order as usize)
 }
 
+/// Share of the time left for which floors are held together that rounding cannot tell from free ones.
+const SHORT_WHILE: f64 = 1e-3;
+
 impl Model {
     /// Works out the step in contact from the base until `limit` (s since the segment's start) or the next event.
     pub(super) fn plan_contact(&self, state: &mut State, limit: f64) {
-        let scale = state.base.velocity_scale.max(self.present_velocity(&state.base));
-        state.base.velocity_scale = scale;
-        if let Some(p) = self.entry_at_once(&state.base) {
-            state.step.kind = StepKind::Contact;
-            state.step.event = Some(Event::Entry(p));
-            state.step.reaches_limit = false;
-            state.step.length = 0.0;
-            state.step.series.scale = 1.0;
-            state.step.q.copy_from_slice(&state.base.q);
-            state.step.v.copy_from_slice(&state.base.v);
-            return;
+        state.base.velocity_scale = state.base.velocity_scale.max(self.present_velocity(&state.base));
+        let mut limit = limit;
+        let mut cut = false;
+        if self.has_close_rigid_pair(&state.base) {
+            let apart = self.balance(&state.base, &state.inputs, &mut state.work);
+            if let Some(p) = apart {
+                return happen_now(state, Event::Release(p));
+            }
+            let State { base, work, .. } = &*state;
+            let mut horizon = base.elapsed + self.bounce_horizon(base, &work.q);
+            if base.contacts.iter().any(|contact| contact.undecided) {
+                horizon = horizon.min(base.elapsed + SHORT_WHILE * (limit - base.elapsed));
+            }
+            cut = horizon < limit;
+            limit = limit.min(horizon);
+            state.work.rigid.close_all(&self.rigid.matrix);
+        } else {
+            state.work.rigid.clear();
         }
-        if touching(&state.base).any(|(_, contact)| contact.is_singular()) && self.plan_onset(state, limit) {
+        if let Some(p) = self.entry_at_once(&state.base) {
+            return happen_now(state, Event::Entry(p));
+        }
+        let is_singular = touching(&state.base).any(|(_, contact)| contact.is_singular());
+        if is_singular && !self.has_close_rigid_pair(&state.base) && self.plan_onset(state, limit) {
             return;
         }
         let State { base, step, inputs, counters, work, .. } = state;
         counters.contact_steps += 1;
+        step.ends.clear();
         let remaining = limit - base.elapsed;
         self.load(base, inputs, &mut work.load, &mut work.slope);
         let scale = self.series_scale(base, remaining);
@@ -55,14 +71,27 @@ impl Model {
         let reach = self.accurate_reach(base, step, remaining / scale);
         let whole = remaining / scale <= reach;
         let end = if whole { remaining / scale } else { reach };
-        let event = self.first_event(base, step, work, end);
+        step.end.set(end, step.series.order);
+        let event = self.first_event(base, step, work);
         let x = event.map_or(end, |(x, _)| x);
+        if event.is_some() {
+            step.end.set(x, step.series.order);
+        }
         step.kind = StepKind::Contact;
         step.event = event.map(|(_, event)| event);
-        step.reaches_limit = whole && event.is_none();
+        step.reaches_limit = whole && !cut && event.is_none();
         step.length = if step.reaches_limit { remaining } else { x * scale };
-        step.series.evaluate(x, &mut step.q, &mut step.v);
+        step.series.evaluate(&step.end, &mut step.q, &mut step.v);
+        self.carry(base, &step.series, x, &mut work.scalar, &mut step.carried);
+        for (contact, pair) in base.contacts.iter_mut().zip(&step.pairs).filter(|(contact, _)| contact.is_held()) {
+            contact.reaction = pair.force[0];
+        }
         base.last_length = reach * scale;
+    }
+
+    /// Whether rigid floors are held together, or are about to meet again.
+    fn has_close_rigid_pair(&self, base: &Base) -> bool {
+        self.rigid.pairs.iter().any(|&p| base.contacts[p].is_held() || base.contacts[p].carried)
     }
 
     /// The unit of time of the next series, s: near the length of the step, so that its terms neither overflow nor
@@ -82,34 +111,68 @@ impl Model {
     }
 
     /// The series of modes, penetrations and forces from the base on.
-    fn expand(&self, base: &Base, step: &mut Step, work: &Workspace, scale: f64) {
+    fn expand(&self, base: &Base, step: &mut Step, work: &mut Workspace, scale: f64) {
         let Step { series, pairs, .. } = step;
         series.start(scale, &base.q, &base.v);
+        work.soft.clear();
         for (p, contact) in touching(base) {
-            pairs[p].penetration[0] = contact.penetration;
-            pairs[p].penetration[1] = contact.rate * scale;
+            pairs[p].start(contact.penetration, contact.rate * scale);
+            if !contact.is_held() {
+                work.soft.push(p);
+            }
         }
         for n in 0..self.order {
-            for (p, contact) in touching(base) {
-                pairs[p].extend_force(&contact.starting_force(), n, scale);
+            for (force, &p) in work.forces.iter_mut().zip(&work.soft) {
+                pairs[p].extend_force(&base.contacts[p].starting_force(), n, scale);
+                *force = pairs[p].force[n];
             }
-            series.extend(&self.structure, |out| {
-                match n {
-                    0 => out.copy_from_slice(&work.load),
-                    1 => out.iter_mut().zip(&work.slope).for_each(|(out, slope)| *out = slope * scale),
-                    _ => {}
-                }
-                for (p, _) in touching(base) {
-                    let force = pairs[p].force[n];
-                    for (out, row) in out.iter_mut().zip(&self.pairs[p].row) {
-                        *out -= row * force;
-                    }
-                }
-            });
-            for (p, contact) in touching(base) {
-                let (row, term) = (&self.pairs[p].row, series.term(n + 2));
-                pairs[p].penetration[n + 2] = if contact.at_surface { difference(row, term).0 } else { dot(row, term) };
+            if self.structure.is_classical() && work.rigid.pairs.is_empty() {
+                let load = match n {
+                    0 => Some((&work.load[..], 1.0)),
+                    1 => Some((&work.slope[..], scale)),
+                    _ => None,
+                };
+                let forces = (&self.rows[..], &work.soft[..], &work.forces[..work.soft.len()]);
+                series.extend_in_contact(&self.structure, load, forces, &mut work.gathered[..work.soft.len()]);
+            } else {
+                self.extend_together(series, pairs, work, n);
             }
+            for (gathered, &p) in work.gathered.iter().zip(&work.soft) {
+                let term = if base.contacts[p].at_surface {
+                    difference(&self.pairs[p].row, series.term(n + 2)).0
+                } else {
+                    gathered.iter().sum()
+                };
+                pairs[p].set_penetration(n + 2, term);
+            }
+        }
+    }
+
+    /// One power where damping couples modes or floors are held together.
+    fn extend_together(&self, series: &mut ModalSeries, pairs: &mut [PairSeries], work: &mut Workspace, n: usize) {
+        let Workspace { load, slope, rigid, soft, forces, gathered, .. } = work;
+        let scale = series.scale;
+        let load_of_power = |out: &mut [f64]| {
+            match n {
+                0 => out.copy_from_slice(load),
+                1 => out.iter_mut().zip(&*slope).for_each(|(out, slope)| *out = slope * scale),
+                _ => {}
+            }
+            for (&p, force) in soft.iter().zip(&*forces) {
+                for (out, row) in out.iter_mut().zip(&self.pairs[p].row) {
+                    *out -= row * force;
+                }
+            }
+        };
+        series.extend(&self.structure, load_of_power, |acceleration| self.hold(rigid, acceleration));
+        for (&k, reaction) in rigid.pairs.iter().zip(&rigid.found) {
+            let pair = &mut pairs[self.rigid.pairs[k]];
+            pair.force[n] = *reaction;
+            pair.order = n;
+        }
+        for (&p, gathered) in soft.iter().zip(gathered) {
+            *gathered = [0.0; LANES];
+            gathered[0] = dot(&self.pairs[p].row, series.term(n + 2));
         }
     }
 
@@ -126,7 +189,7 @@ impl Model {
             if term > 0.0 {
                 reach = reach.min(match allowed {
                     0.0 => self.reach_from_rest(series, n, term),
-                    _ => libm::pow(allowed / term, 1.0 / (n - 1) as f64),
+                    _ => rough_root(allowed / term, n - 1),
                 });
             }
         }
@@ -183,21 +246,28 @@ impl Model {
 
     /// The velocity that contact errors are measured against: of the floors, or what the springs can give them.
     fn present_velocity(&self, base: &Base) -> f64 {
+        let floors = self.worst_floor(&base.v);
+        // What is stored later comes from the motion that has been seen.
+        if base.last_length > 0.0 {
+            return floors;
+        }
         let springs = base.contacts.iter().zip(&self.pairs).map(|(contact, pair)| {
             (2.0 * contact.branch().stored_energy(contact.penetration.max(0.0)) / pair.mass).sqrt()
         });
-        springs.fold(self.worst_floor(&base.v), f64::max)
+        springs.fold(floors, f64::max)
     }
 
-    /// The first event in 0..=end of the step's series.
-    fn first_event(&self, base: &Base, step: &Step, work: &mut Workspace, end: f64) -> Option<(f64, Event)> {
+    /// The first event up to the end of the step's series.
+    fn first_event(&self, base: &Base, step: &Step, work: &mut Workspace) -> Option<(f64, Event)> {
+        let end = step.end.x;
         let mut first: Option<(f64, Event)> = None;
-        let growth = self.growth(step, end);
+        let mut growth = None;
         for (p, (contact, pair)) in base.contacts.iter().zip(&self.pairs).enumerate() {
             let until = first.map_or(end, |(x, _)| x);
             let found = if contact.in_contact() {
                 self.leaving(p, contact, step, work, until)
             } else {
+                let growth = *growth.get_or_insert_with(|| self.growth(step, end));
                 self.entering(p, contact, pair, step, work, until, growth)
             };
             first = found.or(first);
@@ -225,23 +295,23 @@ impl Model {
         work: &mut Workspace,
         end: f64,
     ) -> Option<(f64, Event)> {
-        let (series, pair) = (&step.series, &step.pairs[p]);
-        let terms = ..=series.order;
-        // Distance to the surface, positive once d has passed 0 downwards.
-        let distance = &mut work.scalar[terms];
-        for (out, d) in distance.iter_mut().zip(&pair.penetration[terms]) {
-            *out = -d;
+        if contact.undecided {
+            return None;
         }
-        let first = roots::first_rise(distance, end, 0.0).map(|x| (x, Event::Release(p)));
+        if contact.is_held() {
+            return self.letting_go(p, step, work, end);
+        }
+        let pair = &step.pairs[p];
+        let first = release(pair, &step.end, &mut work.scalar, end).map(|x| (x, Event::Release(p)));
         let Some(guard) = contact.force.guard else { return first };
         let until = first.map_or(end, |(x, _)| x);
         let sense = if contact.phase == Phase::Engaged { -1.0 } else { 1.0 };
-        pair.guard(&guard, series.scale, &mut work.scalar);
-        let value = &mut work.scalar[..=pair.order];
-        for out in value.iter_mut() {
-            *out *= sense;
+        pair.guard(&guard, step.series.scale, sense, &mut work.scalar);
+        let value = &mut work.scalar;
+        if roots::ceiling((value[0].min(0.0), value[1]), step.end.x, &step.end.read(value)) <= 0.0 {
+            return first;
         }
-        match roots::first_rise(value, until, 0.0) {
+        match roots::first_rise(&mut value[..=pair.order], until, 0.0) {
             Some(x) if x < until || first.is_none() => Some((x, Event::Branch(p))),
             _ => first,
         }
@@ -260,15 +330,41 @@ impl Model {
         growth: f64,
     ) -> Option<(f64, Event)> {
         let series = &step.series;
-        let start = if contact.at_surface { 0.0 } else { contact.penetration.min(0.0) };
+        let start = contact.flight_start();
         if start + (contact.rate * series.scale * end).max(0.0) + growth < 0.0 {
             return None;
         }
         let penetration = &mut work.scalar[..=series.order];
-        let noise = pair.noise(series.project(&pair.row, penetration));
-        penetration[0] = start;
+        let noise = pair.noise(series.project(&pair.row, end, penetration));
+        let noise = contact.begin_flight(penetration, series.scale, noise);
         roots::first_rise(penetration, end, noise).map(|x| (x, Event::Entry(p)))
     }
+}
+
+/// An event that needs no step.
+fn happen_now(state: &mut State, event: Event) {
+    let State { base, step, .. } = state;
+    step.kind = StepKind::Contact;
+    step.event = Some(event);
+    step.reaches_limit = false;
+    step.length = 0.0;
+    step.series.scale = 1.0;
+    step.carried.fill(None);
+    step.ends.clear();
+    step.q.copy_from_slice(&base.q);
+    step.v.copy_from_slice(&base.v);
+}
+
+/// Where the penetration is back at 0, up to `until`.
+fn release(pair: &PairSeries, end: &Powers, distance: &mut Coefficients, until: f64) -> Option<f64> {
+    // Distance to the surface, positive once d has passed 0 downwards.
+    for (out, d) in distance.iter_mut().zip(&pair.penetration) {
+        *out = -d;
+    }
+    if roots::ceiling((distance[0].min(0.0), distance[1]), end.x, &end.read(distance)) <= 0.0 {
+        return None;
+    }
+    roots::first_rise(&mut distance[..=pair.order + 2], until, 0.0)
 }
 
 /// The contacts that are in contact, with their number.

@@ -51,7 +51,8 @@ impl Model {
             StepKind::Contact => {
                 let series = &step.series;
                 self.integrate_series::<12>(base, series, TWELVE, (0.0, length), work, &mut done);
-                series.evaluate(length / series.scale, &mut work.q, &mut work.v);
+                work.powers.set(length / series.scale, series.order);
+                series.evaluate(&work.powers, &mut work.q, &mut work.v);
             }
             StepKind::Onset => {
                 let onset = &step.onset;
@@ -74,7 +75,7 @@ impl Model {
         const REMAINDER: f64 = 1e-16;
         let pieces = (self.structure.fastest * length / REACH).ceil().max(1.0) as u64;
         let h = length / pieces as f64;
-        let order = flight_order(self.structure.fastest * h, REMAINDER).unwrap_or(crate::contact::series::MAX_ORDER);
+        let order = flight_order(self.structure.fastest * h, REMAINDER).unwrap_or(crate::polynomial::MAX_ORDER);
         self.load(base, inputs, &mut work.load, &mut work.slope);
         work.q.copy_from_slice(&base.q);
         work.v.copy_from_slice(&base.v);
@@ -83,7 +84,8 @@ impl Model {
             let start = (work.q.as_slice(), work.v.as_slice());
             series.expand_flight(&self.structure, start, (&work.load, &work.slope), (h, order));
             self.integrate_series::<8>(base, &series, EIGHT, (i as f64 * h, h), work, done);
-            series.evaluate(1.0, &mut work.q, &mut work.v);
+            work.powers.set(1.0, series.order);
+            series.evaluate(&work.powers, &mut work.q, &mut work.v);
             for (load, slope) in work.load.iter_mut().zip(&work.slope) {
                 *load += slope * h;
             }

@@ -15,10 +15,10 @@ impl Model {
         step.length = remaining;
         step.reaches_limit = true;
         step.event = None;
+        step.carried.fill(None);
+        step.ends.clear();
         self.load(base, inputs, &mut work.load, &mut work.slope);
-        self.fly(base, remaining, work);
-        step.q.copy_from_slice(&work.q);
-        step.v.copy_from_slice(&work.v);
+        self.fly(base, remaining, work, (&mut step.q, &mut step.v));
         if self.pairs.is_empty() {
             return;
         }
@@ -34,35 +34,36 @@ impl Model {
         let certified = self.pairs.iter().zip(&base.contacts).all(|(pair, contact)| {
             counters.pairs_evaluated += 1;
             let (end, end_rate) = pair.penetration(&step.q, &step.v);
+            step.ends.push((end, end_rate));
             let start = contact.flight_start();
             let near_start = start + remaining / 3.0 * contact.rate;
             let near_end = end - remaining / 3.0 * end_rate;
             start.max(near_start).max(near_end).max(end) + deviation < 0.0
         });
         if !certified {
+            step.ends.clear();
             self.look_closer(base, step, counters, work, remaining);
         }
     }
 
-    /// Flies q, v of the base over `h` into `work.q`, `work.v`, under `work.load` and `work.slope`.
-    pub(super) fn fly(&self, base: &Base, h: f64, work: &mut Workspace) {
-        let Workspace { load, slope, q, v, scratch, series, interval, .. } = work;
+    /// Flies q, v of the base over `h` under `work.load` and `work.slope`.
+    pub(super) fn fly(&self, base: &Base, h: f64, work: &mut Workspace, (q, v): (&mut [f64], &mut [f64])) {
+        let Workspace { load, slope, scratch, series, interval, powers, .. } = work;
         let whole = base.elapsed == 0.0 && h == base.segment.length;
         let prepared = self.ground.as_ref().filter(|_| whole).and_then(|ground| ground.prepared(&base.segment));
         if prepared.is_none()
             && let Some(order) = flight_order(self.structure.fastest * h, EXACT)
         {
             series.expand_flight(&self.structure, (&base.q, &base.v), (load, slope), (h, order));
-            series.evaluate(1.0, q, v);
+            powers.set(1.0, series.order);
+            series.evaluate(powers, q, v);
             return;
         }
-        q.copy_from_slice(&base.q);
-        v.copy_from_slice(&base.v);
         let interval = prepared.unwrap_or_else(|| {
             interval.prepare(&self.structure, h);
             interval
         });
-        interval.fly([q, v], [load, slope], scratch);
+        interval.fly((&base.q, &base.v), (load, slope), (q, v), scratch);
     }
 
     /// Finds the first entry in the flight, from the power series of the penetrations. A flight too long for one
@@ -71,15 +72,19 @@ impl Model {
         const REACH: f64 = 1.5;
         counters.closer_looks += 1;
         let fastest = self.structure.fastest;
-        let h = if fastest * remaining > REACH { REACH / fastest } else { remaining };
-        let order = flight_order(fastest * h, EXACT).unwrap_or(crate::contact::series::MAX_ORDER);
+        let mut h = if fastest * remaining > REACH { REACH / fastest } else { remaining };
+        if base.contacts.iter().any(|contact| contact.carried) {
+            self.structure.accelerate(&base.q, &base.v, &work.load, &mut work.q);
+            h = h.min(self.bounce_horizon(base, &work.q));
+        }
+        let order = flight_order(fastest * h, EXACT).unwrap_or(crate::polynomial::MAX_ORDER);
         let (load, slope) = (&work.load, &work.slope);
         work.series.expand_flight(&self.structure, (&base.q, &base.v), (load, slope), (h, order));
         let mut first: Option<(f64, usize)> = None;
         for (p, (pair, contact)) in self.pairs.iter().zip(&base.contacts).enumerate() {
             let penetration = &mut work.scalar[..=work.series.order];
-            let noise = pair.noise(work.series.project(&pair.row, penetration));
-            penetration[0] = contact.flight_start();
+            let noise = pair.noise(work.series.project(&pair.row, 1.0, penetration));
+            let noise = contact.begin_flight(penetration, h, noise);
             let end = first.map_or(1.0, |(x, _)| x);
             if let Some(x) = roots::first_rise(penetration, end, noise) {
                 first = Some((x, p));
@@ -87,17 +92,19 @@ impl Model {
         }
         let x = first.map_or(1.0, |(x, _)| x);
         if first.is_some() || h < remaining {
-            work.series.evaluate(x, &mut step.q, &mut step.v);
+            work.powers.set(x, work.series.order);
+            work.series.evaluate(&work.powers, &mut step.q, &mut step.v);
             step.length = x * h;
             step.reaches_limit = false;
             step.event = first.map(|(_, p)| Event::Entry(p));
         }
+        self.carry(base, &work.series, x, &mut work.scalar, &mut step.carried);
     }
 }
 
 impl Contact {
     /// Penetration at the start of a flight: exactly 0 just after a release, never above 0.
-    fn flight_start(&self) -> f64 {
+    pub(super) fn flight_start(&self) -> f64 {
         if self.at_surface { 0.0 } else { self.penetration.min(0.0) }
     }
 }

@@ -3,13 +3,16 @@
 //! [`Model`] never changes during a run, [`State`] is plain data; a communication point is read into a [`Point`].
 
 mod advance;
+mod complementarity;
 mod contact_step;
+mod drift;
 mod energy;
 mod flight;
 mod ground;
 mod model;
 mod observe;
 mod onset_step;
+mod rigid;
 mod roots;
 mod state;
 

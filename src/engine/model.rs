@@ -1,15 +1,17 @@
 //! The model: everything about a scene that stays as it is during a run.
 
+use super::drift::DriftShapes;
 use super::ground::{GroundMotion, Segment};
 use super::onset_step::OnsetSeries;
+use super::rigid::RigidPairs;
 use super::state::*;
 use super::{Episode, contact_step};
-use crate::contact::series::{MAX_ORDER, PairSeries};
+use crate::contact::series::PairSeries;
 use crate::contact::{EpisodeForce, ImpactLaw};
+use crate::polynomial::{MAX_ORDER, Powers};
 use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
 use crate::structure::{ModalSeries, Side, Structure};
-use nalgebra::DMatrix;
 use std::f64::consts::PI;
 
 /// Everything that stays as it is during a run.
@@ -17,6 +19,9 @@ use std::f64::consts::PI;
 pub struct Model {
     pub(super) structure: Structure,
     pub(super) pairs: Vec<Pair>,
+    /// The rows of all pairs one after the other.
+    pub(super) rows: Vec<f64>,
+    pub(super) rigid: RigidPairs,
     /// m/s, floor on the approach velocity where a law divides by it.
     pub(super) least_approach: f64,
     /// Largest |row| entry of each mode over all pairs.
@@ -29,8 +34,7 @@ pub struct Model {
     pub(super) step_tolerance: f64,
     /// Order of the contact series.
     pub(super) order: usize,
-    /// Storeys x modes of each building: drifts from modal displacements.
-    drift_shape: [DMatrix<f64>; 2],
+    pub(super) drift: DriftShapes,
     frequencies: [Vec<f64>; 2],
     initial: [Vec<f64>; 2],
 }
@@ -45,6 +49,10 @@ pub(super) struct Pair {
     pub law: ImpactLaw,
     /// kg, reduced mass of the two floors.
     pub mass: f64,
+    /// Left and right floor, counted from 0.
+    pub floors: [usize; 2],
+    /// kg, of these floors.
+    pub masses: [f64; 2],
 }
 
 impl Model {
@@ -68,7 +76,7 @@ impl Model {
         };
         let (step_tolerance, order) = contact_step::accuracy(scene.solver.relative_tolerance);
         Ok(Model {
-            drift_shape: [Side::Left, Side::Right].map(|side| drift_shape(&structure.modes(side).shape)),
+            drift: DriftShapes::of(&structure),
             frequencies: [Side::Left, Side::Right]
                 .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
             initial: initial_state(scene, &structure),
@@ -76,6 +84,8 @@ impl Model {
             energy: scene.energy,
             least_approach: scene.solver.min_approach_velocity,
             structure,
+            rigid: RigidPairs::of(&pairs),
+            rows: pairs.iter().flat_map(|pair| &pair.row).copied().collect(),
             pairs,
             pair_weight,
             ground,
@@ -99,6 +109,11 @@ impl Model {
         self.ground.is_none() || self.floor_forces
     }
 
+    /// Room to work in.
+    pub(super) fn workspace(&self) -> Workspace {
+        Workspace::new(&self.structure, self.pairs.len(), self.rigid.pairs.len())
+    }
+
     fn has_singular_law(&self) -> bool {
         self.pairs.iter().any(|pair| !EpisodeForce::new(&pair.law, pair.mass, None).engaged.is_regular())
     }
@@ -119,7 +134,7 @@ impl Model {
                 segment,
                 elapsed: time - segment.start,
                 contacts: self.pairs.iter().enumerate().map(|(p, pair)| pair.at_start(p, time, &q, &v)).collect(),
-                peak_drift: vec![0.0; floors],
+                peak_drift: self.drift.peaks(),
                 energy: self.energy.then(Account::default),
                 velocity_scale: 0.0,
                 last_length: 0.0,
@@ -135,8 +150,11 @@ impl Model {
                 q: vec![0.0; lanes],
                 v: vec![0.0; lanes],
                 series: ModalSeries::new(lanes, highest),
+                end: Powers::default(),
                 pairs: vec![PairSeries::default(); self.pairs.len()],
                 onset: OnsetSeries::new(lanes, self.pairs.len(), self.has_singular_law()),
+                carried: vec![None; self.pairs.len()],
+                ends: Vec::with_capacity(self.pairs.len()),
             },
             inputs: Inputs {
                 ground_acceleration: 0.0,
@@ -144,39 +162,20 @@ impl Model {
                 left_floors: self.floors(Side::Left),
             },
             counters: Counters::default(),
-            work: Workspace::new(&self.structure),
+            work: self.workspace(),
         };
         state.base.impacts = state.base.contacts.iter().map(|contact| contact.impacts).sum();
-        self.update_peak_drift(&mut state.base, &mut state.work);
+        self.update_peak_drift(&mut state.base);
         self.open_account(&mut state.base);
         state
-    }
-
-    /// Raises the peak drifts to those of the base.
-    pub(super) fn update_peak_drift(&self, base: &mut Base, work: &mut Workspace) {
-        let mut first = 0;
-        for side in [Side::Left, Side::Right] {
-            let (shape, offset) = (&self.drift_shape[side as usize], self.structure.offset(side));
-            let drift = &mut work.floors[..shape.nrows()];
-            drift.fill(0.0);
-            for (column, q) in shape.column_iter().zip(&base.q[offset..]) {
-                for (drift, shape) in drift.iter_mut().zip(column.iter()) {
-                    *drift += shape * q;
-                }
-            }
-            for (peak, drift) in base.peak_drift[first..].iter_mut().zip(drift.iter()) {
-                *peak = peak.max(drift.abs());
-            }
-            first += shape.nrows();
-        }
     }
 
     /// The modal load at the base and its rate until the segment's end.
     pub(super) fn load(&self, base: &Base, inputs: &Inputs, load: &mut [f64], slope: &mut [f64]) {
         let acceleration = base.segment.acceleration_at(base.elapsed);
-        for (m, participation) in self.structure.participation.iter().enumerate() {
-            load[m] = -participation * acceleration;
-            slope[m] = -participation * base.segment.slope;
+        for ((load, slope), participation) in load.iter_mut().zip(slope).zip(&self.structure.participation) {
+            *load = -participation * acceleration;
+            *slope = -participation * base.segment.slope;
         }
         self.add_floor_forces(inputs, load);
     }
@@ -198,7 +197,7 @@ impl Pair {
         structure.add_floor_force(Side::Left, left, 1.0, &mut row);
         structure.add_floor_force(Side::Right, right, -1.0, &mut row);
         let (m1, m2) = (scene.left.mass[left], scene.right.mass[right]);
-        Pair { row, gap: pair.gap, law: pair.law, mass: m1 * m2 / (m1 + m2) }
+        Pair { row, gap: pair.gap, law: pair.law, mass: m1 * m2 / (m1 + m2), floors: [left, right], masses: [m1, m2] }
     }
 
     /// m and m/s.
@@ -222,6 +221,10 @@ impl Pair {
             penetration,
             rate,
             at_surface: penetration == 0.0,
+            carried: false,
+            let_go: false,
+            undecided: false,
+            reaction: 0.0,
             impacts: 0,
             impulse: 0.0,
             work: 0.0,
@@ -230,7 +233,11 @@ impl Pair {
             episode: Episode { contact: index, ..Episode::default() },
             work_before: 0.0,
         };
-        if penetration > 0.0 {
+        if self.law.is_rigid() {
+            // Overlaps by rounding at most: the scene is refused otherwise.
+            contact.at_surface = penetration >= 0.0;
+            contact.penetration = penetration.min(0.0);
+        } else if penetration > 0.0 {
             contact.begin(time, 0.0);
         }
         contact
@@ -259,10 +266,6 @@ impl Contact {
             dissipated_energy: 0.0,
         };
     }
-}
-
-fn drift_shape(shape: &DMatrix<f64>) -> DMatrix<f64> {
-    DMatrix::from_fn(shape.nrows(), shape.ncols(), |i, j| shape[(i, j)] - if i > 0 { shape[(i - 1, j)] } else { 0.0 })
 }
 
 fn initial_state(scene: &Scene, structure: &Structure) -> [Vec<f64>; 2] {

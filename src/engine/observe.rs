@@ -3,6 +3,7 @@
 use super::model::Model;
 use super::state::*;
 use super::{ContactPoint, Episode, Point, Side};
+use crate::polynomial::Powers;
 
 impl Model {
     /// Reads the state at its present time; the buffers of `point` are reused.
@@ -16,7 +17,7 @@ impl Model {
         point.time = state.time;
         let elapsed = state.time - (state.base.segment.start + state.base.elapsed);
         let elapsed = if state.step.kind == StepKind::Unknown { 0.0 } else { elapsed.max(0.0) };
-        let mut work = point.work.take().unwrap_or_else(|| Box::new(Workspace::new(&self.structure)));
+        let mut work = point.work.take().unwrap_or_else(|| Box::new(self.workspace()));
         self.read_modes(state, elapsed, &mut work, point);
         let State { base, step, inputs, .. } = state;
         point.ground_acceleration = match &self.ground {
@@ -25,7 +26,14 @@ impl Model {
         };
         point.contacts.resize(self.pairs.len(), ContactPoint::default());
         for p in 0..self.pairs.len() {
-            point.contacts[p] = self.read_contact(base, step, p, elapsed, point);
+            point.contacts[p] = self.read_contact(base, step, p, elapsed, point, &work.powers);
+        }
+        if step.kind == StepKind::Unknown && base.contacts.iter().any(Contact::is_held) {
+            // An input that has just been set changes reactions at once.
+            self.balance(base, inputs, &mut work);
+            for (&k, force) in work.rigid.pairs.iter().zip(&work.rigid.found) {
+                point.contacts[self.rigid.pairs[k]].force = *force;
+            }
         }
         point.impacts = base.impacts;
         work.load.fill(0.0);
@@ -49,19 +57,28 @@ impl Model {
                 point.q.copy_from_slice(&base.q);
                 point.v.copy_from_slice(&base.v);
             }
-            StepKind::Contact => step.series.evaluate(elapsed / step.series.scale, &mut point.q, &mut point.v),
+            StepKind::Contact => {
+                work.powers.set(elapsed / step.series.scale, step.series.order);
+                step.series.evaluate(&work.powers, &mut point.q, &mut point.v);
+            }
             StepKind::Onset => step.onset.evaluate(elapsed / step.onset.scale, &mut point.q, &mut point.v),
             StepKind::Flight | StepKind::Unknown => {
                 self.load(base, inputs, &mut work.load, &mut work.slope);
-                self.fly(base, elapsed, work);
-                point.q.copy_from_slice(&work.q);
-                point.v.copy_from_slice(&work.v);
+                self.fly(base, elapsed, work, (&mut point.q, &mut point.v));
             }
         }
     }
 
-    fn read_contact(&self, base: &Base, step: &Step, p: usize, elapsed: f64, point: &Point) -> ContactPoint {
-        let contact = self.contact_at(base, step, p, elapsed);
+    fn read_contact(
+        &self,
+        base: &Base,
+        step: &Step,
+        p: usize,
+        elapsed: f64,
+        point: &Point,
+        powers: &Powers,
+    ) -> ContactPoint {
+        let contact = contact_at(base, step, p, elapsed, powers);
         let penetration =
             if contact.in_contact() { contact.penetration } else { self.pairs[p].penetration(&point.q, &point.v).0 };
         ContactPoint {
@@ -74,15 +91,6 @@ impl Model {
             dissipated_energy: contact.dissipated_energy(),
             approach_velocity: contact.episode.approach_velocity,
         }
-    }
-
-    /// A contact at a time since the base.
-    fn contact_at(&self, base: &Base, step: &Step, p: usize, elapsed: f64) -> Contact {
-        let mut contact = base.contacts[p];
-        if contact.in_contact() && elapsed > 0.0 {
-            contact.follow(step, elapsed, base.segment.start + base.elapsed);
-        }
-        contact
     }
 
     /// m, relative to the ground; floors counted from 0.
@@ -105,21 +113,24 @@ impl Model {
         self.structure.base_shear(side, &point.q, &point.v)
     }
 
-    /// m, largest drift of the storey below the floor so far, at the engine's own steps.
-    pub fn peak_drift(&self, state: &State, side: Side, floor: usize) -> f64 {
-        let first = match side {
-            Side::Left => 0,
-            Side::Right => self.floors(Side::Left),
-        };
-        state.base.peak_drift[first + floor]
-    }
-
     /// The episode that a contact is in at the communication time, if it is in one.
     pub fn open_episode(&self, state: &State, contact: usize) -> Option<Episode> {
         let elapsed = state.time - (state.base.segment.start + state.base.elapsed);
-        let contact = self.contact_at(&state.base, &state.step, contact, elapsed.max(0.0));
+        let elapsed = elapsed.max(0.0);
+        let mut powers = Powers::default();
+        powers.set(elapsed / state.step.series.scale, state.step.series.order);
+        let contact = contact_at(&state.base, &state.step, contact, elapsed, &powers);
         contact.in_contact().then(|| contact.present_episode())
     }
+}
+
+/// A contact at a time since the base; for a series in time, `powers` are those of that time.
+fn contact_at(base: &Base, step: &Step, p: usize, elapsed: f64, powers: &Powers) -> Contact {
+    let mut contact = base.contacts[p];
+    if contact.in_contact() && elapsed > 0.0 {
+        contact.follow(step, elapsed, base.time(), powers);
+    }
+    contact
 }
 
 impl State {

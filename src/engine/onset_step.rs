@@ -7,6 +7,7 @@ use super::contact_step::touching;
 use super::model::Model;
 use super::state::*;
 use crate::contact::Force;
+use crate::contact::force::power;
 use crate::contact::onset::{Grid, MOST_TERMS, OnsetPair, value_and_slope};
 use crate::quadrature::{TWELVE, graded};
 use crate::structure::{LANES, dot};
@@ -42,7 +43,7 @@ impl OnsetSeries {
     /// q and v at x > 0.
     pub fn evaluate(&self, x: f64, q: &mut [f64], v: &mut [f64]) {
         let Some(grid) = &self.grid else { return };
-        let z = libm::pow(x, grid.beta);
+        let z = power(x, grid.beta);
         let rate = 1.0 / (x * self.scale);
         for chunk in (0..self.lanes).step_by(LANES) {
             let (mut value, mut slope, mut factor) = ([0.0; LANES], [0.0; LANES], 1.0);
@@ -84,6 +85,8 @@ impl Model {
             return false;
         };
         counters.contact_steps += 1;
+        step.carried.fill(None);
+        step.ends.clear();
         step.kind = StepKind::Onset;
         step.event = None;
         step.reaches_limit = x * scale >= remaining;

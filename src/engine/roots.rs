@@ -5,7 +5,7 @@
 //! control points and the bound stay on one side of 0 holds no root; a piece on which the slope keeps its sign holds
 //! at most one; any other piece is halved. So the first root is found, or there is none: nothing is sampled.
 
-use crate::contact::series::{value, value_and_slope};
+use crate::polynomial::{Reading, value, value_and_slope};
 
 /// Pieces are not halved below this fraction of the step: two roots closer than this are one touch without duration.
 const NARROWEST: f64 = 1e-9;
@@ -42,12 +42,18 @@ impl<'a> Curve<'a> {
         a.value.max(first).max(second).max(b.value) + (w * w) * (w * w) / 384.0 * self.fourth
     }
 
-    /// Whether the curve only rises over a piece (the slope of the interpolant is off by at most sqrt(3)/216 w^3 max|f''''|).
+    /// Whether the curve only rises over a piece.
     fn rises(&self, a: End, b: End) -> bool {
+        self.slopes(a, b).0 > 0.0
+    }
+
+    /// Bounds on the slope over a piece (that of the interpolant is off by at most sqrt(3)/216 w^3 max|f''''|).
+    fn slopes(&self, a: End, b: End) -> (f64, f64) {
         let w = b.x - a.x;
-        let middle = (b.value - a.value) - w * (a.slope + b.slope) / 3.0;
-        // Control values of the interpolant's slope: a.slope, 3 middle / w, b.slope.
-        a.slope.min(3.0 * middle / w).min(b.slope) > 0.00802 * w * w * w * self.fourth
+        // Control values of the interpolant's slope: a.slope, this, b.slope.
+        let middle = 3.0 * (b.value - a.value) / w - (a.slope + b.slope);
+        let error = 0.00802 * w * w * w * self.fourth;
+        (a.slope.min(middle).min(b.slope) - error, a.slope.max(middle).max(b.slope) + error)
     }
 
     /// The first x in the piece at which the curve passes 0 upwards, given that it is below 0 before the piece.
@@ -103,6 +109,10 @@ impl<'a> Curve<'a> {
         }
         let ceiling = self.ceiling(a, b);
         if ceiling <= best.1 || !ceiling.is_finite() || b.x - a.x < NARROWEST {
+            return;
+        }
+        let (least, most) = self.slopes(a, b);
+        if least > 0.0 || most < 0.0 {
             return;
         }
         if self.is_concave(a, b) {
@@ -169,6 +179,12 @@ fn fourth_derivative(coefficients: &[f64], end: f64) -> f64 {
     sum
 }
 
+/// Upper bound over 0..=x of a polynomial from its value and slope at 0 and its reading at x.
+pub fn ceiling((value, slope): (f64, f64), x: f64, end: &Reading) -> f64 {
+    let [first, second] = [value + x * slope / 3.0, end.value - x * end.slope / 3.0];
+    value.max(first).max(second).max(end.value) + (x * x) * (x * x) / 384.0 * end.fourth
+}
+
 /// Where a polynomial, taken as below 0 (or on its way up from exactly 0) at x = 0, first passes 0 upwards in 0..=end.
 ///
 /// A start above 0 counts as exactly 0, which is what it is but for rounding. A rise that stays below `noise`, the
@@ -182,13 +198,19 @@ pub fn first_rise(coefficients: &mut [f64], end: f64, noise: f64) -> Option<f64>
     curve.first_rise(curve.at(0.0), curve.at(end))
 }
 
-/// As above with the root at x = 0 divided out: the sign just after it is that of the first power that is not 0.
+/// As above with the root at x = 0 divided out: the sign just after it is that of the first power that is not 0 but for
+/// rounding.
 fn first_rise_from_zero(coefficients: &[f64], end: f64, noise: f64) -> Option<f64> {
     let whole = Curve::new(coefficients, end, noise);
     if whole.ceiling(whole.at(0.0), whole.at(end)) <= noise {
         return None;
     }
-    let leading = coefficients.iter().position(|c| *c != 0.0)?;
+    let mut power = 1.0;
+    let leading = coefficients.iter().position(|c| {
+        let share = (c * power).abs();
+        power *= end;
+        share > noise
+    })?;
     let rest = &coefficients[leading..];
     if rest[0] > 0.0 {
         return Some(0.0);
@@ -197,11 +219,12 @@ fn first_rise_from_zero(coefficients: &[f64], end: f64, noise: f64) -> Option<f6
     curve.first_rise(curve.at(0.0), curve.at(end))
 }
 
-/// Where a polynomial is largest in 0..=end, if it exceeds `known` there: (x, value).
-pub fn maximum_above(coefficients: &[f64], end: f64, known: f64) -> Option<(f64, f64)> {
-    let curve = Curve::new(coefficients, end, 0.0);
+/// Where a polynomial is largest in 0..=end, if it exceeds `known` there: (x, value). `reading` is that at the end.
+pub fn maximum_above(coefficients: &[f64], end: f64, reading: &Reading, known: f64) -> Option<(f64, f64)> {
+    let curve = Curve { coefficients, fourth: reading.fourth, noise: 0.0 };
+    let start = End { x: 0.0, value: coefficients[0], slope: coefficients[1] };
     let mut best = (f64::NAN, known);
-    curve.maximum(curve.at(0.0), curve.at(end), &mut best);
+    curve.maximum(start, End { x: end, value: reading.value, slope: reading.slope }, &mut best);
     best.0.is_finite().then_some(best)
 }
 
@@ -222,6 +245,14 @@ mod tests {
             coefficients = next;
         }
         coefficients
+    }
+
+    fn highest(coefficients: &[f64], known: f64) -> Option<(f64, f64)> {
+        let mut room = [0.0; crate::polynomial::ROOM];
+        room[..coefficients.len()].copy_from_slice(coefficients);
+        let mut powers = crate::polynomial::Powers::default();
+        powers.set(1.0, coefficients.len() - 1);
+        maximum_above(coefficients, 1.0, &powers.read(&room), known)
     }
 
     fn rise(factor: f64, roots: &[f64]) -> Option<f64> {
@@ -283,11 +314,11 @@ mod tests {
     #[test]
     fn the_maximum_inside_is_found() {
         // 1 - (x - 0.3)^2 (1 + x^3)
-        let (x, value) = maximum_above(&[0.91, 0.6, -1.0, -0.09, 0.6, -1.0], 1.0, 0.0).unwrap();
+        let (x, value) = highest(&[0.91, 0.6, -1.0, -0.09, 0.6, -1.0], 0.0).unwrap();
         assert!((x - 0.3).abs() < 1e-9 && (value - 1.0).abs() < 1e-15, "{x}, {value}");
-        assert_eq!(maximum_above(&[0.91, 0.6, -1.0, -0.09, 0.6, -1.0], 1.0, 1.0 + 1e-12), None);
+        assert_eq!(highest(&[0.91, 0.6, -1.0, -0.09, 0.6, -1.0], 1.0 + 1e-12), None);
         // The highest of several, not the first: x (x - 0.4)^2 has 0.009 at 0.13 and 0.36 at 1.
-        let (x, value) = maximum_above(&polynomial(1.0, &[0.0, 0.4, 0.4]), 1.0, 0.0).unwrap();
+        let (x, value) = highest(&polynomial(1.0, &[0.0, 0.4, 0.4]), 0.0).unwrap();
         assert!(x == 1.0 && (value - 0.36).abs() < 1e-15, "{x}, {value}");
     }
 }

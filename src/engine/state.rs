@@ -1,11 +1,13 @@
 //! Everything that changes during a run: plain data, cloned to save it.
 
 use super::Episode;
+use super::complementarity::Complementarity;
 use super::ground::Segment;
 use super::onset_step::OnsetSeries;
 use crate::contact::EpisodeForce;
-use crate::contact::series::{MAX_ORDER, PairSeries};
-use crate::structure::{Interval, ModalSeries, Scratch, Structure};
+use crate::contact::series::PairSeries;
+use crate::polynomial::{Coefficients, MAX_ORDER, Powers, ROOM};
+use crate::structure::{Interval, LANES, ModalSeries, Scratch, Structure};
 
 /// Everything that changes during a run.
 ///
@@ -43,7 +45,7 @@ pub(super) struct Base {
     /// Modal velocities.
     pub v: Vec<f64>,
     pub contacts: Vec<Contact>,
-    /// m, left storeys then right storeys.
+    /// m, left storeys then right storeys, each padded.
     pub peak_drift: Vec<f64>,
     pub energy: Option<Account>,
     /// m/s, largest floor velocity that a contact step has seen: what its error is relative to.
@@ -73,6 +75,8 @@ pub(super) enum Phase {
     Engaged,
     /// In contact, on the other side of the law's guard.
     Slack,
+    /// Rigid floors held together by a reaction: penetration and its rate are 0.
+    Held,
 }
 
 /// One contact.
@@ -87,6 +91,16 @@ pub(super) struct Contact {
     pub rate: f64,
     /// Stands exactly at d = 0, just released or just entered.
     pub at_surface: bool,
+    /// Rigid and close to the surface: `penetration` and `rate` are carried along by their own increments while apart
+    /// too. Rebounds that die out are far smaller than the last digits of the floors' motion.
+    pub carried: bool,
+    /// Just let go by a reaction that has fallen to 0: whatever presses the floors together now is rounding.
+    pub let_go: bool,
+    /// Held together again at the very instant at which it was let go: rounding cannot tell which is right, so it is
+    /// held for a short while and then asked again.
+    pub undecided: bool,
+    /// N, of floors that are held together.
+    pub reaction: f64,
     pub impacts: u64,
     pub impulse: f64,
     /// J, integral of F v, but for what `stored_energy` has changed since `stored_reference`.
@@ -104,6 +118,10 @@ impl Contact {
         self.phase != Phase::Apart
     }
 
+    pub fn is_held(&self) -> bool {
+        self.phase == Phase::Held
+    }
+
     /// J, integral of F v so far.
     pub fn dissipated_energy(&self) -> f64 {
         match self.phase {
@@ -115,7 +133,7 @@ impl Contact {
     /// The force law in this phase.
     pub fn branch(&self) -> crate::contact::Force {
         match self.phase {
-            Phase::Apart => crate::contact::Force::None,
+            Phase::Apart | Phase::Held => crate::contact::Force::None,
             Phase::Engaged => self.force.engaged,
             Phase::Slack => self.force.slack,
         }
@@ -128,7 +146,10 @@ impl Contact {
 
     /// N, at the base.
     pub fn present_force(&self) -> f64 {
-        self.branch().value(self.penetration, self.rate)
+        match self.phase {
+            Phase::Held => self.reaction,
+            _ => self.branch().value(self.penetration, self.rate),
+        }
     }
 }
 
@@ -148,9 +169,18 @@ pub(super) struct Step {
     pub series: ModalSeries,
     /// One per contact; filled for those in contact.
     pub pairs: Vec<PairSeries>,
+    /// Of the end of a contact step, in units of the series' scale.
+    pub end: Powers,
     /// For the first step after an entry.
     pub onset: OnsetSeries,
+    /// Penetration and rate at the end of each contact that is carried.
+    pub carried: Carried,
+    /// Penetration and rate at the end of each contact of a flight that met nothing; empty otherwise.
+    pub ends: Vec<(f64, f64)>,
 }
+
+/// Penetration, m, and its rate, m/s, one per contact.
+pub(super) type Carried = Vec<Option<(f64, f64)>>;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StepKind {
@@ -198,15 +228,21 @@ pub(super) struct Workspace {
     pub scratch: Scratch,
     pub series: ModalSeries,
     pub interval: Interval,
-    pub floors: Vec<f64>,
     /// Modal state at an integration node.
     pub node_q: Vec<f64>,
     pub node_v: Vec<f64>,
-    pub scalar: [f64; MAX_ORDER + 3],
+    pub scalar: Coefficients,
+    pub powers: Powers,
+    /// Numbers of the soft pairs in contact, with what a power of their series needs.
+    pub soft: Vec<usize>,
+    pub forces: Vec<f64>,
+    pub gathered: Vec<[f64; LANES]>,
+    pub rigid: Complementarity,
 }
 
 impl Workspace {
-    pub fn new(structure: &Structure) -> Workspace {
+    /// For a structure with that many pairs, of which some are rigid.
+    pub fn new(structure: &Structure, pairs: usize, rigid: usize) -> Workspace {
         let lanes = structure.lanes;
         let vector = || vec![0.0; lanes];
         Workspace {
@@ -217,10 +253,14 @@ impl Workspace {
             scratch: Scratch::new(lanes),
             series: ModalSeries::new(lanes, MAX_ORDER + 2),
             interval: Interval::new(structure, 0.0),
-            floors: vector(),
             node_q: vector(),
             node_v: vector(),
-            scalar: [0.0; MAX_ORDER + 3],
+            scalar: [0.0; ROOM],
+            powers: Powers::default(),
+            soft: Vec::with_capacity(pairs),
+            forces: vec![0.0; pairs],
+            gathered: vec![[0.0; LANES]; pairs],
+            rigid: Complementarity::new(rigid),
         }
     }
 }

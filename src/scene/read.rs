@@ -213,7 +213,7 @@ fn law(mut section: Section<'_>) -> ImpactLaw {
 }
 
 fn damping_formula(section: &mut Section<'_>) -> Option<DampingFormula> {
-    let names: Vec<_> = DampingFormula::ALL.iter().map(|formula| formula.name()).collect();
+    let names: Vec<_> = DampingFormula::ALL.iter().map(|formula| formula.info().name).collect();
     let item = section.require("damping_formula", &format!("a damping formula ({})", names.join(", ")))?;
     let name = item.text()?;
     let formula = DampingFormula::from_name(name);

@@ -40,6 +40,8 @@ pub struct Structure {
     pub omega2: Vec<f64>,
     /// Damping of each mode by its own velocity, 1/s.
     pub damping: Vec<f64>,
+    /// w + c, 1/s.
+    quickness: Vec<f64>,
     /// kg^1/2.
     pub participation: Vec<f64>,
     /// Largest entry of each mode's shape, kg^-1/2: turns a modal error into the worst floor's.
@@ -66,6 +68,7 @@ impl Structure {
             lanes,
             omega2: vec![0.0; lanes],
             damping: vec![0.0; lanes],
+            quickness: vec![0.0; lanes],
             participation: vec![0.0; lanes],
             weight: vec![0.0; lanes],
             fastest: 0.0,
@@ -74,6 +77,9 @@ impl Structure {
         };
         for side in [Side::Left, Side::Right] {
             structure.spread(side);
+        }
+        for m in 0..lanes {
+            structure.quickness[m] = structure.omega2[m].sqrt() + structure.damping[m];
         }
         Ok(structure)
     }
@@ -222,21 +228,27 @@ impl Structure {
         weights: &[f64],
         scratch: &mut Scratch,
     ) -> f64 {
+        if self.is_classical() {
+            let mut bound = [0.0; LANES];
+            let [(q, _), (v, _), (load, _), (slope, _), (weights, _), (damping, _), (omega2, _), (quickness, _)] =
+                [q, v, load, slope, weights, &self.damping, &self.omega2, &self.quickness]
+                    .map(<[f64]>::as_chunks::<LANES>);
+            for c in 0..self.lanes / LANES {
+                for i in 0..LANES {
+                    let (w2, damping) = (omega2[c][i], damping[c][i]);
+                    let y = load[c][i] - damping * v[c][i] - w2 * q[c][i];
+                    let jerk = slope[c][i] - damping * y - w2 * v[c][i];
+                    bound[i] += weights[c][i] * quickness[c][i] * (jerk * jerk + w2 * y * y).sqrt();
+                }
+            }
+            return bound.iter().sum();
+        }
         let Scratch { y, jerk, .. } = scratch;
         self.accelerate(q, v, load, y);
         for m in 0..self.lanes {
             jerk[m] = slope[m] - self.damping[m] * y[m] - self.omega2[m] * v[m];
         }
         self.subtract_coupling(y, 1.0, jerk);
-        if self.is_classical() {
-            let mut bound = 0.0;
-            for m in 0..self.lanes {
-                let (w2, c) = (self.omega2[m], self.damping[m]);
-                let energy = jerk[m] * jerk[m] + w2 * y[m] * y[m];
-                bound += weights[m] * (w2.sqrt() + c) * energy.sqrt();
-            }
-            return bound;
-        }
         // Coupled modes exchange energy: only the whole sum never grows.
         let energy: f64 = (0..self.lanes).map(|m| jerk[m] * jerk[m] + self.omega2[m] * y[m] * y[m]).sum();
         2.0 * self.fastest * energy.sqrt() * weights.iter().sum::<f64>()
@@ -258,20 +270,46 @@ impl Scratch {
     }
 }
 
+/// The increments of [`LANES`] modes side by side.
+#[derive(Clone, Copy, Debug, Default)]
+struct ModeBlock {
+    dqq: [f64; LANES],
+    dqv: [f64; LANES],
+    dvq: [f64; LANES],
+    dvv: [f64; LANES],
+    rq0: [f64; LANES],
+    rq1: [f64; LANES],
+    rv0: [f64; LANES],
+    rv1: [f64; LANES],
+}
+
+impl ModeBlock {
+    fn set(&mut self, i: usize, mode: &ModeIncrement) {
+        self.dqq[i] = mode.dqq;
+        self.dqv[i] = mode.dqv;
+        self.dvq[i] = mode.dvq;
+        self.dvv[i] = mode.dvv;
+        self.rq0[i] = mode.rq0;
+        self.rq1[i] = mode.rq1;
+        self.rv0[i] = mode.rv0;
+        self.rv1[i] = mode.rv1;
+    }
+}
+
 /// The exact flight of all modes over one interval length.
 #[derive(Clone, Debug)]
 pub struct Interval {
     /// s.
     pub length: f64,
-    modes: Vec<ModeIncrement>,
+    modes: Vec<ModeBlock>,
     coupled: Vec<(usize, CoupledIncrement)>,
 }
 
 impl Interval {
     /// Prepares the flight over `length` seconds.
     pub fn new(structure: &Structure, length: f64) -> Interval {
-        let mut interval =
-            Interval { length, modes: vec![ModeIncrement::default(); structure.lanes], coupled: Vec::new() };
+        let modes = vec![ModeBlock::default(); structure.lanes / LANES];
+        let mut interval = Interval { length, modes, coupled: Vec::new() };
         interval.prepare(structure, length);
         interval
     }
@@ -286,7 +324,8 @@ impl Interval {
             match &building.damping {
                 ModalDamping::Diagonal(c) => {
                     for (m, w) in building.omega.iter().enumerate() {
-                        self.modes[offset + m] = ModeIncrement::new(*w, c[m], length);
+                        let i = offset + m;
+                        self.modes[i / LANES].set(i % LANES, &ModeIncrement::new(*w, c[m], length));
                     }
                 }
                 ModalDamping::Coupled(c) => {
@@ -296,26 +335,36 @@ impl Interval {
         }
     }
 
-    /// Flies `q`, `v` over the interval under a modal load and its slope.
-    pub fn fly(&self, [q, v]: [&mut [f64]; 2], [load, slope]: [&[f64]; 2], scratch: &mut Scratch) {
-        // Coupled modes read all of the old state before any of it is overwritten.
+    /// Flies `q`, `v` over the interval under a modal load and its slope, into `end_q`, `end_v`.
+    pub fn fly(
+        &self,
+        (q, v): (&[f64], &[f64]),
+        (load, slope): (&[f64], &[f64]),
+        (end_q, end_v): (&mut [f64], &mut [f64]),
+        scratch: &mut Scratch,
+    ) {
+        let [(q0, _), (v0, _), (l0, _), (l1, _)] = [q, v, load, slope].map(<[f64]>::as_chunks::<LANES>);
+        let [(q1, _), (v1, _)] = [&mut *end_q, &mut *end_v].map(<[f64]>::as_chunks_mut::<LANES>);
+        for (c, m) in self.modes.iter().enumerate() {
+            let (q0, v0, l0, l1) = (&q0[c], &v0[c], &l0[c], &l1[c]);
+            for i in 0..LANES {
+                let from_load = (m.rq0[i] * l0[i] + m.rq1[i] * l1[i], m.rv0[i] * l0[i] + m.rv1[i] * l1[i]);
+                q1[c][i] = q0[i] + (m.dqq[i] * q0[i] + m.dqv[i] * v0[i] + from_load.0);
+                v1[c][i] = v0[i] + (m.dvq[i] * q0[i] + m.dvv[i] * v0[i] + from_load.1);
+            }
+        }
         let mut ahead = &mut scratch.ahead[..];
         for (offset, increment) in &self.coupled {
             let (own, rest) = ahead.split_at_mut(increment.matrix.nrows());
             increment.step(*offset, [q, v, load, slope], own);
             ahead = rest;
         }
-        for (m, i) in self.modes.iter().enumerate() {
-            let (q0, v0, l0, l1) = (q[m], v[m], load[m], slope[m]);
-            q[m] = q0 + (i.dqq * q0 + i.dqv * v0 + (i.rq0 * l0 + i.rq1 * l1));
-            v[m] = v0 + (i.dvq * q0 + i.dvv * v0 + (i.rv0 * l0 + i.rv1 * l1));
-        }
         let mut ahead = &scratch.ahead[..];
         for (offset, increment) in &self.coupled {
             let n = increment.matrix.nrows() / 2;
             for m in 0..n {
-                q[offset + m] += ahead[m];
-                v[offset + m] += ahead[n + m];
+                end_q[offset + m] += ahead[m];
+                end_v[offset + m] += ahead[n + m];
             }
             ahead = &ahead[2 * n..];
         }

@@ -1,6 +1,7 @@
 //! Power series in time of all modes: the dense solution of a step.
 
 use super::{LANES, Structure};
+use crate::polynomial::Powers;
 
 /// Powers that a series may have.
 const MOST_POWERS: usize = 40;
@@ -68,8 +69,9 @@ impl ModalSeries {
 
     /// Appends power n + 2 from the load's power n (in 1/scale^n), by (n+1)(n+2) q_{n+2} = load_n - c (n+1) q_{n+1} - w^2 q_n.
     ///
-    /// `load` adds the modal load of power n to its argument, which holds zeros, in units of the load itself.
-    pub fn extend(&mut self, structure: &Structure, load: impl FnOnce(&mut [f64])) {
+    /// `load` adds the modal load of power n to its argument, which holds zeros, in units of the load itself, and
+    /// `constrain` may change the modal accelerations that follow from it.
+    pub fn extend(&mut self, structure: &Structure, load: impl FnOnce(&mut [f64]), constrain: impl FnOnce(&mut [f64])) {
         let n = self.order - 1;
         let lanes = self.lanes;
         let (known, next) = self.coefficients.split_at_mut((n + 2) * lanes);
@@ -83,9 +85,58 @@ impl ModalSeries {
             next[m] -= rate * structure.damping[m] * q1[m] + structure.omega2[m] * q0[m];
         }
         structure.subtract_coupling(q1, rate, next);
+        constrain(next);
         let factor = self.scale * self.scale / (k1 * k2);
         for value in next.iter_mut() {
             *value *= factor;
+        }
+        self.order += 1;
+    }
+
+    /// The same where damping couples no modes, under the contact forces of some pairs: of pair `active[k]`, whose row is
+    /// that of `rows`, `forces[k]` in units of the load. Leaves row . (the new power) in `gathered[k]`.
+    pub fn extend_in_contact(
+        &mut self,
+        structure: &Structure,
+        load: Option<(&[f64], f64)>,
+        (rows, active, forces): (&[f64], &[usize], &[f64]),
+        gathered: &mut [[f64; LANES]],
+    ) {
+        let n = self.order - 1;
+        let width = self.lanes / LANES;
+        let (terms, _) = self.coefficients.as_chunks_mut::<LANES>();
+        let (known, next_terms) = terms.split_at_mut((n + 2) * width);
+        let (q0, q1) = (&known[n * width..(n + 1) * width], &known[(n + 1) * width..]);
+        let [(damping, _), (omega2, _), (rows, _)] =
+            [&structure.damping, &structure.omega2, rows].map(<[f64]>::as_chunks::<LANES>);
+        let rate = (n + 1) as f64 / self.scale;
+        let factor = self.scale * self.scale * RECIPROCAL[n];
+        gathered.fill([0.0; LANES]);
+        for c in 0..width {
+            let mut next = [0.0; LANES];
+            if let Some((load, unit)) = load {
+                let load = &load.as_chunks::<LANES>().0[c];
+                next = load.map(|load| load * unit);
+            }
+            for i in 0..LANES {
+                next[i] -= rate * damping[c][i] * q1[c][i] + omega2[c][i] * q0[c][i];
+            }
+            for (&p, &force) in active.iter().zip(forces) {
+                let row = &rows[p * width + c];
+                for i in 0..LANES {
+                    next[i] -= row[i] * force;
+                }
+            }
+            for next in &mut next {
+                *next *= factor;
+            }
+            next_terms[c] = next;
+            for (&p, sum) in active.iter().zip(gathered.iter_mut()) {
+                let row = &rows[p * width + c];
+                for i in 0..LANES {
+                    sum[i] += row[i] * next[i];
+                }
+            }
         }
         self.order += 1;
     }
@@ -104,11 +155,12 @@ impl ModalSeries {
         self.start(scale, q, v);
         while self.order < order.max(2) {
             let n = self.order - 1;
-            self.extend(structure, |out| match n {
+            let load_of_power = |out: &mut [f64]| match n {
                 0 => out.copy_from_slice(load),
                 1 => out.iter_mut().zip(slope).for_each(|(out, slope)| *out = slope * scale),
                 _ => {}
-            });
+            };
+            self.extend(structure, load_of_power, |_| {});
         }
     }
 
@@ -150,23 +202,28 @@ impl ModalSeries {
         }
     }
 
-    /// q and v at x.
-    pub fn evaluate(&self, x: f64, q: &mut [f64], v: &mut [f64]) {
+    /// q and v at the x of the powers.
+    pub fn evaluate(&self, powers: &Powers, q: &mut [f64], v: &mut [f64]) {
         let width = self.lanes / LANES;
         let rate = 1.0 / self.scale;
         let (terms, _) = self.coefficients.as_chunks::<LANES>();
         let [(q, _), (v, _)] = [q, v].map(|vector| vector.as_chunks_mut::<LANES>());
+        let (power, slope) = powers.tables();
         for c in 0..width {
-            let (mut value, mut slope) = (terms[self.order * width + c], [0.0; LANES]);
-            for n in (0..self.order).rev() {
+            // Even and odd powers apart: neither waits for the other.
+            let (mut values, mut slopes) = ([[0.0; LANES]; 2], [[0.0; LANES]; 2]);
+            for n in (0..=self.order).rev() {
                 let term = &terms[n * width + c];
+                let (value, derivative) = (&mut values[n % 2], &mut slopes[n % 2]);
                 for i in 0..LANES {
-                    slope[i] = slope[i] * x + value[i];
-                    value[i] = value[i] * x + term[i];
+                    value[i] += term[i] * power[n];
+                    derivative[i] += term[i] * slope[n];
                 }
             }
-            q[c] = value;
-            v[c] = slope.map(|slope| slope * rate);
+            for i in 0..LANES {
+                q[c][i] = values[0][i] + values[1][i];
+                v[c][i] = (slopes[0][i] + slopes[1][i]) * rate;
+            }
         }
     }
 
@@ -201,14 +258,15 @@ impl ModalSeries {
         slope.map(|slope| slope * rate)
     }
 
-    /// The scalar series row . q, written to `out[n]`. Returns the sum of the sizes of all that was added up, which
-    /// tells the rounding error of a value within 0..=1.
-    pub fn project(&self, row: &[f64], out: &mut [f64]) -> f64 {
-        let mut sum = 0.0;
+    /// The scalar series row . q, written to `out[n]`. Returns the sum of the sizes of all that is added up at x, which
+    /// tells the rounding error of a value within 0..=x.
+    pub fn project(&self, row: &[f64], x: f64, out: &mut [f64]) -> f64 {
+        let (mut sum, mut power) = (0.0, 1.0);
         for (n, out) in out.iter_mut().enumerate().take(self.order + 1) {
             let (value, size) = difference(row, self.term(n));
             *out = value;
-            sum += size;
+            sum += size * power;
+            power *= x;
         }
         sum
     }

@@ -3,7 +3,7 @@
 use super::{
     ContactOutput, EnergyOutput, Input, Output, Parameter, Row, Slot, Table, Type, Unit, Variability, building,
 };
-use crate::contact::{LawKey, LawKind};
+use crate::contact::LawKey;
 use crate::engine::Side;
 use crate::scene::{Building, ContactPair, Damping, Scene, Stiffness};
 
@@ -111,13 +111,7 @@ impl Table {
 
     fn add_law(&mut self, p: usize, pair: &ContactPair) {
         let keys = pair.law.kind.info().keys;
-        // Where the exponent is a parameter, the unit of the stiffness follows it.
-        let stiffness_unit = match pair.law.kind {
-            LawKind::Jankowski => Unit::NewtonPerMetreToTheThreeHalves,
-            LawKind::Stereomechanical => Unit::One,
-            LawKind::Linear | LawKind::KelvinVoigt | LawKind::KelvinVoigtNoTension => Unit::NewtonPerMetre,
-            LawKind::Hertz | LawKind::HertzDamped => Unit::NewtonPerMetreToTheExponent,
-        };
+        let stiffness_unit = pair.law.kind.info().stiffness_unit.map_or(Unit::One, Unit::of_stiffness);
         for key in keys {
             let (parameter, name, unit, max, about) = match key {
                 LawKey::Stiffness => {

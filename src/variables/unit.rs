@@ -1,5 +1,7 @@
 //! The units of the variables.
 
+use crate::contact::StiffnessUnit;
+
 /// A unit, as the description declares it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Unit {
@@ -61,6 +63,15 @@ impl Unit {
         Unit::Joule,
     ];
 
+    /// That of the stiffness of a contact. Where the exponent is a parameter, the unit follows it.
+    pub const fn of_stiffness(unit: StiffnessUnit) -> Unit {
+        match unit {
+            StiffnessUnit::NewtonPerMetre => Unit::NewtonPerMetre,
+            StiffnessUnit::NewtonPerMetreToTheThreeHalves => Unit::NewtonPerMetreToTheThreeHalves,
+            StiffnessUnit::NewtonPerMetreToTheExponent => Unit::NewtonPerMetreToTheExponent,
+        }
+    }
+
     /// What the description says of this unit.
     pub const fn info(self) -> UnitInfo {
         match self {
@@ -75,8 +86,10 @@ impl Unit {
             Unit::Newton => unit("N", Some(&[("kg", 1), ("m", 1), ("s", -2)]), Some(("kN", 1e-3))),
             Unit::NewtonSecond => unit("N.s", Some(&[("kg", 1), ("m", 1), ("s", -1)]), Some(("kN.s", 1e-3))),
             Unit::NewtonPerMetre => unit("N/m", Some(&[("kg", 1), ("s", -2)]), Some(("kN/m", 1e-3))),
-            Unit::NewtonPerMetreToTheThreeHalves => unit("N/m^1.5", None, None),
-            Unit::NewtonPerMetreToTheExponent => unit("N/m^exponent", None, None),
+            Unit::NewtonPerMetreToTheThreeHalves => {
+                unit(StiffnessUnit::NewtonPerMetreToTheThreeHalves.name(), None, None)
+            }
+            Unit::NewtonPerMetreToTheExponent => unit(StiffnessUnit::NewtonPerMetreToTheExponent.name(), None, None),
             Unit::Joule => unit("J", Some(&[("kg", 1), ("m", 2), ("s", -2)]), Some(("kJ", 1e-3))),
         }
     }

@@ -172,6 +172,26 @@ fn parameters_work_as_if_the_scene_had_said_so() {
 }
 
 #[test]
+fn the_restitution_of_rigid_floors_may_be_0_and_of_no_others() {
+    let (hertz, rigid) = ("law = \"hertz\"\nstiffness = 1.0e6", "law = \"stereomechanical\"\nrestitution = 0.5");
+    let scene = SCENE.replace(hertz, rigid);
+    let said = [("law = \"stereomechanical\"\nrestitution = 0.5", "law = \"stereomechanical\"\nrestitution = 0.0")];
+    assert_same_run(&scene, &[("contact[2].restitution", 0.0)], &said, true);
+    let fmu = Fmu::new(&scene);
+    for (name, value, expected) in [
+        ("contact[1].restitution", 0.0, "contact[1].restitution = 0.0: expected 0 < e <= 1"),
+        ("contact[2].restitution", -0.1, "contact[2].restitution = -0.1: expected 0 <= e <= 1"),
+        ("contact[2].restitution", 1.1, "contact[2].restitution = 1.1: expected 0 <= e <= 1"),
+        ("contact[2].gap", -0.001, "contact[2].gap = -0.001: expected at least 0.0 for law stereomechanical"),
+    ] {
+        let instance = fmu.instance();
+        assert_eq!(instance.set_real(name, value), ERROR, "{name}");
+        let log = instance.log();
+        assert!(log.len() == 1 && log[0].message.contains(expected), "{name}: {log:?}");
+    }
+}
+
+#[test]
 fn another_record_runs_instead() {
     let fmu = Fmu::new(RECORD_SCENE);
     let other = fmu.directory.path().join("other.csv");

@@ -63,7 +63,7 @@ fn every_damping_formula_is_read_by_its_name() {
         let text = format!(
             "{SHORT}\n[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.1\nlaw = \"hertz_damped\"\n\
              stiffness = 1.0\nrestitution = 0.5\ndamping_formula = \"{}\"\n",
-            formula.name()
+            formula.info().name
         );
         let law = Scene::from_toml(&text).unwrap().contacts[0].law;
         assert_eq!((law.damping_formula, law.exponent), (Some(formula), 1.5));

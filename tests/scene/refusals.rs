@@ -1,7 +1,8 @@
 //! What a user may not write, and what is said about it.
 
 use super::{SCENE, SHORT, edited, messages};
-use pounding::scene::{Damping, Scene, Stiffness};
+use pounding::contact::LawKind;
+use pounding::scene::{Damping, Scene, Stiffness, law_key};
 
 /// One change of the scene and all that is then said about it.
 type Refusal = (&'static str, &'static str, &'static [&'static str]);
@@ -244,6 +245,8 @@ fn initial_conditions_and_solver() {
         ("1e-10", "1e-15", &["solver.relative_tolerance = 1e-15: expected 1e-15 < tolerance <= 1e-2"]),
         ("1e-10", "0.1", &["solver.relative_tolerance = 0.1: expected 1e-15 < tolerance <= 1e-2"]),
         ("1e-3", "0.0", &["solver.min_approach_velocity = 0.0: expected a finite velocity > 0 m/s"]),
+        ("1e-3", "-1e-3", &["solver.min_approach_velocity = -0.001: expected a finite velocity > 0 m/s"]),
+        ("1e-3", "inf", &["solver.min_approach_velocity = inf: expected a finite velocity > 0 m/s"]),
         ("[solver]", "[[solver]]", &["solver = [[solver]]: expected a table"]),
     ]);
 }
@@ -339,16 +342,59 @@ fn laws() {
 }
 
 #[test]
+fn restitution_of_every_law() {
+    for law in LawKind::ALL.iter().map(|law| law.info()) {
+        let Some(key) = law.keys.iter().find(|key| law_key::number(**key).name == "restitution") else { continue };
+        let others =
+            law.keys.iter().filter(|other| *other != key).map(|key| format!("{} = 1\n", law_key::number(*key).name));
+        let formula = law.has_damping_formula.then_some("damping_formula = \"exact\"\n".to_owned());
+        let others: String = others.chain(formula).collect();
+        let said = |restitution: &str| {
+            let head = "left_floor = 1\nright_floor = 1\ngap = 0.1\n";
+            messages(&format!("{SHORT}\n[[contact]]\n{head}law = \"{}\"\n{others}{restitution}", law.name))
+        };
+        let rigid = law.name == "stereomechanical";
+        let range = if rigid { "0 <= e <= 1" } else { "0 < e <= 1" };
+        for e in ["-0.1", "1.0000000000000002", "nan", "inf"] {
+            let expected = format!("contact[1].restitution = {e}: expected {range}");
+            assert_eq!(said(&format!("restitution = {e}")), [expected], "{}", law.name);
+        }
+        let zero = [format!("contact[1].restitution = 0.0: expected {range}")];
+        assert_eq!(said("restitution = 0"), if rigid { &[] } else { zero.as_slice() }, "{}", law.name);
+        for e in ["1e-300", "1"] {
+            assert_eq!(said(&format!("restitution = {e}")), [""; 0], "{}", law.name);
+        }
+        assert_eq!(said(""), [format!("contact[1].restitution: expected {range} (missing)")], "{}", law.name);
+    }
+}
+
+#[test]
+fn rigid_floors() {
+    let rigid = |gap: &str, more: &str| {
+        let contact = "gap = -0.001\nlaw = \"hertz\"\nstiffness = 2.0e6";
+        messages(&edited(contact, &format!("gap = {gap}\nlaw = \"stereomechanical\"\nrestitution = 0.5\n{more}")))
+    };
+    // The right floor stands 1 mm to the right at the start: they touch.
+    assert_eq!(rigid("-0.001", ""), [""; 0]);
+    let overlap = "for law stereomechanical: the floors must not overlap at the start";
+    assert_eq!(rigid("-0.00101", ""), [format!("contact[2].gap = -0.00101: expected at least -0.001 {overlap}")]);
+    assert_eq!(rigid("nan", ""), ["contact[2].gap = nan: expected a finite distance in m"]);
+    let keys = "a key of law stereomechanical (left_floor, right_floor, gap, law, restitution)";
+    for key in ["stiffness = 1.0e6", "exponent = 1.5"] {
+        assert_eq!(rigid("0.0", key), [format!("contact[2].{key}: expected {keys}")]);
+    }
+}
+
+#[test]
 fn laws_that_do_not_exist() {
-    // The catalogue grows: only what does not depend on it is compared word by word.
+    let names: Vec<_> = LawKind::ALL.iter().map(|law| law.info().name).collect();
+    let names = names.join(", ");
     let said = messages(&edited("\"hertz\"", "\"herz\""));
     let [unknown] = said.as_slice() else { panic!("{said:?}") };
-    assert!(unknown.starts_with("contact[2].law = \"herz\": expected a known law (linear, kelvin_voigt,"), "{unknown}");
-    assert!(unknown.ends_with("; did you mean hertz?"), "{unknown}");
+    assert_eq!(*unknown, format!("contact[2].law = \"herz\": expected a known law ({names}); did you mean hertz?"));
     let said = messages(&edited("law = \"hertz\"\nstiffness = 2.0e6", "lav = 1\nstiffness = \"2\""));
     let [missing, lav, stiffness] = said.as_slice() else { panic!("{said:?}") };
-    assert!(missing.starts_with("contact[2].law: expected a law (linear, kelvin_voigt,"), "{missing}");
-    assert!(missing.ends_with(") (missing)"), "{missing}");
+    assert_eq!(*missing, format!("contact[2].law: expected a law ({names}) (missing)"));
     assert!(lav.starts_with("contact[2].lav = 1: expected a known key (left_floor, right_floor, gap, law,"), "{lav}");
     assert!(lav.ends_with("; did you mean law?"), "{lav}");
     assert_eq!(stiffness, "contact[2].stiffness = \"2\": expected a number");

@@ -1,0 +1,214 @@
+//! What the pieces of a run cost: `cargo bench --bench small_pieces`.
+//!
+//! Whole earthquakes, and other solvers beside ours, are measured by `benchmarks/work_precision.py`.
+#![allow(missing_docs, clippy::panic, clippy::unwrap_used)]
+
+use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
+use pounding::description::Package;
+use pounding::engine::{Model, State};
+use pounding::record::Record;
+use pounding::scene::Scene;
+use pounding::slave::{Log, Slave, instantiate};
+use pounding::variables::{Slot, Table};
+use std::fmt::Write;
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+const GROUND_STEP: f64 = 0.01;
+const SAMPLES: usize = 2001;
+
+const HERTZ: &str = "law = \"hertz\"\nstiffness = 2.75e9";
+const LAWS: [&str; 5] = [
+    "law = \"linear\"\nstiffness = 2.75e9",
+    "law = \"kelvin_voigt\"\nstiffness = 2.75e9\nrestitution = 0.65",
+    HERTZ,
+    "law = \"jankowski\"\nstiffness = 2.75e9\nrestitution = 0.65",
+    "law = \"hertz_damped\"\nstiffness = 2.75e9\nrestitution = 0.65\ndamping_formula = \"lankarani_nikravesh\"",
+];
+
+/// Two buildings with as many contacts of a law as wanted. Without a record their first floors move towards each other
+/// at 0.5 m/s each.
+fn scene_text(floors: [usize; 2], contacts: usize, gap: f64, law: &str, record: bool) -> String {
+    let mut text = String::from("name = \"Pieces\"\nstop_time = 20.0\n");
+    for (side, floors, velocity) in [("left", floors[0], 0.5), ("right", floors[1], -0.5)] {
+        let list = |value: f64| format!("{:?}", vec![value; floors]);
+        let mut initial = vec![0.0; floors];
+        initial[0] = if record { 0.0 } else { velocity };
+        writeln!(text, "[{side}]\nmass = {}\nstiffness = {}", list(3e5), list(5e8)).unwrap();
+        writeln!(text, "damping = {{ ratio = 0.05 }}\ninitial_velocity = {initial:?}").unwrap();
+    }
+    if record {
+        text += "[ground]\nrecord = \"record.csv\"\n";
+    }
+    for floor in 1..=contacts {
+        writeln!(text, "[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = {gap}\n{law}").unwrap();
+    }
+    text
+}
+
+fn record_text(peak: f64) -> String {
+    let mut text = String::from("time_s,accel_m_s2\n");
+    for k in 0..SAMPLES {
+        writeln!(text, "{},{}", k as f64 * GROUND_STEP, peak * (k as f64 * 0.21).sin()).unwrap();
+    }
+    text
+}
+
+fn record(peak: f64) -> Record {
+    Record::parse("record.csv", record_text(peak).as_bytes()).unwrap()
+}
+
+fn model(text: &str, record: Option<&Record>) -> Model {
+    Model::new(&Scene::from_toml(text).unwrap(), record).unwrap()
+}
+
+fn advance(model: &Model, state: &mut State, time: f64) {
+    model.advance(state, time, &mut |_| ()).unwrap();
+}
+
+/// From one sample of the record to the next without contact; with contacts listed, but far away, and without.
+fn flight_knot(criterion: &mut Criterion) {
+    let record = record(3.0);
+    let mut group = criterion.benchmark_group("flight_knot");
+    for (modes, contacts) in [(2, 0), (6, 0), (50, 0), (200, 0), (2, 1), (6, 3), (50, 20)] {
+        let floors = [modes / 2, modes - modes / 2];
+        let model = model(&scene_text(floors, contacts, 100.0, HERTZ, true), Some(&record));
+        let start = model.start(0.0);
+        group.bench_function(format!("{modes} modes, {contacts} contacts"), |bencher| {
+            bencher.iter_custom(|knots| {
+                let (mut state, mut knot, mut spent) = (start.clone(), 0, Duration::ZERO);
+                for _ in 0..knots {
+                    knot += 1;
+                    if knot == SAMPLES {
+                        state.clone_from(&start);
+                        knot = 1;
+                    }
+                    let clock = Instant::now();
+                    advance(&model, &mut state, knot as f64 * GROUND_STEP);
+                    spent += clock.elapsed();
+                }
+                spent
+            });
+        });
+    }
+    // All knots in one communication step: without the cost of asking for each.
+    for modes in [2, 6, 50, 200] {
+        let model = model(&scene_text([modes / 2, modes - modes / 2], 0, 0.0, HERTZ, true), Some(&record));
+        group.throughput(Throughput::Elements(SAMPLES as u64 - 1));
+        group.bench_function(format!("{modes} modes, whole record"), |bencher| {
+            let start = model.start(0.0);
+            let run = |state: &mut State| advance(&model, state, 20.0);
+            bencher.iter_batched_ref(|| start.clone(), run, BatchSize::SmallInput);
+        });
+    }
+    group.finish();
+}
+
+/// From 1 us before an entry to 1 ns after it.
+fn entry(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("entry");
+    for law in LAWS {
+        let model = model(&scene_text([3, 3], 1, 1e-6, law, false), None);
+        let start = model.start(0.0);
+        let run = |state: &mut State| advance(&model, state, 1.001e-6);
+        group.bench_function(name(law), |bencher| {
+            bencher.iter_batched_ref(|| start.clone(), run, BatchSize::SmallInput);
+        });
+    }
+    group.finish();
+}
+
+/// A whole contact with its entry and release; `elem/s` counts the contact steps.
+fn episode(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("episode");
+    for floors in [[1, 1], [3, 3], [20, 30]] {
+        for law in LAWS {
+            let model = model(&scene_text(floors, 1, 1e-6, law, false), None);
+            let start = model.start(0.0);
+            let end = release(&model, start.clone());
+            let mut finished = start.clone();
+            advance(&model, &mut finished, end);
+            group.throughput(Throughput::Elements(finished.counters().contact_steps));
+            let run = |state: &mut State| advance(&model, state, end);
+            group.bench_function(format!("{} on {}+{} storeys", name(law), floors[0], floors[1]), |bencher| {
+                bencher.iter_batched_ref(|| start.clone(), run, BatchSize::SmallInput);
+            });
+        }
+    }
+    group.finish();
+}
+
+/// s, end of the first contact.
+fn release(model: &Model, mut state: State) -> f64 {
+    let mut end = None;
+    for step in 1..1000 {
+        let time = f64::from(step) * 1e-3;
+        model.advance(&mut state, time, &mut |episode| end = end.or(episode.end)).unwrap();
+        if let Some(end) = end {
+            return end;
+        }
+    }
+    panic!("the contact lasts for ever");
+}
+
+fn name(law: &str) -> &str {
+    law.split('"').nth(1).unwrap()
+}
+
+/// The FMU's own calls, on 20 and 30 storeys with 20 contacts.
+fn fmu(criterion: &mut Criterion) {
+    let folder = tempfile::tempdir().unwrap();
+    let text = scene_text([20, 30], 20, 100.0, HERTZ, true);
+    std::fs::write(folder.path().join("scene.toml"), &text).unwrap();
+    std::fs::write(folder.path().join("record.csv"), record_text(3.0)).unwrap();
+    let package = Package::from_scene_file(&folder.path().join("scene.toml")).unwrap();
+    for (name, bytes) in package.resources() {
+        std::fs::write(folder.path().join(name), bytes).unwrap();
+    }
+    let (guid, location) = (package.guid(), folder.path().to_str().unwrap().as_bytes());
+
+    let mut group = criterion.benchmark_group("fmu_20_30_storeys");
+    group.bench_function("instantiate and initialise", |bencher| {
+        bencher.iter(|| initialised(&guid, location));
+    });
+    group.bench_function("quiet communication step of 1 ms", |bencher| {
+        bencher.iter_custom(|steps| {
+            let (mut slave, mut step, mut spent) = (initialised(&guid, location), 0, Duration::ZERO);
+            for _ in 0..steps {
+                if step == 20_000 {
+                    (slave, step) = (initialised(&guid, location), 0);
+                }
+                let clock = Instant::now();
+                slave.do_step(f64::from(step) * 1e-3, 1e-3).unwrap();
+                spent += clock.elapsed();
+                step += 1;
+            }
+            spent
+        });
+    });
+    let mut slave = initialised(&guid, location);
+    slave.do_step(0.0, 5.0).unwrap();
+    let rows = Table::new(&package.scene).rows;
+    let outputs = (0..).zip(&rows).filter(|(_, row)| matches!(row.slot, Slot::Output(_))).map(|(index, _)| index);
+    let references: Vec<u32> = outputs.collect();
+    group.bench_function(format!("get all {} outputs", references.len()), |bencher| {
+        bencher.iter(|| {
+            slave.get(&references, "Real", |_, value| {
+                black_box(value);
+                Some(())
+            })
+        });
+    });
+    group.finish();
+}
+
+fn initialised(guid: &str, location: &[u8]) -> Slave {
+    let mut slave = instantiate(guid, location, Log::new(false)).unwrap();
+    slave.setup_experiment(None, 0.0, None).unwrap();
+    slave.enter_initialization();
+    slave.exit_initialization().unwrap();
+    slave
+}
+
+criterion_group!(pieces, flight_knot, entry, episode, fmu);
+criterion_main!(pieces);

@@ -1,0 +1,117 @@
+//! One scene, solved several times by the engine, timed: our side of the benchmark.
+//!
+//! ```text
+//! cargo run --release --example run_time -- SCENE.toml engine TOLERANCE REPEATS OUTPUT
+//! cargo run --release --example run_time -- SCENE.toml memory TOLERANCE INSTANCES OUTPUT
+//! ```
+//!
+//! Prints the wall seconds of each repeat, then the number of impacts, then counters of the work and sizes as
+//! `name=value`; OUTPUT gets the displacements (float64, a row of floors every 0.05 s). The other compiled solvers of
+//! `benchmarks/` are called in the same way. A repeat goes from a fresh state to the end of the record and includes
+//! everything that the engine always does: peak forces, impulses, dissipated energies, and the reading of the
+//! displacements at the output times.
+//!
+//! `memory` makes that many instances as an FMU has them instead, ready to run, and prints the bytes that each takes
+//! (Linux only).
+
+use pounding::engine::{Model, Point, Side, State};
+use pounding::scene::Package;
+use pounding::slave::{Log, Slave};
+use std::error::Error;
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+
+const OUTPUT_STEP: f64 = 0.05;
+
+fn main() -> ExitCode {
+    match run(&std::env::args().skip(1).collect::<Vec<_>>()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(words: &[String]) -> Result<(), Box<dyn Error>> {
+    match words {
+        [scene, method, tolerance, repeats, output] if method == "engine" => {
+            run_times(Path::new(scene), tolerance.parse()?, repeats.parse()?, Path::new(output))
+        }
+        [scene, method, _, instances, _] if method == "memory" => memory(Path::new(scene), instances.parse()?),
+        _ => Err("usage: run_time SCENE.toml engine|memory TOLERANCE REPEATS OUTPUT".into()),
+    }
+}
+
+fn run_times(scene: &Path, tolerance: f64, repeats: usize, output: &Path) -> Result<(), Box<dyn Error>> {
+    let Package { mut scene, record, .. } = Package::from_scene_file(scene)?;
+    scene.solver.relative_tolerance = tolerance;
+    let record = record.ok_or("the scene has no record")?.record;
+    let stop = scene.stop_time.ok_or("the scene has no stop_time")?;
+
+    let clock = Instant::now();
+    let model = Model::new(&scene, Some(&record))?;
+    let mut state = model.start(0.0);
+    let setup = clock.elapsed().as_secs_f64();
+
+    let mut displacements = Vec::new();
+    let mut point = Point::default();
+    for _ in 0..repeats {
+        state = model.start(0.0);
+        displacements.clear();
+        let clock = Instant::now();
+        solve(&model, &mut state, &mut point, stop, &mut displacements)?;
+        print!("{:e} ", clock.elapsed().as_secs_f64());
+    }
+    println!("\n{}", point.impacts);
+    println!("setup_s={setup:e}");
+    let counters = state.counters();
+    println!("flight_steps={}", counters.flight_steps);
+    println!("closer_looks={}", counters.closer_looks);
+    println!("pairs_evaluated={}", counters.pairs_evaluated);
+    println!("contact_steps={}", counters.contact_steps);
+    println!("events={}", counters.events);
+    let bytes: Vec<u8> = displacements.iter().flat_map(|value| value.to_ne_bytes()).collect();
+    std::fs::write(output, bytes)?;
+    Ok(())
+}
+
+fn solve(
+    model: &Model,
+    state: &mut State,
+    point: &mut Point,
+    stop: f64,
+    displacements: &mut Vec<f64>,
+) -> Result<(), Box<dyn Error>> {
+    let rows = (stop / OUTPUT_STEP).round() as u64;
+    for row in 0..=rows {
+        model.advance(state, row as f64 * OUTPUT_STEP, &mut |_| ())?;
+        model.observe(state, point);
+        for side in [Side::Left, Side::Right] {
+            displacements.extend((0..model.floors(side)).map(|floor| model.displacement(point, side, floor)));
+        }
+    }
+    Ok(())
+}
+
+fn memory(scene: &Path, instances: usize) -> Result<(), Box<dyn Error>> {
+    let before = resident_bytes()?;
+    let mut slaves = Vec::new();
+    for _ in 0..instances {
+        let mut slave = Slave::new(Package::from_scene_file(scene)?, Log::new(false));
+        slave.setup_experiment(None, 0.0, None).map_err(|refusal| refusal.problems.join("\n"))?;
+        slave.enter_initialization();
+        slave.exit_initialization().map_err(|refusal| refusal.problems.join("\n"))?;
+        slaves.push(slave);
+    }
+    println!("{}", (resident_bytes()? - before) / slaves.len() as f64);
+    Ok(())
+}
+
+/// Of this process, from the kernel; whole pages.
+fn resident_bytes() -> Result<f64, Box<dyn Error>> {
+    let status = std::fs::read_to_string("/proc/self/status")?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).ok_or("no VmRSS")?;
+    Ok(1024.0 * line.trim().trim_end_matches(" kB").parse::<f64>()?)
+}

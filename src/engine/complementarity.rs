@@ -1,0 +1,248 @@
+//! Forces that can only push, between floors that touch: a linear complementarity problem.
+//!
+//! Wanted are x >= 0 with w = G x - b >= 0 and x . w = 0, where G = J M^-1 J' says what a unit force (impulse) between
+//! one pair does to the relative acceleration (velocity) of another, and b what the pairs would do without any. G is
+//! symmetric and positive semidefinite, so that x minimises x . G x / 2 - b . x over x >= 0: Gauss's principle of least
+//! constraint. It is found by the active-set method for non-negative least squares \[LawsonHanson1974,
+//! ch. 23\], which ends after finitely many exchanges, also where pairs depend on each other (four pairs of two floors a
+//! side): a pair whose column depends on those that are active stays out.
+
+use nalgebra::DMatrix;
+
+/// A pivot below this share of its diagonal entry is 0 but for rounding: the pair depends on those before it.
+const DEPENDENT: f64 = 1e-10;
+
+/// A factor of the matrix of some pairs, and room to solve with it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Complementarity {
+    /// The pairs in question, as rows of the matrix.
+    pub pairs: Vec<usize>,
+    /// One per pair in question: what is known, then what is found.
+    pub known: Vec<f64>,
+    pub found: Vec<f64>,
+    /// Rounding error of what is known: no force is needed against less.
+    pub noise: Vec<f64>,
+    /// Positions in `pairs` that may carry a force.
+    active: Vec<usize>,
+    trial: Vec<f64>,
+    /// L below the diagonal and D on it, by rows, in the order of the active positions; D is 0 for a dependent pair.
+    factor: Vec<f64>,
+}
+
+impl Complementarity {
+    /// Room for that many pairs.
+    pub fn new(most: usize) -> Complementarity {
+        let numbers = || Vec::with_capacity(most);
+        Complementarity {
+            pairs: Vec::with_capacity(most),
+            known: numbers(),
+            found: numbers(),
+            noise: numbers(),
+            active: Vec::with_capacity(most),
+            trial: vec![0.0; most],
+            factor: vec![0.0; most * most],
+        }
+    }
+
+    /// Forgets all pairs.
+    pub fn clear(&mut self) {
+        self.pairs.clear();
+        self.known.clear();
+        self.found.clear();
+        self.noise.clear();
+    }
+
+    /// Adds a pair with b and the rounding error of b.
+    pub fn add(&mut self, pair: usize, known: f64, noise: f64) {
+        self.pairs.push(pair);
+        self.known.push(known);
+        self.found.push(0.0);
+        self.noise.push(noise);
+    }
+
+    /// Makes all pairs active, pulling or pushing: G x = b from now on.
+    pub fn close_all(&mut self, matrix: &DMatrix<f64>) {
+        self.active.clear();
+        self.active.extend(0..self.pairs.len());
+        self.factorise(matrix);
+    }
+
+    /// `found` from `known` for the active pairs, 0 for the others.
+    pub fn solve(&mut self) {
+        self.try_active();
+        self.found.fill(0.0);
+        for (i, &position) in self.active.iter().enumerate() {
+            self.found[position] = self.trial[i];
+        }
+    }
+
+    /// Finds the forces that only push.
+    pub fn push(&mut self, matrix: &DMatrix<f64>) {
+        self.close_all(matrix);
+        self.solve();
+        if self.found.iter().all(|x| *x >= 0.0) {
+            return;
+        }
+        self.active.clear();
+        self.found.fill(0.0);
+        // Every round lowers the minimum; rounding may make the last ones idle.
+        for _ in 0..3 * self.pairs.len() + 3 {
+            let Some(next) = self.most_violated(matrix) else { break };
+            self.active.push(next);
+            while !self.step_to_active(matrix) {}
+        }
+    }
+
+    /// The pair that is not active and violates w >= 0 most, relative to its own force.
+    fn most_violated(&self, matrix: &DMatrix<f64>) -> Option<usize> {
+        let mut worst = (0.0, None);
+        for position in (0..self.pairs.len()).filter(|position| !self.active.contains(position)) {
+            let row = self.pairs[position];
+            let held: f64 = self.pairs.iter().zip(&self.found).map(|(&column, x)| matrix[(row, column)] * x).sum();
+            let missing = self.known[position] - held;
+            let force = missing / matrix[(row, row)];
+            if missing > self.noise[position] && force > worst.0 {
+                worst = (force, Some(position));
+            }
+        }
+        worst.1
+    }
+
+    /// Moves to the solution of the active pairs, or as far as none of them pulls, and drops what would; whether that
+    /// was all of the way.
+    fn step_to_active(&mut self, matrix: &DMatrix<f64>) -> bool {
+        self.factorise(matrix);
+        self.try_active();
+        // How far, and which pair would pull beyond.
+        let mut stop: Option<(f64, usize)> = None;
+        for (i, &position) in self.active.iter().enumerate().filter(|&(i, _)| self.trial[i] <= 0.0) {
+            let here = self.found[position];
+            let share = if here > 0.0 { here / (here - self.trial[i]) } else { 0.0 };
+            if stop.is_none_or(|(least, _)| share < least) {
+                stop = Some((share, position));
+            }
+        }
+        let share = stop.map_or(1.0, |(share, _)| share);
+        for (i, &position) in self.active.iter().enumerate() {
+            let here = self.found[position];
+            self.found[position] = if share < 1.0 { here + share * (self.trial[i] - here) } else { self.trial[i] };
+        }
+        let Some((_, stopped)) = stop else { return true };
+        self.found[stopped] = 0.0;
+        let found = &mut self.found;
+        self.active.retain(|&position| found[position] > 0.0);
+        false
+    }
+
+    /// Factors the active pairs' matrix into L D L'.
+    fn factorise(&mut self, matrix: &DMatrix<f64>) {
+        let n = self.active.len();
+        for i in 0..n {
+            let row = self.pairs[self.active[i]];
+            for j in 0..=i {
+                let mut rest = matrix[(row, self.pairs[self.active[j]])];
+                for k in 0..j {
+                    rest -= self.factor[i * n + k] * self.factor[k * n + k] * self.factor[j * n + k];
+                }
+                let pivot = self.factor[j * n + j];
+                let independent = rest > DEPENDENT * matrix[(row, row)];
+                self.factor[i * n + j] = match () {
+                    _ if j == i && independent => rest,
+                    _ if j < i && pivot > 0.0 => rest / pivot,
+                    _ => 0.0,
+                };
+            }
+        }
+    }
+
+    /// `trial` = solution for the active pairs.
+    fn try_active(&mut self) {
+        let n = self.active.len();
+        for i in 0..n {
+            let mut rest = self.known[self.active[i]];
+            for k in 0..i {
+                rest -= self.factor[i * n + k] * self.trial[k];
+            }
+            self.trial[i] = rest;
+        }
+        for i in (0..n).rev() {
+            let pivot = self.factor[i * n + i];
+            if pivot == 0.0 {
+                self.trial[i] = 0.0;
+                continue;
+            }
+            let mut rest = self.trial[i] / pivot;
+            for k in i + 1..n {
+                rest -= self.factor[k * n + i] * self.trial[k];
+            }
+            self.trial[i] = rest;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn push(matrix: &DMatrix<f64>, known: &[f64]) -> Vec<f64> {
+        let mut problem = Complementarity::new(known.len());
+        for (pair, known) in known.iter().enumerate() {
+            problem.add(pair, *known, 1e-14);
+        }
+        problem.push(matrix);
+        problem.found
+    }
+
+    /// What every solution satisfies, and no other x (but for pairs that depend on each other).
+    fn assert_solves(matrix: &DMatrix<f64>, known: &[f64], x: &[f64]) {
+        for (i, b) in known.iter().enumerate() {
+            let w: f64 = (0..x.len()).map(|j| matrix[(i, j)] * x[j]).sum::<f64>() - b;
+            assert!(x[i] >= 0.0 && w > -1e-11 && (x[i] * w).abs() < 1e-11, "pair {i}: x {}, w {w:e}", x[i]);
+        }
+    }
+
+    #[test]
+    fn pairs_of_different_floors_do_not_know_each_other() {
+        let matrix = DMatrix::from_diagonal(&nalgebra::DVector::from_vec(vec![2.0, 4.0, 0.5]));
+        assert_eq!(push(&matrix, &[1.0, -1.0, 3.0]), [0.5, 0.0, 6.0]);
+    }
+
+    #[test]
+    fn a_pair_that_would_pull_is_left_out() {
+        // One floor of mass 1 against two of mass 1: what one pair needs drives the other apart.
+        let matrix = DMatrix::from_row_slice(2, 2, &[2.0, 1.0, 1.0, 2.0]);
+        assert_eq!(push(&matrix, &[3.0, 1.0]), [1.5, 0.0]);
+        let both = push(&matrix, &[3.0, 3.0]);
+        assert!(both.iter().all(|x| (x - 1.0).abs() < 1e-15), "{both:?}");
+    }
+
+    #[test]
+    fn pairs_that_depend_on_each_other_share() {
+        // Two floors a side, each against each: four pairs, three independent.
+        let rows = [[1.0, 0.0, -1.0, 0.0], [1.0, 0.0, 0.0, -1.0], [0.0, 1.0, -1.0, 0.0], [0.0, 1.0, 0.0, -1.0]];
+        let row = |i: usize| nalgebra::DVector::from_row_slice(&rows[i]);
+        let matrix = DMatrix::from_fn(4, 4, |i, j| row(i).dot(&row(j)));
+        let known: Vec<f64> =
+            (0..4).map(|i| row(i).dot(&nalgebra::DVector::from_vec(vec![1.0, 0.5, -0.2, -0.4]))).collect();
+        assert_solves(&matrix, &known, &push(&matrix, &known));
+    }
+
+    proptest! {
+        #[test]
+        fn any_pairs_end_with_forces_that_push(
+            pairs in proptest::collection::btree_set((0..4_usize, 0..4_usize), 1..=12),
+            masses in proptest::collection::vec(0.1..10.0_f64, 8),
+            pressing in proptest::collection::vec(-1.0..1.0_f64, 8),
+        ) {
+            let pairs: Vec<_> = pairs.into_iter().collect();
+            let shared = |a: usize, b: usize, mass: f64| if a == b { 1.0 / mass } else { 0.0 };
+            let matrix = DMatrix::from_fn(pairs.len(), pairs.len(), |i, j| {
+                let ((a, b), (c, d)) = (pairs[i], pairs[j]);
+                shared(a, c, masses[a]) + shared(b, d, masses[4 + b])
+            });
+            let known: Vec<f64> = pairs.iter().map(|(a, b)| pressing[*a] - pressing[4 + *b]).collect();
+            assert_solves(&matrix, &known, &push(&matrix, &known));
+        }
+    }
+}

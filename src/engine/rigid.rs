@@ -1,0 +1,349 @@
+//! Rigid contacts (`stereomechanical`): impulses, rebounds that die out, floors held together by a reaction.
+//!
+//! An impulse p between two floors takes the approach velocity V to -e V at once (seed paper, eqs. 1 and 2). Pairs that
+//! meet at the same instant are solved together, p >= 0, w = v + e V <= 0, p . w = 0 \[Moreau1988\]: since only pairs
+//! that approach take part, each loses p (1 - e) V / 2 >= 0. The rebounds of a pair that is pressed together follow each
+//! other ever faster and end after a finite time, which the engine follows until what returns is below rounding: there
+//! the floors stay together, and the reaction is what keeps their relative acceleration 0, power by power of the series.
+
+use super::complementarity::Complementarity;
+use super::model::{Model, Pair};
+use super::state::*;
+use super::{Episode, roots};
+use crate::structure::{ModalSeries, difference, dot};
+use nalgebra::DMatrix;
+
+/// A velocity below this share of the floors' velocities that it is the difference of is none: some hundred roundings.
+const STILL: f64 = 3e-14;
+
+/// A rigid pair is carried by its own increments up to this many rounding errors of its penetration from the surface.
+const CLOSE: f64 = 1e6;
+
+/// Which pairs are rigid, and how they act on each other.
+#[derive(Debug)]
+pub(super) struct RigidPairs {
+    /// Their numbers among all pairs.
+    pub pairs: Vec<usize>,
+    /// 1/kg: what an impulse between one pair does to the rate of another. Only pairs that share a floor do.
+    pub matrix: DMatrix<f64>,
+}
+
+impl RigidPairs {
+    pub fn of(all: &[Pair]) -> RigidPairs {
+        let pairs: Vec<usize> = (0..all.len()).filter(|&p| all[p].law.is_rigid()).collect();
+        let shared = |a: &Pair, b: &Pair, side: usize| {
+            if a.floors[side] == b.floors[side] { 1.0 / a.masses[side] } else { 0.0 }
+        };
+        let effect = |i: usize, j: usize| {
+            let (a, b) = (&all[pairs[i]], &all[pairs[j]]);
+            shared(a, b, 0) + shared(a, b, 1)
+        };
+        let matrix = DMatrix::from_fn(pairs.len(), pairs.len(), effect);
+        RigidPairs { pairs, matrix }
+    }
+}
+
+impl Model {
+    /// A rigid pair meets: an impulse, or where it has no speed left the floors stay together.
+    pub(super) fn meet(
+        &self,
+        base: &mut Base,
+        first: usize,
+        work: &mut Workspace,
+        on_episode: &mut dyn FnMut(&Episode),
+    ) {
+        let (approach, still) = self.approach(base, first);
+        let contact = &mut base.contacts[first];
+        contact.penetration = 0.0;
+        contact.at_surface = true;
+        if approach > still {
+            self.collide(base, work, on_episode);
+        } else {
+            self.join(base, first, work);
+        }
+    }
+
+    /// m/s, the rate of a rigid pair, and what is none but for rounding.
+    fn approach(&self, base: &Base, p: usize) -> (f64, f64) {
+        let contact = &base.contacts[p];
+        let (rate, size) = difference(&self.pairs[p].row, &base.v);
+        let rate = if contact.carried || contact.is_held() { contact.rate } else { rate };
+        (rate, STILL * size)
+    }
+
+    /// The impulses of all rigid pairs that meet now.
+    fn collide(&self, base: &mut Base, work: &mut Workspace, on_episode: &mut dyn FnMut(&Episode)) {
+        let rigid = &mut work.rigid;
+        rigid.clear();
+        for (k, &p) in self.rigid.pairs.iter().enumerate() {
+            let (rate, _) = self.approach(base, p);
+            base.contacts[p].rate = rate;
+            if rate >= 0.0 && self.is_closed(base, p) {
+                rigid.add(k, (1.0 + self.returned_share(base, p)) * rate, 0.0);
+            }
+        }
+        rigid.push(&self.rigid.matrix);
+        let shares = rigid.pairs.iter().map(|&k| self.returned_share(base, self.rigid.pairs[k]));
+        rigid.known.clear();
+        rigid.known.extend(shares);
+        for (&k, &impulse) in rigid.pairs.iter().zip(&rigid.found) {
+            for (v, row) in base.v.iter_mut().zip(&self.pairs[self.rigid.pairs[k]].row) {
+                *v -= row * impulse;
+            }
+        }
+        for (k, &p) in self.rigid.pairs.iter().enumerate() {
+            let taken = rigid.pairs.iter().position(|&other| other == k).filter(|&i| rigid.found[i] > 0.0);
+            match taken {
+                Some(i) => self.book_impulse(base, p, rigid.known[i], rigid.found[i], on_episode),
+                None => {
+                    let change = |(&other, impulse): (&usize, &f64)| self.rigid.matrix[(k, other)] * impulse;
+                    let change: f64 = rigid.pairs.iter().zip(&rigid.found).map(change).sum();
+                    let contact = &mut base.contacts[p];
+                    contact.rate -= change;
+                    if contact.is_held() && change > 0.0 {
+                        base.release(p, on_episode);
+                    }
+                }
+            }
+        }
+        self.update_soft_rates(base);
+    }
+
+    /// Whether a rigid pair stands at the surface now.
+    fn is_closed(&self, base: &Base, p: usize) -> bool {
+        let (contact, pair) = (&base.contacts[p], &self.pairs[p]);
+        let noise = if contact.carried { 0.0 } else { pair.noise(difference(&pair.row, &base.q).1) };
+        contact.is_held() || contact.at_surface || contact.penetration >= -noise
+    }
+
+    /// The restitution of an impact now: none where what would return is rounding.
+    fn returned_share(&self, base: &Base, p: usize) -> f64 {
+        let restitution = self.pairs[p].law.restitution;
+        let (rate, still) = self.approach(base, p);
+        if restitution * rate > still { restitution } else { 0.0 }
+    }
+
+    /// An impulse as an episode without duration.
+    fn book_impulse(
+        &self,
+        base: &mut Base,
+        p: usize,
+        restitution: f64,
+        impulse: f64,
+        on_episode: &mut dyn FnMut(&Episode),
+    ) {
+        let time = base.time();
+        let contact = &mut base.contacts[p];
+        let approach = contact.rate;
+        let lost = 0.5 * impulse * (1.0 - restitution) * approach;
+        contact.rate = -restitution * approach;
+        contact.penetration = 0.0;
+        contact.at_surface = true;
+        contact.carried = true;
+        contact.impacts += 1;
+        contact.impulse += impulse;
+        contact.work += lost;
+        contact.episode = Episode {
+            contact: p,
+            start: time,
+            end: Some(time),
+            approach_velocity: approach,
+            separation_velocity: restitution * approach,
+            peak_time: time,
+            impulse,
+            dissipated_energy: lost,
+            ..Episode::default()
+        };
+        base.impacts += 1;
+        on_episode(&base.contacts[p].episode);
+    }
+
+    /// An impulse changes the rate of other pairs of the same floors at once, and with it their force.
+    fn update_soft_rates(&self, base: &mut Base) {
+        for (contact, pair) in base.contacts.iter_mut().zip(&self.pairs).filter(|(_, pair)| !pair.law.is_rigid()) {
+            contact.rate = difference(&pair.row, &base.v).0;
+            let engaged = contact.force.is_engaged(contact.penetration, contact.rate);
+            if contact.in_contact() && engaged != (contact.phase == Phase::Engaged) {
+                contact.change_branch();
+            }
+        }
+    }
+
+    /// Two rigid floors stay together from now on.
+    fn join(&self, base: &mut Base, p: usize, work: &mut Workspace) {
+        let time = base.time();
+        let contact = &mut base.contacts[p];
+        contact.rate = 0.0;
+        contact.begin(time, 0.0);
+        contact.phase = Phase::Held;
+        contact.reaction = 0.0;
+        contact.carried = false;
+        contact.undecided = contact.let_go;
+        contact.let_go = false;
+        base.impacts += 1;
+        base.last_length = 0.0;
+        self.keep_together(base, work);
+    }
+
+    /// Takes out of the motion what rounding has moved floors apart that are held together.
+    pub(super) fn keep_together(&self, base: &mut Base, work: &mut Workspace) {
+        if !self.rigid.pairs.iter().any(|&p| base.contacts[p].is_held()) {
+            return;
+        }
+        let gap = |p: usize| self.pairs[p].gap;
+        self.select_held(base, work);
+        for (motion, is_displacement) in [(&mut base.q, true), (&mut base.v, false)] {
+            let rigid = &mut work.rigid;
+            for (&k, known) in rigid.pairs.iter().zip(&mut rigid.known) {
+                let p = self.rigid.pairs[k];
+                *known = dot(&self.pairs[p].row, motion) - if is_displacement { gap(p) } else { 0.0 };
+            }
+            rigid.solve();
+            for (&k, found) in rigid.pairs.iter().zip(&rigid.found) {
+                for (x, row) in motion.iter_mut().zip(&self.pairs[self.rigid.pairs[k]].row) {
+                    *x -= row * found;
+                }
+            }
+        }
+    }
+
+    /// Lists the pairs that are held together and makes them all active.
+    pub(super) fn select_held(&self, base: &Base, work: &mut Workspace) {
+        work.rigid.clear();
+        for (k, _) in self.rigid.pairs.iter().enumerate().filter(|&(_, &p)| base.contacts[p].is_held()) {
+            work.rigid.add(k, 0.0, 0.0);
+        }
+        work.rigid.close_all(&self.rigid.matrix);
+    }
+
+    /// The modal accelerations at the base, in `work.q`, with every contact force; the reactions stay in `work.rigid`.
+    /// Returns a pair that is held together but moves apart.
+    pub(super) fn balance(&self, base: &Base, inputs: &Inputs, work: &mut Workspace) -> Option<usize> {
+        self.load(base, inputs, &mut work.load, &mut work.slope);
+        work.node_q.copy_from_slice(&work.load);
+        for (contact, pair) in base.contacts.iter().zip(&self.pairs).filter(|(contact, _)| contact.in_contact()) {
+            if !contact.is_held() {
+                let force = contact.present_force();
+                for (load, row) in work.node_q.iter_mut().zip(&pair.row) {
+                    *load -= row * force;
+                }
+            }
+        }
+        self.structure.accelerate(&base.q, &base.v, &work.node_q, &mut work.q);
+        let Workspace { rigid, q: acceleration, .. } = work;
+        rigid.clear();
+        for (k, &p) in self.rigid.pairs.iter().enumerate().filter(|&(_, &p)| base.contacts[p].is_held()) {
+            let (pressing, size) = difference(&self.pairs[p].row, acceleration);
+            rigid.add(k, pressing, 8.0 * f64::EPSILON * size);
+        }
+        rigid.push(&self.rigid.matrix);
+        for (&k, force) in rigid.pairs.iter().zip(&rigid.found) {
+            for (acceleration, row) in acceleration.iter_mut().zip(&self.pairs[self.rigid.pairs[k]].row) {
+                *acceleration -= row * force;
+            }
+        }
+        let apart = (0..rigid.pairs.len()).find(|&i| {
+            let p = self.rigid.pairs[rigid.pairs[i]];
+            let moves_apart = dot(&self.pairs[p].row, acceleration) < -rigid.noise[i];
+            rigid.found[i] == 0.0 && moves_apart && !base.contacts[p].undecided
+        })?;
+        Some(self.rigid.pairs[rigid.pairs[apart]])
+    }
+
+    /// Keeps floors together that are held: adds the reactions' part to the modal accelerations of one power. The
+    /// reactions stay in `rigid.found`.
+    pub(super) fn hold(&self, rigid: &mut Complementarity, acceleration: &mut [f64]) {
+        if rigid.pairs.is_empty() {
+            return;
+        }
+        for (&k, known) in rigid.pairs.iter().zip(&mut rigid.known) {
+            *known = difference(&self.pairs[self.rigid.pairs[k]].row, acceleration).0;
+        }
+        rigid.solve();
+        for (&k, force) in rigid.pairs.iter().zip(&rigid.found) {
+            for (acceleration, row) in acceleration.iter_mut().zip(&self.pairs[self.rigid.pairs[k]].row) {
+                *acceleration -= row * force;
+            }
+        }
+    }
+
+    /// How long a step may be, s, so that the next bounce of every pair near the surface is a good part of it; with the
+    /// modal accelerations at the base.
+    pub(super) fn bounce_horizon(&self, base: &Base, acceleration: &[f64]) -> f64 {
+        let apart = base.contacts.iter().zip(&self.pairs).filter(|(contact, _)| contact.carried);
+        let bounce = |(contact, pair): (&Contact, &Pair)| {
+            4.0 * time_to_surface(contact.penetration, contact.rate, dot(&pair.row, acceleration))
+        };
+        apart.map(bounce).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Where the pairs that are carried get to at x of a series.
+    pub(super) fn carry(&self, base: &Base, series: &ModalSeries, x: f64, scalar: &mut [f64], carried: &mut Carried) {
+        for (p, (contact, pair)) in base.contacts.iter().zip(&self.pairs).enumerate() {
+            carried[p] = contact.carried.then(|| {
+                let terms = &mut scalar[..=series.order];
+                let noise = pair.noise(series.project(&pair.row, x, terms));
+                contact.begin_flight(terms, series.scale, noise);
+                let (penetration, slope) = crate::polynomial::value_and_slope(terms, x);
+                (penetration, slope / series.scale)
+            });
+        }
+    }
+
+    /// Whether a pair at this penetration, m, is still to be carried.
+    pub(super) fn is_close(&self, p: usize, penetration: f64, q: &[f64]) -> bool {
+        let pair = &self.pairs[p];
+        penetration > -CLOSE * pair.noise(difference(&pair.row, q).1)
+    }
+
+    /// m/s2, rounding error of a pair's relative acceleration in 0..=x of a series.
+    fn acceleration_noise(&self, p: usize, series: &ModalSeries, x: f64) -> f64 {
+        let (mut sum, mut power) = (0.0, 1.0 / (series.scale * series.scale));
+        for n in 2..=series.order {
+            sum += (n * (n - 1)) as f64 * difference(&self.pairs[p].row, series.term(n)).1 * power;
+            power *= x;
+        }
+        8.0 * f64::EPSILON * sum
+    }
+
+    /// Where the reaction of a pair that is held together falls to 0 in 0..=end of its series.
+    pub(super) fn letting_go(&self, p: usize, step: &Step, work: &mut Workspace, end: f64) -> Option<(f64, Event)> {
+        let k = self.rigid.pairs.iter().position(|&pair| pair == p)?;
+        let noise = self.acceleration_noise(p, &step.series, end) / self.rigid.matrix[(k, k)];
+        let force = &step.pairs[p].force[..=step.pairs[p].order];
+        let pull = &mut work.scalar[..force.len()];
+        for (pull, force) in pull.iter_mut().zip(force) {
+            *pull = -force;
+        }
+        roots::first_rise(pull, end, noise).map(|x| (x, Event::Release(p)))
+    }
+}
+
+impl Contact {
+    /// Makes the first terms of the penetration's series, for a pair that is apart, those that are known best; returns
+    /// the rounding error that is left.
+    pub(super) fn begin_flight(&self, terms: &mut [f64], scale: f64, noise: f64) -> f64 {
+        terms[0] = self.flight_start();
+        if !self.carried {
+            return noise;
+        }
+        terms[1] = self.rate * scale;
+        if self.let_go {
+            terms[2] = terms[2].min(0.0);
+        }
+        // A pair that rests at the surface is pressed or not by its acceleration, and that has its rounding error.
+        if terms[0] == 0.0 && self.rate == 0.0 { noise } else { 0.0 }
+    }
+}
+
+/// s until d + v t + a t^2 / 2 is 0 for t > 0, from d <= 0.
+fn time_to_surface(d: f64, v: f64, a: f64) -> f64 {
+    let square = v * v - 2.0 * a * d;
+    let time = match () {
+        _ if square < 0.0 => f64::INFINITY,
+        _ if v > 0.0 => -2.0 * d / (v + square.sqrt()),
+        _ if a > 0.0 => (square.sqrt() - v) / a,
+        _ => f64::INFINITY,
+    };
+    if time > 0.0 { time } else { f64::INFINITY }
+}

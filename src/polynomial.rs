@@ -1,0 +1,166 @@
+//! Polynomials of a step, c0 + c1 x + c2 x^2 + ..., evaluated by tables of powers: sums of products in a fixed order,
+//! which vectorise, where Horner's rule waits for one result after the other.
+
+/// Highest power of any series.
+pub const MAX_ORDER: usize = 30;
+
+/// Room for the powers of a series and of its derivatives, a multiple of [`BLOCK`].
+pub const ROOM: usize = 36;
+
+/// Terms that are summed side by side.
+const BLOCK: usize = 4;
+
+/// The coefficients of a polynomial; 0 or at least finite beyond its highest power.
+pub type Coefficients = [f64; ROOM];
+
+/// 0, 1, 2, ...
+const COUNT: Coefficients = {
+    let mut table = [0.0; ROOM];
+    let mut n = 0;
+    while n < ROOM {
+        table[n] = n as f64;
+        n += 1;
+    }
+    table
+};
+
+/// n (n-1) (n-2) (n-3).
+const FOURTH: Coefficients = {
+    let mut table = [0.0; ROOM];
+    let mut n = 4;
+    while n < ROOM {
+        table[n] = (n * (n - 1) * (n - 2) * (n - 3)) as f64;
+        n += 1;
+    }
+    table
+};
+
+/// 1/(n + 1).
+pub const RECIPROCAL: [f64; ROOM] = {
+    let mut table = [0.0; ROOM];
+    let mut n = 0;
+    while n < ROOM {
+        table[n] = 1.0 / (n + 1) as f64;
+        n += 1;
+    }
+    table
+};
+
+/// The powers of x up to some highest, and what their derivatives need.
+#[derive(Clone, Debug)]
+pub struct Powers {
+    /// x.
+    pub x: f64,
+    /// Blocks that hold powers up to the highest.
+    blocks: usize,
+    /// x^n, 0 beyond the highest.
+    value: Coefficients,
+    /// n x^(n-1).
+    slope: Coefficients,
+    /// n (n-1) (n-2) (n-3) x^(n-4).
+    fourth: Coefficients,
+}
+
+impl Default for Powers {
+    fn default() -> Powers {
+        Powers { x: 0.0, blocks: 1, value: [0.0; ROOM], slope: [0.0; ROOM], fourth: [0.0; ROOM] }
+    }
+}
+
+/// A polynomial at x.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// Its value.
+    pub value: f64,
+    /// Its derivative.
+    pub slope: f64,
+    /// Bound on its fourth derivative over 0..=x.
+    pub fourth: f64,
+}
+
+impl Powers {
+    /// Tables for x >= 0 and polynomials with powers up to `highest`.
+    pub fn set(&mut self, x: f64, highest: usize) {
+        self.x = x;
+        self.blocks = highest / BLOCK + 1;
+        let square = x * x;
+        (self.value[0], self.value[1]) = (1.0, x);
+        let end = (self.blocks * BLOCK).min(ROOM);
+        let present = |n: usize, factor: f64| if n <= highest { factor } else { 0.0 };
+        for n in 2..end {
+            self.value[n] = present(n, self.value[n - 2] * square);
+        }
+        for (n, count) in COUNT.iter().enumerate().take(end).skip(1) {
+            self.slope[n] = present(n, count * self.value[n - 1]);
+        }
+        for (n, count) in FOURTH.iter().enumerate().take(end).skip(4) {
+            self.fourth[n] = present(n, count * self.value[n - 4]);
+        }
+    }
+
+    /// x^n and n x^(n-1) for n from 0 on.
+    pub fn tables(&self) -> (&Coefficients, &Coefficients) {
+        (&self.value, &self.slope)
+    }
+
+    /// Value, slope and the bound on the fourth derivative.
+    pub fn read(&self, polynomial: &Coefficients) -> Reading {
+        let (mut value, mut slope, mut fourth) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
+        let [c, v, s, f] = [polynomial, &self.value, &self.slope, &self.fourth].map(|table| self.blocks_of(table));
+        for k in (0..c.len()).rev() {
+            for i in 0..BLOCK {
+                value[i] += c[k][i] * v[k][i];
+                slope[i] += c[k][i] * s[k][i];
+                fourth[i] += c[k][i].abs() * f[k][i];
+            }
+        }
+        Reading { value: total(value), slope: total(slope), fourth: total(fourth) }
+    }
+
+    /// Integral over 0..=x.
+    pub fn integral(&self, polynomial: &Coefficients) -> f64 {
+        let mut sum = [0.0; BLOCK];
+        let [c, v] = [polynomial, &self.value].map(|table| self.blocks_of(table));
+        let reciprocal = RECIPROCAL.as_chunks::<BLOCK>().0;
+        for k in (0..c.len()).rev() {
+            for i in 0..BLOCK {
+                sum[i] += c[k][i] * reciprocal[k][i] * v[k][i];
+            }
+        }
+        self.x * total(sum)
+    }
+
+    fn blocks_of<'a>(&self, table: &'a Coefficients) -> &'a [[f64; BLOCK]] {
+        &table.as_chunks::<BLOCK>().0[..self.blocks]
+    }
+}
+
+fn total(block: [f64; BLOCK]) -> f64 {
+    (block[0] + block[2]) + (block[1] + block[3])
+}
+
+/// Value of a polynomial at x.
+pub fn value(coefficients: &[f64], x: f64) -> f64 {
+    coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
+}
+
+/// Value and slope of a polynomial at x.
+pub fn value_and_slope(coefficients: &[f64], x: f64) -> (f64, f64) {
+    coefficients.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * x + c, slope * x + value))
+}
+
+/// x^(1/n) for x > 0 within 1 %: what the length of a step needs.
+pub fn rough_root(x: f64, n: usize) -> f64 {
+    const MANTISSA: u64 = (1 << 52) - 1;
+    let bits = x.to_bits();
+    let exponent = (bits >> 52) as i64 - 1023;
+    if !(-1022..1024).contains(&exponent) {
+        return libm::pow(x, 1.0 / n as f64);
+    }
+    // log2 of the mantissa by a parabola that is right at 1, sqrt 2 and 2; 2 to a fraction by its inverse's like.
+    let m = f64::from_bits(bits & MANTISSA | 1.0_f64.to_bits()) - 1.0;
+    let log = (exponent as f64 + m * (1.345_35 - 0.345_35 * m)) / n as f64;
+    let whole = log.floor();
+    let fraction = log - whole;
+    libm::ldexp(1.0 + fraction * (0.656_85 + 0.343_15 * fraction), whole as i32)
+}
