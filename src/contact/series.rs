@@ -1,11 +1,14 @@
 //! Power series of the contact force from that of the penetration, term by term, while a step is expanded.
 
 use super::force::{Force, Guard};
-use crate::polynomial::{Coefficients, RECIPROCAL, ROOM};
+use crate::polynomial::{Coefficients, RECIPROCAL, ROOM, value};
 use crate::quadrature::{TWELVE, gauss};
 
 /// Terms of a product of series that are summed side by side.
 const BLOCK: usize = 4;
+
+/// Share of its penetration that a pair has kept at the end of a step, below which the step is taken to end at a release.
+const NEARLY_RELEASED: f64 = 0.1;
 
 /// The scalar series of one contact over a step, in powers of x = t / scale.
 #[derive(Clone, Copy, Debug)]
@@ -104,8 +107,14 @@ impl PairSeries {
             return 0.0;
         }
         let (mut at, mut weights) = ([0.0; 12], [0.0; 12]);
-        for (i, (node, weight)) in gauss(TWELVE, x).enumerate().take(12) {
-            (at[i], weights[i]) = (node, weight);
+        // A power law's damping force ends with a root of the time left: even in the square root of that time.
+        let released = !force.is_regular()
+            && value(&self.penetration[..=self.order + 2], x) < NEARLY_RELEASED * self.penetration[0];
+        let reach = if released { 1.0 } else { x };
+        for (i, (node, weight)) in gauss(TWELVE, reach).enumerate().take(12) {
+            let left = 1.0 - node;
+            (at[i], weights[i]) =
+                if released { (x * (1.0 - left * left), x * 2.0 * left * weight) } else { (node, weight) };
         }
         let (mut d, mut rate) = ([0.0; 12], [0.0; 12]);
         for n in (0..=self.order + 2).rev() {

@@ -235,7 +235,8 @@ impl Pair {
         };
         if self.law.is_rigid() {
             // Overlaps by rounding at most: the scene is refused otherwise.
-            contact.at_surface = penetration >= 0.0;
+            let noise = self.noise(crate::structure::difference(&self.row, q).1);
+            contact.at_surface = penetration >= -noise;
             contact.penetration = penetration.min(0.0);
         } else if penetration > 0.0 {
             contact.begin(time, 0.0);

@@ -190,13 +190,13 @@ impl Model {
         }
     }
 
-    /// How far the last terms stay below the tolerance: those within one step of either exponent of the end, for free
-    /// masses have terms in every other row only.
+    /// How far the last terms stay below the tolerance. Free masses have the terms x^(1 + beta j) only, and the last row
+    /// begins up to one power of x and one of z below the highest.
     fn onset_reach(&self, base: &Base, onset: &OnsetSeries, grid: &Grid) -> f64 {
         let allowed = self.step_tolerance * base.velocity_scale * onset.scale;
         let mut last = [0.0; MOST_TERMS];
         grid.each(|index, exponent| {
-            if exponent > HIGHEST - grid.beta.max(2.0) {
+            if exponent > HIGHEST - 1.0 - grid.beta {
                 last[index] = exponent * self.worst_floor(onset.term(index));
             }
         });
