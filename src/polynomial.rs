@@ -80,21 +80,24 @@ pub struct Reading {
 
 impl Powers {
     /// Tables for x >= 0 and polynomials with powers up to `highest`.
+    #[expect(clippy::needless_range_loop, reason = "each table follows from another")]
     pub fn set(&mut self, x: f64, highest: usize) {
         self.x = x;
         self.blocks = highest / BLOCK + 1;
+        (self.value[0], self.value[1]) = (1.0, x);
         let square = x * x;
         (self.value[0], self.value[1]) = (1.0, x);
-        let end = (self.blocks * BLOCK).min(ROOM);
-        let present = |n: usize, factor: f64| if n <= highest { factor } else { 0.0 };
-        for n in 2..end {
-            self.value[n] = present(n, self.value[n - 2] * square);
+        for n in 2..=highest {
+            self.value[n] = self.value[n - 2] * square;
         }
-        for (n, count) in COUNT.iter().enumerate().take(end).skip(1) {
-            self.slope[n] = present(n, count * self.value[n - 1]);
+        for n in 1..=highest {
+            self.slope[n] = COUNT[n] * self.value[n - 1];
         }
-        for (n, count) in FOURTH.iter().enumerate().take(end).skip(4) {
-            self.fourth[n] = present(n, count * self.value[n - 4]);
+        for n in 4..=highest {
+            self.fourth[n] = FOURTH[n] * self.value[n - 4];
+        }
+        for table in [&mut self.value, &mut self.slope, &mut self.fourth] {
+            table[highest + 1..self.blocks * BLOCK].fill(0.0);
         }
     }
 
@@ -160,7 +163,59 @@ pub fn rough_root(x: f64, n: usize) -> f64 {
     // log2 of the mantissa by a parabola that is right at 1, sqrt 2 and 2; 2 to a fraction by its inverse's like.
     let m = f64::from_bits(bits & MANTISSA | 1.0_f64.to_bits()) - 1.0;
     let log = (exponent as f64 + m * (1.345_35 - 0.345_35 * m)) / n as f64;
-    let whole = log.floor();
-    let fraction = log - whole;
-    libm::ldexp(1.0 + fraction * (0.656_85 + 0.343_15 * fraction), whole as i32)
+    // Towards 0 and one down for what is below it.
+    let whole = log as i64 - i64::from(log < 0.0);
+    let fraction = log - whole as f64;
+    let power = f64::from_bits(((whole.clamp(-1022, 1023) + 1023) as u64) << 52);
+    power * (1.0 + fraction * (0.656_85 + 0.343_15 * fraction))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rough_root_is_within_one_percent() {
+        for n in [1, 2, 7, 16, 29] {
+            for exponent in -300..300 {
+                for mantissa in [1.0, 1.1, 1.25, 1.4, 1.7, 1.999_999] {
+                    let x = mantissa * libm::exp2(f64::from(exponent));
+                    let exact = libm::pow(x, 1.0 / n as f64);
+                    let error = rough_root(x, n) / exact - 1.0;
+                    assert!(error.abs() < 0.01, "{x:e}, root {n}: off by {error}");
+                }
+            }
+            assert_eq!(rough_root(0.0, n), 0.0);
+        }
+    }
+
+    #[test]
+    fn readings_are_those_of_horner() {
+        let mut polynomial = [0.0; ROOM];
+        for (n, c) in polynomial.iter_mut().enumerate().take(18) {
+            *c = 1.0 / (n as f64 - 7.3);
+        }
+        let mut powers = Powers::default();
+        for x in [0.0, 0.3, 0.97, 2.0] {
+            powers.set(x, 17);
+            let (exact, slope) = value_and_slope(&polynomial[..18], x);
+            let reading = powers.read(&polynomial);
+            let size: f64 = (0..18).map(|n| 18.0 * polynomial[n].abs() * libm::pow(x, n as f64)).sum();
+            assert!((reading.value - exact).abs() <= 1e-15 * size, "{x}: {reading:?} and {exact}");
+            assert!((reading.slope - slope).abs() <= 1e-15 * size * 18.0, "{x}: {reading:?} and {slope}");
+            let integral = (0..18).map(|n| polynomial[n] * libm::pow(x, n as f64 + 1.0) / (n + 1) as f64).sum::<f64>();
+            assert!((powers.integral(&polynomial) - integral).abs() <= 1e-15 * size * x.max(1.0), "{x}: {integral}");
+            // 24 c4 + 120 |c5| x + ...: largest slope of the third derivative.
+            let mut fourth = 0.0;
+            for n in 4..18_i32 {
+                let factor = f64::from(n * (n - 1) * (n - 2) * (n - 3));
+                fourth += factor * polynomial[n as usize].abs() * libm::pow(x, f64::from(n - 4));
+            }
+            assert!((reading.fourth - fourth).abs() <= 1e-14 * fourth, "{x}: {} and {fourth}", reading.fourth);
+        }
+        // A shorter polynomial after a longer one: nothing of the old tables is left.
+        powers.set(0.5, 2);
+        let exact = polynomial[0] + 0.5 * polynomial[1] + 0.25 * polynomial[2];
+        assert!((powers.read(&polynomial).value - exact).abs() < 1e-15);
+    }
 }

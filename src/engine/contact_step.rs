@@ -3,13 +3,14 @@
 //! The modes are linear, so each power of their series follows from the ones before at the cost of a few vector
 //! operations; only the contact forces need products of scalar series. The step is as long as the last terms allow.
 
+use super::complementarity::Complementarity;
 use super::model::{Model, Pair};
 use super::roots;
 use super::state::*;
 use crate::contact::Force;
 use crate::contact::series::PairSeries;
 use crate::polynomial::{Coefficients, MAX_ORDER, Powers, rough_root};
-use crate::structure::{LANES, ModalSeries, difference, dot};
+use crate::structure::{LANES, ModalSeries, PairForces, difference, dot};
 
 /// Share of `relative_tolerance` that one step may use: an episode takes some thirty steps and an earthquake some
 /// hundred episodes, whose errors add up. With this share the golden scenes of `tests/golden.rs` come out within
@@ -115,50 +116,49 @@ impl Model {
         let Step { series, pairs, .. } = step;
         series.start(scale, &base.q, &base.v);
         work.soft.clear();
+        work.laws.clear();
         for (p, contact) in touching(base) {
             pairs[p].start(contact.penetration, contact.rate * scale);
             if !contact.is_held() {
                 work.soft.push(p);
+                work.laws.push(contact.starting_force());
             }
         }
+        let mut soft = SoftPairs { model: self, base, pairs, numbers: &work.soft, laws: &work.laws, scale };
+        let count = soft.numbers.len();
+        if self.structure.is_classical() && work.rigid.pairs.is_empty() {
+            let loads = (&work.load[..], &work.slope[..]);
+            let rows = (&self.rows[..], soft.numbers);
+            let room = (&mut work.forces[..count], &mut work.gathered[..count]);
+            series.expand_in_contact(&self.structure, self.order + 1, loads, rows, &mut soft, room);
+            return;
+        }
         for n in 0..self.order {
-            for (force, &p) in work.forces.iter_mut().zip(&work.soft) {
-                pairs[p].extend_force(&base.contacts[p].starting_force(), n, scale);
-                *force = pairs[p].force[n];
-            }
-            if self.structure.is_classical() && work.rigid.pairs.is_empty() {
-                let load = match n {
-                    0 => Some((&work.load[..], 1.0)),
-                    1 => Some((&work.slope[..], scale)),
-                    _ => None,
-                };
-                let forces = (&self.rows[..], &work.soft[..], &work.forces[..work.soft.len()]);
-                series.extend_in_contact(&self.structure, load, forces, &mut work.gathered[..work.soft.len()]);
-            } else {
-                self.extend_together(series, pairs, work, n);
-            }
-            for (gathered, &p) in work.gathered.iter().zip(&work.soft) {
-                let term = if base.contacts[p].at_surface {
-                    difference(&self.pairs[p].row, series.term(n + 2)).0
-                } else {
-                    gathered.iter().sum()
-                };
-                pairs[p].set_penetration(n + 2, term);
-            }
+            self.extend_together(series, &mut soft, (&work.load, &work.slope), &mut work.rigid, &mut work.forces, n);
         }
     }
 
     /// One power where damping couples modes or floors are held together.
-    fn extend_together(&self, series: &mut ModalSeries, pairs: &mut [PairSeries], work: &mut Workspace, n: usize) {
-        let Workspace { load, slope, rigid, soft, forces, gathered, .. } = work;
+    fn extend_together(
+        &self,
+        series: &mut ModalSeries,
+        soft: &mut SoftPairs<'_>,
+        (load, slope): (&[f64], &[f64]),
+        rigid: &mut Complementarity,
+        forces: &mut [f64],
+        n: usize,
+    ) {
         let scale = series.scale;
+        for (k, force) in forces.iter_mut().enumerate().take(soft.numbers.len()) {
+            *force = soft.force(k, n);
+        }
         let load_of_power = |out: &mut [f64]| {
             match n {
                 0 => out.copy_from_slice(load),
-                1 => out.iter_mut().zip(&*slope).for_each(|(out, slope)| *out = slope * scale),
+                1 => out.iter_mut().zip(slope).for_each(|(out, slope)| *out = slope * scale),
                 _ => {}
             }
-            for (&p, force) in soft.iter().zip(&*forces) {
+            for (&p, force) in soft.numbers.iter().zip(&*forces) {
                 for (out, row) in out.iter_mut().zip(&self.pairs[p].row) {
                     *out -= row * force;
                 }
@@ -166,13 +166,13 @@ impl Model {
         };
         series.extend(&self.structure, load_of_power, |acceleration| self.hold(rigid, acceleration));
         for (&k, reaction) in rigid.pairs.iter().zip(&rigid.found) {
-            let pair = &mut pairs[self.rigid.pairs[k]];
+            let pair = &mut soft.pairs[self.rigid.pairs[k]];
             pair.force[n] = *reaction;
             pair.order = n;
         }
-        for (&p, gathered) in soft.iter().zip(gathered) {
-            *gathered = [0.0; LANES];
-            gathered[0] = dot(&self.pairs[p].row, series.term(n + 2));
+        let term = series.term(n + 2);
+        for (k, &p) in soft.numbers.iter().enumerate() {
+            soft.advance(k, n + 2, dot(&self.pairs[p].row, term), term);
         }
     }
 
@@ -353,6 +353,34 @@ fn happen_now(state: &mut State, event: Event) {
     step.ends.clear();
     step.q.copy_from_slice(&base.q);
     step.v.copy_from_slice(&base.v);
+}
+
+/// The pairs in contact whose force follows from their penetration.
+struct SoftPairs<'a> {
+    model: &'a Model,
+    base: &'a Base,
+    pairs: &'a mut [PairSeries],
+    numbers: &'a [usize],
+    laws: &'a [Force],
+    scale: f64,
+}
+
+impl PairForces for SoftPairs<'_> {
+    #[inline]
+    fn force(&mut self, k: usize, n: usize) -> f64 {
+        let p = self.numbers[k];
+        let pair = &mut self.pairs[p];
+        pair.extend_force(&self.laws[k], n, self.scale);
+        pair.force[n]
+    }
+
+    #[inline]
+    fn advance(&mut self, k: usize, n: usize, penetration: f64, term: &[f64]) {
+        let p = self.numbers[k];
+        let at_surface = self.base.contacts[p].at_surface;
+        let cancelled = || difference(&self.model.pairs[p].row, term).0;
+        self.pairs[p].set_penetration(n, if at_surface { cancelled() } else { penetration });
+    }
 }
 
 /// Where the penetration is back at 0, up to `until`.

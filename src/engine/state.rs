@@ -4,8 +4,8 @@ use super::Episode;
 use super::complementarity::Complementarity;
 use super::ground::Segment;
 use super::onset_step::OnsetSeries;
-use crate::contact::EpisodeForce;
 use crate::contact::series::PairSeries;
+use crate::contact::{EpisodeForce, Force};
 use crate::polynomial::{Coefficients, MAX_ORDER, Powers, ROOM};
 use crate::structure::{Interval, LANES, ModalSeries, Scratch, Structure};
 
@@ -131,9 +131,9 @@ impl Contact {
     }
 
     /// The force law in this phase.
-    pub fn branch(&self) -> crate::contact::Force {
+    pub fn branch(&self) -> Force {
         match self.phase {
-            Phase::Apart | Phase::Held => crate::contact::Force::None,
+            Phase::Apart | Phase::Held => Force::None,
             Phase::Engaged => self.force.engaged,
             Phase::Slack => self.force.slack,
         }
@@ -235,6 +235,7 @@ pub(super) struct Workspace {
     pub powers: Powers,
     /// Numbers of the soft pairs in contact, with what a power of their series needs.
     pub soft: Vec<usize>,
+    pub laws: Vec<Force>,
     pub forces: Vec<f64>,
     pub gathered: Vec<[f64; LANES]>,
     pub rigid: Complementarity,
@@ -258,6 +259,7 @@ impl Workspace {
             scalar: [0.0; ROOM],
             powers: Powers::default(),
             soft: Vec::with_capacity(pairs),
+            laws: Vec::with_capacity(pairs),
             forces: vec![0.0; pairs],
             gathered: vec![[0.0; LANES]; pairs],
             rigid: Complementarity::new(rigid),

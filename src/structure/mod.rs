@@ -13,7 +13,7 @@ mod series;
 
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
 pub use propagator::{CoupledIncrement, ModeIncrement};
-pub use series::{EXACT, ModalSeries, difference, dot, flight_order};
+pub use series::{EXACT, ModalSeries, PairForces, difference, dot, flight_order};
 
 use crate::scene::Building;
 use nalgebra::DMatrix;

@@ -34,6 +34,14 @@ pub fn flight_order(reach: f64, remainder: f64) -> Option<usize> {
     Some(order)
 }
 
+/// The forces of pairs while a series is expanded, power by power.
+pub trait PairForces {
+    /// Power n of the force of pair number k, in units of the load.
+    fn force(&mut self, k: usize, n: usize) -> f64;
+    /// Takes power n of the penetration of pair number k; `term` is that of all modes.
+    fn advance(&mut self, k: usize, n: usize, penetration: f64, term: &[f64]);
+}
+
 /// q(x) = sum of `rows[n]` x^n with x = t / scale, of all modes.
 #[derive(Clone, Debug, Default)]
 pub struct ModalSeries {
@@ -93,52 +101,64 @@ impl ModalSeries {
         self.order += 1;
     }
 
-    /// The same where damping couples no modes, under the contact forces of some pairs: of pair `active[k]`, whose row is
-    /// that of `rows`, `forces[k]` in units of the load. Leaves row . (the new power) in `gathered[k]`.
-    pub fn extend_in_contact(
+    /// Expands from a started series to `order` where damping couples no modes, under a load, its slope and the forces
+    /// of some pairs; `rows` holds the rows of all pairs, LANES entries after LANES entries.
+    pub fn expand_in_contact(
         &mut self,
         structure: &Structure,
-        load: Option<(&[f64], f64)>,
-        (rows, active, forces): (&[f64], &[usize], &[f64]),
-        gathered: &mut [[f64; LANES]],
+        order: usize,
+        (load, slope): (&[f64], &[f64]),
+        (rows, active): (&[f64], &[usize]),
+        forces: &mut impl PairForces,
+        (force, gathered): (&mut [f64], &mut [[f64; LANES]]),
     ) {
-        let n = self.order - 1;
         let width = self.lanes / LANES;
+        let scale2 = self.scale * self.scale;
+        let [(damping, _), (omega2, _), (rows, _), (load, _), (slope, _)] =
+            [&structure.damping, &structure.omega2, rows, load, slope].map(<[f64]>::as_chunks::<LANES>);
+        let (damping, omega2, load, slope) = (&damping[..width], &omega2[..width], &load[..width], &slope[..width]);
         let (terms, _) = self.coefficients.as_chunks_mut::<LANES>();
-        let (known, next_terms) = terms.split_at_mut((n + 2) * width);
-        let (q0, q1) = (&known[n * width..(n + 1) * width], &known[(n + 1) * width..]);
-        let [(damping, _), (omega2, _), (rows, _)] =
-            [&structure.damping, &structure.omega2, rows].map(<[f64]>::as_chunks::<LANES>);
-        let rate = (n + 1) as f64 / self.scale;
-        let factor = self.scale * self.scale * RECIPROCAL[n];
-        gathered.fill([0.0; LANES]);
-        for c in 0..width {
-            let mut next = [0.0; LANES];
-            if let Some((load, unit)) = load {
-                let load = &load.as_chunks::<LANES>().0[c];
-                next = load.map(|load| load * unit);
+        for n in 0..order - 1 {
+            for (k, force) in force.iter_mut().enumerate() {
+                *force = forces.force(k, n);
             }
-            for i in 0..LANES {
-                next[i] -= rate * damping[c][i] * q1[c][i] + omega2[c][i] * q0[c][i];
-            }
-            for (&p, &force) in active.iter().zip(forces) {
-                let row = &rows[p * width + c];
+            gathered.fill([0.0; LANES]);
+            let (known, next_terms) = terms.split_at_mut((n + 2) * width);
+            let (q0, q1) = known[n * width..].split_at(width);
+            let next_terms = &mut next_terms[..width];
+            let rate = (n + 1) as f64 / self.scale;
+            let factor = scale2 * RECIPROCAL[n];
+            for c in 0..width {
+                let mut next = match n {
+                    0 => load[c],
+                    1 => slope[c].map(|slope| slope * self.scale),
+                    _ => [0.0; LANES],
+                };
                 for i in 0..LANES {
-                    next[i] -= row[i] * force;
+                    next[i] -= rate * damping[c][i] * q1[c][i] + omega2[c][i] * q0[c][i];
+                }
+                for (&p, &force) in active.iter().zip(&*force) {
+                    let row = &rows[p * width + c];
+                    for i in 0..LANES {
+                        next[i] -= row[i] * force;
+                    }
+                }
+                for next in &mut next {
+                    *next *= factor;
+                }
+                next_terms[c] = next;
+                for (&p, sum) in active.iter().zip(gathered.iter_mut()) {
+                    let row = &rows[p * width + c];
+                    for i in 0..LANES {
+                        sum[i] += row[i] * next[i];
+                    }
                 }
             }
-            for next in &mut next {
-                *next *= factor;
-            }
-            next_terms[c] = next;
-            for (&p, sum) in active.iter().zip(gathered.iter_mut()) {
-                let row = &rows[p * width + c];
-                for i in 0..LANES {
-                    sum[i] += row[i] * next[i];
-                }
+            for (k, gathered) in gathered.iter().enumerate() {
+                forces.advance(k, n + 2, gathered.iter().sum(), next_terms.as_flattened());
             }
         }
-        self.order += 1;
+        self.order = order;
     }
 
     /// Expands a flight: load and slope only.
