@@ -49,6 +49,8 @@ pub struct Structure {
     /// Largest w or c of all modes, 1/s: the fastest thing that the structure does.
     pub fastest: f64,
     coupling: Vec<Coupling>,
+    /// The shapes of each building floor by floor.
+    floor_shapes: [Vec<f64>; 2],
 }
 
 /// Off-diagonal damping of one building, 1/s.
@@ -73,6 +75,7 @@ impl Structure {
             weight: vec![0.0; lanes],
             fastest: 0.0,
             coupling: Vec::new(),
+            floor_shapes: [&left, &right].map(|modes| modes.shape.transpose().as_slice().to_vec()),
             buildings: [left, right],
         };
         for side in [Side::Left, Side::Right] {
@@ -136,8 +139,18 @@ impl Structure {
 
     /// One floor's motion from a modal vector of displacements, velocities or accelerations.
     pub fn at_floor(&self, side: Side, floor: usize, modal: &[f64]) -> f64 {
-        let offset = self.offset(side);
-        self.modes(side).shape.row(floor).iter().zip(&modal[offset..]).map(|(shape, q)| shape * q).sum()
+        let modes = self.floors(side);
+        let shape = &self.floor_shapes[side as usize][floor * modes..][..modes];
+        let modal = &modal[self.offset(side)..][..modes];
+        let (shape_blocks, shape_rest) = shape.as_chunks::<LANES>();
+        let (modal_blocks, modal_rest) = modal.as_chunks::<LANES>();
+        let mut sum = [0.0; LANES];
+        for (shape, modal) in shape_blocks.iter().zip(modal_blocks) {
+            for i in 0..LANES {
+                sum[i] += shape[i] * modal[i];
+            }
+        }
+        sum.iter().sum::<f64>() + shape_rest.iter().zip(modal_rest).map(|(shape, q)| shape * q).sum::<f64>()
     }
 
     /// The modal vector of floor displacements or velocities: shape' M u.
