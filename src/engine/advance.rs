@@ -116,13 +116,15 @@ impl Model {
             }
             return;
         }
+        // What a step without length has not moved keeps what is known of it, which may be more than its floors tell.
+        if step.length == 0.0 {
+            return;
+        }
         for (p, (contact, pair)) in base.contacts.iter_mut().zip(&self.pairs).enumerate() {
-            if step.length > 0.0 {
-                contact.at_surface = false;
-                contact.let_go = false;
-                contact.undecided = false;
-            }
-            if contact.is_held() || contact.carried && step.length == 0.0 {
+            contact.at_surface = false;
+            contact.let_go = false;
+            contact.undecided = false;
+            if contact.is_held() {
                 continue;
             }
             let (penetration, rate) = pair.penetration(&base.q, &base.v);

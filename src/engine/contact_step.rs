@@ -37,35 +37,20 @@ impl Model {
     /// Works out the step in contact from the base until `limit` (s since the segment's start) or the next event.
     pub(super) fn plan_contact(&self, state: &mut State, limit: f64) {
         state.base.velocity_scale = state.base.velocity_scale.max(self.present_velocity(&state.base));
-        let mut limit = limit;
-        let mut cut = false;
-        if self.has_close_rigid_pair(&state.base) {
-            let apart = self.balance(&state.base, &state.inputs, &mut state.work);
-            if let Some(p) = apart {
-                return happen_now(state, Event::Release(p));
-            }
-            let State { base, work, .. } = &*state;
-            let mut horizon = base.elapsed + self.bounce_horizon(base, &work.q);
-            if base.contacts.iter().any(|contact| contact.undecided) {
-                horizon = horizon.min(base.elapsed + SHORT_WHILE * (limit - base.elapsed));
-            }
-            cut = horizon < limit;
-            limit = limit.min(horizon);
-            state.work.rigid.close_all(&self.rigid.matrix);
-        } else {
-            state.work.rigid.clear();
-        }
+        let (remaining, cut) = match self.time_for_rigid_pairs(state, limit - state.base.elapsed) {
+            Ok(time) => time,
+            Err(event) => return happen_now(state, event),
+        };
         if let Some(p) = self.entry_at_once(&state.base) {
             return happen_now(state, Event::Entry(p));
         }
         let is_singular = touching(&state.base).any(|(_, contact)| contact.is_singular());
-        if is_singular && !self.has_close_rigid_pair(&state.base) && self.plan_onset(state, limit) {
+        if is_singular && !self.has_close_rigid_pair(&state.base) && self.plan_onset(state, remaining) {
             return;
         }
         let State { base, step, inputs, counters, work, .. } = state;
         counters.contact_steps += 1;
         step.ends.clear();
-        let remaining = limit - base.elapsed;
         self.load(base, inputs, &mut work.load, &mut work.slope);
         let scale = self.series_scale(base, remaining);
         self.expand(base, step, work, scale);
@@ -88,6 +73,25 @@ impl Model {
             contact.reaction = pair.force[0];
         }
         base.last_length = reach * scale;
+    }
+
+    /// How long a step may be near rigid contacts, of the `remaining` time, s, and whether it is cut; or the release that
+    /// comes first. Leaves the pairs that are held together in `work.rigid`, all active.
+    fn time_for_rigid_pairs(&self, state: &mut State, remaining: f64) -> Result<(f64, bool), Event> {
+        let State { base, inputs, work, .. } = state;
+        if !self.has_close_rigid_pair(base) {
+            work.rigid.clear();
+            return Ok((remaining, false));
+        }
+        if let Some(p) = self.balance(base, inputs, work) {
+            return Err(Event::Release(p));
+        }
+        work.rigid.close_all(&self.rigid.matrix);
+        let mut time = self.bounce_horizon(base, &work.q);
+        if base.contacts.iter().any(|contact| contact.undecided) {
+            time = time.min(SHORT_WHILE * remaining);
+        }
+        Ok((remaining.min(time), time < remaining))
     }
 
     /// Whether rigid floors are held together, or are about to meet again.
@@ -302,7 +306,8 @@ impl Model {
             return self.letting_go(p, step, work, end);
         }
         let pair = &step.pairs[p];
-        let first = release(pair, &step.end, &mut work.scalar, end).map(|x| (x, Event::Release(p)));
+        let depth = if contact.at_surface && contact.rate == 0.0 { self.noise_of(p, step, work) } else { 0.0 };
+        let first = release(pair, &step.end, &mut work.scalar, (end, depth)).map(|x| (x, Event::Release(p)));
         let Some(guard) = contact.force.guard else { return first };
         let until = first.map_or(end, |(x, _)| x);
         let sense = if contact.phase == Phase::Engaged { -1.0 } else { 1.0 };
@@ -315,6 +320,12 @@ impl Model {
             Some(x) if x < until || first.is_none() => Some((x, Event::Branch(p))),
             _ => first,
         }
+    }
+
+    /// m, rounding error of a penetration within the step.
+    fn noise_of(&self, p: usize, step: &Step, work: &mut Workspace) -> f64 {
+        let pair = &self.pairs[p];
+        pair.noise(step.series.project(&pair.row, step.end.x, &mut work.scalar[..=step.series.order]))
     }
 
     /// Entry of a pair that is apart.
@@ -383,12 +394,14 @@ impl PairForces for SoftPairs<'_> {
     }
 }
 
-/// Where the penetration is back at 0, up to `until`.
-fn release(pair: &PairSeries, end: &Powers, distance: &mut Coefficients, until: f64) -> Option<f64> {
+/// Where the penetration is back at 0, up to `until`; at -`depth` for a pair that has entered without any speed, whose
+/// first terms may be rounding.
+fn release(pair: &PairSeries, end: &Powers, distance: &mut Coefficients, (until, depth): (f64, f64)) -> Option<f64> {
     // Distance to the surface, positive once d has passed 0 downwards.
     for (out, d) in distance.iter_mut().zip(&pair.penetration) {
         *out = -d;
     }
+    distance[0] -= depth;
     if roots::ceiling((distance[0].min(0.0), distance[1]), end.x, &end.read(distance)) <= 0.0 {
         return None;
     }

@@ -74,9 +74,8 @@ impl OnsetSeries {
 impl Model {
     /// Works out the first step of an episode; `false` where a plain step has to do it: entries without speed to
     /// speak of, or of different laws at the same instant.
-    pub(super) fn plan_onset(&self, state: &mut State, limit: f64) -> bool {
+    pub(super) fn plan_onset(&self, state: &mut State, remaining: f64) -> bool {
         let State { base, step, inputs, counters, work, .. } = state;
-        let remaining = limit - base.elapsed;
         self.load(base, inputs, &mut work.load, &mut work.slope);
         let Some((grid, scale)) = self.onset_grid(base, work, remaining) else { return false };
         self.expand_onset(base, &mut step.onset, work, grid, scale);

@@ -57,7 +57,7 @@ impl Model {
         contact.penetration = 0.0;
         contact.at_surface = true;
         if approach > still {
-            self.collide(base, work, on_episode);
+            self.collide(base, first, work, on_episode);
         } else {
             self.join(base, first, work);
         }
@@ -71,12 +71,13 @@ impl Model {
         (rate, STILL * size)
     }
 
-    /// The impulses of all rigid pairs that meet now.
-    fn collide(&self, base: &mut Base, work: &mut Workspace, on_episode: &mut dyn FnMut(&Episode)) {
+    /// The impulses of all rigid pairs that meet now, when one does.
+    fn collide(&self, base: &mut Base, first: usize, work: &mut Workspace, on_episode: &mut dyn FnMut(&Episode)) {
         let rigid = &mut work.rigid;
         rigid.clear();
         for (k, &p) in self.rigid.pairs.iter().enumerate() {
-            let (rate, _) = self.approach(base, p);
+            let (rate, still) = self.approach(base, p);
+            let rate = if p != first && rate.abs() <= still { 0.0 } else { rate };
             base.contacts[p].rate = rate;
             if rate >= 0.0 && self.is_closed(base, p) {
                 rigid.add(k, (1.0 + self.returned_share(base, p)) * rate, 0.0);

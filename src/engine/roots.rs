@@ -198,19 +198,13 @@ pub fn first_rise(coefficients: &mut [f64], end: f64, noise: f64) -> Option<f64>
     curve.first_rise(curve.at(0.0), curve.at(end))
 }
 
-/// As above with the root at x = 0 divided out: the sign just after it is that of the first power that is not 0 but for
-/// rounding.
+/// As above with the root at x = 0 divided out: the sign just after it is that of the first power that is not 0.
 fn first_rise_from_zero(coefficients: &[f64], end: f64, noise: f64) -> Option<f64> {
     let whole = Curve::new(coefficients, end, noise);
     if whole.ceiling(whole.at(0.0), whole.at(end)) <= noise {
         return None;
     }
-    let mut power = 1.0;
-    let leading = coefficients.iter().position(|c| {
-        let share = (c * power).abs();
-        power *= end;
-        share > noise
-    })?;
+    let leading = coefficients.iter().position(|c| *c != 0.0)?;
     let rest = &coefficients[leading..];
     if rest[0] > 0.0 {
         return Some(0.0);

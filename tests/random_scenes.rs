@@ -1,0 +1,101 @@
+//! Random scenes: every run ends, its energy is accounted for, no force pulls where the law has no tension, rigid floors
+//! do not overlap. Each begins at rest, many with floors that touch, where everything is rounding at first.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::{Run, record};
+use pounding::engine::Side;
+use pounding::record::Record;
+use pounding::scene::Scene;
+use proptest::prelude::*;
+
+#[derive(Clone, Debug)]
+struct Frame {
+    /// kg.
+    mass: f64,
+    /// Hz, of one storey by itself.
+    frequency: f64,
+    /// Factors on mass and stiffness, storey by storey.
+    storeys: Vec<(f64, f64)>,
+    ratio: f64,
+}
+
+fn frame() -> impl Strategy<Value = Frame> {
+    let storeys = prop::collection::vec((0.7..1.3, 0.7..1.3), 1..=4);
+    ((0.0..6.0_f64), (0.3..30.0_f64), storeys, prop_oneof![Just(0.0), 0.0..0.1])
+        .prop_map(|(mass, frequency, storeys, ratio)| Frame { mass: 10.0_f64.powf(mass), frequency, storeys, ratio })
+}
+
+impl Frame {
+    fn toml(&self, side: &str) -> String {
+        let w = 2.0 * std::f64::consts::PI * self.frequency;
+        let masses: Vec<f64> = self.storeys.iter().map(|(m, _)| m * self.mass).collect();
+        let stiffness: Vec<f64> = self.storeys.iter().map(|(_, k)| k * self.mass * w * w).collect();
+        format!("[{side}]\nmass = {masses:?}\nstiffness = {stiffness:?}\ndamping = {{ ratio = {:?} }}\n", self.ratio)
+    }
+}
+
+/// Law, stiffness over mass, restitution.
+fn law() -> impl Strategy<Value = (&'static str, f64, f64)> {
+    let name = prop_oneof![
+        Just("stereomechanical"),
+        Just("linear"),
+        Just("kelvin_voigt_no_tension"),
+        Just("hertz"),
+        Just("jankowski"),
+        Just("hertz_damped"),
+    ];
+    (name, (4.0..8.0_f64).prop_map(|k| 10.0_f64.powf(k)), 0.1..0.95_f64)
+}
+
+fn law_toml((name, stiffness, restitution): (&str, f64, f64), mass: f64) -> String {
+    let stiffness = stiffness * mass;
+    let numbers = match name {
+        "stereomechanical" => format!("restitution = {restitution:?}"),
+        "linear" | "hertz" => format!("stiffness = {stiffness:?}"),
+        "hertz_damped" => {
+            format!("stiffness = {stiffness:?}\nrestitution = {restitution:?}\ndamping_formula = \"exact\"")
+        }
+        _ => format!("stiffness = {stiffness:?}\nrestitution = {restitution:?}"),
+    };
+    format!("law = \"{name}\"\n{numbers}\n")
+}
+
+/// 2 s at 50 Hz that begin with 0.
+fn motion() -> Record {
+    let t = |k: i32| f64::from(k) * 0.02;
+    record(0.02, &(0..=100).map(|k| 4.0 * (9.0 * t(k)).sin() + 2.0 * (31.0 * t(k)).sin()).collect::<Vec<_>>())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_run_ends_with_its_energy_accounted_for(
+        frames in [frame(), frame()],
+        laws in prop::collection::vec((law(), prop_oneof![Just(0.0), 1e-4..2e-2_f64]), 4),
+    ) {
+        let mut text = format!("name = \"Any\"\n{}{}", frames[0].toml("left"), frames[1].toml("right"));
+        let facing = frames[0].storeys.len().min(frames[1].storeys.len());
+        for (floor, (law, gap)) in (1..=facing).zip(&laws) {
+            let law = law_toml(*law, frames[0].mass);
+            text += &format!("[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = {gap:?}\n{law}");
+        }
+        let mut scene = Scene::from_toml(&format!("{text}[outputs]\nenergy = true\n")).unwrap();
+        scene.ground.record = Some("motion.csv".into());
+        let mut run = Run::new(&scene, Some(&motion()));
+        for k in 1..=100 {
+            run.to(0.02 * f64::from(k));
+            for (contact, pair) in run.point.contacts.iter().zip(&scene.contacts) {
+                prop_assert!(contact.force >= 0.0, "{:?} pulls: {contact:?}\n{text}", pair.law.kind);
+                let at = |side, floor: usize| run.displacement(side, floor - 1);
+                let depth = at(Side::Left, pair.left_floor) - at(Side::Right, pair.right_floor) - pair.gap;
+                prop_assert!(!pair.law.is_rigid() || depth < 1e-14, "overlap of {depth:e}\n{text}");
+            }
+            let residual = run.point.energy.unwrap().residual;
+            // Elastic contacts of light frames multiply the rounding of every impact; the account still has to close.
+            prop_assert!(residual.abs() < 1e-11, "residual {residual:e}\n{text}");
+        }
+    }
+}
