@@ -170,9 +170,10 @@ impl Model {
         if steps > MOST_STEPS {
             return Err(EngineError {
                 message: format!(
-                    "{MOST_STEPS} internal steps in one communication step, at t = {time} s; the fastest rate of the \
-                     buildings is {:e} 1/s: check stiffnesses, masses and damping, or take smaller communication steps",
-                    self.structure.fastest
+                    "{MOST_STEPS} internal steps in one communication step, at t = {time} s, with {} impacts so far; the \
+                     fastest rate of the buildings is {:e} 1/s: check stiffnesses, masses and damping, lower restitutions \
+                     of floors that rebound for ever, or take smaller communication steps",
+                    base.impacts, self.structure.fastest
                 ),
             });
         }
