@@ -112,7 +112,10 @@ fn solve(model: &Model, step: f64, stop: f64, mut motion: Option<&mut Motion>) -
         // What is left by rounding is no step of its own.
         let time = if regular > stop - 1e-9 * step { stop } else { regular };
         let clock = Instant::now();
-        model.advance(&mut state, time, &mut |episode| solution.episodes.push(*episode))?;
+        // The first row is the start as an FMU shows it: what happens at that very instant belongs to the first step.
+        if time > 0.0 {
+            model.advance(&mut state, time, &mut |episode| solution.episodes.push(*episode))?;
+        }
         model.observe(&state, &mut point);
         solution.time += clock.elapsed();
         solution.rows += 1;

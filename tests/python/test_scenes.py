@@ -21,6 +21,12 @@ SCENES = {
     "initial conditions": [(LEFT, LEFT + "\ninitial_displacement = [0.01, 0.02]\ninitial_velocity = [0.0, 0.3]")],
     "pressed together": [("gap = 0.005", "gap = -0.001")],
     "hertz": [('law = "kelvin_voigt"', 'law = "hertz"'), ("restitution = 0.65\n", "")],
+    "rigid": [('law = "kelvin_voigt"\nstiffness = 1.0e6', 'law = "stereomechanical"')],
+    "rigid, touching": [
+        ('law = "kelvin_voigt"\nstiffness = 1.0e6', 'law = "stereomechanical"'),
+        ("gap = 0.005", "gap = 0.0"),
+        ("restitution = 0.65", "restitution = 0.3"),
+    ],
     "floor forces": [("[outputs]", "[inputs]\nfloor_forces = true\n[outputs]")],
     "no stop time": [("stop_time = 20.0", "")],
     "scaled to a peak": [('el_centro_1940_ns.csv"', 'el_centro_1940_ns.csv"\npga = 4.903325')],
