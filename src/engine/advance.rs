@@ -127,13 +127,13 @@ impl Model {
             if contact.is_held() {
                 continue;
             }
-            let (penetration, rate) = pair.penetration(&base.q, &base.v);
             if let Some((penetration, rate)) = step.carried[p] {
                 (contact.penetration, contact.rate) = (penetration, rate);
                 contact.carried = self.is_close(p, penetration, &base.q);
                 continue;
             }
             contact.carried = false;
+            let (penetration, rate) = pair.penetration(&base.q, &base.v);
             if !contact.in_contact() {
                 contact.penetration = penetration;
             }

@@ -87,11 +87,7 @@ impl Model {
         let shares = rigid.pairs.iter().map(|&k| self.returned_share(base, self.rigid.pairs[k]));
         rigid.known.clear();
         rigid.known.extend(shares);
-        for (&k, &impulse) in rigid.pairs.iter().zip(&rigid.found) {
-            for (v, row) in base.v.iter_mut().zip(&self.pairs[self.rigid.pairs[k]].row) {
-                *v -= row * impulse;
-            }
-        }
+        self.push_apart(rigid, &mut base.v);
         for (k, &p) in self.rigid.pairs.iter().enumerate() {
             let taken = rigid.pairs.iter().position(|&other| other == k).filter(|&i| rigid.found[i] > 0.0);
             match taken {
@@ -200,16 +196,12 @@ impl Model {
                 *known = dot(&self.pairs[p].row, motion) - if is_displacement { gap(p) } else { 0.0 };
             }
             rigid.solve();
-            for (&k, found) in rigid.pairs.iter().zip(&rigid.found) {
-                for (x, row) in motion.iter_mut().zip(&self.pairs[self.rigid.pairs[k]].row) {
-                    *x -= row * found;
-                }
-            }
+            self.push_apart(rigid, motion);
         }
     }
 
     /// Lists the pairs that are held together and makes them all active.
-    pub(super) fn select_held(&self, base: &Base, work: &mut Workspace) {
+    fn select_held(&self, base: &Base, work: &mut Workspace) {
         work.rigid.clear();
         for (k, _) in self.rigid.pairs.iter().enumerate().filter(|&(_, &p)| base.contacts[p].is_held()) {
             work.rigid.add(k, 0.0, 0.0);
@@ -238,11 +230,7 @@ impl Model {
             rigid.add(k, pressing, 8.0 * f64::EPSILON * size);
         }
         rigid.push(&self.rigid.matrix);
-        for (&k, force) in rigid.pairs.iter().zip(&rigid.found) {
-            for (acceleration, row) in acceleration.iter_mut().zip(&self.pairs[self.rigid.pairs[k]].row) {
-                *acceleration -= row * force;
-            }
-        }
+        self.push_apart(rigid, acceleration);
         let apart = (0..rigid.pairs.len()).find(|&i| {
             let p = self.rigid.pairs[rigid.pairs[i]];
             let moves_apart = dot(&self.pairs[p].row, acceleration) < -rigid.noise[i];
@@ -261,9 +249,14 @@ impl Model {
             *known = difference(&self.pairs[self.rigid.pairs[k]].row, acceleration).0;
         }
         rigid.solve();
-        for (&k, force) in rigid.pairs.iter().zip(&rigid.found) {
-            for (acceleration, row) in acceleration.iter_mut().zip(&self.pairs[self.rigid.pairs[k]].row) {
-                *acceleration -= row * force;
+        self.push_apart(rigid, acceleration);
+    }
+
+    /// What the forces (impulses, shifts) that have been found do to the modal accelerations (velocities, displacements).
+    fn push_apart(&self, rigid: &Complementarity, modal: &mut [f64]) {
+        for (&k, found) in rigid.pairs.iter().zip(&rigid.found) {
+            for (modal, row) in modal.iter_mut().zip(&self.pairs[self.rigid.pairs[k]].row) {
+                *modal -= row * found;
             }
         }
     }
