@@ -2,6 +2,7 @@
 
 use super::Episode;
 use super::complementarity::Complementarity;
+use super::drift::PeakDrifts;
 use super::ground::Segment;
 use super::onset_step::OnsetSeries;
 use crate::contact::series::PairSeries;
@@ -45,8 +46,7 @@ pub(super) struct Base {
     /// Modal velocities.
     pub v: Vec<f64>,
     pub contacts: Vec<Contact>,
-    /// m, left storeys then right storeys, each padded.
-    pub peak_drift: Vec<f64>,
+    pub peak_drift: PeakDrifts,
     pub energy: Option<Account>,
     /// m/s, largest floor velocity that a contact step has seen: what its error is relative to.
     pub velocity_scale: f64,
