@@ -99,6 +99,7 @@ impl Model {
         self.update_peak_drift(base);
         if let Some(event) = step.event {
             counters.events += 1;
+            base.watch.restart();
             self.handle(base, event, work, on_episode);
         }
         step.kind = StepKind::Unknown;
@@ -107,12 +108,14 @@ impl Model {
     /// Penetrations and rates at the end of a step.
     fn move_contacts(&self, base: &mut Base, step: &Step) {
         if !step.ends.is_empty() {
-            for (contact, &(penetration, rate)) in base.contacts.iter_mut().zip(&step.ends) {
+            for (p, (contact, end)) in base.contacts.iter_mut().zip(&step.ends).enumerate() {
                 contact.at_surface = false;
                 contact.let_go = false;
                 contact.carried = false;
-                contact.penetration = penetration;
-                contact.rate = rate;
+                base.watch.set_known(p, end.is_some());
+                if let Some((penetration, rate)) = *end {
+                    (contact.penetration, contact.rate) = (penetration, rate);
+                }
             }
             return;
         }
@@ -121,6 +124,7 @@ impl Model {
             return;
         }
         for (p, (contact, pair)) in base.contacts.iter_mut().zip(&self.pairs).enumerate() {
+            base.watch.set_known(p, true);
             contact.at_surface = false;
             contact.let_go = false;
             contact.undecided = false;

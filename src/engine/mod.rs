@@ -5,6 +5,7 @@
 mod advance;
 mod complementarity;
 mod contact_step;
+mod dismissal;
 mod drift;
 mod energy;
 mod flight;

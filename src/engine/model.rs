@@ -1,5 +1,6 @@
 //! The model: everything about a scene that stays as it is during a run.
 
+use super::dismissal::{ClosingSpeeds, Watch};
 use super::drift::DriftShapes;
 use super::ground::{GroundMotion, Segment};
 use super::onset_step::OnsetSeries;
@@ -35,6 +36,7 @@ pub struct Model {
     /// Order of the contact series.
     pub(super) order: usize,
     pub(super) drift: DriftShapes,
+    pub(super) closing: ClosingSpeeds,
     frequencies: [Vec<f64>; 2],
     initial: [Vec<f64>; 2],
 }
@@ -77,6 +79,7 @@ impl Model {
         let (step_tolerance, order) = contact_step::accuracy(scene.solver.relative_tolerance);
         Ok(Model {
             drift: DriftShapes::of(&structure),
+            closing: ClosingSpeeds::of(&structure, &pairs),
             frequencies: [Side::Left, Side::Right]
                 .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
             initial: initial_state(scene, &structure),
@@ -134,6 +137,7 @@ impl Model {
                 segment,
                 elapsed: time - segment.start,
                 contacts: self.pairs.iter().enumerate().map(|(p, pair)| pair.at_start(p, time, &q, &v)).collect(),
+                watch: Watch::new(self.pairs.len()),
                 peak_drift: self.drift.peaks(),
                 energy: self.energy.then(Account::default),
                 velocity_scale: 0.0,

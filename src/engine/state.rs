@@ -2,6 +2,7 @@
 
 use super::Episode;
 use super::complementarity::Complementarity;
+use super::dismissal::Watch;
 use super::drift::PeakDrifts;
 use super::ground::Segment;
 use super::onset_step::OnsetSeries;
@@ -46,6 +47,7 @@ pub(super) struct Base {
     /// Modal velocities.
     pub v: Vec<f64>,
     pub contacts: Vec<Contact>,
+    pub watch: Watch,
     pub peak_drift: PeakDrifts,
     pub energy: Option<Account>,
     /// m/s, largest floor velocity that a contact step has seen: what its error is relative to.
@@ -175,8 +177,9 @@ pub(super) struct Step {
     pub onset: OnsetSeries,
     /// Penetration and rate at the end of each contact that is carried.
     pub carried: Carried,
-    /// Penetration and rate at the end of each contact of a flight that met nothing; empty otherwise.
-    pub ends: Vec<(f64, f64)>,
+    /// Penetration and rate at the end of each contact of a flight that met nothing, none where they were not needed;
+    /// empty otherwise.
+    pub ends: Carried,
 }
 
 /// Penetration, m, and its rate, m/s, one per contact.
@@ -210,7 +213,9 @@ pub struct Counters {
     pub flight_steps: u64,
     /// Flights that were expanded into a series to look for a contact.
     pub closer_looks: u64,
-    /// Pairs whose penetration was evaluated for a flight.
+    /// Flights for which no pair had to be looked at: none can close that fast.
+    pub flights_dismissed: u64,
+    /// Evaluations of a pair's penetration for a flight.
     pub pairs_evaluated: u64,
     /// Internal steps in contact.
     pub contact_steps: u64,

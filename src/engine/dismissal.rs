@@ -1,0 +1,171 @@
+//! Pairs that cannot meet yet: the largest closing speed that their floors can have tells for how many segments of the
+//! record they need not be looked at.
+//!
+//! Apart from contact, sqrt(q'^2 + w^2 q^2) of each mode grows by no more than |participation| x the integral of
+//! |ground acceleration|: damping only takes from it. So with these amplitudes e now, after a time t
+//!
+//! ```text
+//! penetration <= penetration now + t sum over modes of |row| (e + |participation| integral of |ground acceleration|)
+//! ```
+
+use super::ground::GroundMotion;
+use super::model::{Model, Pair};
+use super::state::*;
+use crate::structure::{LANES, Structure};
+
+/// Most segments that one look is good for.
+const MOST: u64 = 64;
+
+/// Margin for rounding, relative to the numbers that a penetration or a closing speed is added up from.
+const MARGIN: f64 = 1e-10;
+
+/// sqrt(2) - 1, rounded up: sqrt(a^2 + b^2) <= a + this b for a >= b >= 0.
+const CHORD: f64 = 0.414_213_562_4;
+
+/// What stays the same during a run.
+#[derive(Debug)]
+pub(super) struct ClosingSpeeds {
+    /// rad/s, of each mode.
+    omega: Vec<f64>,
+    /// How much the closing speed of each pair may grow for an integral of |ground acceleration| of 1 m/s.
+    growth: Vec<f64>,
+}
+
+/// What is known of pairs that are apart.
+#[derive(Clone, Debug)]
+pub(super) struct Watch {
+    /// Number of the first segment in which any pair may meet, as far as is known.
+    due: u64,
+    /// The same for each pair.
+    pairs: Vec<u64>,
+    /// Whether penetration and rate of each contact are those of an earlier base: they were not needed since.
+    stale: Vec<bool>,
+}
+
+impl Watch {
+    /// Nothing is known of the time to come, but every contact as it is now.
+    pub fn new(pairs: usize) -> Watch {
+        Watch { due: 0, pairs: vec![0; pairs], stale: vec![false; pairs] }
+    }
+
+    /// Forgets the time to come: a contact force or an impulse acts.
+    pub fn restart(&mut self) {
+        self.due = 0;
+        self.pairs.fill(0);
+    }
+
+    /// Whether a pair has been dismissed for a segment.
+    pub fn is_free(&self, p: usize, segment: u64) -> bool {
+        self.pairs[p] > segment
+    }
+
+    /// Whether all pairs have been.
+    pub fn are_all_free(&self, segment: u64) -> bool {
+        self.due > segment
+    }
+
+    /// Notes that a contact is known (or is not) where the base is now.
+    pub fn set_known(&mut self, p: usize, is_known: bool) {
+        self.stale[p] = !is_known;
+    }
+}
+
+impl ClosingSpeeds {
+    pub fn of(structure: &Structure, pairs: &[Pair]) -> ClosingSpeeds {
+        let participation = &structure.participation;
+        // Where damping couples modes, only the amplitude of all together never grows by itself.
+        let whole = participation.iter().map(|p| p * p).sum::<f64>().sqrt();
+        let growth_of_mode = |m: usize| if structure.is_classical() { participation[m].abs() } else { whole };
+        let growth_of = |pair: &Pair| pair.row.iter().enumerate().map(|(m, row)| row.abs() * growth_of_mode(m)).sum();
+        ClosingSpeeds {
+            omega: structure.omega2.iter().map(|w2| w2.sqrt()).collect(),
+            growth: pairs.iter().map(growth_of).collect(),
+        }
+    }
+}
+
+impl Model {
+    /// Looks at the pairs that have not been dismissed for the base's segment, of that number; whether all are now.
+    pub(super) fn dismiss(
+        &self,
+        ground: &GroundMotion,
+        base: &mut Base,
+        segment: u64,
+        counters: &mut Counters,
+        amplitude: &mut [f64],
+    ) -> bool {
+        if base.watch.are_all_free(segment) {
+            return true;
+        }
+        let size = self.amplitudes(base, amplitude);
+        for (p, pair) in self.pairs.iter().enumerate() {
+            if base.watch.is_free(p, segment) {
+                continue;
+            }
+            let contact = &mut base.contacts[p];
+            if base.watch.stale[p] {
+                counters.pairs_evaluated += 1;
+                (contact.penetration, contact.rate) = pair.penetration(&base.q, &base.v);
+                base.watch.stale[p] = false;
+            }
+            if contact.carried {
+                continue;
+            }
+            let start = contact.flight_start() + MARGIN * (pair.gap.abs() + size);
+            let speed = size_of_difference(&pair.row, amplitude);
+            let growth = self.closing.growth[p];
+            let stays_apart = |segments: u64| {
+                let (time, shaking) = ground.ahead(segment, segments);
+                start + (1.0 + MARGIN) * (time - base.elapsed) * (speed + growth * shaking) < 0.0
+            };
+            base.watch.pairs[p] = segment + longest(stays_apart);
+        }
+        base.watch.due = base.watch.pairs.iter().copied().min().unwrap_or(u64::MAX);
+        base.watch.are_all_free(segment)
+    }
+
+    /// Bounds on sqrt(v^2 + w^2 q^2) of all modes at the base. Returns a bound on what the displacements add to any
+    /// penetration, m.
+    fn amplitudes(&self, base: &Base, amplitude: &mut [f64]) -> f64 {
+        let [(q, _), (v, _), (omega, _), (weight, _)] =
+            [&base.q, &base.v, &self.closing.omega, &self.pair_weight].map(|vector| vector.as_chunks::<LANES>());
+        let mut size = [0.0; LANES];
+        for (c, amplitude) in amplitude.as_chunks_mut::<LANES>().0.iter_mut().enumerate() {
+            for i in 0..LANES {
+                let (a, b) = (v[c][i].abs(), omega[c][i] * q[c][i].abs());
+                amplitude[i] = if a > b { a + CHORD * b } else { b + CHORD * a };
+                size[i] += weight[c][i] * q[c][i].abs();
+            }
+        }
+        if !self.structure.is_classical() {
+            let whole = amplitude.iter().map(|e| e * e).sum::<f64>().sqrt();
+            amplitude.fill(whole);
+        }
+        size.iter().sum()
+    }
+}
+
+/// The largest of 0, 1, 2, 3, 4, 6, 8, 12 ... segments, up to MOST, for which a pair stays apart.
+fn longest(stays_apart: impl Fn(u64) -> bool) -> u64 {
+    let mut free = 0;
+    while free < MOST {
+        let next = (2 * free).max(1);
+        if !stays_apart(next) {
+            let between = free + free / 2;
+            return if between > free && stays_apart(between) { between } else { free };
+        }
+        free = next;
+    }
+    free
+}
+
+/// Sum of |row| x amplitude.
+fn size_of_difference(row: &[f64], amplitude: &[f64]) -> f64 {
+    let mut lanes = [0.0; LANES];
+    for (row, amplitude) in row.as_chunks::<LANES>().0.iter().zip(amplitude.as_chunks::<LANES>().0) {
+        for i in 0..LANES {
+            lanes[i] += row[i].abs() * amplitude[i];
+        }
+    }
+    lanes.iter().sum()
+}
