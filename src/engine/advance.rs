@@ -45,6 +45,10 @@ impl Model {
         }
         let mut progress = Progress::default();
         loop {
+            let flown = self.glide(state, until, MOST_STEPS - progress.steps);
+            if flown > 0 {
+                progress = Progress { steps: progress.steps + flown, stalled: 0 };
+            }
             let segment = &state.base.segment;
             let limit = if self.is_driven() { segment.length.min(until - segment.start) } else { segment.length };
             if limit > state.base.elapsed || !self.is_driven() {
@@ -108,12 +112,13 @@ impl Model {
     /// Penetrations and rates at the end of a step.
     fn move_contacts(&self, base: &mut Base, step: &Step) {
         if !step.ends.is_empty() {
+            base.watch.move_on();
             for (p, (contact, end)) in base.contacts.iter_mut().zip(&step.ends).enumerate() {
                 contact.at_surface = false;
                 contact.let_go = false;
                 contact.carried = false;
-                base.watch.set_known(p, end.is_some());
                 if let Some((penetration, rate)) = *end {
+                    base.watch.set_known(p);
                     (contact.penetration, contact.rate) = (penetration, rate);
                 }
             }
@@ -123,8 +128,9 @@ impl Model {
         if step.length == 0.0 {
             return;
         }
+        base.watch.move_on();
         for (p, (contact, pair)) in base.contacts.iter_mut().zip(&self.pairs).enumerate() {
-            base.watch.set_known(p, true);
+            base.watch.set_known(p);
             contact.at_surface = false;
             contact.let_go = false;
             contact.undecided = false;

@@ -38,14 +38,16 @@ pub(super) struct Watch {
     due: u64,
     /// The same for each pair.
     pairs: Vec<u64>,
-    /// Whether penetration and rate of each contact are those of an earlier base: they were not needed since.
-    stale: Vec<bool>,
+    /// How often the base has moved.
+    moves: u64,
+    /// The move at which penetration and rate of each contact were worked out: where they are not needed they are not.
+    known: Vec<u64>,
 }
 
 impl Watch {
     /// Nothing is known of the time to come, but every contact as it is now.
     pub fn new(pairs: usize) -> Watch {
-        Watch { due: 0, pairs: vec![0; pairs], stale: vec![false; pairs] }
+        Watch { due: 0, pairs: vec![0; pairs], moves: 0, known: vec![0; pairs] }
     }
 
     /// Forgets the time to come: a contact force or an impulse acts.
@@ -64,9 +66,18 @@ impl Watch {
         self.due > segment
     }
 
-    /// Notes that a contact is known (or is not) where the base is now.
-    pub fn set_known(&mut self, p: usize, is_known: bool) {
-        self.stale[p] = !is_known;
+    /// The base has moved: no contact is known any more.
+    pub fn move_on(&mut self) {
+        self.moves += 1;
+    }
+
+    /// Penetration and rate of a contact are those at the base.
+    pub fn set_known(&mut self, p: usize) {
+        self.known[p] = self.moves;
+    }
+
+    fn is_known(&self, p: usize) -> bool {
+        self.known[p] == self.moves
     }
 }
 
@@ -103,10 +114,10 @@ impl Model {
                 continue;
             }
             let contact = &mut base.contacts[p];
-            if base.watch.stale[p] {
+            if !base.watch.is_known(p) {
                 counters.pairs_evaluated += 1;
                 (contact.penetration, contact.rate) = pair.penetration(&base.q, &base.v);
-                base.watch.stale[p] = false;
+                base.watch.set_known(p);
             }
             if contact.carried {
                 continue;

@@ -9,6 +9,7 @@ mod dismissal;
 mod drift;
 mod energy;
 mod flight;
+mod glide;
 mod ground;
 mod model;
 mod observe;

@@ -307,6 +307,25 @@ impl ModeBlock {
         self.rv0[i] = mode.rv0;
         self.rv1[i] = mode.rv1;
     }
+
+    /// q and v at the end, from q, v and the load and its slope at the start.
+    #[inline(always)]
+    fn end(
+        &self,
+        q: &[f64; LANES],
+        v: &[f64; LANES],
+        load: &[f64; LANES],
+        slope: &[f64; LANES],
+    ) -> ([f64; LANES], [f64; LANES]) {
+        let mut end = ([0.0; LANES], [0.0; LANES]);
+        for i in 0..LANES {
+            let from_load =
+                (self.rq0[i] * load[i] + self.rq1[i] * slope[i], self.rv0[i] * load[i] + self.rv1[i] * slope[i]);
+            end.0[i] = q[i] + (self.dqq[i] * q[i] + self.dqv[i] * v[i] + from_load.0);
+            end.1[i] = v[i] + (self.dvq[i] * q[i] + self.dvv[i] * v[i] + from_load.1);
+        }
+        end
+    }
 }
 
 /// The exact flight of all modes over one interval length.
@@ -359,12 +378,7 @@ impl Interval {
         let [(q0, _), (v0, _), (l0, _), (l1, _)] = [q, v, load, slope].map(<[f64]>::as_chunks::<LANES>);
         let [(q1, _), (v1, _)] = [&mut *end_q, &mut *end_v].map(<[f64]>::as_chunks_mut::<LANES>);
         for (c, m) in self.modes.iter().enumerate() {
-            let (q0, v0, l0, l1) = (&q0[c], &v0[c], &l0[c], &l1[c]);
-            for i in 0..LANES {
-                let from_load = (m.rq0[i] * l0[i] + m.rq1[i] * l1[i], m.rv0[i] * l0[i] + m.rv1[i] * l1[i]);
-                q1[c][i] = q0[i] + (m.dqq[i] * q0[i] + m.dqv[i] * v0[i] + from_load.0);
-                v1[c][i] = v0[i] + (m.dvq[i] * q0[i] + m.dvv[i] * v0[i] + from_load.1);
-            }
+            (q1[c], v1[c]) = m.end(&q0[c], &v0[c], &l0[c], &l1[c]);
         }
         let mut ahead = &mut scratch.ahead[..];
         for (offset, increment) in &self.coupled {
@@ -381,5 +395,31 @@ impl Interval {
             }
             ahead = &ahead[2 * n..];
         }
+    }
+
+    /// The same under the ground's acceleration and its slope alone, where damping couples no modes. Returns whether the
+    /// end is finite.
+    pub fn fly_on_ground(
+        &self,
+        (q, v): (&[f64], &[f64]),
+        (participation, (acceleration, slope)): (&[f64], (f64, f64)),
+        (end_q, end_v): (&mut [f64], &mut [f64]),
+    ) -> bool {
+        let [(q0, _), (v0, _), (participation, _)] = [q, v, participation].map(<[f64]>::as_chunks::<LANES>);
+        let [(q1, _), (v1, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
+        let width = self.modes.len();
+        let (q0, v0, participation) = (&q0[..width], &v0[..width], &participation[..width]);
+        let (q1, v1) = (&mut q1[..width], &mut v1[..width]);
+        let mut sum = [0.0; LANES];
+        for (c, m) in self.modes.iter().enumerate() {
+            let l0 = participation[c].map(|p| -p * acceleration);
+            let l1 = participation[c].map(|p| -p * slope);
+            (q1[c], v1[c]) = m.end(&q0[c], &v0[c], &l0, &l1);
+            for i in 0..LANES {
+                // Finite only if all of its terms are.
+                sum[i] += q1[c][i] + v1[c][i];
+            }
+        }
+        sum.iter().sum::<f64>().is_finite()
     }
 }
