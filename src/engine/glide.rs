@@ -17,15 +17,18 @@ impl Model {
             return 0;
         }
         let mut flown = 0;
-        while flown < most && until - base.segment.start >= base.segment.length {
-            let Some(interval) = ground.prepared(&base.segment) else { break };
-            if !self.dismiss(ground, base, number, counters, &mut work.node_v) {
+        while flown < most {
+            let segment = ground.segment(number);
+            if until - segment.start < segment.length {
                 break;
             }
-            let acceleration = (base.segment.acceleration_at(0.0), base.segment.slope);
+            let Some(interval) = ground.prepared(&segment) else { break };
+            if !base.watch.are_all_free(number) && !self.dismiss(ground, base, number, counters, &mut work.node_v) {
+                break;
+            }
             let is_finite = interval.fly_on_ground(
                 (&base.q, &base.v),
-                (&self.structure.participation, acceleration),
+                (&self.structure.participation, (segment.acceleration_at(0.0), segment.slope)),
                 (&mut step.q, &mut step.v),
             );
             if !is_finite {
@@ -36,11 +39,11 @@ impl Model {
             // A pair that is dismissed is neither at the surface nor carried: its contact has no flag to clear.
             base.watch.move_on();
             self.update_peak_drift(base);
-            base.segment = ground.following(&base.segment);
             number += 1;
             flown += 1;
         }
         if flown > 0 {
+            base.segment = ground.segment(number);
             counters.flight_steps += flown;
             counters.flights_dismissed += if self.pairs.is_empty() { 0 } else { flown };
         }

@@ -83,12 +83,17 @@ impl GroundMotion {
 
     /// The segment that follows one.
     pub fn following(&self, segment: &Segment) -> Segment {
-        match segment.place {
-            Place::Outside => self.segment_at(segment.start + segment.length),
-            Place::Sample(i) if i + 1 < self.lengths.len() => self.sample(i + 1),
-            Place::Sample(_) => self.after(0),
-            Place::After(k) => self.after(k + 1),
+        match self.number(segment) {
+            Some(number) => self.segment(number + 1),
+            None => self.segment_at(segment.start + segment.length),
         }
+    }
+
+    /// The segment with a number.
+    #[inline(always)]
+    pub fn segment(&self, number: u64) -> Segment {
+        let samples = self.lengths.len() as u64;
+        if number < samples { self.sample(number as usize) } else { self.after(number - samples) }
     }
 
     /// The exact flight over a whole segment, where it has been prepared.
@@ -118,11 +123,13 @@ impl GroundMotion {
         (end - start + rounding * end, after - before + rounding * after)
     }
 
+    #[inline(always)]
     fn sample(&self, i: usize) -> Segment {
         let (a0, a1, length) = (self.accelerations[i], self.accelerations[i + 1], self.lengths[i]);
         Segment { start: self.times[i], length, acceleration: a0, slope: (a1 - a0) / length, place: Place::Sample(i) }
     }
 
+    #[inline(always)]
     fn after(&self, k: u64) -> Segment {
         let end = self.times[self.times.len() - 1];
         Segment {
