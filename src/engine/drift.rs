@@ -81,6 +81,7 @@ impl BuildingShapes {
     }
 
     /// Raises the peaks to the drifts of these modal displacements.
+    #[inline(always)]
     fn raise(&self, q: &[f64], peaks: &mut [[f64; LANES]], below: &mut f64) {
         if self.weight.len() <= FIRST {
             for (block, peak) in self.shapes.chunks_exact(q.len()).zip(peaks) {
@@ -101,6 +102,7 @@ impl BuildingShapes {
     }
 
     /// Raises the peaks of those storeys that may exceed them; whether any did.
+    #[inline(always)]
     fn raise_some(&self, q: &[f64], peaks: &mut [[f64; LANES]], (first, rest): (f64, f64)) -> bool {
         let (size, rounding) = (rest.sqrt(), MARGIN * (first + rest).sqrt());
         let is_sure = first + rest > TINY;
@@ -122,6 +124,7 @@ impl BuildingShapes {
     }
 
     /// Squares of the weighted sizes of the first modes and of the others.
+    #[inline(always)]
     fn squares(&self, q: &[f64]) -> (f64, f64) {
         let square = |q: &f64, weight: &f64| (q * weight) * (q * weight);
         let first = q[..FIRST].iter().zip(&self.weight).map(|(q, weight)| square(q, weight)).sum();
@@ -146,6 +149,7 @@ impl BuildingShapes {
 }
 
 /// Adds what modes of these displacements do to a block of storeys.
+#[inline(always)]
 fn add_modes(drift: &mut [f64; LANES], shapes: &[[f64; LANES]], q: &[f64]) {
     for (shape, q) in shapes.iter().zip(q) {
         for i in 0..LANES {
@@ -155,6 +159,7 @@ fn add_modes(drift: &mut [f64; LANES], shapes: &[[f64; LANES]], q: &[f64]) {
 }
 
 /// Raises peaks to drifts; whether any was.
+#[inline(always)]
 fn raise_to(peak: &mut [f64; LANES], drift: &[f64; LANES]) -> bool {
     let before = *peak;
     for i in 0..LANES {
@@ -177,6 +182,7 @@ fn blocks_of_storeys(shape: &DMatrix<f64>) -> Vec<[f64; LANES]> {
 
 impl Model {
     /// Raises the peak drifts to those of the base.
+    #[inline(always)]
     pub(super) fn update_peak_drift(&self, base: &mut Base) {
         let [left, right] = &self.drift.buildings;
         let PeakDrifts { peaks, below } = &mut base.peak_drift;

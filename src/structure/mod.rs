@@ -399,6 +399,7 @@ impl Interval {
 
     /// The same under the ground's acceleration and its slope alone, where damping couples no modes. Returns whether the
     /// end is finite.
+    #[inline(always)]
     pub fn fly_on_ground(
         &self,
         (q, v): (&[f64], &[f64]),
