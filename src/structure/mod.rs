@@ -415,11 +415,12 @@ impl Interval {
         for (c, m) in self.modes.iter().enumerate() {
             let l0 = participation[c].map(|p| -p * acceleration);
             let l1 = participation[c].map(|p| -p * slope);
-            (q1[c], v1[c]) = m.end(&q0[c], &v0[c], &l0, &l1);
+            let (q, v) = m.end(&q0[c], &v0[c], &l0, &l1);
             for i in 0..LANES {
                 // Finite only if all of its terms are.
-                sum[i] += q1[c][i] + v1[c][i];
+                sum[i] += q[i] + v[i];
             }
+            (q1[c], v1[c]) = (q, v);
         }
         sum.iter().sum::<f64>().is_finite()
     }
