@@ -11,7 +11,8 @@
 use super::ground::GroundMotion;
 use super::model::{Model, Pair};
 use super::state::*;
-use crate::structure::{LANES, Structure};
+use crate::structure::{LANES, ModalDamping, Side, Structure};
+use std::ops::Range;
 
 /// Most segments that one look is good for.
 const MOST: u64 = 64;
@@ -29,6 +30,8 @@ pub(super) struct ClosingSpeeds {
     omega: Vec<f64>,
     /// How much the closing speed of each pair may grow for an integral of |ground acceleration| of 1 m/s.
     growth: Vec<f64>,
+    /// Modes of a building in which damping couples them.
+    coupled: Vec<Range<usize>>,
 }
 
 /// What is known of pairs that are apart.
@@ -83,14 +86,18 @@ impl Watch {
 
 impl ClosingSpeeds {
     pub fn of(structure: &Structure, pairs: &[Pair]) -> ClosingSpeeds {
-        let participation = &structure.participation;
-        // Where damping couples modes, only the amplitude of all together never grows by itself.
-        let whole = participation.iter().map(|p| p * p).sum::<f64>().sqrt();
-        let growth_of_mode = |m: usize| if structure.is_classical() { participation[m].abs() } else { whole };
-        let growth_of = |pair: &Pair| pair.row.iter().enumerate().map(|(m, row)| row.abs() * growth_of_mode(m)).sum();
+        let mut growth: Vec<f64> = structure.participation.iter().map(|p| p.abs()).collect();
+        let coupled = [Side::Left, Side::Right]
+            .into_iter()
+            .filter(|side| matches!(structure.modes(*side).damping, ModalDamping::Coupled(_)));
+        let coupled: Vec<Range<usize>> = coupled.map(|side| structure.range(side)).collect();
+        for range in &coupled {
+            share_amplitude(&mut growth[range.clone()]);
+        }
         ClosingSpeeds {
             omega: structure.omega2.iter().map(|w2| w2.sqrt()).collect(),
-            growth: pairs.iter().map(growth_of).collect(),
+            growth: pairs.iter().map(|pair| size_of_difference(&pair.row, &growth)).collect(),
+            coupled,
         }
     }
 }
@@ -148,12 +155,17 @@ impl Model {
                 size[i] += weight[c][i] * q[c][i].abs();
             }
         }
-        if !self.structure.is_classical() {
-            let whole = amplitude.iter().map(|e| e * e).sum::<f64>().sqrt();
-            amplitude.fill(whole);
+        for range in &self.closing.coupled {
+            share_amplitude(&mut amplitude[range.clone()]);
         }
         size.iter().sum()
     }
+}
+
+/// Coupled modes exchange energy: only the amplitude of all together never grows by itself, and any may have it.
+fn share_amplitude(modes: &mut [f64]) {
+    let whole = modes.iter().map(|e| e * e).sum::<f64>().sqrt();
+    modes.fill(whole);
 }
 
 /// The largest of 0, 1, 2, 3, 4, 6, 8, 12 ... segments, up to MOST, for which a pair stays apart.

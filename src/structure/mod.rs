@@ -17,6 +17,7 @@ pub use series::{EXACT, ModalSeries, PairForces, difference, dot, flight_order};
 
 use crate::scene::Building;
 use nalgebra::DMatrix;
+use std::ops::Range;
 
 /// Modal vectors are padded to a multiple of this.
 pub const LANES: usize = 4;
@@ -130,6 +131,12 @@ impl Structure {
             Side::Left => 0,
             Side::Right => self.floors(Side::Left),
         }
+    }
+
+    /// A building's modes in a modal vector.
+    pub fn range(&self, side: Side) -> Range<usize> {
+        let offset = self.offset(side);
+        offset..offset + self.floors(side)
     }
 
     /// Whether no mode is coupled to another by damping.
