@@ -7,6 +7,7 @@ mod common;
 use common::{Run, assert_close, record, scene};
 use pounding::record::Record;
 use pounding::scene::Scene;
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 
 /// Exact in binary.
 const STEP: f64 = 1.0 / 64.0;
@@ -54,6 +55,55 @@ fn a_body_that_the_ground_sets_in_motion_enters_on_time() {
         let moved = STEP * STEP / 2.0 + 1.5 * STEP * free + 1.5 * free * free;
         let (start, _) = entry(&oscillator([1e-20, 1e12], 0.0, moved), &record(STEP, &samples), 5.0);
         assert_close(start, 41.0 * STEP + free, 1e-9, "entry");
+    }
+}
+
+#[test]
+fn a_body_that_the_ground_kicks_enters_on_time() {
+    // One sample of -200 m/s2 at t = STEP: -(its impulse) is the body's speed from 2 STEP on, as if from STEP on.
+    let mut samples = [0.0; 200];
+    samples[1] = -200.0;
+    let speed = 200.0 * STEP;
+    for k in 2..120 {
+        let time = (f64::from(k) + 0.83) * STEP;
+        let scene = oscillator([1e-20, 1e12], 0.0, speed * (time - STEP));
+        let (start, _) = entry(&scene, &record(STEP, &samples), 5.0);
+        assert_close(start, time, 1e-9, "entry");
+    }
+}
+
+#[test]
+fn a_body_that_gathers_speed_enters_on_time() {
+    // It starts at an angle of -45 degrees, where displacement and velocity share its amplitude, and enters at another.
+    for k in 1..60 {
+        let (angle, omega) = (0.02 + 0.008 * f64::from(k), 0.7 + 0.1 * f64::from(k));
+        let mut scene = oscillator([omega * omega, 1.0], omega * FRAC_1_SQRT_2, angle.sin());
+        scene.left.initial_displacement = vec![-FRAC_1_SQRT_2];
+        let (start, _) = entry(&scene, &record(STEP, &[0.0; 200]), 5.0);
+        assert_close(start, (angle + FRAC_PI_4) / omega, 1e-11, "entry");
+    }
+}
+
+#[test]
+fn a_floor_that_another_drags_along_by_damping_enters_on_time() {
+    // Floor 1 has all the speed, and the modes are nearly floors: damping alone passes half of it on to floor 2.
+    for k in 1..40 {
+        let text = format!(
+            "name = \"D\"\n[left]\nmass = [1.0, 1.0]\nstiffness = [1.0, 1.0e-2]\ninitial_velocity = [1.0, 0.0]
+            damping = {{ matrix = [[1000.0, -1000.0], [-1000.0, 1000.0]] }}
+            [right]\nmass = [1.0, 1.0]\nstiffness = [1.0, 1.0]\ndamping = {{ ratio = 0.0 }}
+            [[contact]]\nleft_floor = 2\nright_floor = 2\ngap = {:?}\nlaw = \"linear\"\nstiffness = 1.0e4\n",
+            0.005 * f64::from(k)
+        );
+        let mut scene = scene(&text);
+        scene.ground.record = Some("r.csv".into());
+        let (start, counters) = entry(&scene, &record(STEP, &[0.0; 200]), 2.0);
+        // A master that may push floors: every pair is looked at all the time.
+        scene.floor_forces = true;
+        let (expected, looked) = entry(&scene, &record(STEP, &[0.0; 200]), 2.0);
+        assert_close(start, expected, 1e-9, "entry");
+        assert!(counters.flights_dismissed > 0 || k < 4, "{k}: {counters:?}");
+        assert_eq!(looked.flights_dismissed, 0);
     }
 }
 
@@ -126,6 +176,35 @@ fn a_run_that_looks_at_every_pair_has_the_same_bits() {
             assert_eq!(driven.flights_dismissed, 0);
             assert!(4 * plain.flights_dismissed > plain.flight_steps, "{law}, {damping}: {plain:?}");
             assert_eq!(plain, accounted);
+        }
+    }
+}
+
+#[test]
+fn what_an_impact_sets_in_motion_is_looked_at_again() {
+    // A floor hits the first one of a light tower, whose top is then quick, and was at rest before like its neighbour.
+    for k in 1..30 {
+        let top = 0.01 * f64::from(k);
+        let text = format!(
+            "name = \"W\"\n[left]\nmass = [100.0, 1.0]\nstiffness = [1.0e6, 400.0]\ndamping = {{ ratio = 0.0 }}
+            [right]\nmass = [1.0e4, 1.0e4]\nstiffness = [1.0, 1.0e-6]\ndamping = {{ ratio = 0.0 }}
+            initial_velocity = [-1.0, 0.0]
+            [[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 1.0e-3\nlaw = \"linear\"\nstiffness = 1.0e7
+            [[contact]]\nleft_floor = 2\nright_floor = 2\ngap = {top:?}\nlaw = \"linear\"\nstiffness = 1.0e4\n"
+        );
+        let mut scene = scene(&text);
+        scene.ground.record = Some("r.csv".into());
+        let mut run = Run::new(&scene, Some(&record(STEP, &[0.0; 200])));
+        run.to(1.0);
+        scene.floor_forces = true;
+        let mut looked = Run::new(&scene, Some(&record(STEP, &[0.0; 200])));
+        looked.to(1.0);
+        let counts = [&run, &looked].map(|run| run.point.contacts.iter().map(|c| c.impacts).collect::<Vec<_>>());
+        assert_eq!(counts[0], counts[1], "gap {top}");
+        assert!(counts[0][1] > 0 || k > 5, "gap {top}");
+        assert_eq!(run.episodes.len(), looked.episodes.len());
+        for (a, b) in run.episodes.iter().zip(&looked.episodes) {
+            assert_close(a.start, b.start, 1e-9, "start");
         }
     }
 }
