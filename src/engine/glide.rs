@@ -11,9 +11,12 @@ impl Model {
     /// returns how many.
     pub(super) fn glide(&self, state: &mut State, until: f64, most: u64) -> u64 {
         let State { base, step, .. } = state;
+        if step.kind != StepKind::Unknown || until - base.segment.start < base.segment.length {
+            return 0;
+        }
         let Some((ground, first)) = self.watched_segment(base) else { return 0 };
         let is_plain = self.structure.is_classical() && base.energy.is_none() && base.elapsed == 0.0;
-        if !is_plain || step.kind != StepKind::Unknown || base.contacts.iter().any(Contact::in_contact) {
+        if !is_plain || base.contacts.iter().any(Contact::in_contact) {
             return 0;
         }
         let flown = fly_over(self, ground, state, (first, most), until);
