@@ -1,12 +1,16 @@
-//! Pairs that cannot meet yet: the largest closing speed that their floors can have tells for how many segments of the
-//! record they need not be looked at.
+//! Pairs that cannot meet yet: bounds on how fast their floors can close tell for how many segments of the record they
+//! need not be looked at.
 //!
-//! Apart from contact, sqrt(q'^2 + w^2 q^2) of each mode grows by no more than |participation| x the integral of
-//! |ground acceleration|: damping only takes from it. So with these amplitudes e now, after a time t
+//! Apart from contact, the amplitude e = sqrt(q'^2 + w^2 q^2) of each mode grows by no more than A, |participation| x the
+//! integral of |ground acceleration|: damping only takes from it. And |q''| <= (w + c) e + |participation| |ground
+//! acceleration|. So with e now, after a time t
 //!
 //! ```text
-//! penetration <= penetration now + t sum over modes of |row| (e + |participation| integral of |ground acceleration|)
+//! penetration <= penetration now + t sum over modes of |row| (e + A)
+//! penetration <= penetration now + t (rate now + sum over modes of |row| (t/2 (w + c) (e + A) + A))
 //! ```
+//!
+//! The first never falls with t and the second is convex: what lies below 0 at the end of a stretch did so all along.
 
 use super::ground::GroundMotion;
 use super::model::{Model, Pair};
@@ -28,10 +32,19 @@ const CHORD: f64 = 0.414_213_562_4;
 pub(super) struct ClosingSpeeds {
     /// rad/s, of each mode.
     omega: Vec<f64>,
-    /// How much the closing speed of each pair may grow for an integral of |ground acceleration| of 1 m/s.
-    growth: Vec<f64>,
+    /// w + c, 1/s, of each mode.
+    quickness: Vec<f64>,
+    /// The sums over modes of each pair for the e of a shaking (integral of |ground acceleration|) of 1 m/s.
+    growth: Vec<Sums>,
     /// Modes of a building in which damping couples them.
     coupled: Vec<Range<usize>>,
+}
+
+/// Sums over modes of |row| e, m/s, and of |row| (w + c) e, m/s2.
+#[derive(Clone, Copy, Debug)]
+struct Sums {
+    speed: f64,
+    change: f64,
 }
 
 /// What is known of pairs that are apart.
@@ -94,11 +107,14 @@ impl ClosingSpeeds {
         for range in &coupled {
             share_amplitude(&mut growth[range.clone()]);
         }
-        ClosingSpeeds {
-            omega: structure.omega2.iter().map(|w2| w2.sqrt()).collect(),
-            growth: pairs.iter().map(|pair| size_of_difference(&pair.row, &growth)).collect(),
-            coupled,
+        let omega: Vec<f64> = structure.omega2.iter().map(|w2| w2.sqrt()).collect();
+        let mut quickness: Vec<f64> = omega.iter().zip(&structure.damping).map(|(w, c)| w + c).collect();
+        for range in &coupled {
+            // |C| |v| + w |w q|, with the largest row sum of C.
+            quickness[range.clone()].fill(2.0 * structure.fastest);
         }
+        let sums = |pair: &Pair| Sums::of(&pair.row, &growth, &quickness);
+        ClosingSpeeds { growth: pairs.iter().map(sums).collect(), omega, quickness, coupled }
     }
 }
 
@@ -129,12 +145,17 @@ impl Model {
             if contact.carried {
                 continue;
             }
+            let sums = Sums::of(&pair.row, amplitude, &self.closing.quickness);
+            let growth = &self.closing.growth[p];
             let start = contact.flight_start() + MARGIN * (pair.gap.abs() + size);
-            let speed = size_of_difference(&pair.row, amplitude);
-            let growth = self.closing.growth[p];
+            let rate = contact.rate + MARGIN * sums.speed;
             let stays_apart = |segments: u64| {
                 let (time, shaking) = ground.ahead(segment, segments);
-                start + (1.0 + MARGIN) * (time - base.elapsed) * (speed + growth * shaking) < 0.0
+                let time = (1.0 + MARGIN) * (time - base.elapsed);
+                let by_speed = sums.speed + growth.speed * shaking;
+                let by_rate = rate + (0.5 * time * (sums.change + growth.change * shaking) + growth.speed * shaking);
+                // Written so that a NaN never stays apart.
+                start + time * by_speed < 0.0 || start + time * by_rate < 0.0
             };
             base.watch.pairs[p] = segment + longest(stays_apart);
         }
@@ -182,13 +203,17 @@ fn longest(stays_apart: impl Fn(u64) -> bool) -> u64 {
     free
 }
 
-/// Sum of |row| x amplitude.
-fn size_of_difference(row: &[f64], amplitude: &[f64]) -> f64 {
-    let mut lanes = [0.0; LANES];
-    for (row, amplitude) in row.as_chunks::<LANES>().0.iter().zip(amplitude.as_chunks::<LANES>().0) {
-        for i in 0..LANES {
-            lanes[i] += row[i].abs() * amplitude[i];
+impl Sums {
+    fn of(row: &[f64], amplitude: &[f64], quickness: &[f64]) -> Sums {
+        let (mut speed, mut change) = ([0.0; LANES], [0.0; LANES]);
+        let [(row, _), (amplitude, _), (quickness, _)] = [row, amplitude, quickness].map(<[f64]>::as_chunks::<LANES>);
+        for ((row, amplitude), quickness) in row.iter().zip(amplitude).zip(quickness) {
+            for i in 0..LANES {
+                let part = row[i].abs() * amplitude[i];
+                speed[i] += part;
+                change[i] += quickness[i] * part;
+            }
         }
+        Sums { speed: speed.iter().sum(), change: change.iter().sum() }
     }
-    lanes.iter().sum()
 }

@@ -16,7 +16,7 @@ impl Model {
         }
         let Some((ground, first)) = self.watched_segment(base) else { return 0 };
         let is_plain = self.structure.is_classical() && base.energy.is_none() && base.elapsed == 0.0;
-        if !is_plain || base.contacts.iter().any(Contact::in_contact) {
+        if !is_plain || base.contacts.iter().any(|contact| contact.in_contact() || contact.at_surface) {
             return 0;
         }
         let flown = fly_over(self, ground, state, (first, most), until);
@@ -54,7 +54,7 @@ fn fly_over(model: &Model, ground: &GroundMotion, state: &mut State, (first, mos
         }
         std::mem::swap(&mut base.q, &mut step.q);
         std::mem::swap(&mut base.v, &mut step.v);
-        // A pair that is dismissed is neither at the surface nor carried: its contact has no flag to clear.
+        // No contact has a flag to clear: none was at the surface at the start, and one that is carried is not dismissed.
         base.watch.move_on();
         model.update_peak_drift(base);
     }
