@@ -7,7 +7,7 @@ mod common;
 use common::{Run, assert_close, record, scene};
 use pounding::record::Record;
 use pounding::scene::Scene;
-use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI};
 
 /// Exact in binary.
 const STEP: f64 = 1.0 / 64.0;
@@ -81,6 +81,35 @@ fn a_body_that_gathers_speed_enters_on_time() {
         scene.left.initial_displacement = vec![-FRAC_1_SQRT_2];
         let (start, _) = entry(&scene, &record(STEP, &[0.0; 200]), 5.0);
         assert_close(start, (angle + FRAC_PI_4) / omega, 1e-11, "entry");
+    }
+}
+
+#[test]
+fn a_body_that_turns_round_enters_on_time() {
+    // It starts away from the other one, and comes back through its start.
+    for k in 1..120 {
+        let omega = 0.9 + 0.2 * f64::from(k);
+        let (speed, angle) = (0.3, 0.004 * f64::from(k));
+        let scene = oscillator([omega * omega, 1.0], -speed, speed / omega * angle.sin());
+        let (start, counters) = entry(&scene, &record(STEP, &[0.0; 400]), 6.0);
+        assert_close(start, (PI + angle) / omega, 1e-11, "entry");
+        assert!(counters.flights_dismissed > 0 || k > 60, "{k}: {counters:?}");
+    }
+}
+
+#[test]
+fn bodies_that_the_ground_kicks_towards_each_other_enter_on_time() {
+    let mut samples = [0.0; 200];
+    samples[1] = -20.0;
+    for k in 1..100 {
+        // The right body falls behind by its spring; no closed form, but a run that looks at every pair.
+        let mut scene = oscillator([1e-20, 2.0 * f64::from(k)], -0.01, 0.01);
+        let record = record(STEP, &samples);
+        let (start, _) = entry(&scene, &record, 3.0);
+        scene.floor_forces = true;
+        let (expected, looked) = entry(&scene, &record, 3.0);
+        assert_close(start, expected, 1e-12, "entry");
+        assert_eq!(looked.flights_dismissed, 0);
     }
 }
 

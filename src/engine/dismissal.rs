@@ -2,12 +2,12 @@
 //! need not be looked at.
 //!
 //! Apart from contact, the amplitude e = sqrt(q'^2 + w^2 q^2) of each mode grows by no more than A, |participation| x the
-//! integral of |ground acceleration|: damping only takes from it. And |q''| <= (w + c) e + |participation| |ground
-//! acceleration|. So with e now, after a time t
+//! integral of |ground acceleration|: damping only takes from it. Without the ground's part |q''| <= (w + c) e, and that
+//! part pushes both floors of a pair alike. So with e now, after a time t
 //!
 //! ```text
 //! penetration <= penetration now + t sum over modes of |row| (e + A)
-//! penetration <= penetration now + t (rate now + sum over modes of |row| (t/2 (w + c) (e + A) + A))
+//! penetration <= penetration now + t (rate now + t/2 sum over modes of |row| (w + c) (e + A))
 //! ```
 //!
 //! The first never falls with t and the second is convex: what lies below 0 at the end of a stretch did so all along.
@@ -148,14 +148,14 @@ impl Model {
             let sums = Sums::of(&pair.row, amplitude, &self.closing.quickness);
             let growth = &self.closing.growth[p];
             let start = contact.flight_start() + MARGIN * (pair.gap.abs() + size);
-            let rate = contact.rate + MARGIN * sums.speed;
             let stays_apart = |segments: u64| {
                 let (time, shaking) = ground.ahead(segment, segments);
                 let time = (1.0 + MARGIN) * (time - base.elapsed);
-                let by_speed = sums.speed + growth.speed * shaking;
-                let by_rate = rate + (0.5 * time * (sums.change + growth.change * shaking) + growth.speed * shaking);
+                let speed = sums.speed + growth.speed * shaking;
+                let change = sums.change + growth.change * shaking;
+                let by_rate = contact.rate + MARGIN * speed + 0.5 * time * change;
                 // Written so that a NaN never stays apart.
-                start + time * by_speed < 0.0 || start + time * by_rate < 0.0
+                start + time * speed < 0.0 || start + time * by_rate < 0.0
             };
             base.watch.pairs[p] = segment + longest(stays_apart);
         }
