@@ -80,30 +80,32 @@ pub struct Reading {
 
 impl Powers {
     /// Tables for x >= 0 and polynomials with powers up to `highest`.
-    #[expect(clippy::needless_range_loop, reason = "each table follows from another")]
     pub fn set(&mut self, x: f64, highest: usize) {
+        let highest = highest.min(ROOM - 1);
         self.x = x;
         self.blocks = highest / BLOCK + 1;
-        (self.value[0], self.value[1]) = (1.0, x);
         let square = x * x;
-        (self.value[0], self.value[1]) = (1.0, x);
-        for n in 2..=highest {
-            self.value[n] = self.value[n - 2] * square;
+        let mut last = [1.0, x];
+        for pair in self.value.as_chunks_mut::<2>().0.iter_mut().take(highest / 2 + 1) {
+            *pair = last;
+            last = last.map(|power| power * square);
         }
-        for n in 1..=highest {
-            self.slope[n] = COUNT[n] * self.value[n - 1];
+        self.value[highest + 1..self.blocks * BLOCK].fill(0.0);
+        let end = self.blocks * BLOCK;
+        for ((slope, count), value) in self.slope[1..end].iter_mut().zip(&COUNT[1..end]).zip(&self.value) {
+            *slope = count * value;
         }
-        for n in 4..=highest {
-            self.fourth[n] = FOURTH[n] * self.value[n - 4];
+        for ((fourth, count), value) in self.fourth[4..end].iter_mut().zip(&FOURTH[4..end]).zip(&self.value) {
+            *fourth = count * value;
         }
-        for table in [&mut self.value, &mut self.slope, &mut self.fourth] {
-            table[highest + 1..self.blocks * BLOCK].fill(0.0);
+        for table in [&mut self.slope, &mut self.fourth] {
+            table[highest + 1..end].fill(0.0);
         }
     }
 
-    /// x^n and n x^(n-1) for n from 0 on.
-    pub fn tables(&self) -> (&Coefficients, &Coefficients) {
-        (&self.value, &self.slope)
+    /// x^n, n x^(n-1) and n (n-1) (n-2) (n-3) x^(n-4) for n from 0 on.
+    pub fn all(&self) -> (&Coefficients, &Coefficients, &Coefficients) {
+        (&self.value, &self.slope, &self.fourth)
     }
 
     /// Value, slope and the bound on the fourth derivative.

@@ -5,9 +5,8 @@ use super::model::Model;
 use super::state::*;
 use super::{EngineError, Episode, roots};
 use crate::contact::EpisodeForce;
-use crate::contact::series::PairSeries;
-use crate::polynomial::Powers;
-use crate::structure::{LANES, difference};
+use crate::polynomial::{Coefficients, Powers};
+use crate::structure::LANES;
 
 /// Steps that may follow each other without any time passing.
 const MOST_STEPS_AT_ONCE: u32 = 100_000;
@@ -45,6 +44,10 @@ impl Model {
         }
         let mut progress = Progress::default();
         loop {
+            let flown = self.glide(state, until, MOST_STEPS - progress.steps);
+            if flown > 0 {
+                progress = Progress { steps: progress.steps + flown, stalled: 0 };
+            }
             let segment = &state.base.segment;
             let limit = if self.is_driven() { segment.length.min(until - segment.start) } else { segment.length };
             if limit > state.base.elapsed || !self.is_driven() {
@@ -88,9 +91,7 @@ impl Model {
         self.add_work(state, state.step.length);
         let State { base, step, counters, work, .. } = state;
         let start = base.time();
-        for contact in base.contacts.iter_mut().filter(|contact| contact.in_contact()) {
-            contact.follow(step, step.length, start, &step.end);
-        }
+        self.follow(&mut base.contacts, step, start);
         std::mem::swap(&mut base.q, &mut step.q);
         std::mem::swap(&mut base.v, &mut step.v);
         base.elapsed = end;
@@ -99,20 +100,60 @@ impl Model {
         self.update_peak_drift(base);
         if let Some(event) = step.event {
             counters.events += 1;
+            base.watch.restart();
             self.handle(base, event, work, on_episode);
         }
         step.kind = StepKind::Unknown;
     }
 
+    /// Follows the contacts to the end of a step, which has begun at `start` [s].
+    fn follow(&self, contacts: &mut [Contact], step: &Step, start: f64) {
+        match step.kind {
+            StepKind::Onset => {
+                let x = step.length / step.onset.scale;
+                contacts.iter_mut().filter(|c| c.in_contact()).for_each(|c| c.follow_onset(&step.onset, x, start));
+            }
+            StepKind::Contact if step.length > 0.0 => {
+                step.closed.follow(contacts, step.series.scale, start, &step.end);
+                for (terms, &p) in step.reactions.iter().zip(&self.rigid.pairs) {
+                    if contacts[p].is_held() {
+                        contacts[p].follow_reaction(terms, step.reaction_order, step.series.scale, start, &step.end);
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Follows one contact, `elapsed` seconds into a step that has begun at `start` [s]; for a series in time, `powers`
+    /// are those of that time.
+    pub(super) fn follow_one(&self, contact: &mut Contact, step: &Step, elapsed: f64, start: f64, powers: &Powers) {
+        let p = contact.episode.contact;
+        match step.kind {
+            StepKind::Onset => contact.follow_onset(&step.onset, elapsed / step.onset.scale, start),
+            StepKind::Contact if elapsed > 0.0 && contact.is_held() => {
+                let reaction = self.rigid.pairs.iter().position(|&pair| pair == p).map(|k| &step.reactions[k]);
+                if let Some(terms) = reaction {
+                    contact.follow_reaction(terms, step.reaction_order, step.series.scale, start, powers);
+                }
+            }
+            StepKind::Contact if elapsed > 0.0 => step.closed.follow_one(contact, step.series.scale, start, powers),
+            _ => {}
+        }
+    }
+
     /// Penetrations and rates at the end of a step.
     fn move_contacts(&self, base: &mut Base, step: &Step) {
         if !step.ends.is_empty() {
-            for (contact, &(penetration, rate)) in base.contacts.iter_mut().zip(&step.ends) {
+            base.watch.move_on();
+            for (p, (contact, end)) in base.contacts.iter_mut().zip(&step.ends).enumerate() {
                 contact.at_surface = false;
                 contact.let_go = false;
                 contact.carried = false;
-                contact.penetration = penetration;
-                contact.rate = rate;
+                if let Some((penetration, rate)) = *end {
+                    base.watch.set_known(p);
+                    (contact.penetration, contact.rate) = (penetration, rate);
+                }
             }
             return;
         }
@@ -120,7 +161,9 @@ impl Model {
         if step.length == 0.0 {
             return;
         }
-        for (p, (contact, pair)) in base.contacts.iter_mut().zip(&self.pairs).enumerate() {
+        base.watch.move_on();
+        for (p, contact) in base.contacts.iter_mut().enumerate() {
+            base.watch.set_known(p);
             contact.at_surface = false;
             contact.let_go = false;
             contact.undecided = false;
@@ -129,26 +172,28 @@ impl Model {
             }
             if let Some((penetration, rate)) = step.carried[p] {
                 (contact.penetration, contact.rate) = (penetration, rate);
-                contact.carried = self.is_close(p, penetration, &base.q);
+                contact.carried = self.is_close(p, penetration, base.coordinates, &base.q);
                 continue;
             }
             contact.carried = false;
-            let (penetration, rate) = pair.penetration(&base.q, &base.v);
             if !contact.in_contact() {
-                contact.penetration = penetration;
+                contact.penetration = self.relative(p, base.coordinates, &base.q) - self.pairs[p].gap;
             }
-            contact.rate = rate;
+            contact.rate = self.relative(p, base.coordinates, &base.v);
         }
     }
 
     fn handle(&self, base: &mut Base, event: Event, work: &mut Workspace, on_episode: &mut dyn FnMut(&Episode)) {
         let time = base.time();
         match event {
-            Event::Entry(p) if self.pairs[p].law.is_rigid() => self.meet(base, p, work, on_episode),
+            Event::Entry(p) if self.pairs[p].law.is_rigid() => {
+                self.convert(base, Coordinates::Modes, &mut work.q);
+                self.meet(base, p, work, on_episode);
+            }
             Event::Entry(p) => {
                 let contact = &mut base.contacts[p];
                 contact.penetration = 0.0;
-                contact.rate = difference(&self.pairs[p].row, &base.v).0;
+                contact.rate = self.difference(p, base.coordinates, &base.v).0;
                 contact.at_surface = true;
                 let (pair, approach) = (&self.pairs[p], contact.rate.max(self.least_approach));
                 contact.force = EpisodeForce::new(&pair.law, pair.mass, Some(approach));
@@ -248,43 +293,30 @@ impl Contact {
         self.stored_reference = self.branch().stored_energy(self.penetration);
     }
 
-    /// Follows the contact over the first `elapsed` seconds of a step that begins at `start` [s]; for a series in
-    /// time, `powers` are those of the end.
-    pub(super) fn follow(&mut self, step: &Step, elapsed: f64, start: f64, powers: &Powers) {
-        match step.kind {
-            StepKind::Onset => self.follow_onset(&step.onset, elapsed / step.onset.scale, start),
-            StepKind::Contact if elapsed > 0.0 => {
-                self.follow_series(&step.pairs[self.episode.contact], step.series.scale, start, powers);
-            }
-            _ => {}
-        }
-    }
-
-    /// Penetration, impulse, peaks and work over a series up to the x of the powers.
-    fn follow_series(&mut self, pair: &PairSeries, scale: f64, start: f64, powers: &Powers) {
-        let impulse = scale * powers.integral(&pair.force);
+    /// Impulse and peaks of floors that are held together, over a series up to the x of the powers.
+    pub(super) fn follow_reaction(
+        &mut self,
+        terms: &Coefficients,
+        order: usize,
+        scale: f64,
+        start: f64,
+        powers: &Powers,
+    ) {
+        let impulse = scale * powers.integral(terms);
         self.impulse += impulse;
         self.episode.impulse += impulse;
-        self.work += pair.damping_work(&self.branch(), scale, powers.x);
-        let force = powers.read(&pair.force);
+        let force = powers.read(terms);
+        let copy = |out: &mut Coefficients| {
+            *out = *terms;
+            order + 1
+        };
         let known = self.episode.peak_force;
-        if let Some((at, peak)) = roots::maximum_above(&pair.force[..=pair.order], powers.x, &force, known) {
+        if let Some((at, peak)) = roots::maximum_above((terms[0], terms[1]), powers.x, &force, known, copy) {
             self.episode.peak_force = peak;
             self.episode.peak_time = start + at * scale;
             self.peak_force = self.peak_force.max(peak);
         }
-        if self.is_held() {
-            self.reaction = force.value;
-            return;
-        }
-        let depth = powers.read(&pair.penetration);
-        let known = self.episode.peak_penetration;
-        let penetration = &pair.penetration[..=pair.order + 2];
-        if let Some((_, peak)) = roots::maximum_above(penetration, powers.x, &depth, known) {
-            self.episode.peak_penetration = peak;
-        }
-        self.penetration = depth.value;
-        self.rate = depth.slope / scale;
+        self.reaction = force.value;
     }
 
     /// Books what the elastic part has taken since the reference.

@@ -1,33 +1,171 @@
 //! Largest inter-storey drifts so far, at the engine's own steps.
+//!
+//! In a tall building most storeys are below their peak most of the time, which is shown without summing all modes of
+//! all storeys. By Cauchy-Schwarz no drift exceeds (a number of the storey) x (weighted size of the modal displacements):
+//! often that one size is enough for the whole building. Else the first modes, which carry most of the drift, are summed
+//! and only the others are bounded. What may exceed its peak then is summed to the end.
 
 use super::Side;
 use super::model::Model;
-use super::state::{Base, State};
+use super::state::{Base, Coordinates, State};
 use crate::structure::{LANES, Structure};
 use nalgebra::DMatrix;
 
-/// Drifts of all storeys from modal displacements: [`LANES`] storeys at a time, mode by mode.
+/// Modes that are summed before the others are bounded.
+const FIRST: usize = 4;
+
+/// Margin for rounding, relative to the sizes of all that a drift is added up from: far above the rounding of some
+/// thousand terms, far below what decides anything.
+const MARGIN: f64 = 1e-11;
+
+/// Squares add up to their sum without loss above this.
+const TINY: f64 = 1e-280;
+
+/// Drifts of all storeys from modal displacements.
 #[derive(Debug)]
 pub(super) struct DriftShapes {
-    /// For each building.
-    shapes: [Vec<[f64; LANES]>; 2],
-    /// Storeys of each building, padded to a multiple of [`LANES`].
-    storeys: [usize; 2],
+    buildings: [BuildingShapes; 2],
+}
+
+/// Of one building, [`LANES`] storeys at a time.
+#[derive(Debug)]
+struct BuildingShapes {
+    /// Drift of each storey in each mode, kg^-1/2, block after block of storeys, mode by mode.
+    shapes: Vec<[f64; LANES]>,
+    /// Weight of each mode: its squared frequency over the lowest, as high modes move the less the stiffer they are.
+    weight: Vec<f64>,
+    /// Largest drift of each storey for a weighted size of 1 of all modes but the first, and of all modes, kg^-1/2.
+    rest: Vec<[f64; LANES]>,
+    all: Vec<[f64; LANES]>,
+}
+
+/// Largest drifts so far.
+#[derive(Clone, Debug)]
+pub(super) struct PeakDrifts {
+    /// m, left storeys then right storeys, each padded.
+    peaks: Vec<f64>,
+    /// Weighted size of each building's modal displacements up to which no storey exceeds its peak.
+    below: [f64; 2],
 }
 
 impl DriftShapes {
     pub fn of(structure: &Structure) -> DriftShapes {
-        let shapes = [Side::Left, Side::Right].map(|side| &structure.modes(side).shape);
-        DriftShapes {
-            storeys: shapes.map(|shape| shape.nrows().next_multiple_of(LANES)),
-            shapes: shapes.map(blocks_of_storeys),
+        DriftShapes { buildings: [Side::Left, Side::Right].map(|side| BuildingShapes::of(structure, side)) }
+    }
+
+    /// Before any motion.
+    pub fn peaks(&self) -> PeakDrifts {
+        PeakDrifts { peaks: vec![0.0; self.buildings.iter().map(BuildingShapes::storeys).sum()], below: [0.0; 2] }
+    }
+}
+
+impl BuildingShapes {
+    fn of(structure: &Structure, side: Side) -> BuildingShapes {
+        let modes = structure.modes(side);
+        let lowest = modes.omega.iter().fold(f64::INFINITY, |a, b| a.min(*b));
+        let weight: Vec<f64> = modes.omega.iter().map(|w| (w / lowest) * (w / lowest)).collect();
+        let shapes = blocks_of_storeys(&modes.shape);
+        let largest = |block: &[[f64; LANES]], from: usize| {
+            std::array::from_fn(|i| {
+                let terms = block.iter().zip(&weight).skip(from).map(|(shape, weight)| shape[i] / weight);
+                terms.map(|term| term * term).sum::<f64>().sqrt()
+            })
+        };
+        let sizes = |from: usize| shapes.chunks_exact(weight.len()).map(|block| largest(block, from)).collect();
+        BuildingShapes { rest: sizes(FIRST), all: sizes(0), weight, shapes }
+    }
+
+    /// Storeys, padded to a multiple of [`LANES`].
+    fn storeys(&self) -> usize {
+        self.all.len() * LANES
+    }
+
+    /// Raises the peaks to the drifts of these modal displacements.
+    #[inline(always)]
+    fn raise(&self, q: &[f64], peaks: &mut [[f64; LANES]], below: &mut f64) {
+        if self.weight.len() <= FIRST {
+            for (block, peak) in self.shapes.chunks_exact(q.len()).zip(peaks) {
+                let mut drift = [0.0; LANES];
+                add_modes(&mut drift, block, q);
+                raise_to(peak, &drift);
+            }
+            return;
+        }
+        let (first, rest) = self.squares(q);
+        // Written so that a NaN is never below anything.
+        if first + rest > TINY && (first + rest).sqrt() <= *below {
+            return;
+        }
+        if self.raise_some(q, peaks, (first, rest)) {
+            *below = self.size_below(peaks);
         }
     }
 
-    /// Room for the largest drifts of all storeys.
-    pub fn peaks(&self) -> Vec<f64> {
-        vec![0.0; self.storeys[0] + self.storeys[1]]
+    /// Raises the peaks of those storeys that may exceed them; whether any did.
+    #[inline(always)]
+    fn raise_some(&self, q: &[f64], peaks: &mut [[f64; LANES]], (first, rest): (f64, f64)) -> bool {
+        let (size, rounding) = (rest.sqrt(), MARGIN * (first + rest).sqrt());
+        let is_sure = first + rest > TINY;
+        let mut raised = false;
+        for (b, (block, peak)) in self.shapes.chunks_exact(q.len()).zip(peaks).enumerate() {
+            let (rest, all) = (&self.rest[b], &self.all[b]);
+            let mut drift = [0.0; LANES];
+            add_modes(&mut drift, &block[..FIRST], &q[..FIRST]);
+            let mut is_below = is_sure;
+            for i in 0..LANES {
+                is_below &= drift[i].abs() + (rest[i] * size + all[i] * rounding) <= peak[i];
+            }
+            if !is_below {
+                add_modes(&mut drift, &block[FIRST..], &q[FIRST..]);
+                raised |= raise_to(peak, &drift);
+            }
+        }
+        raised
     }
+
+    /// Squares of the weighted sizes of the first modes and of the others.
+    #[inline(always)]
+    fn squares(&self, q: &[f64]) -> (f64, f64) {
+        let square = |q: &f64, weight: &f64| (q * weight) * (q * weight);
+        let first = q[..FIRST].iter().zip(&self.weight).map(|(q, weight)| square(q, weight)).sum();
+        let (q, q_rest) = q[FIRST..].as_chunks::<LANES>();
+        let (weight, weight_rest) = self.weight[FIRST..].as_chunks::<LANES>();
+        let mut lanes = [0.0; LANES];
+        for (q, weight) in q.iter().zip(weight) {
+            for i in 0..LANES {
+                lanes[i] += square(&q[i], &weight[i]);
+            }
+        }
+        let rest: f64 = q_rest.iter().zip(weight_rest).map(|(q, weight)| square(q, weight)).sum();
+        (first, lanes.iter().sum::<f64>() + rest)
+    }
+
+    /// The weighted size up to which no storey exceeds its peak.
+    fn size_below(&self, peaks: &[[f64; LANES]]) -> f64 {
+        let sizes = peaks.as_flattened().iter().zip(self.all.as_flattened()).map(|(peak, all)| peak / all);
+        // A storey of the padding gives NaN, which `min` passes over.
+        (1.0 - MARGIN) * sizes.fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Adds what modes of these displacements do to a block of storeys.
+#[inline(always)]
+fn add_modes(drift: &mut [f64; LANES], shapes: &[[f64; LANES]], q: &[f64]) {
+    for (shape, q) in shapes.iter().zip(q) {
+        for i in 0..LANES {
+            drift[i] += shape[i] * q;
+        }
+    }
+}
+
+/// Raises peaks to drifts; whether any was.
+#[inline(always)]
+fn raise_to(peak: &mut [f64; LANES], drift: &[f64; LANES]) -> bool {
+    let before = *peak;
+    for i in 0..LANES {
+        peak[i] = peak[i].max(drift[i].abs());
+    }
+    *peak != before
 }
 
 fn blocks_of_storeys(shape: &DMatrix<f64>) -> Vec<[f64; LANES]> {
@@ -44,21 +182,26 @@ fn blocks_of_storeys(shape: &DMatrix<f64>) -> Vec<[f64; LANES]> {
 
 impl Model {
     /// Raises the peak drifts to those of the base.
+    #[inline(always)]
     pub(super) fn update_peak_drift(&self, base: &mut Base) {
-        let mut peaks = base.peak_drift.as_chunks_mut::<LANES>().0.iter_mut();
-        for side in [Side::Left, Side::Right] {
-            let modes = self.floors(side);
-            let q = &base.q[self.structure.offset(side)..][..modes];
-            for (block, peak) in self.drift.shapes[side as usize].chunks_exact(modes).zip(&mut peaks) {
-                let mut drift = [0.0; LANES];
-                for (shape, q) in block.iter().zip(q) {
-                    for i in 0..LANES {
-                        drift[i] += shape[i] * q;
-                    }
-                }
-                for i in 0..LANES {
-                    peak[i] = peak[i].max(drift[i].abs());
-                }
+        if base.coordinates == Coordinates::Floors {
+            return self.update_peak_drift_of_floors(base);
+        }
+        let [left, right] = &self.drift.buildings;
+        let PeakDrifts { peaks, below } = &mut base.peak_drift;
+        let (left_q, right_q) = base.q.split_at(left.weight.len());
+        let (left_peaks, right_peaks) = peaks.as_chunks_mut::<LANES>().0.split_at_mut(left.all.len());
+        left.raise(left_q, left_peaks, &mut below[0]);
+        right.raise(&right_q[..right.weight.len()], right_peaks, &mut below[1]);
+    }
+
+    fn update_peak_drift_of_floors(&self, base: &mut Base) {
+        let (left, right) = base.peak_drift.peaks.split_at_mut(self.drift.buildings[0].all.len() * LANES);
+        for (side, peaks) in [left, right].into_iter().enumerate() {
+            let floors = self.structure.floors.of_building(side, &base.q);
+            let below = std::iter::once(&0.0).chain(floors);
+            for ((peak, floor), below) in peaks.iter_mut().zip(floors).zip(below) {
+                *peak = peak.max((floor - below).abs());
             }
         }
     }
@@ -67,8 +210,8 @@ impl Model {
     pub fn peak_drift(&self, state: &State, side: Side, floor: usize) -> f64 {
         let first = match side {
             Side::Left => 0,
-            Side::Right => self.drift.storeys[0],
+            Side::Right => self.drift.buildings[0].storeys(),
         };
-        state.base.peak_drift[first + floor]
+        state.base.peak_drift.peaks[first + floor]
     }
 }

@@ -6,7 +6,7 @@ use super::model::Model;
 use super::state::*;
 use super::{EnergyPoint, Point};
 use crate::quadrature::{EIGHT, Rule, TWELVE, gauss, graded};
-use crate::structure::{ModalSeries, dot, flight_order};
+use crate::structure::{MotionSeries, dot, flight_order};
 
 /// Work over a stretch of time, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -17,9 +17,17 @@ struct Work {
 }
 
 impl Model {
+    /// Kinetic and strain energy, J.
+    fn structure_energies(&self, coordinates: Coordinates, q: &[f64], v: &[f64]) -> (f64, f64) {
+        match coordinates {
+            Coordinates::Modes => self.structure.energies(q, v),
+            Coordinates::Floors => self.structure.floors.energies(q, v),
+        }
+    }
+
     /// Opens the account with the energy that is there at the start.
     pub(super) fn open_account(&self, base: &mut Base) {
-        let (kinetic, strain) = self.structure.energies(&base.q, &base.v);
+        let (kinetic, strain) = self.structure_energies(base.coordinates, &base.q, &base.v);
         if let Some(account) = &mut base.energy {
             account.initial = kinetic + strain;
             account.largest = account.initial;
@@ -34,7 +42,7 @@ impl Model {
         }
         let done = self.work_over(base, step, inputs, work, length);
         let impact: f64 = base.contacts.iter().map(Contact::dissipated_energy).sum();
-        let (kinetic, strain) = self.structure.energies(&base.q, &base.v);
+        let (kinetic, strain) = self.structure_energies(base.coordinates, &base.q, &base.v);
         if let Some(account) = &mut base.energy {
             account.input += done.input;
             account.viscous += done.viscous;
@@ -63,8 +71,15 @@ impl Model {
             StepKind::Flight | StepKind::Unknown => self.integrate_flight(base, inputs, work, length, &mut done),
         }
         work.load.fill(0.0);
-        self.add_floor_forces(inputs, &mut work.load);
-        done.external = (0..self.structure.lanes).map(|m| work.load[m] * (work.q[m] - base.q[m])).sum();
+        self.add_floor_forces(inputs, base.coordinates, &mut work.load);
+        let moved = work.q.iter().zip(&base.q).map(|(q, start)| q - start);
+        done.external = match base.coordinates {
+            Coordinates::Modes => work.load.iter().zip(moved).map(|(load, moved)| load * moved).sum(),
+            Coordinates::Floors => {
+                let forces = work.load.iter().zip(self.structure.floors.mass()).map(|(load, mass)| load * mass);
+                forces.zip(moved).map(|(force, moved)| force * moved).sum()
+            }
+        };
         done
     }
 
@@ -98,13 +113,13 @@ impl Model {
     fn integrate_series<const N: usize>(
         &self,
         base: &Base,
-        series: &ModalSeries,
+        series: &MotionSeries,
         rule: &Rule,
         (from, length): (f64, f64),
         work: &mut Workspace,
         done: &mut Work,
     ) {
-        if !self.structure.is_classical() {
+        if base.coordinates == Coordinates::Floors || !self.structure.is_classical() {
             let motion = |t: f64, _: &mut [f64], v: &mut [f64]| series.velocity(t / series.scale, v);
             return self.integrate(base, motion, gauss(rule, length), from, work, done);
         }
@@ -139,12 +154,19 @@ impl Model {
         work: &mut Workspace,
         done: &mut Work,
     ) {
-        let (q, v) = (&mut work.node_q, &mut work.node_v);
+        let Workspace { node_q: q, node_v: v, v: damped, .. } = work;
         for (t, weight) in nodes {
             motion(t, q, v);
             let acceleration = base.segment.acceleration_at(base.elapsed + from + t);
-            done.input -= weight * acceleration * dot(&self.structure.participation, v);
-            done.viscous += weight * self.structure.viscous_power(v);
+            let (momentum, viscous) = match base.coordinates {
+                Coordinates::Modes => (dot(&self.structure.participation, v), self.structure.viscous_power(v)),
+                Coordinates::Floors => {
+                    let floors = &self.structure.floors;
+                    (dot(floors.mass(), v), floors.viscous_power(v, damped))
+                }
+            };
+            done.input -= weight * acceleration * momentum;
+            done.viscous += weight * viscous;
         }
     }
 
@@ -157,7 +179,7 @@ impl Model {
                 account.viscous += done.viscous;
                 account.external += done.external;
             }
-            let (kinetic, strain) = self.structure.energies(&point.q, &point.v);
+            let (kinetic, strain) = self.structure_energies(point.coordinates, &point.q, &point.v);
             let impact = point.contacts.iter().map(|contact| contact.dissipated_energy).sum();
             account.update_largest([kinetic, strain, impact]);
             let Account { initial, input, external, viscous, largest } = account;

@@ -1,5 +1,6 @@
 //! Flight: both buildings swing by themselves, exactly, until the segment ends or two floors meet.
 
+use super::ground::GroundMotion;
 use super::model::Model;
 use super::roots;
 use super::state::*;
@@ -8,6 +9,7 @@ use crate::structure::{EXACT, flight_order};
 impl Model {
     /// Works out the flight from the base until `limit` (s since the segment's start) or the first entry.
     pub(super) fn plan_flight(&self, state: &mut State, limit: f64) {
+        self.convert(&mut state.base, Coordinates::Modes, &mut state.work.q);
         let State { base, step, inputs, counters, work, .. } = state;
         counters.flight_steps += 1;
         let remaining = limit - base.elapsed;
@@ -22,6 +24,37 @@ impl Model {
         if self.pairs.is_empty() {
             return;
         }
+        let watched = self.watched_segment(base);
+        let segment = watched.map(|(_, segment)| segment);
+        if let Some((ground, segment)) = watched
+            && self.dismiss(ground, base, segment, counters, &mut work.node_v)
+        {
+            counters.flights_dismissed += 1;
+            step.ends.resize(self.pairs.len(), None);
+        } else if !self.certify(base, step, counters, work, segment) {
+            step.ends.clear();
+            self.look_closer(base, step, counters, work, segment);
+        }
+    }
+
+    /// The segment of the record at the base, and its number, where pairs can be dismissed: where nothing but the
+    /// record acts on the buildings.
+    pub(super) fn watched_segment(&self, base: &Base) -> Option<(&GroundMotion, u64)> {
+        let ground = self.ground.as_ref().filter(|_| !self.is_driven())?;
+        Some((ground, ground.number(&base.segment)?))
+    }
+
+    /// Whether no pair meets in the planned flight, shown by both ends alone; a pair that is dismissed for its segment
+    /// does not.
+    fn certify(
+        &self,
+        base: &Base,
+        step: &mut Step,
+        counters: &mut Counters,
+        work: &mut Workspace,
+        segment: Option<u64>,
+    ) -> bool {
+        let h = step.length;
         // Largest that |d''''| of any pair can be; each penetration stays this close to its cubic interpolant.
         let (load, slope) = (&work.load, &work.slope);
         let bound = self.structure.fourth_derivative_bound(
@@ -30,20 +63,20 @@ impl Model {
             &self.pair_weight,
             &mut work.scratch,
         );
-        let deviation = (remaining * remaining) * (remaining * remaining) / 384.0 * bound;
-        let certified = self.pairs.iter().zip(&base.contacts).all(|(pair, contact)| {
+        let deviation = (h * h) * (h * h) / 384.0 * bound;
+        self.pairs.iter().zip(&base.contacts).enumerate().all(|(p, (pair, contact))| {
+            if segment.is_some_and(|segment| base.watch.is_free(p, segment)) {
+                step.ends.push(None);
+                return true;
+            }
             counters.pairs_evaluated += 1;
             let (end, end_rate) = pair.penetration(&step.q, &step.v);
-            step.ends.push((end, end_rate));
+            step.ends.push(Some((end, end_rate)));
             let start = contact.flight_start();
-            let near_start = start + remaining / 3.0 * contact.rate;
-            let near_end = end - remaining / 3.0 * end_rate;
+            let near_start = start + h / 3.0 * contact.rate;
+            let near_end = end - h / 3.0 * end_rate;
             start.max(near_start).max(near_end).max(end) + deviation < 0.0
-        });
-        if !certified {
-            step.ends.clear();
-            self.look_closer(base, step, counters, work, remaining);
-        }
+        })
     }
 
     /// Flies q, v of the base over `h` under `work.load` and `work.slope`.
@@ -68,7 +101,15 @@ impl Model {
 
     /// Finds the first entry in the flight, from the power series of the penetrations. A flight too long for one
     /// series is shortened to what one series reaches.
-    fn look_closer(&self, base: &Base, step: &mut Step, counters: &mut Counters, work: &mut Workspace, remaining: f64) {
+    fn look_closer(
+        &self,
+        base: &Base,
+        step: &mut Step,
+        counters: &mut Counters,
+        work: &mut Workspace,
+        segment: Option<u64>,
+    ) {
+        let remaining = step.length;
         const REACH: f64 = 1.5;
         counters.closer_looks += 1;
         let fastest = self.structure.fastest;
@@ -82,8 +123,11 @@ impl Model {
         work.series.expand_flight(&self.structure, (&base.q, &base.v), (load, slope), (h, order));
         let mut first: Option<(f64, usize)> = None;
         for (p, (pair, contact)) in self.pairs.iter().zip(&base.contacts).enumerate() {
+            if segment.is_some_and(|segment| base.watch.is_free(p, segment)) {
+                continue;
+            }
             let penetration = &mut work.scalar[..=work.series.order];
-            let noise = pair.noise(work.series.project(&pair.row, 1.0, penetration));
+            let noise = pair.noise(self.project(p, Coordinates::Modes, &work.series, 1.0, penetration));
             let noise = contact.begin_flight(penetration, h, noise);
             let end = first.map_or(1.0, |(x, _)| x);
             if let Some(x) = roots::first_rise(penetration, end, noise) {

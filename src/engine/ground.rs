@@ -40,6 +40,8 @@ pub struct GroundMotion {
     spacing: f64,
     /// s, length of each segment.
     lengths: Vec<f64>,
+    /// Up to each sample: s, and m/s, the integral of |acceleration| (never less).
+    passed: Vec<(f64, f64)>,
     prepared: Vec<Interval>,
 }
 
@@ -47,15 +49,16 @@ impl GroundMotion {
     /// Prepares a record times `factor` for a structure.
     pub fn new(record: &Record, factor: f64, structure: &Structure) -> GroundMotion {
         let times = record.times.clone();
-        let accelerations = record.accelerations.iter().map(|a| a * factor).collect();
+        let accelerations: Vec<f64> = record.accelerations.iter().map(|a| a * factor).collect();
         let lengths = segment_lengths(&times);
+        let passed = passed(&lengths, &accelerations);
         let spacing = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
         let mut distinct: Vec<f64> = lengths.clone();
         distinct.sort_by(f64::total_cmp);
         distinct.dedup();
         distinct.truncate(MOST_PREPARED);
         let prepared = distinct.into_iter().map(|length| Interval::new(structure, length)).collect();
-        GroundMotion { times, accelerations, spacing, lengths, prepared }
+        GroundMotion { times, accelerations, spacing, lengths, passed, prepared }
     }
 
     /// The segment that holds a time.
@@ -80,12 +83,17 @@ impl GroundMotion {
 
     /// The segment that follows one.
     pub fn following(&self, segment: &Segment) -> Segment {
-        match segment.place {
-            Place::Outside => self.segment_at(segment.start + segment.length),
-            Place::Sample(i) if i + 1 < self.lengths.len() => self.sample(i + 1),
-            Place::Sample(_) => self.after(0),
-            Place::After(k) => self.after(k + 1),
+        match self.number(segment) {
+            Some(number) => self.segment(number + 1),
+            None => self.segment_at(segment.start + segment.length),
         }
+    }
+
+    /// The segment with a number.
+    #[inline(always)]
+    pub fn segment(&self, number: u64) -> Segment {
+        let samples = self.lengths.len() as u64;
+        if number < samples { self.sample(number as usize) } else { self.after(number - samples) }
     }
 
     /// The exact flight over a whole segment, where it has been prepared.
@@ -93,11 +101,35 @@ impl GroundMotion {
         self.prepared.iter().find(|interval| interval.length == segment.length)
     }
 
+    /// The number of a segment, counted on after the record's end; none before its beginning.
+    pub fn number(&self, segment: &Segment) -> Option<u64> {
+        match segment.place {
+            Place::Outside => None,
+            Place::Sample(i) => Some(i as u64),
+            Place::After(k) => Some(self.lengths.len() as u64 + k),
+        }
+    }
+
+    /// s that so many segments last, the first of which has that number, and the integral of |acceleration| over them,
+    /// m/s: never less than exact.
+    pub fn ahead(&self, first: u64, segments: u64) -> (f64, f64) {
+        let last = self.lengths.len();
+        let at = |number: u64| {
+            let (time, shaking) = self.passed[last.min(number as usize)];
+            (time + number.saturating_sub(last as u64) as f64 * self.spacing, shaking)
+        };
+        let ((start, before), (end, after)) = (at(first), at(first + segments));
+        let rounding = 4.0 * f64::EPSILON;
+        (end - start + rounding * end, after - before + rounding * after)
+    }
+
+    #[inline(always)]
     fn sample(&self, i: usize) -> Segment {
         let (a0, a1, length) = (self.accelerations[i], self.accelerations[i + 1], self.lengths[i]);
         Segment { start: self.times[i], length, acceleration: a0, slope: (a1 - a0) / length, place: Place::Sample(i) }
     }
 
+    #[inline(always)]
     fn after(&self, k: u64) -> Segment {
         let end = self.times[self.times.len() - 1];
         Segment {
@@ -119,6 +151,35 @@ impl Segment {
     /// m/s2 at a time since the start.
     pub fn acceleration_at(&self, elapsed: f64) -> f64 {
         self.acceleration + self.slope * elapsed
+    }
+}
+
+/// Time and integral of |acceleration| up to each sample, summed without loss (Neumaier): their differences matter.
+fn passed(lengths: &[f64], accelerations: &[f64]) -> Vec<(f64, f64)> {
+    let (mut time, mut shaking) = (Sum::default(), Sum::default());
+    let mut passed = vec![(0.0, 0.0)];
+    for (length, ends) in lengths.iter().zip(accelerations.windows(2)) {
+        time.add(*length);
+        // A chord lies above |a| where a is linear.
+        shaking.add(0.5 * length * (ends[0].abs() + ends[1].abs()));
+        passed.push((time.value + time.lost, shaking.value + shaking.lost));
+    }
+    passed
+}
+
+/// A sum of positive numbers with what rounding has lost of it.
+#[derive(Default)]
+struct Sum {
+    value: f64,
+    lost: f64,
+}
+
+impl Sum {
+    fn add(&mut self, term: f64) {
+        let sum = self.value + term;
+        let (large, small) = if self.value > term { (self.value, term) } else { (term, self.value) };
+        self.lost += (large - sum) + small;
+        self.value = sum;
     }
 }
 

@@ -3,11 +3,15 @@
 //! [`Model`] never changes during a run, [`State`] is plain data; a communication point is read into a [`Point`].
 
 mod advance;
+mod closed_pairs;
 mod complementarity;
+mod contact_events;
 mod contact_step;
+mod dismissal;
 mod drift;
 mod energy;
 mod flight;
+mod glide;
 mod ground;
 mod model;
 mod observe;
@@ -33,10 +37,14 @@ pub struct Point {
     pub impacts: u64,
     /// Present where the scene asks for it.
     pub energy: Option<EnergyPoint>,
-    /// Modal displacements, velocities and accelerations (absolute), from which a floor is read when asked for.
+    /// What the following vectors hold.
+    coordinates: state::Coordinates,
+    /// Displacements, velocities and accelerations (absolute), from which a floor is read when asked for.
     q: Vec<f64>,
     v: Vec<f64>,
     acceleration: Vec<f64>,
+    /// The part of the acceleration that comes from the buildings' own stiffness and damping.
+    resisted: Vec<f64>,
     work: Option<Box<state::Workspace>>,
 }
 

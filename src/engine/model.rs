@@ -1,17 +1,18 @@
 //! The model: everything about a scene that stays as it is during a run.
 
+use super::closed_pairs::ClosedPairs;
+use super::dismissal::{ClosingSpeeds, Watch};
 use super::drift::DriftShapes;
 use super::ground::{GroundMotion, Segment};
 use super::onset_step::OnsetSeries;
 use super::rigid::RigidPairs;
 use super::state::*;
 use super::{Episode, contact_step};
-use crate::contact::series::PairSeries;
 use crate::contact::{EpisodeForce, ImpactLaw};
-use crate::polynomial::{MAX_ORDER, Powers};
+use crate::polynomial::{MAX_ORDER, Powers, ROOM};
 use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
-use crate::structure::{ModalSeries, Side, Structure};
+use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, Side, Structure};
 use std::f64::consts::PI;
 
 /// Everything that stays as it is during a run.
@@ -19,8 +20,6 @@ use std::f64::consts::PI;
 pub struct Model {
     pub(super) structure: Structure,
     pub(super) pairs: Vec<Pair>,
-    /// The rows of all pairs one after the other.
-    pub(super) rows: Vec<f64>,
     pub(super) rigid: RigidPairs,
     /// m/s, floor on the approach velocity where a law divides by it.
     pub(super) least_approach: f64,
@@ -28,6 +27,10 @@ pub struct Model {
     pub(super) pair_weight: Vec<f64>,
     /// Absent where the acceleration is an input.
     pub(super) ground: Option<GroundMotion>,
+    /// Coordinates of soft contacts.
+    pub(super) contact_coordinates: Coordinates,
+    /// 1 at every floor.
+    floors: Vec<f64>,
     pub(super) floor_forces: bool,
     pub(super) energy: bool,
     /// Velocity error allowed to one contact step, relative to the velocity scale.
@@ -35,6 +38,7 @@ pub struct Model {
     /// Order of the contact series.
     pub(super) order: usize,
     pub(super) drift: DriftShapes,
+    pub(super) closing: ClosingSpeeds,
     frequencies: [Vec<f64>; 2],
     initial: [Vec<f64>; 2],
 }
@@ -53,6 +57,10 @@ pub(super) struct Pair {
     pub floors: [usize; 2],
     /// kg, of these floors.
     pub masses: [f64; 2],
+    /// 1/kg.
+    pub inverse_masses: [f64; 2],
+    /// Their lanes in a vector of all floors.
+    pub lanes: [usize; 2],
 }
 
 impl Model {
@@ -77,15 +85,17 @@ impl Model {
         let (step_tolerance, order) = contact_step::accuracy(scene.solver.relative_tolerance);
         Ok(Model {
             drift: DriftShapes::of(&structure),
+            closing: ClosingSpeeds::of(&structure, &pairs),
             frequencies: [Side::Left, Side::Right]
                 .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
             initial: initial_state(scene, &structure),
             floor_forces: scene.floor_forces,
             energy: scene.energy,
             least_approach: scene.solver.min_approach_velocity,
+            contact_coordinates: contact_coordinates(&structure),
+            floors: structure.floors.ones(),
             structure,
             rigid: RigidPairs::of(&pairs),
-            rows: pairs.iter().flat_map(|pair| &pair.row).copied().collect(),
             pairs,
             pair_weight,
             ground,
@@ -111,7 +121,7 @@ impl Model {
 
     /// Room to work in.
     pub(super) fn workspace(&self) -> Workspace {
-        Workspace::new(&self.structure, self.pairs.len(), self.rigid.pairs.len())
+        Workspace::new(&self.structure, self.rigid.pairs.len())
     }
 
     fn has_singular_law(&self) -> bool {
@@ -134,11 +144,13 @@ impl Model {
                 segment,
                 elapsed: time - segment.start,
                 contacts: self.pairs.iter().enumerate().map(|(p, pair)| pair.at_start(p, time, &q, &v)).collect(),
+                watch: Watch::new(self.pairs.len()),
                 peak_drift: self.drift.peaks(),
                 energy: self.energy.then(Account::default),
                 velocity_scale: 0.0,
                 last_length: 0.0,
                 impacts: 0,
+                coordinates: Coordinates::Modes,
                 q,
                 v,
             },
@@ -149,9 +161,11 @@ impl Model {
                 event: None,
                 q: vec![0.0; lanes],
                 v: vec![0.0; lanes],
-                series: ModalSeries::new(lanes, highest),
+                series: MotionSeries::new(lanes, highest),
                 end: Powers::default(),
-                pairs: vec![PairSeries::default(); self.pairs.len()],
+                closed: ClosedPairs::new(&self.pairs),
+                reactions: vec![[0.0; ROOM]; self.rigid.pairs.len()],
+                reaction_order: 0,
                 onset: OnsetSeries::new(lanes, self.pairs.len(), self.has_singular_law()),
                 carried: vec![None; self.pairs.len()],
                 ends: Vec::with_capacity(self.pairs.len()),
@@ -170,22 +184,86 @@ impl Model {
         state
     }
 
-    /// The modal load at the base and its rate until the segment's end.
+    /// The load at the base, in its coordinates and per unit of mass, and its rate until the segment's end.
     pub(super) fn load(&self, base: &Base, inputs: &Inputs, load: &mut [f64], slope: &mut [f64]) {
         let acceleration = base.segment.acceleration_at(base.elapsed);
-        for ((load, slope), participation) in load.iter_mut().zip(slope).zip(&self.structure.participation) {
-            *load = -participation * acceleration;
-            *slope = -participation * base.segment.slope;
+        for ((load, slope), share) in load.iter_mut().zip(slope).zip(self.participation(base.coordinates)) {
+            *load = -share * acceleration;
+            *slope = -share * base.segment.slope;
         }
-        self.add_floor_forces(inputs, load);
+        self.add_floor_forces(inputs, base.coordinates, load);
     }
 
-    /// Adds the external forces on the floors to a modal load.
-    pub(super) fn add_floor_forces(&self, inputs: &Inputs, load: &mut [f64]) {
+    /// What a ground acceleration of -1 m/s^2 pushes.
+    pub(super) fn participation(&self, coordinates: Coordinates) -> &[f64] {
+        match coordinates {
+            Coordinates::Modes => &self.structure.participation,
+            Coordinates::Floors => &self.floors,
+        }
+    }
+
+    /// Adds the external forces on the floors to a load per unit of mass.
+    pub(super) fn add_floor_forces(&self, inputs: &Inputs, coordinates: Coordinates, load: &mut [f64]) {
         let left = self.floors(Side::Left);
         for (i, force) in inputs.floor_forces.iter().enumerate().filter(|(_, force)| **force != 0.0) {
             let (side, floor) = if i < left { (Side::Left, i) } else { (Side::Right, i - left) };
-            self.structure.add_floor_force(side, floor, *force, load);
+            match coordinates {
+                Coordinates::Modes => self.structure.add_floor_force(side, floor, *force, load),
+                Coordinates::Floors => {
+                    let lane = self.structure.floors.lane(side as usize, floor);
+                    load[lane] += force * self.structure.floors.inverse_mass(lane);
+                }
+            }
+        }
+    }
+
+    /// Acceleration for a given motion and load per unit of mass.
+    pub(super) fn accelerate(
+        &self,
+        coordinates: Coordinates,
+        (q, v): (&[f64], &[f64]),
+        load: &[f64],
+        acceleration: &mut [f64],
+    ) {
+        acceleration.copy_from_slice(load);
+        self.resist(coordinates, q, v, 1.0, acceleration);
+    }
+
+    /// Subtracts from an acceleration what stiffness and `rate` times damping do.
+    pub(super) fn resist(&self, coordinates: Coordinates, q: &[f64], v: &[f64], rate: f64, acceleration: &mut [f64]) {
+        match coordinates {
+            Coordinates::Modes => self.structure.resist(q, v, rate, acceleration),
+            Coordinates::Floors => {
+                let [(u, _), (v, _)] = [q, v].map(<[f64]>::as_chunks::<LANES>);
+                self.structure.floors.resist(u, v, rate, acceleration.as_chunks_mut::<LANES>().0);
+            }
+        }
+    }
+
+    /// Adds to a load per unit of mass what a contact force does.
+    pub(super) fn push_apart_by(&self, p: usize, coordinates: Coordinates, force: f64, load: &mut [f64]) {
+        let Pair { row, lanes: [left, right], inverse_masses, .. } = &self.pairs[p];
+        match coordinates {
+            Coordinates::Modes => load.iter_mut().zip(row).for_each(|(load, row)| *load -= row * force),
+            Coordinates::Floors => {
+                load[*left] -= force * inverse_masses[0];
+                load[*right] += force * inverse_masses[1];
+            }
+        }
+    }
+
+    /// Takes the base into other coordinates.
+    pub(super) fn convert(&self, base: &mut Base, coordinates: Coordinates, room: &mut Vec<f64>) {
+        if base.coordinates == coordinates {
+            return;
+        }
+        base.coordinates = coordinates;
+        for motion in [&mut base.q, &mut base.v] {
+            match coordinates {
+                Coordinates::Modes => self.structure.to_modes(motion, room),
+                Coordinates::Floors => self.structure.to_floors(motion, room),
+            }
+            std::mem::swap(motion, room);
         }
     }
 }
@@ -197,7 +275,17 @@ impl Pair {
         structure.add_floor_force(Side::Left, left, 1.0, &mut row);
         structure.add_floor_force(Side::Right, right, -1.0, &mut row);
         let (m1, m2) = (scene.left.mass[left], scene.right.mass[right]);
-        Pair { row, gap: pair.gap, law: pair.law, mass: m1 * m2 / (m1 + m2), floors: [left, right], masses: [m1, m2] }
+        let lanes = [structure.floors.lane(0, left), structure.floors.lane(1, right)];
+        Pair {
+            row,
+            gap: pair.gap,
+            law: pair.law,
+            mass: m1 * m2 / (m1 + m2),
+            floors: [left, right],
+            masses: [m1, m2],
+            inverse_masses: [1.0 / m1, 1.0 / m2],
+            lanes,
+        }
     }
 
     /// m and m/s.
@@ -266,6 +354,15 @@ impl Contact {
             impulse: 0.0,
             dissipated_energy: 0.0,
         };
+    }
+}
+
+/// Modes are cheaper where they are few, or where every floor feels every other.
+fn contact_coordinates(structure: &Structure) -> Coordinates {
+    if structure.lanes > FEW_BLOCKS * LANES && structure.floors.is_sparse() {
+        Coordinates::Floors
+    } else {
+        Coordinates::Modes
     }
 }
 

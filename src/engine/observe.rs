@@ -11,10 +11,11 @@ impl Model {
     /// Floors are not computed here but when one is asked for.
     pub fn observe(&self, state: &State, point: &mut Point) {
         let lanes = self.structure.lanes;
-        for vector in [&mut point.q, &mut point.v, &mut point.acceleration] {
+        for vector in [&mut point.q, &mut point.v, &mut point.acceleration, &mut point.resisted] {
             vector.resize(lanes, 0.0);
         }
         point.time = state.time;
+        point.coordinates = state.base.coordinates;
         let elapsed = state.time - (state.base.segment.start + state.base.elapsed);
         let elapsed = if state.step.kind == StepKind::Unknown { 0.0 } else { elapsed.max(0.0) };
         let mut work = point.work.take().unwrap_or_else(|| Box::new(self.workspace()));
@@ -37,14 +38,15 @@ impl Model {
         }
         point.impacts = base.impacts;
         work.load.fill(0.0);
-        self.add_floor_forces(inputs, &mut work.load);
-        for (pair, contact) in self.pairs.iter().zip(&point.contacts) {
-            for (load, row) in work.load.iter_mut().zip(&pair.row) {
-                *load -= row * contact.force;
-            }
+        self.accelerate(point.coordinates, (&point.q, &point.v), &work.load, &mut point.resisted);
+        self.add_floor_forces(inputs, point.coordinates, &mut work.load);
+        for (p, contact) in point.contacts.iter().enumerate() {
+            self.push_apart_by(p, point.coordinates, contact.force, &mut work.load);
         }
         // Without the ground's load these are absolute accelerations.
-        self.structure.accelerate(&point.q, &point.v, &work.load, &mut point.acceleration);
+        for ((acceleration, resisted), load) in point.acceleration.iter_mut().zip(&point.resisted).zip(&work.load) {
+            *acceleration = resisted + load;
+        }
         self.read_energy(state, elapsed, &mut work, point);
         point.work = Some(work);
     }
@@ -78,9 +80,12 @@ impl Model {
         point: &Point,
         powers: &Powers,
     ) -> ContactPoint {
-        let contact = contact_at(base, step, p, elapsed, powers);
-        let penetration =
-            if contact.in_contact() { contact.penetration } else { self.pairs[p].penetration(&point.q, &point.v).0 };
+        let contact = self.contact_at(base, step, p, elapsed, powers);
+        let penetration = if contact.in_contact() {
+            contact.penetration
+        } else {
+            self.relative(p, point.coordinates, &point.q) - self.pairs[p].gap
+        };
         ContactPoint {
             force: contact.present_force(),
             penetration,
@@ -95,22 +100,32 @@ impl Model {
 
     /// m, relative to the ground; floors counted from 0.
     pub fn displacement(&self, point: &Point, side: Side, floor: usize) -> f64 {
-        self.structure.at_floor(side, floor, &point.q)
+        self.at_floor(point, side, floor, &point.q)
     }
 
     /// m/s, relative to the ground.
     pub fn velocity(&self, point: &Point, side: Side, floor: usize) -> f64 {
-        self.structure.at_floor(side, floor, &point.v)
+        self.at_floor(point, side, floor, &point.v)
     }
 
     /// m/s2, absolute.
     pub fn acceleration(&self, point: &Point, side: Side, floor: usize) -> f64 {
-        self.structure.at_floor(side, floor, &point.acceleration)
+        self.at_floor(point, side, floor, &point.acceleration)
     }
 
     /// N, force of the building on the ground.
     pub fn base_shear(&self, point: &Point, side: Side) -> f64 {
-        self.structure.base_shear(side, &point.q, &point.v)
+        match point.coordinates {
+            Coordinates::Modes => self.structure.base_shear(side, &point.q, &point.v),
+            Coordinates::Floors => self.structure.floors.base_shear(side as usize, &point.resisted),
+        }
+    }
+
+    fn at_floor(&self, point: &Point, side: Side, floor: usize, motion: &[f64]) -> f64 {
+        match point.coordinates {
+            Coordinates::Modes => self.structure.at_floor(side, floor, motion),
+            Coordinates::Floors => motion[self.structure.floors.lane(side as usize, floor)],
+        }
     }
 
     /// The episode that a contact is in at the communication time, if it is in one.
@@ -119,18 +134,18 @@ impl Model {
         let elapsed = elapsed.max(0.0);
         let mut powers = Powers::default();
         powers.set(elapsed / state.step.series.scale, state.step.series.order);
-        let contact = contact_at(&state.base, &state.step, contact, elapsed, &powers);
+        let contact = self.contact_at(&state.base, &state.step, contact, elapsed, &powers);
         contact.in_contact().then(|| contact.present_episode())
     }
-}
 
-/// A contact at a time since the base; for a series in time, `powers` are those of that time.
-fn contact_at(base: &Base, step: &Step, p: usize, elapsed: f64, powers: &Powers) -> Contact {
-    let mut contact = base.contacts[p];
-    if contact.in_contact() && elapsed > 0.0 {
-        contact.follow(step, elapsed, base.time(), powers);
+    /// A contact at a time since the base; for a series in time, `powers` are those of that time.
+    fn contact_at(&self, base: &Base, step: &Step, p: usize, elapsed: f64, powers: &Powers) -> Contact {
+        let mut contact = base.contacts[p];
+        if contact.in_contact() && elapsed > 0.0 {
+            self.follow_one(&mut contact, step, elapsed, base.time(), powers);
+        }
+        contact
     }
-    contact
 }
 
 impl State {

@@ -1,4 +1,4 @@
-//! The first step after an entry under a power law: a double power series of all modes (see [`crate::contact::onset`]).
+//! The first step after an entry under a power law: a double power series of the motion (see [`crate::contact::onset`]).
 //!
 //! The step ends before anything else can happen - a turn, a release, an entry elsewhere -, shown by bounds on the sums
 //! of its terms, so it has no event of its own.
@@ -10,12 +10,12 @@ use crate::contact::Force;
 use crate::contact::force::power;
 use crate::contact::onset::{Grid, MOST_TERMS, OnsetPair, value_and_slope};
 use crate::quadrature::{TWELVE, graded};
-use crate::structure::{LANES, dot};
+use crate::structure::LANES;
 
 /// Highest power of x of the double series: its cost grows with the square, its reach hardly.
 const HIGHEST: f64 = 12.0;
 
-/// The double series of all modes and contacts.
+/// The double series of the motion and of all contacts.
 #[derive(Clone, Debug, Default)]
 pub(super) struct OnsetSeries {
     grid: Option<Grid>,
@@ -40,7 +40,7 @@ impl OnsetSeries {
         &self.terms[index * self.lanes..(index + 1) * self.lanes]
     }
 
-    /// q and v at x > 0.
+    /// u and v at x > 0.
     pub fn evaluate(&self, x: f64, q: &mut [f64], v: &mut [f64]) {
         let Some(grid) = &self.grid else { return };
         let z = power(x, grid.beta);
@@ -100,7 +100,7 @@ impl Model {
         let mut found: Option<Grid> = None;
         let mut scale = self.series_scale(base, remaining);
         let allowed = self.step_tolerance * base.velocity_scale;
-        self.structure.accelerate(&base.q, &base.v, &work.load, &mut work.q);
+        self.accelerate(base.coordinates, (&base.q, &base.v), &work.load, &mut work.q);
         for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| contact.is_singular()) {
             let force = contact.branch();
             let grid = Grid::of(&force, HIGHEST)?;
@@ -111,7 +111,7 @@ impl Model {
             let pair = &self.pairs[p];
             scale = scale.min(turning_time(&force, pair.mass, contact.rate));
             // Where acceleration overtakes the entry speed before the force amounts to anything, that speed is noise.
-            let overtaken = contact.rate / dot(&pair.row, &work.q).abs();
+            let overtaken = contact.rate / self.relative(p, base.coordinates, &work.q).abs();
             let gained = force.value(1.5 * contact.rate * overtaken, contact.rate) * overtaken / pair.mass;
             if gained < allowed {
                 return None;
@@ -120,7 +120,7 @@ impl Model {
         found.map(|grid| (grid, scale))
     }
 
-    /// All terms, row by row: q_(i+2) from the force, load, damping and stiffness terms two powers of x below.
+    /// All terms, row by row: u_(i+2) from the force, load, damping and stiffness terms two powers of x below.
     fn expand_onset(&self, base: &Base, onset: &mut OnsetSeries, work: &Workspace, grid: Grid, scale: f64) {
         let lanes = self.structure.lanes;
         onset.grid = Some(grid);
@@ -144,13 +144,14 @@ impl Model {
         }
     }
 
-    /// One term x^(i + beta j) of all modes.
+    /// One term x^(i + beta j) of the motion.
     fn extend_onset(&self, base: &Base, onset: &mut OnsetSeries, work: &Workspace, grid: &Grid, i: usize, j: usize) {
         let (lanes, scale) = (self.structure.lanes, onset.scale);
         let here = grid.index(i, j);
         let exponent = grid.exponent(i, j);
         let (known, rest) = onset.terms.split_at_mut(here * lanes);
         let next = &mut rest[..lanes];
+        let mut moved = self.structure.floors.rest.as_flattened();
         if i >= 2 {
             for (p, contact) in touching(base).filter(|(_, contact)| !contact.is_singular()) {
                 onset.pairs[p].extend_touching(grid, &contact.branch(), i - 2, j, scale);
@@ -160,31 +161,20 @@ impl Model {
                 (1, 0) => next.iter_mut().zip(&work.slope).for_each(|(next, slope)| *next = slope * scale),
                 _ => {}
             }
-            let before = &known[(here - 2) * lanes..];
-            for m in 0..lanes {
-                next[m] -= self.structure.omega2[m] * before[m];
-            }
+            moved = &known[(here - 2) * lanes..];
         }
-        if i >= 1 && here > 0 {
-            let before = &known[(here - 1) * lanes..];
-            let rate = (exponent - 1.0) / scale;
-            for m in 0..lanes {
-                next[m] -= rate * self.structure.damping[m] * before[m];
-            }
-            self.structure.subtract_coupling(before, rate, next);
-        }
+        let moving = &known[(here - 1) * lanes..];
+        let rate = (exponent - 1.0) / scale;
+        self.resist(base.coordinates, moved, moving, rate, next);
         for (p, _) in touching(base) {
-            let force = onset.pairs[p].force[here - 1];
-            for (next, row) in next.iter_mut().zip(&self.pairs[p].row) {
-                *next -= row * force;
-            }
+            self.push_apart_by(p, base.coordinates, onset.pairs[p].force[here - 1], next);
         }
         let factor = scale * scale / (exponent * (exponent - 1.0));
         for next in next.iter_mut() {
             *next *= factor;
         }
         for (p, _) in touching(base) {
-            let value = dot(&self.pairs[p].row, &onset.terms[here * lanes..(here + 1) * lanes]);
+            let value = self.relative(p, base.coordinates, &onset.terms[here * lanes..(here + 1) * lanes]);
             onset.pairs[p].set_penetration(grid, i, j, value);
         }
     }
@@ -196,7 +186,7 @@ impl Model {
         let mut last = [0.0; MOST_TERMS];
         grid.each(|index, exponent| {
             if exponent > HIGHEST - 1.0 - grid.beta {
-                last[index] = exponent * self.worst_floor(onset.term(index));
+                last[index] = exponent * self.worst_floor(base.coordinates, onset.term(index));
             }
         });
         // The sum goes nearly as a power of x: a few secant steps in logarithms.
@@ -216,13 +206,12 @@ impl Model {
         let mut x = reach;
         let mut room = Room { grid, scale: onset.scale, sizes: [0.0; MOST_TERMS], turns: [0.0; MOST_TERMS] };
         for (p, contact) in base.contacts.iter().enumerate() {
-            let row = &self.pairs[p].row;
             let start = if contact.in_contact() {
                 let terms = &onset.pairs[p].penetration;
                 room.set(|index| terms[index]);
                 contact.penetration
             } else {
-                room.set(|index| dot(row, onset.term(index)));
+                room.set(|index| self.relative(p, base.coordinates, onset.term(index)));
                 if contact.at_surface { 0.0 } else { contact.penetration.min(0.0) }
             };
             let mut tries = 0;

@@ -7,10 +7,11 @@
 //! the floors stay together, and the reaction is what keeps their relative acceleration 0, power by power of the series.
 
 use super::complementarity::Complementarity;
+use super::contact_step::touching;
 use super::model::{Model, Pair};
 use super::state::*;
 use super::{Episode, roots};
-use crate::structure::{ModalSeries, difference, dot};
+use crate::structure::{MotionSeries, difference, dot};
 use nalgebra::DMatrix;
 
 /// A velocity below this share of the floors' velocities that it is the difference of is none: some hundred roundings.
@@ -66,7 +67,7 @@ impl Model {
     /// m/s, the rate of a rigid pair, and what is none but for rounding.
     fn approach(&self, base: &Base, p: usize) -> (f64, f64) {
         let contact = &base.contacts[p];
-        let (rate, size) = difference(&self.pairs[p].row, &base.v);
+        let (rate, size) = self.difference(p, base.coordinates, &base.v);
         let rate = if contact.carried || contact.is_held() { contact.rate } else { rate };
         (rate, STILL * size)
     }
@@ -109,7 +110,7 @@ impl Model {
     /// Whether a rigid pair stands at the surface now.
     fn is_closed(&self, base: &Base, p: usize) -> bool {
         let (contact, pair) = (&base.contacts[p], &self.pairs[p]);
-        let noise = if contact.carried { 0.0 } else { pair.noise(difference(&pair.row, &base.q).1) };
+        let noise = if contact.carried { 0.0 } else { pair.noise(self.difference(p, base.coordinates, &base.q).1) };
         contact.is_held() || contact.at_surface || contact.penetration >= -noise
     }
 
@@ -157,8 +158,8 @@ impl Model {
 
     /// An impulse changes the rate of other pairs of the same floors at once, and with it their force.
     fn update_soft_rates(&self, base: &mut Base) {
-        for (contact, pair) in base.contacts.iter_mut().zip(&self.pairs).filter(|(_, pair)| !pair.law.is_rigid()) {
-            contact.rate = difference(&pair.row, &base.v).0;
+        for (p, contact) in base.contacts.iter_mut().enumerate().filter(|&(p, _)| !self.pairs[p].law.is_rigid()) {
+            contact.rate = self.difference(p, base.coordinates, &base.v).0;
             let engaged = contact.force.is_engaged(contact.penetration, contact.rate);
             if contact.in_contact() && engaged != (contact.phase == Phase::Engaged) {
                 contact.change_branch();
@@ -214,12 +215,9 @@ impl Model {
     pub(super) fn balance(&self, base: &Base, inputs: &Inputs, work: &mut Workspace) -> Option<usize> {
         self.load(base, inputs, &mut work.load, &mut work.slope);
         work.node_q.copy_from_slice(&work.load);
-        for (contact, pair) in base.contacts.iter().zip(&self.pairs).filter(|(contact, _)| contact.in_contact()) {
+        for (p, contact) in touching(base) {
             if !contact.is_held() {
-                let force = contact.present_force();
-                for (load, row) in work.node_q.iter_mut().zip(&pair.row) {
-                    *load -= row * force;
-                }
+                self.push_apart_by(p, base.coordinates, contact.present_force(), &mut work.node_q);
             }
         }
         self.structure.accelerate(&base.q, &base.v, &work.node_q, &mut work.q);
@@ -272,11 +270,11 @@ impl Model {
     }
 
     /// Where the pairs that are carried get to at x of a series.
-    pub(super) fn carry(&self, base: &Base, series: &ModalSeries, x: f64, scalar: &mut [f64], carried: &mut Carried) {
+    pub(super) fn carry(&self, base: &Base, series: &MotionSeries, x: f64, scalar: &mut [f64], carried: &mut Carried) {
         for (p, (contact, pair)) in base.contacts.iter().zip(&self.pairs).enumerate() {
             carried[p] = contact.carried.then(|| {
                 let terms = &mut scalar[..=series.order];
-                let noise = pair.noise(series.project(&pair.row, x, terms));
+                let noise = pair.noise(self.project(p, base.coordinates, series, x, terms));
                 contact.begin_flight(terms, series.scale, noise);
                 let (penetration, slope) = crate::polynomial::value_and_slope(terms, x);
                 (penetration, slope / series.scale)
@@ -285,13 +283,12 @@ impl Model {
     }
 
     /// Whether a pair at this penetration, m, is still to be carried.
-    pub(super) fn is_close(&self, p: usize, penetration: f64, q: &[f64]) -> bool {
-        let pair = &self.pairs[p];
-        penetration > -CLOSE * pair.noise(difference(&pair.row, q).1)
+    pub(super) fn is_close(&self, p: usize, penetration: f64, coordinates: Coordinates, q: &[f64]) -> bool {
+        penetration > -CLOSE * self.pairs[p].noise(self.difference(p, coordinates, q).1)
     }
 
     /// m/s2, rounding error of a pair's relative acceleration in 0..=x of a series.
-    fn acceleration_noise(&self, p: usize, series: &ModalSeries, x: f64) -> f64 {
+    fn acceleration_noise(&self, p: usize, series: &MotionSeries, x: f64) -> f64 {
         let (mut sum, mut power) = (0.0, 1.0 / (series.scale * series.scale));
         for n in 2..=series.order {
             sum += (n * (n - 1)) as f64 * difference(&self.pairs[p].row, series.term(n)).1 * power;
@@ -304,7 +301,7 @@ impl Model {
     pub(super) fn letting_go(&self, p: usize, step: &Step, work: &mut Workspace, end: f64) -> Option<(f64, Event)> {
         let k = self.rigid.pairs.iter().position(|&pair| pair == p)?;
         let noise = self.acceleration_noise(p, &step.series, end) / self.rigid.matrix[(k, k)];
-        let force = &step.pairs[p].force[..=step.pairs[p].order];
+        let force = &step.reactions[k][..=step.reaction_order];
         let pull = &mut work.scalar[..force.len()];
         for (pull, force) in pull.iter_mut().zip(force) {
             *pull = -force;

@@ -5,12 +5,13 @@
 //! control points and the bound stay on one side of 0 holds no root; a piece on which the slope keeps its sign holds
 //! at most one; any other piece is halved. So the first root is found, or there is none: nothing is sampled.
 
-use crate::polynomial::{Reading, value, value_and_slope};
+use crate::polynomial::{Coefficients, ROOM, Reading, value, value_and_slope};
 
 /// Pieces are not halved below this fraction of the step: two roots closer than this are one touch without duration.
 const NARROWEST: f64 = 1e-9;
 
 /// A polynomial on 0..=end with the bound on its fourth derivative.
+#[derive(Clone, Copy)]
 struct Curve<'a> {
     coefficients: &'a [f64],
     fourth: f64,
@@ -33,6 +34,11 @@ impl<'a> Curve<'a> {
     fn at(&self, x: f64) -> End {
         let (value, slope) = value_and_slope(self.coefficients, x);
         End { x, value, slope }
+    }
+
+    /// The same curve up to an end only: what happens far out says nothing about pieces near the start.
+    fn up_to(&self, end: End) -> Curve<'a> {
+        Curve { fourth: fourth_derivative(self.coefficients, end.x), ..*self }
     }
 
     /// Upper bound over a piece.
@@ -73,7 +79,7 @@ impl<'a> Curve<'a> {
             return (b.value > self.noise).then(|| self.bisect_newton(a, b));
         }
         let middle = self.at(0.5 * (a.x + b.x));
-        self.first_rise(a, middle).or_else(|| self.first_rise(middle, b))
+        self.up_to(middle).first_rise(a, middle).or_else(|| self.first_rise(middle, b))
     }
 
     /// The root between a point below 0 and one above: Newton, kept inside a shrinking bracket.
@@ -108,7 +114,8 @@ impl<'a> Curve<'a> {
             }
         }
         let ceiling = self.ceiling(a, b);
-        if ceiling <= best.1 || !ceiling.is_finite() || b.x - a.x < NARROWEST {
+        // What exceeds the best by rounding only is none, and would be searched for ever.
+        if ceiling <= best.1 + self.noise || !ceiling.is_finite() || b.x - a.x < NARROWEST {
             return;
         }
         let (least, most) = self.slopes(a, b);
@@ -126,7 +133,7 @@ impl<'a> Curve<'a> {
             return;
         }
         let middle = self.at(0.5 * (a.x + b.x));
-        self.maximum(a, middle, best);
+        self.up_to(middle).maximum(a, middle, best);
         self.maximum(middle, b, best);
     }
 
@@ -179,10 +186,10 @@ fn fourth_derivative(coefficients: &[f64], end: f64) -> f64 {
     sum
 }
 
-/// Upper bound over 0..=x of a polynomial from its value and slope at 0 and its reading at x.
-pub fn ceiling((value, slope): (f64, f64), x: f64, end: &Reading) -> f64 {
-    let [first, second] = [value + x * slope / 3.0, end.value - x * end.slope / 3.0];
-    value.max(first).max(second).max(end.value) + (x * x) * (x * x) / 384.0 * end.fourth
+/// Upper bound over 0..=x of a polynomial from its values and slopes at both ends and the bound on its fourth derivative.
+pub fn ceiling((value, slope): (f64, f64), (end, end_slope): (f64, f64), x: f64, fourth: f64) -> f64 {
+    let [first, second] = [value + x * slope / 3.0, end - x * end_slope / 3.0];
+    value.max(first).max(second).max(end) + (x * x) * (x * x) / 384.0 * fourth
 }
 
 /// Where a polynomial, taken as below 0 (or on its way up from exactly 0) at x = 0, first passes 0 upwards in 0..=end.
@@ -213,12 +220,33 @@ fn first_rise_from_zero(coefficients: &[f64], end: f64, noise: f64) -> Option<f6
     curve.first_rise(curve.at(0.0), curve.at(end))
 }
 
-/// Where a polynomial is largest in 0..=end, if it exceeds `known` there: (x, value). `reading` is that at the end.
-pub fn maximum_above(coefficients: &[f64], end: f64, reading: &Reading, known: f64) -> Option<(f64, f64)> {
-    let curve = Curve { coefficients, fourth: reading.fourth, noise: 0.0 };
-    let start = End { x: 0.0, value: coefficients[0], slope: coefficients[1] };
+/// Where a polynomial is largest in 0..=end, if it exceeds `known` there: (x, value), from its value and slope at 0 and
+/// its reading at the end. `terms` copies its coefficients and tells their number; it is asked only where the maximum
+/// may be in between.
+pub fn maximum_above(
+    (value, slope): (f64, f64),
+    end: f64,
+    reading: &Reading,
+    known: f64,
+    terms: impl FnOnce(&mut Coefficients) -> usize,
+) -> Option<(f64, f64)> {
+    let (a, b) = (End { x: 0.0, value, slope }, End { x: end, value: reading.value, slope: reading.slope });
+    let bounds = Curve { coefficients: &[], fourth: reading.fourth, noise: 0.0 };
     let mut best = (f64::NAN, known);
-    curve.maximum(start, End { x: end, value: reading.value, slope: reading.slope }, &mut best);
+    for end in [a, b] {
+        if end.value > best.1 {
+            best = (end.x, end.value);
+        }
+    }
+    let (least, most) = bounds.slopes(a, b);
+    if least <= 0.0 && most >= 0.0 && bounds.ceiling(a, b) > best.1 {
+        let mut coefficients = [0.0; ROOM];
+        let count = terms(&mut coefficients);
+        let coefficients = &coefficients[..count];
+        let size = coefficients.iter().rev().fold(0.0, |sum, c| sum * end + c.abs());
+        let curve = Curve { coefficients, noise: 4.0 * f64::EPSILON * size, ..bounds };
+        curve.maximum(a, b, &mut best);
+    }
     best.0.is_finite().then_some(best)
 }
 
@@ -242,11 +270,19 @@ mod tests {
     }
 
     fn highest(coefficients: &[f64], known: f64) -> Option<(f64, f64)> {
+        highest_up_to(1.0, coefficients, known)
+    }
+
+    fn highest_up_to(end: f64, coefficients: &[f64], known: f64) -> Option<(f64, f64)> {
         let mut room = [0.0; crate::polynomial::ROOM];
         room[..coefficients.len()].copy_from_slice(coefficients);
         let mut powers = crate::polynomial::Powers::default();
-        powers.set(1.0, coefficients.len() - 1);
-        maximum_above(coefficients, 1.0, &powers.read(&room), known)
+        powers.set(end, coefficients.len() - 1);
+        let terms = |out: &mut Coefficients| {
+            *out = room;
+            coefficients.len()
+        };
+        maximum_above((room[0], room[1]), end, &powers.read(&room), known, terms)
     }
 
     fn rise(factor: f64, roots: &[f64]) -> Option<f64> {
@@ -303,6 +339,22 @@ mod tests {
     fn a_rise_within_noise_is_none() {
         assert_eq!(first_rise(&mut [-1e-18, 1e-17], 1.0, 1e-16), None);
         assert!(first_rise(&mut [-1e-18, 1e-15], 1.0, 1e-16).is_some());
+    }
+
+    #[test]
+    fn what_rounding_hides_is_not_searched_for() {
+        // (1 + x)^1.5 to the 17th power, far beyond where that means anything: at x = 150 it is 1e33 and so is the bound on
+        // its derivative, and a billion pieces near the start could each hide something larger than 1.
+        let (mut terms, mut binomial) = (vec![], 1.0);
+        for n in 0..18 {
+            terms.push(binomial);
+            binomial *= (1.5 - f64::from(n)) / f64::from(n + 1);
+        }
+        // Each search in vain takes a second.
+        for _ in 0..1000 {
+            let (x, value) = highest_up_to(150.0, &terms, 0.0).unwrap();
+            assert!((0.0..=150.0).contains(&x) && value >= 1.0, "{x}, {value}");
+        }
     }
 
     #[test]

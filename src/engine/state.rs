@@ -1,13 +1,15 @@
 //! Everything that changes during a run: plain data, cloned to save it.
 
 use super::Episode;
+use super::closed_pairs::ClosedPairs;
 use super::complementarity::Complementarity;
+use super::dismissal::Watch;
+use super::drift::PeakDrifts;
 use super::ground::Segment;
 use super::onset_step::OnsetSeries;
-use crate::contact::series::PairSeries;
 use crate::contact::{EpisodeForce, Force};
 use crate::polynomial::{Coefficients, MAX_ORDER, Powers, ROOM};
-use crate::structure::{Interval, LANES, ModalSeries, Scratch, Structure};
+use crate::structure::{Interval, MotionSeries, Scratch, Structure};
 
 /// Everything that changes during a run.
 ///
@@ -34,19 +36,31 @@ pub(super) struct Inputs {
     pub left_floors: usize,
 }
 
+/// What a vector of motion holds, floor by floor or mode by mode.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Coordinates {
+    /// In flight, and near rigid contacts.
+    #[default]
+    Modes,
+    /// In contact.
+    Floors,
+}
+
 /// The solution at the end of an internal step.
 #[derive(Clone, Debug)]
 pub(super) struct Base {
     pub segment: Segment,
     /// s since the start of the segment.
     pub elapsed: f64,
-    /// Modal displacements, m kg^1/2.
+    /// What `q` and `v` hold.
+    pub coordinates: Coordinates,
+    /// Displacements, m (of modes, m kg^1/2).
     pub q: Vec<f64>,
-    /// Modal velocities.
+    /// Velocities.
     pub v: Vec<f64>,
     pub contacts: Vec<Contact>,
-    /// m, left storeys then right storeys, each padded.
-    pub peak_drift: Vec<f64>,
+    pub watch: Watch,
+    pub peak_drift: PeakDrifts,
     pub energy: Option<Account>,
     /// m/s, largest floor velocity that a contact step has seen: what its error is relative to.
     pub velocity_scale: f64,
@@ -162,21 +176,25 @@ pub(super) struct Step {
     /// Whether the step ends where the segment (or the communication step that cuts it) does.
     pub reaches_limit: bool,
     pub event: Option<Event>,
-    /// Modal state at the end.
+    /// The state at the end, in the coordinates of the base.
     pub q: Vec<f64>,
     pub v: Vec<f64>,
     /// For a contact step, and for a flight that looked closer.
-    pub series: ModalSeries,
-    /// One per contact; filled for those in contact.
-    pub pairs: Vec<PairSeries>,
+    pub series: MotionSeries,
+    /// Of the pairs in contact.
+    pub closed: ClosedPairs,
+    /// N, reactions of the rigid pairs that are held together, one per rigid pair, and their highest power.
+    pub reactions: Vec<Coefficients>,
+    pub reaction_order: usize,
     /// Of the end of a contact step, in units of the series' scale.
     pub end: Powers,
     /// For the first step after an entry.
     pub onset: OnsetSeries,
     /// Penetration and rate at the end of each contact that is carried.
     pub carried: Carried,
-    /// Penetration and rate at the end of each contact of a flight that met nothing; empty otherwise.
-    pub ends: Vec<(f64, f64)>,
+    /// Penetration and rate at the end of each contact of a flight that met nothing, none where they were not needed;
+    /// empty otherwise.
+    pub ends: Carried,
 }
 
 /// Penetration, m, and its rate, m/s, one per contact.
@@ -210,7 +228,9 @@ pub struct Counters {
     pub flight_steps: u64,
     /// Flights that were expanded into a series to look for a contact.
     pub closer_looks: u64,
-    /// Pairs whose penetration was evaluated for a flight.
+    /// Flights for which no pair had to be looked at: none can close that fast.
+    pub flights_dismissed: u64,
+    /// Evaluations of a pair's penetration for a flight.
     pub pairs_evaluated: u64,
     /// Internal steps in contact.
     pub contact_steps: u64,
@@ -226,24 +246,19 @@ pub(super) struct Workspace {
     pub q: Vec<f64>,
     pub v: Vec<f64>,
     pub scratch: Scratch,
-    pub series: ModalSeries,
+    pub series: MotionSeries,
     pub interval: Interval,
     /// Modal state at an integration node.
     pub node_q: Vec<f64>,
     pub node_v: Vec<f64>,
     pub scalar: Coefficients,
     pub powers: Powers,
-    /// Numbers of the soft pairs in contact, with what a power of their series needs.
-    pub soft: Vec<usize>,
-    pub laws: Vec<Force>,
-    pub forces: Vec<f64>,
-    pub gathered: Vec<[f64; LANES]>,
     pub rigid: Complementarity,
 }
 
 impl Workspace {
-    /// For a structure with that many pairs, of which some are rigid.
-    pub fn new(structure: &Structure, pairs: usize, rigid: usize) -> Workspace {
+    /// For a structure with that many rigid pairs.
+    pub fn new(structure: &Structure, rigid: usize) -> Workspace {
         let lanes = structure.lanes;
         let vector = || vec![0.0; lanes];
         Workspace {
@@ -252,16 +267,12 @@ impl Workspace {
             q: vector(),
             v: vector(),
             scratch: Scratch::new(lanes),
-            series: ModalSeries::new(lanes, MAX_ORDER + 2),
+            series: MotionSeries::new(lanes, MAX_ORDER + 2),
             interval: Interval::new(structure, 0.0),
             node_q: vector(),
             node_v: vector(),
             scalar: [0.0; ROOM],
             powers: Powers::default(),
-            soft: Vec::with_capacity(pairs),
-            laws: Vec::with_capacity(pairs),
-            forces: vec![0.0; pairs],
-            gathered: vec![[0.0; LANES]; pairs],
             rigid: Complementarity::new(rigid),
         }
     }

@@ -1,4 +1,5 @@
-//! The two buildings: mass, stiffness and damping in modal coordinates, and their exact response apart from contact.
+//! The two buildings: mass, stiffness and damping mode by mode and floor by floor, and their exact response apart from
+//! contact.
 //!
 //! Both buildings' modes stand in one vector, the left building's first, padded with resting modes to a multiple of
 //! [`LANES`] so that every loop over modes vectorises:
@@ -7,19 +8,30 @@
 //! q'' + c q' + w^2 q = load,   load = -participation * ground acceleration + shape' * floor forces - pair * contact force
 //! ```
 
+mod dense;
+mod floors;
+mod interval;
 mod modes;
 mod propagator;
 mod series;
 
+pub use floors::Floors;
+pub use interval::Interval;
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
 pub use propagator::{CoupledIncrement, ModeIncrement};
-pub use series::{EXACT, ModalSeries, PairForces, difference, dot, flight_order};
+pub use series::{EXACT, FEW_BLOCKS, MotionSeries, PairForces, difference, dot, flight_order};
+
+use dense::Dense;
 
 use crate::scene::Building;
 use nalgebra::DMatrix;
+use std::ops::Range;
 
 /// Modal vectors are padded to a multiple of this.
 pub const LANES: usize = 4;
+
+/// A block of a modal vector.
+pub type Lane = [f64; LANES];
 
 /// Which building.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -51,6 +63,11 @@ pub struct Structure {
     coupling: Vec<Coupling>,
     /// The shapes of each building floor by floor.
     floor_shapes: [Vec<f64>; 2],
+    /// The buildings floor by floor.
+    pub floors: Floors,
+    /// From modes to floors and back, for each building.
+    to_floors: [Dense; 2],
+    to_modes: [Dense; 2],
 }
 
 /// Off-diagonal damping of one building, 1/s.
@@ -63,9 +80,21 @@ struct Coupling {
 impl Structure {
     /// Solves both eigenproblems.
     pub fn new(left: &Building, right: &Building) -> Result<Structure, (Side, NotPositiveDefinite)> {
+        let buildings = [left, right];
         let left = Modes::of(left).map_err(|e| (Side::Left, e))?;
         let right = Modes::of(right).map_err(|e| (Side::Right, e))?;
-        let lanes = (left.omega.len() + right.omega.len()).next_multiple_of(LANES);
+        let counts = [left.omega.len(), right.omega.len()];
+        let lanes = Floors::lanes(counts[0], counts[1]);
+        let modes = [left, right];
+        let floors = Floors::new(buildings, &modes);
+        let (first_mode, first_floor) = ([0, counts[0]], [floors.lane(0, 0), floors.lane(1, 0)]);
+        let shape = |side: usize| &modes[side].shape;
+        let to_floors = [0, 1]
+            .map(|side| Dense::new(counts[side], first_mode[side], first_floor[side], |i, m| shape(side)[(i, m)]));
+        let to_modes = [0, 1].map(|side| {
+            let weighted = |m: usize, i: usize| shape(side)[(i, m)] * buildings[side].mass[i];
+            Dense::new(counts[side], first_floor[side], first_mode[side], weighted)
+        });
         let mut structure = Structure {
             lanes,
             omega2: vec![0.0; lanes],
@@ -75,8 +104,11 @@ impl Structure {
             weight: vec![0.0; lanes],
             fastest: 0.0,
             coupling: Vec::new(),
-            floor_shapes: [&left, &right].map(|modes| modes.shape.transpose().as_slice().to_vec()),
-            buildings: [left, right],
+            floor_shapes: [0, 1].map(|side| shape(side).transpose().as_slice().to_vec()),
+            floors,
+            to_floors,
+            to_modes,
+            buildings: modes,
         };
         for side in [Side::Left, Side::Right] {
             structure.spread(side);
@@ -132,6 +164,12 @@ impl Structure {
         }
     }
 
+    /// A building's modes in a modal vector.
+    pub fn range(&self, side: Side) -> Range<usize> {
+        let offset = self.offset(side);
+        offset..offset + self.floors(side)
+    }
+
     /// Whether no mode is coupled to another by damping.
     pub fn is_classical(&self) -> bool {
         self.coupling.is_empty()
@@ -169,12 +207,36 @@ impl Structure {
         }
     }
 
+    /// The vector of all floors from a modal one.
+    pub fn to_floors(&self, modal: &[f64], floors: &mut [f64]) {
+        floors.fill(0.0);
+        for matrix in &self.to_floors {
+            matrix.add(1.0, modal, floors.as_chunks_mut::<LANES>().0);
+        }
+    }
+
+    /// The modal vector from one of all floors: shape' M u.
+    pub fn to_modes(&self, floors: &[f64], modal: &mut [f64]) {
+        modal.fill(0.0);
+        for matrix in &self.to_modes {
+            matrix.add(1.0, floors, modal.as_chunks_mut::<LANES>().0);
+        }
+    }
+
     /// q'' for given q, q' and load per mode.
     pub fn accelerate(&self, q: &[f64], v: &[f64], load: &[f64], acceleration: &mut [f64]) {
         for m in 0..self.lanes {
             acceleration[m] = load[m] - self.damping[m] * v[m] - self.omega2[m] * q[m];
         }
         self.subtract_coupling(v, 1.0, acceleration);
+    }
+
+    /// `out` -= w^2 q + rate * damping * v, per mode.
+    pub fn resist(&self, q: &[f64], v: &[f64], rate: f64, out: &mut [f64]) {
+        for m in 0..self.lanes {
+            out[m] -= self.omega2[m] * q[m] + rate * self.damping[m] * v[m];
+        }
+        self.subtract_coupling(v, rate, out);
     }
 
     /// `out` -= factor * (off-diagonal damping) * `velocity`.
@@ -280,106 +342,5 @@ impl Scratch {
     /// For modal vectors of that length.
     pub fn new(lanes: usize) -> Scratch {
         Scratch { y: vec![0.0; lanes], jerk: vec![0.0; lanes], ahead: vec![0.0; 2 * lanes] }
-    }
-}
-
-/// The increments of [`LANES`] modes side by side.
-#[derive(Clone, Copy, Debug, Default)]
-struct ModeBlock {
-    dqq: [f64; LANES],
-    dqv: [f64; LANES],
-    dvq: [f64; LANES],
-    dvv: [f64; LANES],
-    rq0: [f64; LANES],
-    rq1: [f64; LANES],
-    rv0: [f64; LANES],
-    rv1: [f64; LANES],
-}
-
-impl ModeBlock {
-    fn set(&mut self, i: usize, mode: &ModeIncrement) {
-        self.dqq[i] = mode.dqq;
-        self.dqv[i] = mode.dqv;
-        self.dvq[i] = mode.dvq;
-        self.dvv[i] = mode.dvv;
-        self.rq0[i] = mode.rq0;
-        self.rq1[i] = mode.rq1;
-        self.rv0[i] = mode.rv0;
-        self.rv1[i] = mode.rv1;
-    }
-}
-
-/// The exact flight of all modes over one interval length.
-#[derive(Clone, Debug)]
-pub struct Interval {
-    /// s.
-    pub length: f64,
-    modes: Vec<ModeBlock>,
-    coupled: Vec<(usize, CoupledIncrement)>,
-}
-
-impl Interval {
-    /// Prepares the flight over `length` seconds.
-    pub fn new(structure: &Structure, length: f64) -> Interval {
-        let modes = vec![ModeBlock::default(); structure.lanes / LANES];
-        let mut interval = Interval { length, modes, coupled: Vec::new() };
-        interval.prepare(structure, length);
-        interval
-    }
-
-    /// Prepares the flight over another length. Allocates only where damping couples modes.
-    pub fn prepare(&mut self, structure: &Structure, length: f64) {
-        self.length = length;
-        self.coupled.clear();
-        for side in [Side::Left, Side::Right] {
-            let offset = structure.offset(side);
-            let building = structure.modes(side);
-            match &building.damping {
-                ModalDamping::Diagonal(c) => {
-                    for (m, w) in building.omega.iter().enumerate() {
-                        let i = offset + m;
-                        self.modes[i / LANES].set(i % LANES, &ModeIncrement::new(*w, c[m], length));
-                    }
-                }
-                ModalDamping::Coupled(c) => {
-                    self.coupled.push((offset, CoupledIncrement::new(&building.omega, c, length)));
-                }
-            }
-        }
-    }
-
-    /// Flies `q`, `v` over the interval under a modal load and its slope, into `end_q`, `end_v`.
-    pub fn fly(
-        &self,
-        (q, v): (&[f64], &[f64]),
-        (load, slope): (&[f64], &[f64]),
-        (end_q, end_v): (&mut [f64], &mut [f64]),
-        scratch: &mut Scratch,
-    ) {
-        let [(q0, _), (v0, _), (l0, _), (l1, _)] = [q, v, load, slope].map(<[f64]>::as_chunks::<LANES>);
-        let [(q1, _), (v1, _)] = [&mut *end_q, &mut *end_v].map(<[f64]>::as_chunks_mut::<LANES>);
-        for (c, m) in self.modes.iter().enumerate() {
-            let (q0, v0, l0, l1) = (&q0[c], &v0[c], &l0[c], &l1[c]);
-            for i in 0..LANES {
-                let from_load = (m.rq0[i] * l0[i] + m.rq1[i] * l1[i], m.rv0[i] * l0[i] + m.rv1[i] * l1[i]);
-                q1[c][i] = q0[i] + (m.dqq[i] * q0[i] + m.dqv[i] * v0[i] + from_load.0);
-                v1[c][i] = v0[i] + (m.dvq[i] * q0[i] + m.dvv[i] * v0[i] + from_load.1);
-            }
-        }
-        let mut ahead = &mut scratch.ahead[..];
-        for (offset, increment) in &self.coupled {
-            let (own, rest) = ahead.split_at_mut(increment.matrix.nrows());
-            increment.step(*offset, [q, v, load, slope], own);
-            ahead = rest;
-        }
-        let mut ahead = &scratch.ahead[..];
-        for (offset, increment) in &self.coupled {
-            let n = increment.matrix.nrows() / 2;
-            for m in 0..n {
-                end_q[offset + m] += ahead[m];
-                end_v[offset + m] += ahead[n + m];
-            }
-            ahead = &ahead[2 * n..];
-        }
     }
 }

@@ -112,16 +112,21 @@ fn refine(shape: &mut DMatrix<f64>, factor: &DMatrix<f64>, mass: &DVector<f64>) 
     omega2
 }
 
+/// Factors of mass, 1/s, and stiffness, s, for a ratio of critical damping in two modes, counted from 1:
+/// alpha + beta w^2 = 2 ratio w at both frequencies (Chopra, Dynamics of Structures, sec. 11.4).
+pub fn rayleigh_factors(ratio: f64, [i, j]: [usize; 2], omega: &[f64]) -> (f64, f64) {
+    let (wi, wj) = (omega[i - 1], omega[j - 1]);
+    (2.0 * ratio * wi * wj / (wi + wj), 2.0 * ratio / (wi + wj))
+}
+
 fn modal_damping(damping: &Damping, omega: &[f64], shape: &DMatrix<f64>) -> ModalDamping {
     match damping {
         Damping::Ratio(ratio) => ModalDamping::Diagonal(omega.iter().map(|w| 2.0 * ratio * w).collect()),
         Damping::Ratios(ratios) => {
             ModalDamping::Diagonal(omega.iter().zip(ratios).map(|(w, ratio)| 2.0 * ratio * w).collect())
         }
-        Damping::Rayleigh { ratio, modes: [i, j] } => {
-            // alpha + beta w^2 = 2 ratio w at both frequencies (Chopra, Dynamics of Structures, sec. 11.4).
-            let (wi, wj) = (omega[i - 1], omega[j - 1]);
-            let (alpha, beta) = (2.0 * ratio * wi * wj / (wi + wj), 2.0 * ratio / (wi + wj));
+        Damping::Rayleigh { ratio, modes } => {
+            let (alpha, beta) = rayleigh_factors(*ratio, *modes, omega);
             ModalDamping::Diagonal(omega.iter().map(|w| alpha + beta * w * w).collect())
         }
         Damping::Matrix(rows) => {

@@ -1,6 +1,7 @@
-//! Power series in time of all modes: the dense solution of a step.
+//! Power series in time of all modes, or of all floors: the dense solution of a step.
 
-use super::{LANES, Structure};
+use super::floors::Floors;
+use super::{LANES, Lane, Structure};
 use crate::polynomial::Powers;
 
 /// Powers that a series may have.
@@ -16,6 +17,9 @@ const RECIPROCAL: [f64; MOST_POWERS] = {
     }
     table
 };
+
+/// Blocks of modes that are few.
+pub const FEW_BLOCKS: usize = 4;
 
 /// Remainder of a series that is exact to rounding.
 pub const EXACT: f64 = 1e-19;
@@ -36,15 +40,14 @@ pub fn flight_order(reach: f64, remainder: f64) -> Option<usize> {
 
 /// The forces of pairs while a series is expanded, power by power.
 pub trait PairForces {
-    /// Power n of the force of pair number k, in units of the load.
-    fn force(&mut self, k: usize, n: usize) -> f64;
-    /// Takes power n of the penetration of pair number k; `term` is that of all modes.
-    fn advance(&mut self, k: usize, n: usize, penetration: f64, term: &[f64]);
+    /// Adds what power n of the forces does, per unit of mass and times `factor`, to power n + 2 of the motion, and takes
+    /// from it the same power of the penetrations.
+    fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]);
 }
 
-/// q(x) = sum of `rows[n]` x^n with x = t / scale, of all modes.
+/// q(x) = sum of term n times x^n with x = t / scale, of all modes or floors.
 #[derive(Clone, Debug, Default)]
-pub struct ModalSeries {
+pub struct MotionSeries {
     lanes: usize,
     /// s, unit of x: near the length of the step, so that the terms tell the error and never overflow.
     pub scale: f64,
@@ -53,10 +56,10 @@ pub struct ModalSeries {
     coefficients: Vec<f64>,
 }
 
-impl ModalSeries {
+impl MotionSeries {
     /// Room for powers up to `highest`.
-    pub fn new(lanes: usize, highest: usize) -> ModalSeries {
-        ModalSeries { lanes, scale: 1.0, order: 0, coefficients: vec![0.0; lanes * (highest + 1)] }
+    pub fn new(lanes: usize, highest: usize) -> MotionSeries {
+        MotionSeries { lanes, scale: 1.0, order: 0, coefficients: vec![0.0; lanes * (highest + 1)] }
     }
 
     /// Starts a series from a state.
@@ -101,62 +104,111 @@ impl ModalSeries {
         self.order += 1;
     }
 
-    /// Expands from a started series to `order` where damping couples no modes, under a load, its slope and the forces
-    /// of some pairs; `rows` holds the rows of all pairs, LANES entries after LANES entries.
-    pub fn expand_in_contact(
+    /// Expands from a started series of modes that damping does not couple to `order`, under a load, its slope and the
+    /// forces of some pairs; the terms of up to [`FEW_BLOCKS`] blocks of modes stay in registers.
+    pub fn expand_few_modes(
+        &mut self,
+        structure: &Structure,
+        order: usize,
+        loads: (&[f64], &[f64]),
+        forces: &mut impl PairForces,
+    ) {
+        match self.lanes / LANES {
+            1 => self.expand_blocks::<1>(structure, order, loads, forces),
+            2 => self.expand_blocks::<2>(structure, order, loads, forces),
+            3 => self.expand_blocks::<3>(structure, order, loads, forces),
+            _ => self.expand_blocks::<FEW_BLOCKS>(structure, order, loads, forces),
+        }
+    }
+
+    fn expand_blocks<const WIDTH: usize>(
         &mut self,
         structure: &Structure,
         order: usize,
         (load, slope): (&[f64], &[f64]),
-        (rows, active): (&[f64], &[usize]),
         forces: &mut impl PairForces,
-        (force, gathered): (&mut [f64], &mut [[f64; LANES]]),
+    ) {
+        let [damping, omega2, load, slope] =
+            [&structure.damping, &structure.omega2, load, slope].map(first_blocks::<WIDTH>);
+        let mut before = first_blocks::<WIDTH>(self.term(0));
+        let mut last = first_blocks::<WIDTH>(self.term(1));
+        for (n, reciprocal) in RECIPROCAL.iter().enumerate().take(order - 1) {
+            let mut next = match n {
+                0 => load,
+                1 => slope.map(|slope| slope.map(|slope| slope * self.scale)),
+                _ => [[0.0; LANES]; WIDTH],
+            };
+            let factor = self.scale * self.scale * reciprocal;
+            let rate = (n + 1) as f64 * (self.scale * reciprocal);
+            for c in 0..WIDTH {
+                for i in 0..LANES {
+                    let pulled = (factor * omega2[c][i]) * before[c][i];
+                    next[c][i] = (factor * next[c][i] - pulled) - (rate * damping[c][i]) * last[c][i];
+                }
+            }
+            forces.act(n, factor, &mut next);
+            self.coefficients[(n + 2) * self.lanes..][..self.lanes].copy_from_slice(next.as_flattened());
+            (before, last) = (last, next);
+        }
+        self.order = order;
+    }
+
+    /// The same for any number of modes.
+    pub fn expand_modes(
+        &mut self,
+        structure: &Structure,
+        order: usize,
+        (load, slope): (&[f64], &[f64]),
+        forces: &mut impl PairForces,
+    ) {
+        let lanes = self.lanes;
+        for n in 0..order - 1 {
+            let (known, rest) = self.coefficients.split_at_mut((n + 2) * lanes);
+            let (before, last) = known[n * lanes..].split_at(lanes);
+            let next = &mut rest[..lanes];
+            match n {
+                0 => next.copy_from_slice(load),
+                1 => next.iter_mut().zip(slope).for_each(|(next, slope)| *next = slope * self.scale),
+                _ => next.fill(0.0),
+            }
+            let factor = self.scale * self.scale * RECIPROCAL[n];
+            let rate = (n + 1) as f64 * (self.scale * RECIPROCAL[n]);
+            for m in 0..lanes {
+                let pulled = (factor * structure.omega2[m]) * before[m];
+                next[m] = (factor * next[m] - pulled) - (rate * structure.damping[m]) * last[m];
+            }
+            forces.act(n, factor, next.as_chunks_mut::<LANES>().0);
+        }
+        self.order = order;
+    }
+
+    /// Expands from a started series of all floors to `order` under a load, its slope and the forces of some pairs.
+    pub fn expand_floors(
+        &mut self,
+        floors: &Floors,
+        order: usize,
+        (load, slope): (&[f64], &[f64]),
+        forces: &mut impl PairForces,
     ) {
         let width = self.lanes / LANES;
         let scale2 = self.scale * self.scale;
-        let [(damping, _), (omega2, _), (rows, _), (load, _), (slope, _)] =
-            [&structure.damping, &structure.omega2, rows, load, slope].map(<[f64]>::as_chunks::<LANES>);
-        let (damping, omega2, load, slope) = (&damping[..width], &omega2[..width], &load[..width], &slope[..width]);
+        let [(load, _), (slope, _)] = [load, slope].map(<[f64]>::as_chunks::<LANES>);
         let (terms, _) = self.coefficients.as_chunks_mut::<LANES>();
         for n in 0..order - 1 {
-            for (k, force) in force.iter_mut().enumerate() {
-                *force = forces.force(k, n);
+            let (known, rest) = terms.split_at_mut((n + 2) * width);
+            let (u, v) = known[n * width..].split_at(width);
+            let next = &mut rest[..width];
+            match n {
+                0 => next.copy_from_slice(load),
+                1 => next.iter_mut().zip(slope).for_each(|(next, slope)| *next = slope.map(|slope| slope * self.scale)),
+                _ => next.fill([0.0; LANES]),
             }
-            gathered.fill([0.0; LANES]);
-            let (known, next_terms) = terms.split_at_mut((n + 2) * width);
-            let (q0, q1) = known[n * width..].split_at(width);
-            let next_terms = &mut next_terms[..width];
-            let rate = (n + 1) as f64 / self.scale;
+            floors.resist(u, v, (n + 1) as f64 / self.scale, next);
             let factor = scale2 * RECIPROCAL[n];
-            for c in 0..width {
-                let mut next = match n {
-                    0 => load[c],
-                    1 => slope[c].map(|slope| slope * self.scale),
-                    _ => [0.0; LANES],
-                };
-                for i in 0..LANES {
-                    next[i] -= rate * damping[c][i] * q1[c][i] + omega2[c][i] * q0[c][i];
-                }
-                for (&p, &force) in active.iter().zip(&*force) {
-                    let row = &rows[p * width + c];
-                    for i in 0..LANES {
-                        next[i] -= row[i] * force;
-                    }
-                }
-                for next in &mut next {
-                    *next *= factor;
-                }
-                next_terms[c] = next;
-                for (&p, sum) in active.iter().zip(gathered.iter_mut()) {
-                    let row = &rows[p * width + c];
-                    for i in 0..LANES {
-                        sum[i] += row[i] * next[i];
-                    }
-                }
+            for next in next.as_flattened_mut() {
+                *next *= factor;
             }
-            for (k, gathered) in gathered.iter().enumerate() {
-                forces.advance(k, n + 2, gathered.iter().sum(), next_terms.as_flattened());
-            }
+            forces.act(n, factor, next);
         }
         self.order = order;
     }
@@ -224,26 +276,34 @@ impl ModalSeries {
 
     /// q and v at the x of the powers.
     pub fn evaluate(&self, powers: &Powers, q: &mut [f64], v: &mut [f64]) {
-        let width = self.lanes / LANES;
+        let lanes = self.lanes;
+        let (q, v) = (&mut q[..lanes], &mut v[..lanes]);
+        q.fill(0.0);
+        v.fill(0.0);
+        let (power, slope, _) = powers.all();
+        // From the smallest terms to the largest, four at a time: the sums go through memory a quarter as often.
+        let mut n = self.order + 1;
+        while n >= 6 {
+            n -= 4;
+            let [a, b, c, d] = [0, 1, 2, 3].map(|i| &self.coefficients[(n + i) * lanes..][..lanes]);
+            let [p0, p1, p2, p3] = [0, 1, 2, 3].map(|i| power[n + i]);
+            let [s0, s1, s2, s3] = [0, 1, 2, 3].map(|i| slope[n + i]);
+            for m in 0..lanes {
+                q[m] += (d[m] * p3 + c[m] * p2) + (b[m] * p1 + a[m] * p0);
+                v[m] += (d[m] * s3 + c[m] * s2) + (b[m] * s1 + a[m] * s0);
+            }
+        }
         let rate = 1.0 / self.scale;
-        let (terms, _) = self.coefficients.as_chunks::<LANES>();
-        let [(q, _), (v, _)] = [q, v].map(|vector| vector.as_chunks_mut::<LANES>());
-        let (power, slope) = powers.tables();
-        for c in 0..width {
-            // Even and odd powers apart: neither waits for the other.
-            let (mut values, mut slopes) = ([[0.0; LANES]; 2], [[0.0; LANES]; 2]);
-            for n in (0..=self.order).rev() {
-                let term = &terms[n * width + c];
-                let (value, derivative) = (&mut values[n % 2], &mut slopes[n % 2]);
-                for i in 0..LANES {
-                    value[i] += term[i] * power[n];
-                    derivative[i] += term[i] * slope[n];
-                }
+        while n > 0 {
+            n -= 1;
+            let term = &self.coefficients[n * lanes..][..lanes];
+            for m in 0..lanes {
+                q[m] += term[m] * power[n];
+                v[m] += term[m] * slope[n];
             }
-            for i in 0..LANES {
-                q[c][i] = values[0][i] + values[1][i];
-                v[c][i] = (slopes[0][i] + slopes[1][i]) * rate;
-            }
+        }
+        for v in v {
+            *v *= rate;
         }
     }
 
@@ -277,19 +337,13 @@ impl ModalSeries {
         let rate = 1.0 / self.scale;
         slope.map(|slope| slope * rate)
     }
+}
 
-    /// The scalar series row . q, written to `out[n]`. Returns the sum of the sizes of all that is added up at x, which
-    /// tells the rounding error of a value within 0..=x.
-    pub fn project(&self, row: &[f64], x: f64, out: &mut [f64]) -> f64 {
-        let (mut sum, mut power) = (0.0, 1.0);
-        for (n, out) in out.iter_mut().enumerate().take(self.order + 1) {
-            let (value, size) = difference(row, self.term(n));
-            *out = value;
-            sum += size * power;
-            power *= x;
-        }
-        sum
-    }
+/// The first blocks of a vector that has as many.
+fn first_blocks<const WIDTH: usize>(vector: &[f64]) -> [Lane; WIDTH] {
+    let mut blocks = [[0.0; LANES]; WIDTH];
+    blocks.as_flattened_mut().copy_from_slice(&vector[..WIDTH * LANES]);
+    blocks
 }
 
 /// The sum of products, 0 where its terms cancel but for rounding, and the sum of their sizes.

@@ -1,0 +1,399 @@
+//! The series of all pairs in contact while a step is expanded and followed.
+
+use super::model::{Model, Pair};
+use super::roots;
+use super::state::*;
+use crate::contact::series::{BlockReading, Each, Kind, PAIRS, PairBlock};
+use crate::polynomial::{Coefficients, Powers, Reading};
+use crate::structure::{FEW_BLOCKS, LANES, Lane, PairForces, difference};
+
+/// The pairs in contact, in blocks of one kind of law each.
+#[derive(Clone, Debug)]
+pub(super) struct ClosedPairs {
+    /// Room for all; the first `used` are filled.
+    blocks: Vec<PairBlock>,
+    members: Vec<[Member; PAIRS]>,
+    readings: Vec<BlockReading>,
+    /// Whether a pair of the block has just entered: where its floors move alike, its penetration is rounding.
+    at_surface: Vec<bool>,
+    /// Whether any two pairs share a floor, so that each feels the other's force at once.
+    shares_floors: bool,
+    /// Whether the penetrations have to wait for all forces.
+    waits: bool,
+    used: usize,
+    /// Block and lane of each contact.
+    places: Vec<(usize, usize)>,
+}
+
+/// One pair of a block.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Member {
+    pair: usize,
+    /// Lanes of the two floors.
+    floors: [usize; 2],
+    /// What a force does to each floor, 1/kg: minus and plus its inverse mass.
+    inverse_masses: [f64; 2],
+    /// 1/kg, relative acceleration of the pair by its own force.
+    softness: f64,
+    /// What the pair is to the first modes.
+    row: [Lane; FEW_BLOCKS],
+}
+
+/// What a block comes to at the end of a step.
+pub(super) struct BlockEnd {
+    pub motion: BlockReading,
+    force: [Reading; PAIRS],
+    impulse: Each,
+}
+
+impl ClosedPairs {
+    /// Room for these pairs.
+    pub fn new(all: &[Pair]) -> ClosedPairs {
+        const KINDS: usize = 5;
+        let pairs = all.len();
+        let shares = |a: &Pair, b: &Pair| a.floors[0] == b.floors[0] || a.floors[1] == b.floors[1];
+        let most = if pairs == 0 { 0 } else { pairs.div_ceil(PAIRS) + KINDS.min(pairs) - 1 };
+        ClosedPairs {
+            blocks: vec![PairBlock::default(); most],
+            members: vec![[Member::default(); PAIRS]; most],
+            readings: vec![BlockReading::default(); most],
+            at_surface: vec![false; most],
+            shares_floors: all.iter().enumerate().any(|(p, a)| all[..p].iter().any(|b| shares(a, b))),
+            waits: false,
+            used: 0,
+            places: vec![(0, 0); pairs],
+        }
+    }
+
+    /// Starts the series of all pairs in contact that are not held together; `scale` is the unit of time.
+    pub fn start(&mut self, base: &Base, pairs: &[Pair], scale: f64) {
+        self.used = 0;
+        self.waits = self.shares_floors;
+        for (p, contact) in base.contacts.iter().enumerate().filter(|(_, c)| c.in_contact() && !c.is_held()) {
+            let force = contact.starting_force();
+            let b = self.block_for(Kind::of(&force));
+            let lane = self.blocks[b].add(&force, scale, contact.penetration, contact.rate * scale);
+            self.places[p] = (b, lane);
+            let Pair { lanes: floors, inverse_masses: [left, right], .. } = pairs[p];
+            let row = first_blocks(&pairs[p].row);
+            let inverse_masses = [-left, right];
+            self.members[b][lane] = Member { pair: p, floors, inverse_masses, softness: left + right, row };
+            self.at_surface[b] |= contact.at_surface;
+            self.waits |= contact.at_surface;
+        }
+    }
+
+    fn block_for(&mut self, kind: Kind) -> usize {
+        if let Some(b) = (0..self.used).find(|&b| self.blocks[b].takes(kind)) {
+            return b;
+        }
+        self.blocks[self.used].start(kind);
+        self.members[self.used] = Default::default();
+        self.at_surface[self.used] = false;
+        self.used += 1;
+        self.used - 1
+    }
+
+    /// Number of blocks in use.
+    pub fn len(&self) -> usize {
+        self.used
+    }
+
+    /// Block and lane of a pair in contact.
+    pub fn of(&self, pair: usize) -> (&PairBlock, usize) {
+        let (block, lane) = self.places[pair];
+        (&self.blocks[block], lane)
+    }
+
+    /// The pairs of a block, lane by lane.
+    pub fn pairs_of(&self, block: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+        (0..self.blocks[block].count).map(move |lane| (lane, self.members[block][lane].pair))
+    }
+
+    /// Reads the penetrations at the end of the step.
+    pub fn read(&mut self, end: &Powers) {
+        for (reading, block) in self.readings.iter_mut().zip(&self.blocks).take(self.used) {
+            *reading = block.read(end);
+        }
+    }
+
+    /// Penetrations of a block at the end of the step.
+    pub fn reading(&self, block: usize) -> &BlockReading {
+        &self.readings[block]
+    }
+
+    /// Power n of the forces, from the powers of the penetrations so far.
+    pub fn extend_forces(&mut self, n: usize) {
+        for block in &mut self.blocks[..self.used] {
+            block.extend_force(n);
+        }
+    }
+
+    /// Calls for each pair with its number and power n of its force.
+    pub fn each_force(&self, n: usize, mut visit: impl FnMut(usize, f64)) {
+        for (block, members) in self.blocks.iter().zip(&self.members).take(self.used) {
+            for (member, force) in members.iter().zip(&block.force[n]).take(block.count) {
+                visit(member.pair, *force);
+            }
+        }
+    }
+
+    /// Enters power n of the penetrations, from the number of a pair and whether it may have just entered.
+    pub fn set_penetrations(&mut self, n: usize, mut term: impl FnMut(usize, bool) -> f64) {
+        let blocks = self.blocks.iter_mut().zip(&self.members).zip(&self.at_surface);
+        for ((block, members), at_surface) in blocks.take(self.used) {
+            let mut values = [0.0; PAIRS];
+            for (value, member) in values.iter_mut().zip(members).take(block.count) {
+                *value = term(member.pair, *at_surface);
+            }
+            block.set_penetration(n, values);
+        }
+    }
+
+    /// Follows the contacts to the end of the step, which has begun at `start` [s].
+    pub fn follow(&self, contacts: &mut [Contact], scale: f64, start: f64, powers: &Powers) {
+        for (b, block) in self.blocks[..self.used].iter().enumerate() {
+            let end = BlockEnd::of(block, self.readings[b], powers);
+            for (lane, pair) in self.pairs_of(b) {
+                contacts[pair].follow_lane((block, lane), &end, scale, start, powers.x);
+            }
+        }
+    }
+
+    /// The same for one contact.
+    pub fn follow_one(&self, contact: &mut Contact, scale: f64, start: f64, powers: &Powers) {
+        let (block, lane) = self.of(contact.episode.contact);
+        let end = BlockEnd::of(block, block.read(powers), powers);
+        contact.follow_lane((block, lane), &end, scale, start, powers.x);
+    }
+}
+
+/// The first blocks of a row, filled up with zeros.
+fn first_blocks(row: &[f64]) -> [Lane; FEW_BLOCKS] {
+    let mut blocks = [[0.0; LANES]; FEW_BLOCKS];
+    for (block, row) in blocks.as_flattened_mut().iter_mut().zip(row) {
+        *block = *row;
+    }
+    blocks
+}
+
+/// How contact forces and the motion meet in its coordinates.
+pub(super) trait Meeting {
+    /// Relative motion of a pair.
+    fn relative(&self, member: &Member, term: &[Lane]) -> f64;
+    /// The same, 0 where the floors move alike but for rounding.
+    fn difference(&self, member: &Member, term: &[Lane]) -> f64;
+    /// Adds what a force does.
+    fn push(&self, member: &Member, force: f64, term: &mut [Lane]);
+}
+
+/// The motion is that of the floors.
+pub(super) struct OnFloors;
+
+impl Meeting for OnFloors {
+    #[inline(always)]
+    fn relative(&self, member: &Member, term: &[Lane]) -> f64 {
+        let term = term.as_flattened();
+        term[member.floors[0]] - term[member.floors[1]]
+    }
+
+    fn difference(&self, member: &Member, term: &[Lane]) -> f64 {
+        let term = term.as_flattened();
+        apart(term[member.floors[0]], term[member.floors[1]])
+    }
+
+    #[inline(always)]
+    fn push(&self, member: &Member, force: f64, term: &mut [Lane]) {
+        let term = term.as_flattened_mut();
+        for (floor, inverse_mass) in member.floors.iter().zip(&member.inverse_masses) {
+            term[*floor] += inverse_mass * force;
+        }
+    }
+}
+
+/// The motion is that of modes that are few enough for the members to know all of them.
+pub(super) struct OnFewModes;
+
+impl Meeting for OnFewModes {
+    #[inline(always)]
+    fn relative(&self, member: &Member, term: &[Lane]) -> f64 {
+        dot_blocks(&member.row, term)
+    }
+
+    fn difference(&self, member: &Member, term: &[Lane]) -> f64 {
+        difference(member.row.as_flattened(), term.as_flattened()).0
+    }
+
+    #[inline(always)]
+    fn push(&self, member: &Member, force: f64, term: &mut [Lane]) {
+        push_blocks(&member.row, force, term);
+    }
+}
+
+/// The motion is that of the modes.
+pub(super) struct OnModes<'a>(pub &'a [Pair]);
+
+impl Meeting for OnModes<'_> {
+    #[inline(always)]
+    fn relative(&self, member: &Member, term: &[Lane]) -> f64 {
+        dot_blocks(self.0[member.pair].row.as_chunks::<LANES>().0, term)
+    }
+
+    fn difference(&self, member: &Member, term: &[Lane]) -> f64 {
+        difference(&self.0[member.pair].row, term.as_flattened()).0
+    }
+
+    #[inline(always)]
+    fn push(&self, member: &Member, force: f64, term: &mut [Lane]) {
+        push_blocks(self.0[member.pair].row.as_chunks::<LANES>().0, force, term);
+    }
+}
+
+/// The closed pairs in some coordinates.
+pub(super) struct Acting<'a, M> {
+    pub closed: &'a mut ClosedPairs,
+    pub meeting: M,
+}
+
+impl<M: Meeting> PairForces for Acting<'_, M> {
+    #[inline(always)]
+    fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
+        let closed = &mut *self.closed;
+        let used = closed.used;
+        let blocks = closed.blocks[..used].iter_mut().zip(&closed.members[..used]);
+        if closed.waits {
+            blocks.for_each(|(block, _)| block.extend_force(n));
+            return self.act_in_turn(n, factor, term);
+        }
+        for (block, members) in blocks {
+            block.extend_force(n);
+            // What a force does to its own pair needs no detour by the motion: the next powers of the force wait for it.
+            let force = block.force[n];
+            let [first, second] = members;
+            let mut values = [0.0; PAIRS];
+            values[0] = self.meeting.relative(first, term) - factor * first.softness * force[0];
+            if block.count > 1 {
+                values[1] = self.meeting.relative(second, term) - factor * second.softness * force[1];
+                self.meeting.push(second, factor * force[1], term);
+            }
+            self.meeting.push(first, factor * force[0], term);
+            block.set_penetration(n + 2, values);
+        }
+    }
+}
+
+impl<M: Meeting> Acting<'_, M> {
+    /// One after the other: pairs that share a floor, or have just entered.
+    fn act_in_turn(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
+        self.push(n, factor, term);
+        let closed = &mut *self.closed;
+        let blocks = closed.blocks.iter_mut().zip(&closed.members).zip(&closed.at_surface);
+        for ((block, members), at_surface) in blocks.take(closed.used) {
+            let mut values = [0.0; PAIRS];
+            for (value, member) in values.iter_mut().zip(members).take(block.count) {
+                *value = match at_surface {
+                    true => self.meeting.difference(member, term),
+                    false => self.meeting.relative(member, term),
+                };
+            }
+            block.set_penetration(n + 2, values);
+        }
+    }
+
+    #[inline(always)]
+    fn push(&self, n: usize, factor: f64, term: &mut [Lane]) {
+        let closed = &*self.closed;
+        for (block, members) in closed.blocks.iter().zip(&closed.members).take(closed.used) {
+            for (member, force) in members.iter().zip(&block.force[n]).take(block.count) {
+                self.meeting.push(member, factor * force, term);
+            }
+        }
+    }
+}
+
+/// Sum of products of a row and a term.
+#[inline(always)]
+fn dot_blocks(row: &[Lane], term: &[Lane]) -> f64 {
+    let mut sum = [0.0; LANES];
+    for (row, term) in row.iter().zip(term) {
+        for i in 0..LANES {
+            sum[i] += row[i] * term[i];
+        }
+    }
+    (sum[0] + sum[2]) + (sum[1] + sum[3])
+}
+
+/// Subtracts what a force does to the modes.
+#[inline(always)]
+fn push_blocks(row: &[Lane], force: f64, term: &mut [Lane]) {
+    for (term, row) in term.iter_mut().zip(row) {
+        for i in 0..LANES {
+            term[i] -= row[i] * force;
+        }
+    }
+}
+
+/// The difference of two floors' motion, 0 where they move alike but for rounding.
+pub(super) fn apart(left: f64, right: f64) -> f64 {
+    let difference = left - right;
+    if difference.abs() <= 4.0 * f64::EPSILON * (left.abs() + right.abs()) { 0.0 } else { difference }
+}
+
+impl BlockEnd {
+    fn of(block: &PairBlock, motion: BlockReading, powers: &Powers) -> BlockEnd {
+        let (force, impulse) = block.read_force(powers);
+        BlockEnd { motion, force, impulse }
+    }
+}
+
+impl Contact {
+    /// Penetration, impulse, peaks and work over a series up to x.
+    fn follow_lane(&mut self, (block, lane): (&PairBlock, usize), end: &BlockEnd, scale: f64, start: f64, x: f64) {
+        let impulse = scale * end.impulse[lane];
+        self.impulse += impulse;
+        self.episode.impulse += impulse;
+        self.work += block.damping_work(lane, &self.branch(), scale, x);
+        let terms = |out: &mut Coefficients| block.copy_force(lane, out);
+        let first = (block.force[0][lane], block.force[1][lane]);
+        if let Some((at, peak)) = roots::maximum_above(first, x, &end.force[lane], self.episode.peak_force, terms) {
+            self.episode.peak_force = peak;
+            self.episode.peak_time = start + at * scale;
+            self.peak_force = self.peak_force.max(peak);
+        }
+        let depth = Reading {
+            value: end.motion.penetration[lane],
+            slope: end.motion.slope[lane],
+            fourth: end.motion.fourth[lane],
+        };
+        let terms = |out: &mut Coefficients| block.copy_penetration(lane, out);
+        let first = (block.penetration[0][lane], block.penetration[1][lane]);
+        if let Some((_, peak)) = roots::maximum_above(first, x, &depth, self.episode.peak_penetration, terms) {
+            self.episode.peak_penetration = peak;
+        }
+        self.penetration = depth.value;
+        self.rate = depth.slope / scale;
+    }
+}
+
+impl Model {
+    /// The rate or other motion of a pair: that of its left floor less that of its right floor.
+    pub(super) fn relative(&self, p: usize, coordinates: Coordinates, motion: &[f64]) -> f64 {
+        let Pair { row, lanes: [left, right], .. } = &self.pairs[p];
+        match coordinates {
+            Coordinates::Modes => crate::structure::dot(row, motion),
+            Coordinates::Floors => motion[*left] - motion[*right],
+        }
+    }
+
+    /// The same, 0 where the floors move alike but for rounding, and the size of what it is the difference of.
+    pub(super) fn difference(&self, p: usize, coordinates: Coordinates, motion: &[f64]) -> (f64, f64) {
+        let Pair { row, lanes: [left, right], .. } = &self.pairs[p];
+        match coordinates {
+            Coordinates::Modes => crate::structure::difference(row, motion),
+            Coordinates::Floors => {
+                let (left, right) = (motion[*left], motion[*right]);
+                (apart(left, right), left.abs() + right.abs())
+            }
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! What ends a step in contact: a release, a change of branch, an entry of another pair.
+
+use super::closed_pairs::ClosedPairs;
+use super::model::Model;
+use super::roots;
+use super::state::*;
+use crate::contact::Guard;
+use crate::contact::series::BlockReading;
+use crate::polynomial::Coefficients;
+use crate::structure::MotionSeries;
+
+impl Model {
+    /// The first event up to the end of the step's series, where its motion is in `step.q` and `step.v`.
+    pub(super) fn first_event(&self, base: &Base, step: &Step, work: &mut Workspace) -> Option<(f64, Event)> {
+        let mut first = None;
+        for block in 0..step.closed.len() {
+            let reading = step.closed.reading(block);
+            for (lane, p) in step.closed.pairs_of(block) {
+                first = self.leaving(base, step, work, (p, lane), reading, until(first, step)).or(first);
+            }
+        }
+        for &p in self.rigid.pairs.iter().filter(|&&p| base.contacts[p].is_held() && !base.contacts[p].undecided) {
+            first = self.letting_go(p, step, work, until(first, step)).or(first);
+        }
+        self.first_entry(base, step, work, first)
+    }
+
+    /// Release or change of branch of a pair in contact.
+    fn leaving(
+        &self,
+        base: &Base,
+        step: &Step,
+        work: &mut Workspace,
+        (p, lane): (usize, usize),
+        reading: &BlockReading,
+        until: f64,
+    ) -> Option<(f64, Event)> {
+        let contact = &base.contacts[p];
+        // One that has entered without any speed, whose first terms may be rounding, leaves at that depth.
+        let depth = if contact.at_surface && contact.rate == 0.0 { self.noise_of(p, base, step, work) } else { 0.0 };
+        let released = released(&step.closed, (p, lane), reading, (step.end.x, until), depth, &mut work.scalar);
+        let first = released.map(|x| (x, Event::Release(p)));
+        let Some(guard) = contact.force.guard else { return first };
+        let until = released.unwrap_or(until);
+        match self.passes_guard(contact, &guard, step, (lane, reading), until, &mut work.scalar) {
+            Some(x) if x < until || first.is_none() => Some((x, Event::Branch(p))),
+            _ => first,
+        }
+    }
+
+    /// Where a contact passes to the other side of its guard.
+    fn passes_guard(
+        &self,
+        contact: &Contact,
+        guard: &Guard,
+        step: &Step,
+        (lane, reading): (usize, &BlockReading),
+        until: f64,
+        scalar: &mut Coefficients,
+    ) -> Option<f64> {
+        let (scale, end) = (step.series.scale, step.end.x);
+        let sense = if contact.phase == Phase::Engaged { -1.0 } else { 1.0 };
+        let moved = end * (contact.rate.abs() * scale + reading.turn[lane]);
+        let change = guard.stiffness.abs() * moved + guard.damping.abs() * reading.turn[lane] / scale;
+        if sense * guard.value(contact.penetration, contact.rate) + change < 0.0 {
+            return None;
+        }
+        let (block, lane) = step.closed.of(contact.episode.contact);
+        let terms = block.copy_penetration(lane, scalar) - 2;
+        let (stiffness, rate) = (sense * guard.stiffness, sense * guard.damping / scale);
+        for n in 0..terms {
+            scalar[n] = stiffness * scalar[n] + rate * (n + 1) as f64 * scalar[n + 1];
+        }
+        scalar[0] += sense * guard.constant;
+        roots::first_rise(&mut scalar[..terms], until, 0.0)
+    }
+
+    /// m, rounding error of a penetration within the step.
+    fn noise_of(&self, p: usize, base: &Base, step: &Step, work: &mut Workspace) -> f64 {
+        let size = self.project(p, base.coordinates, &step.series, step.end.x, &mut work.scalar);
+        self.pairs[p].noise(size)
+    }
+
+    /// The first entry of a pair that is apart, if it comes before `first`.
+    fn first_entry(
+        &self,
+        base: &Base,
+        step: &Step,
+        work: &mut Workspace,
+        mut first: Option<(f64, Event)>,
+    ) -> Option<(f64, Event)> {
+        for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| !contact.in_contact()) {
+            if self.stays_apart(p, contact, base.coordinates, step) {
+                continue;
+            }
+            let series = &step.series;
+            let terms = &mut work.scalar[..=series.order];
+            let noise = self.pairs[p].noise(self.project(p, base.coordinates, series, step.end.x, terms));
+            let noise = contact.begin_flight(terms, series.scale, noise);
+            first = roots::first_rise(terms, until(first, step), noise).map(|x| (x, Event::Entry(p))).or(first);
+        }
+        first
+    }
+
+    /// Whether a pair certainly stays apart over the whole step: its penetration is as near to its cubic interpolant as
+    /// the fourth derivatives say.
+    fn stays_apart(&self, p: usize, contact: &Contact, coordinates: Coordinates, step: &Step) -> bool {
+        let pair = &self.pairs[p];
+        let third = step.end.x * step.series.scale / 3.0;
+        let start = contact.flight_start();
+        let end = self.relative(p, coordinates, &step.q) - pair.gap;
+        let ceiling =
+            start.max(start + third * contact.rate).max(end - third * self.relative(p, coordinates, &step.v)).max(end);
+        if ceiling >= 0.0 {
+            return false;
+        }
+        let (series, (.., fourth)) = (&step.series, step.end.all());
+        let size = |n: usize| match coordinates {
+            Coordinates::Floors => {
+                let term = series.term(n);
+                term[pair.lanes[0]].abs() + term[pair.lanes[1]].abs()
+            }
+            Coordinates::Modes => pair.row.iter().zip(series.term(n)).map(|(row, q)| (row * q).abs()).sum(),
+        };
+        let x2 = step.end.x * step.end.x;
+        ceiling + x2 * x2 / 384.0 * (4..=series.order).map(|n| fourth[n] * size(n)).sum::<f64>() < 0.0
+    }
+
+    /// The scalar series of a pair's relative motion, written to `out[n]`. Returns the sum of the sizes of all that is
+    /// added up at x.
+    pub(super) fn project(
+        &self,
+        p: usize,
+        coordinates: Coordinates,
+        series: &MotionSeries,
+        x: f64,
+        out: &mut [f64],
+    ) -> f64 {
+        let (mut sum, mut power) = (0.0, 1.0);
+        for (n, out) in out.iter_mut().enumerate().take(series.order + 1) {
+            let (value, size) = self.difference(p, coordinates, series.term(n));
+            *out = value;
+            sum += size * power;
+            power *= x;
+        }
+        sum
+    }
+}
+
+/// How far to look: to the first event that is known, or to the end.
+fn until(first: Option<(f64, Event)>, step: &Step) -> f64 {
+    first.map_or(step.end.x, |(x, _)| x)
+}
+
+/// Where a penetration is back at 0, or at -`depth`, up to `until`; its reading is that at the step's `end`.
+fn released(
+    closed: &ClosedPairs,
+    (p, lane): (usize, usize),
+    reading: &BlockReading,
+    (end, until): (f64, f64),
+    depth: f64,
+    distance: &mut Coefficients,
+) -> Option<f64> {
+    let (block, _) = closed.of(p);
+    let first = (-(block.penetration[0][lane] + depth).max(0.0), -block.penetration[1][lane]);
+    let last = (-reading.penetration[lane] - depth, -reading.slope[lane]);
+    if roots::ceiling(first, last, end, reading.fourth[lane]) <= 0.0 {
+        return None;
+    }
+    let terms = block.copy_penetration(lane, distance);
+    // Distance to the surface, positive once d has passed 0 downwards.
+    for d in &mut distance[..terms] {
+        *d = -*d;
+    }
+    distance[0] -= depth;
+    roots::first_rise(&mut distance[..terms], until, 0.0)
+}

@@ -1,0 +1,219 @@
+//! Pairs that cannot meet yet: bounds on how fast their floors can close tell for how many segments of the record they
+//! need not be looked at.
+//!
+//! Apart from contact, the amplitude e = sqrt(q'^2 + w^2 q^2) of each mode grows by no more than A, |participation| x the
+//! integral of |ground acceleration|: damping only takes from it. Without the ground's part |q''| <= (w + c) e, and that
+//! part pushes both floors of a pair alike. So with e now, after a time t
+//!
+//! ```text
+//! penetration <= penetration now + t sum over modes of |row| (e + A)
+//! penetration <= penetration now + t (rate now + t/2 sum over modes of |row| (w + c) (e + A))
+//! ```
+//!
+//! The first never falls with t and the second is convex: what lies below 0 at the end of a stretch did so all along.
+
+use super::ground::GroundMotion;
+use super::model::{Model, Pair};
+use super::state::*;
+use crate::structure::{LANES, ModalDamping, Side, Structure};
+use std::ops::Range;
+
+/// Most segments that one look is good for.
+const MOST: u64 = 64;
+
+/// Margin for rounding, relative to the numbers that a penetration or a closing speed is added up from.
+const MARGIN: f64 = 1e-10;
+
+/// sqrt(2) - 1, rounded up: sqrt(a^2 + b^2) <= a + this b for a >= b >= 0.
+const CHORD: f64 = 0.414_213_562_4;
+
+/// What stays the same during a run.
+#[derive(Debug)]
+pub(super) struct ClosingSpeeds {
+    /// rad/s, of each mode.
+    omega: Vec<f64>,
+    /// w + c, 1/s, of each mode.
+    quickness: Vec<f64>,
+    /// The sums over modes of each pair for the e of a shaking (integral of |ground acceleration|) of 1 m/s.
+    growth: Vec<Sums>,
+    /// Modes of a building in which damping couples them.
+    coupled: Vec<Range<usize>>,
+}
+
+/// Sums over modes of |row| e, m/s, and of |row| (w + c) e, m/s2.
+#[derive(Clone, Copy, Debug)]
+struct Sums {
+    speed: f64,
+    change: f64,
+}
+
+/// What is known of pairs that are apart.
+#[derive(Clone, Debug)]
+pub(super) struct Watch {
+    /// Number of the first segment in which any pair may meet, as far as is known.
+    due: u64,
+    /// The same for each pair.
+    pairs: Vec<u64>,
+    /// How often the base has moved.
+    moves: u64,
+    /// The move at which penetration and rate of each contact were worked out: where they are not needed they are not.
+    known: Vec<u64>,
+}
+
+impl Watch {
+    /// Nothing is known of the time to come, but every contact as it is now.
+    pub fn new(pairs: usize) -> Watch {
+        Watch { due: 0, pairs: vec![0; pairs], moves: 0, known: vec![0; pairs] }
+    }
+
+    /// Forgets the time to come: a contact force or an impulse acts.
+    pub fn restart(&mut self) {
+        self.due = 0;
+        self.pairs.fill(0);
+    }
+
+    /// Whether a pair has been dismissed for a segment.
+    pub fn is_free(&self, p: usize, segment: u64) -> bool {
+        self.pairs[p] > segment
+    }
+
+    /// Whether all pairs have been.
+    pub fn are_all_free(&self, segment: u64) -> bool {
+        self.due > segment
+    }
+
+    /// The base has moved: no contact is known any more.
+    pub fn move_on(&mut self) {
+        self.moves += 1;
+    }
+
+    /// Penetration and rate of a contact are those at the base.
+    pub fn set_known(&mut self, p: usize) {
+        self.known[p] = self.moves;
+    }
+
+    fn is_known(&self, p: usize) -> bool {
+        self.known[p] == self.moves
+    }
+}
+
+impl ClosingSpeeds {
+    pub fn of(structure: &Structure, pairs: &[Pair]) -> ClosingSpeeds {
+        let mut growth: Vec<f64> = structure.participation.iter().map(|p| p.abs()).collect();
+        let coupled = [Side::Left, Side::Right]
+            .into_iter()
+            .filter(|side| matches!(structure.modes(*side).damping, ModalDamping::Coupled(_)));
+        let coupled: Vec<Range<usize>> = coupled.map(|side| structure.range(side)).collect();
+        for range in &coupled {
+            share_amplitude(&mut growth[range.clone()]);
+        }
+        let omega: Vec<f64> = structure.omega2.iter().map(|w2| w2.sqrt()).collect();
+        let mut quickness: Vec<f64> = omega.iter().zip(&structure.damping).map(|(w, c)| w + c).collect();
+        for range in &coupled {
+            // |C| |v| + w |w q|, with the largest row sum of C.
+            quickness[range.clone()].fill(2.0 * structure.fastest);
+        }
+        let sums = |pair: &Pair| Sums::of(&pair.row, &growth, &quickness);
+        ClosingSpeeds { growth: pairs.iter().map(sums).collect(), omega, quickness, coupled }
+    }
+}
+
+impl Model {
+    /// Looks at the pairs that have not been dismissed for the base's segment, of that number; whether all are now.
+    pub(super) fn dismiss(
+        &self,
+        ground: &GroundMotion,
+        base: &mut Base,
+        segment: u64,
+        counters: &mut Counters,
+        amplitude: &mut [f64],
+    ) -> bool {
+        if base.watch.are_all_free(segment) {
+            return true;
+        }
+        let size = self.amplitudes(base, amplitude);
+        for (p, pair) in self.pairs.iter().enumerate() {
+            if base.watch.is_free(p, segment) {
+                continue;
+            }
+            let contact = &mut base.contacts[p];
+            if !base.watch.is_known(p) {
+                counters.pairs_evaluated += 1;
+                (contact.penetration, contact.rate) = pair.penetration(&base.q, &base.v);
+                base.watch.set_known(p);
+            }
+            if contact.carried {
+                continue;
+            }
+            let sums = Sums::of(&pair.row, amplitude, &self.closing.quickness);
+            let growth = &self.closing.growth[p];
+            let start = contact.flight_start() + MARGIN * (pair.gap.abs() + size);
+            let stays_apart = |segments: u64| {
+                let (time, shaking) = ground.ahead(segment, segments);
+                let time = (1.0 + MARGIN) * (time - base.elapsed);
+                let speed = sums.speed + growth.speed * shaking;
+                let change = sums.change + growth.change * shaking;
+                let by_rate = contact.rate + MARGIN * speed + 0.5 * time * change;
+                // Written so that a NaN never stays apart.
+                start + time * speed < 0.0 || start + time * by_rate < 0.0
+            };
+            base.watch.pairs[p] = segment + longest(stays_apart);
+        }
+        base.watch.due = base.watch.pairs.iter().copied().min().unwrap_or(u64::MAX);
+        base.watch.are_all_free(segment)
+    }
+
+    /// Bounds on sqrt(v^2 + w^2 q^2) of all modes at the base. Returns a bound on what the displacements add to any
+    /// penetration, m.
+    fn amplitudes(&self, base: &Base, amplitude: &mut [f64]) -> f64 {
+        let [(q, _), (v, _), (omega, _), (weight, _)] =
+            [&base.q, &base.v, &self.closing.omega, &self.pair_weight].map(|vector| vector.as_chunks::<LANES>());
+        let mut size = [0.0; LANES];
+        for (c, amplitude) in amplitude.as_chunks_mut::<LANES>().0.iter_mut().enumerate() {
+            for i in 0..LANES {
+                let (a, b) = (v[c][i].abs(), omega[c][i] * q[c][i].abs());
+                amplitude[i] = if a > b { a + CHORD * b } else { b + CHORD * a };
+                size[i] += weight[c][i] * q[c][i].abs();
+            }
+        }
+        for range in &self.closing.coupled {
+            share_amplitude(&mut amplitude[range.clone()]);
+        }
+        size.iter().sum()
+    }
+}
+
+/// Coupled modes exchange energy: only the amplitude of all together never grows by itself, and any may have it.
+fn share_amplitude(modes: &mut [f64]) {
+    let whole = modes.iter().map(|e| e * e).sum::<f64>().sqrt();
+    modes.fill(whole);
+}
+
+/// The largest of 0, 1, 2, 3, 4, 6, 8, 12 ... segments, up to MOST, for which a pair stays apart.
+fn longest(stays_apart: impl Fn(u64) -> bool) -> u64 {
+    let mut free = 0;
+    while free < MOST {
+        let next = (2 * free).max(1);
+        if !stays_apart(next) {
+            let between = free + free / 2;
+            return if between > free && stays_apart(between) { between } else { free };
+        }
+        free = next;
+    }
+    free
+}
+
+impl Sums {
+    fn of(row: &[f64], amplitude: &[f64], quickness: &[f64]) -> Sums {
+        let (mut speed, mut change) = ([0.0; LANES], [0.0; LANES]);
+        let [(row, _), (amplitude, _), (quickness, _)] = [row, amplitude, quickness].map(<[f64]>::as_chunks::<LANES>);
+        for ((row, amplitude), quickness) in row.iter().zip(amplitude).zip(quickness) {
+            for i in 0..LANES {
+                let part = row[i].abs() * amplitude[i];
+                speed[i] += part;
+                change[i] += quickness[i] * part;
+            }
+        }
+        Sums { speed: speed.iter().sum(), change: change.iter().sum() }
+    }
+}

@@ -1,0 +1,49 @@
+//! A full matrix between two vectors of lanes, laid out so that the sums of [`LANES`] rows stay in registers.
+
+use super::{LANES, Lane};
+
+/// A matrix whose columns and rows stand at given lanes of a source and a target vector.
+#[derive(Clone, Debug)]
+pub struct Dense {
+    /// Lane of the source that the first column belongs to.
+    source: usize,
+    columns: usize,
+    /// First block of the target.
+    target: usize,
+    /// Block of rows after block of rows, each with all its columns.
+    entries: Vec<Lane>,
+}
+
+impl Dense {
+    /// `size` rows from lane `target` on and columns from lane `source` on.
+    pub fn new(size: usize, source: usize, target: usize, entry: impl Fn(usize, usize) -> f64) -> Dense {
+        let blocks = target / LANES..(target + size).div_ceil(LANES);
+        let of_row = |lane: usize, column: usize| match lane.checked_sub(target) {
+            Some(row) if row < size => entry(row, column),
+            _ => 0.0,
+        };
+        let entries = blocks
+            .clone()
+            .flat_map(|block| (0..size).map(move |column| (block, column)))
+            .map(|(block, column)| std::array::from_fn(|i| of_row(block * LANES + i, column)))
+            .collect();
+        Dense { source, columns: size, target: blocks.start, entries }
+    }
+
+    /// `out` += factor * matrix * `vector`.
+    #[inline]
+    pub fn add(&self, factor: f64, vector: &[f64], out: &mut [Lane]) {
+        let vector = &vector[self.source..][..self.columns];
+        for (rows, out) in self.entries.chunks_exact(self.columns).zip(&mut out[self.target..]) {
+            let mut sum = [0.0; LANES];
+            for (entry, value) in rows.iter().zip(vector) {
+                for i in 0..LANES {
+                    sum[i] += entry[i] * value;
+                }
+            }
+            for i in 0..LANES {
+                out[i] += factor * sum[i];
+            }
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! The exact flight of all modes over one interval of time.
+
+use super::{CoupledIncrement, LANES, ModalDamping, ModeIncrement, Scratch, Side, Structure};
+
+/// The increments of [`LANES`] modes side by side.
+#[derive(Clone, Copy, Debug, Default)]
+struct ModeBlock {
+    dqq: [f64; LANES],
+    dqv: [f64; LANES],
+    dvq: [f64; LANES],
+    dvv: [f64; LANES],
+    rq0: [f64; LANES],
+    rq1: [f64; LANES],
+    rv0: [f64; LANES],
+    rv1: [f64; LANES],
+}
+
+impl ModeBlock {
+    fn set(&mut self, i: usize, mode: &ModeIncrement) {
+        self.dqq[i] = mode.dqq;
+        self.dqv[i] = mode.dqv;
+        self.dvq[i] = mode.dvq;
+        self.dvv[i] = mode.dvv;
+        self.rq0[i] = mode.rq0;
+        self.rq1[i] = mode.rq1;
+        self.rv0[i] = mode.rv0;
+        self.rv1[i] = mode.rv1;
+    }
+
+    /// q and v at the end, from q, v and the load and its slope at the start.
+    #[inline(always)]
+    fn end(
+        &self,
+        q: &[f64; LANES],
+        v: &[f64; LANES],
+        load: &[f64; LANES],
+        slope: &[f64; LANES],
+    ) -> ([f64; LANES], [f64; LANES]) {
+        let mut end = ([0.0; LANES], [0.0; LANES]);
+        for i in 0..LANES {
+            let from_load =
+                (self.rq0[i] * load[i] + self.rq1[i] * slope[i], self.rv0[i] * load[i] + self.rv1[i] * slope[i]);
+            end.0[i] = q[i] + (self.dqq[i] * q[i] + self.dqv[i] * v[i] + from_load.0);
+            end.1[i] = v[i] + (self.dvq[i] * q[i] + self.dvv[i] * v[i] + from_load.1);
+        }
+        end
+    }
+}
+
+/// The exact flight of all modes over one interval length.
+#[derive(Clone, Debug)]
+pub struct Interval {
+    /// s.
+    pub length: f64,
+    modes: Vec<ModeBlock>,
+    coupled: Vec<(usize, CoupledIncrement)>,
+}
+
+impl Interval {
+    /// Prepares the flight over `length` seconds.
+    pub fn new(structure: &Structure, length: f64) -> Interval {
+        let modes = vec![ModeBlock::default(); structure.lanes / LANES];
+        let mut interval = Interval { length, modes, coupled: Vec::new() };
+        interval.prepare(structure, length);
+        interval
+    }
+
+    /// Prepares the flight over another length. Allocates only where damping couples modes.
+    pub fn prepare(&mut self, structure: &Structure, length: f64) {
+        self.length = length;
+        self.coupled.clear();
+        for side in [Side::Left, Side::Right] {
+            let offset = structure.offset(side);
+            let building = structure.modes(side);
+            match &building.damping {
+                ModalDamping::Diagonal(c) => {
+                    for (m, w) in building.omega.iter().enumerate() {
+                        let i = offset + m;
+                        self.modes[i / LANES].set(i % LANES, &ModeIncrement::new(*w, c[m], length));
+                    }
+                }
+                ModalDamping::Coupled(c) => {
+                    self.coupled.push((offset, CoupledIncrement::new(&building.omega, c, length)));
+                }
+            }
+        }
+    }
+
+    /// Flies `q`, `v` over the interval under a modal load and its slope, into `end_q`, `end_v`.
+    pub fn fly(
+        &self,
+        (q, v): (&[f64], &[f64]),
+        (load, slope): (&[f64], &[f64]),
+        (end_q, end_v): (&mut [f64], &mut [f64]),
+        scratch: &mut Scratch,
+    ) {
+        let [(q0, _), (v0, _), (l0, _), (l1, _)] = [q, v, load, slope].map(<[f64]>::as_chunks::<LANES>);
+        let [(q1, _), (v1, _)] = [&mut *end_q, &mut *end_v].map(<[f64]>::as_chunks_mut::<LANES>);
+        for (c, m) in self.modes.iter().enumerate() {
+            (q1[c], v1[c]) = m.end(&q0[c], &v0[c], &l0[c], &l1[c]);
+        }
+        let mut ahead = &mut scratch.ahead[..];
+        for (offset, increment) in &self.coupled {
+            let (own, rest) = ahead.split_at_mut(increment.matrix.nrows());
+            increment.step(*offset, [q, v, load, slope], own);
+            ahead = rest;
+        }
+        let mut ahead = &scratch.ahead[..];
+        for (offset, increment) in &self.coupled {
+            let n = increment.matrix.nrows() / 2;
+            for m in 0..n {
+                end_q[offset + m] += ahead[m];
+                end_v[offset + m] += ahead[n + m];
+            }
+            ahead = &ahead[2 * n..];
+        }
+    }
+
+    /// The same under the ground's acceleration and its slope alone, where damping couples no modes. Returns whether the
+    /// end is finite.
+    #[inline(always)]
+    pub fn fly_on_ground(
+        &self,
+        (q, v): (&[f64], &[f64]),
+        (participation, (acceleration, slope)): (&[f64], (f64, f64)),
+        (end_q, end_v): (&mut [f64], &mut [f64]),
+    ) -> bool {
+        let [(q0, _), (v0, _), (participation, _)] = [q, v, participation].map(<[f64]>::as_chunks::<LANES>);
+        let [(q1, _), (v1, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
+        let width = self.modes.len();
+        let (q0, v0, participation) = (&q0[..width], &v0[..width], &participation[..width]);
+        let (q1, v1) = (&mut q1[..width], &mut v1[..width]);
+        let mut sum = [0.0; LANES];
+        for (c, m) in self.modes.iter().enumerate() {
+            let l0 = participation[c].map(|p| -p * acceleration);
+            let l1 = participation[c].map(|p| -p * slope);
+            let (q, v) = m.end(&q0[c], &v0[c], &l0, &l1);
+            for i in 0..LANES {
+                // Finite only if all of its terms are.
+                sum[i] += q[i] + v[i];
+            }
+            (q1[c], v1[c]) = (q, v);
+        }
+        sum.iter().sum::<f64>().is_finite()
+    }
+}
