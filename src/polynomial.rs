@@ -14,7 +14,7 @@ const BLOCK: usize = 4;
 pub type Coefficients = [f64; ROOM];
 
 /// 0, 1, 2, ...
-const COUNT: Coefficients = {
+pub const COUNT: Coefficients = {
     let mut table = [0.0; ROOM];
     let mut n = 0;
     while n < ROOM {

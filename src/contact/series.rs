@@ -2,7 +2,7 @@
 //! pairs of one kind of law side by side.
 
 use super::force::{Force, power};
-use crate::polynomial::{Coefficients, Powers, RECIPROCAL, ROOM, Reading};
+use crate::polynomial::{COUNT, Coefficients, Powers, RECIPROCAL, ROOM, Reading};
 use crate::quadrature::{TWELVE, gauss};
 
 /// Pairs that are worked on together: as many as any x86-64 takes in one instruction.
@@ -16,17 +16,6 @@ type Rows = [Each; ROOM];
 
 /// Where a series that is kept backwards begins.
 const LAST: usize = ROOM - 1;
-
-/// 0, 1, 2, ...
-const COUNT: Coefficients = {
-    let mut table = [0.0; ROOM];
-    let mut n = 0;
-    while n < ROOM {
-        table[n] = n as f64;
-        n += 1;
-    }
-    table
-};
 
 /// Share of its penetration that a pair has kept at the end of a step, below which the step is taken to end at a release.
 const NEARLY_RELEASED: f64 = 0.1;

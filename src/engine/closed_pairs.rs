@@ -41,7 +41,7 @@ pub(super) struct Member {
 
 /// What a block comes to at the end of a step.
 pub(super) struct BlockEnd {
-    pub motion: BlockReading,
+    motion: BlockReading,
     force: [Reading; PAIRS],
     impulse: Each,
 }

@@ -1,7 +1,8 @@
-//! A step in contact: power series in time of all floors, with the forces of the pairs that are in contact.
+//! A step in contact: power series in time of the motion, with the forces of the pairs that are in contact.
 //!
 //! Each power follows from the ones before at the cost of a few vector operations; only the contact forces need products
-//! of series. The step is as long as the last terms allow. Near rigid contacts the series are those of the modes.
+//! of series. The step is as long as the last terms allow. The motion is that of the floors where they are many and feel
+//! their neighbours only, else that of the modes, as always near rigid contacts.
 
 use super::closed_pairs::{Acting, OnFewModes, OnFloors, OnModes};
 use super::complementarity::Complementarity;

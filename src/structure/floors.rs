@@ -129,11 +129,6 @@ impl Floors {
         &all[self.first[side]..][..self.count[side]]
     }
 
-    /// The same, to write to.
-    pub fn of_building_mut<'a>(&self, side: usize, all: &'a mut [f64]) -> &'a mut [f64] {
-        &mut all[self.first[side]..][..self.count[side]]
-    }
-
     /// 1/kg of a lane.
     pub fn inverse_mass(&self, lane: usize) -> f64 {
         self.blocks[lane / LANES].inverse_mass[lane % LANES]
