@@ -151,7 +151,7 @@ impl Model {
         let exponent = grid.exponent(i, j);
         let (known, rest) = onset.terms.split_at_mut(here * lanes);
         let next = &mut rest[..lanes];
-        let mut moved = self.structure.floors.rest.as_flattened();
+        let mut moved = &self.structure.floors.rest[..];
         if i >= 2 {
             for (p, contact) in touching(base).filter(|(_, contact)| !contact.is_singular()) {
                 onset.pairs[p].extend_touching(grid, &contact.branch(), i - 2, j, scale);

@@ -114,43 +114,11 @@ impl MotionSeries {
         forces: &mut impl PairForces,
     ) {
         match self.lanes / LANES {
-            1 => self.expand_blocks::<1>(structure, order, loads, forces),
-            2 => self.expand_blocks::<2>(structure, order, loads, forces),
-            3 => self.expand_blocks::<3>(structure, order, loads, forces),
-            _ => self.expand_blocks::<FEW_BLOCKS>(structure, order, loads, forces),
+            1 => expand_blocks::<1, _>(self, structure, order, loads, forces),
+            2 => expand_blocks::<2, _>(self, structure, order, loads, forces),
+            3 => expand_blocks::<3, _>(self, structure, order, loads, forces),
+            _ => expand_blocks::<FEW_BLOCKS, _>(self, structure, order, loads, forces),
         }
-    }
-
-    fn expand_blocks<const WIDTH: usize>(
-        &mut self,
-        structure: &Structure,
-        order: usize,
-        (load, slope): (&[f64], &[f64]),
-        forces: &mut impl PairForces,
-    ) {
-        let [damping, omega2, load, slope] =
-            [&structure.damping, &structure.omega2, load, slope].map(first_blocks::<WIDTH>);
-        let mut before = first_blocks::<WIDTH>(self.term(0));
-        let mut last = first_blocks::<WIDTH>(self.term(1));
-        for (n, reciprocal) in RECIPROCAL.iter().enumerate().take(order - 1) {
-            let mut next = match n {
-                0 => load,
-                1 => slope.map(|slope| slope.map(|slope| slope * self.scale)),
-                _ => [[0.0; LANES]; WIDTH],
-            };
-            let factor = self.scale * self.scale * reciprocal;
-            let rate = (n + 1) as f64 * (self.scale * reciprocal);
-            for c in 0..WIDTH {
-                for i in 0..LANES {
-                    let pulled = (factor * omega2[c][i]) * before[c][i];
-                    next[c][i] = (factor * next[c][i] - pulled) - (rate * damping[c][i]) * last[c][i];
-                }
-            }
-            forces.act(n, factor, &mut next);
-            self.coefficients[(n + 2) * self.lanes..][..self.lanes].copy_from_slice(next.as_flattened());
-            (before, last) = (last, next);
-        }
-        self.order = order;
     }
 
     /// The same for any number of modes.
@@ -187,30 +155,10 @@ impl MotionSeries {
         &mut self,
         floors: &Floors,
         order: usize,
-        (load, slope): (&[f64], &[f64]),
+        loads: (&[f64], &[f64]),
         forces: &mut impl PairForces,
     ) {
-        let width = self.lanes / LANES;
-        let scale2 = self.scale * self.scale;
-        let [(load, _), (slope, _)] = [load, slope].map(<[f64]>::as_chunks::<LANES>);
-        let (terms, _) = self.coefficients.as_chunks_mut::<LANES>();
-        for n in 0..order - 1 {
-            let (known, rest) = terms.split_at_mut((n + 2) * width);
-            let (u, v) = known[n * width..].split_at(width);
-            let next = &mut rest[..width];
-            match n {
-                0 => next.copy_from_slice(load),
-                1 => next.iter_mut().zip(slope).for_each(|(next, slope)| *next = slope.map(|slope| slope * self.scale)),
-                _ => next.fill([0.0; LANES]),
-            }
-            floors.resist(u, v, (n + 1) as f64 / self.scale, next);
-            let factor = scale2 * RECIPROCAL[n];
-            for next in next.as_flattened_mut() {
-                *next *= factor;
-            }
-            forces.act(n, factor, next);
-        }
-        self.order = order;
+        expand_floors(self, floors, order, loads, forces);
     }
 
     /// Expands a flight: load and slope only.
@@ -307,6 +255,18 @@ impl MotionSeries {
         }
     }
 
+    /// Bounds on the fourth derivatives by x up to the x of the powers.
+    pub fn fourth_derivatives(&self, powers: &Powers, out: &mut [f64]) {
+        let out = &mut out[..self.lanes];
+        out.fill(0.0);
+        let (.., fourth) = powers.all();
+        for (n, fourth) in fourth.iter().enumerate().take(self.order + 1).skip(4) {
+            for (out, term) in out.iter_mut().zip(self.term(n)) {
+                *out += term.abs() * fourth;
+            }
+        }
+    }
+
     /// v alone at x.
     pub fn velocity(&self, x: f64, v: &mut [f64]) {
         let width = self.lanes / LANES;
@@ -337,6 +297,70 @@ impl MotionSeries {
         let rate = 1.0 / self.scale;
         slope.map(|slope| slope * rate)
     }
+}
+
+/// See [`MotionSeries::expand_few_modes`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn expand_blocks<const WIDTH: usize, F: PairForces>(
+    series: &mut MotionSeries,
+    structure: &Structure,
+    order: usize,
+    (load, slope): (&[f64], &[f64]),
+    forces: &mut F,
+) {
+    let [damping, omega2, load, slope] =
+        [&structure.damping, &structure.omega2, load, slope].map(first_blocks::<WIDTH>);
+    let mut before = first_blocks::<WIDTH>(series.term(0));
+    let mut last = first_blocks::<WIDTH>(series.term(1));
+    for (n, reciprocal) in RECIPROCAL.iter().enumerate().take(order - 1) {
+        let mut next = match n {
+            0 => load,
+            1 => slope.map(|slope| slope.map(|slope| slope * series.scale)),
+            _ => [[0.0; LANES]; WIDTH],
+        };
+        let factor = series.scale * series.scale * reciprocal;
+        let rate = (n + 1) as f64 * (series.scale * reciprocal);
+        for c in 0..WIDTH {
+            for i in 0..LANES {
+                let pulled = (factor * omega2[c][i]) * before[c][i];
+                next[c][i] = (factor * next[c][i] - pulled) - (rate * damping[c][i]) * last[c][i];
+            }
+        }
+        forces.act(n, factor, &mut next);
+        series.coefficients[(n + 2) * series.lanes..][..series.lanes].copy_from_slice(next.as_flattened());
+        (before, last) = (last, next);
+    }
+    series.order = order;
+}
+
+/// See [`MotionSeries::expand_floors`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn expand_floors<F: PairForces>(
+    series: &mut MotionSeries,
+    floors: &Floors,
+    order: usize,
+    (load, slope): (&[f64], &[f64]),
+    forces: &mut F,
+) {
+    let lanes = series.lanes;
+    let scale2 = series.scale * series.scale;
+    for n in 0..order - 1 {
+        let (known, rest) = series.coefficients.split_at_mut((n + 2) * lanes);
+        let (u, v) = known[n * lanes..].split_at(lanes);
+        let next = &mut rest[..lanes];
+        match n {
+            0 => next.copy_from_slice(load),
+            1 => next.iter_mut().zip(slope).for_each(|(next, slope)| *next = slope * series.scale),
+            _ => next.fill(0.0),
+        }
+        floors.resist(u, v, (n + 1) as f64 / series.scale, next);
+        let factor = scale2 * RECIPROCAL[n];
+        for next in next.iter_mut() {
+            *next *= factor;
+        }
+        forces.act(n, factor, next.as_chunks_mut::<LANES>().0);
+    }
+    series.order = order;
 }
 
 /// The first blocks of a vector that has as many.
