@@ -2,7 +2,7 @@
 
 use super::floors::Floors;
 use super::{LANES, Lane, Structure};
-use crate::polynomial::Powers;
+use crate::polynomial::{Powers, ROOM};
 
 /// Powers that a series may have.
 const MOST_POWERS: usize = 40;
@@ -224,35 +224,7 @@ impl MotionSeries {
 
     /// q and v at the x of the powers.
     pub fn evaluate(&self, powers: &Powers, q: &mut [f64], v: &mut [f64]) {
-        let lanes = self.lanes;
-        let (q, v) = (&mut q[..lanes], &mut v[..lanes]);
-        q.fill(0.0);
-        v.fill(0.0);
-        let (power, slope, _) = powers.all();
-        // From the smallest terms to the largest, four at a time: the sums go through memory a quarter as often.
-        let mut n = self.order + 1;
-        while n >= 6 {
-            n -= 4;
-            let [a, b, c, d] = [0, 1, 2, 3].map(|i| &self.coefficients[(n + i) * lanes..][..lanes]);
-            let [p0, p1, p2, p3] = [0, 1, 2, 3].map(|i| power[n + i]);
-            let [s0, s1, s2, s3] = [0, 1, 2, 3].map(|i| slope[n + i]);
-            for m in 0..lanes {
-                q[m] += (d[m] * p3 + c[m] * p2) + (b[m] * p1 + a[m] * p0);
-                v[m] += (d[m] * s3 + c[m] * s2) + (b[m] * s1 + a[m] * s0);
-            }
-        }
-        let rate = 1.0 / self.scale;
-        while n > 0 {
-            n -= 1;
-            let term = &self.coefficients[n * lanes..][..lanes];
-            for m in 0..lanes {
-                q[m] += term[m] * power[n];
-                v[m] += term[m] * slope[n];
-            }
-        }
-        for v in v {
-            *v *= rate;
-        }
+        evaluate(self, powers, q, v);
     }
 
     /// Bounds on the fourth derivatives by x up to the x of the powers.
@@ -296,6 +268,32 @@ impl MotionSeries {
         }
         let rate = 1.0 / self.scale;
         slope.map(|slope| slope * rate)
+    }
+}
+
+/// See [`MotionSeries::evaluate`]: from the smallest terms to the largest. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn evaluate(series: &MotionSeries, powers: &Powers, q: &mut [f64], v: &mut [f64]) {
+    let (width, order) = (series.lanes / LANES, series.order.min(ROOM - 1));
+    let rate = 1.0 / series.scale;
+    let (power, slope, _) = powers.all();
+    let (terms, _) = series.coefficients.as_chunks::<LANES>();
+    let (q, v) = (q.as_chunks_mut::<LANES>().0, v.as_chunks_mut::<LANES>().0);
+    for (c, (q, v)) in q.iter_mut().zip(v).enumerate().take(width) {
+        let (mut value, mut change) = ([0.0; LANES], [0.0; LANES]);
+        let mut n = order + 1;
+        for row in terms[..n * width].rchunks_exact(width) {
+            n -= 1;
+            let (term, power, slope) = (&row[c], power[n], slope[n]);
+            for i in 0..LANES {
+                value[i] += term[i] * power;
+                change[i] += term[i] * slope;
+            }
+        }
+        *q = value;
+        for i in 0..LANES {
+            v[i] = change[i] * rate;
+        }
     }
 }
 
