@@ -229,14 +229,7 @@ impl MotionSeries {
 
     /// Bounds on the fourth derivatives by x up to the x of the powers.
     pub fn fourth_derivatives(&self, powers: &Powers, out: &mut [f64]) {
-        let out = &mut out[..self.lanes];
-        out.fill(0.0);
-        let (.., fourth) = powers.all();
-        for (n, fourth) in fourth.iter().enumerate().take(self.order + 1).skip(4) {
-            for (out, term) in out.iter_mut().zip(self.term(n)) {
-                *out += term.abs() * fourth;
-            }
-        }
+        fourth_derivatives(&self.coefficients[..(self.order + 1) * self.lanes], powers, &mut out[..self.lanes]);
     }
 
     /// v alone at x.
@@ -294,6 +287,23 @@ fn evaluate(series: &MotionSeries, powers: &Powers, q: &mut [f64], v: &mut [f64]
         for i in 0..LANES {
             v[i] = change[i] * rate;
         }
+    }
+}
+
+/// See [`MotionSeries::fourth_derivatives`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn fourth_derivatives(terms: &[f64], powers: &Powers, out: &mut [f64]) {
+    let (.., fourth) = powers.all();
+    let (width, (out, _)) = (out.len() / LANES, out.as_chunks_mut::<LANES>());
+    let (terms, _) = terms.as_chunks::<LANES>();
+    for (c, out) in out.iter_mut().enumerate() {
+        let mut sum = [0.0; LANES];
+        for (row, fourth) in terms.chunks_exact(width).zip(fourth).skip(4) {
+            for i in 0..LANES {
+                sum[i] += row[c][i].abs() * fourth;
+            }
+        }
+        *out = sum;
     }
 }
 
