@@ -139,7 +139,7 @@ impl OnsetPair {
         self.base.terms[..grid.terms()].fill(0.0);
         self.base.slopes[..grid.terms()].fill(0.0);
         self.enters = enters;
-        self.penetration[0] = penetration;
+        self.set_penetration(grid, 0, 0, penetration);
         self.set_penetration(grid, 1, 0, step_rate);
     }
 
