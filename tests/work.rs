@@ -75,6 +75,30 @@ fn an_episode_takes_a_bounded_number_of_steps() {
 }
 
 #[test]
+fn an_entry_beside_another_contact_takes_no_more_steps() {
+    let laws = [
+        // Measured: 0.0, 0.0 and 0.0. An entry that cannot use its series takes some forty steps more.
+        ("hertz\"", 1.0),
+        ("jankowski\"\nrestitution = 0.65", 1.0),
+        ("hertz_damped\"\nrestitution = 0.65\ndamping_formula = \"ye\"", 1.0),
+    ];
+    for (law, most) in laws {
+        let contact = |floor: u32| {
+            format!(
+                "[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = 0.002\nstiffness = 1.0e6\nlaw = \"{law}\n"
+            )
+        };
+        let (scene, record) = frames(&(contact(1) + &contact(2)));
+        let mut run = Run::new(&scene, Some(&record));
+        let counters = run.to(20.0).state.counters();
+        assert!(counters.events > 100, "{law}: {} events", counters.events);
+        let per_event = counters.contact_steps as f64 / counters.events as f64;
+        println!("{law}: {per_event}");
+        assert!(per_event < 10.0 * most, "{law}: {per_event} steps for each of {} events", counters.events);
+    }
+}
+
+#[test]
 fn a_contact_that_never_closes_changes_no_bit() {
     let (alone, record) = frames(&contact(0.01));
     let far = contact(5.0).replace("_floor = 2", "_floor = 1");

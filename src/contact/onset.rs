@@ -268,19 +268,33 @@ fn extend_power(power: &mut Terms, base: &Base, grid: &Grid, exponent: f64, i: u
 
 /// Value and slope at x of a double series.
 pub fn value_and_slope(grid: &Grid, terms: &[f64], x: f64) -> (f64, f64) {
-    let z = power(x, grid.beta);
-    let (mut value, mut slope, mut factor) = (0.0, 0.0, 1.0);
+    let ([value], [slope]) = values_and_slopes(grid, terms, &[x]);
+    (value, slope)
+}
+
+/// The same at some x side by side.
+pub fn values_and_slopes<const N: usize>(grid: &Grid, terms: &[f64], x: &[f64; N]) -> ([f64; N], [f64; N]) {
+    let z = x.map(|x| power(x, grid.beta));
+    let (mut value, mut slope, mut factor) = ([0.0; N], [0.0; N], [1.0; N]);
     for j in 0..grid.rows {
         let row = &terms[grid.index(0, j)..=grid.index(grid.last(j), j)];
         let shift = grid.beta * j as f64;
-        let (mut r, mut s) = (0.0, 0.0);
+        let (mut r, mut s) = ([0.0; N], [0.0; N]);
         for (i, term) in row.iter().enumerate().rev() {
-            r = r * x + term;
-            s = s * x + (i as f64 + shift) * term;
+            let rate = (i as f64 + shift) * term;
+            for k in 0..N {
+                r[k] = r[k] * x[k] + term;
+                s[k] = s[k] * x[k] + rate;
+            }
         }
-        value += factor * r;
-        slope += factor * s;
-        factor *= z;
+        for k in 0..N {
+            value[k] += factor[k] * r[k];
+            slope[k] += factor[k] * s[k];
+            factor[k] *= z[k];
+        }
     }
-    (value, slope / x)
+    for k in 0..N {
+        slope[k] /= x[k];
+    }
+    (value, slope)
 }

@@ -8,12 +8,12 @@ use super::model::Model;
 use super::state::*;
 use crate::contact::Force;
 use crate::contact::force::power;
-use crate::contact::onset::{Grid, MOST_TERMS, OnsetPair, value_and_slope};
+use crate::contact::onset::{Grid, MOST_TERMS, OnsetPair, value_and_slope, values_and_slopes};
 use crate::quadrature::{TWELVE, graded};
 use crate::structure::LANES;
 
 /// Highest power of x of the double series: its cost grows with the square, its reach hardly.
-const HIGHEST: f64 = 12.0;
+const HIGHEST: f64 = 10.0;
 
 /// The double series of the motion and of all contacts.
 #[derive(Clone, Debug, Default)]
@@ -297,11 +297,13 @@ impl Contact {
         self.impulse += impulse * scale;
         self.episode.impulse += impulse * scale;
         if law.is_damped() {
-            let work = graded(TWELVE, x).map(|(x, weight)| {
-                let (d, rate) = penetration(x);
-                weight * law.damping_power(d, rate / scale)
-            });
-            self.work += scale * work.sum::<f64>();
+            let (mut at, mut weights) = ([0.0; 12], [0.0; 12]);
+            for ((at, weight), node) in at.iter_mut().zip(&mut weights).zip(graded(TWELVE, x)) {
+                (*at, *weight) = node;
+            }
+            let (depths, rates) = values_and_slopes(grid, &pair.penetration, &at);
+            let power = |i: usize| weights[i] * law.damping_power(depths[i], rates[i] / scale);
+            self.work += scale * (0..12).map(power).sum::<f64>();
         }
         if let Some((at, peak)) = highest(force, x, self.episode.peak_force) {
             self.episode.peak_force = peak;
