@@ -76,16 +76,18 @@ fn an_episode_takes_a_bounded_number_of_steps() {
 
 #[test]
 fn an_entry_beside_another_contact_takes_no_more_steps() {
+    // Measured: 14.5, 7.8 and 12.4 for each event. An entry that cannot use its own series takes some forty steps more:
+    // 18.4, 12.6 and 15.5.
     let laws = [
-        // Measured: 0.0, 0.0 and 0.0. An entry that cannot use its series takes some forty steps more.
-        ("hertz\"", 1.0),
-        ("jankowski\"\nrestitution = 0.65", 1.0),
-        ("hertz_damped\"\nrestitution = 0.65\ndamping_formula = \"ye\"", 1.0),
+        ("hertz", "", 16.0),
+        ("jankowski", "restitution = 0.65", 9.0),
+        ("hertz_damped", "restitution = 0.65\ndamping_formula = \"ye\"", 13.5),
     ];
-    for (law, most) in laws {
+    for (law, keys, most) in laws {
         let contact = |floor: u32| {
             format!(
-                "[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = 0.002\nstiffness = 1.0e6\nlaw = \"{law}\n"
+                "[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = 0.002\nstiffness = 2.0e4\n\
+                 law = \"{law}\"\n{keys}\n"
             )
         };
         let (scene, record) = frames(&(contact(1) + &contact(2)));
@@ -93,8 +95,7 @@ fn an_entry_beside_another_contact_takes_no_more_steps() {
         let counters = run.to(20.0).state.counters();
         assert!(counters.events > 100, "{law}: {} events", counters.events);
         let per_event = counters.contact_steps as f64 / counters.events as f64;
-        println!("{law}: {per_event}");
-        assert!(per_event < 10.0 * most, "{law}: {per_event} steps for each of {} events", counters.events);
+        assert!(per_event < most, "{law}: {per_event} steps for each of {} events", counters.events);
     }
 }
 
