@@ -11,6 +11,7 @@ impl Model {
     /// Floors are not computed here but when one is asked for.
     pub fn observe(&self, state: &State, point: &mut Point) {
         let lanes = self.structure.lanes;
+        point.floors.forget(lanes);
         for vector in [&mut point.q, &mut point.v, &mut point.acceleration, &mut point.resisted] {
             vector.resize(lanes, 0.0);
         }
@@ -40,7 +41,7 @@ impl Model {
         work.load.fill(0.0);
         self.accelerate(point.coordinates, (&point.q, &point.v), &work.load, &mut point.resisted);
         self.add_floor_forces(inputs, point.coordinates, &mut work.load);
-        for (p, contact) in point.contacts.iter().enumerate() {
+        for (p, contact) in point.contacts.iter().enumerate().filter(|(_, contact)| contact.force != 0.0) {
             self.push_apart_by(p, point.coordinates, contact.force, &mut work.load);
         }
         // Without the ground's load these are absolute accelerations.
@@ -80,52 +81,12 @@ impl Model {
         point: &Point,
         powers: &Powers,
     ) -> ContactPoint {
-        let contact = self.contact_at(base, step, p, elapsed, powers);
-        let penetration = if contact.in_contact() {
-            contact.penetration
-        } else {
-            self.relative(p, point.coordinates, &point.q) - self.pairs[p].gap
-        };
-        ContactPoint {
-            force: contact.present_force(),
-            penetration,
-            active: contact.in_contact(),
-            impacts: contact.impacts,
-            peak_force: contact.peak_force,
-            impulse: contact.impulse,
-            dissipated_energy: contact.dissipated_energy(),
-            approach_velocity: contact.episode.approach_velocity,
+        let contact = &base.contacts[p];
+        if contact.in_contact() {
+            let contact = self.contact_at(base, step, p, elapsed, powers);
+            return show(&contact, contact.penetration);
         }
-    }
-
-    /// m, relative to the ground; floors counted from 0.
-    pub fn displacement(&self, point: &Point, side: Side, floor: usize) -> f64 {
-        self.at_floor(point, side, floor, &point.q)
-    }
-
-    /// m/s, relative to the ground.
-    pub fn velocity(&self, point: &Point, side: Side, floor: usize) -> f64 {
-        self.at_floor(point, side, floor, &point.v)
-    }
-
-    /// m/s2, absolute.
-    pub fn acceleration(&self, point: &Point, side: Side, floor: usize) -> f64 {
-        self.at_floor(point, side, floor, &point.acceleration)
-    }
-
-    /// N, force of the building on the ground.
-    pub fn base_shear(&self, point: &Point, side: Side) -> f64 {
-        match point.coordinates {
-            Coordinates::Modes => self.structure.base_shear(side, &point.q, &point.v),
-            Coordinates::Floors => self.structure.floors.base_shear(side as usize, &point.resisted),
-        }
-    }
-
-    fn at_floor(&self, point: &Point, side: Side, floor: usize, motion: &[f64]) -> f64 {
-        match point.coordinates {
-            Coordinates::Modes => self.structure.at_floor(side, floor, motion),
-            Coordinates::Floors => motion[self.structure.floors.lane(side as usize, floor)],
-        }
+        show(contact, self.relative(p, point.coordinates, &point.q) - self.pairs[p].gap)
     }
 
     /// The episode that a contact is in at the communication time, if it is in one.
@@ -160,5 +121,18 @@ impl State {
         if let Some(held) = self.inputs.floor_forces.get_mut(first + floor) {
             *held = force;
         }
+    }
+}
+
+fn show(contact: &Contact, penetration: f64) -> ContactPoint {
+    ContactPoint {
+        force: contact.present_force(),
+        penetration,
+        active: contact.in_contact(),
+        impacts: contact.impacts,
+        peak_force: contact.peak_force,
+        impulse: contact.impulse,
+        dissipated_energy: contact.dissipated_energy(),
+        approach_velocity: contact.episode.approach_velocity,
     }
 }
