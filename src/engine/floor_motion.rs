@@ -71,7 +71,10 @@ impl Model {
     #[inline]
     fn floor_motion<'p>(&self, point: &'p Point, side: Side, floor: usize) -> &'p FloorMotion {
         let known = &point.floors.known[self.structure.floors.lane(side as usize, floor)];
-        known.get_or_init(|| self.work_out_floor(point, side, floor))
+        match known.get() {
+            Some(motion) => motion,
+            None => known.get_or_init(|| self.work_out_floor(point, side, floor)),
+        }
     }
 
     /// All of a floor's motion at once: it takes one pass over its row.

@@ -181,13 +181,8 @@ impl Structure {
     pub fn at_floor(&self, side: Side, floor: usize, modal: [&[f64]; 3]) -> [f64; 3] {
         let (modes, range) = (self.floors(side), self.range(side));
         let shape = &self.floor_shapes[side as usize][floor * modes..][..modes];
-        let (blocks, rest) = shape.as_chunks::<LANES>();
-        let modal = modal.map(|modal| modal[range.clone()].as_chunks::<LANES>());
-        let sums = products(blocks, modal.map(|(blocks, _)| blocks));
-        std::array::from_fn(|k| {
-            let of_rest = rest.iter().zip(modal[k].1).map(|(shape, q)| shape * q).sum::<f64>();
-            sums[k].iter().sum::<f64>() + of_rest
-        })
+        let (lanes, rest) = products(shape, modal.map(|modal| &modal[range.clone()]));
+        std::array::from_fn(|k| lanes[k].iter().sum::<f64>() + rest[k])
     }
 
     /// The modal vector of floor displacements or velocities: shape' M u.
@@ -329,9 +324,11 @@ impl Structure {
     }
 }
 
-/// Sums of products with three vectors, block by block.
+/// Sums of products with three vectors as long as the first: lane by lane over all blocks, and over what is left.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn products(shape: &[Lane], [a, b, c]: [&[Lane]; 3]) -> [Lane; 3] {
+fn products(shape: &[f64], vectors: [&[f64]; 3]) -> ([Lane; 3], [f64; 3]) {
+    let (shape, shape_rest) = shape.as_chunks::<LANES>();
+    let [(a, a_rest), (b, b_rest), (c, c_rest)] = vectors.map(<[f64]>::as_chunks::<LANES>);
     let (a, b, c) = (&a[..shape.len()], &b[..shape.len()], &c[..shape.len()]);
     let [mut sum_a, mut sum_b, mut sum_c] = [[0.0; LANES]; 3];
     for (k, shape) in shape.iter().enumerate() {
@@ -341,7 +338,13 @@ fn products(shape: &[Lane], [a, b, c]: [&[Lane]; 3]) -> [Lane; 3] {
             sum_c[i] += shape[i] * c[k][i];
         }
     }
-    [sum_a, sum_b, sum_c]
+    let mut rest = [0.0; 3];
+    for (((shape, a), b), c) in shape_rest.iter().zip(a_rest).zip(b_rest).zip(c_rest) {
+        rest[0] += shape * a;
+        rest[1] += shape * b;
+        rest[2] += shape * c;
+    }
+    ([sum_a, sum_b, sum_c], rest)
 }
 
 /// Modal vectors for intermediate results.
