@@ -52,6 +52,7 @@ impl Model {
         }
         let State { base, step, inputs, counters, work, .. } = state;
         counters.contact_steps += 1;
+        counters.law_evaluations += base.count_forces(Contact::starting_force);
         step.ends.clear();
         step.kind = StepKind::Contact;
         self.load(base, inputs, &mut work.load, &mut work.slope);

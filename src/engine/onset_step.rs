@@ -84,6 +84,7 @@ impl Model {
             return false;
         };
         counters.contact_steps += 1;
+        counters.law_evaluations += base.count_forces(Contact::branch);
         step.carried.fill(None);
         step.ends.clear();
         step.kind = StepKind::Onset;

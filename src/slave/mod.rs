@@ -20,7 +20,7 @@ pub use status::{Refusal, Status, StatusKind};
 use crate::description::{Category, Package};
 use crate::engine::Episode;
 use crate::variables::{Inputs, Settings, Table};
-use simulation::Simulation;
+use simulation::{Simulation, started};
 
 /// Communication points may differ by the rounding of the master: s, relative to their magnitude above 1 s.
 const TIME_TOLERANCE: f64 = 1e-9;
@@ -62,12 +62,14 @@ impl Slave {
 
     /// Whether the standard allows a call now.
     pub fn check(&self, call: Call) -> Result<(), Refusal> {
-        if call.is_allowed_in(self.phase) {
-            return Ok(());
-        }
+        if call.is_allowed_in(self.phase) { Ok(()) } else { Err(self.out_of_sequence(call)) }
+    }
+
+    #[cold]
+    fn out_of_sequence(&self, call: Call) -> Refusal {
         let phases = call.rule().1.iter().map(|phase| format!("{phase:?}")).collect::<Vec<_>>();
         let expected = if phases.is_empty() { "no phase of this FMU".to_owned() } else { phases.join(", ") };
-        Err(Refusal::from(format!("called in phase {:?}: expected in {expected}", self.phase)))
+        Refusal::from(format!("called in phase {:?}: expected in {expected}", self.phase))
     }
 
     /// Turns the result of a call into its status. After an error the standard allows little but a reset.
@@ -199,10 +201,7 @@ impl Slave {
 
     /// The solution at the present time.
     fn start(&mut self) -> Result<&mut Simulation, Refusal> {
-        match &mut self.simulation {
-            Some(simulation) => Ok(simulation),
-            none => Ok(none.insert(Simulation::start(&self.settings, &self.inputs, &self.table, self.time)?)),
-        }
+        started(&mut self.simulation, &self.settings, &self.inputs, &self.table, self.time)
     }
 }
 

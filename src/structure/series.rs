@@ -8,7 +8,7 @@ use crate::polynomial::{Powers, ROOM};
 const MOST_POWERS: usize = 40;
 
 /// 1 / ((n + 1) (n + 2)).
-const RECIPROCAL: [f64; MOST_POWERS] = {
+pub(super) const RECIPROCAL: [f64; MOST_POWERS] = {
     let mut table = [0.0; MOST_POWERS];
     let mut n = 0;
     while n < MOST_POWERS {
