@@ -115,7 +115,7 @@ fn write_variables(xml: &mut Xml, package: &Package, table: &Table) -> io::Resul
     xml.create_element("ModelVariables").write_inner_content(|xml| {
         for (value_reference, row) in table.iter() {
             let start = match row.slot {
-                Slot::Input(input) => Some(Value::Real(inputs.read(input))),
+                Slot::Input(input) => Some(Value::Real(inputs.get(input).at(0.0))),
                 Slot::Parameter(parameter) => Some(settings.read(parameter)),
                 Slot::Frequency(..) | Slot::Output(_) => None,
             };

@@ -13,6 +13,7 @@ mod energy;
 mod flight;
 mod glide;
 mod ground;
+mod input;
 mod model;
 mod observe;
 mod onset_step;
@@ -21,6 +22,7 @@ mod roots;
 mod state;
 
 pub use crate::structure::Side;
+pub use input::LinearInput;
 pub use model::Model;
 pub use state::{Counters, State};
 

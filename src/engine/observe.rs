@@ -1,5 +1,6 @@
 //! Reading the solution at the communication time, out of the dense solution of the step under way.
 
+use super::input::LinearInput;
 use super::model::Model;
 use super::state::*;
 use super::{ContactPoint, Episode, Point, Side};
@@ -23,7 +24,7 @@ impl Model {
         let State { base, step, inputs, .. } = state;
         point.ground_acceleration = match &self.ground {
             Some(_) => base.segment.acceleration_at(state.time - base.segment.start),
-            None => inputs.ground_acceleration,
+            None => inputs.ground_acceleration.at(state.time),
         };
         point.contacts.resize(self.pairs.len(), ContactPoint::default());
         for p in 0..self.pairs.len() {
@@ -39,7 +40,7 @@ impl Model {
         point.impacts = base.impacts;
         work.load.fill(0.0);
         self.accelerate(point.coordinates, (&point.q, &point.v), &work.load, &mut point.resisted);
-        self.add_floor_forces(inputs, point.coordinates, &mut work.load);
+        self.add_floor_forces(inputs, point.coordinates, |force| force.at(state.time), &mut work.load);
         for (p, contact) in point.contacts.iter().enumerate() {
             self.push_apart_by(p, point.coordinates, contact.force, &mut work.load);
         }
@@ -149,16 +150,33 @@ impl Model {
 }
 
 impl State {
-    /// m/s2, held from now on; only where the scene has no record.
+    /// m/s2, now; only where the scene has no record. Held from now on, unless a rate is set for the same time.
     pub fn set_ground_acceleration(&mut self, acceleration: f64) {
-        self.inputs.ground_acceleration = acceleration;
+        self.inputs.ground_acceleration.set_value(acceleration, self.time);
     }
 
-    /// N, held from now on; only where the scene has floor forces. Floors counted from 0.
+    /// m/s3, from now on until the acceleration or its rate is set again.
+    pub fn set_ground_acceleration_rate(&mut self, rate: f64) {
+        self.inputs.ground_acceleration.set_slope(rate, self.time);
+    }
+
+    /// N, now; only where the scene has floor forces. Floors counted from 0. Held from now on, unless a rate is set for
+    /// the same time.
     pub fn set_floor_force(&mut self, side: Side, floor: usize, force: f64) {
+        let time = self.time;
+        self.change_floor_force(side, floor, |input| input.set_value(force, time));
+    }
+
+    /// N/s, from now on until the force or its rate is set again.
+    pub fn set_floor_force_rate(&mut self, side: Side, floor: usize, rate: f64) {
+        let time = self.time;
+        self.change_floor_force(side, floor, |input| input.set_slope(rate, time));
+    }
+
+    fn change_floor_force(&mut self, side: Side, floor: usize, change: impl FnOnce(&mut LinearInput)) {
         let first = if side == Side::Left { 0 } else { self.inputs.left_floors };
-        if let Some(held) = self.inputs.floor_forces.get_mut(first + floor) {
-            *held = force;
+        if let Some(input) = self.inputs.floor_forces.get_mut(first + floor) {
+            change(input);
         }
     }
 }

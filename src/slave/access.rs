@@ -18,7 +18,7 @@ impl Slave {
                 continue;
             };
             let value = match slot {
-                Slot::Input(input) => Value::Real(self.inputs.read(input)),
+                Slot::Input(input) => Value::Real(self.inputs.get(input).at(self.time)),
                 Slot::Parameter(parameter) => self.settings.read(parameter),
                 Slot::Frequency(side, mode) => Value::Real(self.start()?.frequency(side, mode)),
                 Slot::Output(output) => self.start()?.now().read(output),
@@ -38,7 +38,7 @@ impl Slave {
         self.set_parameters(pairs())?;
         for (reference, value) in pairs() {
             if let (Some(Slot::Input(input)), Value::Real(value)) = (self.table.row(reference).map(|r| r.slot), value) {
-                self.inputs.write(input, value);
+                self.inputs.get_mut(input).set_value(value, self.time);
                 if let Some(simulation) = &mut self.simulation {
                     simulation.set_input(input, value);
                 }

@@ -113,6 +113,7 @@ impl Slave {
         }
         Refusal::unless_empty(problems)?;
         (self.time, self.stop_time, self.simulation) = (start, stop, None);
+        self.inputs.begin_at(start);
         Ok(())
     }
 

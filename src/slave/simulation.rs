@@ -22,7 +22,8 @@ impl Simulation {
         let mut simulation = Simulation { model, state, point: Point::default(), is_observed: false };
         for row in &table.rows {
             if let Slot::Input(input) = row.slot {
-                simulation.set_input(input, inputs.read(input));
+                simulation.set_input(input, inputs.get(input).at(time));
+                simulation.set_input_slope(input, inputs.get(input).slope());
             }
         }
         Ok(simulation)
@@ -30,6 +31,11 @@ impl Simulation {
 
     pub fn set_input(&mut self, input: Input, value: f64) {
         input.apply(value, &mut self.state);
+        self.is_observed = false;
+    }
+
+    pub fn set_input_slope(&mut self, input: Input, slope: f64) {
+        input.apply_slope(slope, &mut self.state);
         self.is_observed = false;
     }
 
