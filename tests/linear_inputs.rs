@@ -105,7 +105,8 @@ fn a_ramp_in_contact_is_exact() {
             run.in_steps(step, t);
             let m = m1 * m2 / (m1 + m2);
             // d'' + c/m d' + k/m d = (f + r t) / m1: a ramp p + s t with what is left over swinging and dying.
-            let (w2, zeta) = (k / m, if exact { 0.0 } else { -(0.6_f64.ln()) / (PI * PI + 0.6_f64.ln().powi(2)).sqrt() });
+            let (w2, zeta) =
+                (k / m, if exact { 0.0 } else { -(0.6_f64.ln()) / (PI * PI + 0.6_f64.ln().powi(2)).sqrt() });
             let (w, c) = (w2.sqrt(), 2.0 * zeta * w2.sqrt());
             let (s, wd, b) = (r / m1 / w2, w * (1.0 - zeta * zeta).sqrt(), zeta * w);
             let p = f / m1 / w2 - c * s / w2;

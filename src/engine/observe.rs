@@ -17,8 +17,7 @@ impl Model {
         }
         point.time = state.time;
         point.coordinates = state.base.coordinates;
-        let elapsed = state.time - (state.base.segment.start + state.base.elapsed);
-        let elapsed = if state.step.kind == StepKind::Unknown { 0.0 } else { elapsed.max(0.0) };
+        let elapsed = state.since_base();
         let mut work = point.work.take().unwrap_or_else(|| Box::new(self.workspace()));
         self.read_modes(state, elapsed, &mut work, point);
         let State { base, step, inputs, .. } = state;
@@ -122,7 +121,7 @@ impl Model {
         }
     }
 
-    fn at_floor(&self, point: &Point, side: Side, floor: usize, motion: &[f64]) -> f64 {
+    pub(super) fn at_floor(&self, point: &Point, side: Side, floor: usize, motion: &[f64]) -> f64 {
         match point.coordinates {
             Coordinates::Modes => self.structure.at_floor(side, floor, motion),
             Coordinates::Floors => motion[self.structure.floors.lane(side as usize, floor)],
@@ -131,8 +130,7 @@ impl Model {
 
     /// The episode that a contact is in at the communication time, if it is in one.
     pub fn open_episode(&self, state: &State, contact: usize) -> Option<Episode> {
-        let elapsed = state.time - (state.base.segment.start + state.base.elapsed);
-        let elapsed = elapsed.max(0.0);
+        let elapsed = state.since_base();
         let mut powers = Powers::default();
         powers.set(elapsed / state.step.series.scale, state.step.series.order);
         let contact = self.contact_at(&state.base, &state.step, contact, elapsed, &powers);
@@ -140,7 +138,7 @@ impl Model {
     }
 
     /// A contact at a time since the base; for a series in time, `powers` are those of that time.
-    fn contact_at(&self, base: &Base, step: &Step, p: usize, elapsed: f64, powers: &Powers) -> Contact {
+    pub(super) fn contact_at(&self, base: &Base, step: &Step, p: usize, elapsed: f64, powers: &Powers) -> Contact {
         let mut contact = base.contacts[p];
         if contact.in_contact() && elapsed > 0.0 {
             self.follow_one(&mut contact, step, elapsed, base.time(), powers);
@@ -150,6 +148,14 @@ impl Model {
 }
 
 impl State {
+    /// s from the base to the present time, as far as the step under way is known.
+    pub(super) fn since_base(&self) -> f64 {
+        match self.step.kind {
+            StepKind::Unknown => 0.0,
+            _ => (self.time - (self.base.segment.start + self.base.elapsed)).max(0.0),
+        }
+    }
+
     /// m/s2, now; only where the scene has no record. Held from now on, unless a rate is set for the same time.
     pub fn set_ground_acceleration(&mut self, acceleration: f64) {
         self.inputs.ground_acceleration.set_value(acceleration, self.time);

@@ -88,11 +88,11 @@ impl Slave {
         Ok(())
     }
 
-    fn unknown(&self, reference: u32) -> String {
+    pub(super) fn unknown(&self, reference: u32) -> String {
         format!("value reference {reference}: expected one below {}", self.table.rows.len())
     }
 
-    fn wrong_type(&self, reference: u32, wanted: &str) -> String {
+    pub(super) fn wrong_type(&self, reference: u32, wanted: &str) -> String {
         let row = self.table.row(reference).map(|row| (row.name.as_str(), row.ty.name()));
         let (name, ty) = row.unwrap_or_default();
         format!("{name} (value reference {reference}) is {ty}, not {wanted}")

@@ -172,7 +172,11 @@ impl Inputs {
     /// All 0.
     pub fn new(scene: &Scene) -> Inputs {
         let zeros = |building: &Building| vec![LinearInput::default(); building.mass.len()];
-        Inputs { ground_acceleration: LinearInput::default(), left_force: zeros(&scene.left), right_force: zeros(&scene.right) }
+        Inputs {
+            ground_acceleration: LinearInput::default(),
+            left_force: zeros(&scene.left),
+            right_force: zeros(&scene.right),
+        }
     }
 
     /// An input as a function of time.

@@ -5,6 +5,7 @@
 mod support;
 
 mod arguments;
+mod derivatives;
 mod instantiation;
 mod logging;
 mod outputs;
