@@ -188,6 +188,23 @@ fn a_short_touch_under_a_ramp_is_found_and_a_miss_is_none() {
     }
 }
 
+/// The ramp alone makes the left body swing; the right one goes along with the rest of its motion, so that
+/// d = -r sin(w t) / w^3 - gap. Values and slopes at both ends of the step tell nothing of the swing between.
+#[test]
+fn a_touch_that_only_the_ramp_brings_about_is_found() {
+    let r = 50.0;
+    let size = r / (W * W * W);
+    for depth in [0.5 * size, 1e-9, -1e-9] {
+        let text = contact(size - depth, "law = \"linear\"\nstiffness = 1.0e6");
+        let mut scene = bodies((1.0, W * W), (1e3, 1e-20), &text);
+        scene.right.initial_velocity = vec![r / (W * W)];
+        let mut run = Run::new(&scene, None);
+        run.state.set_floor_force_rate(Side::Left, 0, r);
+        run.to(1.5);
+        assert_eq!(run.point.impacts > 0, depth > 0.0, "depth {depth:e}");
+    }
+}
+
 /// Two and three storeys, close together, on the same ground.
 fn frames(law: &str, damping: &str, more: &str) -> Scene {
     let frame = |floors: usize, damping: &str| {
@@ -321,10 +338,13 @@ fn linear_forces_add_to_a_record() {
 fn linear_forces_on_tall_buildings() {
     let tower = |floors: usize, stiffness: f64| {
         let storeys = (vec![25e3; floors], vec![stiffness; floors]);
-        format!("mass = {:?}\nstiffness = {:?}\ndamping = {{ ratio = 0.05 }}", storeys.0, storeys.1)
+        let damping = "{ rayleigh = { ratio = 0.05, modes = [1, 2] } }";
+        format!("mass = {:?}\nstiffness = {:?}\ndamping = {damping}", storeys.0, storeys.1)
     };
     let towers = |more: &str| {
-        let pair = "[[contact]]\nleft_floor = 8\nright_floor = 8\ngap = 0.01\nlaw = \"hertz\"\nstiffness = 2.0e9";
+        let law = "law = \"hertz\"\nstiffness = 2.0e9";
+        let pair =
+            [8, 9].map(|i| format!("[[contact]]\nleft_floor = {i}\nright_floor = {i}\ngap = 0.003\n{law}\n")).concat();
         let (left, right) = (tower(10, 3e7), tower(9, 6e7));
         scene(&format!("name = \"T\"\n{more}\n[left]\n{left}\n[right]\n{right}\n[outputs]\nenergy = true\n{pair}"))
     };

@@ -26,6 +26,8 @@ pub struct PointRates {
     snap: Vec<f64>,
     /// What stiffness and damping of the buildings add to the third and to the fourth.
     resisted: [Vec<f64>; 2],
+    /// A contact begins at this very instant.
+    is_beginning: bool,
     /// The force of each contact and its penetration, m; none for rigid ones.
     forces: Vec<(Force, f64)>,
     work: Option<Box<Workspace>>,
@@ -62,10 +64,10 @@ impl Model {
         for ((relative, absolute), share) in rates.acceleration.iter_mut().zip(&point.acceleration).zip(shares) {
             *relative = absolute - share * point.ground_acceleration;
         }
-        let is_beginning = self.differentiate_penetrations(state, point, rates, &mut work);
-        if !is_beginning {
-            self.list_pressing(&state.base, point, &mut work);
-            self.differentiate_again(0, state, point, rates, &mut work);
+        rates.is_beginning = self.differentiate_penetrations(state, point, rates, &mut work);
+        self.list_pressing(&state.base, point, &mut work);
+        self.differentiate_again(0, state, point, rates, &mut work);
+        if !rates.is_beginning {
             self.differentiate_again(1, state, point, rates, &mut work);
         }
         for (contact, shown) in rates.contacts.iter_mut().zip(&point.contacts) {
@@ -115,7 +117,7 @@ impl Model {
     }
 
     /// The equations of motion differentiated once (`order` 0) and twice (1): third and fourth derivative of the motion,
-    /// first and second of the contact forces.
+    /// first and second of the contact forces. Where a contact is beginning only what stiffness and damping add.
     fn differentiate_again(
         &self,
         order: usize,
@@ -127,6 +129,12 @@ impl Model {
         let coordinates = point.coordinates;
         let PointRates { contacts, acceleration, jerk, snap, resisted, forces, ground_acceleration, .. } = rates;
         let Workspace { load, rigid, .. } = work;
+        let resisted = &mut resisted[order];
+        let motion = if order == 0 { (&point.v, &*acceleration) } else { (&*acceleration, &*jerk) };
+        self.resist(coordinates, motion.0, motion.1, 1.0, resisted);
+        if rates.is_beginning {
+            return;
+        }
         load.fill(0.0);
         if order == 0 {
             for (load, share) in load.iter_mut().zip(self.participation(coordinates)) {
@@ -140,9 +148,6 @@ impl Model {
             contact.force[order] = force.rates([*d, v, a, third]).map_or(0.0, |rates| rates[order]);
             self.push_apart_by(p, coordinates, contact.force[order], load);
         }
-        let resisted = &mut resisted[order];
-        let motion = if order == 0 { (&point.v, &*acceleration) } else { (&*acceleration, &*jerk) };
-        self.resist(coordinates, motion.0, motion.1, 1.0, resisted);
         let next = if order == 0 { jerk } else { snap };
         for ((next, load), resisted) in next.iter_mut().zip(load.iter()).zip(resisted.iter()) {
             *next = load + resisted;
@@ -172,13 +177,14 @@ impl Model {
     /// N/s and N/s2, of the force of a building on the ground.
     pub fn base_shear_rates(&self, point: &Point, rates: &PointRates, side: Side) -> Rates {
         let PointRates { acceleration, jerk, resisted, .. } = rates;
-        match point.coordinates {
+        let [first, second] = match point.coordinates {
             Coordinates::Modes => [(&point.v, acceleration), (acceleration, jerk)]
                 .map(|(motion, rate)| self.structure.base_shear(side, motion, rate)),
             Coordinates::Floors => {
                 [0, 1].map(|order| self.structure.floors.base_shear(side as usize, &resisted[order]))
             }
-        }
+        };
+        [first, if rates.is_beginning { 0.0 } else { second }]
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::support::{ERROR, Fmu, Instance, OK, RECORD_SCENE, SCENE};
 use fmi::model_description::fmi2::{Causality, VariableType};
+use pounding::engine::{Model, Point, Side};
 use std::ffi::{c_int, c_void};
 use std::ptr::{null, null_mut};
 
@@ -73,6 +74,45 @@ fn an_input_goes_on_as_a_line_until_it_is_set_again() {
     instance.start();
     assert_eq!(instance.step(0.0, 0.25), OK);
     assert_eq!(value(), 0.0);
+}
+
+/// What the engine makes of the same lines, whenever they are set before the first step.
+#[test]
+fn lines_reach_the_engine() {
+    let fmu = Fmu::new(SCENE);
+    let lines = [("ground.acceleration", 0.5, -3.0), ("left.force[2]", 4.0, 20.0), ("right.force[3]", 0.0, -9.0)];
+    let model = Model::new(&fmu.package.scene, None).unwrap();
+    let mut state = model.start(0.0);
+    state.set_ground_acceleration(0.5);
+    state.set_ground_acceleration_rate(-3.0);
+    state.set_floor_force(Side::Left, 1, 4.0);
+    state.set_floor_force_rate(Side::Left, 1, 20.0);
+    state.set_floor_force_rate(Side::Right, 2, -9.0);
+    let mut point = Point::default();
+    model.advance(&mut state, 0.7, &mut |_| ()).unwrap();
+    model.observe(&state, &mut point);
+    for phase in 0..4 {
+        let instance = fmu.instance();
+        let set = |now: usize| {
+            for (name, value, slope) in lines.into_iter().filter(|_| now == phase) {
+                assert_eq!(instance.set_real(name, value), OK);
+                assert_eq!(set_rate(&instance, name, 1, slope), OK);
+            }
+        };
+        set(0);
+        instance.enter();
+        set(1);
+        // From here on there is a run.
+        instance.outputs();
+        set(2);
+        assert_eq!(instance.call("fmi2ExitInitializationMode"), OK);
+        set(3);
+        assert_eq!(instance.step(0.0, 0.7), OK);
+        assert_eq!(instance.real("left.velocity[2]"), model.velocity(&point, Side::Left, 1), "phase {phase}");
+        assert_eq!(instance.real("right.acceleration[3]"), model.acceleration(&point, Side::Right, 2));
+        assert_eq!(instance.real("contact[1].impulse"), point.contacts[0].impulse);
+        assert_eq!(instance.real("ground.acceleration"), 0.5 - 3.0 * 0.7);
+    }
 }
 
 #[test]
@@ -368,6 +408,20 @@ fn rigid_floors_answer_together() {
         }
     }
     assert!(seen.len() > 2, "numbers of pairs that press: {seen:?}");
+    // Pressed together, then pulled apart from now on: the pairs are open before the next step has found it.
+    for force in [30.0, -60.0] {
+        for floor in ["left.force[1]", "left.force[2]"] {
+            assert_eq!(instance.set_real(floor, force), OK);
+        }
+        if force > 0.0 {
+            for n in 0..200 {
+                assert_eq!(instance.step(f64::from(n) * 0.005 + 10.0, 0.005), OK, "{:?}", instance.log());
+            }
+            assert!(compare_partial(&instance) > 4);
+        }
+    }
+    assert_eq!([1, 2, 3].map(|p| instance.real(&format!("contact[{p}].force"))), [0.0; 3]);
+    assert_eq!(compare_partial(&instance), 4);
 }
 
 #[test]
