@@ -12,6 +12,7 @@ mod drift;
 mod energy;
 mod feedthrough;
 mod flight;
+mod frequencies;
 mod glide;
 mod ground;
 mod input;

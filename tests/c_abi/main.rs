@@ -6,6 +6,7 @@ mod support;
 
 mod arguments;
 mod derivatives;
+mod directional;
 mod instantiation;
 mod logging;
 mod outputs;
