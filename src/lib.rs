@@ -20,6 +20,7 @@
 //! | motion just after an entry, powers i + beta j of time | `engine/onset_step.rs`, `contact/onset.rs` | |
 //! | bounds of a curve by its cubic Hermite interpolant: no contact, first root, largest value | `engine/flight.rs`, `engine/roots.rs` | \[BirkhoffPriver1967\] |
 //! | energy account; impulse, work and peaks of a contact | `engine/energy.rs`, `engine/advance.rs` | |
+//! | derivatives with respect to time, and to inputs at an instant | `engine/rates.rs`, `contact/rates.rs`, `engine/feedthrough.rs` | |
 //! | Gauss-Legendre quadrature | `quadrature.rs` | [AbramowitzStegun1964, table 25.4] |
 //!
 //! Sources are cited as [Key, place]; the keys are those of `REFERENCES.bib`. "Seed paper" is \[BarrosKhatami2013\].

@@ -4,6 +4,7 @@
 mod common;
 
 use common::{Run, record, scene};
+use pounding::engine::{PointRates, Side};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -39,16 +40,17 @@ fn a_run_allocates_nothing_after_its_start() {
             "mass = [{mass:?}, {mass:?}, {mass:?}]\nstiffness = [2910.0, 2910.0, 2910.0]\ndamping = {{ ratio = 0.01 }}"
         )
     };
-    for (law, with_record) in [
-        ("law = \"kelvin_voigt_no_tension\"\nstiffness = 1.0e6\nrestitution = 0.6", true),
-        ("law = \"hertz\"\nstiffness = 1.0e7", true),
-        ("law = \"hertz\"\nstiffness = 1.0e7", false),
-        ("law = \"stereomechanical\"\nrestitution = 0.2", true),
-        ("law = \"stereomechanical\"\nrestitution = 0.2", false),
+    for (law, with_record, forces) in [
+        ("law = \"kelvin_voigt_no_tension\"\nstiffness = 1.0e6\nrestitution = 0.6", true, false),
+        ("law = \"hertz\"\nstiffness = 1.0e7", true, false),
+        ("law = \"hertz\"\nstiffness = 1.0e7", true, true),
+        ("law = \"hertz\"\nstiffness = 1.0e7", false, true),
+        ("law = \"stereomechanical\"\nrestitution = 0.2", true, false),
+        ("law = \"stereomechanical\"\nrestitution = 0.2", false, true),
     ] {
         let contact = |floor| format!("[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = 0.005\n{law}");
         let text = format!(
-            "name = \"A\"\n[left]\n{}\n[right]\n{}\n{}\n{}\n[outputs]\nenergy = true",
+            "name = \"A\"\n[inputs]\nfloor_forces = {forces}\n[left]\n{}\n[right]\n{}\n{}\n{}\n[outputs]\nenergy = true",
             building(3.65),
             building(5.0),
             contact(2),
@@ -63,13 +65,19 @@ fn a_run_allocates_nothing_after_its_start() {
         run.episodes.reserve(10_000);
         // The first reading makes the buffers of the point.
         run.to(0.01);
+        let mut rates = PointRates::default();
+        run.model.differentiate(&run.state, &run.point, &mut rates);
         let before = CALLS.get();
         for k in 2..=1000 {
             run.state.set_ground_acceleration(motion.accelerations[k / 2 % 500]);
+            run.state.set_ground_acceleration_rate(f64::from(k as u32 % 3) - 1.0);
+            run.state.set_floor_force(Side::Left, 1, 0.1 * f64::from(k as u32 % 7));
+            run.state.set_floor_force_rate(Side::Left, 1, 2.0 - f64::from(k as u32 % 5));
             run.to(k as f64 * 0.01);
+            run.model.differentiate(&run.state, &run.point, &mut rates);
         }
         let calls = CALLS.get() - before;
         assert!(run.point.impacts > 10, "{law}: {} impacts", run.point.impacts);
-        assert_eq!(calls, 0, "{law}, record inside: {with_record}");
+        assert_eq!(calls, 0, "{law}, record inside: {with_record}, forces: {forces}");
     }
 }

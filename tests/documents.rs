@@ -2,13 +2,15 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use pounding::contact::{DampingFormula, LawInfo, LawKind};
+use pounding::engine::{Model, Point, PointRates};
+use pounding::record::Record;
 use pounding::scene::{Scene, law_key};
-use pounding::variables::Table;
+use pounding::variables::{HIGHEST_OUTPUT_DERIVATIVE, Instant, Slot, Table};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const DOCUMENTS: [&str; 4] = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "docs/laws.md"];
+const DOCUMENTS: [&str; 5] = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "docs/laws.md", "docs/coupling.md"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -167,6 +169,35 @@ fn the_variables_of_the_readme_are_those_of_the_table() {
     let (section, _) = section.split_once("\n## ").unwrap();
     let described: BTreeSet<String> = first_cells(section).into_iter().map(str::to_owned).collect();
     assert_eq!(described, variables);
+}
+
+/// The outputs that have derivatives, and only those, stand in the table about them.
+#[test]
+fn the_derivatives_of_the_coupling_page_are_those_that_there_are() {
+    let readme = read("README.md");
+    let text = between(&readme, "```toml\n", "```").next().unwrap();
+    let scene = Scene::from_toml(&format!("{text}[outputs]\nenergy = true")).unwrap();
+    let record = Record { times: vec![0.0, 1.0], accelerations: vec![0.0, 1.0] };
+    let model = Model::new(&scene, Some(&record)).unwrap();
+    let (state, mut point, mut rates) = (model.start(0.0), Point::default(), PointRates::default());
+    model.observe(&state, &mut point);
+    model.differentiate(&state, &point, &mut rates);
+    let now = Instant { model: &model, state: &state, point: &point };
+    let table = Table::new(&scene);
+    let differentiated = table.rows.iter().filter(|row| match row.slot {
+        Slot::Output(output) => now.differentiate(&rates, output).is_some(),
+        _ => false,
+    });
+    let general = |name: &str| ["[1]", "[2]", "[3]"].iter().fold(name.to_owned(), |name, i| name.replace(i, "[i]"));
+    let expected: BTreeSet<String> = differentiated
+        .map(|row| general(&row.name).replace("right", "left").replace("contact[i]", "contact[p]"))
+        .collect();
+    let page = read("docs/coupling.md");
+    let (_, section) = page.split_once("## Derivatives of outputs").unwrap();
+    let (section, _) = section.split_once("\n## ").unwrap();
+    let described: BTreeSet<String> = first_cells(section).into_iter().map(str::to_owned).collect();
+    assert_eq!(described, expected);
+    assert!(section.contains(&format!("`maxOutputDerivativeOrder` is {HIGHEST_OUTPUT_DERIVATIVE}")));
 }
 
 /// The headings of a document, as links name them.

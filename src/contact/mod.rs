@@ -6,6 +6,7 @@ pub mod force;
 pub mod law;
 pub mod laws;
 pub mod onset;
+mod rates;
 pub mod series;
 
 pub use damping_formula::DampingFormula;

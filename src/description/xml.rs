@@ -1,7 +1,9 @@
 //! The document `modelDescription.xml`, element by element in the order of the FMI 2.0 schema.
 
 use super::{Category, Package, structure};
-use crate::variables::{Causality, Inputs, Row, Settings, Slot, Table, Type, Unit, Value, Variability};
+use crate::variables::{
+    Causality, HIGHEST_OUTPUT_DERIVATIVE, Inputs, Row, Settings, Slot, Table, Type, Unit, Value, Variability,
+};
 use quick_xml::Writer;
 use std::borrow::Cow;
 use std::io;
@@ -48,7 +50,10 @@ fn write_co_simulation(xml: &mut Xml, package: &Package) -> io::Result<()> {
         .with_attributes([
             ("modelIdentifier", package.scene.name.as_str()),
             ("canHandleVariableCommunicationStepSize", "true"),
+            ("canInterpolateInputs", "true"),
+            ("maxOutputDerivativeOrder", &HIGHEST_OUTPUT_DERIVATIVE.to_string()),
             ("canNotUseMemoryManagementFunctions", "true"),
+            ("providesDirectionalDerivative", "true"),
         ])
         .write_empty()?;
     Ok(())
@@ -115,7 +120,7 @@ fn write_variables(xml: &mut Xml, package: &Package, table: &Table) -> io::Resul
     xml.create_element("ModelVariables").write_inner_content(|xml| {
         for (value_reference, row) in table.iter() {
             let start = match row.slot {
-                Slot::Input(input) => Some(Value::Real(inputs.read(input))),
+                Slot::Input(input) => Some(Value::Real(inputs.get(input).at(0.0))),
                 Slot::Parameter(parameter) => Some(settings.read(parameter)),
                 Slot::Frequency(..) | Slot::Output(_) => None,
             };

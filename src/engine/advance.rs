@@ -35,8 +35,8 @@ impl Model {
         on_episode: &mut dyn FnMut(&Episode),
     ) -> Result<(), EngineError> {
         if self.ground.is_none() {
-            let acceleration = state.inputs.ground_acceleration;
-            state.base.segment = Segment::under_input(state.time, until - state.time, acceleration);
+            let input = &state.inputs.ground_acceleration;
+            state.base.segment = Segment::under_input(state.time, until - state.time, input);
             state.base.elapsed = 0.0;
         }
         if self.is_driven() {

@@ -2,6 +2,7 @@
 //!
 //! Every term is integrated by itself, none is the remainder of the others, so that their sum tests the solution.
 
+use super::input::LinearInput;
 use super::model::Model;
 use super::state::*;
 use super::{EnergyPoint, Point};
@@ -55,6 +56,7 @@ impl Model {
     /// Work from the base over `length` seconds.
     fn work_over(&self, base: &Base, step: &Step, inputs: &Inputs, work: &mut Workspace, length: f64) -> Work {
         let mut done = Work::default();
+        self.find_force_slopes(inputs, base.coordinates, work);
         match step.kind {
             _ if length == 0.0 => return done,
             StepKind::Contact => {
@@ -71,17 +73,33 @@ impl Model {
             }
             StepKind::Flight | StepKind::Unknown => self.integrate_flight(base, inputs, work, length, &mut done),
         }
+        // Of the forces as they are at the base; what they change by has its part from the quadratures.
         work.load.fill(0.0);
-        self.add_floor_forces(inputs, base.coordinates, &mut work.load);
+        let Base { segment, elapsed, .. } = base;
+        self.add_floor_forces(inputs, base.coordinates, |force| force.after(segment.start, *elapsed), &mut work.load);
         let moved = work.q.iter().zip(&base.q).map(|(q, start)| q - start);
-        done.external = match base.coordinates {
-            Coordinates::Modes => work.load.iter().zip(moved).map(|(load, moved)| load * moved).sum(),
+        done.external += match base.coordinates {
+            Coordinates::Modes => work.load.iter().zip(moved).map(|(load, moved)| load * moved).sum::<f64>(),
             Coordinates::Floors => {
                 let forces = work.load.iter().zip(self.structure.floors.mass()).map(|(load, mass)| load * mass);
-                forces.zip(moved).map(|(force, moved)| force * moved).sum()
+                forces.zip(moved).map(|(force, moved)| force * moved).sum::<f64>()
             }
         };
         done
+    }
+
+    /// The rates of the floor forces, where there are any.
+    fn find_force_slopes(&self, inputs: &Inputs, coordinates: Coordinates, work: &mut Workspace) {
+        let slope = &mut work.force_slope;
+        slope.clear();
+        if inputs.floor_forces.iter().all(|force| force.slope() == 0.0) {
+            return;
+        }
+        slope.resize(self.structure.lanes, 0.0);
+        self.add_floor_forces(inputs, coordinates, LinearInput::slope, slope);
+        if coordinates == Coordinates::Floors {
+            slope.iter_mut().zip(self.structure.floors.mass()).for_each(|(slope, mass)| *slope *= mass);
+        }
     }
 
     /// Flies in pieces that a series reaches; leaves the end in `work.q`, `work.v`.
@@ -120,7 +138,8 @@ impl Model {
         work: &mut Workspace,
         done: &mut Work,
     ) {
-        if base.coordinates == Coordinates::Floors || !self.structure.is_classical() {
+        let is_plain = base.coordinates == Coordinates::Modes && work.force_slope.is_empty();
+        if !is_plain || !self.structure.is_classical() {
             let motion = |t: f64, _: &mut [f64], v: &mut [f64]| series.velocity(t / series.scale, v);
             return self.integrate(base, motion, gauss(rule, length), from, work, done);
         }
@@ -144,8 +163,8 @@ impl Model {
         }
     }
 
-    /// Adds the work of the ground motion and of structural damping over a solution that begins `from` seconds after
-    /// the base, at the nodes and weights of a quadrature. `motion`(t, q, v) fills v; q is room for it to work in.
+    /// Adds the work of the ground motion, of structural damping and of what the floor forces have changed by since the
+    /// base over a solution that begins `from` seconds after it, at the nodes and weights of a quadrature. `motion`(t, q, v) fills v; q is room for it to work in.
     fn integrate(
         &self,
         base: &Base,
@@ -155,7 +174,7 @@ impl Model {
         work: &mut Workspace,
         done: &mut Work,
     ) {
-        let Workspace { node_q: q, node_v: v, v: damped, .. } = work;
+        let Workspace { node_q: q, node_v: v, v: damped, force_slope, .. } = work;
         for (t, weight) in nodes {
             motion(t, q, v);
             let acceleration = base.segment.acceleration_at(base.elapsed + from + t);
@@ -168,6 +187,9 @@ impl Model {
             };
             done.input -= weight * acceleration * momentum;
             done.viscous += weight * viscous;
+            if !force_slope.is_empty() {
+                done.external += weight * (from + t) * dot(force_slope, v);
+            }
         }
     }
 

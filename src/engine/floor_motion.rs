@@ -81,7 +81,19 @@ impl Model {
     #[inline(never)]
     fn work_out_floor(&self, point: &Point, side: Side, floor: usize) -> FloorMotion {
         let motion = [&point.q[..], &point.v, &point.acceleration];
-        let [displacement, velocity, acceleration] = match point.coordinates {
+        let [displacement, velocity, acceleration] = self.at_floor(point, side, floor, motion);
+        FloorMotion { displacement, velocity, acceleration }
+    }
+
+    /// One floor of some vectors of motion at the observed time.
+    pub(super) fn at_floor<const N: usize>(
+        &self,
+        point: &Point,
+        side: Side,
+        floor: usize,
+        motion: [&[f64]; N],
+    ) -> [f64; N] {
+        match point.coordinates {
             Coordinates::Modes => {
                 point.floors.rows_read.set(point.floors.rows_read.get() + 1);
                 self.structure.at_floor(side, floor, motion)
@@ -90,7 +102,6 @@ impl Model {
                 let lane = self.structure.floors.lane(side as usize, floor);
                 motion.map(|motion| motion[lane])
             }
-        };
-        FloorMotion { displacement, velocity, acceleration }
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! Ground acceleration as a sequence of segments, in each of which it is linear in time.
 
+use super::input::LinearInput;
 use crate::record::Record;
 use crate::structure::{Interval, Structure};
 
@@ -144,8 +145,8 @@ impl GroundMotion {
 
 impl Segment {
     /// A stretch under an input.
-    pub fn under_input(start: f64, length: f64, acceleration: f64) -> Segment {
-        Segment { start, length, acceleration, slope: 0.0, place: Place::Outside }
+    pub fn under_input(start: f64, length: f64, input: &LinearInput) -> Segment {
+        Segment { start, length, acceleration: input.at(start), slope: input.slope(), place: Place::Outside }
     }
 
     /// m/s2 at a time since the start.

@@ -10,19 +10,26 @@ mod contact_step;
 mod dismissal;
 mod drift;
 mod energy;
+mod feedthrough;
 mod flight;
 mod floor_motion;
+mod frequencies;
 mod glide;
 mod ground;
+mod input;
 mod model;
 mod observe;
 mod onset_step;
+mod rates;
 mod rigid;
 mod roots;
 mod state;
 
 pub use crate::structure::Side;
+pub use feedthrough::Response;
+pub use input::LinearInput;
 pub use model::Model;
+pub use rates::{ContactRates, PointRates, Rates};
 pub use state::{Counters, State};
 
 /// The solution at one time, as floors and contacts show it.

@@ -4,6 +4,7 @@ use super::closed_pairs::ClosedPairs;
 use super::dismissal::{ClosingSpeeds, Watch};
 use super::drift::DriftShapes;
 use super::ground::{GroundMotion, Segment};
+use super::input::LinearInput;
 use super::onset_step::OnsetSeries;
 use super::rigid::RigidPairs;
 use super::state::*;
@@ -39,7 +40,7 @@ pub struct Model {
     pub(super) order: usize,
     pub(super) drift: DriftShapes,
     pub(super) closing: ClosingSpeeds,
-    frequencies: [Vec<f64>; 2],
+    pub(super) frequencies: [Vec<f64>; 2],
     initial: [Vec<f64>; 2],
 }
 
@@ -109,11 +110,6 @@ impl Model {
         self.structure.floors(side)
     }
 
-    /// Hz, natural frequencies of one building alone, ascending.
-    pub fn natural_frequencies(&self, side: Side) -> &[f64] {
-        &self.frequencies[side as usize]
-    }
-
     /// Whether the engine's steps are cut at communication points: where a master's inputs act.
     pub(super) fn is_driven(&self) -> bool {
         self.ground.is_none() || self.floor_forces
@@ -135,7 +131,7 @@ impl Model {
         let [q, v] = self.initial.clone();
         let segment = match &self.ground {
             Some(ground) => ground.segment_at(time),
-            None => Segment::under_input(time, 0.0, 0.0),
+            None => Segment::under_input(time, 0.0, &LinearInput::default()),
         };
         let floors = self.floors(Side::Left) + self.floors(Side::Right);
         let mut state = State {
@@ -171,8 +167,8 @@ impl Model {
                 ends: Vec::with_capacity(self.pairs.len()),
             },
             inputs: Inputs {
-                ground_acceleration: 0.0,
-                floor_forces: vec![0.0; if self.floor_forces { floors } else { 0 }],
+                ground_acceleration: LinearInput::default(),
+                floor_forces: vec![LinearInput::default(); if self.floor_forces { floors } else { 0 }],
                 left_floors: self.floors(Side::Left),
             },
             counters: Counters::default(),
@@ -187,11 +183,13 @@ impl Model {
     /// The load at the base, in its coordinates and per unit of mass, and its rate until the segment's end.
     pub(super) fn load(&self, base: &Base, inputs: &Inputs, load: &mut [f64], slope: &mut [f64]) {
         let acceleration = base.segment.acceleration_at(base.elapsed);
-        for ((load, slope), share) in load.iter_mut().zip(slope).zip(self.participation(base.coordinates)) {
+        for ((load, slope), share) in load.iter_mut().zip(slope.iter_mut()).zip(self.participation(base.coordinates)) {
             *load = -share * acceleration;
             *slope = -share * base.segment.slope;
         }
-        self.add_floor_forces(inputs, base.coordinates, load);
+        let Base { segment, elapsed, coordinates, .. } = base;
+        self.add_floor_forces(inputs, *coordinates, |force| force.after(segment.start, *elapsed), load);
+        self.add_floor_forces(inputs, *coordinates, LinearInput::slope, slope);
     }
 
     /// What a ground acceleration of -1 m/s^2 pushes.
@@ -202,13 +200,20 @@ impl Model {
         }
     }
 
-    /// Adds the external forces on the floors to a load per unit of mass.
-    pub(super) fn add_floor_forces(&self, inputs: &Inputs, coordinates: Coordinates, load: &mut [f64]) {
+    /// Adds the external forces on the floors, or their rates, to a load per unit of mass.
+    pub(super) fn add_floor_forces(
+        &self,
+        inputs: &Inputs,
+        coordinates: Coordinates,
+        part: impl Fn(&LinearInput) -> f64,
+        load: &mut [f64],
+    ) {
         let left = self.floors(Side::Left);
-        for (i, force) in inputs.floor_forces.iter().enumerate().filter(|(_, force)| **force != 0.0) {
+        let forces = inputs.floor_forces.iter().map(part).enumerate();
+        for (i, force) in forces.filter(|(_, force)| *force != 0.0) {
             let (side, floor) = if i < left { (Side::Left, i) } else { (Side::Right, i - left) };
             match coordinates {
-                Coordinates::Modes => self.structure.add_floor_force(side, floor, *force, load),
+                Coordinates::Modes => self.structure.add_floor_force(side, floor, force, load),
                 Coordinates::Floors => {
                     let lane = self.structure.floors.lane(side as usize, floor);
                     load[lane] += force * self.structure.floors.inverse_mass(lane);

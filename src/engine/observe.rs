@@ -1,5 +1,6 @@
 //! Reading the solution at the communication time, out of the dense solution of the step under way.
 
+use super::input::LinearInput;
 use super::model::Model;
 use super::state::*;
 use super::{ContactPoint, Episode, Point, Side};
@@ -18,14 +19,13 @@ impl Model {
         }
         point.time = state.time;
         point.coordinates = state.base.coordinates;
-        let elapsed = state.time - (state.base.segment.start + state.base.elapsed);
-        let elapsed = if state.step.kind == StepKind::Unknown { 0.0 } else { elapsed.max(0.0) };
+        let elapsed = state.since_base();
         let mut work = point.work.take().unwrap_or_else(|| Box::new(self.workspace()));
         self.read_modes(state, elapsed, &mut work, point);
         let State { base, step, inputs, .. } = state;
         point.ground_acceleration = match &self.ground {
             Some(_) => base.segment.acceleration_at(state.time - base.segment.start),
-            None => inputs.ground_acceleration,
+            None => inputs.ground_acceleration.at(state.time),
         };
         point.contacts.resize(self.pairs.len(), ContactPoint::default());
         for p in 0..self.pairs.len() {
@@ -41,7 +41,7 @@ impl Model {
         point.impacts = base.impacts;
         work.load.fill(0.0);
         self.accelerate(point.coordinates, (&point.q, &point.v), &work.load, &mut point.resisted);
-        self.add_floor_forces(inputs, point.coordinates, &mut work.load);
+        self.add_floor_forces(inputs, point.coordinates, |force| force.at(state.time), &mut work.load);
         for (p, contact) in point.contacts.iter().enumerate().filter(|(_, contact)| contact.force != 0.0) {
             self.push_apart_by(p, point.coordinates, contact.force, &mut work.load);
         }
@@ -111,8 +111,7 @@ impl Model {
 
     /// The episode that a contact is in at the communication time, if it is in one.
     pub fn open_episode(&self, state: &State, contact: usize) -> Option<Episode> {
-        let elapsed = state.time - (state.base.segment.start + state.base.elapsed);
-        let elapsed = elapsed.max(0.0);
+        let elapsed = state.since_base();
         let mut powers = Powers::default();
         powers.set(elapsed / state.step.series.scale, state.step.series.order);
         let contact = self.contact_at(&state.base, &state.step, contact, elapsed, &powers);
@@ -120,7 +119,7 @@ impl Model {
     }
 
     /// A contact at a time since the base; for a series in time, `powers` are those of that time.
-    fn contact_at(&self, base: &Base, step: &Step, p: usize, elapsed: f64, powers: &Powers) -> Contact {
+    pub(super) fn contact_at(&self, base: &Base, step: &Step, p: usize, elapsed: f64, powers: &Powers) -> Contact {
         let mut contact = base.contacts[p];
         if contact.in_contact() && elapsed > 0.0 {
             self.follow_one(&mut contact, step, elapsed, base.time(), powers);
@@ -130,16 +129,41 @@ impl Model {
 }
 
 impl State {
-    /// m/s2, held from now on; only where the scene has no record.
-    pub fn set_ground_acceleration(&mut self, acceleration: f64) {
-        self.inputs.ground_acceleration = acceleration;
+    /// s from the base to the present time, as far as the step under way is known.
+    pub(super) fn since_base(&self) -> f64 {
+        match self.step.kind {
+            StepKind::Unknown => 0.0,
+            _ => (self.time - (self.base.segment.start + self.base.elapsed)).max(0.0),
+        }
     }
 
-    /// N, held from now on; only where the scene has floor forces. Floors counted from 0.
+    /// m/s2, now; only where the scene has no record. Held from now on, unless a rate is set for the same time.
+    pub fn set_ground_acceleration(&mut self, acceleration: f64) {
+        self.inputs.ground_acceleration.set_value(acceleration, self.time);
+    }
+
+    /// m/s3, from now on until the acceleration or its rate is set again.
+    pub fn set_ground_acceleration_rate(&mut self, rate: f64) {
+        self.inputs.ground_acceleration.set_slope(rate, self.time);
+    }
+
+    /// N, now; only where the scene has floor forces. Floors counted from 0. Held from now on, unless a rate is set for
+    /// the same time.
     pub fn set_floor_force(&mut self, side: Side, floor: usize, force: f64) {
+        let time = self.time;
+        self.change_floor_force(side, floor, |input| input.set_value(force, time));
+    }
+
+    /// N/s, from now on until the force or its rate is set again.
+    pub fn set_floor_force_rate(&mut self, side: Side, floor: usize, rate: f64) {
+        let time = self.time;
+        self.change_floor_force(side, floor, |input| input.set_slope(rate, time));
+    }
+
+    fn change_floor_force(&mut self, side: Side, floor: usize, change: impl FnOnce(&mut LinearInput)) {
         let first = if side == Side::Left { 0 } else { self.inputs.left_floors };
-        if let Some(held) = self.inputs.floor_forces.get_mut(first + floor) {
-            *held = force;
+        if let Some(input) = self.inputs.floor_forces.get_mut(first + floor) {
+            change(input);
         }
     }
 }

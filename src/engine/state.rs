@@ -6,6 +6,7 @@ use super::complementarity::Complementarity;
 use super::dismissal::Watch;
 use super::drift::PeakDrifts;
 use super::ground::Segment;
+use super::input::LinearInput;
 use super::onset_step::OnsetSeries;
 use crate::contact::{EpisodeForce, Force};
 use crate::polynomial::{Coefficients, MAX_ORDER, Powers, ROOM};
@@ -26,13 +27,13 @@ pub struct State {
     pub(super) work: Workspace,
 }
 
-/// What a master sets, held until it sets it again.
+/// What a master sets, held or linear until it sets it again.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Inputs {
     /// m/s2, where there is no record.
-    pub ground_acceleration: f64,
+    pub ground_acceleration: LinearInput,
     /// N, left floors then right floors; empty without floor forces.
-    pub floor_forces: Vec<f64>,
+    pub floor_forces: Vec<LinearInput>,
     pub left_floors: usize,
 }
 
@@ -254,6 +255,8 @@ pub struct Counters {
 pub(super) struct Workspace {
     pub load: Vec<f64>,
     pub slope: Vec<f64>,
+    /// Rates of the floor forces, N/s (on modes, per kg^1/2); empty where all are held.
+    pub force_slope: Vec<f64>,
     pub q: Vec<f64>,
     pub v: Vec<f64>,
     pub scratch: Scratch,
@@ -275,6 +278,7 @@ impl Workspace {
         Workspace {
             load: vector(),
             slope: vector(),
+            force_slope: Vec::with_capacity(lanes),
             q: vector(),
             v: vector(),
             scratch: Scratch::new(lanes),

@@ -1,8 +1,8 @@
 //! The C interface of FMI 2.0 for co-simulation: the only unsafe code of the crate, and no physics.
 //!
-//! `life.rs`, `values.rs`, `step.rs` and `optional.rs` hold the 34 exported functions, each of a few lines. A call runs through the fence
-//! (`fence.rs`), which checks instance and call sequence, catches panics, and sends the messages (`logger.rs`) when
-//! nothing is borrowed any more; `arguments.rs` turns pointers into slices and strings, `instance.rs` begins and ends
+//! `life.rs`, `values.rs`, `step.rs`, `derivatives.rs` and `optional.rs` hold the 34 exported functions, each of a few
+//! lines. A call runs through the fence (`fence.rs`), which checks instance and call sequence, catches panics, and sends
+//! the messages (`logger.rs`) when nothing is borrowed any more; `arguments.rs` turns pointers into slices and strings, `instance.rs` begins and ends
 //! the life of an instance.
 //!
 //! What every function relies on, as FMI 2.0.4, chapter 2.1 requires of a caller: a component is null or comes from
@@ -10,6 +10,7 @@
 //! many elements as the call says, and a string ends with a zero. Null arrays and strings are refused, not trusted.
 
 mod arguments;
+mod derivatives;
 mod fence;
 mod instance;
 mod life;

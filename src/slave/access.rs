@@ -23,7 +23,7 @@ impl Slave {
             };
             let value = match row.slot {
                 Slot::Output(output) => now.as_ref().map_err(Refusal::clone)?.read(output),
-                Slot::Input(input) => Value::Real(inputs.read(input)),
+                Slot::Input(input) => Value::Real(inputs.get(input).at(*time)),
                 Slot::Parameter(parameter) => settings.read(parameter),
                 Slot::Frequency(side, mode) => {
                     Value::Real(now.as_ref().map_err(Refusal::clone)?.model.natural_frequencies(side)[mode])
@@ -44,7 +44,7 @@ impl Slave {
         self.set_parameters(pairs())?;
         for (reference, value) in pairs() {
             if let (Some(Slot::Input(input)), Value::Real(value)) = (self.table.row(reference).map(|r| r.slot), value) {
-                self.inputs.write(input, value);
+                self.inputs.get_mut(input).set_value(value, self.time);
                 if let Some(simulation) = &mut self.simulation {
                     simulation.set_input(input, value);
                 }
@@ -95,11 +95,11 @@ impl Slave {
     }
 }
 
-fn unknown(table: &Table, reference: u32) -> String {
+pub(super) fn unknown(table: &Table, reference: u32) -> String {
     format!("value reference {reference}: expected one below {}", table.rows.len())
 }
 
-fn wrong_type(table: &Table, reference: u32, wanted: &str) -> String {
+pub(super) fn wrong_type(table: &Table, reference: u32, wanted: &str) -> String {
     let row = table.row(reference).map(|row| (row.name.as_str(), row.ty.name()));
     let (name, ty) = row.unwrap_or_default();
     format!("{name} (value reference {reference}) is {ty}, not {wanted}")

@@ -2,9 +2,10 @@
 //!
 //! The caller asks [`Slave::check`] before each call (`sequence.rs` has the table), reports what comes back with
 //! [`Slave::report`] and hands the messages of [`Slave::take_messages`] to the master. Values go through `access.rs`,
-//! which walks the table of variables.
+//! which walks the table of variables, derivatives through `derivatives.rs`.
 
 mod access;
+mod derivatives;
 mod instantiate;
 mod log;
 mod resource_location;
@@ -115,6 +116,7 @@ impl Slave {
         }
         Refusal::unless_empty(problems)?;
         (self.time, self.stop_time, self.simulation) = (start, stop, None);
+        self.inputs.begin_at(start);
         Ok(())
     }
 

@@ -1,7 +1,7 @@
 //! A run: the model of the present settings, its state, and what is read out of it.
 
 use super::Refusal;
-use crate::engine::{Episode, Model, Point, State};
+use crate::engine::{Episode, Model, Point, PointRates, Response, State};
 use crate::variables::{Input, Inputs, Instant, Settings, Slot, Table};
 
 /// Model and state, and the state as outputs show it.
@@ -12,6 +12,10 @@ pub(super) struct Simulation {
     point: Point,
     /// `point` shows `state`.
     is_observed: bool,
+    rates: PointRates,
+    /// `rates` are those of `state`.
+    is_differentiated: bool,
+    response: Response,
 }
 
 impl Simulation {
@@ -20,10 +24,19 @@ impl Simulation {
     pub fn start(settings: &Settings, inputs: &Inputs, table: &Table, time: f64) -> Result<Simulation, Refusal> {
         let model = Model::new(&settings.scene, settings.record())?;
         let state = model.start(time);
-        let mut simulation = Simulation { model, state, point: Point::default(), is_observed: false };
+        let mut simulation = Simulation {
+            model,
+            state,
+            point: Point::default(),
+            is_observed: false,
+            rates: PointRates::default(),
+            is_differentiated: false,
+            response: Response::default(),
+        };
         for row in &table.rows {
             if let Slot::Input(input) = row.slot {
-                simulation.set_input(input, inputs.read(input));
+                simulation.set_input(input, inputs.get(input).at(time));
+                simulation.set_input_slope(input, inputs.get(input).slope());
             }
         }
         Ok(simulation)
@@ -31,12 +44,26 @@ impl Simulation {
 
     pub fn set_input(&mut self, input: Input, value: f64) {
         input.apply(value, &mut self.state);
-        self.is_observed = false;
+        self.has_changed();
+    }
+
+    pub fn set_input_slope(&mut self, input: Input, slope: f64) {
+        input.apply_slope(slope, &mut self.state);
+        self.has_changed();
     }
 
     pub fn advance(&mut self, until: f64, on_episode: &mut dyn FnMut(&Episode)) -> Result<(), Refusal> {
-        self.is_observed = false;
+        self.has_changed();
         Ok(self.model.advance(&mut self.state, until, on_episode)?)
+    }
+
+    /// What has been read is old.
+    fn has_changed(&mut self) {
+        (self.is_observed, self.is_differentiated) = (false, false);
+    }
+
+    pub fn model(&self) -> &Model {
+        &self.model
     }
 
     /// The solution at the present time, observed once for all outputs that are read there.
@@ -47,6 +74,34 @@ impl Simulation {
             self.is_observed = true;
         }
         Instant { model: &self.model, state: &self.state, point: &self.point }
+    }
+
+    /// The same with its derivatives with respect to time.
+    pub fn rates(&mut self) -> (Instant<'_>, &PointRates) {
+        self.now();
+        if !self.is_differentiated {
+            self.model.differentiate(&self.state, &self.point, &mut self.rates);
+            self.is_differentiated = true;
+        }
+        let Simulation { model, state, point, rates, .. } = self;
+        (Instant { model, state, point }, rates)
+    }
+
+    /// Works out what answers at once to changes of inputs.
+    pub fn respond(&mut self, changes: impl Iterator<Item = (Input, f64)>) {
+        self.now();
+        let Simulation { model, state, point, response, .. } = self;
+        model.clear_response(response);
+        changes.for_each(|(input, change)| input.push(change, model, response));
+        model.settle_response(state, point, response);
+    }
+
+    /// What the last response has of an unknown.
+    pub fn response(&self, unknown: Slot) -> f64 {
+        match unknown {
+            Slot::Output(output) => output.of_response(&self.model, &self.response),
+            Slot::Input(_) | Slot::Parameter(_) | Slot::Frequency(..) => 0.0,
+        }
     }
 }
 

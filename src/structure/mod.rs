@@ -177,8 +177,8 @@ impl Structure {
         self.coupling.is_empty()
     }
 
-    /// One floor's motions from modal vectors of displacements, velocities and accelerations.
-    pub fn at_floor(&self, side: Side, floor: usize, modal: [&[f64]; 3]) -> [f64; 3] {
+    /// One floor's motions from as many modal vectors of displacements, velocities ...
+    pub fn at_floor<const N: usize>(&self, side: Side, floor: usize, modal: [&[f64]; N]) -> [f64; N] {
         let (modes, range) = (self.floors(side), self.range(side));
         let shape = &self.floor_shapes[side as usize][floor * modes..][..modes];
         let (lanes, rest) = products(shape, modal.map(|modal| &modal[range.clone()]));
@@ -324,27 +324,21 @@ impl Structure {
     }
 }
 
-/// Sums of products with three vectors as long as the first: lane by lane over all blocks, and over what is left.
+/// Sums of products with vectors as long as the first: lane by lane over all blocks, and over what is left.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn products(shape: &[f64], vectors: [&[f64]; 3]) -> ([Lane; 3], [f64; 3]) {
+fn products<const N: usize>(shape: &[f64], vectors: [&[f64]; N]) -> ([Lane; N], [f64; N]) {
     let (shape, shape_rest) = shape.as_chunks::<LANES>();
-    let [(a, a_rest), (b, b_rest), (c, c_rest)] = vectors.map(<[f64]>::as_chunks::<LANES>);
-    let (a, b, c) = (&a[..shape.len()], &b[..shape.len()], &c[..shape.len()]);
-    let [mut sum_a, mut sum_b, mut sum_c] = [[0.0; LANES]; 3];
+    let vectors = vectors.map(<[f64]>::as_chunks::<LANES>);
+    let blocks = vectors.map(|(blocks, _)| &blocks[..shape.len()]);
+    let mut sums = [[0.0; LANES]; N];
     for (k, shape) in shape.iter().enumerate() {
-        for i in 0..LANES {
-            sum_a[i] += shape[i] * a[k][i];
-            sum_b[i] += shape[i] * b[k][i];
-            sum_c[i] += shape[i] * c[k][i];
+        for (sum, blocks) in sums.iter_mut().zip(&blocks) {
+            for i in 0..LANES {
+                sum[i] += shape[i] * blocks[k][i];
+            }
         }
     }
-    let mut rest = [0.0; 3];
-    for (((shape, a), b), c) in shape_rest.iter().zip(a_rest).zip(b_rest).zip(c_rest) {
-        rest[0] += shape * a;
-        rest[1] += shape * b;
-        rest[2] += shape * c;
-    }
-    ([sum_a, sum_b, sum_c], rest)
+    (sums, vectors.map(|(_, rest)| shape_rest.iter().zip(rest).map(|(shape, q)| shape * q).sum()))
 }
 
 /// Modal vectors for intermediate results.

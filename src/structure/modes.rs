@@ -65,6 +65,14 @@ impl Modes {
     }
 }
 
+impl Modes {
+    /// Whether no other mode has nearly the frequency of this one.
+    pub fn is_single(&self, mode: usize) -> bool {
+        let near = |w: f64| (w - self.omega[mode]).abs() <= 1e-6 * self.omega[mode];
+        self.omega.iter().filter(|w| near(**w)).count() == 1
+    }
+}
+
 /// R with K = R'R: sqrt(k) times the drifts of a shear building, else the Cholesky factor.
 fn stiffness_factor(stiffness: &Stiffness) -> Result<DMatrix<f64>, NotPositiveDefinite> {
     match stiffness {

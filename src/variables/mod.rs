@@ -7,11 +7,13 @@
 //! `values.rs`; the compiler asks for the arms.
 
 mod dependencies;
+mod derivatives;
 mod rows;
 mod unit;
 mod values;
 
 pub use dependencies::{at_communication_points, at_start};
+pub use derivatives::{HIGHEST_OUTPUT_DERIVATIVE, by_parameter};
 pub use unit::{Unit, UnitInfo};
 pub use values::{Inputs, Instant, Settings, Value};
 

@@ -1,7 +1,7 @@
 //! Reading and writing what a slot stands for: each one match over all slots.
 
 use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, building};
-use crate::engine::{ContactPoint, EnergyPoint, Model, Point, Side, State};
+use crate::engine::{ContactPoint, EnergyPoint, LinearInput, Model, Point, Side, State};
 use crate::record::Record;
 use crate::scene::{Building, Damping, Problem, Scaling, Scene, SceneError, Stiffness, read_record};
 use std::fs;
@@ -163,43 +163,61 @@ impl Settings {
 /// The inputs.
 #[derive(Clone, Debug)]
 pub struct Inputs {
-    ground_acceleration: f64,
-    left_force: Vec<f64>,
-    right_force: Vec<f64>,
+    ground_acceleration: LinearInput,
+    left_force: Vec<LinearInput>,
+    right_force: Vec<LinearInput>,
 }
 
 impl Inputs {
     /// All 0.
     pub fn new(scene: &Scene) -> Inputs {
-        let zeros = |building: &Building| vec![0.0; building.mass.len()];
-        Inputs { ground_acceleration: 0.0, left_force: zeros(&scene.left), right_force: zeros(&scene.right) }
-    }
-
-    /// The value of an input.
-    pub fn read(&self, input: Input) -> f64 {
-        match input {
-            Input::GroundAcceleration => self.ground_acceleration,
-            Input::Force(Side::Left, floor) => self.left_force[floor],
-            Input::Force(Side::Right, floor) => self.right_force[floor],
+        let zeros = |building: &Building| vec![LinearInput::default(); building.mass.len()];
+        Inputs {
+            ground_acceleration: LinearInput::default(),
+            left_force: zeros(&scene.left),
+            right_force: zeros(&scene.right),
         }
     }
 
-    /// Sets an input.
-    pub fn write(&mut self, input: Input, value: f64) {
+    /// An input as a function of time.
+    pub fn get(&self, input: Input) -> &LinearInput {
         match input {
-            Input::GroundAcceleration => self.ground_acceleration = value,
-            Input::Force(Side::Left, floor) => self.left_force[floor] = value,
-            Input::Force(Side::Right, floor) => self.right_force[floor] = value,
+            Input::GroundAcceleration => &self.ground_acceleration,
+            Input::Force(Side::Left, floor) => &self.left_force[floor],
+            Input::Force(Side::Right, floor) => &self.right_force[floor],
         }
+    }
+
+    /// The same, to be set.
+    pub fn get_mut(&mut self, input: Input) -> &mut LinearInput {
+        match input {
+            Input::GroundAcceleration => &mut self.ground_acceleration,
+            Input::Force(Side::Left, floor) => &mut self.left_force[floor],
+            Input::Force(Side::Right, floor) => &mut self.right_force[floor],
+        }
+    }
+
+    /// What has been set so far was set for this time, s.
+    pub fn begin_at(&mut self, time: f64) {
+        let forces = self.left_force.iter_mut().chain(&mut self.right_force);
+        forces.chain([&mut self.ground_acceleration]).for_each(|input| input.move_to(time));
     }
 }
 
 impl Input {
-    /// Hands the value to the engine, which holds it from the present time on.
+    /// Hands the value to the engine, for its present time.
     pub fn apply(self, value: f64, state: &mut State) {
         match self {
             Input::GroundAcceleration => state.set_ground_acceleration(value),
             Input::Force(side, floor) => state.set_floor_force(side, floor, value),
+        }
+    }
+
+    /// Hands the rate to the engine, from its present time on.
+    pub fn apply_slope(self, slope: f64, state: &mut State) {
+        match self {
+            Input::GroundAcceleration => state.set_ground_acceleration_rate(slope),
+            Input::Force(side, floor) => state.set_floor_force_rate(side, floor, slope),
         }
     }
 }

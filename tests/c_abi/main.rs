@@ -5,6 +5,8 @@
 mod support;
 
 mod arguments;
+mod derivatives;
+mod directional;
 mod instantiation;
 mod logging;
 mod outputs;

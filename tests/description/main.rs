@@ -121,6 +121,24 @@ fn what_a_scene_does_not_have_is_no_variable() {
 }
 
 #[test]
+fn what_the_fmu_can_do_is_declared() {
+    for scene in [SCENE, RECORD_SCENE, NO_CONTACT] {
+        let text = package(scene).model_description();
+        let document = roxmltree::Document::parse(&text).unwrap();
+        let capabilities = document.descendants().find(|node| node.has_tag_name("CoSimulation")).unwrap();
+        for (name, value) in [
+            ("canHandleVariableCommunicationStepSize", "true"),
+            ("canInterpolateInputs", "true"),
+            ("maxOutputDerivativeOrder", "2"),
+            ("providesDirectionalDerivative", "true"),
+            ("canNotUseMemoryManagementFunctions", "true"),
+        ] {
+            assert_eq!(capabilities.attribute(name), Some(value), "{name}");
+        }
+    }
+}
+
+#[test]
 fn parameters_are_fixed_and_events_are_discrete() {
     for variable in describe(SCENE).modelVariables {
         let expected = match (&variable.causality, variable.variableType.name()) {

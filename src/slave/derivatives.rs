@@ -1,0 +1,147 @@
+//! Derivatives: of inputs with respect to time, which the master sets, of outputs with respect to time, and of outputs
+//! with respect to inputs.
+
+use super::access::{unknown, wrong_type};
+use super::{Phase, Refusal, Slave};
+use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, Slot, Type, by_parameter};
+
+impl Slave {
+    /// Sets the first derivatives of inputs for the present communication point: all of them, or none where anything is
+    /// wrong. From there on the inputs are linear in time.
+    pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Result<(), Refusal> {
+        let all = || references.iter().zip(orders).zip(values).map(|((r, order), value)| (*r, *order, *value));
+        let problems = all().filter_map(|(reference, order, value)| self.refuse_derivative(reference, order, value));
+        Refusal::unless_empty(problems.collect())?;
+        for (reference, _, value) in all() {
+            let Some(Slot::Input(input)) = self.table.row(reference).map(|row| row.slot) else { continue };
+            self.inputs.get_mut(input).set_slope(value, self.time);
+            if let Some(simulation) = &mut self.simulation {
+                simulation.set_input_slope(input, value);
+            }
+        }
+        Ok(())
+    }
+
+    /// What is wrong with setting a derivative of a variable, by itself.
+    fn refuse_derivative(&self, reference: u32, order: i32, value: f64) -> Option<String> {
+        let Some(row) = self.table.row(reference) else { return Some(unknown(&self.table, reference)) };
+        let name = &row.name;
+        match row.slot {
+            Slot::Input(_) if order != 1 => Some(format!("{name}: derivative of order {order}: expected order 1")),
+            Slot::Input(_) if value.is_finite() => None,
+            Slot::Input(_) => Some(format!("{name}: derivative {value}: expected a finite number")),
+            Slot::Parameter(_) | Slot::Frequency(..) | Slot::Output(_) => Some(format!("{name}: expected an input")),
+        }
+    }
+
+    /// Reads a derivative of each output in turn and hands over its place and value.
+    pub fn output_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        mut take: impl FnMut(usize, f64),
+    ) -> Result<(), Refusal> {
+        let mut problems = Vec::new();
+        for (i, (&reference, &order)) in references.iter().zip(orders).enumerate() {
+            match self.output_derivative(reference, order)? {
+                Ok(value) => take(i, value),
+                Err(problem) => problems.push(problem),
+            }
+        }
+        Refusal::unless_empty(problems)
+    }
+
+    fn output_derivative(&mut self, reference: u32, order: i32) -> Result<Result<f64, String>, Refusal> {
+        let Some(row) = self.table.row(reference) else { return Ok(Err(unknown(&self.table, reference))) };
+        let Slot::Output(output) = row.slot else { return Ok(Err(format!("{}: expected an output", row.name))) };
+        if !matches!(row.ty, Type::Real(_)) {
+            return Ok(Err(wrong_type(&self.table, reference, "Real")));
+        }
+        if !(1..=i32::from(HIGHEST_OUTPUT_DERIVATIVE)).contains(&order) {
+            let expected = format!("expected order 1 to {HIGHEST_OUTPUT_DERIVATIVE}");
+            return Ok(Err(format!("{}: derivative of order {order}: {expected}", row.name)));
+        }
+        let (now, rates) = self.start()?.rates();
+        Ok(match now.differentiate(rates, output) {
+            Some([first, second]) => Ok(if order == 1 { first } else { second }),
+            None => {
+                let name = self.table.row(reference).map_or("", |row| &row.name);
+                Err(format!(
+                    "{name}: no derivative; expected a motion, a base shear, or force, penetration, impulse or \
+                     dissipated energy of a contact"
+                ))
+            }
+        })
+    }
+
+    /// The derivatives of unknowns with respect to knowns times the seed, at the present communication point with the
+    /// motion as it is. Hands over place and value of each unknown.
+    ///
+    /// In initialization mode unknowns may be calculated parameters too, and knowns parameters.
+    pub fn directional_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        mut take: impl FnMut(usize, f64),
+    ) -> Result<(), Refusal> {
+        let refused = unknowns.iter().filter_map(|&unknown| self.refuse_unknown(unknown));
+        let changes = || knowns.iter().copied().zip(seed.iter().copied());
+        let refused = refused.chain(changes().filter_map(|(known, change)| self.refuse_known(known, change)));
+        Refusal::unless_empty(refused.collect())?;
+        self.start()?;
+        let Slave { table, settings, simulation: Some(simulation), .. } = self else { return Ok(()) };
+        let slot = |reference| table.row(reference).map(|row| row.slot);
+        simulation.respond(changes().filter_map(|(known, change)| match slot(known)? {
+            Slot::Input(input) => Some((input, change)),
+            _ => None,
+        }));
+        let mut problems = Vec::new();
+        for (i, &unknown) in unknowns.iter().enumerate() {
+            let Some(unknown) = table.row(unknown) else { continue };
+            let mut sum = simulation.response(unknown.slot);
+            for (known, change) in changes().filter_map(|(known, change)| Some((table.row(known)?, change))) {
+                let Slot::Parameter(parameter) = known.slot else { continue };
+                match by_parameter(&settings.scene, simulation.model(), unknown.slot, parameter) {
+                    Some(derivative) => sum += derivative * change,
+                    None => problems.push(format!(
+                        "{} with respect to {}: no derivative; expected an input, or a frequency with respect to masses \
+                         and stiffnesses, or a penetration with respect to its gap",
+                        unknown.name, known.name
+                    )),
+                }
+            }
+            take(i, sum);
+        }
+        Refusal::unless_empty(problems)
+    }
+
+    fn refuse_unknown(&self, reference: u32) -> Option<String> {
+        let Some(row) = self.table.row(reference) else { return Some(unknown(&self.table, reference)) };
+        let (is_unknown, expected) = match self.phase {
+            Phase::Initialization => {
+                (matches!(row.slot, Slot::Output(_) | Slot::Frequency(..)), "an output or a calculated parameter")
+            }
+            _ => (matches!(row.slot, Slot::Output(_)), "an output"),
+        };
+        match row.ty {
+            Type::Real(_) if is_unknown => None,
+            _ => Some(format!("unknown {}: expected {expected} of type Real", row.name)),
+        }
+    }
+
+    fn refuse_known(&self, reference: u32, change: f64) -> Option<String> {
+        let Some(row) = self.table.row(reference) else { return Some(unknown(&self.table, reference)) };
+        let (is_known, expected) = match self.phase {
+            Phase::Initialization => {
+                (matches!(row.slot, Slot::Input(_) | Slot::Parameter(_)), "an input or a parameter")
+            }
+            _ => (matches!(row.slot, Slot::Input(_)), "an input"),
+        };
+        match row.ty {
+            Type::Real(_) if is_known && change.is_finite() => None,
+            Type::Real(_) if is_known => Some(format!("{}: seed {change}: expected a finite number", row.name)),
+            _ => Some(format!("known {}: expected {expected} of type Real", row.name)),
+        }
+    }
+}

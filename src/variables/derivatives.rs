@@ -1,0 +1,81 @@
+//! Derivatives of what a slot stands for: with respect to time, and with respect to inputs and parameters.
+
+use super::{ContactOutput, Input, Instant, Output, Parameter, Slot, at_start};
+use crate::engine::{Model, PointRates, Rates, Response};
+use crate::scene::Scene;
+
+/// The highest order of the derivatives of outputs with respect to time.
+pub const HIGHEST_OUTPUT_DERIVATIVE: u8 = 2;
+
+impl Instant<'_> {
+    /// First and second derivative of an output with respect to time; none of what is no smooth function of time, such
+    /// as a largest value so far, and none of the energy account.
+    pub fn differentiate(&self, rates: &PointRates, output: Output) -> Option<Rates> {
+        let Instant { model, point, .. } = *self;
+        Some(match output {
+            Output::GroundAcceleration => rates.ground_acceleration,
+            Output::Displacement(side, floor) => model.displacement_rates(point, rates, side, floor),
+            Output::Velocity(side, floor) => model.velocity_rates(point, rates, side, floor),
+            Output::Acceleration(side, floor) => model.acceleration_rates(point, rates, side, floor),
+            Output::BaseShear(side) => model.base_shear_rates(point, rates, side),
+            Output::Contact(p, ContactOutput::Force) => rates.contacts[p].force,
+            Output::Contact(p, ContactOutput::Penetration) => rates.contacts[p].penetration,
+            Output::Contact(p, ContactOutput::Impulse) => rates.contacts[p].impulse,
+            Output::Contact(p, ContactOutput::DissipatedEnergy) => rates.contacts[p].dissipated_energy,
+            Output::Contact(
+                _,
+                ContactOutput::Active
+                | ContactOutput::Impacts
+                | ContactOutput::PeakForce
+                | ContactOutput::ApproachVelocity,
+            )
+            | Output::PeakDrift(..)
+            | Output::Impacts
+            | Output::Energy(_) => return None,
+        })
+    }
+}
+
+impl Input {
+    /// Adds to a response what the change of an input does by itself.
+    pub fn push(self, change: f64, model: &Model, response: &mut Response) {
+        match self {
+            // It moves all floors alike.
+            Input::GroundAcceleration => {}
+            Input::Force(side, floor) => model.push_floor(side, floor, change, response),
+        }
+    }
+}
+
+impl Output {
+    /// What a response has of an output.
+    pub fn of_response(self, model: &Model, response: &Response) -> f64 {
+        match self {
+            Output::Acceleration(side, floor) => model.response_at(response, side, floor),
+            Output::Contact(p, ContactOutput::Force) => response.reactions[p],
+            Output::GroundAcceleration
+            | Output::Displacement(..)
+            | Output::Velocity(..)
+            | Output::BaseShear(_)
+            | Output::PeakDrift(..)
+            | Output::Contact(..)
+            | Output::Impacts
+            | Output::Energy(_) => 0.0,
+        }
+    }
+}
+
+/// The derivative of an initial unknown with respect to a parameter, where there is a closed form of it.
+pub fn by_parameter(scene: &Scene, model: &Model, unknown: Slot, parameter: Parameter) -> Option<f64> {
+    if !at_start(scene, unknown, Slot::Parameter(parameter)) {
+        return Some(0.0);
+    }
+    match (unknown, parameter) {
+        (Slot::Frequency(side, mode), Parameter::Mass(_, floor)) => model.frequency_by_mass(side, mode, floor),
+        (Slot::Frequency(side, mode), Parameter::Stiffness(_, storey)) => {
+            model.frequency_by_stiffness(side, mode, storey)
+        }
+        (Slot::Output(Output::Contact(_, ContactOutput::Penetration)), Parameter::Gap(_)) => Some(-1.0),
+        _ => None,
+    }
+}
