@@ -1,0 +1,9 @@
+//! Every parameter of a scene through the C interface: set there, it is as if the scene had said so.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod effect;
+mod refusals;
+mod scene;
