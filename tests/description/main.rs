@@ -193,7 +193,7 @@ fn units_have_their_dimensions_and_what_people_read() {
     for (name, dimensions, display) in [
         ("1", [0, 0, 0], None),
         ("m", [0, 1, 0], Some(("mm", 1000.0))),
-        ("m/s", [0, 1, -1], None),
+        ("m/s", [0, 1, -1], Some(("mm/s", 1000.0))),
         ("m/s2", [0, 1, -2], Some(("g", 1.0 / 9.80665))),
         ("Hz", [0, 0, -1], None),
         ("kg", [1, 0, 0], Some(("t", 0.001))),
@@ -221,6 +221,15 @@ fn the_default_experiment_ends_with_the_scene_or_with_the_record() {
     assert_eq!(stop(RECORD_SCENE).as_deref(), Some("2"));
     assert_eq!(stop(&RECORD_SCENE.replace("stop_time = 2.0", "")).as_deref(), Some("2"), "the record's last sample");
     assert_eq!(stop(NO_CONTACT), None);
+    for scene in [SCENE, RECORD_SCENE, NO_CONTACT] {
+        let experiment = describe(scene).defaultExperiment.unwrap();
+        assert_eq!(experiment.startTime.as_deref(), Some("0"));
+        assert_eq!(experiment.stepSize.as_deref(), Some("0.01"));
+        assert_eq!(experiment.tolerance.as_deref(), Some("1e-12"));
+    }
+    let coarse = "[outputs]\nenergy = true\n[solver]\nrelative_tolerance = 1e-8";
+    let tolerance = describe(&SCENE.replace("[outputs]\nenergy = true", coarse)).defaultExperiment.unwrap().tolerance;
+    assert_eq!(tolerance.as_deref(), Some("1e-8"));
 }
 
 #[test]

@@ -4,6 +4,8 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod dependencies;
 mod effect;
+mod limits;
 mod refusals;
 mod scene;
