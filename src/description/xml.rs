@@ -49,6 +49,8 @@ fn write_co_simulation(xml: &mut Xml, package: &Package) -> io::Result<()> {
             ("modelIdentifier", package.scene.name.as_str()),
             ("canHandleVariableCommunicationStepSize", "true"),
             ("canNotUseMemoryManagementFunctions", "true"),
+            ("canGetAndSetFMUstate", "true"),
+            ("canSerializeFMUstate", "true"),
         ])
         .write_empty()?;
     Ok(())

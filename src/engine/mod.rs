@@ -18,10 +18,12 @@ mod observe;
 mod onset_step;
 mod rigid;
 mod roots;
+mod saved;
 mod state;
 
 pub use crate::structure::Side;
 pub use model::Model;
+pub use saved::SavedState;
 pub use state::{Counters, State};
 
 /// The solution at one time, as floors and contacts show it.
@@ -89,7 +91,7 @@ pub struct EnergyPoint {
 }
 
 /// One contact episode.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Episode {
     /// Contact, counted from 0.
     pub contact: usize,

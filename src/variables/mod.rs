@@ -6,11 +6,13 @@
 //! A new variable is a variant of [`Output`], [`Parameter`] or [`Input`], its row in `rows.rs` and its arm in
 //! `values.rs`; the compiler asks for the arms.
 
+mod changes;
 mod dependencies;
 mod rows;
 mod unit;
 mod values;
 
+pub use changes::Changes;
 pub use dependencies::{at_communication_points, at_start};
 pub use unit::{Unit, UnitInfo};
 pub use values::{Inputs, Instant, Settings, Value};
