@@ -3,7 +3,6 @@
 //! What is saved is the base and what the master holds. The step under way follows from these and is worked out again,
 //! to the same bits; buffers hold nothing, and what follows from the scene is in the model.
 
-use super::drift::PeakDrifts;
 use super::model::Model;
 use super::state::*;
 use super::{EngineError, Episode};
@@ -12,6 +11,10 @@ use serde::{Deserialize, Serialize};
 
 /// No run counts so far: a count above would overflow before long.
 const MOST_COUNTED: u64 = 1 << 53;
+
+/// m and m/s (of modes, times the root of a mass): no building moves so far or so fast. What does would keep the engine
+/// busy for a minute before it gives up.
+const MOST_MOTION: f64 = 1e12;
 
 /// What the start of a segment and the time since then may be off by as a time: s, relative to times above 1 s.
 const TIME_ROUNDING: f64 = 1e-9;
@@ -76,6 +79,7 @@ impl Model {
         let mut state = self.start(*time);
         self.check_sizes(saved, &state)?;
         require(base.numbers().chain(inputs.numbers()).all(f64::is_finite), "a number in it is not finite")?;
+        require(base.motion().all(|size| size.abs() <= MOST_MOTION), "no building moves so far or so fast")?;
         require(counters.numbers().into_iter().all(|count| count <= MOST_COUNTED), "a count in it is impossible")?;
         self.check_segment(saved)?;
         self.check_contacts(base)?;
@@ -174,10 +178,13 @@ impl Base {
         } = self;
         let of_motion = [q, v].into_iter().flatten().chain([elapsed, velocity_scale, last_length]).copied();
         let of_contacts = contacts.iter().flat_map(Contact::numbers);
-        of_motion
-            .chain(of_contacts)
-            .chain(PeakDrifts::numbers(peak_drift))
-            .chain(energy.iter().flat_map(Account::numbers))
+        of_motion.chain(of_contacts).chain(peak_drift.numbers()).chain(energy.iter().flat_map(Account::numbers))
+    }
+
+    /// Displacements and velocities.
+    fn motion(&self) -> impl Iterator<Item = f64> + '_ {
+        let of_contacts = self.contacts.iter().flat_map(|contact| [contact.penetration, contact.rate]);
+        self.q.iter().chain(&self.v).copied().chain(of_contacts)
     }
 }
 

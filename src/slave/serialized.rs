@@ -155,3 +155,6 @@ fn take<const N: usize>(bytes: &mut &[u8]) -> Result<[u8; N], Refusal> {
 fn refuse(what: impl AsRef<str>) -> Refusal {
     Refusal::from(format!("serializedState: {}", what.as_ref()))
 }
+
+#[cfg(test)]
+mod tests;

@@ -19,7 +19,8 @@ pub fn scene(law: &str, has_record: bool) -> String {
     let gap = if law.contains("stereomechanical") { 0.0 } else { 0.003 };
     let contact =
         |floor: usize| format!("[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = {gap}\n{law}\n");
-    let driven = if has_record { "[ground]\nrecord = \"record.csv\"\npga = 6.0\n" } else { "[inputs]\nfloor_forces = true\n" };
+    let driven =
+        if has_record { "[ground]\nrecord = \"record.csv\"\npga = 6.0\n" } else { "[inputs]\nfloor_forces = true\n" };
     format!(
         "name = \"Saved\"\n[left]\nmass = [25e3, 20e3]\nstiffness = [3.46e6, 3e6]\ndamping = {{ ratio = 0.05 }}\n\
          initial_velocity = [0.1, 0.3]\n\
