@@ -199,6 +199,23 @@ fn fmu(criterion: &mut Criterion) {
             })
         });
     });
+    let state = slave.record_state(None).unwrap();
+    group.bench_function("record a state and free it", |bencher| {
+        bencher.iter(|| {
+            let state = slave.record_state(None).unwrap();
+            slave.free_state(Some(state)).unwrap();
+        });
+    });
+    group.bench_function("go back to a state", |bencher| {
+        bencher.iter(|| slave.restore_state(Some(state)).unwrap());
+    });
+    let bytes = slave.serialize_state(Some(state)).unwrap();
+    group.bench_function(format!("serialize a state, {} bytes", bytes.len()), |bencher| {
+        bencher.iter(|| slave.serialize_state(Some(state)).unwrap());
+    });
+    group.bench_function("deserialize a state", |bencher| {
+        bencher.iter(|| slave.deserialize_state(&bytes, Some(state)).unwrap());
+    });
     group.finish();
 }
 

@@ -127,7 +127,7 @@ proptest! {
 /// What the sizes, numbers and indices of a body are held against, one by one.
 #[test]
 fn what_cannot_be_is_refused_with_what_it_is() {
-    let mut slave = slave(LAWS[3], true, 12);
+    let mut slave = slave(LAWS[4], true, 12);
     let body = body_of(&mut slave);
     let decoded: Body<'_> = postcard::from_bytes(&body).unwrap();
     let state = format!("{:?}", decoded.state);
