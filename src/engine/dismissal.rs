@@ -232,3 +232,24 @@ impl Sums {
         Sums { speed: speed.iter().sum(), change: change.iter().sum() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_watch_that_a_run_cannot_come_to_does_not_fit() {
+        let watch =
+            |due, pairs: &[u64], moves, known: &[u64]| Watch { due, pairs: pairs.into(), moves, known: known.into() };
+        let fits = |watch: Watch| watch.fits(2, 100, 1000);
+        assert!(fits(Watch::new(2)));
+        assert!(fits(watch(90, &[90, 164], 1000, &[0, 1000])));
+        assert!(!fits(watch(80, &[90, 164], 50, &[0, 50])), "due before any pair");
+        assert!(!fits(watch(90, &[90, u64::MAX], 50, &[0, 50])), "dismissed for ever");
+        assert!(!fits(watch(90, &[90, 164], 50, &[0, 51])), "known at a move to come");
+        assert!(!fits(watch(90, &[90, 164], 1001, &[0, 50])), "too many moves");
+        assert!(!fits(watch(90, &[90], 50, &[0, 50])) && !fits(watch(90, &[90, 164], 50, &[0])), "other pairs");
+        // Without pairs, before and after the first look.
+        assert!(watch(0, &[], 0, &[]).fits(0, 0, 10) && watch(u64::MAX, &[], 3, &[]).fits(0, 5, 10));
+    }
+}

@@ -170,6 +170,15 @@ fn what_cannot_be_is_refused_with_what_it_is() {
         let problem = refused(&altered);
         assert!(problem.contains(expected), "{name} = {value}: {problem}");
     }
+    // Another time, both where the slave and where the engine has it: beyond the step under way, and before it.
+    for time in [0.5, -0.5] {
+        let mut altered = body.clone();
+        for place in (0..body.len() - 8).filter(|&place| body[place..place + 8] == decoded.time.to_le_bytes()) {
+            altered[place..place + 8].copy_from_slice(&f64::to_le_bytes(time));
+        }
+        let problem = refused(&altered);
+        assert!(problem.contains("its time is not that of its motion"), "{time}: {problem}");
+    }
 }
 
 #[test]
