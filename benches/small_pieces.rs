@@ -3,16 +3,18 @@
 //! Whole earthquakes, and other solvers beside ours, are measured by `benchmarks/work_precision.py`.
 #![allow(missing_docs, clippy::panic, clippy::unwrap_used)]
 
+#[path = "../tests/support/mod.rs"]
+mod support;
+
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
-use pounding::description::Package;
 use pounding::engine::{Model, State};
 use pounding::record::Record;
 use pounding::scene::Scene;
-use pounding::slave::{Log, Slave, instantiate};
-use pounding::variables::{Slot, Table};
+use pounding::variables::{Output, Slot, Table, Type};
+use std::ffi::{c_int, c_void};
 use std::fmt::Write;
-use std::hint::black_box;
 use std::time::{Duration, Instant};
+use support::{Fmu, Instance, OK};
 
 const GROUND_STEP: f64 = 0.01;
 const SAMPLES: usize = 2001;
@@ -155,76 +157,101 @@ fn name(law: &str) -> &str {
     law.split('"').nth(1).unwrap()
 }
 
-/// The FMU's own calls, on 20 and 30 storeys with 20 contacts.
-fn fmu(criterion: &mut Criterion) {
-    let folder = tempfile::tempdir().unwrap();
-    let text = scene_text([20, 30], 20, 100.0, HERTZ, true);
-    std::fs::write(folder.path().join("scene.toml"), &text).unwrap();
-    std::fs::write(folder.path().join("record.csv"), record_text(3.0)).unwrap();
-    let package = Package::from_scene_file(&folder.path().join("scene.toml")).unwrap();
-    for (name, bytes) in package.resources() {
-        std::fs::write(folder.path().join(name), bytes).unwrap();
-    }
-    let (guid, location) = (package.guid(), folder.path().to_str().unwrap().as_bytes());
+type Component = *mut c_void;
+type DoStep = unsafe extern "C" fn(Component, f64, f64, c_int) -> c_int;
+type GetReal = unsafe extern "C" fn(Component, *const u32, usize, *mut f64) -> c_int;
 
+/// The FMU's own calls through its C interface, on 20 and 30 storeys with 20 contacts.
+fn fmu(criterion: &mut Criterion) {
+    let fmu = Fmu::new(&scene_text([20, 30], 20, 100.0, HERTZ, true));
     let mut group = criterion.benchmark_group("fmu_20_30_storeys");
     group.bench_function("instantiate and initialise", |bencher| {
-        bencher.iter(|| initialised(&guid, location));
+        bencher.iter_with_large_drop(|| started(&fmu));
     });
     group.bench_function("quiet communication step of 1 ms", |bencher| {
-        bencher.iter_custom(|steps| {
-            let (mut slave, mut step, mut spent) = (initialised(&guid, location), 0, Duration::ZERO);
-            for _ in 0..steps {
-                if step == 20_000 {
-                    (slave, step) = (initialised(&guid, location), 0);
-                }
-                let clock = Instant::now();
-                slave.do_step(f64::from(step) * 1e-3, 1e-3).unwrap();
-                spent += clock.elapsed();
-                step += 1;
-            }
-            spent
-        });
+        bencher.iter_custom(|steps| at_each_step(&fmu, steps, |_| ()).0);
     });
-    let mut slave = initialised(&guid, location);
-    slave.do_step(0.0, 5.0).unwrap();
-    let rows = Table::new(&package.scene).rows;
-    let outputs = (0..).zip(&rows).filter(|(_, row)| matches!(row.slot, Slot::Output(_))).map(|(index, _)| index);
-    let references: Vec<u32> = outputs.collect();
-    group.bench_function(format!("get all {} outputs", references.len()), |bencher| {
-        bencher.iter(|| {
-            slave.get(&references, "Real", |_, value| {
-                black_box(value);
-                Some(())
-            })
+
+    let get_real: GetReal = fmu.symbol("fmi2GetReal");
+    let mut values = vec![0.0; 1000];
+    let mut get = |component: Component, references: &[u32]| {
+        // SAFETY: a live component, and room for all values.
+        let status = unsafe { get_real(component, references.as_ptr(), references.len(), values.as_mut_ptr()) };
+        assert_eq!(status, OK);
+    };
+    let rows = Table::new(&fmu.package.scene);
+    let outputs: Vec<(u32, Output)> = rows
+        .iter()
+        .filter(|(_, row)| matches!(row.ty, Type::Real(_)))
+        .filter_map(
+            |(reference, row)| if let Slot::Output(output) = row.slot { Some((reference, output)) } else { None },
+        )
+        .collect();
+    let all: Vec<u32> = outputs.iter().map(|(reference, _)| *reference).collect();
+    let displacements = outputs.iter().filter(|(_, output)| matches!(output, Output::Displacement(..)));
+    let displacements: Vec<u32> = displacements.map(|(reference, _)| *reference).collect();
+    for (title, references, at_once) in [
+        ("all Real outputs at once", &all, all.len()),
+        ("all Real outputs one by one", &all, 1),
+        ("all displacements at once", &displacements, displacements.len()),
+        ("one displacement", &displacements[..1].to_vec(), 1),
+    ] {
+        let title = format!("get at a new communication point: {title} ({})", references.len());
+        group.bench_function(title, |bencher| {
+            bencher.iter_custom(|steps| {
+                let read = |component| references.chunks(at_once).for_each(|some| get(component, some));
+                at_each_step(&fmu, steps, read).1
+            });
         });
-    });
-    let state = slave.record_state(None).unwrap();
-    group.bench_function("record a state and free it", |bencher| {
-        bencher.iter(|| {
-            let state = slave.record_state(None).unwrap();
-            slave.free_state(Some(state)).unwrap();
-        });
+    }
+    let instance = started(&fmu);
+    assert_eq!(instance.step(0.0, 5.0), OK);
+    let mut state = instance.recorded();
+    group.bench_function("record a state in place of another", |bencher| {
+        bencher.iter(|| assert_eq!(instance.get_state(&raw mut state), OK));
     });
     group.bench_function("go back to a state", |bencher| {
-        bencher.iter(|| slave.restore_state(Some(state)).unwrap());
+        bencher.iter(|| assert_eq!(instance.set_state(state), OK));
     });
-    let bytes = slave.serialize_state(Some(state)).unwrap();
+    let bytes = instance.serialized(state);
     group.bench_function(format!("serialize a state, {} bytes", bytes.len()), |bencher| {
-        bencher.iter(|| slave.serialize_state(Some(state)).unwrap());
+        let mut room = bytes.clone();
+        bencher.iter(|| assert_eq!(instance.serialize_to(state, room.as_mut_ptr(), room.len()), OK));
     });
     group.bench_function("deserialize a state", |bencher| {
-        bencher.iter(|| slave.deserialize_state(&bytes, Some(state)).unwrap());
+        bencher.iter(|| assert_eq!(instance.deserialize_from(bytes.as_ptr(), bytes.len(), &raw mut state), OK));
     });
     group.finish();
 }
 
-fn initialised(guid: &str, location: &[u8]) -> Slave {
-    let mut slave = instantiate(guid, location, Log::new(false)).unwrap();
-    slave.setup_experiment(None, 0.0, None).unwrap();
-    slave.enter_initialization();
-    slave.exit_initialization().unwrap();
-    slave
+/// Does something after each step of 1 ms; the time of all steps, and that of what was done.
+fn at_each_step(fmu: &Fmu, steps: u64, mut then: impl FnMut(Component)) -> (Duration, Duration) {
+    const STEPS: u32 = 20_000;
+    let do_step: DoStep = fmu.symbol("fmi2DoStep");
+    let (mut instance, mut step) = (started(fmu), 0);
+    let (mut stepping, mut doing) = (Duration::ZERO, Duration::ZERO);
+    for _ in 0..steps {
+        if step == STEPS {
+            (instance, step) = (started(fmu), 0);
+        }
+        let start = Instant::now();
+        // SAFETY: a live component.
+        let status = unsafe { do_step(instance.component, f64::from(step) * 1e-3, 1e-3, 1) };
+        let stepped = Instant::now();
+        then(instance.component);
+        doing += stepped.elapsed();
+        stepping += stepped - start;
+        assert_eq!(status, OK);
+        step += 1;
+    }
+    (stepping, doing)
+}
+
+/// An instance at its first communication point.
+fn started(fmu: &Fmu) -> Instance<'_> {
+    let instance = fmu.instance();
+    instance.start();
+    instance
 }
 
 criterion_group!(pieces, flight_knot, entry, episode, fmu);

@@ -7,7 +7,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
-from matplotlib.ticker import FuncFormatter  # noqa: E402
+from matplotlib.ticker import FuncFormatter, LogLocator  # noqa: E402
 
 from scenes import LAWS, TEMPLATES  # noqa: E402
 from solvers import OURS  # noqa: E402
@@ -122,7 +122,7 @@ SCALING = [
         {"storeys, 0 contacts": "no contact", "storeys, 1 contacts": "1 contact, {} to {} impacts"},
     ),
     ("contacts", "contacts (20 and 30 storeys)", {"contacts": "{} to {} impacts"}),
-    ("impacts", "impacts (two masses, the gap varied)", {"impacts": ""}),
+    ("impacts", "impacts (two masses, the gap varied)", {"impacts": "1 contact"}),
     (
         "samples",
         "samples of the record (two masses)",
@@ -169,5 +169,6 @@ def draw_growth(axes, points, label, color, position):
     axes.plot(*zip(*points), "-s" if position else "-o", color=color, markersize=4.5, linewidth=1.6)
     axes.text(0.03, 0.96 - 0.07 * position, label, transform=axes.transAxes, color=color, va="top", fontsize=9)
     for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axis.set_minor_formatter(FuncFormatter(lambda value, _: ""))

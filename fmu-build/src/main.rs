@@ -5,6 +5,7 @@
 //! | `main.rs` | arguments, exit codes |
 //! | `recipe.rs` | from a scene file to an FMU that has been seen to run, step by step |
 //! | `workspace.rs` | where the checkout is; compiling the library with cargo |
+//! | `documentation.rs` | the page about the model and the icon |
 //! | `licenses.rs` | the licence texts that travel inside the FMU |
 //! | `archive.rs` | the zip: writing it reproducibly, unpacking it safely |
 //! | `platform.rs` | where FMI 2.0 wants the library of each platform |
@@ -21,6 +22,7 @@ mod archive;
 #[allow(unsafe_code)]
 mod c_interface;
 mod check;
+mod documentation;
 mod experiment;
 mod functions;
 mod importer;

@@ -5,7 +5,7 @@ use crate::c_interface::{Binary, Instance};
 use crate::experiment::{self, Outcome};
 use crate::progress::Progress;
 use crate::workspace::Workspace;
-use crate::{licenses, platform, summary};
+use crate::{documentation, licenses, platform, summary};
 use anyhow::{Context, Result, bail};
 use fmi::model_description::fmi2::ModelDescription;
 use pounding::description::Package;
@@ -51,6 +51,7 @@ fn entries(package: &Package, library: &Path, workspace: &Workspace) -> Result<V
         Entry::library(&platform::library_path(&package.scene.name), binary),
     ];
     entries.extend(package.resources().map(|(name, bytes)| Entry::file(&format!("resources/{name}"), bytes.to_vec())));
+    entries.extend(documentation::entries(package));
     entries.extend(licenses::entries(workspace)?);
     Ok(entries)
 }

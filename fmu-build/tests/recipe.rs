@@ -48,11 +48,33 @@ fn the_archive_has_the_layout_of_fmi() {
             library,
             "resources/scene.toml",
             "resources/record.csv",
+            "model.png",
+            "documentation/index.html",
             "documentation/licenses/license.txt",
             "documentation/licenses/LICENSE-APACHE",
             "documentation/licenses/LICENSE-MIT",
         ]
     );
+}
+
+#[test]
+fn the_page_says_what_the_model_is_and_the_icon_is_a_picture() {
+    let entry = |wanted: &str| files(feup_fmu()).into_iter().find(|(name, _)| name == wanted).unwrap().1;
+    let page = String::from_utf8(entry("documentation/index.html")).unwrap();
+    // Well formed: as XML but for its first line.
+    let body = page.split_once('\n').unwrap().1.replace("<meta charset=\"utf-8\">", "");
+    let tree = roxmltree::Document::parse(&body).unwrap();
+    let text: String = tree.descendants().filter_map(|node| node.text()).collect();
+    assert!(text.contains("buildings of 2 and 3 storeys") && text.contains("with 2 contacts"), "{text}");
+    // The scene as it was written, and a row for each variable.
+    assert!(text.contains(std::fs::read_to_string(feup()).unwrap().trim()), "{text}");
+    let description = String::from_utf8(entry("modelDescription.xml")).unwrap();
+    let description = roxmltree::Document::parse(&description).unwrap();
+    let names = description.descendants().filter(|node| node.has_tag_name("ScalarVariable"));
+    for name in names.map(|node| node.attribute("name").unwrap()) {
+        assert!(tree.descendants().any(|node| node.has_tag_name("td") && node.text() == Some(name)), "no {name}");
+    }
+    assert!(entry("model.png").starts_with(b"\x89PNG\r\n"));
 }
 
 #[test]

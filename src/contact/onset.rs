@@ -95,6 +95,14 @@ impl Grid {
 /// A scalar double series.
 type Terms = [f64; MOST_TERMS];
 
+/// What is taken to a power: e of a pair that enters, or d of a pair that is in contact already.
+#[derive(Clone, Copy, Debug)]
+struct Base {
+    terms: Terms,
+    /// Each term times its exponent of x.
+    slopes: Terms,
+}
+
 /// One contact over an onset step.
 #[derive(Clone, Copy, Debug)]
 pub struct OnsetPair {
@@ -102,8 +110,7 @@ pub struct OnsetPair {
     pub penetration: Terms,
     /// N, terms of the force times x: row j holds the powers i - 1 + beta j.
     pub force: Terms,
-    /// e of a pair that enters, or d of a pair that is in contact already.
-    base: Terms,
+    base: Base,
     power: Terms,
     root: Terms,
     /// Whether the pair enters now: d = 0.
@@ -113,7 +120,14 @@ pub struct OnsetPair {
 impl Default for OnsetPair {
     fn default() -> Self {
         let zeros = [0.0; MOST_TERMS];
-        OnsetPair { penetration: zeros, force: zeros, base: zeros, power: zeros, root: zeros, enters: false }
+        OnsetPair {
+            penetration: zeros,
+            force: zeros,
+            base: Base { terms: zeros, slopes: zeros },
+            power: zeros,
+            root: zeros,
+            enters: false,
+        }
     }
 }
 
@@ -122,19 +136,22 @@ impl OnsetPair {
     pub fn start(&mut self, grid: &Grid, penetration: f64, step_rate: f64, enters: bool) {
         self.penetration[..grid.terms()].fill(0.0);
         self.force[..grid.terms()].fill(0.0);
-        self.base[..grid.terms()].fill(0.0);
+        self.base.terms[..grid.terms()].fill(0.0);
+        self.base.slopes[..grid.terms()].fill(0.0);
         self.enters = enters;
-        self.penetration[0] = penetration;
+        self.set_penetration(grid, 0, 0, penetration);
         self.set_penetration(grid, 1, 0, step_rate);
     }
 
     /// Enters a term of the penetration.
     pub fn set_penetration(&mut self, grid: &Grid, i: usize, j: usize, value: f64) {
         self.penetration[grid.index(i, j)] = value;
-        if !self.enters {
-            self.base[grid.index(i, j)] = value;
-        } else if i > 0 {
-            self.base[grid.index(i - 1, j)] = value;
+        // e is d a power of x down.
+        let shift = usize::from(self.enters);
+        if i >= shift {
+            let here = grid.index(i - shift, j);
+            self.base.terms[here] = value;
+            self.base.slopes[here] = grid.exponent(i - shift, j) * value;
         }
     }
 
@@ -228,40 +245,56 @@ impl OnsetPair {
 }
 
 /// Term (i, j) of base^exponent (Miller's recurrence for x d/dx): with s the exponent of x in a term,
-/// s p_c b_0 = sum over a > 0 of (exponent s_a - s_(c-a)) b_a p_(c-a).
-fn extend_power(power: &mut Terms, base: &Terms, grid: &Grid, exponent: f64, i: usize, j: usize) {
+/// s p_c b_0 = sum over a > 0 of (exponent s_a - s_(c-a)) b_a p_(c-a), where s_(c-a) = s - s_a.
+fn extend_power(power: &mut Terms, base: &Base, grid: &Grid, exponent: f64, i: usize, j: usize) {
     if i == 0 && j == 0 {
-        power[0] = super::force::power(base[0], exponent);
+        power[0] = super::force::power(base.terms[0], exponent);
         return;
     }
-    let mut sum = 0.0;
+    let (mut whole, mut weighted) = (0.0, 0.0);
     for row in 0..=j {
         let (from, against) = (grid.index(0, row), grid.index(0, j - row));
-        let rest = grid.beta * (j - row) as f64;
-        let own = grid.beta * row as f64;
-        for k in usize::from(row == 0)..=i {
-            let weight = exponent * (own + k as f64) - (rest + (i - k) as f64);
-            sum += weight * base[from + k] * power[against + i - k];
+        let first = usize::from(row == 0);
+        let (terms, slopes) = (&base.terms[from + first..=from + i], &base.slopes[from + first..=from + i]);
+        let powers = &power[against..=against + i - first];
+        for ((term, slope), power) in terms.iter().zip(slopes).zip(powers.iter().rev()) {
+            whole += term * power;
+            weighted += slope * power;
         }
     }
-    power[grid.index(i, j)] = sum / (grid.exponent(i, j) * base[0]);
+    let s = grid.exponent(i, j);
+    power[grid.index(i, j)] = ((exponent + 1.0) / s * weighted - whole) / base.terms[0];
 }
 
 /// Value and slope at x of a double series.
 pub fn value_and_slope(grid: &Grid, terms: &[f64], x: f64) -> (f64, f64) {
-    let z = power(x, grid.beta);
-    let (mut value, mut slope, mut factor) = (0.0, 0.0, 1.0);
+    let ([value], [slope]) = values_and_slopes(grid, terms, &[x]);
+    (value, slope)
+}
+
+/// The same at some x side by side.
+pub fn values_and_slopes<const N: usize>(grid: &Grid, terms: &[f64], x: &[f64; N]) -> ([f64; N], [f64; N]) {
+    let z = x.map(|x| power(x, grid.beta));
+    let (mut value, mut slope, mut factor) = ([0.0; N], [0.0; N], [1.0; N]);
     for j in 0..grid.rows {
         let row = &terms[grid.index(0, j)..=grid.index(grid.last(j), j)];
         let shift = grid.beta * j as f64;
-        let (mut r, mut s) = (0.0, 0.0);
+        let (mut r, mut s) = ([0.0; N], [0.0; N]);
         for (i, term) in row.iter().enumerate().rev() {
-            r = r * x + term;
-            s = s * x + (i as f64 + shift) * term;
+            let rate = (i as f64 + shift) * term;
+            for k in 0..N {
+                r[k] = r[k] * x[k] + term;
+                s[k] = s[k] * x[k] + rate;
+            }
         }
-        value += factor * r;
-        slope += factor * s;
-        factor *= z;
+        for k in 0..N {
+            value[k] += factor[k] * r[k];
+            slope[k] += factor[k] * s[k];
+            factor[k] *= z[k];
+        }
     }
-    (value, slope / x)
+    for k in 0..N {
+        slope[k] /= x[k];
+    }
+    (value, slope)
 }

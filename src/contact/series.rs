@@ -5,8 +5,8 @@ use super::force::{Force, power};
 use crate::polynomial::{COUNT, Coefficients, Powers, RECIPROCAL, ROOM, Reading};
 use crate::quadrature::{TWELVE, gauss};
 
-/// Pairs that are worked on together: as many as any x86-64 takes in one instruction.
-pub const PAIRS: usize = 2;
+/// Pairs that are worked on together: as many as today's machines take in one instruction, where that is allowed.
+pub const PAIRS: usize = 4;
 
 /// One number of each pair.
 pub type Each = [f64; PAIRS];
@@ -119,6 +119,26 @@ pub struct BlockReading {
     pub turn: Each,
 }
 
+/// The forces of a block at the end of a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ForceReading {
+    /// N.
+    pub value: Each,
+    /// Its derivative by x.
+    pub slope: Each,
+    /// Bound on its fourth derivative.
+    pub fourth: Each,
+    /// Its integral over x.
+    pub impulse: Each,
+}
+
+impl ForceReading {
+    /// Of one pair.
+    pub fn of(&self, lane: usize) -> Reading {
+        Reading { value: self.value[lane], slope: self.slope[lane], fourth: self.fourth[lane] }
+    }
+}
+
 impl PairBlock {
     /// Starts a block of one kind, with no pair in it yet.
     pub fn start(&mut self, kind: Kind) {
@@ -163,7 +183,7 @@ impl PairBlock {
         if n < ROOM {
             self.penetration[n] = values;
             self.backwards[LAST - n] = values;
-            self.slope[LAST - n] = values.map(|value| COUNT[n] * value);
+            self.slope[LAST - n] = each(|i| COUNT[n] * values[i]);
         }
     }
 
@@ -181,7 +201,7 @@ impl PairBlock {
             Kind::Spring => {
                 self.extend_power(n);
                 let power = self.power[n];
-                self.force[n] = std::array::from_fn(|i| self.stiffness[i] * power[i]);
+                self.force[n] = each(|i| self.stiffness[i] * power[i]);
             }
             Kind::Power => self.extend_damped_power(n),
             Kind::Root => self.extend_root(n),
@@ -191,30 +211,30 @@ impl PairBlock {
     #[inline(always)]
     fn extend_linear(&mut self, n: usize) {
         let (d, slope) = (self.penetration[n], self.slope[LAST - (n + 1)]);
-        self.force[n] = std::array::from_fn(|i| self.stiffness[i] * d[i] + self.damping[i] * slope[i]);
+        self.force[n] = each(|i| self.stiffness[i] * d[i] + self.damping[i] * slope[i]);
     }
 
     #[inline(always)]
     fn extend_damped_power(&mut self, n: usize) {
         self.extend_power(n);
         let (power, product) = (self.power[n], product(&self.power, &self.slope, n));
-        self.force[n] = std::array::from_fn(|i| self.stiffness[i] * (power[i] + self.damping[i] * product[i]));
+        self.force[n] = each(|i| self.stiffness[i] * (power[i] + self.damping[i] * product[i]));
     }
 
     /// d^0.25 d' = (4/5) (d^1.25)': no product of series.
     #[inline(always)]
     fn extend_root(&mut self, n: usize) {
         if n == 0 {
-            self.root[0] = self.penetration[0].map(|d| power(d, 1.25));
+            self.root[0] = each(|i| power(self.penetration[0][i], 1.25));
             self.root_slope[0] = [0.0; PAIRS];
-            self.lead[1] = std::array::from_fn(|i| 1.25 * self.root[0][i] * self.inverse[i]);
+            self.lead[1] = each(|i| 1.25 * self.root[0][i] * self.inverse[i]);
         }
         self.extend_power(n);
         let root = self.next_power(&self.root, &self.root_slope, [1.25; PAIRS], self.lead[1], n + 1);
-        let (power, slope) = (self.power[n], root.map(|term| COUNT[n + 1] * term));
+        let (power, slope) = (self.power[n], each(|i| COUNT[n + 1] * root[i]));
         self.root[n + 1] = root;
         self.root_slope[n + 1] = slope;
-        self.force[n] = std::array::from_fn(|i| self.stiffness[i] * power[i] + self.damping[i] * slope[i]);
+        self.force[n] = each(|i| self.stiffness[i] * power[i] + self.damping[i] * slope[i]);
     }
 
     /// Term n of d^exponent.
@@ -230,7 +250,7 @@ impl PairBlock {
         }
         let next = self.next_power(&self.power, &self.power_slope, self.exponent, self.lead[0], n);
         self.power[n] = next;
-        self.power_slope[n] = next.map(|term| COUNT[n] * term);
+        self.power_slope[n] = each(|i| COUNT[n] * next[i]);
     }
 
     /// Term n >= 1 of p = d^exponent, from d p' = exponent p d' (Miller's recurrence): n d_0 p_n is the sum over j < n of
@@ -240,7 +260,7 @@ impl PairBlock {
     fn next_power(&self, p: &Rows, p_slope: &Rows, exponent: Each, lead: Each, n: usize) -> Each {
         let (second, newest) = (&self.penetration[1], &self.penetration[n]);
         if n == 1 {
-            return std::array::from_fn(|i| lead[i] * newest[i]);
+            return each(|i| lead[i] * newest[i]);
         }
         let (mut whole, mut weighted) = ([0.0; PAIRS], [0.0; PAIRS]);
         let older = self.backwards[LAST - (n - 1)..LAST - 1].iter().zip(&p[1..n - 1]).zip(&p_slope[1..n - 1]);
@@ -251,7 +271,7 @@ impl PairBlock {
             }
         }
         let reciprocal = RECIPROCAL[n - 1];
-        std::array::from_fn(|i| {
+        each(|i| {
             let older = exponent[i] * whole[i] - ((exponent[i] + 1.0) * reciprocal) * weighted[i];
             let share = (exponent[i] + 1.0) * reciprocal - 1.0;
             let last = (self.inverse[i] * second[i]) * share * p[n - 1][i];
@@ -261,38 +281,12 @@ impl PairBlock {
 
     /// Penetrations and their bounds at the x of the powers.
     pub fn read(&self, powers: &Powers) -> BlockReading {
-        let (value, slope, fourth) = powers.all();
-        let terms = &self.penetration[..self.order + 3];
-        let [mut values, mut slopes, mut fourths, mut turns] = [[0.0; PAIRS]; 4];
-        for (n, term) in terms.iter().enumerate().skip(2) {
-            for i in 0..PAIRS {
-                values[i] += term[i] * value[n];
-                slopes[i] += term[i] * slope[n];
-                turns[i] += term[i].abs() * slope[n];
-                fourths[i] += term[i].abs() * fourth[n];
-            }
-        }
-        let (first, second) = (&terms[0], &terms[1]);
-        let penetration = std::array::from_fn(|i| first[i] + (second[i] * powers.x + values[i]));
-        let slope = std::array::from_fn(|i| second[i] + slopes[i]);
-        BlockReading { penetration, slope, fourth: fourths, turn: turns }
+        read(&self.penetration[..self.order + 3], powers)
     }
 
     /// Forces at the x of the powers, and their integral over 0..=x, N s per unit of x.
-    pub fn read_force(&self, powers: &Powers) -> ([Reading; PAIRS], Each) {
-        let (value, slope, fourth) = powers.all();
-        let [mut values, mut slopes, mut fourths, mut integrals] = [[0.0; PAIRS]; 4];
-        for (n, term) in self.force[..=self.order].iter().enumerate() {
-            let weight = RECIPROCAL[n] * value[n];
-            for i in 0..PAIRS {
-                values[i] += term[i] * value[n];
-                slopes[i] += term[i] * slope[n];
-                fourths[i] += term[i].abs() * fourth[n];
-                integrals[i] += term[i] * weight;
-            }
-        }
-        let reading = |i: usize| Reading { value: values[i], slope: slopes[i], fourth: fourths[i] };
-        (std::array::from_fn(reading), integrals.map(|sum| powers.x * sum))
+    pub fn read_force(&self, powers: &Powers) -> ForceReading {
+        read_force(&self.force[..=self.order], powers)
     }
 
     /// J, work of the damping part of a pair's force over 0..=x: twelve points side by side.
@@ -339,6 +333,51 @@ fn copy(rows: &[Each], lane: usize, out: &mut Coefficients) -> usize {
     rows.len()
 }
 
+/// See [`PairBlock::read`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn read(terms: &[Each], powers: &Powers) -> BlockReading {
+    let (value, slope, fourth) = powers.all();
+    let [mut values, mut slopes, mut fourths, mut turns] = [[0.0; PAIRS]; 4];
+    for (n, term) in terms.iter().enumerate().skip(2) {
+        for i in 0..PAIRS {
+            values[i] += term[i] * value[n];
+            slopes[i] += term[i] * slope[n];
+            turns[i] += term[i].abs() * slope[n];
+            fourths[i] += term[i].abs() * fourth[n];
+        }
+    }
+    let (first, second) = (&terms[0], &terms[1]);
+    let penetration = each(|i| first[i] + (second[i] * powers.x + values[i]));
+    BlockReading { penetration, slope: each(|i| second[i] + slopes[i]), fourth: fourths, turn: turns }
+}
+
+/// See [`PairBlock::read_force`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn read_force(terms: &[Each], powers: &Powers) -> ForceReading {
+    let (value, slope, fourth) = powers.all();
+    let [mut values, mut slopes, mut fourths, mut integrals] = [[0.0; PAIRS]; 4];
+    for (n, term) in terms.iter().enumerate() {
+        let weight = RECIPROCAL[n] * value[n];
+        for i in 0..PAIRS {
+            values[i] += term[i] * value[n];
+            slopes[i] += term[i] * slope[n];
+            fourths[i] += term[i].abs() * fourth[n];
+            integrals[i] += term[i] * weight;
+        }
+    }
+    ForceReading { value: values, slope: slopes, fourth: fourths, impulse: each(|i| powers.x * integrals[i]) }
+}
+
+/// A number for each pair: unlike `std::array::from_fn` it always becomes one wide instruction after the other.
+#[inline(always)]
+fn each(of: impl Fn(usize) -> f64) -> Each {
+    let mut all = [0.0; PAIRS];
+    for (i, one) in all.iter_mut().enumerate() {
+        *one = of(i);
+    }
+    all
+}
+
 /// Sum over j <= n of a_j b_(n + 1 - j), with b backwards and the newest terms last.
 #[inline(always)]
 fn product(a: &Rows, backwards: &Rows, n: usize) -> Each {
@@ -349,7 +388,7 @@ fn product(a: &Rows, backwards: &Rows, n: usize) -> Each {
         }
     }
     let newest = &backwards[LAST - (n + 1)];
-    std::array::from_fn(|i| sum[i] + a[0][i] * newest[i])
+    each(|i| sum[i] + a[0][i] * newest[i])
 }
 
 #[cfg(test)]

@@ -32,10 +32,13 @@ fn write_unknowns(
     is_unknown: impl Fn(&Row) -> bool,
     depends: impl Fn(Slot, Slot) -> bool,
 ) -> io::Result<()> {
-    let positioned = || (1..).zip(&table.rows);
+    let positioned = || (1_usize..).zip(&table.rows);
+    let is_known = |row: &Row| matches!(row.slot, Slot::Input(_) | Slot::Parameter(_));
+    let knowns = positioned().filter(|(_, row)| is_known(row)).map(|(index, row)| (index.to_string(), row.slot));
+    let knowns: Vec<(String, Slot)> = knowns.collect();
     for (index, unknown) in positioned().filter(|(_, row)| is_unknown(row)) {
-        let known = positioned().filter(|(_, row)| depends(unknown.slot, row.slot));
-        let known = known.map(|(index, _): (usize, _)| index.to_string()).collect::<Vec<_>>().join(" ");
+        let known = knowns.iter().filter(|(_, slot)| depends(unknown.slot, *slot));
+        let known = known.map(|(index, _)| index.as_str()).collect::<Vec<_>>().join(" ");
         xml.create_element("Unknown")
             .with_attribute(("index", index.to_string().as_str()))
             .with_attribute(("dependencies", known.as_str()))

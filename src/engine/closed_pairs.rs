@@ -3,7 +3,7 @@
 use super::model::{Model, Pair};
 use super::roots;
 use super::state::*;
-use crate::contact::series::{BlockReading, Each, Kind, PAIRS, PairBlock};
+use crate::contact::series::{BlockReading, ForceReading, Kind, PAIRS, PairBlock};
 use crate::polynomial::{Coefficients, Powers, Reading};
 use crate::structure::{FEW_BLOCKS, LANES, Lane, PairForces, difference};
 
@@ -42,8 +42,7 @@ pub(super) struct Member {
 /// What a block comes to at the end of a step.
 pub(super) struct BlockEnd {
     motion: BlockReading,
-    force: [Reading; PAIRS],
-    impulse: Each,
+    force: ForceReading,
 }
 
 impl ClosedPairs {
@@ -269,14 +268,13 @@ impl<M: Meeting> PairForces for Acting<'_, M> {
             block.extend_force(n);
             // What a force does to its own pair needs no detour by the motion: the next powers of the force wait for it.
             let force = block.force[n];
-            let [first, second] = members;
             let mut values = [0.0; PAIRS];
-            values[0] = self.meeting.relative(first, term) - factor * first.softness * force[0];
-            if block.count > 1 {
-                values[1] = self.meeting.relative(second, term) - factor * second.softness * force[1];
-                self.meeting.push(second, factor * force[1], term);
+            for ((value, member), force) in values.iter_mut().zip(members).zip(&force).take(block.count) {
+                *value = self.meeting.relative(member, term) - factor * member.softness * force;
             }
-            self.meeting.push(first, factor * force[0], term);
+            for (member, force) in members.iter().zip(&force).take(block.count) {
+                self.meeting.push(member, factor * force, term);
+            }
             block.set_penetration(n + 2, values);
         }
     }
@@ -341,21 +339,20 @@ pub(super) fn apart(left: f64, right: f64) -> f64 {
 
 impl BlockEnd {
     fn of(block: &PairBlock, motion: BlockReading, powers: &Powers) -> BlockEnd {
-        let (force, impulse) = block.read_force(powers);
-        BlockEnd { motion, force, impulse }
+        BlockEnd { motion, force: block.read_force(powers) }
     }
 }
 
 impl Contact {
     /// Penetration, impulse, peaks and work over a series up to x.
     fn follow_lane(&mut self, (block, lane): (&PairBlock, usize), end: &BlockEnd, scale: f64, start: f64, x: f64) {
-        let impulse = scale * end.impulse[lane];
+        let impulse = scale * end.force.impulse[lane];
         self.impulse += impulse;
         self.episode.impulse += impulse;
         self.work += block.damping_work(lane, &self.branch(), scale, x);
         let terms = |out: &mut Coefficients| block.copy_force(lane, out);
         let first = (block.force[0][lane], block.force[1][lane]);
-        if let Some((at, peak)) = roots::maximum_above(first, x, &end.force[lane], self.episode.peak_force, terms) {
+        if let Some((at, peak)) = roots::maximum_above(first, x, &end.force.of(lane), self.episode.peak_force, terms) {
             self.episode.peak_force = peak;
             self.episode.peak_time = start + at * scale;
             self.peak_force = self.peak_force.max(peak);

@@ -89,11 +89,16 @@ impl Model {
         work: &mut Workspace,
         mut first: Option<(f64, Event)>,
     ) -> Option<(f64, Event)> {
-        for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| !contact.in_contact()) {
-            if self.stays_apart(p, contact, base.coordinates, step) {
+        let is_apart = |contact: &Contact| !contact.in_contact();
+        if !base.contacts.iter().any(is_apart) {
+            return first;
+        }
+        let series = &step.series;
+        series.fourth_derivatives(&step.end, &mut work.node_q);
+        for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| is_apart(contact)) {
+            if self.stays_apart(p, contact, base.coordinates, step, &work.node_q) {
                 continue;
             }
-            let series = &step.series;
             let terms = &mut work.scalar[..=series.order];
             let noise = self.pairs[p].noise(self.project(p, base.coordinates, series, step.end.x, terms));
             let noise = contact.begin_flight(terms, series.scale, noise);
@@ -103,27 +108,23 @@ impl Model {
     }
 
     /// Whether a pair certainly stays apart over the whole step: its penetration is as near to its cubic interpolant as
-    /// the fourth derivatives say.
-    fn stays_apart(&self, p: usize, contact: &Contact, coordinates: Coordinates, step: &Step) -> bool {
+    /// the `fourth` derivatives of the motion say.
+    fn stays_apart(&self, p: usize, contact: &Contact, coordinates: Coordinates, step: &Step, fourth: &[f64]) -> bool {
         let pair = &self.pairs[p];
-        let third = step.end.x * step.series.scale / 3.0;
         let start = contact.flight_start();
         let end = self.relative(p, coordinates, &step.q) - pair.gap;
-        let ceiling =
-            start.max(start + third * contact.rate).max(end - third * self.relative(p, coordinates, &step.v)).max(end);
-        if ceiling >= 0.0 {
+        if start.max(end) >= 0.0 {
             return false;
         }
-        let (series, (.., fourth)) = (&step.series, step.end.all());
-        let size = |n: usize| match coordinates {
-            Coordinates::Floors => {
-                let term = series.term(n);
-                term[pair.lanes[0]].abs() + term[pair.lanes[1]].abs()
-            }
-            Coordinates::Modes => pair.row.iter().zip(series.term(n)).map(|(row, q)| (row * q).abs()).sum(),
+        let third = step.end.x * step.series.scale / 3.0;
+        let ceiling =
+            start.max(start + third * contact.rate).max(end - third * self.relative(p, coordinates, &step.v)).max(end);
+        let fourth = match coordinates {
+            Coordinates::Floors => fourth[pair.lanes[0]] + fourth[pair.lanes[1]],
+            Coordinates::Modes => pair.row.iter().zip(fourth).map(|(row, fourth)| row.abs() * fourth).sum(),
         };
         let x2 = step.end.x * step.end.x;
-        ceiling + x2 * x2 / 384.0 * (4..=series.order).map(|n| fourth[n] * size(n)).sum::<f64>() < 0.0
+        ceiling + x2 * x2 / 384.0 * fourth < 0.0
     }
 
     /// The scalar series of a pair's relative motion, written to `out[n]`. Returns the sum of the sizes of all that is

@@ -36,10 +36,11 @@ impl Model {
 
     /// Adds the work of the first `length` seconds of the planned step to the account of the base.
     pub(super) fn add_work(&self, state: &mut State, length: f64) {
-        let State { base, step, inputs, work, .. } = state;
+        let State { base, step, inputs, counters, work, .. } = state;
         if base.energy.is_none() {
             return;
         }
+        counters.energy_steps += 1;
         let done = self.work_over(base, step, inputs, work, length);
         let impact: f64 = base.contacts.iter().map(Contact::dissipated_energy).sum();
         let (kinetic, strain) = self.structure_energies(base.coordinates, &base.q, &base.v);

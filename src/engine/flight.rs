@@ -4,7 +4,7 @@ use super::ground::GroundMotion;
 use super::model::Model;
 use super::roots;
 use super::state::*;
-use crate::structure::{EXACT, flight_order};
+use crate::structure::{EXACT, flight_order, fly_in_one_series};
 
 impl Model {
     /// Works out the flight from the base until `limit` (s since the segment's start) or the first entry.
@@ -87,10 +87,12 @@ impl Model {
         if prepared.is_none()
             && let Some(order) = flight_order(self.structure.fastest * h, EXACT)
         {
+            if self.structure.is_classical() {
+                return fly_in_one_series(&self.structure, (&base.q, &base.v), (load, slope), (h, order), (q, v));
+            }
             series.expand_flight(&self.structure, (&base.q, &base.v), (load, slope), (h, order));
             powers.set(1.0, series.order);
-            series.evaluate(powers, q, v);
-            return;
+            return series.evaluate(powers, q, v);
         }
         let interval = prepared.unwrap_or_else(|| {
             interval.prepare(&self.structure, h);

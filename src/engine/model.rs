@@ -234,10 +234,7 @@ impl Model {
     pub(super) fn resist(&self, coordinates: Coordinates, q: &[f64], v: &[f64], rate: f64, acceleration: &mut [f64]) {
         match coordinates {
             Coordinates::Modes => self.structure.resist(q, v, rate, acceleration),
-            Coordinates::Floors => {
-                let [(u, _), (v, _)] = [q, v].map(<[f64]>::as_chunks::<LANES>);
-                self.structure.floors.resist(u, v, rate, acceleration.as_chunks_mut::<LANES>().0);
-            }
+            Coordinates::Floors => self.structure.floors.resist(q, v, rate, acceleration),
         }
     }
 

@@ -8,12 +8,12 @@ use super::model::Model;
 use super::state::*;
 use crate::contact::Force;
 use crate::contact::force::power;
-use crate::contact::onset::{Grid, MOST_TERMS, OnsetPair, value_and_slope};
+use crate::contact::onset::{Grid, MOST_TERMS, OnsetPair, value_and_slope, values_and_slopes};
 use crate::quadrature::{TWELVE, graded};
 use crate::structure::LANES;
 
 /// Highest power of x of the double series: its cost grows with the square, its reach hardly.
-const HIGHEST: f64 = 12.0;
+const HIGHEST: f64 = 10.0;
 
 /// The double series of the motion and of all contacts.
 #[derive(Clone, Debug, Default)]
@@ -84,6 +84,7 @@ impl Model {
             return false;
         };
         counters.contact_steps += 1;
+        counters.law_evaluations += base.count_forces(Contact::branch);
         step.carried.fill(None);
         step.ends.clear();
         step.kind = StepKind::Onset;
@@ -151,7 +152,7 @@ impl Model {
         let exponent = grid.exponent(i, j);
         let (known, rest) = onset.terms.split_at_mut(here * lanes);
         let next = &mut rest[..lanes];
-        let mut moved = self.structure.floors.rest.as_flattened();
+        let mut moved = &self.structure.floors.rest[..];
         if i >= 2 {
             for (p, contact) in touching(base).filter(|(_, contact)| !contact.is_singular()) {
                 onset.pairs[p].extend_touching(grid, &contact.branch(), i - 2, j, scale);
@@ -297,11 +298,13 @@ impl Contact {
         self.impulse += impulse * scale;
         self.episode.impulse += impulse * scale;
         if law.is_damped() {
-            let work = graded(TWELVE, x).map(|(x, weight)| {
-                let (d, rate) = penetration(x);
-                weight * law.damping_power(d, rate / scale)
-            });
-            self.work += scale * work.sum::<f64>();
+            let (mut at, mut weights) = ([0.0; 12], [0.0; 12]);
+            for ((at, weight), node) in at.iter_mut().zip(&mut weights).zip(graded(TWELVE, x)) {
+                (*at, *weight) = node;
+            }
+            let (depths, rates) = values_and_slopes(grid, &pair.penetration, &at);
+            let power = |i: usize| weights[i] * law.damping_power(depths[i], rates[i] / scale);
+            self.work += scale * (0..12).map(power).sum::<f64>();
         }
         if let Some((at, peak)) = highest(force, x, self.episode.peak_force) {
             self.episode.peak_force = peak;

@@ -80,7 +80,7 @@ impl Model {
         self.check_sizes(saved, &state)?;
         require(base.numbers().chain(inputs.numbers()).all(f64::is_finite), "a number in it is not finite")?;
         require(base.motion().all(|size| size.abs() <= MOST_MOTION), "no building moves so far or so fast")?;
-        require(counters.numbers().into_iter().all(|count| count <= MOST_COUNTED), "a count in it is impossible")?;
+        require(counters.numbers().all(|count| count <= MOST_COUNTED), "a count in it is impossible")?;
         self.check_segment(saved)?;
         self.check_contacts(base)?;
         let number = self.ground.as_ref().and_then(|ground| ground.number(&base.segment)).unwrap_or_default();
@@ -248,8 +248,18 @@ impl Inputs {
 }
 
 impl Counters {
-    fn numbers(&self) -> [u64; 6] {
-        let &Counters { flight_steps, closer_looks, flights_dismissed, pairs_evaluated, contact_steps, events } = self;
-        [flight_steps, closer_looks, flights_dismissed, pairs_evaluated, contact_steps, events]
+    fn numbers(&self) -> impl Iterator<Item = u64> + use<> {
+        let &Counters {
+            flight_steps,
+            closer_looks,
+            flights_dismissed,
+            pairs_evaluated,
+            contact_steps,
+            law_evaluations,
+            events,
+            energy_steps,
+        } = self;
+        let in_flight = [flight_steps, closer_looks, flights_dismissed, pairs_evaluated];
+        in_flight.into_iter().chain([contact_steps, law_evaluations, events, energy_steps])
     }
 }

@@ -70,6 +70,13 @@ pub(super) struct Base {
     pub impacts: u64,
 }
 
+impl Base {
+    /// How many contacts have a force.
+    pub fn count_forces(&self, of: impl Fn(&Contact) -> Force) -> u64 {
+        self.contacts.iter().map(|contact| u64::from(of(contact) != Force::None)).sum()
+    }
+}
+
 /// Work done since the start, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Account {
@@ -237,6 +244,10 @@ pub struct Counters {
     pub pairs_evaluated: u64,
     /// Internal steps in contact.
     pub contact_steps: u64,
+    /// Contact forces that were expanded into a series: one for each such step and pair whose law acts in it.
+    pub law_evaluations: u64,
+    /// Steps over which the terms of the energy account were integrated.
+    pub energy_steps: u64,
     /// Entries, releases and branch changes.
     pub events: u64,
 }

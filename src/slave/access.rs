@@ -1,7 +1,9 @@
 //! Getting and setting values by value reference.
 
+use super::simulation::started;
 use super::{Phase, Refusal, Slave};
-use crate::variables::{Row, Settings, Slot, Value};
+use crate::variables::{Row, Settings, Slot, Table, Value};
+use std::cell::LazyCell;
 use std::sync::Arc;
 
 impl Slave {
@@ -12,20 +14,24 @@ impl Slave {
         wanted: &str,
         mut take: impl FnMut(usize, Value<'_>) -> Option<()>,
     ) -> Result<(), Refusal> {
+        let Slave { table, settings, inputs, simulation, time, .. } = self;
+        let now = LazyCell::new(|| Ok(started(simulation, settings, inputs, table, *time)?.now()));
         let mut problems = Vec::new();
         for (i, &reference) in references.iter().enumerate() {
-            let Some(slot) = self.table.row(reference).map(|row| row.slot) else {
-                problems.push(self.unknown(reference));
+            let Some(row) = table.row(reference) else {
+                problems.push(unknown(table, reference));
                 continue;
             };
-            let value = match slot {
-                Slot::Input(input) => Value::Real(self.inputs.read(input)),
-                Slot::Parameter(parameter) => self.settings.read(parameter),
-                Slot::Frequency(side, mode) => Value::Real(self.start()?.frequency(side, mode)),
-                Slot::Output(output) => self.start()?.now().read(output),
+            let value = match row.slot {
+                Slot::Output(output) => now.as_ref().map_err(Refusal::clone)?.read(output),
+                Slot::Input(input) => Value::Real(inputs.read(input)),
+                Slot::Parameter(parameter) => settings.read(parameter),
+                Slot::Frequency(side, mode) => {
+                    Value::Real(now.as_ref().map_err(Refusal::clone)?.model.natural_frequencies(side)[mode])
+                }
             };
             if take(i, value).is_none() {
-                problems.push(self.wrong_type(reference, wanted));
+                problems.push(wrong_type(table, reference, wanted));
             }
         }
         Refusal::unless_empty(problems)
@@ -50,9 +56,9 @@ impl Slave {
 
     /// What is wrong with setting a variable now, by itself.
     fn refuse(&self, reference: u32, value: Value<'_>) -> Option<String> {
-        let Some(row) = self.table.row(reference) else { return Some(self.unknown(reference)) };
+        let Some(row) = self.table.row(reference) else { return Some(unknown(&self.table, reference)) };
         if row.ty.name() != value.type_name() {
-            return Some(self.wrong_type(reference, value.type_name()));
+            return Some(wrong_type(&self.table, reference, value.type_name()));
         }
         match (row.slot, self.phase) {
             (Slot::Input(_), _) | (Slot::Parameter(_), Phase::Instantiated | Phase::Initialization) => {}
@@ -88,14 +94,14 @@ impl Slave {
         }
         Ok(())
     }
+}
 
-    fn unknown(&self, reference: u32) -> String {
-        format!("value reference {reference}: expected one below {}", self.table.rows.len())
-    }
+fn unknown(table: &Table, reference: u32) -> String {
+    format!("value reference {reference}: expected one below {}", table.rows.len())
+}
 
-    fn wrong_type(&self, reference: u32, wanted: &str) -> String {
-        let row = self.table.row(reference).map(|row| (row.name.as_str(), row.ty.name()));
-        let (name, ty) = row.unwrap_or_default();
-        format!("{name} (value reference {reference}) is {ty}, not {wanted}")
-    }
+fn wrong_type(table: &Table, reference: u32, wanted: &str) -> String {
+    let row = table.row(reference).map(|row| (row.name.as_str(), row.ty.name()));
+    let (name, ty) = row.unwrap_or_default();
+    format!("{name} (value reference {reference}) is {ty}, not {wanted}")
 }

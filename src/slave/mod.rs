@@ -24,7 +24,7 @@ pub use status::{Refusal, Status, StatusKind};
 use crate::description::{Category, Package, guid};
 use crate::engine::Episode;
 use crate::variables::{Inputs, Settings, Table};
-use simulation::Simulation;
+use simulation::{Simulation, started};
 use snapshots::Snapshots;
 use std::sync::Arc;
 use uuid::Uuid;
@@ -80,12 +80,14 @@ impl Slave {
 
     /// Whether the standard allows a call now.
     pub fn check(&self, call: Call) -> Result<(), Refusal> {
-        if call.is_allowed_in(self.phase) {
-            return Ok(());
-        }
+        if call.is_allowed_in(self.phase) { Ok(()) } else { Err(self.out_of_sequence(call)) }
+    }
+
+    #[cold]
+    fn out_of_sequence(&self, call: Call) -> Refusal {
         let phases = call.rule().1.iter().map(|phase| format!("{phase:?}")).collect::<Vec<_>>();
         let expected = if phases.is_empty() { "no phase of this FMU".to_owned() } else { phases.join(", ") };
-        Err(Refusal::from(format!("called in phase {:?}: expected in {expected}", self.phase)))
+        Refusal::from(format!("called in phase {:?}: expected in {expected}", self.phase))
     }
 
     /// Turns the result of a call into its status. After an error the standard allows little but a reset.
@@ -217,10 +219,7 @@ impl Slave {
 
     /// The solution at the present time.
     fn start(&mut self) -> Result<&mut Simulation, Refusal> {
-        match &mut self.simulation {
-            Some(simulation) => Ok(simulation),
-            none => Ok(none.insert(Simulation::start(&self.settings, &self.inputs, &self.table, self.time)?)),
-        }
+        started(&mut self.simulation, &self.settings, &self.inputs, &self.table, self.time)
     }
 }
 

@@ -1,7 +1,7 @@
 //! A run: the model of the present settings, its state, and what is read out of it.
 
 use super::Refusal;
-use crate::engine::{Episode, Model, Point, SavedState, Side, State};
+use crate::engine::{Episode, Model, Point, SavedState, State};
 use crate::variables::{Input, Inputs, Instant, Settings, Slot, Table};
 use std::sync::Arc;
 
@@ -24,6 +24,7 @@ pub(super) struct SavedRun {
 
 impl Simulation {
     /// The initial state at a time, with the inputs as they are.
+    #[cold]
     pub fn start(settings: &Settings, inputs: &Inputs, table: &Table, time: f64) -> Result<Simulation, Refusal> {
         let mut simulation = Simulation::of(Arc::new(model(settings)?), time);
         for row in &table.rows {
@@ -66,18 +67,29 @@ impl Simulation {
         Ok(self.model.advance(&mut self.state, until, on_episode)?)
     }
 
-    /// Hz
-    pub fn frequency(&self, side: Side, mode: usize) -> f64 {
-        self.model.natural_frequencies(side)[mode]
-    }
-
     /// The solution at the present time, observed once for all outputs that are read there.
+    #[inline]
     pub fn now(&mut self) -> Instant<'_> {
         if !self.is_observed {
             self.model.observe(&self.state, &mut self.point);
             self.is_observed = true;
         }
         Instant { model: &self.model, state: &self.state, point: &self.point }
+    }
+}
+
+/// The simulation, made of the settings where there is none yet.
+#[inline]
+pub(super) fn started<'a>(
+    simulation: &'a mut Option<Simulation>,
+    settings: &Settings,
+    inputs: &Inputs,
+    table: &Table,
+    time: f64,
+) -> Result<&'a mut Simulation, Refusal> {
+    match simulation {
+        Some(simulation) => Ok(simulation),
+        none => Ok(none.insert(Simulation::start(settings, inputs, table, time)?)),
     }
 }
 

@@ -14,12 +14,14 @@ mod interval;
 mod modes;
 mod propagator;
 mod series;
+mod short_flight;
 
 pub use floors::Floors;
 pub use interval::Interval;
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
 pub use propagator::{CoupledIncrement, ModeIncrement};
 pub use series::{EXACT, FEW_BLOCKS, MotionSeries, PairForces, difference, dot, flight_order};
+pub use short_flight::fly_in_one_series;
 
 use dense::Dense;
 
@@ -175,20 +177,12 @@ impl Structure {
         self.coupling.is_empty()
     }
 
-    /// One floor's motion from a modal vector of displacements, velocities or accelerations.
-    pub fn at_floor(&self, side: Side, floor: usize, modal: &[f64]) -> f64 {
-        let modes = self.floors(side);
+    /// One floor's motions from modal vectors of displacements, velocities and accelerations.
+    pub fn at_floor(&self, side: Side, floor: usize, modal: [&[f64]; 3]) -> [f64; 3] {
+        let (modes, range) = (self.floors(side), self.range(side));
         let shape = &self.floor_shapes[side as usize][floor * modes..][..modes];
-        let modal = &modal[self.offset(side)..][..modes];
-        let (shape_blocks, shape_rest) = shape.as_chunks::<LANES>();
-        let (modal_blocks, modal_rest) = modal.as_chunks::<LANES>();
-        let mut sum = [0.0; LANES];
-        for (shape, modal) in shape_blocks.iter().zip(modal_blocks) {
-            for i in 0..LANES {
-                sum[i] += shape[i] * modal[i];
-            }
-        }
-        sum.iter().sum::<f64>() + shape_rest.iter().zip(modal_rest).map(|(shape, q)| shape * q).sum::<f64>()
+        let (lanes, rest) = products(shape, modal.map(|modal| &modal[range.clone()]));
+        std::array::from_fn(|k| lanes[k].iter().sum::<f64>() + rest[k])
     }
 
     /// The modal vector of floor displacements or velocities: shape' M u.
@@ -328,6 +322,29 @@ impl Structure {
         let energy: f64 = (0..self.lanes).map(|m| jerk[m] * jerk[m] + self.omega2[m] * y[m] * y[m]).sum();
         2.0 * self.fastest * energy.sqrt() * weights.iter().sum::<f64>()
     }
+}
+
+/// Sums of products with three vectors as long as the first: lane by lane over all blocks, and over what is left.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn products(shape: &[f64], vectors: [&[f64]; 3]) -> ([Lane; 3], [f64; 3]) {
+    let (shape, shape_rest) = shape.as_chunks::<LANES>();
+    let [(a, a_rest), (b, b_rest), (c, c_rest)] = vectors.map(<[f64]>::as_chunks::<LANES>);
+    let (a, b, c) = (&a[..shape.len()], &b[..shape.len()], &c[..shape.len()]);
+    let [mut sum_a, mut sum_b, mut sum_c] = [[0.0; LANES]; 3];
+    for (k, shape) in shape.iter().enumerate() {
+        for i in 0..LANES {
+            sum_a[i] += shape[i] * a[k][i];
+            sum_b[i] += shape[i] * b[k][i];
+            sum_c[i] += shape[i] * c[k][i];
+        }
+    }
+    let mut rest = [0.0; 3];
+    for (((shape, a), b), c) in shape_rest.iter().zip(a_rest).zip(b_rest).zip(c_rest) {
+        rest[0] += shape * a;
+        rest[1] += shape * b;
+        rest[2] += shape * c;
+    }
+    ([sum_a, sum_b, sum_c], rest)
 }
 
 /// Modal vectors for intermediate results.

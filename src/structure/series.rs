@@ -2,13 +2,13 @@
 
 use super::floors::Floors;
 use super::{LANES, Lane, Structure};
-use crate::polynomial::Powers;
+use crate::polynomial::{Powers, ROOM};
 
 /// Powers that a series may have.
 const MOST_POWERS: usize = 40;
 
 /// 1 / ((n + 1) (n + 2)).
-const RECIPROCAL: [f64; MOST_POWERS] = {
+pub(super) const RECIPROCAL: [f64; MOST_POWERS] = {
     let mut table = [0.0; MOST_POWERS];
     let mut n = 0;
     while n < MOST_POWERS {
@@ -114,43 +114,11 @@ impl MotionSeries {
         forces: &mut impl PairForces,
     ) {
         match self.lanes / LANES {
-            1 => self.expand_blocks::<1>(structure, order, loads, forces),
-            2 => self.expand_blocks::<2>(structure, order, loads, forces),
-            3 => self.expand_blocks::<3>(structure, order, loads, forces),
-            _ => self.expand_blocks::<FEW_BLOCKS>(structure, order, loads, forces),
+            1 => expand_blocks::<1, _>(self, structure, order, loads, forces),
+            2 => expand_blocks::<2, _>(self, structure, order, loads, forces),
+            3 => expand_blocks::<3, _>(self, structure, order, loads, forces),
+            _ => expand_blocks::<FEW_BLOCKS, _>(self, structure, order, loads, forces),
         }
-    }
-
-    fn expand_blocks<const WIDTH: usize>(
-        &mut self,
-        structure: &Structure,
-        order: usize,
-        (load, slope): (&[f64], &[f64]),
-        forces: &mut impl PairForces,
-    ) {
-        let [damping, omega2, load, slope] =
-            [&structure.damping, &structure.omega2, load, slope].map(first_blocks::<WIDTH>);
-        let mut before = first_blocks::<WIDTH>(self.term(0));
-        let mut last = first_blocks::<WIDTH>(self.term(1));
-        for (n, reciprocal) in RECIPROCAL.iter().enumerate().take(order - 1) {
-            let mut next = match n {
-                0 => load,
-                1 => slope.map(|slope| slope.map(|slope| slope * self.scale)),
-                _ => [[0.0; LANES]; WIDTH],
-            };
-            let factor = self.scale * self.scale * reciprocal;
-            let rate = (n + 1) as f64 * (self.scale * reciprocal);
-            for c in 0..WIDTH {
-                for i in 0..LANES {
-                    let pulled = (factor * omega2[c][i]) * before[c][i];
-                    next[c][i] = (factor * next[c][i] - pulled) - (rate * damping[c][i]) * last[c][i];
-                }
-            }
-            forces.act(n, factor, &mut next);
-            self.coefficients[(n + 2) * self.lanes..][..self.lanes].copy_from_slice(next.as_flattened());
-            (before, last) = (last, next);
-        }
-        self.order = order;
     }
 
     /// The same for any number of modes.
@@ -187,30 +155,10 @@ impl MotionSeries {
         &mut self,
         floors: &Floors,
         order: usize,
-        (load, slope): (&[f64], &[f64]),
+        loads: (&[f64], &[f64]),
         forces: &mut impl PairForces,
     ) {
-        let width = self.lanes / LANES;
-        let scale2 = self.scale * self.scale;
-        let [(load, _), (slope, _)] = [load, slope].map(<[f64]>::as_chunks::<LANES>);
-        let (terms, _) = self.coefficients.as_chunks_mut::<LANES>();
-        for n in 0..order - 1 {
-            let (known, rest) = terms.split_at_mut((n + 2) * width);
-            let (u, v) = known[n * width..].split_at(width);
-            let next = &mut rest[..width];
-            match n {
-                0 => next.copy_from_slice(load),
-                1 => next.iter_mut().zip(slope).for_each(|(next, slope)| *next = slope.map(|slope| slope * self.scale)),
-                _ => next.fill([0.0; LANES]),
-            }
-            floors.resist(u, v, (n + 1) as f64 / self.scale, next);
-            let factor = scale2 * RECIPROCAL[n];
-            for next in next.as_flattened_mut() {
-                *next *= factor;
-            }
-            forces.act(n, factor, next);
-        }
-        self.order = order;
+        expand_floors(self, floors, order, loads, forces);
     }
 
     /// Expands a flight: load and slope only.
@@ -276,35 +224,12 @@ impl MotionSeries {
 
     /// q and v at the x of the powers.
     pub fn evaluate(&self, powers: &Powers, q: &mut [f64], v: &mut [f64]) {
-        let lanes = self.lanes;
-        let (q, v) = (&mut q[..lanes], &mut v[..lanes]);
-        q.fill(0.0);
-        v.fill(0.0);
-        let (power, slope, _) = powers.all();
-        // From the smallest terms to the largest, four at a time: the sums go through memory a quarter as often.
-        let mut n = self.order + 1;
-        while n >= 6 {
-            n -= 4;
-            let [a, b, c, d] = [0, 1, 2, 3].map(|i| &self.coefficients[(n + i) * lanes..][..lanes]);
-            let [p0, p1, p2, p3] = [0, 1, 2, 3].map(|i| power[n + i]);
-            let [s0, s1, s2, s3] = [0, 1, 2, 3].map(|i| slope[n + i]);
-            for m in 0..lanes {
-                q[m] += (d[m] * p3 + c[m] * p2) + (b[m] * p1 + a[m] * p0);
-                v[m] += (d[m] * s3 + c[m] * s2) + (b[m] * s1 + a[m] * s0);
-            }
-        }
-        let rate = 1.0 / self.scale;
-        while n > 0 {
-            n -= 1;
-            let term = &self.coefficients[n * lanes..][..lanes];
-            for m in 0..lanes {
-                q[m] += term[m] * power[n];
-                v[m] += term[m] * slope[n];
-            }
-        }
-        for v in v {
-            *v *= rate;
-        }
+        evaluate(self, powers, q, v);
+    }
+
+    /// Bounds on the fourth derivatives by x up to the x of the powers.
+    pub fn fourth_derivatives(&self, powers: &Powers, out: &mut [f64]) {
+        fourth_derivatives(&self.coefficients[..(self.order + 1) * self.lanes], powers, &mut out[..self.lanes]);
     }
 
     /// v alone at x.
@@ -337,6 +262,113 @@ impl MotionSeries {
         let rate = 1.0 / self.scale;
         slope.map(|slope| slope * rate)
     }
+}
+
+/// See [`MotionSeries::evaluate`]: from the smallest terms to the largest. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn evaluate(series: &MotionSeries, powers: &Powers, q: &mut [f64], v: &mut [f64]) {
+    let (width, order) = (series.lanes / LANES, series.order.min(ROOM - 1));
+    let rate = 1.0 / series.scale;
+    let (power, slope, _) = powers.all();
+    let (terms, _) = series.coefficients.as_chunks::<LANES>();
+    let (q, v) = (q.as_chunks_mut::<LANES>().0, v.as_chunks_mut::<LANES>().0);
+    for (c, (q, v)) in q.iter_mut().zip(v).enumerate().take(width) {
+        let (mut value, mut change) = ([0.0; LANES], [0.0; LANES]);
+        let mut n = order + 1;
+        for row in terms[..n * width].rchunks_exact(width) {
+            n -= 1;
+            let (term, power, slope) = (&row[c], power[n], slope[n]);
+            for i in 0..LANES {
+                value[i] += term[i] * power;
+                change[i] += term[i] * slope;
+            }
+        }
+        *q = value;
+        for i in 0..LANES {
+            v[i] = change[i] * rate;
+        }
+    }
+}
+
+/// See [`MotionSeries::fourth_derivatives`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn fourth_derivatives(terms: &[f64], powers: &Powers, out: &mut [f64]) {
+    let (.., fourth) = powers.all();
+    let (width, (out, _)) = (out.len() / LANES, out.as_chunks_mut::<LANES>());
+    let (terms, _) = terms.as_chunks::<LANES>();
+    for (c, out) in out.iter_mut().enumerate() {
+        let mut sum = [0.0; LANES];
+        for (row, fourth) in terms.chunks_exact(width).zip(fourth).skip(4) {
+            for i in 0..LANES {
+                sum[i] += row[c][i].abs() * fourth;
+            }
+        }
+        *out = sum;
+    }
+}
+
+/// See [`MotionSeries::expand_few_modes`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn expand_blocks<const WIDTH: usize, F: PairForces>(
+    series: &mut MotionSeries,
+    structure: &Structure,
+    order: usize,
+    (load, slope): (&[f64], &[f64]),
+    forces: &mut F,
+) {
+    let [damping, omega2, load, slope] =
+        [&structure.damping, &structure.omega2, load, slope].map(first_blocks::<WIDTH>);
+    let mut before = first_blocks::<WIDTH>(series.term(0));
+    let mut last = first_blocks::<WIDTH>(series.term(1));
+    for (n, reciprocal) in RECIPROCAL.iter().enumerate().take(order - 1) {
+        let mut next = match n {
+            0 => load,
+            1 => slope.map(|slope| slope.map(|slope| slope * series.scale)),
+            _ => [[0.0; LANES]; WIDTH],
+        };
+        let factor = series.scale * series.scale * reciprocal;
+        let rate = (n + 1) as f64 * (series.scale * reciprocal);
+        for c in 0..WIDTH {
+            for i in 0..LANES {
+                let pulled = (factor * omega2[c][i]) * before[c][i];
+                next[c][i] = (factor * next[c][i] - pulled) - (rate * damping[c][i]) * last[c][i];
+            }
+        }
+        forces.act(n, factor, &mut next);
+        series.coefficients[(n + 2) * series.lanes..][..series.lanes].copy_from_slice(next.as_flattened());
+        (before, last) = (last, next);
+    }
+    series.order = order;
+}
+
+/// See [`MotionSeries::expand_floors`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn expand_floors<F: PairForces>(
+    series: &mut MotionSeries,
+    floors: &Floors,
+    order: usize,
+    (load, slope): (&[f64], &[f64]),
+    forces: &mut F,
+) {
+    let lanes = series.lanes;
+    let scale2 = series.scale * series.scale;
+    for n in 0..order - 1 {
+        let (known, rest) = series.coefficients.split_at_mut((n + 2) * lanes);
+        let (u, v) = known[n * lanes..].split_at(lanes);
+        let next = &mut rest[..lanes];
+        match n {
+            0 => next.copy_from_slice(load),
+            1 => next.iter_mut().zip(slope).for_each(|(next, slope)| *next = slope * series.scale),
+            _ => next.fill(0.0),
+        }
+        floors.resist(u, v, (n + 1) as f64 / series.scale, next);
+        let factor = scale2 * RECIPROCAL[n];
+        for next in next.iter_mut() {
+            *next *= factor;
+        }
+        forces.act(n, factor, next.as_chunks_mut::<LANES>().0);
+    }
+    series.order = order;
 }
 
 /// The first blocks of a vector that has as many.

@@ -48,9 +48,7 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
             Output::Acceleration(side, floor) => {
                 known == Slot::Input(Input::Force(side, floor))
                     || building(side, known)
-                    || (0..scene.contacts.len())
-                        .filter(|&p| floors(scene, p).contains(&(side, floor)))
-                        .any(|p| contact(scene, p, known))
+                    || some_contact(scene, known, |p| floors(scene, p).contains(&(side, floor)))
             }
             Output::Contact(p, ContactOutput::Penetration | ContactOutput::Active | ContactOutput::Impacts) => {
                 known == Slot::Parameter(Parameter::Gap(p))
@@ -78,11 +76,18 @@ fn building(side: Side, known: Slot) -> bool {
 
 /// A contact force: damping that gives a restitution depends on the masses of both floors.
 fn contact(scene: &Scene, p: usize, known: Slot) -> bool {
+    some_contact(scene, known, |q| q == p)
+}
+
+/// The force of any of the wanted contacts.
+fn some_contact(scene: &Scene, known: Slot, wanted: impl Fn(usize) -> bool) -> bool {
     match known {
         Slot::Parameter(
             Parameter::Gap(q) | Parameter::ContactStiffness(q) | Parameter::Exponent(q) | Parameter::Restitution(q),
-        ) => q == p,
-        Slot::Parameter(Parameter::Mass(side, floor)) => floors(scene, p).contains(&(side, floor)),
+        ) => wanted(q),
+        Slot::Parameter(Parameter::Mass(side, floor)) => {
+            (0..scene.contacts.len()).any(|p| wanted(p) && floors(scene, p).contains(&(side, floor)))
+        }
         _ => false,
     }
 }
@@ -91,7 +96,7 @@ fn contact(scene: &Scene, p: usize, known: Slot) -> bool {
 fn energy(scene: &Scene, known: Slot) -> bool {
     stiffness_or_mass(Side::Left, known)
         || stiffness_or_mass(Side::Right, known)
-        || (0..scene.contacts.len()).any(|p| contact(scene, p, known))
+        || some_contact(scene, known, |_| true)
 }
 
 fn floors(scene: &Scene, p: usize) -> [(Side, usize); 2] {

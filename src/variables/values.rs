@@ -226,6 +226,7 @@ pub struct Instant<'a> {
 
 impl Instant<'_> {
     /// The value of an output.
+    #[inline(always)]
     pub fn read(&self, output: Output) -> Value<'static> {
         let Instant { model, state, point } = *self;
         Value::Real(match output {
@@ -242,6 +243,7 @@ impl Instant<'_> {
     }
 }
 
+#[inline(always)]
 fn read_contact(contact: &ContactPoint, output: ContactOutput) -> Value<'static> {
     Value::Real(match output {
         ContactOutput::Force => contact.force,
@@ -255,6 +257,7 @@ fn read_contact(contact: &ContactPoint, output: ContactOutput) -> Value<'static>
     })
 }
 
+#[inline(never)]
 fn read_energy(energy: &EnergyPoint, term: EnergyOutput) -> f64 {
     match term {
         EnergyOutput::Input => energy.input,

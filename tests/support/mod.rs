@@ -1,6 +1,6 @@
 //! The compiled library as a master sees it: symbols, a resources directory, a logger. Shared by the tests of the
 //! C interface; each uses a part of it.
-#![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(dead_code, unused_imports, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod scenes;
 mod state;

@@ -1,0 +1,109 @@
+//! What a person finds in an importing tool: the page `documentation/index.html` and the icon.
+
+use crate::archive::Entry;
+use pounding::description::Package;
+use pounding::scene::ContactPair;
+use pounding::variables::{Causality, Row, Table, Type};
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+/// Two buildings that touch.
+const ICON: &[u8] = include_bytes!("../icon/model.png");
+
+const STYLE: &str = "body{font:15px/1.45 sans-serif;max-width:60em;margin:2em auto;padding:0 1em;color:#222}\
+    table{border-collapse:collapse}td,th{border:1px solid #ccc;padding:.2em .6em;text-align:left;vertical-align:top}\
+    th{background:#f2f2f2}pre{background:#f6f6f6;padding:.8em;overflow-x:auto}";
+
+const USE: &str = "<ul>\n\
+    <li>SI units everywhere; <em>x</em> points from the left building to the right one. Displacements and velocities are \
+    relative to the ground, accelerations absolute.</li>\n\
+    <li>Floors are counted from 1 at the bottom; storey <em>i</em> is below floor <em>i</em>.</li>\n\
+    <li>Any communication step will do: impacts are found and followed inside. Inputs are held from one communication \
+    point to the next.</li>\n\
+    <li>An impact lasts milliseconds and falls between communication points: read <code>impulse</code>, \
+    <code>peak_force</code> and <code>impacts</code> instead of sampling <code>force</code>. The mean force over a step \
+    is the difference of the impulse divided by the step.</li>\n\
+    <li>Parameters can be set until the end of the initialisation.</li>\n</ul>\n";
+
+/// The icon, and the page of this FMU.
+pub fn entries(package: &Package) -> [Entry; 2] {
+    [Entry::file("model.png", ICON.to_vec()), Entry::file("documentation/index.html", page(package).into_bytes())]
+}
+
+fn page(package: &Package) -> String {
+    let scene = &package.scene;
+    let name = escape(&scene.name);
+    let mut html = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}</title>\n\
+         <style>{STYLE}</style>\n</head>\n<body>\n<h1>{name}</h1>\n<p>{}</p>\n<p>Two adjacent buildings of {} and {} \
+         storeys under a ground motion, with {} between facing floors.</p>\n<h2>Use</h2>\n{USE}",
+        escape(&scene.description),
+        scene.left.mass.len(),
+        scene.right.mass.len(),
+        match scene.contacts.len() {
+            1 => "1 contact".to_owned(),
+            n => format!("{n} contacts"),
+        }
+    );
+    html += &laws(&scene.contacts);
+    html += &variables(&Table::new(scene));
+    let _ = write!(
+        html,
+        "<h2>Scene</h2>\n<pre>{}</pre>\n<p><a href=\"licenses/license.txt\">Licences</a></p>\n</body>\n</html>\n",
+        escape(&package.scene_text)
+    );
+    html
+}
+
+/// The laws of contact that the scene uses.
+fn laws(contacts: &[ContactPair]) -> String {
+    let used: BTreeSet<&str> = contacts.iter().map(|pair| pair.law.kind.info().name).collect();
+    if used.is_empty() {
+        return String::new();
+    }
+    let mut html = String::from(
+        "<h2>Contact</h2>\n<p>Penetration d = left displacement - right displacement - gap, its rate v, V its rate at the \
+         entry; m is the reduced mass of the two floors, e the coefficient of restitution.</p>\n<table>\n\
+         <tr><th>law</th><th>force while d &gt; 0</th><th>symbols</th><th>known defect</th></tr>\n",
+    );
+    for name in used {
+        let Some(info) = contacts.iter().map(|pair| pair.law.kind.info()).find(|info| info.name == name) else {
+            continue;
+        };
+        html += &row([name, info.force, info.symbols, info.defect]);
+    }
+    html + "</table>\n"
+}
+
+fn variables(table: &Table) -> String {
+    let mut html =
+        String::from("<h2>Variables</h2>\n<table>\n<tr><th>name</th><th>kind</th><th>unit</th><th>meaning</th></tr>\n");
+    for variable in &table.rows {
+        html += &row([&variable.name, kind(variable), unit(variable), &variable.description]);
+    }
+    html + "</table>\n"
+}
+
+fn row(cells: [&str; 4]) -> String {
+    format!("<tr>{}</tr>\n", cells.map(|cell| format!("<td>{}</td>", escape(cell))).concat())
+}
+
+fn kind(variable: &Row) -> &'static str {
+    match variable.slot.causality() {
+        Causality::Input => "input",
+        Causality::Output => "output",
+        Causality::Parameter => "parameter",
+        Causality::CalculatedParameter => "calculated parameter",
+    }
+}
+
+fn unit(variable: &Row) -> &'static str {
+    match variable.ty {
+        Type::Real(unit) => unit.info().name,
+        Type::Integer | Type::Boolean | Type::String => variable.ty.name(),
+    }
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
