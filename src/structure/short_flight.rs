@@ -54,17 +54,7 @@ fn expand(terms: &mut Terms, order: usize, loads: [Lane; 2], (damping, omega2): 
 #[inline(always)]
 fn sums(terms: &[Lane]) -> (Lane, Lane) {
     let (mut value, mut slope) = ([0.0; LANES], [0.0; LANES]);
-    let mut n = terms.len();
-    while n >= 6 {
-        n -= 4;
-        let [a, b, c, d] = [0, 1, 2, 3].map(|k| terms[n + k]);
-        let [s0, s1, s2, s3] = [0, 1, 2, 3].map(|k| COUNT[n + k]);
-        for i in 0..LANES {
-            value[i] += (d[i] + c[i]) + (b[i] + a[i]);
-            slope[i] += (d[i] * s3 + c[i] * s2) + (b[i] * s1 + a[i] * s0);
-        }
-    }
-    for (term, count) in terms[..n].iter().zip(&COUNT).rev() {
+    for (term, count) in terms.iter().zip(&COUNT).rev() {
         for i in 0..LANES {
             value[i] += term[i];
             slope[i] += term[i] * count;
