@@ -79,6 +79,7 @@ impl Model {
         let mut state = self.start(*time);
         self.check_sizes(saved, &state)?;
         require(base.numbers().chain(inputs.numbers()).all(f64::is_finite), "a number in it is not finite")?;
+        require(base.last_length >= 0.0, "the length of a step in it is impossible")?;
         require(base.motion().all(|size| size.abs() <= MOST_MOTION), "no building moves so far or so fast")?;
         require(counters.numbers().all(|count| count <= MOST_COUNTED), "a count in it is impossible")?;
         self.check_segment(saved)?;
@@ -173,10 +174,10 @@ impl Base {
             peak_drift,
             energy,
             velocity_scale,
-            last_length,
+            last_length: _, // infinite where a series ended by itself
             impacts: _,
         } = self;
-        let of_motion = [q, v].into_iter().flatten().chain([elapsed, velocity_scale, last_length]).copied();
+        let of_motion = [q, v].into_iter().flatten().chain([elapsed, velocity_scale]).copied();
         let of_contacts = contacts.iter().flat_map(Contact::numbers);
         of_motion.chain(of_contacts).chain(peak_drift.numbers()).chain(energy.iter().flat_map(Account::numbers))
     }
