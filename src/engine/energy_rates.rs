@@ -73,7 +73,9 @@ impl Model {
         match coordinates {
             // Modes have the mass 1.
             Coordinates::Modes => products.sum(),
-            Coordinates::Floors => products.sum(),
+            Coordinates::Floors => {
+                products.zip(self.structure.floors.mass()).map(|(product, mass)| product * mass).sum()
+            }
         }
     }
 }
