@@ -49,11 +49,11 @@ impl Model {
                 progress = Progress { steps: progress.steps + flown, stalled: 0 };
             }
             let segment = &state.base.segment;
-            let limit = if self.is_driven() { segment.length.min(until - segment.start) } else { segment.length };
+            let limit = self.limit(segment, until);
             if limit > state.base.elapsed || !self.is_driven() {
                 self.plan(state, limit);
                 let segment = &state.base.segment;
-                let end = if state.step.reaches_limit { limit } else { state.base.elapsed + state.step.length };
+                let end = state.step_end(limit);
                 if until - segment.start < end {
                     break;
                 }
@@ -74,11 +74,18 @@ impl Model {
         Ok(())
     }
 
+    /// Where a step has to end, s since the start of the segment.
+    pub(super) fn limit(&self, segment: &Segment, until: f64) -> f64 {
+        if self.is_driven() { segment.length.min(until - segment.start) } else { segment.length }
+    }
+
     /// Works out the next step, unless that has been done already.
-    fn plan(&self, state: &mut State, limit: f64) {
+    pub(super) fn plan(&self, state: &mut State, limit: f64) {
         if state.step.kind != StepKind::Unknown {
             return;
         }
+        // A step in contact notes its length in the base: all else that planning changes there it would find again.
+        state.step.planned_from = state.base.last_length;
         if state.base.contacts.iter().any(Contact::in_contact) {
             self.plan_contact(state, limit);
         } else {
@@ -260,6 +267,13 @@ fn lanes_sum(modal: &[f64]) -> f64 {
         }
     }
     sum.iter().sum()
+}
+
+impl State {
+    /// Where the planned step ends, s since the start of the segment: by the `limit`, whatever rounding adds.
+    pub(super) fn step_end(&self, limit: f64) -> f64 {
+        if self.step.reaches_limit { limit } else { (self.base.elapsed + self.step.length).min(limit) }
+    }
 }
 
 impl Base {

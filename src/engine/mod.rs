@@ -10,6 +10,7 @@ mod contact_step;
 mod dismissal;
 mod drift;
 mod energy;
+mod energy_rates;
 mod feedthrough;
 mod flight;
 mod floor_motion;
@@ -23,13 +24,16 @@ mod onset_step;
 mod rates;
 mod rigid;
 mod roots;
+mod saved;
 mod state;
 
 pub use crate::structure::Side;
+pub use energy_rates::EnergyRates;
 pub use feedthrough::Response;
 pub use input::LinearInput;
 pub use model::Model;
 pub use rates::{ContactRates, PointRates, Rates};
+pub use saved::SavedState;
 pub use state::{Counters, State};
 
 /// The solution at one time, as floors and contacts show it.
@@ -98,7 +102,7 @@ pub struct EnergyPoint {
 }
 
 /// One contact episode.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Episode {
     /// Contact, counted from 0.
     pub contact: usize,

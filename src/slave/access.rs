@@ -5,6 +5,7 @@ use super::{Phase, Refusal, Slave};
 use crate::scene::SceneError;
 use crate::variables::{Row, Settings, Slot, Table, Value};
 use std::cell::LazyCell;
+use std::sync::Arc;
 
 impl Slave {
     /// Reads each variable in turn and hands over its place and value; `take` is `None` where it is not of `wanted` type.
@@ -44,7 +45,7 @@ impl Slave {
         let changed = self.changed_settings(pairs(), &mut problems);
         Refusal::unless_empty(problems)?;
         if let Some(changed) = changed {
-            (self.settings, self.simulation) = (changed, None);
+            (self.settings, self.simulation) = (Arc::new(changed), None);
         }
         for (reference, value) in pairs() {
             if let (Some(Slot::Input(input)), Value::Real(value)) = (self.table.row(reference).map(|r| r.slot), value) {
@@ -93,7 +94,7 @@ impl Slave {
         for (reference, value) in pairs {
             let Some(&Row { slot: Slot::Parameter(parameter), .. }) = self.table.row(reference) else { continue };
             if self.refuse(reference, value).is_none() {
-                let settings = changed.get_or_insert_with(|| self.settings.clone());
+                let settings = changed.get_or_insert_with(|| Settings::clone(&self.settings));
                 note(settings.write(parameter, value), problems);
             }
         }

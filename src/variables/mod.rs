@@ -6,6 +6,7 @@
 //! A new variable is a variant of [`Output`], [`Parameter`] or [`Input`], its row in `rows.rs` and its arm in
 //! `values.rs`; the compiler asks for the arms.
 
+mod changes;
 mod dependencies;
 mod derivatives;
 mod initial_dependencies;
@@ -13,6 +14,7 @@ mod rows;
 mod unit;
 mod values;
 
+pub use changes::Changes;
 pub use dependencies::{Dependence, at_communication_points};
 pub use derivatives::{HIGHEST_OUTPUT_DERIVATIVE, by_parameter};
 pub use initial_dependencies::at_start;
