@@ -15,7 +15,7 @@ pub use files::{file_names, files};
 use fmi::model_description::fmi2::ModelDescription;
 use std::collections::HashSet;
 
-/// `modelDescription.xml` as the importer has read it; what it does not read is looked at by [`document`].
+/// `modelDescription.xml` as the importer has read it; what it does not read is looked at by [`document()`].
 pub fn description(description: &ModelDescription) -> Vec<String> {
     let mut findings = experiment::findings(description);
     findings.extend(identifier(description));
