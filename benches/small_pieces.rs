@@ -204,6 +204,23 @@ fn fmu(criterion: &mut Criterion) {
             });
         });
     }
+    let instance = started(&fmu);
+    assert_eq!(instance.step(0.0, 5.0), OK);
+    let mut state = instance.recorded();
+    group.bench_function("record a state in place of another", |bencher| {
+        bencher.iter(|| assert_eq!(instance.get_state(&raw mut state), OK));
+    });
+    group.bench_function("go back to a state", |bencher| {
+        bencher.iter(|| assert_eq!(instance.set_state(state), OK));
+    });
+    let bytes = instance.serialized(state);
+    group.bench_function(format!("serialize a state, {} bytes", bytes.len()), |bencher| {
+        let mut room = bytes.clone();
+        bencher.iter(|| assert_eq!(instance.serialize_to(state, room.as_mut_ptr(), room.len()), OK));
+    });
+    group.bench_function("deserialize a state", |bencher| {
+        bencher.iter(|| assert_eq!(instance.deserialize_from(bytes.as_ptr(), bytes.len(), &raw mut state), OK));
+    });
     group.finish();
 }
 

@@ -2,9 +2,10 @@
 //! analytic [`Force`]s on either side of a [`Guard`].
 
 use super::ImpactLaw;
+use serde::{Deserialize, Serialize};
 
 /// One analytic piece of a contact force. d is the penetration, m, v its rate, m/s.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Force {
     /// F = 0.
     None,
@@ -96,7 +97,7 @@ pub fn power(d: f64, exponent: f64) -> f64 {
 }
 
 /// Where the force passes from one branch to the other: engaged while constant + stiffness d + damping v > 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Guard {
     /// Term without d and v.
     pub constant: f64,
@@ -114,7 +115,7 @@ impl Guard {
 }
 
 /// A law in one episode.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EpisodeForce {
     /// While the guard is positive, or always where there is none.
     pub engaged: Force,

@@ -10,3 +10,4 @@ mod xml;
 
 pub use crate::scene::{Package, PackagedRecord};
 pub use log_category::Category;
+pub(crate) use package::guid;

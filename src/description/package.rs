@@ -13,8 +13,13 @@ impl Package {
         xml::document(self, &self.guid())
     }
 
-    /// The GUID in the description: a name-based UUID of the description without it, the scene and the record.
+    /// The GUID as the description writes it.
     pub fn guid(&self) -> String {
+        guid(self.fingerprint())
+    }
+
+    /// What the GUID is: a name-based UUID of the description without it, the scene and the record.
+    pub fn fingerprint(&self) -> Uuid {
         let description = xml::document(self, "");
         let record = self.record.as_ref().map_or(&[][..], |record| &record.bytes);
         let mut name = Vec::with_capacity(description.len() + self.scene_text.len() + record.len() + 24);
@@ -22,7 +27,7 @@ impl Package {
             name.extend_from_slice(&(part.len() as u64).to_le_bytes());
             name.extend_from_slice(part);
         }
-        Uuid::new_v5(&NAMESPACE, &name).braced().to_string()
+        Uuid::new_v5(&NAMESPACE, &name)
     }
 
     /// s, end of the default experiment: the scene's, else the end of its record.
@@ -30,4 +35,9 @@ impl Package {
         let end_of_record = || self.record.as_ref()?.record.times.last().copied().filter(|&end| end > 0.0);
         self.scene.stop_time.or_else(end_of_record)
     }
+}
+
+/// A fingerprint as descriptions write it.
+pub(crate) fn guid(fingerprint: Uuid) -> String {
+    fingerprint.braced().to_string()
 }

@@ -53,6 +53,8 @@ fn write_co_simulation(xml: &mut Xml, package: &Package) -> io::Result<()> {
             ("canInterpolateInputs", "true"),
             ("maxOutputDerivativeOrder", &HIGHEST_OUTPUT_DERIVATIVE.to_string()),
             ("canNotUseMemoryManagementFunctions", "true"),
+            ("canGetAndSetFMUstate", "true"),
+            ("canSerializeFMUstate", "true"),
             ("providesDirectionalDerivative", "true"),
         ])
         .write_empty()?;

@@ -49,7 +49,7 @@ impl Model {
                 progress = Progress { steps: progress.steps + flown, stalled: 0 };
             }
             let segment = &state.base.segment;
-            let limit = if self.is_driven() { segment.length.min(until - segment.start) } else { segment.length };
+            let limit = self.limit(segment, until);
             if limit > state.base.elapsed || !self.is_driven() {
                 self.plan(state, limit);
                 let segment = &state.base.segment;
@@ -74,11 +74,18 @@ impl Model {
         Ok(())
     }
 
+    /// Where a step has to end, s since the start of the segment.
+    pub(super) fn limit(&self, segment: &Segment, until: f64) -> f64 {
+        if self.is_driven() { segment.length.min(until - segment.start) } else { segment.length }
+    }
+
     /// Works out the next step, unless that has been done already.
-    fn plan(&self, state: &mut State, limit: f64) {
+    pub(super) fn plan(&self, state: &mut State, limit: f64) {
         if state.step.kind != StepKind::Unknown {
             return;
         }
+        // A step in contact notes its length in the base: all else that planning changes there it would find again.
+        state.step.planned_from = state.base.last_length;
         if state.base.contacts.iter().any(Contact::in_contact) {
             self.plan_contact(state, limit);
         } else {

@@ -16,6 +16,7 @@ use super::ground::GroundMotion;
 use super::model::{Model, Pair};
 use super::state::*;
 use crate::structure::{LANES, ModalDamping, Side, Structure};
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Most segments that one look is good for.
@@ -48,7 +49,7 @@ struct Sums {
 }
 
 /// What is known of pairs that are apart.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Watch {
     /// Number of the first segment in which any pair may meet, as far as is known.
     due: u64,
@@ -94,6 +95,20 @@ impl Watch {
 
     fn is_known(&self, p: usize) -> bool {
         self.known[p] == self.moves
+    }
+
+    /// Whether it can be what is known of so many pairs in a segment of that number.
+    pub fn fits(&self, pairs: usize, segment: u64, most_moves: u64) -> bool {
+        let Watch { due, pairs: free, moves, known } = self;
+        // A pair may have been dismissed in an earlier segment, and none is dismissed for longer than from here.
+        let furthest = segment.saturating_add(2 * MOST);
+        let is_first = |due: u64| free.iter().min().is_none_or(|first| due == *first);
+        free.len() == pairs
+            && known.len() == pairs
+            && *moves <= most_moves
+            && known.iter().all(|move_| move_ <= moves)
+            && free.iter().all(|first| *first <= furthest)
+            && is_first(*due)
     }
 }
 
@@ -215,5 +230,26 @@ impl Sums {
             }
         }
         Sums { speed: speed.iter().sum(), change: change.iter().sum() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_watch_that_a_run_cannot_come_to_does_not_fit() {
+        let watch =
+            |due, pairs: &[u64], moves, known: &[u64]| Watch { due, pairs: pairs.into(), moves, known: known.into() };
+        let fits = |watch: Watch| watch.fits(2, 100, 1000);
+        assert!(fits(Watch::new(2)));
+        assert!(fits(watch(90, &[90, 164], 1000, &[0, 1000])));
+        assert!(!fits(watch(80, &[90, 164], 50, &[0, 50])), "due before any pair");
+        assert!(!fits(watch(90, &[90, u64::MAX], 50, &[0, 50])), "dismissed for ever");
+        assert!(!fits(watch(90, &[90, 164], 50, &[0, 51])), "known at a move to come");
+        assert!(!fits(watch(90, &[90, 164], 1001, &[0, 50])), "too many moves");
+        assert!(!fits(watch(90, &[90], 50, &[0, 50])) && !fits(watch(90, &[90, 164], 50, &[0])), "other pairs");
+        // Without pairs, before and after the first look.
+        assert!(watch(0, &[], 0, &[]).fits(0, 0, 10) && watch(u64::MAX, &[], 3, &[]).fits(0, 5, 10));
     }
 }

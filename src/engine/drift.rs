@@ -10,6 +10,7 @@ use super::model::Model;
 use super::state::{Base, Coordinates, State};
 use crate::structure::{LANES, Structure};
 use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
 
 /// Modes that are summed before the others are bounded.
 const FIRST: usize = 4;
@@ -40,12 +41,25 @@ struct BuildingShapes {
 }
 
 /// Largest drifts so far.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct PeakDrifts {
     /// m, left storeys then right storeys, each padded.
     peaks: Vec<f64>,
     /// Weighted size of each building's modal displacements up to which no storey exceeds its peak.
     below: [f64; 2],
+}
+
+impl PeakDrifts {
+    /// Storeys of both buildings, each padded.
+    pub fn storeys(&self) -> usize {
+        self.peaks.len()
+    }
+
+    /// All numbers in it.
+    pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+        let PeakDrifts { peaks, below } = self;
+        peaks.iter().chain(below).copied()
+    }
 }
 
 impl DriftShapes {

@@ -3,12 +3,13 @@
 use super::input::LinearInput;
 use crate::record::Record;
 use crate::structure::{Interval, Structure};
+use serde::{Deserialize, Serialize};
 
 /// Records with up to this many different sample spacings have their exact flight prepared for each.
 const MOST_PREPARED: usize = 8;
 
 /// A stretch of time in which the ground acceleration is linear.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Segment {
     /// s.
     pub start: f64,
@@ -22,7 +23,7 @@ pub struct Segment {
 }
 
 /// Where a segment lies relative to the record.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 enum Place {
     /// Before the first sample, or a stretch under an input.
     Outside,
@@ -111,6 +112,18 @@ impl GroundMotion {
         }
     }
 
+    /// Whether a segment is one of this motion.
+    pub fn has(&self, segment: &Segment) -> bool {
+        const MOST: u64 = 1 << 53;
+        let own = match segment.place {
+            Place::Outside => self.segment_at(segment.start),
+            Place::Sample(i) if i < self.lengths.len() => self.sample(i),
+            Place::After(k) if k < MOST => self.after(k),
+            Place::Sample(_) | Place::After(_) => return false,
+        };
+        own == *segment
+    }
+
     /// s that so many segments last, the first of which has that number, and the integral of |acceleration| over them,
     /// m/s: never less than exact.
     pub fn ahead(&self, first: u64, segments: u64) -> (f64, f64) {
@@ -147,6 +160,13 @@ impl Segment {
     /// A stretch under an input.
     pub fn under_input(start: f64, length: f64, input: &LinearInput) -> Segment {
         Segment { start, length, acceleration: input.at(start), slope: input.slope(), place: Place::Outside }
+    }
+
+    /// Whether it can be a stretch under an input.
+    pub fn is_under_input(&self) -> bool {
+        let Segment { start, length, acceleration, slope, place } = *self;
+        let numbers = [start, length, acceleration, slope];
+        place == Place::Outside && length >= 0.0 && numbers.into_iter().all(f64::is_finite)
     }
 
     /// m/s2 at a time since the start.

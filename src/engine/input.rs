@@ -1,7 +1,9 @@
 //! What a master sets, as a function of time.
 
+use serde::{Deserialize, Serialize};
+
 /// An input that is linear in time from when it was set, until it is set again.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LinearInput {
     value: f64,
     slope: f64,
@@ -34,6 +36,17 @@ impl LinearInput {
     /// Sets the rate from a time on; the value there is what has been set for it, or what the line has come to.
     pub fn set_slope(&mut self, slope: f64, time: f64) {
         *self = LinearInput { value: self.at(time), slope, since: time };
+    }
+
+    /// Whether all of its numbers are finite.
+    pub fn is_finite(&self) -> bool {
+        self.numbers().into_iter().all(f64::is_finite)
+    }
+
+    /// Value, rate and since when, s.
+    pub(super) fn numbers(&self) -> [f64; 3] {
+        let &LinearInput { value, slope, since } = self;
+        [value, slope, since]
     }
 
     /// Begins the same line at another time.

@@ -23,6 +23,7 @@ mod onset_step;
 mod rates;
 mod rigid;
 mod roots;
+mod saved;
 mod state;
 
 pub use crate::structure::Side;
@@ -30,6 +31,7 @@ pub use feedthrough::Response;
 pub use input::LinearInput;
 pub use model::Model;
 pub use rates::{ContactRates, PointRates, Rates};
+pub use saved::SavedState;
 pub use state::{Counters, State};
 
 /// The solution at one time, as floors and contacts show it.
@@ -98,7 +100,7 @@ pub struct EnergyPoint {
 }
 
 /// One contact episode.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Episode {
     /// Contact, counted from 0.
     pub contact: usize,

@@ -154,6 +154,7 @@ impl Model {
                 kind: StepKind::Unknown,
                 length: 0.0,
                 reaches_limit: false,
+                planned_from: 0.0,
                 event: None,
                 q: vec![0.0; lanes],
                 v: vec![0.0; lanes],

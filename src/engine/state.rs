@@ -11,6 +11,7 @@ use super::onset_step::OnsetSeries;
 use crate::contact::{EpisodeForce, Force};
 use crate::polynomial::{Coefficients, MAX_ORDER, Powers, ROOM};
 use crate::structure::{Interval, MotionSeries, Scratch, Structure};
+use serde::{Deserialize, Serialize};
 
 /// Everything that changes during a run.
 ///
@@ -28,7 +29,7 @@ pub struct State {
 }
 
 /// What a master sets, held or linear until it sets it again.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Inputs {
     /// m/s2, where there is no record.
     pub ground_acceleration: LinearInput,
@@ -38,7 +39,7 @@ pub(super) struct Inputs {
 }
 
 /// What a vector of motion holds, floor by floor or mode by mode.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Coordinates {
     /// In flight, and near rigid contacts.
     #[default]
@@ -48,7 +49,7 @@ pub(super) enum Coordinates {
 }
 
 /// The solution at the end of an internal step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Base {
     pub segment: Segment,
     /// s since the start of the segment.
@@ -78,7 +79,7 @@ impl Base {
 }
 
 /// Work done since the start, J.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Account {
     pub initial: f64,
     pub input: f64,
@@ -89,7 +90,7 @@ pub(super) struct Account {
 }
 
 /// What a contact is doing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Phase {
     /// No force.
     Apart,
@@ -102,7 +103,7 @@ pub(super) enum Phase {
 }
 
 /// One contact.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Contact {
     pub phase: Phase,
     pub force: EpisodeForce,
@@ -183,6 +184,8 @@ pub(super) struct Step {
     pub length: f64,
     /// Whether the step ends where the segment (or the communication step that cuts it) does.
     pub reaches_limit: bool,
+    /// s, `last_length` of the base when the step was planned: with it the step can be planned again.
+    pub planned_from: f64,
     pub event: Option<Event>,
     /// The state at the end, in the coordinates of the base.
     pub q: Vec<f64>,
@@ -230,7 +233,7 @@ pub(super) enum Event {
 }
 
 /// How much work a run has been: counted, not timed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counters {
     /// Internal flight steps.
     pub flight_steps: u64,

@@ -43,6 +43,16 @@ pub unsafe fn store<T>(name: &str, place: *mut T, value: T) -> Result<(), Refusa
     Ok(())
 }
 
+/// One value that the caller has filled.
+///
+/// # Safety
+/// As for [`slice_in`] with one element.
+pub unsafe fn load<T: Copy>(name: &str, place: *const T) -> Result<T, Refusal> {
+    check_array(name, place, 1)?;
+    // SAFETY: not null, aligned, and the rest is the caller's promise.
+    Ok(unsafe { place.read() })
+}
+
 fn check_array<T>(name: &str, array: *const T, n: usize) -> Result<(), Refusal> {
     let fits = n.checked_mul(size_of::<T>()).is_some_and(|bytes| isize::try_from(bytes).is_ok());
     if array.is_null() || !array.is_aligned() || !fits {

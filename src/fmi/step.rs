@@ -3,7 +3,7 @@
 use super::arguments::{status_kind, store};
 use super::fence::with_instance;
 use super::types::{Boolean, Component, Text};
-use crate::slave::{Call, Status, StatusKind};
+use crate::slave::{Call, Refusal, Status, StatusKind};
 use std::ffi::c_int;
 
 /// What the master says about its plans for earlier states is not used: masters say it wrongly.
@@ -63,4 +63,12 @@ unsafe extern "C" fn fmi2GetStringStatus(c: Component, kind: c_int, _value: *mut
             Ok(instance.slave.no_status(Call::GetStringStatus, status_kind(kind)?))
         })
     }
+}
+
+/// For asynchronous steps, which the description does not declare: no step is ever in progress.
+#[unsafe(no_mangle)]
+unsafe extern "C" fn fmi2CancelStep(c: Component) -> c_int {
+    let refusal = || Refusal::from("this FMU does not declare canRunAsynchronuously".to_owned());
+    // SAFETY: as the module says.
+    unsafe { with_instance::<()>(c, Call::CancelStep, |_| Err(refusal())) }
 }

@@ -9,7 +9,7 @@ use std::ffi::{c_char, c_int, c_void};
 pub type Component = *mut c_void;
 /// `fmi2ComponentEnvironment`: the master's, opaque.
 pub type ComponentEnvironment = *mut c_void;
-/// `fmi2FMUstate`
+/// `fmi2FMUstate`: the name of a snapshot of one instance, not an address.
 pub type FmuState = *mut c_void;
 /// `fmi2ValueReference`
 pub type ValueReference = u32;

@@ -12,10 +12,12 @@
 mod at2;
 mod csv;
 
+use serde::{Deserialize, Serialize};
+
 /// A ground acceleration, linear between its samples and 0 before the first and after the last.
 ///
 /// A record that [`Record::parse`] returns has at least two samples, all numbers finite, and strictly increasing times.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// s, strictly increasing.
     pub times: Vec<f64>,
@@ -69,6 +71,19 @@ impl Record {
             Format::Csv => csv::parse(bytes),
             Format::PeerAt2 => at2::parse(bytes),
         }
+    }
+
+    /// A record that has come another way than by [`Record::parse`], if it could have been read from a file.
+    pub(crate) fn checked(self) -> Result<Record, RecordError> {
+        let (times, accelerations) = (self.times.len(), self.accelerations.len());
+        if times != accelerations {
+            return Err(RecordError::new(format!("{times} times and {accelerations} accelerations: expected as many")));
+        }
+        let mut record = Record::with_capacity(times);
+        for (time, acceleration) in self.times.into_iter().zip(self.accelerations) {
+            record.push(time, acceleration).map_err(RecordError::new)?;
+        }
+        record.complete()
     }
 
     /// m/s2, largest magnitude.

@@ -2,8 +2,9 @@
 
 use super::simulation::started;
 use super::{Phase, Refusal, Slave};
-use crate::variables::{Row, Slot, Table, Value};
+use crate::variables::{Row, Settings, Slot, Table, Value};
 use std::cell::LazyCell;
+use std::sync::Arc;
 
 impl Slave {
     /// Reads each variable in turn and hands over its place and value; `take` is `None` where it is not of `wanted` type.
@@ -84,12 +85,12 @@ impl Slave {
         let mut changed = None;
         for (reference, value) in pairs {
             if let Some(&Row { slot: Slot::Parameter(parameter), .. }) = self.table.row(reference) {
-                changed.get_or_insert_with(|| self.settings.clone()).write(parameter, value)?;
+                changed.get_or_insert_with(|| Settings::clone(&self.settings)).write(parameter, value)?;
             }
         }
         if let Some(changed) = changed {
             changed.check()?;
-            (self.settings, self.simulation) = (changed, None);
+            (self.settings, self.simulation) = (Arc::new(changed), None);
         }
         Ok(())
     }

@@ -17,11 +17,12 @@ pub fn instantiate(guid: &str, resource_location: &[u8], log: Log) -> Result<Sla
         return Err(Refusal::from(format!("fmuResourceLocation {shown:?}: {expected}")));
     };
     let package = Package::from_resources(directory)?;
-    let expected = package.guid();
+    let slave = Slave::new(package, log);
+    let expected = slave.guid();
     if guid != expected {
         return Err(Refusal::from(format!(
             "fmuGUID {guid:?}: expected {expected:?}, that of the scene in the resources"
         )));
     }
-    Ok(Slave::new(package, log))
+    Ok(slave)
 }

@@ -2,7 +2,8 @@
 //!
 //! The caller asks [`Slave::check`] before each call (`sequence.rs` has the table), reports what comes back with
 //! [`Slave::report`] and hands the messages of [`Slave::take_messages`] to the master. Values go through `access.rs`,
-//! which walks the table of variables, derivatives through `derivatives.rs`.
+//! which walks the table of variables, derivatives through `derivatives.rs`; `snapshots.rs` keeps what the master wants to
+//! come back to, `serialized.rs` turns it into bytes and back.
 
 mod access;
 mod derivatives;
@@ -10,18 +11,24 @@ mod instantiate;
 mod log;
 mod resource_location;
 mod sequence;
+mod serialized;
 mod simulation;
+mod snapshots;
 mod status;
 
 pub use instantiate::instantiate;
 pub use log::{Log, Message};
 pub use sequence::{Call, Phase};
+pub use snapshots::Handle;
 pub use status::{Refusal, Status, StatusKind};
 
-use crate::description::{Category, Package};
+use crate::description::{Category, Package, guid};
 use crate::engine::Episode;
 use crate::variables::{Inputs, Settings, Table};
 use simulation::{Simulation, started};
+use snapshots::Snapshots;
+use std::sync::Arc;
+use uuid::Uuid;
 
 /// Communication points may differ by the rounding of the master: s, relative to their magnitude above 1 s.
 const TIME_TOLERANCE: f64 = 1e-9;
@@ -29,10 +36,12 @@ const TIME_TOLERANCE: f64 = 1e-9;
 /// One instance.
 #[derive(Debug)]
 pub struct Slave {
+    /// Of the FMU: its GUID.
+    fingerprint: Uuid,
     table: Table,
     /// The parameters as the scene gives them, for a reset.
-    defaults: Settings,
-    settings: Settings,
+    defaults: Arc<Settings>,
+    settings: Arc<Settings>,
     inputs: Inputs,
     phase: Phase,
     log: Log,
@@ -42,23 +51,32 @@ pub struct Slave {
     stop_time: Option<f64>,
     /// Made of the settings when something computed is asked for, dropped when they change.
     simulation: Option<Simulation>,
+    snapshots: Snapshots,
 }
 
 impl Slave {
     /// A fresh instance of what an FMU holds.
     pub fn new(package: Package, log: Log) -> Slave {
-        let settings = Settings::new(package.scene, package.record.map(|packaged| packaged.record));
+        let fingerprint = package.fingerprint();
+        let settings = Arc::new(Settings::new(package.scene, package.record.map(|packaged| packaged.record)));
         Slave {
+            fingerprint,
             table: Table::new(&settings.scene),
             inputs: Inputs::new(&settings.scene),
-            defaults: settings.clone(),
+            defaults: Arc::clone(&settings),
             settings,
             phase: Phase::Instantiated,
             log,
             time: 0.0,
             stop_time: None,
             simulation: None,
+            snapshots: Snapshots::default(),
         }
+    }
+
+    /// The GUID of the FMU, as its description writes it.
+    pub fn guid(&self) -> String {
+        guid(self.fingerprint)
     }
 
     /// Whether the standard allows a call now.
@@ -139,9 +157,9 @@ impl Slave {
         Status::Ok
     }
 
-    /// As after instantiation. The logging stays as the master has chosen it.
+    /// As after instantiation. The logging stays as the master has chosen it, and so do the snapshots.
     pub fn reset(&mut self) -> Status {
-        self.settings = self.defaults.clone();
+        self.settings = Arc::clone(&self.defaults);
         self.inputs = Inputs::new(&self.settings.scene);
         (self.time, self.stop_time, self.simulation) = (0.0, None, None);
         self.phase = Phase::Instantiated;

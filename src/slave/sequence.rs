@@ -2,7 +2,7 @@
 
 /// Where an instance is in its life. Steps are done when they return, so none is ever in progress, and none is ever
 /// discarded: the standard's `stepInProgress`, `stepFailed` and `stepCanceled` are not reached.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Phase {
     /// After `fmi2Instantiate` or `fmi2Reset`.
     Instantiated,
@@ -12,7 +12,8 @@ pub enum Phase {
     StepComplete,
     /// After `fmi2Terminate`.
     Terminated,
-    /// After a call that returned `fmi2Error`: values can be read to find out why, `fmi2Reset` starts again.
+    /// After a call that returned `fmi2Error`: values can be read to find out why, `fmi2Reset` starts again,
+    /// `fmi2SetFMUstate` goes on from where all was well.
     Error,
 }
 

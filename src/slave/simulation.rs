@@ -1,13 +1,14 @@
 //! A run: the model of the present settings, its state, and what is read out of it.
 
 use super::Refusal;
-use crate::engine::{Episode, Model, Point, PointRates, Response, State};
+use crate::engine::{Episode, Model, Point, PointRates, Response, SavedState, State};
 use crate::variables::{Input, Inputs, Instant, Settings, Slot, Table};
+use std::sync::Arc;
 
 /// Model and state, and the state as outputs show it.
 #[derive(Debug)]
 pub(super) struct Simulation {
-    model: Model,
+    model: Arc<Model>,
     state: State,
     point: Point,
     /// `point` shows `state`.
@@ -18,21 +19,18 @@ pub(super) struct Simulation {
     response: Response,
 }
 
+/// A run as it was at some time.
+#[derive(Clone, Debug)]
+pub(super) struct SavedRun {
+    pub model: Arc<Model>,
+    pub state: SavedState,
+}
+
 impl Simulation {
     /// The initial state at a time, with the inputs as they are.
     #[cold]
     pub fn start(settings: &Settings, inputs: &Inputs, table: &Table, time: f64) -> Result<Simulation, Refusal> {
-        let model = Model::new(&settings.scene, settings.record())?;
-        let state = model.start(time);
-        let mut simulation = Simulation {
-            model,
-            state,
-            point: Point::default(),
-            is_observed: false,
-            rates: PointRates::default(),
-            is_differentiated: false,
-            response: Response::default(),
-        };
+        let mut simulation = Simulation::of(Arc::new(model(settings)?), time);
         for row in &table.rows {
             if let Slot::Input(input) = row.slot {
                 simulation.set_input(input, inputs.get(input).at(time));
@@ -40,6 +38,36 @@ impl Simulation {
             }
         }
         Ok(simulation)
+    }
+
+    fn of(model: Arc<Model>, time: f64) -> Simulation {
+        let state = model.start(time);
+        Simulation {
+            model,
+            state,
+            point: Point::default(),
+            is_observed: false,
+            rates: PointRates::default(),
+            is_differentiated: false,
+            response: Response::default(),
+        }
+    }
+
+    pub fn model(&self) -> &Arc<Model> {
+        &self.model
+    }
+
+    pub fn save(&self) -> SavedRun {
+        SavedRun { model: Arc::clone(&self.model), state: self.state.save() }
+    }
+
+    /// The run of that time again; `present`, if it is one of the same model, lends its memory.
+    pub fn restore(saved: &SavedRun, present: Option<Simulation>) -> Simulation {
+        let present = present.filter(|present| Arc::ptr_eq(&present.model, &saved.model));
+        let mut simulation = present.unwrap_or_else(|| Simulation::of(Arc::clone(&saved.model), saved.state.time()));
+        simulation.model.restore(&saved.state, &mut simulation.state);
+        simulation.has_changed();
+        simulation
     }
 
     pub fn set_input(&mut self, input: Input, value: f64) {
@@ -60,10 +88,6 @@ impl Simulation {
     /// What has been read is old.
     fn has_changed(&mut self) {
         (self.is_observed, self.is_differentiated) = (false, false);
-    }
-
-    pub fn model(&self) -> &Model {
-        &self.model
     }
 
     /// The solution at the present time, observed once for all outputs that are read there.
@@ -118,4 +142,9 @@ pub(super) fn started<'a>(
         Some(simulation) => Ok(simulation),
         none => Ok(none.insert(Simulation::start(settings, inputs, table, time)?)),
     }
+}
+
+/// What the parameters make of the scene.
+pub(super) fn model(settings: &Settings) -> Result<Model, Refusal> {
+    Ok(Model::new(&settings.scene, settings.record())?)
 }

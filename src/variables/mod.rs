@@ -6,12 +6,14 @@
 //! A new variable is a variant of [`Output`], [`Parameter`] or [`Input`], its row in `rows.rs` and its arm in
 //! `values.rs`; the compiler asks for the arms.
 
+mod changes;
 mod dependencies;
 mod derivatives;
 mod rows;
 mod unit;
 mod values;
 
+pub use changes::Changes;
 pub use dependencies::{at_communication_points, at_start};
 pub use derivatives::{HIGHEST_OUTPUT_DERIVATIVE, by_parameter};
 pub use unit::{Unit, UnitInfo};

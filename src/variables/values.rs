@@ -4,6 +4,7 @@ use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, building};
 use crate::engine::{ContactPoint, EnergyPoint, LinearInput, Model, Point, Side, State};
 use crate::record::Record;
 use crate::scene::{Building, Damping, Problem, Scaling, Scene, SceneError, Stiffness, read_record};
+use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
@@ -61,7 +62,7 @@ pub struct Settings {
     /// What `scene.ground.record` names, unless `ground.record` names another.
     packaged_record: Option<Arc<Record>>,
     /// `ground.record` and what it names.
-    other_record: Option<(String, Arc<Record>)>,
+    pub(super) other_record: Option<(String, Arc<Record>)>,
 }
 
 impl Settings {
@@ -161,7 +162,7 @@ impl Settings {
 }
 
 /// The inputs.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Inputs {
     ground_acceleration: LinearInput,
     left_force: Vec<LinearInput>,
@@ -177,6 +178,14 @@ impl Inputs {
             left_force: zeros(&scene.left),
             right_force: zeros(&scene.right),
         }
+    }
+
+    /// Whether they can be those of a scene: as many forces as it has floors, and no number that could not be set.
+    pub fn fit(&self, scene: &Scene) -> bool {
+        let Inputs { ground_acceleration, left_force, right_force } = self;
+        left_force.len() == scene.left.mass.len()
+            && right_force.len() == scene.right.mass.len()
+            && left_force.iter().chain(right_force).chain([ground_acceleration]).all(LinearInput::is_finite)
     }
 
     /// An input as a function of time.

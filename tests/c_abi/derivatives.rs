@@ -10,7 +10,8 @@ type Derivatives<T> = unsafe extern "C" fn(*mut c_void, *const u32, usize, *cons
 pub type Directional =
     unsafe extern "C" fn(*mut c_void, *const u32, usize, *const u32, usize, *const f64, *mut f64) -> c_int;
 
-fn set_rate(instance: &Instance<'_>, name: &str, order: c_int, rate: f64) -> c_int {
+/// Sets a derivative of an input.
+pub fn set_rate(instance: &Instance<'_>, name: &str, order: c_int, rate: f64) -> c_int {
     let set = instance.fmu.symbol::<Derivatives<*const f64>>("fmi2SetRealInputDerivatives");
     // SAFETY: one element each.
     unsafe { set(instance.component, &instance.fmu.vr(name), 1, &raw const order, &raw const rate) }

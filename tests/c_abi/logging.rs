@@ -3,7 +3,8 @@
 use crate::support::{Arguments, ERROR, Fmu, Instance, OK, RECORD_SCENE, SCENE};
 use std::ffi::{CString, c_char, c_int, c_void};
 
-fn set_debug_logging(instance: &Instance<'_>, on: bool, categories: &[&str]) -> c_int {
+/// Log categories by name; none is all.
+pub fn set_debug_logging(instance: &Instance<'_>, on: bool, categories: &[&str]) -> c_int {
     type Logging = unsafe extern "C" fn(*mut c_void, c_int, usize, *const *const c_char) -> c_int;
     let texts = categories.iter().map(|text| CString::new(*text).unwrap()).collect::<Vec<_>>();
     let pointers = texts.iter().map(|text| text.as_ptr()).collect::<Vec<_>>();

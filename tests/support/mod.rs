@@ -3,11 +3,13 @@
 #![allow(dead_code, unused_imports, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod scenes;
+mod state;
 
 use fmi::model_description::fmi2::ModelDescription;
 use libloading::Library;
 use pounding::description::Package;
-pub use scenes::{RECORD_SCENE, SCENE, record};
+pub use scenes::{NO_CONTACT, RECORD_SCENE, SCENE, record};
+pub use state::State;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::path::{Path, PathBuf};

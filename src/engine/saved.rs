@@ -1,0 +1,267 @@
+//! Saving a state, and going on from it as if nothing had happened since.
+//!
+//! What is saved is the base and what the master holds. The step under way follows from these and is worked out again,
+//! to the same bits; buffers hold nothing, and what follows from the scene is in the model.
+
+use super::input::LinearInput;
+use super::model::Model;
+use super::state::*;
+use super::{EngineError, Episode};
+use crate::contact::EpisodeForce;
+use serde::{Deserialize, Serialize};
+
+/// No run counts so far: a count above would overflow before long.
+const MOST_COUNTED: u64 = 1 << 53;
+
+/// m and m/s (of modes, times the root of a mass): no building moves so far or so fast. What does would keep the engine
+/// busy for a minute before it gives up.
+const MOST_MOTION: f64 = 1e12;
+
+/// What the start of a segment and the time since then may be off by as a time: s, relative to times above 1 s.
+const TIME_ROUNDING: f64 = 1e-9;
+
+/// All that a state is to the model that it belongs to: plain data, to be kept or written to bytes.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct SavedState {
+    /// s, the communication time.
+    time: f64,
+    base: Base,
+    /// Whether a step from the base had been planned.
+    is_planned: bool,
+    inputs: Inputs,
+    counters: Counters,
+}
+
+impl State {
+    /// What [`Model::restore`] brings back.
+    pub fn save(&self) -> SavedState {
+        let State { time, base, step, inputs, counters, work: _ } = self;
+        let mut base = base.clone();
+        let is_planned = step.kind != StepKind::Unknown;
+        if is_planned {
+            base.last_length = step.planned_from;
+        }
+        SavedState { time: *time, base, is_planned, inputs: inputs.clone(), counters: *counters }
+    }
+}
+
+impl SavedState {
+    /// s, the communication time.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+}
+
+impl Model {
+    /// Makes a state of this model what another of its states was when it was saved. The run from there on is the same
+    /// to the last bit.
+    pub fn restore(&self, saved: &SavedState, state: &mut State) {
+        let SavedState { time, base, is_planned, inputs, counters } = saved;
+        state.time = *time;
+        state.base.clone_from(base);
+        state.inputs.clone_from(inputs);
+        state.step.kind = StepKind::Unknown;
+        if *is_planned {
+            let limit = self.limit(&state.base.segment, state.time);
+            self.plan(state, limit);
+        }
+        // What has been worked out again is not counted again.
+        state.counters = *counters;
+    }
+
+    /// Whether a state that comes from outside can be one of this model: restoring it and going on from there is safe
+    /// then, whatever its numbers.
+    ///
+    /// # Errors
+    /// The first thing that does not fit the model.
+    pub fn check_saved(&self, saved: &SavedState) -> Result<(), EngineError> {
+        let SavedState { time, base, is_planned: _, inputs, counters } = saved;
+        require(time.is_finite(), "its time is not a finite number")?;
+        let mut state = self.start(*time);
+        self.check_sizes(saved, &state)?;
+        require(base.numbers().chain(inputs.numbers()).all(f64::is_finite), "a number in it is not finite")?;
+        require(base.last_length >= 0.0, "the length of a step in it is impossible")?;
+        require(base.motion().all(|size| size.abs() <= MOST_MOTION), "no building moves so far or so fast")?;
+        require(counters.numbers().all(|count| count <= MOST_COUNTED), "a count in it is impossible")?;
+        self.check_segment(saved)?;
+        self.check_contacts(base)?;
+        let number = self.ground.as_ref().and_then(|ground| ground.number(&base.segment)).unwrap_or_default();
+        require(base.watch.fits(self.pairs.len(), number, MOST_COUNTED), "what it tells of pairs apart is impossible")?;
+        self.restore(saved, &mut state);
+        self.check_time(saved.is_planned, &state)
+    }
+
+    fn check_sizes(&self, saved: &SavedState, fresh: &State) -> Result<(), EngineError> {
+        let SavedState { base, inputs, .. } = saved;
+        let fits = base.q.len() == fresh.base.q.len()
+            && base.v.len() == fresh.base.v.len()
+            && base.contacts.len() == self.pairs.len()
+            && base.peak_drift.storeys() == fresh.base.peak_drift.storeys()
+            && base.energy.is_some() == self.energy
+            && inputs.floor_forces.len() == fresh.inputs.floor_forces.len()
+            && inputs.left_floors == fresh.inputs.left_floors;
+        require(fits, "it is of a scene with other floors, contacts, inputs or outputs")
+    }
+
+    fn check_segment(&self, saved: &SavedState) -> Result<(), EngineError> {
+        let SavedState { time, base: Base { segment, elapsed, .. }, .. } = saved;
+        let fits = match &self.ground {
+            Some(ground) => ground.has(segment),
+            None => segment.is_under_input(),
+        };
+        require(fits, "its stretch of the ground motion is none of this scene")?;
+        let is_inside = (0.0..=segment.length + rounding(*time)).contains(elapsed);
+        require(is_inside, "it lies outside its stretch of the ground motion")
+    }
+
+    fn check_contacts(&self, base: &Base) -> Result<(), EngineError> {
+        for (p, (contact, pair)) in base.contacts.iter().zip(&self.pairs).enumerate() {
+            let approach = contact.episode.approach_velocity.max(self.least_approach);
+            let is_law = |approach| contact.force == EpisodeForce::new(&pair.law, pair.mass, approach);
+            let fits = match contact.phase {
+                Phase::Apart => true,
+                Phase::Held => pair.law.is_rigid(),
+                Phase::Engaged | Phase::Slack => !pair.law.is_rigid(),
+            };
+            let is_known = contact.episode.contact == p && contact.impacts <= MOST_COUNTED;
+            if !(fits && is_known && (is_law(None) || is_law(Some(approach)))) {
+                return Err(impossible(&format!("contact[{}] is in no state that its law has", p + 1)));
+            }
+        }
+        let impacts = base.contacts.iter().fold(0_u64, |sum, contact| sum.saturating_add(contact.impacts));
+        require(base.impacts == impacts && impacts <= MOST_COUNTED, "its impacts are not those of its contacts")
+    }
+
+    /// A step that has been planned holds the time. Without one the base is there already (after a failed step it may
+    /// be further): the engine never has a stretch to make up for.
+    fn check_time(&self, is_planned: bool, state: &State) -> Result<(), EngineError> {
+        let State { time, base, step, .. } = state;
+        let (since, rounding) = (time - base.segment.start, rounding(*time));
+        let fits = if is_planned {
+            let limit = self.limit(&base.segment, *time);
+            let end = if step.reaches_limit { limit } else { base.elapsed + step.length };
+            base.elapsed <= since + rounding && since < end
+        } else {
+            base.elapsed >= since - rounding
+        };
+        require(fits, "its time is not that of its motion")
+    }
+}
+
+fn rounding(time: f64) -> f64 {
+    TIME_ROUNDING * time.abs().max(1.0)
+}
+
+fn require(holds: bool, otherwise: &str) -> Result<(), EngineError> {
+    if holds { Ok(()) } else { Err(impossible(otherwise)) }
+}
+
+fn impossible(what: &str) -> EngineError {
+    EngineError { message: format!("not a state of this scene: {what}") }
+}
+
+// All numbers of a state, by patterns without `..`: a new field has to be thought of here.
+
+impl Base {
+    fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+        let Base {
+            segment: _, // compared as a whole
+            elapsed,
+            coordinates: _,
+            q,
+            v,
+            contacts,
+            watch: _, // counts, looked at by themselves
+            peak_drift,
+            energy,
+            velocity_scale,
+            last_length: _, // infinite where a series ended by itself
+            impacts: _,
+        } = self;
+        let of_motion = [q, v].into_iter().flatten().chain([elapsed, velocity_scale]).copied();
+        let of_contacts = contacts.iter().flat_map(Contact::numbers);
+        of_motion.chain(of_contacts).chain(peak_drift.numbers()).chain(energy.iter().flat_map(Account::numbers))
+    }
+
+    /// Displacements and velocities.
+    fn motion(&self) -> impl Iterator<Item = f64> + '_ {
+        let of_contacts = self.contacts.iter().flat_map(|contact| [contact.penetration, contact.rate]);
+        self.q.iter().chain(&self.v).copied().chain(of_contacts)
+    }
+}
+
+impl Contact {
+    fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
+        let &Contact {
+            phase: _,
+            force: _, // compared as a whole
+            penetration,
+            rate,
+            at_surface: _,
+            carried: _,
+            let_go: _,
+            undecided: _,
+            reaction,
+            impacts: _,
+            impulse,
+            work,
+            stored_reference,
+            peak_force,
+            episode,
+            work_before,
+        } = self;
+        let so_far = [penetration, rate, reaction, impulse, work, stored_reference, peak_force, work_before];
+        so_far.into_iter().chain(episode.numbers())
+    }
+}
+
+impl Episode {
+    fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
+        let &Episode {
+            contact: _,
+            start,
+            end,
+            approach_velocity,
+            separation_velocity,
+            peak_force,
+            peak_time,
+            peak_penetration,
+            impulse,
+            dissipated_energy,
+        } = self;
+        let velocities = [approach_velocity, separation_velocity];
+        let peaks = [peak_force, peak_time, peak_penetration, impulse, dissipated_energy];
+        [start].into_iter().chain(end).chain(velocities).chain(peaks)
+    }
+}
+
+impl Account {
+    fn numbers(&self) -> [f64; 5] {
+        let &Account { initial, input, external, viscous, largest } = self;
+        [initial, input, external, viscous, largest]
+    }
+}
+
+impl Inputs {
+    fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+        let Inputs { ground_acceleration, floor_forces, left_floors: _ } = self;
+        floor_forces.iter().chain([ground_acceleration]).flat_map(LinearInput::numbers)
+    }
+}
+
+impl Counters {
+    fn numbers(&self) -> impl Iterator<Item = u64> + use<> {
+        let &Counters {
+            flight_steps,
+            closer_looks,
+            flights_dismissed,
+            pairs_evaluated,
+            contact_steps,
+            law_evaluations,
+            events,
+            energy_steps,
+        } = self;
+        let in_flight = [flight_steps, closer_looks, flights_dismissed, pairs_evaluated];
+        in_flight.into_iter().chain([contact_steps, law_evaluations, events, energy_steps])
+    }
+}

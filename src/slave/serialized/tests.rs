@@ -1,0 +1,252 @@
+//! Bodies with a right checksum and anything in them: refused, or harmless.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use super::*;
+use crate::description::Package;
+use crate::scene::{PackagedRecord, Scene};
+use crate::slave::{Call, Log, Status};
+use proptest::prelude::*;
+
+const LAWS: [&str; 5] = [
+    "law = \"stereomechanical\"\nrestitution = 0.3",
+    "law = \"linear\"\nstiffness = 2.0e6",
+    "law = \"kelvin_voigt_no_tension\"\nstiffness = 2.0e6\nrestitution = 0.6",
+    "law = \"jankowski\"\nstiffness = 1.0e7\nrestitution = 0.6",
+    "law = \"hertz_damped\"\nstiffness = 1.0e7\nrestitution = 0.6\ndamping_formula = \"exact\"",
+];
+
+/// Two storeys beside one, touching from the start, after so many steps of 4 ms.
+fn slave(law: &str, has_record: bool, steps: u32) -> Slave {
+    let driven = if has_record { "[ground]\nrecord = \"r.csv\"\n" } else { "[inputs]\nfloor_forces = true\n" };
+    let scene_text = format!(
+        "name = \"Test\"\n\
+         [left]\nmass = [2e4, 2e4]\nstiffness = [3e6, 3e6]\ndamping = {{ ratio = 0.05 }}\ninitial_velocity = [0.2, 0.0]\n\
+         [right]\nmass = [3e4]\nstiffness = [2e7]\ndamping = {{ ratio = 0.05 }}\n\
+         {driven}[outputs]\nenergy = true\n[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.0\n{law}\n"
+    );
+    let scene = Scene::from_toml(&scene_text).unwrap();
+    let record = has_record.then(|| {
+        PackagedRecord::parse("r.csv", b"time_s,accel_m_s2\n0,0\n0.1,-6\n0.2,5\n0.3,-5\n1,0\n".to_vec()).unwrap()
+    });
+    let mut slave = Slave::new(Package { scene_text, scene, record }, Log::new(true));
+    slave.enter_initialization();
+    slave.exit_initialization().unwrap();
+    for k in 0..steps {
+        slave.do_step(f64::from(k) * 0.004, 0.004).unwrap();
+    }
+    slave
+}
+
+fn body_of(slave: &mut Slave) -> Vec<u8> {
+    let handle = slave.record_state(None).unwrap();
+    let bytes = slave.serialize_state(Some(handle)).unwrap();
+    unwrap(&slave.fingerprint, &bytes).unwrap().to_vec()
+}
+
+/// An input can be set to anything, and a step under 1e20 m/s2 ends with an error, but not at once.
+fn has_wild_input(body: &[u8]) -> bool {
+    let Ok(body) = postcard::from_bytes::<Body<'_>>(body) else { return false };
+    let shown = format!("{:?} {:?}", body.inputs, body.state);
+    let inputs = shown.split("Inputs {").skip(1).filter_map(|rest| rest.split('}').next());
+    let mut numbers = inputs.flat_map(|inputs| inputs.split([' ', ',', '[', ']'])).filter_map(|word| word.parse().ok());
+    numbers.any(|number: f64| number.abs() > 1e12)
+}
+
+/// Takes the body in and goes on from it, as far as that is allowed; whether it was taken in.
+fn go_on(slave: &mut Slave, body: &[u8]) -> bool {
+    let bytes = wrap(&slave.fingerprint, body);
+    let handle = match slave.deserialize_state(&bytes, None) {
+        Ok(handle) => handle,
+        Err(refusal) => {
+            assert!(refusal.problems.iter().all(|problem| !problem.is_empty()));
+            return false;
+        }
+    };
+    slave.restore_state(Some(handle)).unwrap();
+    for _ in 0..3 {
+        let all: Vec<u32> = (0..u32::try_from(slave.table.rows.len()).unwrap()).collect();
+        if slave.check(Call::GetReal).is_ok() {
+            let _ = slave.get(&all, "any", |_, _| Some(()));
+        }
+        if slave.check(Call::DoStep).is_ok() && !has_wild_input(body) {
+            let result = slave.do_step(slave.last_successful_time(), 0.004).map(Status::from);
+            slave.report(Call::DoStep, result);
+        }
+    }
+    slave.free_state(Some(handle)).unwrap();
+    slave.take_messages();
+    true
+}
+
+fn places() -> impl Strategy<Value = (usize, bool, u32)> {
+    (0..LAWS.len(), any::<bool>(), 0..60_u32)
+}
+
+const NUMBERS: [f64; 12] = [
+    f64::NAN,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    f64::MAX,
+    f64::MIN,
+    f64::MIN_POSITIVE,
+    5e-324,
+    -0.0,
+    1e200,
+    -1e100,
+    1e18,
+    -1.0,
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_forged_body_is_refused_or_harmless(
+        (law, has_record, steps) in places(),
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..4),
+        numbers in prop::collection::vec((any::<prop::sample::Index>(), 0..NUMBERS.len()), 0..3),
+        cut in prop::option::weighted(0.1, any::<prop::sample::Index>()),
+    ) {
+        let mut slave = slave(LAWS[law], has_record, steps);
+        let mut body = body_of(&mut slave);
+        for (place, number) in numbers {
+            let place = place.index(body.len() - 8);
+            body[place..place + 8].copy_from_slice(&NUMBERS[number].to_le_bytes());
+        }
+        for (place, byte) in changes {
+            let place = place.index(body.len());
+            body[place] = byte;
+        }
+        if let Some(place) = cut {
+            body.truncate(place.index(body.len()));
+        }
+        go_on(&mut slave, &body);
+    }
+}
+
+/// What the sizes, numbers and indices of a body are held against, one by one.
+#[test]
+fn what_cannot_be_is_refused_with_what_it_is() {
+    let mut slave = slave(LAWS[4], true, 12);
+    let body = body_of(&mut slave);
+    let decoded: Body<'_> = postcard::from_bytes(&body).unwrap();
+    let state = format!("{:?}", decoded.state);
+    assert!(state.contains("Engaged"), "in mid-contact: {state}");
+    let altered = |alter: &dyn Fn(&mut Body<'_>)| {
+        let mut altered: Body<'_> = postcard::from_bytes(&body).unwrap();
+        alter(&mut altered);
+        postcard::to_allocvec(&altered).unwrap()
+    };
+    let mut refused = |body: &[u8]| {
+        let bytes = wrap(&slave.fingerprint, body);
+        slave.deserialize_state(&bytes, None).unwrap_err().problems.join("; ")
+    };
+    assert!(refused(&altered(&|body| body.time = f64::NAN)).contains("times or inputs"));
+    assert!(refused(&altered(&|body| body.stop_time = Some(f64::INFINITY))).contains("times or inputs"));
+    assert!(refused(&altered(&|body| body.time += 0.001)).contains("two different times"));
+    let other = Inputs::new(&Scene::from_toml(&OTHER.replace("FLOORS", "1.0")).unwrap());
+    assert!(refused(&altered(&|body| body.inputs = Cow::Owned(other.clone()))).contains("times or inputs"));
+    // A byte too many within the length; a cut one.
+    assert!(refused(&[&body[..], &[0]].concat()).contains("1 bytes too many"));
+    assert!(refused(&body[..body.len() - 1]).contains("damaged, "));
+    // Numbers of the state, found by their bytes: q of the first mode, the segment, the law.
+    let text = |name: &str| state.split(&format!("{name}: ")).nth(1).unwrap().split([',', ' ']).next().unwrap();
+    let number = |name: &str| text(name).trim_matches(['[', ']']).parse::<f64>().unwrap();
+    for (name, value, expected) in [
+        ("q", f64::NAN, "not finite"),
+        ("v", 1e13, "so far or so fast"),
+        ("penetration", f64::INFINITY, "not finite"),
+        ("slope", 0.05, "none of this scene"),
+        ("elapsed", -1.0, "outside its stretch"),
+        ("elapsed", 1.0, "outside its stretch"),
+        ("approach_velocity", 0.9, "contact[1] is in no state that its law has"),
+        ("stiffness", 1e9, "contact[1] is in no state that its law has"),
+    ] {
+        let old = number(name).to_le_bytes();
+        let places: Vec<usize> = (0..body.len() - 8).filter(|&place| body[place..place + 8] == old).collect();
+        assert!(!places.is_empty(), "{name}: {}", number(name));
+        let mut altered = body.clone();
+        altered[places[0]..places[0] + 8].copy_from_slice(&f64::to_le_bytes(value));
+        let problem = refused(&altered);
+        assert!(problem.contains(expected), "{name} = {value}: {problem}");
+    }
+    // Another time, both where the slave and where the engine has it: beyond the step under way, and before it.
+    for time in [0.5, -0.5] {
+        let mut altered = body.clone();
+        for place in (0..body.len() - 8).filter(|&place| body[place..place + 8] == decoded.time.to_le_bytes()) {
+            altered[place..place + 8].copy_from_slice(&f64::to_le_bytes(time));
+        }
+        let problem = refused(&altered);
+        assert!(problem.contains("its time is not that of its motion"), "{time}: {problem}");
+    }
+}
+
+#[test]
+fn a_state_of_a_scene_with_other_floors_is_refused_by_its_sizes() {
+    let of = |floors: &str| {
+        let scene_text = OTHER.replace("FLOORS", floors);
+        let scene = Scene::from_toml(&scene_text).unwrap();
+        let mut slave = Slave::new(Package { scene_text, scene, record: None }, Log::new(true));
+        slave.enter_initialization();
+        slave.exit_initialization().unwrap();
+        slave
+    };
+    let (mut one, mut two) = (of("1.0, 1.0"), of("1.0"));
+    let (body, own) = (body_of(&mut one), body_of(&mut two));
+    let state = postcard::from_bytes::<Body<'_>>(&body).unwrap().state;
+    let mut mixed: Body<'_> = postcard::from_bytes(&own).unwrap();
+    mixed.state = state;
+    let bytes = wrap(&two.fingerprint, &postcard::to_allocvec(&mixed).unwrap());
+    let problem = two.deserialize_state(&bytes, None).unwrap_err().problems.join("; ");
+    assert!(problem.contains("other floors, contacts, inputs or outputs"), "{problem}");
+}
+
+/// Parameters that the scene does not have, or that it refuses.
+#[test]
+fn changes_of_parameters_are_checked_like_a_master_s() {
+    let mut slave = slave(LAWS[1], true, 0);
+    let gap = slave.table.iter().find(|(_, row)| row.name == "contact[1].gap").unwrap().0;
+    let mass = slave.table.iter().find(|(_, row)| row.name == "left.mass[1]").unwrap().0;
+    slave.reset();
+    let own = body_of(&mut slave);
+    let mut with = |numbers: &[(u32, f64)], record: Option<(String, crate::record::Record)>| {
+        let mut body: Body<'_> = postcard::from_bytes(&own).unwrap();
+        body.changes = postcard::from_bytes(&postcard::to_allocvec(&(numbers, record)).unwrap()).unwrap();
+        let bytes = wrap(&slave.fingerprint, &postcard::to_allocvec(&body).unwrap());
+        slave.deserialize_state(&bytes, None).map_err(|refusal| refusal.problems.join("; "))
+    };
+    let record = |times: &[f64], accelerations: &[f64]| {
+        let record = crate::record::Record { times: times.to_vec(), accelerations: accelerations.to_vec() };
+        Some(("other.csv".to_owned(), record))
+    };
+    assert!(with(&[(gap, 0.01)], record(&[0.0, 1.0], &[0.0, 0.0])).is_ok());
+    for (numbers, record, expected) in [
+        (vec![(u32::MAX, 1.0)], None, "a finite number for a Real parameter"),
+        (vec![(0, 1.0)], None, "a finite number for a Real parameter"),
+        (vec![(gap, f64::NAN)], None, "a finite number for a Real parameter"),
+        (vec![(mass, -1.0)], None, "left.mass[1] = -1.0: expected a finite mass > 0 kg"),
+        (vec![], record(&[0.0, 0.0], &[0.0, 0.0]), "expected more than the time before it"),
+        (vec![], record(&[0.0, 1.0], &[0.0]), "2 times and 1 accelerations"),
+        (vec![], record(&[0.0], &[0.0]), "1 sample: expected at least 2"),
+        (vec![], record(&[0.0, 1.0], &[0.0, f64::INFINITY]), "expected a finite acceleration"),
+    ] {
+        let problem = with(&numbers, record).unwrap_err();
+        assert!(problem.contains(expected), "{numbers:?}: {problem}");
+    }
+}
+
+/// The layout of what is saved belongs to a format number.
+#[test]
+fn a_new_layout_has_a_new_format() {
+    let mut slave = slave(LAWS[4], true, 0);
+    let body = body_of(&mut slave);
+    let found = (FORMAT, body.len(), Uuid::new_v5(&Uuid::nil(), &body).to_string());
+    assert_eq!(
+        found,
+        (1, 636, "b023c607-dfc2-513e-b255-3c8c3159b75d".to_owned()),
+        "where only numbers of the engine have changed, enter them here; else count FORMAT up"
+    );
+}
+
+const OTHER: &str = "name = \"Other\"\nright = { mass = [1.0], stiffness = [1.0], damping = { ratio = 0.0 } }\n\
+    left = { mass = [FLOORS], stiffness = [FLOORS], damping = { ratio = 0.0 } }\n";
