@@ -1,6 +1,6 @@
 //! A hostile master: every function in every state with arguments that are null, wrong, huge or not finite.
 //!
-//! The rows (`life.rs`, `values.rs`, `derivatives.rs`, `step.rs`, `instantiate.rs`) state beforehand what the
+//! The rows (`life.rs`, `values.rs`, `derivatives.rs`, `state.rs`, `step.rs`, `instantiate.rs`) state beforehand what the
 //! standard asks for, FMI 2.0.4, chapters 2.1 and 4.2. Each case runs in a process of its own, which this executable
 //! starts of itself, with a time limit. A case passes if its status is the expected one and the instance can be reset
 //! afterwards and gives the bits of a fresh one.
@@ -15,6 +15,7 @@ mod instantiate;
 mod life;
 mod processes;
 mod rows;
+mod state;
 mod step;
 mod target;
 mod values;

@@ -2,7 +2,7 @@
 
 use crate::support::{DISCARD, ERROR, Fmu, Instance, OK};
 use crate::target::{Phase, Target, scene};
-use crate::{derivatives, instantiate, life, step, values};
+use crate::{derivatives, instantiate, life, state, step, values};
 use std::ffi::c_int;
 
 /// A function with some arguments.
@@ -39,7 +39,7 @@ impl Case {
 
 /// Every case, always in the same order.
 pub fn cases() -> Vec<Case> {
-    let rows = [life::rows(), values::rows(), derivatives::rows(), step::rows()].into_iter().flatten();
+    let rows = [life::rows(), values::rows(), derivatives::rows(), state::rows(), step::rows()].into_iter().flatten();
     rows.flat_map(in_each_phase).chain(instantiate::cases()).collect()
 }
 

@@ -38,8 +38,10 @@ fn steps() -> Vec<Row> {
         step(f64::MAX, 0.1, NEVER),
         step(f64::MAX, f64::MAX, NEVER),
         step(f64::NAN, f64::NAN, NEVER),
-        // Whether the FMU goes that far is its own affair, not whether it comes back.
-        step(0.0, 1e300, "eexeee"),
+        // Times that double precision cannot tell from each other closely enough, and more work than any step is for.
+        step(0.0, 1e300, NEVER),
+        step(0.0, 1e11, NEVER),
+        step(0.0, 1e-310, STEP),
         row("fmi2DoStep: past the stop time", NEVER, |t| {
             t.alone("fmi2Reset");
             t.setup((0, 0.0), 0.0, (1, 0.05));
@@ -51,15 +53,12 @@ fn steps() -> Vec<Row> {
         row("fmi2DoStep: a thousand steps of a nanosecond", STEP, |t| {
             (0..1000).map(|k| t.step(f64::from(k) * 1e-9, 1e-9)).max().unwrap_or_default()
         }),
-        row("fmi2DoStep: a start time so large that no step can be told", "xxxxxe", |t| {
-            if t.component.is_null() {
-                return t.step(1e300, 0.1);
-            }
+        row("fmi2DoStep: from a start time of 1e11 s", "oooooe", |t| {
             t.alone("fmi2Reset");
-            t.setup((0, 0.0), 1e300, (0, 0.0));
+            t.setup((0, 0.0), 1e11, (0, 0.0));
             t.alone("fmi2EnterInitializationMode");
             t.alone("fmi2ExitInitializationMode");
-            t.step(1e300, 0.1)
+            t.step(1e11, 0.01)
         }),
     ]
 }

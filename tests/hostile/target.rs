@@ -1,6 +1,6 @@
 //! What a hostile call is aimed at: a component in some state, or none, and the functions with the types of the standard.
 
-use crate::support::{ERROR, Fmu, Instance, OK, RECORD_SCENE};
+use crate::support::{ERROR, Fmu, Instance, OK, RECORD_SCENE, State};
 use std::ffi::{c_char, c_int, c_void};
 use std::ptr::null_mut;
 
@@ -135,5 +135,39 @@ impl<'f> Target<'f> {
         let get = self.fmu.symbol::<Directional>("fmi2GetDirectionalDerivative");
         // SAFETY: as above.
         unsafe { get(self.component, unknowns, n_unknowns, knowns, n_knowns, seed, sensitivity) }
+    }
+
+    pub fn of_place(&self, function: &str, place: *mut State) -> c_int {
+        // SAFETY: as above.
+        unsafe {
+            let call = self.fmu.symbol::<unsafe extern "C" fn(Component, *mut State) -> c_int>(function);
+            call(self.component, place)
+        }
+    }
+
+    pub fn set_state(&self, state: State) -> c_int {
+        // SAFETY: as above; the library knows states by their number alone.
+        unsafe {
+            let set = self.fmu.symbol::<unsafe extern "C" fn(Component, State) -> c_int>("fmi2SetFMUstate");
+            set(self.component, state)
+        }
+    }
+
+    pub fn size(&self, state: State, size: *mut usize) -> c_int {
+        type Size = unsafe extern "C" fn(Component, State, *mut usize) -> c_int;
+        // SAFETY: as above.
+        unsafe { self.fmu.symbol::<Size>("fmi2SerializedFMUstateSize")(self.component, state, size) }
+    }
+
+    pub fn serialize(&self, state: State, bytes: *mut u8, size: usize) -> c_int {
+        type Serialize = unsafe extern "C" fn(Component, State, *mut u8, usize) -> c_int;
+        // SAFETY: as above.
+        unsafe { self.fmu.symbol::<Serialize>("fmi2SerializeFMUstate")(self.component, state, bytes, size) }
+    }
+
+    pub fn deserialize(&self, bytes: *const u8, size: usize, place: *mut State) -> c_int {
+        type Deserialize = unsafe extern "C" fn(Component, *const u8, usize, *mut State) -> c_int;
+        // SAFETY: as above.
+        unsafe { self.fmu.symbol::<Deserialize>("fmi2DeSerializeFMUstate")(self.component, bytes, size, place) }
     }
 }
