@@ -1,0 +1,6 @@
+#![no_main]
+
+#[path = "../../tests/fuzzing/state.rs"]
+mod state;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| state::check(bytes));
