@@ -1,5 +1,7 @@
 #![no_main]
 
+#[path = "../../tests/support/linked.rs"]
+mod linked;
 #[path = "../../tests/fuzzing/state.rs"]
 mod state;
 

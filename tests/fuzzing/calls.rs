@@ -3,10 +3,7 @@
 //! Two bytes make a call: which, and with which arguments. Each has to return what the model says, and after the last
 //! one a reset has to bring back a fresh instance, to the bit.
 
-#[path = "../support/linked.rs"]
-mod linked;
-
-use linked::*;
+use crate::linked::*;
 use pounding::variables::{Settings, Slot, Table, Type, Value};
 use std::ffi::c_int;
 use std::ptr::{null, null_mut};
@@ -103,10 +100,11 @@ struct Model {
     stop: Option<f64>,
 }
 
-/// Nothing is known: what the next call of the sequence finds.
+/// An instance in the middle of a sequence.
 struct Session {
     c: Component,
     model: Model,
+    /// Two places for states, and what the model knows of what they hold.
     snapshots: [(State, Option<Model>); 2],
     /// Calls that the model knows to be errors are left out, so that long lives are tried too.
     only_legal: bool,
@@ -156,14 +154,14 @@ impl Session {
             0 => self.setup(argument),
             1 => self.change("enter", &[Instantiated], Initialization, fmi2EnterInitializationMode),
             2 => self.change("exit", &[Initialization], StepComplete, fmi2ExitInitializationMode),
-            3 if argument % 4 == 0 => self.change("terminate", &[StepComplete], Terminated, fmi2Terminate),
+            3 if argument.is_multiple_of(4) => self.change("terminate", &[StepComplete], Terminated, fmi2Terminate),
             3 => {}
-            4 if argument % 4 == 0 => self.reset(),
+            4 if argument.is_multiple_of(4) => self.reset(),
             4 => self.change("cancel", &[], Error, fmi2CancelStep),
             5 => self.get(argument),
             6 | 7 => self.set_real(argument, call),
             8 => self.set_others(argument),
-            9 | 10 | 11 => self.step(argument),
+            9..=11 => self.step(argument),
             12 => self.status(argument),
             13 => self.record(slot),
             14 => self.restore(slot),
@@ -344,28 +342,28 @@ impl Session {
     fn copy(&mut self, slot: usize) {
         let (state, model) = self.snapshots[slot];
         let expected = if model.is_some() { OK } else { ERROR };
-        let (mut size, mut bytes) = (0, Vec::new());
-        // SAFETY: a live component, room for as many bytes as it asks for, a place with a state of it or none.
-        let is_written =
-            self.expect("size", expected, |c| unsafe { fmi2SerializedFMUstateSize(c, state, &raw mut size) }) && {
-                bytes.resize(size, 0);
-                let call = |c| unsafe { fmi2SerializeFMUstate(c, state, bytes.as_mut_ptr(), size) };
-                self.expect("serialize", OK, call)
-            };
-        if is_written {
-            let place = &raw mut self.snapshots[1 - slot].0;
-            // SAFETY: as above.
-            let call = |c| unsafe { fmi2DeSerializeFMUstate(c, bytes.as_ptr(), size, place) };
-            self.expect("deserialize", OK, call);
-            self.snapshots[1 - slot].1 = model;
+        let mut size = 0;
+        // SAFETY: a live component, a place for a size.
+        let call = |c| unsafe { fmi2SerializedFMUstateSize(c, state, &raw mut size) };
+        if !self.expect("size", expected, call) {
+            return;
         }
+        let mut bytes = vec![0; size];
+        let place = &raw mut self.snapshots[1 - slot].0;
+        // SAFETY: a live component, room for as many bytes as it has asked for.
+        let call = |c| unsafe { fmi2SerializeFMUstate(c, state, bytes.as_mut_ptr(), size) };
+        self.expect("serialize", OK, call);
+        // SAFETY: a live component, as many bytes as it says, a place with a state of it or none.
+        let call = |c| unsafe { fmi2DeSerializeFMUstate(c, bytes.as_ptr(), size, place) };
+        self.expect("deserialize", OK, call);
+        self.snapshots[1 - slot].1 = model;
     }
 
     fn derivatives(&mut self, argument: u8) {
         let table = &shared().table;
         let vr = u32::from(argument / 4) % (table.rows.len() as u32 + 1);
         let (slot, order) = (table.row(vr).map(|row| (row.slot, row.name.as_str())), c_int::from(argument % 2));
-        if argument / 2 % 2 == 0 {
+        if (argument / 2).is_multiple_of(2) {
             let is_good = matches!(slot, Some((Slot::Input(_), _))) && order == 1;
             let expected = if is_good { self.is_in(&[Instantiated, Initialization, StepComplete]) } else { ERROR };
             // SAFETY: a live component, one element.

@@ -2,6 +2,9 @@
 //! over random bytes. This needs no more than a stable compiler.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[path = "../support/linked.rs"]
+mod linked;
+
 mod calls;
 mod record;
 mod scene;

@@ -3,10 +3,7 @@
 //! The bytes are the body; the envelope around it is right, for a checksum would stop all that is random. The first byte
 //! chooses bytes without an envelope instead, now and then.
 
-#[path = "../support/linked.rs"]
-mod linked;
-
-use linked::*;
+use crate::linked::*;
 use std::ffi::c_int;
 use std::ptr::null_mut;
 use std::sync::OnceLock;

@@ -9,8 +9,9 @@ use std::ffi::c_int;
 pub struct Row {
     /// The function, a colon, and what is hostile about the arguments.
     pub name: String,
-    /// A letter for each of [`Phase::ALL`]: `o` for `fmi2OK`, `d` for `fmi2Discard`, `e` for `fmi2Error`, `n` for either of the two, `x` for
-    /// any where the standard leaves it to the FMU how far its numbers reach.
+    /// A letter for each of [`Phase::ALL`]: `o` for `fmi2OK`, `d` for `fmi2Discard`, `e` for `fmi2Error`, `n` for
+    /// either of the last two, `x` for any of the three, where the standard leaves it to the FMU how far its numbers
+    /// reach.
     pub expected: &'static str,
     pub call: Box<dyn Fn(&Target<'_>) -> c_int>,
 }
