@@ -33,6 +33,18 @@ fn shown(run: &mut Run, rates: &mut PointRates) -> Vec<(String, f64, Rates)> {
             all.push((format!("{name} {p}"), value, rates));
         }
     }
+    if let (Some(energy), Some(rates)) = (&point.energy, &rates.energy) {
+        for (name, value, rates) in [
+            ("input", energy.input, rates.input),
+            ("kinetic", energy.kinetic, rates.kinetic),
+            ("strain", energy.strain, rates.strain),
+            ("viscous", energy.viscous, rates.viscous),
+            ("impact", energy.impact, rates.impact),
+            ("external", energy.external, rates.external),
+        ] {
+            all.push((name.to_owned(), value, rates));
+        }
+    }
     all
 }
 
@@ -106,6 +118,7 @@ fn frames(law: &str, storeys: usize) -> Scene {
     let contacts = contact(storeys) + &contact(storeys - 1);
     let mut scene = scene(&format!("name = \"F\"\n[left]\n{left}\n[right]\n{right}\n{contacts}"));
     scene.ground.record = Some("r.csv".into());
+    scene.energy = true;
     scene
 }
 

@@ -78,13 +78,6 @@ impl Unpacked {
         self.root().join(relative)
     }
 
-    /// URI of the `resources` directory, as importers hand it to the FMU.
-    pub fn resource_uri(&self) -> String {
-        let path = self.path("resources").to_string_lossy().replace('\\', "/");
-        let rooted = if path.starts_with('/') { path } else { format!("/{path}") };
-        format!("file://{}", rooted.replace('%', "%25").replace(' ', "%20"))
-    }
-
     /// The text of `modelDescription.xml`.
     pub fn description(&self) -> Result<String> {
         let path = self.path("modelDescription.xml");
@@ -93,6 +86,13 @@ impl Unpacked {
         }
         std::fs::read_to_string(&path).context("modelDescription.xml cannot be read")
     }
+}
+
+/// URI of the `resources` directory of an FMU unpacked in `root`, as importers hand it to the FMU.
+pub fn resource_uri(root: &Path) -> String {
+    let path = root.join("resources").to_string_lossy().replace('\\', "/");
+    let rooted = if path.starts_with('/') { path } else { format!("/{path}") };
+    format!("file://{}", rooted.replace('%', "%25").replace(' ', "%20"))
 }
 
 /// Copies one file of the archive; the zip reader compares its checksum at the end.

@@ -38,6 +38,7 @@ use clap::{Args, Parser, Subcommand};
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Duration;
 
 /// Compiles a scene into an FMU (FMI 2.0, co-simulation), runs it once and says what happened.
 #[derive(Parser)]
@@ -60,7 +61,7 @@ struct BuildArguments {
     /// The scene; without it, examples/scenes/feup.toml.
     #[arg(value_name = "SCENE.toml")]
     scene: Option<PathBuf>,
-    /// Where the FMU goes; without it, target/fmu/NAME.fmu (NAME: that of the scene).
+    /// Where the FMU goes, in a directory that is made if need be; without it, target/fmu/NAME.fmu (NAME: the scene's).
     #[arg(short, long, value_name = "FILE.fmu")]
     output: Option<PathBuf>,
 }
@@ -70,9 +71,15 @@ struct CheckArguments {
     /// The FMU.
     #[arg(value_name = "FILE.fmu")]
     fmu: PathBuf,
-    /// Findings for a program to read.
+    /// Findings for a program to read, as docs/check.schema.json describes them.
     #[arg(long)]
     json: bool,
+    /// How long the library of the FMU may take, run included; then it is stopped, and that is a finding.
+    #[arg(long, value_name = "SECONDS", default_value = "300", value_parser = seconds)]
+    time_limit: Duration,
+    /// For this program itself: tries the library of an unpacked FMU.
+    #[arg(long, hide = true)]
+    trial: bool,
 }
 
 /// What a command has to say on standard output, and whether all is well.
@@ -104,12 +111,23 @@ fn run(arguments: Arguments) -> anyhow::Result<Verdict> {
             let text = recipe::build(arguments.build.scene.as_deref(), arguments.build.output.as_deref())?;
             Ok(Verdict { text, well: true })
         }
+        Some(Command::Check(check)) if check.trial => {
+            check::try_library(&check.fmu)?;
+            Ok(Verdict { text: String::new(), well: true })
+        }
         Some(Command::Check(check)) => {
-            let report = check::check(&check.fmu);
+            let report = check::check(&check.fmu, check.time_limit);
             let text = if check.json { report.json()? } else { report.text() };
             Ok(Verdict { text, well: report.is_valid() })
         }
     }
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    // Far below where the clock ends.
+    let seconds = seconds.filter(|seconds| !seconds.is_zero() && seconds.as_secs() < 1 << 40);
+    seconds.ok_or_else(|| "expected a number of seconds > 0".to_owned())
 }
 
 /// A panic is a bug of this program and not the user's: said in one line, without the panic's own output.

@@ -10,7 +10,7 @@ use anyhow::{Context, Result, bail};
 use fmi::model_description::fmi2::ModelDescription;
 use pounding::description::Package;
 use std::fmt::Write as _;
-use std::io::Write as _;
+use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
@@ -23,6 +23,9 @@ pub fn build(scene: Option<&Path>, output: Option<&Path>) -> Result<String> {
     let scene_file = scene.map_or_else(|| workspace.default_scene(), Path::to_path_buf);
     let package = read(&scene_file)?;
     let destination = output.map_or_else(|| workspace.default_output(&package.scene.name), Path::to_path_buf);
+
+    // Compiling may take minutes: what cannot be written shall fail before that.
+    open_draft(&destination)?;
 
     progress.step("compiling the library");
     let library = workspace.compile_library()?;
@@ -56,10 +59,25 @@ fn entries(package: &Package, library: &Path, workspace: &Workspace) -> Result<V
     Ok(entries)
 }
 
-/// A temporary file beside the destination, so that it can be renamed into its place.
+/// The FMU in a temporary file beside its destination.
 fn write_draft(bytes: &[u8], destination: &Path) -> Result<NamedTempFile> {
-    if destination.is_dir() {
-        bail!("{} is a directory: expected the path of the FMU file", destination.display());
+    let mut draft = open_draft(destination)?;
+    let written = draft.write_all(bytes).and_then(|()| draft.flush());
+    written.with_context(|| format!("cannot write {}", destination.display()))?;
+    Ok(draft)
+}
+
+/// A temporary file beside the destination, so that it can be renamed into its place. The directory is made if there is
+/// none.
+fn open_draft(destination: &Path) -> Result<NamedTempFile> {
+    match std::fs::metadata(destination) {
+        Ok(there) if there.is_dir() => {
+            bail!("{} is a directory: expected the path of the FMU file", destination.display());
+        }
+        Err(error) if error.kind() == ErrorKind::InvalidFilename => {
+            return Err(error).with_context(|| format!("cannot write {}", destination.display()));
+        }
+        Ok(_) | Err(_) => {}
     }
     let folder = match destination.parent() {
         Some(parent) if parent != Path::new("") => parent.to_path_buf(),
@@ -72,10 +90,7 @@ fn write_draft(bytes: &[u8], destination: &Path) -> Result<NamedTempFile> {
     // As any file that a program writes, readable by others where the umask allows it.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut draft = builder.tempfile_in(&folder).with_context(cannot)?;
-    draft.write_all(bytes).with_context(cannot)?;
-    draft.flush().with_context(cannot)?;
-    Ok(draft)
+    builder.tempfile_in(&folder).with_context(cannot)
 }
 
 /// Loads the FMU as an importer would and runs it.
@@ -83,7 +98,8 @@ fn try_out(fmu: &Path) -> Result<(ModelDescription, Outcome)> {
     let unpacked = Unpacked::open(fmu)?;
     let description = ModelDescription::from_string(&unpacked.description()?)?;
     let binary = Binary::load(&unpacked.path(&platform::library_path(&description.modelName)))?;
-    let instance = Instance::new(&binary, &description.modelName, &description.guid, &unpacked.resource_uri())?;
+    let instance =
+        Instance::new(&binary, &description.modelName, &description.guid, &archive::resource_uri(unpacked.root()))?;
     let outcome = experiment::run(&description, &instance)?;
     Ok((description, outcome))
 }

@@ -183,6 +183,7 @@ fn names_in_the_archive_that_lead_astray() {
     plant(with("/etc/more.txt"), "file names", "an absolute path");
     plant(with("C:/more.txt"), "file names", "an absolute path");
     plant(with("resources/../../more.txt"), "file names", "`..`");
+    plant(with("resources/more.txt"), "file names", "not a file of such an FMU");
 }
 
 #[test]

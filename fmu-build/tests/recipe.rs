@@ -102,6 +102,49 @@ fn the_scene_is_relative_to_the_current_directory() {
 }
 
 #[test]
+fn a_directory_for_the_fmu_is_made_where_the_scene_is_in_order() {
+    let directory = TempDir::new().unwrap();
+    let scene = changed_feup(directory.path(), |text| replace_once(text, "[3.65, 3.65]", "[3.65, -1.0]"));
+    let made = directory.path().join("one/other");
+    let fmu = made.join("here.fmu");
+    let arguments = [scene.to_str().unwrap(), "-o", fmu.to_str().unwrap()];
+    assert_eq!(cargo_fmu(&arguments).status.code(), Some(1));
+    assert!(!directory.path().join("one").exists());
+    changed_feup(directory.path(), str::to_owned);
+    assert!(cargo_fmu(&arguments).status.success());
+    let names = std::fs::read_dir(made).unwrap().map(|entry| entry.unwrap().file_name());
+    assert_eq!(names.collect::<Vec<_>>(), ["here.fmu"]);
+    assert!(stdout(&cargo_fmu(&["--help"])).contains("in a directory that is made if need be"));
+}
+
+/// Compiling takes minutes, writing does not: a destination that cannot be is refused before.
+#[test]
+fn what_cannot_be_written_is_refused_before_anything_is_compiled() {
+    let directory = TempDir::new().unwrap();
+    let scene = changed_feup(directory.path(), str::to_owned);
+    std::fs::write(directory.path().join("file"), "").unwrap();
+    let too_long = format!("{}.fmu", "n".repeat(300));
+    for (destination, expected) in [
+        (directory.path().to_path_buf(), "is a directory"),
+        (directory.path().join("file/x.fmu"), "cannot write to"),
+        (directory.path().join(too_long), "cannot write"),
+    ] {
+        // No cargo, no compiling.
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_cargo-fmu"))
+            .args([scene.as_os_str(), "-o".as_ref(), destination.as_os_str()])
+            .current_dir(directory.path())
+            .env("CARGO", "/nowhere/cargo")
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(1));
+        assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    }
+    // A name that a scene may have is one that a file can have.
+    let longest = changed_feup(directory.path(), |text| replace_once(text, "FeupFrames", &"n".repeat(128)));
+    build(&longest, &directory.path().join(format!("{}.fmu", "n".repeat(128))));
+}
+
+#[test]
 fn every_problem_is_named_and_an_old_fmu_stays() {
     let directory = TempDir::new().unwrap();
     let scene = changed_feup(directory.path(), |text| {

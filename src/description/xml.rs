@@ -104,12 +104,15 @@ fn write_log_categories(xml: &mut Xml) -> io::Result<()> {
 }
 
 fn write_default_experiment(xml: &mut Xml, package: &Package) -> io::Result<()> {
+    let stop = package.stop_time();
     let mut element = xml.create_element("DefaultExperiment").with_attribute(("startTime", "0"));
-    if let Some(stop) = package.stop_time() {
+    if let Some(stop) = stop {
         element = element.with_attribute(("stopTime", number(stop).as_str()));
-        if stop > STEP_SIZE {
-            element = element.with_attribute(("stepSize", number(STEP_SIZE).as_str()));
-        }
+    }
+    let tolerance = number(package.scene.solver.relative_tolerance);
+    element = element.with_attribute(("tolerance", tolerance.as_str()));
+    if stop.is_none_or(|stop| stop > STEP_SIZE) {
+        element = element.with_attribute(("stepSize", number(STEP_SIZE).as_str()));
     }
     element.write_empty()?;
     Ok(())

@@ -58,7 +58,7 @@ impl Model {
             if limit > state.base.elapsed || !self.is_driven() {
                 self.plan(state, limit);
                 let segment = &state.base.segment;
-                let end = if state.step.reaches_limit { limit } else { state.base.elapsed + state.step.length };
+                let end = state.step_end(limit);
                 if until - segment.start < end {
                     break;
                 }
@@ -278,6 +278,13 @@ fn lanes_sum(modal: &[f64]) -> f64 {
         }
     }
     sum.iter().sum()
+}
+
+impl State {
+    /// Where the planned step ends, s since the start of the segment: by the `limit`, whatever rounding adds.
+    pub(super) fn step_end(&self, limit: f64) -> f64 {
+        if self.step.reaches_limit { limit } else { (self.base.elapsed + self.step.length).min(limit) }
+    }
 }
 
 impl Base {

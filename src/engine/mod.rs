@@ -10,6 +10,7 @@ mod contact_step;
 mod dismissal;
 mod drift;
 mod energy;
+mod energy_rates;
 mod feedthrough;
 mod flight;
 mod floor_motion;
@@ -27,6 +28,7 @@ mod saved;
 mod state;
 
 pub use crate::structure::Side;
+pub use energy_rates::EnergyRates;
 pub use feedthrough::Response;
 pub use input::LinearInput;
 pub use model::Model;

@@ -4,11 +4,15 @@
 //! They are those of the solution that goes on from here under the inputs as they have been set so far, right-hand ones:
 //! after an event, after a corner of the ground motion.
 
+use super::energy_rates::EnergyRates;
 use super::input::LinearInput;
 use super::model::Model;
 use super::state::*;
 use super::{Point, Side};
 use crate::contact::Force;
+
+/// What a force may be below its peak so far by rounding.
+const PEAK_ROUNDING: f64 = 1e-12;
 
 /// First and second derivative with respect to time.
 pub type Rates = [f64; 2];
@@ -20,6 +24,8 @@ pub struct PointRates {
     pub ground_acceleration: Rates,
     /// One per contact.
     pub contacts: Vec<ContactRates>,
+    /// Of the energy account, where there is one.
+    pub energy: Option<EnergyRates>,
     /// Second to fourth derivative of the motion relative to the ground, in the coordinates of the point.
     acceleration: Vec<f64>,
     jerk: Vec<f64>,
@@ -38,6 +44,8 @@ pub struct PointRates {
 pub struct ContactRates {
     /// N/s and N/s2.
     pub force: Rates,
+    /// N/s and N/s2: those of the force while it is the largest so far and grows.
+    pub peak_force: Rates,
     /// m/s and m/s2.
     pub penetration: Rates,
     /// N and N/s.
@@ -74,7 +82,10 @@ impl Model {
             let ([v, a], force) = (contact.penetration, contact.force);
             contact.impulse = [shown.force, force[0]];
             contact.dissipated_energy = [shown.force * v, force[0] * v + shown.force * a];
+            let is_peak = shown.force > 0.0 && shown.force >= (1.0 - PEAK_ROUNDING) * shown.peak_force;
+            contact.peak_force = if is_peak && force[0] > 0.0 { force } else { [0.0; 2] };
         }
+        rates.energy = self.differentiate_energy(state, point, rates, &mut work);
         rates.work = Some(work);
     }
 
@@ -189,6 +200,11 @@ impl Model {
 }
 
 impl PointRates {
+    /// Second derivative of the motion relative to the ground, and the third if it has one.
+    pub(super) fn motion(&self) -> (&[f64], Option<&[f64]>) {
+        (&self.acceleration, (!self.is_beginning).then_some(&self.jerk[..]))
+    }
+
     fn clear(&mut self, lanes: usize) {
         let [first, second] = &mut self.resisted;
         for vector in [&mut self.acceleration, &mut self.jerk, &mut self.snap, first, second] {

@@ -135,11 +135,11 @@ impl Model {
     /// A step that has been planned holds the time. Without one the base is there already (after a failed step it may
     /// be further): the engine never has a stretch to make up for.
     fn check_time(&self, is_planned: bool, state: &State) -> Result<(), EngineError> {
-        let State { time, base, step, .. } = state;
+        let State { time, base, .. } = state;
         let (since, rounding) = (time - base.segment.start, rounding(*time));
         let fits = if is_planned {
             let limit = self.limit(&base.segment, *time);
-            let end = if step.reaches_limit { limit } else { base.elapsed + step.length };
+            let end = state.step_end(limit);
             base.elapsed <= since + rounding && since < end
         } else {
             base.elapsed >= since - rounding

@@ -63,11 +63,17 @@ const KEYWORDS: &[&str] = &[
     "_Thread_local",
 ];
 
-/// Says what was expected where the name is no C identifier.
+/// The name is part of file names, with extensions and by some importers with prefixes: file systems end at 255 bytes.
+const LONGEST: usize = 128;
+
+/// Says what was expected where the name is no C identifier, or too long for the name of a file.
 pub(super) fn check(name: &str) -> Result<(), &'static str> {
     let starts_well = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
     if !starts_well || !name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') {
         return Err("a C identifier: letters, digits and _, no digit first");
+    }
+    if name.len() > LONGEST {
+        return Err("a C identifier of at most 128 characters");
     }
     if KEYWORDS.contains(&name) {
         return Err("a C identifier that is not a keyword of C");

@@ -49,7 +49,9 @@ impl Checker {
         if rows.len() != size {
             self.refuse(path, text(rows), format!("{}, one per floor, not {}", count(size, "row"), rows.len()));
         }
-        for (i, row) in rows.iter().enumerate().filter(|(_, row)| row.len() != size) {
+        // The rows of a square matrix of another size are wrong as a whole, which has been said.
+        let is_wrong = |row: &[f64]| row.len() != size && row.len() != rows.len();
+        for (i, row) in rows.iter().enumerate().filter(|(_, row)| is_wrong(row)) {
             let expected = format!("{}, one per floor, not {}", count(size, "number"), row.len());
             self.refuse(format_args!("{path}[{}]", i + 1), excerpt(&numbers(row)), expected);
             square = false;

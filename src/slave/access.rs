@@ -2,6 +2,7 @@
 
 use super::simulation::started;
 use super::{Phase, Refusal, Slave};
+use crate::scene::SceneError;
 use crate::variables::{Row, Settings, Slot, Table, Value};
 use std::cell::LazyCell;
 use std::sync::Arc;
@@ -40,9 +41,12 @@ impl Slave {
     /// Sets each variable to the value of its place: all of them, or none where anything is wrong.
     pub fn set<'v>(&mut self, references: &[u32], value: impl Fn(usize) -> Value<'v>) -> Result<(), Refusal> {
         let pairs = || references.iter().enumerate().map(|(i, &reference)| (reference, value(i)));
-        let problems = pairs().filter_map(|(reference, value)| self.refuse(reference, value));
-        Refusal::unless_empty(problems.collect())?;
-        self.set_parameters(pairs())?;
+        let mut problems: Vec<_> = pairs().filter_map(|(reference, value)| self.refuse(reference, value)).collect();
+        let changed = self.changed_settings(pairs(), &mut problems);
+        Refusal::unless_empty(problems)?;
+        if let Some(changed) = changed {
+            (self.settings, self.simulation) = (Arc::new(changed), None);
+        }
         for (reference, value) in pairs() {
             if let (Some(Slot::Input(input)), Value::Real(value)) = (self.table.row(reference).map(|r| r.slot), value) {
                 self.inputs.get_mut(input).set_value(value, self.time);
@@ -54,7 +58,7 @@ impl Slave {
         Ok(())
     }
 
-    /// What is wrong with setting a variable now, by itself.
+    /// What is wrong with setting a variable now, but for the numbers of parameters, which the scene's rules judge.
     fn refuse(&self, reference: u32, value: Value<'_>) -> Option<String> {
         let Some(row) = self.table.row(reference) else { return Some(unknown(&self.table, reference)) };
         if row.ty.name() != value.type_name() {
@@ -72,28 +76,35 @@ impl Slave {
                 return Some(format!("{}: computed by the FMU, it cannot be set", row.name));
             }
         }
-        match value {
-            Value::Real(value) if !value.is_finite() => {
+        match (row.slot, value) {
+            (Slot::Input(_), Value::Real(value)) if !value.is_finite() => {
                 Some(format!("{} = {value}: expected a finite number", row.name))
             }
             _ => None,
         }
     }
 
-    /// Takes the parameters over if the scene that they make passes its checks.
-    fn set_parameters<'v>(&mut self, pairs: impl Iterator<Item = (u32, Value<'v>)>) -> Result<(), Refusal> {
+    /// The settings with the parameters among the pairs, `None` where there is none, and what is wrong with them.
+    fn changed_settings<'v>(
+        &self,
+        pairs: impl Iterator<Item = (u32, Value<'v>)>,
+        problems: &mut Vec<String>,
+    ) -> Option<Settings> {
         let mut changed = None;
         for (reference, value) in pairs {
-            if let Some(&Row { slot: Slot::Parameter(parameter), .. }) = self.table.row(reference) {
-                changed.get_or_insert_with(|| Settings::clone(&self.settings)).write(parameter, value)?;
+            let Some(&Row { slot: Slot::Parameter(parameter), .. }) = self.table.row(reference) else { continue };
+            if self.refuse(reference, value).is_none() {
+                let settings = changed.get_or_insert_with(|| Settings::clone(&self.settings));
+                note(settings.write(parameter, value), problems);
             }
         }
-        if let Some(changed) = changed {
-            changed.check()?;
-            (self.settings, self.simulation) = (Arc::new(changed), None);
-        }
-        Ok(())
+        note(changed.as_ref().map_or(Ok(()), Settings::check), problems);
+        changed
     }
+}
+
+fn note(result: Result<(), SceneError>, problems: &mut Vec<String>) {
+    problems.extend(result.err().into_iter().flat_map(|error| Refusal::from(error).problems));
 }
 
 pub(super) fn unknown(table: &Table, reference: u32) -> String {

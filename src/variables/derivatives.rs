@@ -1,18 +1,17 @@
 //! Derivatives of what a slot stands for: with respect to time, and with respect to inputs and parameters.
 
-use super::{ContactOutput, Input, Instant, Output, Parameter, Slot, at_start};
-use crate::engine::{Model, PointRates, Rates, Response};
+use super::{ContactOutput, EnergyOutput, Input, Instant, Output, Parameter, Slot, at_start};
+use crate::engine::{EnergyRates, Model, PointRates, Rates, Response};
 use crate::scene::Scene;
 
 /// The highest order of the derivatives of outputs with respect to time.
 pub const HIGHEST_OUTPUT_DERIVATIVE: u8 = 2;
 
 impl Instant<'_> {
-    /// First and second derivative of an output with respect to time; none of what is no smooth function of time, such
-    /// as a largest value so far, and none of the energy account.
-    pub fn differentiate(&self, rates: &PointRates, output: Output) -> Option<Rates> {
+    /// First and second derivative of an output with respect to time.
+    pub fn differentiate(&self, rates: &PointRates, output: Output) -> Rates {
         let Instant { model, point, .. } = *self;
-        Some(match output {
+        match output {
             Output::GroundAcceleration => rates.ground_acceleration,
             Output::Displacement(side, floor) => model.displacement_rates(point, rates, side, floor),
             Output::Velocity(side, floor) => model.velocity_rates(point, rates, side, floor),
@@ -22,17 +21,26 @@ impl Instant<'_> {
             Output::Contact(p, ContactOutput::Penetration) => rates.contacts[p].penetration,
             Output::Contact(p, ContactOutput::Impulse) => rates.contacts[p].impulse,
             Output::Contact(p, ContactOutput::DissipatedEnergy) => rates.contacts[p].dissipated_energy,
-            Output::Contact(
-                _,
-                ContactOutput::Active
-                | ContactOutput::Impacts
-                | ContactOutput::PeakForce
-                | ContactOutput::ApproachVelocity,
-            )
+            Output::Contact(p, ContactOutput::PeakForce) => rates.contacts[p].peak_force,
+            Output::Energy(term) => energy_rates(&rates.energy.unwrap_or_default(), term),
+            // Held from one event, or one step of the engine, to the next.
+            Output::Contact(_, ContactOutput::ApproachVelocity | ContactOutput::Active | ContactOutput::Impacts)
             | Output::PeakDrift(..)
-            | Output::Impacts
-            | Output::Energy(_) => return None,
-        })
+            | Output::Impacts => [0.0; 2],
+        }
+    }
+}
+
+fn energy_rates(rates: &EnergyRates, term: EnergyOutput) -> Rates {
+    match term {
+        EnergyOutput::Input => rates.input,
+        EnergyOutput::Kinetic => rates.kinetic,
+        EnergyOutput::Strain => rates.strain,
+        EnergyOutput::Viscous => rates.viscous,
+        EnergyOutput::Impact => rates.impact,
+        EnergyOutput::External => rates.external,
+        // The balance holds but for rounding.
+        EnergyOutput::Residual => [0.0; 2],
     }
 }
 

@@ -9,13 +9,15 @@
 mod changes;
 mod dependencies;
 mod derivatives;
+mod initial_dependencies;
 mod rows;
 mod unit;
 mod values;
 
 pub use changes::Changes;
-pub use dependencies::{at_communication_points, at_start};
+pub use dependencies::{Dependence, at_communication_points};
 pub use derivatives::{HIGHEST_OUTPUT_DERIVATIVE, by_parameter};
+pub use initial_dependencies::at_start;
 pub use unit::{Unit, UnitInfo};
 pub use values::{Inputs, Instant, Settings, Value};
 

@@ -12,6 +12,9 @@ const DISPLACEMENT: f64 = 0.01;
 const VELOCITY: f64 = 0.1;
 const ACCELERATION: f64 = 1.0;
 
+// Where the scene has none.
+const DAMPING_RATIO: f64 = 0.05;
+
 const ONE: Type = Type::Real(Unit::One);
 const METRE: Type = Type::Real(Unit::Metre);
 const METRE_PER_SECOND: Type = Type::Real(Unit::MetrePerSecond);
@@ -45,7 +48,8 @@ impl Table {
             table.add_energy(scene.left.mass.iter().chain(&scene.right.mass).sum());
         }
         let about = "error of each contact episode, relative to the velocities in it";
-        table.add(Parameter::RelativeTolerance, "solver.relative_tolerance", ONE, about).at_least(0.0);
+        let row = table.add(Parameter::RelativeTolerance, "solver.relative_tolerance", ONE, about);
+        row.between(1e-15, 1e-2).nominal(scene.solver.relative_tolerance);
         table
     }
 
@@ -58,7 +62,7 @@ impl Table {
         }
         let about = "ground acceleration of the scaled record, positive to the right";
         self.add(Output::GroundAcceleration, name, ty, about).nominal(ACCELERATION);
-        self.add(Parameter::GroundScale, "ground.scale", ONE, "factor on the record");
+        self.add(Parameter::GroundScale, "ground.scale", ONE, "factor on the record").nominal(1.0);
         let about = "path of another record file (CSV or AT2) to run instead; empty: the one inside the FMU";
         self.add(Parameter::GroundRecord, "ground.record", Type::String, about);
     }
@@ -82,10 +86,12 @@ impl Table {
         let row = self.add(Output::PeakDrift(side, floor), &format!("{name}.peak_drift[{i}]"), METRE, &about);
         row.at_least(0.0).nominal(DISPLACEMENT);
         let (about, ty) = (format!("mass of floor {i}"), Type::Real(Unit::Kilogram));
-        self.add(Parameter::Mass(side, floor), &format!("{name}.mass[{i}]"), ty, &about).at_least(0.0);
-        if let Stiffness::Shear(_) = building.stiffness {
+        let row = self.add(Parameter::Mass(side, floor), &format!("{name}.mass[{i}]"), ty, &about);
+        row.at_least(0.0).nominal(building.mass[floor]);
+        if let Stiffness::Shear(storeys) = &building.stiffness {
             let (about, ty) = (format!("lateral stiffness of storey {i}"), Type::Real(Unit::NewtonPerMetre));
-            self.add(Parameter::Stiffness(side, floor), &format!("{name}.stiffness[{i}]"), ty, &about).at_least(0.0);
+            let row = self.add(Parameter::Stiffness(side, floor), &format!("{name}.stiffness[{i}]"), ty, &about);
+            row.at_least(0.0).nominal(storeys[floor]);
         }
     }
 
@@ -93,20 +99,23 @@ impl Table {
         let about = "force of the building on the ground: sum of K u + C v over its floors";
         let row = self.add(Output::BaseShear(side), &format!("{name}.base_shear"), NEWTON, about);
         row.nominal(building.mass.iter().sum::<f64>() * ACCELERATION);
-        if let Damping::Ratio(_) = building.damping {
+        if let Damping::Ratio(ratio) = building.damping {
             let about = "ratio of critical damping in every mode";
-            self.add(Parameter::DampingRatio(side), &format!("{name}.damping_ratio"), ONE, about).at_least(0.0);
+            let row = self.add(Parameter::DampingRatio(side), &format!("{name}.damping_ratio"), ONE, about);
+            row.at_least(0.0).nominal(if ratio > 0.0 { ratio } else { DAMPING_RATIO });
         }
         for mode in 0..building.mass.len() {
             let (i, ty) = (mode + 1, Type::Real(Unit::Hertz));
             let about = format!("natural frequency of mode {i} of the {name} building alone");
-            self.add(Slot::Frequency(side, mode), &format!("{name}.frequency[{i}]"), ty, &about).at_least(0.0);
+            let row = self.add(Slot::Frequency(side, mode), &format!("{name}.frequency[{i}]"), ty, &about);
+            row.at_least(0.0).nominal(typical_frequency(building));
         }
     }
 
     fn add_contact(&mut self, p: usize, pair: &ContactPair) {
         let about = format!("clear distance at rest {}", between(pair));
-        self.add(Parameter::Gap(p), &format!("contact[{}].gap", p + 1), METRE, &about);
+        let row = self.add(Parameter::Gap(p), &format!("contact[{}].gap", p + 1), METRE, &about);
+        row.nominal(if pair.gap == 0.0 { DISPLACEMENT } else { pair.gap.abs() });
     }
 
     fn add_law(&mut self, p: usize, pair: &ContactPair) {
@@ -128,6 +137,7 @@ impl Table {
             let row = self.add(parameter, &name, Type::Real(unit), &format!("{about} {}", between(pair)));
             row.max = max;
             row.at_least(if *key == LawKey::Exponent { 1.0 } else { 0.0 });
+            row.nominal(if *key == LawKey::Stiffness { pair.law.stiffness } else { 1.0 });
         }
     }
 
@@ -168,9 +178,12 @@ impl Table {
         ] {
             let row = self.add(Output::Energy(term), &format!("energy.{name}"), JOULE, about);
             row.nominal(mass * VELOCITY * VELOCITY);
+            if matches!(term, E::Kinetic | E::Strain) {
+                row.at_least(0.0); // sums of squares; the others are sums of work, rounded to either side of 0
+            }
         }
         let about = "imbalance of the energy account relative to the largest magnitude of its terms so far";
-        self.add(Output::Energy(E::Residual), "energy.residual", ONE, about);
+        self.add(Output::Energy(E::Residual), "energy.residual", ONE, about).nominal(1.0);
     }
 
     fn add(&mut self, slot: impl Into<Slot>, name: &str, ty: Type, description: &str) -> &mut Row {
@@ -193,6 +206,11 @@ impl Row {
         self
     }
 
+    fn between(&mut self, min: f64, max: f64) -> &mut Row {
+        (self.min, self.max) = (Some(min), Some(max));
+        self
+    }
+
     /// Reals only, and where the numbers of the scene give a magnitude that the standard accepts.
     fn nominal(&mut self, value: f64) -> &mut Row {
         let accepted = matches!(self.ty, Type::Real(_)) && value > 0.0 && value.is_finite();
@@ -203,4 +221,13 @@ impl Row {
 
 fn between(pair: &ContactPair) -> String {
     format!("between left floor {} and right floor {}", pair.left_floor, pair.right_floor)
+}
+
+/// Hz: that of a floor on its storeys, whatever the others do.
+fn typical_frequency(building: &Building) -> f64 {
+    let stiffness: f64 = match &building.stiffness {
+        Stiffness::Shear(storeys) => storeys.iter().sum(),
+        Stiffness::Matrix(rows) => rows.iter().enumerate().map(|(i, row)| row[i]).sum(),
+    };
+    (stiffness / building.mass.iter().sum::<f64>()).sqrt() / std::f64::consts::TAU
 }

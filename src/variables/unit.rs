@@ -77,7 +77,7 @@ impl Unit {
         match self {
             Unit::One => unit("1", Some(&[]), None),
             Unit::Metre => unit("m", Some(&[("m", 1)]), Some(("mm", 1e3))),
-            Unit::MetrePerSecond => unit("m/s", Some(&[("m", 1), ("s", -1)]), None),
+            Unit::MetrePerSecond => unit("m/s", Some(&[("m", 1), ("s", -1)]), Some(("mm/s", 1e3))),
             Unit::MetrePerSecondSquared => {
                 unit("m/s2", Some(&[("m", 1), ("s", -2)]), Some(("g", 1.0 / STANDARD_GRAVITY)))
             }

@@ -107,13 +107,23 @@ impl Settings {
         })
     }
 
-    /// Everything that is wrong with the numbers, by themselves and with the record.
+    /// Everything that is wrong with the numbers, by themselves and with the record: in the words of the scene, under
+    /// the names of the variables.
     pub fn check(&self) -> Result<(), SceneError> {
-        self.scene.check()?;
-        match self.record().map(|record| self.scene.ground.scaling.factor(record)) {
-            Some(Err(problem)) => Err(problem.into()),
-            Some(Ok(_)) | None => Ok(()),
+        let mut problems = self.scene.check().err().map_or_else(Vec::new, |error| error.problems);
+        let factor = self.record().map(|record| self.scene.ground.scaling.factor(record));
+        if let Some(Err(problem)) = factor
+            && !problems.iter().any(|known| known.path == problem.path)
+        {
+            problems.push(problem);
         }
+        for problem in &mut problems {
+            // The only parameter whose name is not its path in the scene.
+            if let Some(building) = problem.path.strip_suffix(".damping.ratio") {
+                problem.path = format!("{building}.damping_ratio");
+            }
+        }
+        if problems.is_empty() { Ok(()) } else { Err(SceneError { problems }) }
     }
 
     /// Sets a parameter to a value of its row's type. [`Settings::check`] is for the caller: once, after everything that
@@ -155,7 +165,11 @@ impl Settings {
             let expected = "a record file, but it is none";
             return Err(Problem::new("ground.record", format!("{path:?}"), expected).into());
         }
-        let packaged = read_record(path, Path::new(path), self.scene.ground.scaling)?;
+        let packaged = read_record(path, Path::new(path), self.scene.ground.scaling).map_err(|problem| {
+            // No variable says which peak the scene scales a record to.
+            let is_peak = problem.path == "ground.pga";
+            if is_peak { Problem::new("ground.record", format!("{path:?}"), problem.expected) } else { problem }
+        })?;
         self.other_record = Some((path.to_owned(), Arc::new(packaged.record)));
         Ok(())
     }

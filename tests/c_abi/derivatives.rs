@@ -175,10 +175,8 @@ fn output_derivatives_are_what_the_outputs_do_next() {
         instance.start();
         let (h, mut time, mut compared, mut closed) = (1e-6, 0.0_f64, 0, 0);
         let names = reals(&fmu, &Causality::Output);
-        let is_smooth = |name: &String| {
-            let past = ["peak", "approach", "energy."].iter().any(|part| name.contains(part));
-            !past || name.contains("dissipated")
-        };
+        // Largest drifts jump from one step of the engine to the next.
+        let is_smooth = |name: &String| !["peak_drift", "residual"].iter().any(|part| name.contains(part));
         let contacts = (1..=2).filter(|p| fmu.description.variable_by_name(&format!("contact[{p}].force")).is_ok());
         let contacts: Vec<_> = contacts.collect();
         let count = || contacts.iter().map(|p| instance.integer(&format!("contact[{p}].impacts"))).sum::<i32>();
@@ -263,6 +261,7 @@ fn derivatives_that_are_other_outputs() {
             let facing = instance.real(&format!("left.velocity[{p}]")) - instance.real(&format!("right.velocity[{p}]"));
             assert!((closing - facing).abs() < 1e-12, "{closing} and {facing}");
             assert_eq!(rate(&instance, &of("dissipated_energy"), 1), Ok(force * closing));
+            assert_eq!(rate(&instance, &of("approach_velocity"), 1), Ok(0.0));
             closed |= force != 0.0;
         }
     }
@@ -276,9 +275,6 @@ fn output_derivatives_that_there_are_not() {
         ("left.displacement[1]", 0, "derivative of order 0: expected order 1 to 2"),
         ("left.displacement[1]", 3, "derivative of order 3: expected order 1 to 2"),
         ("left.displacement[1]", c_int::MIN, "expected order 1 to 2"),
-        ("left.peak_drift[1]", 1, "left.peak_drift[1]: no derivative"),
-        ("contact[1].peak_force", 1, "contact[1].peak_force: no derivative"),
-        ("energy.kinetic", 1, "energy.kinetic: no derivative"),
         ("impacts", 1, "impacts (value reference"),
         ("contact[1].active", 1, "is Boolean, not Real"),
         ("left.mass[1]", 1, "left.mass[1]: expected an output"),

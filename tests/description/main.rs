@@ -8,6 +8,7 @@ mod scenes;
 use fmi::model_description::fmi2::{Causality, ModelDescription, ScalarVariable, Variability, VariableType};
 use pounding::description::Package;
 use scenes::{NO_CONTACT, RECORD_SCENE, SCENE, package};
+use std::sync::Mutex;
 
 fn describe(scene_text: &str) -> ModelDescription {
     ModelDescription::from_string(&package(scene_text).model_description()).unwrap()
@@ -16,11 +17,16 @@ fn describe(scene_text: &str) -> ModelDescription {
 #[test]
 fn another_importer_finds_it_valid() {
     for scene in [SCENE, RECORD_SCENE, NO_CONTACT] {
-        let text = package(scene).model_description();
-        let description = ModelDescription::from_string(&text).unwrap();
-        let problems = description.validate().into_iter().map(|problem| problem.message).collect::<Vec<_>>();
-        assert!(problems.is_empty(), "{problems:#?}");
+        assert_eq!(problems(&package(scene).model_description()), [""; 0]);
     }
+}
+
+/// What the importer finds wrong; its parser of names is one for all threads.
+fn problems(text: &str) -> Vec<String> {
+    static TURN: Mutex<()> = Mutex::new(());
+    let _turn = TURN.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let description = ModelDescription::from_string(text).unwrap();
+    description.validate().into_iter().map(|problem| problem.message).collect()
 }
 
 /// Name, causality and type of every variable, in the words of the contract with the users.
@@ -193,7 +199,7 @@ fn units_have_their_dimensions_and_what_people_read() {
     for (name, dimensions, display) in [
         ("1", [0, 0, 0], None),
         ("m", [0, 1, 0], Some(("mm", 1000.0))),
-        ("m/s", [0, 1, -1], None),
+        ("m/s", [0, 1, -1], Some(("mm/s", 1000.0))),
         ("m/s2", [0, 1, -2], Some(("g", 1.0 / 9.80665))),
         ("Hz", [0, 0, -1], None),
         ("kg", [1, 0, 0], Some(("t", 0.001))),
@@ -221,6 +227,15 @@ fn the_default_experiment_ends_with_the_scene_or_with_the_record() {
     assert_eq!(stop(RECORD_SCENE).as_deref(), Some("2"));
     assert_eq!(stop(&RECORD_SCENE.replace("stop_time = 2.0", "")).as_deref(), Some("2"), "the record's last sample");
     assert_eq!(stop(NO_CONTACT), None);
+    for scene in [SCENE, RECORD_SCENE, NO_CONTACT] {
+        let experiment = describe(scene).defaultExperiment.unwrap();
+        assert_eq!(experiment.startTime.as_deref(), Some("0"));
+        assert_eq!(experiment.stepSize.as_deref(), Some("0.01"));
+        assert_eq!(experiment.tolerance.as_deref(), Some("1e-12"));
+    }
+    let coarse = "[outputs]\nenergy = true\n[solver]\nrelative_tolerance = 1e-8";
+    let tolerance = describe(&SCENE.replace("[outputs]\nenergy = true", coarse)).defaultExperiment.unwrap().tolerance;
+    assert_eq!(tolerance.as_deref(), Some("1e-8"));
 }
 
 #[test]

@@ -20,6 +20,12 @@ fn names_and_times() {
         let expected = format!("name = \"{name}\": {NOT_C}");
         assert_eq!(messages(&edited("TwoFrames", name)), [expected]);
     }
+    let longest = "n".repeat(128);
+    assert!(Scene::from_toml(&edited("TwoFrames", &longest)).is_ok());
+    let too_long = messages(&edited("TwoFrames", &(longest + "n")));
+    assert_eq!(too_long.len(), 1);
+    assert!(too_long[0].starts_with("name = \"nnn"), "{too_long:?}");
+    assert!(too_long[0].ends_with(": expected a C identifier of at most 128 characters"), "{too_long:?}");
     expect(&[
         ("name = \"TwoFrames\"", "", &["name: expected a C identifier (missing)"]),
         ("TwoFrames", "double", &["name = \"double\": expected a C identifier that is not a keyword of C"]),
@@ -117,6 +123,13 @@ fn matrices() {
             "left.stiffness_matrix[1] = 1: expected a list of numbers",
             "left.stiffness_matrix[2] = 2: expected a list of numbers",
         ]
+    );
+    assert_eq!(
+        stiffness("[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"),
+        [
+            "left.stiffness_matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]: expected 2 rows, one per floor, not 3"
+        ],
+        "one mistake, said once"
     );
     assert_eq!(stiffness("[[1, 2]]"), ["left.stiffness_matrix = [[1.0, 2.0]]: expected 2 rows, one per floor, not 1"]);
     assert_eq!(

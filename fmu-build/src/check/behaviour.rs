@@ -1,21 +1,17 @@
 //! What the library of an FMU does, compared with what its description says.
 
-use crate::archive::Unpacked;
+use crate::archive;
 use crate::c_interface::{Binary, Instance};
 use crate::experiment::{CoSimulation, Experiment};
 use crate::platform;
 use anyhow::{Context, Result, bail};
 use fmi::model_description::fmi2::{ModelDescription, ScalarVariable, VariableType};
+use std::path::Path;
 
-/// The library for this machine.
-pub fn library(fmu: &Unpacked, description: &ModelDescription) -> Result<Binary> {
+/// The library for this machine, in the FMU that is unpacked in `root`.
+pub fn library(root: &Path, description: &ModelDescription) -> Result<Binary> {
     let Some(interface) = &description.coSimulation else { bail!("the FMU has no co-simulation interface") };
-    let path = platform::library_path(&interface.modelIdentifier);
-    if !fmu.path(&path).is_file() {
-        let there = fmu.names.iter().filter(|name| name.starts_with("binaries/")).cloned().collect::<Vec<_>>();
-        bail!("the FMU has no {path}, the library for this machine; it has: {}", there.join(", "));
-    }
-    Binary::load(&fmu.path(&path))
+    Binary::load(&root.join(platform::library_path(&interface.modelIdentifier)))
 }
 
 /// A finding for each function that the library does not export.
@@ -24,9 +20,9 @@ pub fn missing_functions(binary: &Binary) -> Vec<String> {
 }
 
 /// The library must refuse a GUID that is not its own, else it cannot notice a description that is not its own.
-pub fn wrong_guid_accepted(fmu: &Unpacked, description: &ModelDescription, binary: &Binary) -> Vec<String> {
+pub fn wrong_guid_accepted(root: &Path, description: &ModelDescription, binary: &Binary) -> Vec<String> {
     let other = "{00000000-0000-0000-0000-000000000000}";
-    match Instance::new(binary, &description.modelName, other, &fmu.resource_uri()) {
+    match Instance::new(binary, &description.modelName, other, &archive::resource_uri(root)) {
         Ok(_) => vec![format!("fmi2Instantiate accepts the GUID {other} beside {}", description.guid)],
         Err(_) => Vec::new(),
     }

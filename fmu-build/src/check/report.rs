@@ -4,30 +4,38 @@ use crate::experiment::Outcome;
 use crate::summary;
 use anyhow::Result;
 use fmi::model_description::fmi2::ModelDescription;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
 
-/// Checks in the order in which they were made, and what the run has shown where it came to that.
+/// Of the JSON: it changes when something that scripts may rely on is taken away or means something else.
+const VERSION: u32 = 1;
+
+/// Checks in the order in which they were made, and what the run has shown where it came to that. The JSON of it is
+/// described in `docs/check.schema.json`.
 #[derive(Serialize)]
 pub struct Report {
+    version: u32,
     file: String,
     valid: bool,
     checks: Vec<Check>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    run: Option<Run>,
+    run: Option<Figures>,
+    #[serde(skip)]
+    summary: String,
 }
 
 #[derive(Serialize)]
 struct Check {
-    name: &'static str,
+    name: String,
     /// Empty where all is well.
     findings: Vec<String>,
 }
 
-#[derive(Serialize)]
-struct Run {
+/// What a run has shown, in figures.
+#[derive(Serialize, Deserialize)]
+struct Figures {
     /// s
     start: f64,
     /// s
@@ -39,27 +47,49 @@ struct Run {
     /// Every number at the end of the run.
     values: BTreeMap<String, f64>,
     warnings: Vec<String>,
-    #[serde(skip)]
+}
+
+/// What a run has shown, in figures and in words.
+#[derive(Serialize, Deserialize)]
+pub struct Run {
+    figures: Figures,
     summary: String,
+}
+
+impl Run {
+    /// Of the default experiment.
+    pub fn new(description: &ModelDescription, outcome: Outcome) -> Run {
+        let summary = summary::text(description, &outcome, "default experiment of the FMU");
+        let figures = Figures {
+            start: outcome.experiment.start,
+            stop: outcome.experiment.stop,
+            step: outcome.experiment.step,
+            solve_seconds: outcome.solving.as_secs_f64(),
+            values: outcome.seen.into_iter().map(|(name, seen)| (name, seen.last)).collect(),
+            warnings: outcome.warnings,
+        };
+        Run { figures, summary }
+    }
 }
 
 impl Report {
     /// Of a file that nothing is known about yet.
     pub fn new(file: &Path) -> Report {
-        Report { file: file.display().to_string(), valid: true, checks: Vec::new(), run: None }
+        let (version, file) = (VERSION, file.display().to_string());
+        Report { version, file, valid: true, checks: Vec::new(), run: None, summary: String::new() }
     }
 
     /// Adds what a check has found; checks of the same name are one.
-    pub fn add(&mut self, name: &'static str, findings: Vec<String>) {
+    pub fn add(&mut self, name: &str, findings: Vec<String>) {
         self.valid &= findings.is_empty();
         match self.checks.iter_mut().find(|check| check.name == name) {
             Some(check) => check.findings.extend(findings),
-            None => self.checks.push(Check { name, findings }),
+            None => self.checks.push(Check { name: name.to_owned(), findings }),
         }
     }
 
     /// Notes a step that the next ones need: its error is a finding, its value what they go on with.
-    pub fn need<T>(&mut self, name: &'static str, result: Result<T>) -> Option<T> {
+    pub fn need<T>(&mut self, name: &str, result: Result<T>) -> Option<T> {
         let (value, findings) = match result {
             Ok(value) => (Some(value), Vec::new()),
             Err(error) => (None, vec![format!("{error:#}")]),
@@ -69,17 +99,8 @@ impl Report {
     }
 
     /// Notes the run.
-    pub fn ran(&mut self, description: &ModelDescription, outcome: Outcome) {
-        let summary = summary::text(description, &outcome, "default experiment of the FMU");
-        self.run = Some(Run {
-            start: outcome.experiment.start,
-            stop: outcome.experiment.stop,
-            step: outcome.experiment.step,
-            solve_seconds: outcome.solving.as_secs_f64(),
-            values: outcome.seen.into_iter().map(|(name, seen)| (name, seen.last)).collect(),
-            warnings: outcome.warnings,
-            summary,
-        });
+    pub fn ran(&mut self, run: Run) {
+        (self.run, self.summary) = (Some(run.figures), run.summary);
     }
 
     /// Whether nothing has been found.
@@ -96,8 +117,8 @@ impl Report {
                 let _ = writeln!(text, "    {finding}");
             }
         }
-        if let Some(run) = &self.run {
-            let _ = write!(text, "\n{}", run.summary);
+        if self.run.is_some() {
+            let _ = write!(text, "\n{}", self.summary);
         }
         let verdict = if self.valid { "nothing wrong found" } else { "this FMU is not in order" };
         let _ = writeln!(text, "\n{verdict}");

@@ -94,3 +94,11 @@ pub fn replace_once(text: &str, old: &str, new: &str) -> String {
     assert!(text.contains(old), "no {old:?} to replace");
     text.replacen(old, new, 1)
 }
+
+/// The files of the default FMU with another description.
+pub fn changed_description(change: impl Fn(&str) -> String) -> Files {
+    let mut files = files(feup_fmu());
+    let text = String::from_utf8(std::mem::take(&mut files[0].1)).unwrap();
+    files[0].1 = change(&text).into_bytes();
+    files
+}

@@ -1,6 +1,7 @@
 //! What the importer does not read: the order of the elements, units, the date.
 
-use super::repeated;
+use super::{attributes, repeated};
+use anyhow::{Result, bail};
 use roxmltree::{Document, Node};
 use std::collections::HashSet;
 
@@ -30,12 +31,33 @@ const LISTS: [&str; 9] = [
     "InitialUnknowns",
 ];
 
-pub(super) fn findings(text: &str) -> Vec<String> {
+/// The tool that makes our FMUs, before its version.
+const TOOL: &str = "pounding-fmu ";
+
+/// Whether it is one of our FMUs: others are not looked at any further, and not run. What is no XML is for the
+/// importer to say.
+pub fn origin(text: &str) -> Result<()> {
+    let Ok(document) = Document::parse(text) else { return Ok(()) };
+    let root = document.root_element();
+    match root.attribute("generationTool") {
+        Some(tool) if tool.starts_with(TOOL) => Ok(()),
+        Some(tool) => bail!("made by {tool:?}, not by {TOOL}: only FMUs of ours are checked here, others are not run"),
+        None => bail!("does not say which tool made it: only FMUs of {TOOL}are checked here, others are not run"),
+    }
+}
+
+/// `modelDescription.xml` as it stands.
+pub fn findings(text: &str) -> Vec<String> {
     let document = match Document::parse(text) {
         Ok(document) => document,
         Err(error) => return vec![format!("no XML: {error}")],
     };
     let mut findings = order(document.root_element());
+    let version = document.root_element().attribute("fmiVersion").unwrap_or_default();
+    if version != "2.0" {
+        findings.push(format!("fmiVersion {version:?}: expected exactly \"2.0\", whatever the revision"));
+    }
+    findings.extend(attributes::findings(&document));
     findings.extend(empty_lists(&document));
     findings.extend(units(&document));
     if document.root_element().has_attribute("generationDateAndTime") {
@@ -80,7 +102,9 @@ fn units(document: &Document) -> Vec<String> {
         let Some(variable) = real.parent().filter(|parent| parent.has_tag_name("ScalarVariable")) else { continue };
         let variable = name(&variable);
         let Some(unit) = real.attribute("unit") else {
-            findings.push(format!("{variable}: no unit"));
+            let shown =
+                real.attribute("displayUnit").map_or(String::new(), |unit| format!(", but display unit {unit:?}"));
+            findings.push(format!("{variable}: no unit{shown}"));
             continue;
         };
         used.insert(unit);

@@ -1,39 +1,24 @@
 //! Rules about what is written in an FMU that the importers and validators at hand do not check: those of FMI 2.0, and
 //! what every FMU of ours keeps to so that importers have no trouble with it.
 
+mod attributes;
 mod document;
 mod experiment;
+mod files;
 mod model_structure;
 #[cfg(test)]
 mod tests;
 mod variables;
 
+pub use document::{findings as document, origin};
+pub use files::{file_names, files};
 use fmi::model_description::fmi2::ModelDescription;
 use std::collections::HashSet;
 
-/// Names in the archive: relative to its root, with forward slashes, inside it.
-pub fn file_names(names: &[String]) -> Vec<String> {
-    let mut findings = Vec::new();
-    for name in names {
-        let parts: Vec<&str> = name.trim_end_matches('/').split('/').collect();
-        if name.contains('\\') {
-            findings.push(format!("{name:?}: a backslash; expected forward slashes"));
-        }
-        if name.starts_with('/') || name.as_bytes().get(1) == Some(&b':') {
-            findings.push(format!("{name:?}: an absolute path; expected one relative to the archive's root"));
-        }
-        if parts.iter().any(|part| matches!(*part, ".." | ".")) || parts.iter().skip(1).any(|part| part.is_empty()) {
-            findings.push(format!("{name:?}: expected a plain path without empty, `.` or `..` parts"));
-        }
-    }
-    findings
-}
-
-/// `modelDescription.xml`: `text` as it stands, `description` as the importer has read it.
-pub fn description(text: &str, description: &ModelDescription) -> Vec<String> {
-    let mut findings = document::findings(text);
+/// `modelDescription.xml` as the importer has read it; what it does not read is looked at by [`document`].
+pub fn description(description: &ModelDescription) -> Vec<String> {
+    let mut findings = experiment::findings(description);
     findings.extend(identifier(description));
-    findings.extend(experiment::findings(description));
     findings.extend(repeated("log category", description.logCategories.iter().map(|category| category.name.as_str())));
     findings.extend(model_structure::findings(description));
     findings.extend(variables::findings(description));

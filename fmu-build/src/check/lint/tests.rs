@@ -7,10 +7,22 @@ use fmi::model_description::fmi2::ModelDescription;
 use scenes::{NO_CONTACT, RECORD_SCENE, SCENE, package};
 use std::fs;
 use std::path::Path;
+use std::sync::Mutex;
 
-/// Everything that is wrong with a description.
+/// Everything that is wrong with a description, in our eyes and in those of the importer.
 fn findings(text: &str) -> Vec<String> {
-    super::description(text, &ModelDescription::from_string(text).unwrap())
+    let mut findings = super::document(text);
+    match ModelDescription::from_string(text) {
+        Ok(description) => {
+            findings.extend(super::description(&description));
+            // Its parser of names is one for all threads.
+            static TURN: Mutex<()> = Mutex::new(());
+            let _turn = TURN.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+            findings.extend(description.validate().into_iter().map(|problem| problem.message));
+        }
+        Err(error) => findings.push(error.to_string()),
+    }
+    findings
 }
 
 #[test]
@@ -72,10 +84,114 @@ fn every_kind_of_damage_is_found() {
         ("<ModelVariables>", "<DefaultExperiment/><ModelVariables>", "<DefaultExperiment>: more than once"),
         ("<DefaultExperiment ", "<VendorAnnotations ", "<DefaultExperiment>: missing"),
         ("<CoSimulation ", "<VendorAnnotations><Tool name=\"a\"/></VendorAnnotations><CoSimulation ", "out of order"),
+        ("min=\"0\" max=\"1\"", "min=\"0\" max=\"0.5\"", "contact[1].restitution: start 0.65; expected 0 to 0.5"),
+        ("nominal=\"0.01\"", "nominal=\"NaN\"", "left.displacement[1]: nominal NaN"),
+        ("nominal=\"0.01\"", "nominal=\"-1\"", "left.displacement[1]: nominal -1"),
+        ("tolerance=\"1e-12\"", "tolerance=\"-1\"", "DefaultExperiment tolerance -1: expected > 0"),
+        ("tolerance=\"1e-12\"", "tolerance=\"tight\"", "DefaultExperiment tolerance \"tight\""),
+        ("unit=\"m/s2\" displayUnit", "displayUnit", "ground.acceleration: no unit, but display unit \"g\""),
+        ("index=\"5\" dependencies=\"2\"", "index=\"5\" dependencies=\"999\"", "999"),
+        ("fmiVersion=\"2.0\"", "fmiVersion=\"2.0.4\"", "fmiVersion \"2.0.4\": expected exactly \"2.0\""),
+        (
+            "index=\"5\" dependencies=\"2\" dependenciesKind=\"fixed\"",
+            "index=\"5\" dependencies=\"2\" dependenciesKind=\"fixed fixed\"",
+            "dependenciesKind",
+        ),
+        ("<Unknown index=\"3\" dependencies=\"\"/>", "", "output"),
+        ("<Unknown index=\"3\"", "<Unknown index=\"999\"", "999"),
+        ("name=\"left.displacement[1]\"", "name=\"left.velocity[1]\"", "Duplicate variable name"),
+        ("name=\"left.displacement[1]\"", "name=\"left.displacement[1\"", "left.displacement[1"),
+        ("variability=\"fixed\"", "variability=\"continuous\"", "left.mass[1]"),
+        (
+            "<ScalarVariable name",
+            "<ScalarVariable colour=\"red\" name",
+            "<ScalarVariable> : no attribute \"colour\" in FMI 2.0",
+        ),
+        ("<Real unit", "<Real colour=\"red\" unit", "<Real> ground.acceleration: no attribute \"colour\" in FMI 2.0"),
+        (
+            "modelIdentifier=\"TwoBuildings\"",
+            "modelIdentifier=\"2Buildings\"",
+            "modelIdentifier \"2Buildings\": expected a C identifier",
+        ),
         ("modelName=", "generationDateAndTime=\"2020-01-01T00:00:00Z\" modelName=", "generationDateAndTime"),
     ] {
         assert!(text.contains(from), "{from}");
         let found = findings(&text.replacen(from, to, 1));
         assert!(found.iter().any(|f| f.contains(finding)), "{from} -> {to}: {found:?}");
     }
+}
+
+#[test]
+fn missing_initial_unknowns_are_found() {
+    let text = package(SCENE).model_description();
+    let (start, end) = (text.find("<InitialUnknowns>").unwrap(), text.find("</ModelStructure>").unwrap());
+    let found = findings(&(text[..start].to_owned() + &text[end..]));
+    assert!(found.iter().any(|f| f.contains("initial unknowns")), "{found:?}");
+}
+
+#[test]
+fn every_finding_comes_at_once() {
+    let text = package(SCENE).model_description();
+    let changes = [
+        ("start=\"0.65\"", "start=\"1.65\"", "contact[1].restitution: start 1.65"),
+        ("stopTime=\"4\"", "stopTime=\"0\"", "DefaultExperiment stopTime 0"),
+        ("name=\"logStatusError\"", "name=\"logEvents\"", "log category \"logEvents\""),
+        ("unit=\"kg\"", "", "left.mass[1]: no unit"),
+        ("<Unknown index=\"3\"", "<Unknown index=\"5\"", "expected ascending"),
+        ("<Real unit", "<Real colour=\"red\" unit", "colour"),
+    ];
+    let found = findings(&changes.iter().fold(text, |text, (from, to, _)| text.replacen(from, to, 1)));
+    for (.., expected) in changes {
+        assert!(found.iter().any(|f| f.contains(expected)), "no {expected}: {found:#?}");
+    }
+}
+
+#[test]
+fn files_that_are_not_ours_and_libraries_under_other_names_are_found() {
+    let text = package(SCENE).model_description();
+    let description = ModelDescription::from_string(&text).unwrap();
+    let findings = |name: &str| super::files(&[name.to_owned()], &description);
+    for good in [
+        "modelDescription.xml",
+        "model.png",
+        "resources/scene.toml",
+        "resources/record.at2",
+        "documentation/licenses/license.txt",
+        "binaries/linux64/TwoBuildings.so",
+        "binaries/win64/TwoBuildings.dll",
+        "binaries/aarch64-darwin/TwoBuildings.dylib",
+        "binaries/linux64/",
+        "documentation/",
+    ] {
+        assert_eq!(findings(good), [""; 0], "{good}");
+    }
+    for bad in
+        ["readme.txt", "resources/more.txt", "resources/more/", "sources/a.c", "modeldescription.xml", "binaries"]
+    {
+        assert_eq!(
+            findings(bad),
+            [format!(
+                "{bad:?}: {}",
+                if bad == "binaries" {
+                    "expected binaries/<platform>/TwoBuildings.so, .dll or .dylib"
+                } else {
+                    "not a file of such an FMU"
+                }
+            )]
+        );
+    }
+    for bad in ["binaries/linux64/Two.so", "binaries/TwoBuildings.so", "binaries/linux64/TwoBuildings.txt"] {
+        assert!(findings(bad)[0].contains("expected binaries/<platform>/TwoBuildings.so"), "{bad}");
+    }
+}
+
+#[test]
+fn only_our_fmus_are_ours() {
+    let text = package(SCENE).model_description();
+    assert!(super::origin(&text).is_ok());
+    let made_by = |tool: &str| super::origin(&text.replace(concat!("pounding-fmu ", env!("CARGO_PKG_VERSION")), tool));
+    assert!(made_by("pounding-fmu 99.0.0").is_ok());
+    assert!(made_by("Other 1.0").unwrap_err().to_string().contains("made by \"Other 1.0\""));
+    let silent = text.replace("generationTool", "author");
+    assert!(super::origin(&silent).unwrap_err().to_string().contains("does not say which tool made it"));
 }

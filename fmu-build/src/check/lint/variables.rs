@@ -63,7 +63,7 @@ fn limits(variable: &ScalarVariable) -> Vec<String> {
     if let Some(start) = start.filter(|start| !(low..=high).contains(start)) {
         findings.push(format!("{name}: start {start}; expected {low} to {high}"));
     }
-    if let Some(nominal) = nominal.filter(|nominal| *nominal <= 0.0) {
+    if let Some(nominal) = nominal.filter(|nominal| !(*nominal > 0.0 && nominal.is_finite())) {
         findings.push(format!("{name}: nominal {nominal}; expected > 0"));
     }
     findings

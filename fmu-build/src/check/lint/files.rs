@@ -1,0 +1,59 @@
+//! The names of the files in the archive.
+
+use fmi::model_description::fmi2::ModelDescription;
+
+/// Beside the libraries.
+const FILES: [&str; 9] = [
+    "modelDescription.xml",
+    "model.png",
+    "resources/scene.toml",
+    "resources/record.csv",
+    "resources/record.at2",
+    "documentation/index.html",
+    "documentation/licenses/license.txt",
+    "documentation/licenses/LICENSE-APACHE",
+    "documentation/licenses/LICENSE-MIT",
+];
+
+/// Relative to the archive's root, with forward slashes, inside it.
+pub fn file_names(names: &[String]) -> Vec<String> {
+    let mut findings = Vec::new();
+    for name in names {
+        let parts: Vec<&str> = name.trim_end_matches('/').split('/').collect();
+        if name.contains('\\') {
+            findings.push(format!("{name:?}: a backslash; expected forward slashes"));
+        }
+        if name.starts_with('/') || name.as_bytes().get(1) == Some(&b':') {
+            findings.push(format!("{name:?}: an absolute path; expected one relative to the archive's root"));
+        }
+        if parts.iter().any(|part| matches!(*part, ".." | ".")) || parts.iter().skip(1).any(|part| part.is_empty()) {
+            findings.push(format!("{name:?}: expected a plain path without empty, `.` or `..` parts"));
+        }
+    }
+    findings
+}
+
+/// No file that is not an FMU's of ours, and each library under the name that importers look for.
+pub fn files(names: &[String], description: &ModelDescription) -> Vec<String> {
+    let identifier = description.coSimulation.as_ref().map_or("", |interface| interface.modelIdentifier.as_str());
+    let is_ours = |name: &str| FILES.contains(&name) || is_folder(name) || is_library(name, identifier);
+    let strange = names.iter().filter(|name| !is_ours(name));
+    strange
+        .map(|name| match name.split('/').next() {
+            Some("binaries") => format!("{name:?}: expected binaries/<platform>/{identifier}.so, .dll or .dylib"),
+            _ => format!("{name:?}: not a file of such an FMU"),
+        })
+        .collect()
+}
+
+/// Of one of the files.
+fn is_folder(name: &str) -> bool {
+    name.ends_with('/') && (name.starts_with("binaries/") || FILES.iter().any(|file| file.starts_with(name)))
+}
+
+fn is_library(name: &str, identifier: &str) -> bool {
+    let parts: Vec<&str> = name.split('/').collect();
+    let ["binaries", platform, file] = parts.as_slice() else { return false };
+    let library = ["so", "dll", "dylib"].map(|extension| format!("{identifier}.{extension}"));
+    !platform.is_empty() && library.iter().any(|library| library == file)
+}

@@ -1,0 +1,145 @@
+//! Which inputs and parameters an unknown depends on at the start time, as the model structure of the description lists
+//! them.
+//!
+//! The initial displacements and velocities belong to the scene: what is multiplied by one that is 0 does not matter.
+//! Whether floors overlap at the start is up to the gaps, which are parameters.
+
+use super::dependencies::floors;
+use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot, building};
+use crate::contact::EpisodeForce;
+use crate::engine::Side;
+use crate::scene::{Building, Damping, Scene, Stiffness};
+
+/// Whether an unknown may depend on a known at the start time; `unknown` is an output or a calculated parameter,
+/// `known` an input or a parameter.
+pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
+    use ContactOutput as C;
+    let output = match unknown {
+        Slot::Frequency(side, _) => return is_of_modes(side, known),
+        Slot::Output(output) => output,
+        Slot::Input(_) | Slot::Parameter(_) => return false,
+    };
+    match output {
+        Output::GroundAcceleration => {
+            matches!(known, Slot::Parameter(Parameter::GroundScale | Parameter::GroundRecord))
+        }
+        Output::Displacement(..) | Output::Velocity(..) | Output::PeakDrift(..) => false,
+        Output::BaseShear(side) => base_shear(scene, side, known),
+        Output::Acceleration(side, floor) => acceleration(scene, (side, floor), known),
+        Output::Contact(p, C::Penetration) => known == gap(p),
+        Output::Contact(p, C::Active | C::Impacts) => known == gap(p) && is_pushed(scene, p),
+        Output::Contact(p, C::Force | C::PeakForce) => contact_force(scene, p, known),
+        // Nothing has been done yet, and an overlap at the start has no approach velocity.
+        Output::Contact(_, C::Impulse | C::DissipatedEnergy | C::ApproachVelocity) => false,
+        Output::Impacts => (0..scene.contacts.len()).any(|p| known == gap(p) && is_pushed(scene, p)),
+        Output::Energy(term) => energy(scene, term, known),
+    }
+}
+
+/// Modes, and so damping that is given by modes.
+fn is_of_modes(side: Side, known: Slot) -> bool {
+    matches!(known, Slot::Parameter(Parameter::Mass(s, _) | Parameter::Stiffness(s, _)) if s == side)
+}
+
+const fn gap(p: usize) -> Slot {
+    Slot::Parameter(Parameter::Gap(p))
+}
+
+/// The sum of K u is the force of the lowest storey.
+fn base_shear(scene: &Scene, side: Side, known: Slot) -> bool {
+    known == Slot::Parameter(Parameter::Stiffness(side, 0)) && drifts(building(scene, side), 0)
+        || damping_force(scene, side, known)
+}
+
+/// Forces on a floor over its mass.
+fn acceleration(scene: &Scene, (side, floor): (Side, usize), known: Slot) -> bool {
+    let building = building(scene, side);
+    let contacts = || (0..scene.contacts.len()).filter(|&p| floors(scene, p).contains(&(side, floor)));
+    let storeys = [floor, floor + 1];
+    match known {
+        Slot::Input(Input::Force(s, f)) => (s, f) == (side, floor),
+        Slot::Parameter(Parameter::Mass(s, f)) if (s, f) == (side, floor) => {
+            let is_strained = match &building.stiffness {
+                Stiffness::Shear(_) => storeys.into_iter().any(|storey| drifts(building, storey)),
+                Stiffness::Matrix(_) => building.initial_displacement.iter().any(|&u| u != 0.0),
+            };
+            scene.floor_forces || is_strained || is_damped(building) || contacts().any(|p| is_pushed(scene, p))
+        }
+        _ => {
+            let is_strain = |storey| known == Slot::Parameter(Parameter::Stiffness(side, storey));
+            storeys.into_iter().any(|storey| is_strain(storey) && drifts(building, storey))
+                || damping_force(scene, side, known)
+                || contacts().any(|p| contact_force(scene, p, known))
+        }
+    }
+}
+
+/// C v of any floor of a building.
+fn damping_force(scene: &Scene, side: Side, known: Slot) -> bool {
+    let building = building(scene, side);
+    let by_modes = !matches!(building.damping, Damping::Matrix(_));
+    let is_number = known == Slot::Parameter(Parameter::DampingRatio(side));
+    is_damped(building) && (is_number || by_modes && is_of_modes(side, known))
+}
+
+/// Whether there may be a C v at the start.
+fn is_damped(building: &Building) -> bool {
+    let can_be = match &building.damping {
+        Damping::Ratio(_) => true, // a parameter
+        Damping::Ratios(ratios) => ratios.iter().any(|&ratio| ratio != 0.0),
+        Damping::Rayleigh { ratio, .. } => *ratio != 0.0,
+        Damping::Matrix(rows) => rows.iter().flatten().any(|&entry| entry != 0.0),
+    };
+    can_be && building.initial_velocity.iter().any(|&v| v != 0.0)
+}
+
+/// Whether there is a drift of a storey at the start; there is none above the roof.
+fn drifts(building: &Building, storey: usize) -> bool {
+    let displacement = |floor: usize| building.initial_displacement.get(floor).copied();
+    let below = storey.checked_sub(1).map_or(Some(0.0), displacement);
+    displacement(storey).is_some_and(|above| Some(above) != below)
+}
+
+/// Whether floors may push each other at the start: rigid ones begin with the first step.
+fn is_pushed(scene: &Scene, p: usize) -> bool {
+    !scene.contacts[p].law.is_rigid()
+}
+
+fn contact_force(scene: &Scene, p: usize, known: Slot) -> bool {
+    is_pushed(scene, p)
+        && match known {
+            Slot::Parameter(Parameter::Gap(q) | Parameter::ContactStiffness(q) | Parameter::Exponent(q)) => q == p,
+            Slot::Parameter(Parameter::Restitution(q)) => q == p && dashpot_acts(scene, p),
+            Slot::Parameter(Parameter::Mass(side, floor)) => {
+                floors(scene, p).contains(&(side, floor)) && dashpot_acts(scene, p)
+            }
+            _ => false,
+        }
+}
+
+/// m: an overlap in which the spring outweighs the dashpot.
+const DEEP: f64 = 1e6;
+
+/// Whether an overlap at the start is damped, at the rate that the scene gives it and with some restitution: the dashpot
+/// depends on the restitution and on the masses of both floors.
+fn dashpot_acts(scene: &Scene, p: usize) -> bool {
+    let [(_, left), (_, right)] = floors(scene, p);
+    let rate = scene.left.initial_velocity[left] - scene.right.initial_velocity[right];
+    let mut law = scene.contacts[p].law;
+    law.restitution = 0.5;
+    let force = EpisodeForce::new(&law, 1.0, None);
+    rate != 0.0 && force.branch(force.is_engaged(DEEP, rate)).is_damped()
+}
+
+/// At the start there has been no work; the energies are those of the buildings.
+fn energy(scene: &Scene, term: EnergyOutput, known: Slot) -> bool {
+    match (term, known) {
+        (EnergyOutput::Kinetic, Slot::Parameter(Parameter::Mass(side, floor))) => {
+            building(scene, side).initial_velocity[floor] != 0.0
+        }
+        (EnergyOutput::Strain, Slot::Parameter(Parameter::Stiffness(side, storey))) => {
+            drifts(building(scene, side), storey)
+        }
+        _ => false,
+    }
+}

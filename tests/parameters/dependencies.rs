@@ -1,0 +1,181 @@
+//! The model structure of the description, against what the library does: an unknown changes with the knowns that it is
+//! said to depend on, and with no others.
+
+use crate::scene::RICH;
+use crate::support::{Fmu, Instance, OK, SCENE};
+use fmi::model_description::fmi2::{Causality, ModelDescription, ScalarVariable, Unknown};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+
+/// The knowns of each unknown.
+type Structure = BTreeMap<String, BTreeSet<String>>;
+
+fn declared(description: &ModelDescription, unknowns: &[Unknown]) -> Structure {
+    let name = |index: u32| description.variable_by_index(index).unwrap().name.clone();
+    let known = |unknown: &Unknown| unknown.dependencies.as_ref().unwrap().iter().map(|i| name(*i)).collect();
+    unknowns.iter().map(|unknown| (name(unknown.index), known(unknown))).collect()
+}
+
+/// Every unknown as a number.
+fn read(instance: &Instance<'_>, unknowns: &[&ScalarVariable]) -> Vec<f64> {
+    let one = |variable: &&ScalarVariable| match variable.variableType.name() {
+        "Real" => instance.real(&variable.name),
+        "Integer" => f64::from(instance.integer(&variable.name)),
+        _ => f64::from(instance.get::<i32>("fmi2GetBoolean", &[variable.valueReference]).unwrap()[0]),
+    };
+    unknowns.iter().map(one).collect()
+}
+
+/// More than the rounding of sums over modes.
+fn differ(one: f64, other: f64) -> bool {
+    (one - other).abs() > 1e-9 + 1e-10 * one.abs().max(other.abs())
+}
+
+/// Which unknowns change in initialization mode with which knowns, with the gaps open or closed to begin with.
+fn seen_at_start(fmu: &Fmu, record: &str) -> Structure {
+    let variables = &fmu.description.modelVariables;
+    let of = |wanted: fn(&Causality) -> bool| variables.iter().filter(|v| wanted(&v.causality)).collect::<Vec<_>>();
+    let unknowns = of(|c| matches!(c, Causality::Output | Causality::CalculatedParameter));
+    let knowns = of(|c| matches!(c, Causality::Input | Causality::Parameter));
+    let rigid = |name: &str| !variables.iter().any(|v| v.name == name.replace(".gap", ".stiffness"));
+    let mut seen: Structure = unknowns.iter().map(|v| (v.name.clone(), BTreeSet::new())).collect();
+    for gap in [0.05, -0.05] {
+        let instance = fmu.instance();
+        // Not at 0 s, where the record is 0.
+        assert_eq!(instance.setup(0.3, None), OK);
+        assert_eq!(instance.call("fmi2EnterInitializationMode"), OK);
+        for known in knowns.iter().filter(|v| v.name.ends_with(".gap")) {
+            let gap = if rigid(&known.name) { 0.01 } else { gap };
+            assert_eq!(instance.set_real(&known.name, gap), OK, "{:?}", instance.log());
+        }
+        for input in knowns.iter().filter(|v| v.causality == Causality::Input) {
+            assert_eq!(instance.set_real(&input.name, 0.7), OK);
+        }
+        let before = read(&instance, &unknowns);
+        for known in &knowns {
+            if known.name == "ground.record" {
+                assert_eq!(instance.set_string(&known.name, record), OK);
+            } else {
+                let value = instance.real(&known.name);
+                let changes: &[f64] = match known.name.rsplit('.').next().unwrap() {
+                    // Floors that cannot overlap can at least touch.
+                    "gap" if rigid(&known.name) => {
+                        &[0.02, value + instance.real(&known.name.replace("gap", "penetration"))]
+                    }
+                    "gap" => &[-value, 1.5 * value],
+                    "restitution" => &[0.45],
+                    "exponent" => &[value + 0.2],
+                    "relative_tolerance" => &[1e-6],
+                    _ => &[1.0 + 1.3 * value],
+                };
+                let mut differs = vec![false; before.len()];
+                for change in changes {
+                    assert_eq!(instance.set_real(&known.name, *change), OK, "{:?}", instance.log());
+                    let after = read(&instance, &unknowns);
+                    differs.iter_mut().zip(before.iter().zip(&after)).for_each(|(d, (b, a))| *d |= differ(*b, *a));
+                }
+                assert_eq!(instance.set_real(&known.name, value), OK);
+                note(&mut seen, &unknowns, &known.name, &differs);
+                continue;
+            }
+            let after = read(&instance, &unknowns);
+            let differs = before.iter().zip(&after).map(|(b, a)| differ(*b, *a)).collect::<Vec<_>>();
+            assert_eq!(instance.set_string(&known.name, ""), OK);
+            note(&mut seen, &unknowns, &known.name, &differs);
+        }
+        assert_eq!(read(&instance, &unknowns), before, "everything is back");
+    }
+    seen
+}
+
+fn note(seen: &mut Structure, unknowns: &[&ScalarVariable], known: &str, differs: &[bool]) {
+    for (unknown, _) in unknowns.iter().zip(differs).filter(|(_, differs)| **differs) {
+        seen.get_mut(&unknown.name).unwrap().insert(known.to_owned());
+    }
+}
+
+fn compare(seen: &Structure, declared: &Structure) {
+    let mut wrong = Vec::new();
+    for (unknown, expected) in seen {
+        let said = &declared[unknown];
+        let (missing, idle) = (expected.difference(said), said.difference(expected));
+        wrong.extend(missing.map(|known| format!("{unknown} depends on {known}, which is not declared")));
+        wrong.extend(idle.map(|known| format!("{unknown} does not depend on {known}, as is declared")));
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert_eq!(seen.len(), declared.len());
+}
+
+#[test]
+fn initial_unknowns_depend_on_what_they_are_said_to_depend_on() {
+    let at_rest = {
+        let lines = RICH.lines().filter(|line| !line.starts_with("initial_"));
+        lines.collect::<Vec<_>>().join("\n")
+    };
+    let only = |kind: &str| {
+        let lines = RICH.lines().filter(|line| !line.starts_with("initial_") || line.starts_with(kind));
+        lines.collect::<Vec<_>>().join("\n")
+    };
+    for scene in [RICH, SCENE, &at_rest, &only("initial_velocity"), &only("initial_displacement")] {
+        let fmu = Fmu::new(scene);
+        let record = fmu.directory.path().join("other.csv");
+        fs::write(&record, "time_s,accel_m_s2\n0.0,0.5\n1.0,0.0\n").unwrap();
+        let seen = seen_at_start(&fmu, record.to_str().unwrap());
+        compare(&seen, &declared(&fmu.description, &fmu.description.initialUnknowns));
+    }
+}
+
+#[test]
+fn outputs_answer_at_once_to_what_they_are_said_to_depend_on() {
+    let rigid = SCENE.replace("law = \"hertz\"\nstiffness = 1.0e6", "law = \"stereomechanical\"\nrestitution = 0.0");
+    assert_ne!(rigid, SCENE);
+    for scene in [SCENE, &rigid] {
+        let fmu = Fmu::new(scene);
+        let instance = fmu.instance();
+        let variables = &fmu.description.modelVariables;
+        let outputs = variables.iter().filter(|v| v.causality == Causality::Output).collect::<Vec<_>>();
+        let inputs = variables.iter().filter(|v| v.causality == Causality::Input).collect::<Vec<_>>();
+        let mut seen: Structure = outputs.iter().map(|v| (v.name.clone(), BTreeSet::new())).collect();
+        instance.start();
+        // Pressed together, so that rigid floors are held as one before long.
+        for (name, force) in [("left.force[2]", 400.0), ("right.force[2]", -400.0)] {
+            assert_eq!(instance.set_real(name, force), OK);
+        }
+        for k in 0..40 {
+            assert_eq!(instance.step(f64::from(k) * 0.05, 0.05), OK, "{:?}", instance.log());
+            let before = read(&instance, &outputs);
+            for input in &inputs {
+                let value = instance.real(&input.name);
+                assert_eq!(instance.set_real(&input.name, value + 1.5), OK);
+                let after = read(&instance, &outputs);
+                assert_eq!(instance.set_real(&input.name, value), OK);
+                let differs = before.iter().zip(&after).map(|(b, a)| differ(*b, *a)).collect::<Vec<_>>();
+                note(&mut seen, &outputs, &input.name, &differs);
+            }
+        }
+        compare(&seen, &declared(&fmu.description, &fmu.description.outputs));
+    }
+}
+
+/// By which factor an output answers: 1/m is one that the parameters decide, a hold that may end is none.
+#[test]
+fn the_kind_of_a_dependence_is_fixed_where_no_contact_decides() {
+    let rigid = SCENE.replace("law = \"hertz\"\nstiffness = 1.0e6", "law = \"stereomechanical\"\nrestitution = 0.0");
+    for (scene, held) in [(SCENE, false), (&rigid, true)] {
+        let text = crate::support::Fmu::new(scene).package.model_description();
+        let document = roxmltree::Document::parse(&text).unwrap();
+        let variables = document.descendants().filter(|n| n.has_tag_name("ScalarVariable")).collect::<Vec<_>>();
+        let unknowns = |list: &str| {
+            let list = document.descendants().find(|n| n.has_tag_name(list)).unwrap();
+            list.children().filter(|n| n.is_element()).collect::<Vec<_>>()
+        };
+        for unknown in unknowns("Outputs") {
+            let index = unknown.attribute("index").unwrap().parse::<usize>().unwrap();
+            let name = variables[index - 1].attribute("name").unwrap();
+            let is_held = held && matches!(name, "left.acceleration[2]" | "right.acceleration[2]");
+            let is_fixed = name.contains(".acceleration[") && !is_held;
+            assert_eq!(unknown.attribute("dependenciesKind"), is_fixed.then_some("fixed"), "{name}");
+        }
+        assert!(unknowns("InitialUnknowns").iter().all(|n| !n.has_attribute("dependenciesKind")));
+    }
+}

@@ -1,0 +1,168 @@
+//! Values that are taken: the run is, to the last bit, that of the scene that says the same.
+
+use crate::scene::{RICH, edited};
+use crate::support::{ERROR, Fmu, Instance, OK, RECORD_SCENE, SCENE};
+use fmi::model_description::fmi2::{Causality, VariableType};
+use pounding::description::Package;
+use std::fs;
+
+/// Every Real parameter and its value.
+fn parameters(fmu: &Fmu) -> Vec<(&str, f64)> {
+    let variables = fmu.description.modelVariables.iter();
+    let reals = variables.filter(|v| v.causality == Causality::Parameter && v.name != "ground.record");
+    reals.map(|v| (v.name.as_str(), v.variableType.start().as_ref().unwrap().parse().unwrap())).collect()
+}
+
+/// Another value that a scene may have.
+fn other(name: &str, value: f64) -> f64 {
+    match name.rsplit('.').next().unwrap() {
+        "relative_tolerance" => 1e-6,
+        "restitution" => 0.9 * value,
+        "exponent" => value + 0.25,
+        _ => 1.25 * value,
+    }
+}
+
+/// Calculated parameters and outputs at the start, then outputs along the run.
+fn run(instance: &Instance<'_>) -> Vec<Vec<u64>> {
+    let variables = instance.fmu.description.modelVariables.iter();
+    let calculated = variables.filter(|v| v.causality == Causality::CalculatedParameter);
+    let calculated = calculated.map(|v| instance.real(&v.name).to_bits()).collect();
+    let mut seen = vec![calculated, instance.outputs()];
+    seen.extend(instance.run(0.0, 0.05, 20));
+    seen
+}
+
+/// Sets parameters in one of the phases in which it is allowed, and runs.
+fn run_with(fmu: &Fmu, parameters: &[(&str, f64)], in_initialization: bool) -> Vec<Vec<u64>> {
+    let instance = fmu.instance();
+    let set = || {
+        let references = parameters.iter().map(|(name, _)| fmu.vr(name)).collect::<Vec<_>>();
+        let values = parameters.iter().map(|(_, value)| *value).collect::<Vec<_>>();
+        let status = instance.set_raw("fmi2SetReal", references.as_ptr(), references.len(), values.as_ptr());
+        assert_eq!(status, OK, "{parameters:?}: {:?}", instance.log());
+        for (name, value) in parameters {
+            assert_eq!(instance.real(name).to_bits(), value.to_bits(), "{name}");
+        }
+    };
+    if in_initialization {
+        instance.enter();
+        instance.outputs();
+        set();
+    } else {
+        let references = parameters.iter().map(|(name, _)| fmu.vr(name)).collect::<Vec<_>>();
+        let values = parameters.iter().map(|(_, value)| *value).collect::<Vec<_>>();
+        let status = instance.set_raw("fmi2SetReal", references.as_ptr(), references.len(), values.as_ptr());
+        assert_eq!(status, OK, "{parameters:?}: {:?}", instance.log());
+        instance.enter();
+    }
+    assert_eq!(instance.call("fmi2ExitInitializationMode"), OK, "{:?}", instance.log());
+    run(&instance)
+}
+
+#[test]
+fn each_parameter_works_as_if_the_scene_had_said_so() {
+    let fmu = Fmu::new(RICH);
+    let unchanged = run_with(&fmu, &[], false);
+    let parameters = parameters(&fmu);
+    // 10 of the buildings, 2 damping ratios, 6 gaps, 5 stiffnesses, 2 exponents, 5 restitutions, scale, tolerance.
+    assert_eq!(parameters.len(), 32, "{parameters:?}");
+    for &(name, value) in &parameters {
+        let change = [(name, other(name, value))];
+        let said = Fmu::new(&edited(&change));
+        let expected = run_with(&said, &[], false);
+        for in_initialization in [false, true] {
+            assert!(run_with(&fmu, &change, in_initialization) == expected, "{change:?} {in_initialization}");
+        }
+        assert!(expected != unchanged, "{name} has no effect");
+    }
+}
+
+#[test]
+fn all_parameters_can_be_set_in_one_call() {
+    let fmu = Fmu::new(RICH);
+    let changes = parameters(&fmu).into_iter().map(|(name, value)| (name, other(name, value))).collect::<Vec<_>>();
+    let said = run_with(&Fmu::new(&edited(&changes)), &[], false);
+    for in_initialization in [false, true] {
+        assert!(run_with(&fmu, &changes, in_initialization) == said, "{in_initialization}");
+    }
+}
+
+#[test]
+fn another_record_works_as_if_the_scene_had_said_so() {
+    let text = "time_s,accel_m_s2\n0.0,0.5\n0.31,-3.0\n0.5,2.0\n1.5,0.0\n";
+    let mut said = Fmu::new(RICH);
+    fs::write(said.resources().join("record.csv"), text).unwrap();
+    said.package = Package::from_resources(&said.resources()).unwrap();
+    said.guid = said.package.guid();
+    let expected = run_with(&said, &[], false);
+
+    let fmu = Fmu::new(RICH);
+    assert!(expected != run_with(&fmu, &[], false), "the record has no effect");
+    let other = fmu.directory.path().join("other.csv");
+    fs::write(&other, text).unwrap();
+    for in_initialization in [false, true] {
+        let instance = fmu.instance();
+        let set = || assert_eq!(instance.set_string("ground.record", other.to_str().unwrap()), OK);
+        if in_initialization {
+            instance.enter();
+            instance.outputs();
+            set();
+        } else {
+            set();
+            instance.enter();
+        }
+        assert_eq!(instance.string("ground.record"), other.to_str().unwrap());
+        assert_eq!(instance.call("fmi2ExitInitializationMode"), OK);
+        assert!(run(&instance) == expected, "{in_initialization}");
+    }
+}
+
+#[test]
+fn a_reset_brings_every_parameter_back() {
+    let fmu = Fmu::new(RICH);
+    let (parameters, unchanged) = (parameters(&fmu), run_with(&fmu, &[], false));
+    let other_record = fmu.directory.path().join("other.csv");
+    fs::write(&other_record, "time_s,accel_m_s2\n0.0,0.5\n1.5,0.0\n").unwrap();
+    let instance = fmu.instance();
+    for &(name, value) in &parameters {
+        assert_eq!(instance.set_real(name, other(name, value)), OK, "{name}: {:?}", instance.log());
+    }
+    assert_eq!(instance.set_string("ground.record", other_record.to_str().unwrap()), OK);
+    instance.start();
+    assert!(run(&instance) != unchanged);
+    for after_an_error in [false, true] {
+        if after_an_error {
+            assert_eq!(instance.set_real("left.mass[1]", -1.0), ERROR);
+        }
+        assert_eq!(instance.call("fmi2Reset"), OK);
+        instance.start();
+        for (name, value) in &parameters {
+            assert_eq!(instance.real(name).to_bits(), value.to_bits(), "{name}");
+        }
+        assert_eq!(instance.string("ground.record"), "");
+        assert!(run(&instance) == unchanged);
+    }
+}
+
+/// No master writes the start values of the description into the library.
+#[test]
+fn every_start_value_is_that_of_the_library() {
+    for scene in [RICH, SCENE, RECORD_SCENE] {
+        let fmu = Fmu::new(scene);
+        let instance = fmu.instance();
+        instance.enter();
+        for variable in &fmu.description.modelVariables {
+            let settable = matches!(variable.causality, Causality::Parameter | Causality::Input);
+            assert_eq!(variable.variableType.has_start(), settable, "{}", variable.name);
+            let (name, Some(start)) = (&variable.name, variable.variableType.start()) else { continue };
+            match variable.variableType {
+                VariableType::Real { .. } => {
+                    assert_eq!(instance.real(name).to_bits(), start.parse::<f64>().unwrap().to_bits(), "{name}");
+                }
+                VariableType::String { .. } => assert_eq!(&instance.string(name), start, "{name}"),
+                _ => panic!("{name}: no input or parameter has this type"),
+            }
+        }
+    }
+}
