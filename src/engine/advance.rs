@@ -42,6 +42,11 @@ impl Model {
         if self.is_driven() {
             state.step.kind = StepKind::Unknown;
         }
+        if let Some(ground) = &self.ground
+            && ground.segments_after(state.time, until) > MOST_STEPS as f64
+        {
+            return Err(self.too_many_steps(&state.base));
+        }
         let mut progress = Progress::default();
         loop {
             let flown = self.glide(state, until, MOST_STEPS - progress.steps);
@@ -220,14 +225,7 @@ impl Model {
         let time = base.time();
         let Progress { steps, stalled } = *progress;
         if steps > MOST_STEPS {
-            return Err(EngineError {
-                message: format!(
-                    "{MOST_STEPS} internal steps in one communication step, at t = {time} s, with {} impacts so far; the \
-                     fastest rate of the buildings is {:e} 1/s: check stiffnesses, masses and damping, lower restitutions \
-                     of floors that rebound for ever, or take smaller communication steps",
-                    base.impacts, self.structure.fastest
-                ),
-            });
+            return Err(self.too_many_steps(base));
         }
         if stalled > MOST_STEPS_AT_ONCE {
             let open: Vec<String> = (base.contacts.iter().enumerate())
@@ -255,6 +253,19 @@ impl Model {
                  check the units of masses, stiffnesses and ground acceleration"
             ),
         })
+    }
+
+    #[cold]
+    fn too_many_steps(&self, base: &Base) -> EngineError {
+        let time = base.time();
+        EngineError {
+            message: format!(
+                "more than {MOST_STEPS} internal steps in one communication step, at t = {time} s, with {} impacts so \
+                 far; the fastest rate of the buildings is {:e} 1/s: check stiffnesses, masses and damping, lower \
+                 restitutions of floors that rebound for ever, or take smaller communication steps",
+                base.impacts, self.structure.fastest
+            ),
+        }
     }
 }
 

@@ -83,6 +83,12 @@ impl GroundMotion {
         self.after(((time - end) / self.spacing).floor().max(0.0) as u64)
     }
 
+    /// Number of segments between two times, but for those before and of the record.
+    pub fn segments_after(&self, from: f64, until: f64) -> f64 {
+        let end = self.times.last().copied().unwrap_or(from);
+        (until - from.max(end)) / self.spacing
+    }
+
     /// The segment that follows one.
     pub fn following(&self, segment: &Segment) -> Segment {
         match self.number(segment) {

@@ -53,9 +53,15 @@ pub unsafe fn load<T: Copy>(name: &str, place: *const T) -> Result<T, Refusal> {
     Ok(unsafe { place.read() })
 }
 
+/// Elements of any array: there are no more value references, and nothing else is larger. A count beyond is an error of
+/// the caller's, and following it would be a crash.
+const MOST_ELEMENTS: u64 = 1 << 32;
+
 fn check_array<T>(name: &str, array: *const T, n: usize) -> Result<(), Refusal> {
-    let fits = n.checked_mul(size_of::<T>()).is_some_and(|bytes| isize::try_from(bytes).is_ok());
-    if array.is_null() || !array.is_aligned() || !fits {
+    if n as u64 > MOST_ELEMENTS || n.checked_mul(size_of::<T>()).is_none_or(|bytes| isize::try_from(bytes).is_err()) {
+        return Err(Refusal::from(format!("{n} elements of {name}: expected at most {MOST_ELEMENTS}")));
+    }
+    if array.is_null() || !array.is_aligned() {
         return Err(Refusal::from(format!("{name} = {array:?}: expected {n} elements")));
     }
     Ok(())

@@ -33,6 +33,10 @@ use uuid::Uuid;
 /// Communication points may differ by the rounding of the master: s, relative to their magnitude above 1 s.
 const TIME_TOLERANCE: f64 = 1e-9;
 
+/// s, of either sign: double precision tells times beyond from each other by a tenth of a millisecond and worse, which
+/// no impact can be followed with.
+const MOST_TIME: f64 = 1e12;
+
 /// One instance.
 #[derive(Debug)]
 pub struct Slave {
@@ -126,8 +130,8 @@ impl Slave {
         if let Some(tolerance) = tolerance.filter(|tolerance| !(tolerance.is_finite() && *tolerance >= 0.0)) {
             problems.push(format!("tolerance = {tolerance}: expected a finite number >= 0"));
         }
-        if !start.is_finite() {
-            problems.push(format!("startTime = {start}: expected a finite number"));
+        if !is_time(start) {
+            problems.push(format!("startTime = {start}: expected a number from -{MOST_TIME:e} to {MOST_TIME:e}"));
         }
         if let Some(stop) = stop.filter(|stop| !(stop.is_finite() && *stop >= start)) {
             problems.push(format!("stopTime = {stop}: expected a finite number >= startTime = {start}"));
@@ -201,11 +205,13 @@ impl Slave {
             problems.push(format!("currentCommunicationPoint + communicationStepSize = {target}: {expected}"));
         }
         Refusal::unless_empty(problems)?;
-        if !target.is_finite() {
-            return Err(Refusal::from(format!("the step leads to {target}: expected a finite time")));
+        if !is_time(target) {
+            return Err(Refusal::from(format!("the step leads to {target} s: expected a time up to {MOST_TIME:e} s")));
         }
-        // A tiny step may fall short of the rounding of `current`: time stands still then, it never runs back.
-        Ok(target.max(self.time))
+        // A tiny step may fall short of the rounding of `current`: time stands still then, it never runs back. So it
+        // does for steps whose inverse is no number.
+        let stands_still = target - self.time < f64::MIN_POSITIVE;
+        Ok(if stands_still { self.time } else { target })
     }
 
     /// s, time up to which the solution is known.
@@ -223,6 +229,11 @@ impl Slave {
     fn start(&mut self) -> Result<&mut Simulation, Refusal> {
         started(&mut self.simulation, &self.settings, &self.inputs, &self.table, self.time)
     }
+}
+
+/// Whether motion can be followed at a time, s.
+fn is_time(time: f64) -> bool {
+    time.abs() <= MOST_TIME
 }
 
 /// An episode in one line, as the contacts are counted in the scene.

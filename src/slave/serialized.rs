@@ -14,7 +14,7 @@
 
 use super::simulation::{SavedRun, model};
 use super::snapshots::Snapshot;
-use super::{Phase, Refusal, Slave};
+use super::{Phase, Refusal, Slave, is_time};
 use crate::description::guid;
 use crate::engine::SavedState;
 use crate::variables::{Changes, Inputs, Settings};
@@ -72,8 +72,7 @@ impl Slave {
     /// Makes a snapshot of a body in which every number can be anything.
     fn accept(&self, body: Body<'_>) -> Result<Snapshot, Refusal> {
         let Body { phase, time, stop_time, changes, inputs, state } = body;
-        let is_time = |time: Option<f64>| time.is_none_or(f64::is_finite);
-        if !(time.is_finite() && is_time(stop_time) && inputs.fit(&self.defaults.scene)) {
+        if !(is_time(time) && stop_time.is_none_or(f64::is_finite) && inputs.fit(&self.defaults.scene)) {
             return Err(refuse("times or inputs that this FMU cannot have"));
         }
         if state.as_ref().is_some_and(|state| state.time().to_bits() != time.to_bits()) {
