@@ -420,3 +420,80 @@ fn an_entry_is_seen_however_soon_after_another() {
         }
     }
 }
+
+/// A floor's ripple of some picometres while another floor's contact goes on: a step of that contact lasts about as long
+/// as a swing of the ripple, which is at the bottom at the ends of the step and touches in between. Its amplitude is what
+/// the tolerance leaves to a step of that length.
+///
+/// `left`, `right`: masses and stiffnesses of the buildings, whose floor `upper` is in contact from the start, and whose
+/// floor 1 swings with the stiffness `ripple`.
+fn ripple(left: &str, right: &str, upper: usize, amplitude: f64, gap: f64) -> Scene {
+    let at_rest = vec!["0.0"; upper - 1].join(", ");
+    let above = vec!["0.0"; upper - 2].join(", ");
+    scene(&format!(
+        "name = \"Ripple\"
+        [left]
+        {left}
+        damping = {{ ratio = 0.0 }}
+        initial_displacement = [{:?}, {above}{} 0.0]
+        initial_velocity = [{at_rest}, 100.0]
+        [right]
+        {right}
+        damping = {{ ratio = 0.0 }}
+        [[contact]]
+        left_floor = {upper}
+        right_floor = {upper}
+        gap = -0.01
+        law = \"linear\"
+        stiffness = 200.0
+        [[contact]]
+        left_floor = 1
+        right_floor = 1
+        gap = {gap:?}
+        law = \"linear\"
+        stiffness = 1.0",
+        -amplitude,
+        if upper > 2 { "," } else { "" }
+    ))
+}
+
+/// The touch of -amplitude cos(rate t) is found whatever the length of the step relative to the swing, from 0.8 of it to
+/// the whole, and a miss is none.
+#[track_caller]
+fn assert_ripple_touches(scene_of: impl Fn(f64, f64, f64) -> Scene) {
+    for (rate, speed) in
+        (80..160).step_by(10).flat_map(|rate| (0..8).map(move |k| (f64::from(rate), 1e-9 / 2.0_f64.powi(k))))
+    {
+        let amplitude = speed / rate;
+        let begin = |share: f64| {
+            let mut run = Run::new(&scene_of(rate, amplitude, share * amplitude), None);
+            run.to(0.1);
+            assert!(run.point.contacts[0].active, "the other contact goes on");
+            (run.point.contacts[1].impacts > 0).then(|| run.episodes.iter().find(|e| e.contact == 1).unwrap().start)
+        };
+        let (found, expected) = (begin(0.99), (-0.99_f64).acos() / rate);
+        let what = format!("{speed:e} m/s, {rate}/s: {found:?} instead of {expected}");
+        assert!(found.is_some_and(|found| (found - expected).abs() < 0.01 / rate), "{what}");
+        assert_eq!(begin(1.01), None, "{speed:e} m/s, {rate}/s");
+    }
+}
+
+#[test]
+fn a_touch_in_the_middle_of_another_contacts_step_is_found() {
+    assert_ripple_touches(|rate, amplitude, gap| {
+        let left = format!("mass = [1.0, 1.0]\nstiffness_matrix = [[{:?}, 0.0], [0.0, 1.0]]", rate * rate);
+        ripple(&left, "mass = [1.0, 1.0]\nstiffness_matrix = [[1.0, 0.0], [0.0, 1.0]]", 2, amplitude, gap)
+    });
+}
+
+#[test]
+fn a_touch_in_the_middle_of_another_contacts_step_is_found_floor_by_floor() {
+    // Tall buildings whose storeys hold next to nothing but the ground floor's.
+    let storeys = 12;
+    let soft = vec!["1.0e-20"; storeys - 1].join(", ");
+    let mass = vec!["1.0"; storeys].join(", ");
+    assert_ripple_touches(|rate, amplitude, gap| {
+        let left = format!("mass = [{mass}]\nstiffness = [{:?}, {soft}]", rate * rate);
+        ripple(&left, &format!("mass = [{mass}]\nstiffness = [1.0, {soft}]"), storeys, amplitude, gap)
+    });
+}
