@@ -72,7 +72,7 @@ fn an_episode_takes_a_bounded_number_of_steps() {
     let mut run = Run::new(&scene, Some(&record));
     let counters = run.to(20.0).state.counters();
     let per_episode = counters.contact_steps as f64 / run.point.impacts as f64;
-    // Measured: 26.4. More means that the step control or the start of the power law has got worse.
+    // Measured: 26.6. More means that the step control or the start of the power law has got worse.
     assert!(per_episode < 29.0, "{per_episode} steps for each of {} episodes", run.point.impacts);
     assert_eq!(counters.events, 2 * run.point.impacts, "hertz has no event but entry and release");
 }

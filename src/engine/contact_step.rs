@@ -14,7 +14,7 @@ use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, difference, dot};
 
 /// Share of `relative_tolerance` that one step may use: an episode takes some thirty steps and an earthquake some
 /// hundred episodes, whose errors add up. With this share the golden scenes of `tests/golden.rs` come out within
-/// `relative_tolerance`; with ten times as much, `hertz` is ten times worse for 4 % fewer steps.
+/// `relative_tolerance`; with ten times as much, `hertz` is ten times worse for hardly fewer steps.
 const STEP_SHARE: f64 = 0.002;
 
 /// Velocity that a force may cause which is left out at the singular start of a power law, as a share of a step's
