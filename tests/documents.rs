@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const DOCUMENTS: [&str; 5] = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "docs/laws.md", "docs/coupling.md"];
+const DOCUMENTS: [&str; 6] = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "docs/laws.md", "docs/coupling.md", "docs/guide.md"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -75,6 +75,15 @@ fn every_citation_has_its_source_and_every_source_is_cited() {
 fn the_readme_quotes_the_example_as_it_is() {
     let quoted = read("README.md");
     assert!(quoted.contains(&format!("```python\n{}```", read("examples/drive_with_fmpy.py"))));
+}
+
+#[test]
+fn the_guide_quotes_its_scene_up_to_the_first_contact() {
+    let (guide, scene) = (read("docs/guide.md"), read("examples/scenes/offices.toml"));
+    let quoted = between(&guide, "```toml\n", "```").next().unwrap();
+    let (_comment, scene) = scene.split_once("name = ").unwrap();
+    assert_eq!(quoted.strip_prefix("name = ").unwrap().trim_end(), &scene[..quoted.trim_end().len() - "name = ".len()]);
+    assert_eq!(scene.matches("gap = 0.03\n").count(), 3);
 }
 
 #[test]
