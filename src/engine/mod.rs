@@ -1,6 +1,45 @@
 //! The engine: event-driven integration of two buildings with contacts.
 //!
 //! [`Model`] never changes during a run, [`State`] is plain data; a communication point is read into a [`Point`].
+//!
+//! ```
+//! use pounding::engine::{Model, Point, Side};
+//! use pounding::scene::Scene;
+//!
+//! // 1 t at 0.5 m/s and 2 t at rest, 10 mm apart, on springs that hardly hold them.
+//! let scene = Scene::from_toml(
+//!     r#"
+//!     name = "TwoMasses"
+//!     [left]
+//!     mass = [1000.0]
+//!     stiffness = [1e-3]
+//!     damping = { ratio = 0.0 }
+//!     initial_velocity = [0.5]
+//!     [right]
+//!     mass = [2000.0]
+//!     stiffness = [1e-3]
+//!     damping = { ratio = 0.0 }
+//!     [[contact]]
+//!     left_floor = 1
+//!     right_floor = 1
+//!     gap = 0.01
+//!     law = "kelvin_voigt"
+//!     stiffness = 1e8
+//!     restitution = 0.65
+//!     "#,
+//! )?;
+//! let model = Model::new(&scene, None)?;
+//! let (mut state, mut point, mut impacts) = (model.start(0.0), Point::default(), Vec::new());
+//! model.advance(&mut state, 1.0, &mut |impact| impacts.push(*impact))?;
+//! model.observe(&state, &mut point);
+//!
+//! assert_eq!(point.impacts, 1);
+//! assert!((impacts[0].start - 0.02).abs() < 1e-8);
+//! assert!((impacts[0].separation_velocity - 0.65 * 0.5).abs() < 1e-8);
+//! // What the floors have after an impact with e = 0.65, by momentum.
+//! assert!((model.velocity(&point, Side::Left, 0) - (0.5 - 1.65 * 0.5 * 2.0 / 3.0)).abs() < 1e-6);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod advance;
 mod closed_pairs;
