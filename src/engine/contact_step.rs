@@ -117,10 +117,14 @@ impl Model {
         power_of_two_below(reach)
     }
 
-    /// A pair that stands at the surface and approaches: it enters now, together with another.
+    /// A pair that stands at the surface and approaches, by more than rounding: it enters now, together with another.
     fn entry_at_once(&self, base: &Base) -> Option<usize> {
         let at_surface = |contact: &Contact| contact.at_surface || contact.penetration >= 0.0;
-        base.contacts.iter().position(|contact| !contact.in_contact() && at_surface(contact) && contact.rate > 0.0)
+        let meets = |(p, contact): (usize, &Contact)| {
+            let stands = !contact.in_contact() && at_surface(contact) && contact.rate > 0.0;
+            stands && self.difference(p, base.coordinates, &base.v).0 > 0.0
+        };
+        base.contacts.iter().enumerate().position(meets)
     }
 
     /// The series of the motion, of penetrations and forces from the base on.
