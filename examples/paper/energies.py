@@ -147,7 +147,7 @@ def draw_energies(axes):
 def draw_ratios(axes):
     curve = lambda above, below: [loss(above, e) / loss(below, e) for e in SWEEP]  # noqa: E731
     for formula, name, at, text in [
-        (EQUATION_14_SPRING, "eq. 14 / eq. 10,\nspring 3k/2", 0.25, (0.31, 1.36)),
+        (EQUATION_14_SPRING, "eq. 14 / eq. 10,\nspring 3k/2", 0.25, (0.31, 1.50)),
         (EQUATION_14_DAMPER, "eq. 14 / eq. 10,\nspring k", 0.62, (0.80, 1.93)),
     ]:
         numbers = SWEEP, curve(formula, EQUATION_10)

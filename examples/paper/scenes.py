@@ -57,5 +57,8 @@ def shear_building(mass, stiffness, storeys, damping_ratio):
 
 
 def storey_stiffness(mass, period, storeys):
-    """N/m that gives a shear building of equal floors and storeys its first period, s [Chopra2001, section 10.1]."""
+    """N/m that gives a shear building of equal floors and storeys its first period, s.
+
+    Its circular frequencies are 2 sqrt(k/m) sin((2 j - 1) pi/(4 N + 2)).
+    """
     return mass * (2 * pi / period / (2 * sin(pi / (4 * storeys + 2)))) ** 2

@@ -64,4 +64,4 @@ def renewed(document, parts):
 def publish(parts, page=PAGE):
     """Writes parts into a document."""
     page.write_text(renewed(page.read_text(), parts))
-    print("wrote", ", ".join(parts), "into", page.relative_to(engine.ROOT))
+    print(f"{page.relative_to(engine.ROOT)}: {', '.join(parts)}")
