@@ -4,11 +4,12 @@
     python3 examples/run.py examples/paper/all.py --kobe FILE      # and your record of Kobe besides
     python3 examples/run.py examples/paper/all.py --check          # only says whether the documents are up to date
 
-A record of Kobe is a file of yours; without one, what the documents say of Kobe stays as it is.
+With --check, --pictures FOLDER draws all the same. A record of Kobe is a file of yours; without one, what the documents say of Kobe stays as it is.
 """
 
 import argparse
 import sys
+from itertools import zip_longest
 from pathlib import Path
 
 import energies
@@ -26,36 +27,42 @@ FIGURES = [force_laws, exponents, energies, heights, feup, filiatrault]
 
 
 def main():
-    arguments = argparse.ArgumentParser(formatter_class=argparse.RawDescriptionHelpFormatter, description=__doc__)
-    arguments.add_argument("--kobe", type=Path, metavar="FILE", help="your record of Kobe: time_s,accel_m_s2")
-    arguments.add_argument("--check", action="store_true", help="write nothing; exit code 1 where a document is out of date")
-    arguments.add_argument("--pictures", type=Path, metavar="FOLDER", default=statement.PICTURES, help="where to draw")
-    arguments = arguments.parse_args()
+    arguments = read_arguments()
     paper = {name: part for figure in FIGURES for name, part in figure.parts().items()}
     if arguments.kobe is not None:
         paper |= heights.parts_under(arguments.kobe)
     documents = {statement.PAGE: paper, validation.PAGE: validation.parts()}
-    if arguments.check:
-        sys.exit(max([check(page, written) for page, written in documents.items()]))
-    for page, written in documents.items():
-        statement.publish(written, page)
-    for figure in [*FIGURES, towers]:
-        figure.draw(arguments.pictures)
-    if arguments.kobe is not None:
-        heights.draw_under(arguments.kobe, arguments.pictures)
-    print("drew the pictures in", arguments.pictures)
+    changed = [page for page, parts in documents.items() if arguments.check and not is_up_to_date(page, parts)]
+    if not arguments.check:
+        for page, parts in documents.items():
+            statement.publish(parts, page)
+    folder = arguments.pictures or (None if arguments.check else statement.PICTURES)
+    if folder is not None:
+        for figure in [*FIGURES, towers]:
+            figure.draw(folder)
+        if arguments.kobe is not None:
+            heights.draw_under(arguments.kobe, folder)
+        print("drew the pictures in", folder)
+    sys.exit(1 if changed else 0)
 
 
-def check(page, written):
-    """1 where a document is not what its parts say, with the first line that differs."""
-    old = page.read_text().splitlines()
-    new = statement.renewed(page.read_text(), written).splitlines()
-    if old == new:
-        return 0
-    first = next((pair for pair in zip(old, new) if pair[0] != pair[1]), (len(old), len(new)))
-    name = page.relative_to(engine.ROOT)
-    print(f"{name} is out of date; first difference:\n- {first[0]}\n+ {first[1]}", file=sys.stderr)
-    return 1
+def read_arguments():
+    parser = argparse.ArgumentParser(formatter_class=argparse.RawDescriptionHelpFormatter, description=__doc__)
+    parser.add_argument("--kobe", type=Path, metavar="FILE", help="your record of Kobe: time_s,accel_m_s2")
+    parser.add_argument("--check", action="store_true", help="write no document; exit code 1 where one is out of date")
+    parser.add_argument("--pictures", type=Path, metavar="FOLDER", help="draw there instead of in docs/images/paper")
+    return parser.parse_args()
+
+
+def is_up_to_date(page, parts):
+    """Whether a document is what its parts say; the first line that differs goes to stderr."""
+    old, name = page.read_text(), page.relative_to(engine.ROOT)
+    new = statement.renewed(old, parts)
+    print(f"{name}: compared {', '.join(parts)}")
+    if old != new:
+        first = next(pair for pair in zip_longest(old.splitlines(), new.splitlines()) if pair[0] != pair[1])
+        print(f"{name} is out of date; first difference:\n- {first[0]}\n+ {first[1]}", file=sys.stderr)
+    return old == new
 
 
 if __name__ == "__main__":

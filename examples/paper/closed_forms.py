@@ -62,7 +62,9 @@ def instantaneous():
     after_left = SPEED - (1 + E) * right / (left + right) * SPEED
     after_right = (1 + E) * left / (left + right) * SPEED
     return [
-        Check(law + "left body [m/s]", "V - (1 + e) m2 V/(m1 + m2)", source, after_left, motion["left.velocity[1]"][-1]),
+        Check(
+            law + "left body [m/s]", "V - (1 + e) m2 V/(m1 + m2)", source, after_left, motion["left.velocity[1]"][-1]
+        ),
         Check(law + "right body [m/s]", "(1 + e) m1 V/(m1 + m2)", source, after_right, motion["right.velocity[1]"][-1]),
     ]
 
@@ -73,9 +75,27 @@ def springs():
     # Of d^n: k d^(n + 1)/(n + 1) is the energy m V^2/2.
     depth = ((EXPONENT + 1) * energy / (2 * STIFFNESS)) ** (1 / (EXPONENT + 1))
     return [
-        Check("`linear`, largest force [N]", "V sqrt(k m)", "energy", SPEED * sqrt(STIFFNESS * REDUCED_MASS), linear.peak_force),
-        Check("`linear`, duration [s]", "pi sqrt(m/k)", "half a period", pi * sqrt(REDUCED_MASS / STIFFNESS), linear.duration),
-        Check("`hertz`, largest force [N]", "k^0.4 (1.25 m V^2)^0.6", "energy", STIFFNESS * depth**EXPONENT, hertz.peak_force),
+        Check(
+            "`linear`, largest force [N]",
+            "V sqrt(k m)",
+            "energy",
+            SPEED * sqrt(STIFFNESS * REDUCED_MASS),
+            linear.peak_force,
+        ),
+        Check(
+            "`linear`, duration [s]",
+            "pi sqrt(m/k)",
+            "half a period",
+            pi * sqrt(REDUCED_MASS / STIFFNESS),
+            linear.duration,
+        ),
+        Check(
+            "`hertz`, largest force [N]",
+            "k^0.4 (1.25 m V^2)^0.6",
+            "energy",
+            STIFFNESS * depth**EXPONENT,
+            hertz.peak_force,
+        ),
     ]
 
 
@@ -86,10 +106,28 @@ def dashpots():
     source = "[Anagnostopoulos1988]"
     return [
         Check("`kelvin_voigt`, restitution", "e", source, E, kelvin.restitution),
-        Check("`kelvin_voigt`, largest force [N]", "V sqrt(k m) exp(-xi (pi/2 - 3 asin xi)/sqrt(1 - xi^2))", source, peak, kelvin.peak_force),
-        Check("`kelvin_voigt`, energy lost [J]", "(1 - e^2) m V^2/2", "[BarrosKhatami2013, eq. 12]", (1 - E**2) * REDUCED_MASS * SPEED**2 / 2, kelvin.dissipated),
-        Check("`kelvin_voigt_no_tension`, restitution", "exp(-2 xi acos(xi)/sqrt(1 - xi^2))", "motion until F = 0", exp(-2 * RATIO * acos(RATIO) / root), cut.restitution),
-    ]  # fmt: skip
+        Check(
+            "`kelvin_voigt`, largest force [N]",
+            "V sqrt(k m) exp(-xi (pi/2 - 3 asin xi)/sqrt(1 - xi^2))",
+            source,
+            peak,
+            kelvin.peak_force,
+        ),
+        Check(
+            "`kelvin_voigt`, energy lost [J]",
+            "(1 - e^2) m V^2/2",
+            "[BarrosKhatami2013, eq. 12]",
+            (1 - E**2) * REDUCED_MASS * SPEED**2 / 2,
+            kelvin.dissipated,
+        ),
+        Check(
+            "`kelvin_voigt_no_tension`, restitution",
+            "exp(-2 xi acos(xi)/sqrt(1 - xi^2))",
+            "motion until F = 0",
+            exp(-2 * RATIO * acos(RATIO) / root),
+            cut.restitution,
+        ),
+    ]
 
 
 def damped_hertz():
@@ -97,9 +135,25 @@ def damped_hertz():
     found = []
     for name, a in DAMPING.items():
         of = free_impact.run(name)
-        found.append(Check(f"`{name}`, restitution", f"a (1 + e') = ln[(1 + a)/(1 - a e')], a = {a:.4g}", "[Gonthier2004]", returned(a), of.restitution))
+        found.append(
+            Check(
+                f"`{name}`, restitution",
+                f"a (1 + e') = ln[(1 + a)/(1 - a e')], a = {a:.4g}",
+                "[Gonthier2004]",
+                returned(a),
+                of.restitution,
+            )
+        )
     for exponent in (1.0, 2.0):
         of, a = free_impact.run("lankarani_nikravesh", exponent=exponent), DAMPING["lankarani_nikravesh"]
         formula = "[(n + 1) m V^2 (a - ln(1 + a))/(k a^2)]^(1/(n + 1))"
-        found.append(Check(f"`lankarani_nikravesh`, n = {exponent:g}, deepest [m]", formula, "energy", deepest(a, exponent), of.deepest))
+        found.append(
+            Check(
+                f"`lankarani_nikravesh`, n = {exponent:g}, deepest [m]",
+                formula,
+                "energy",
+                deepest(a, exponent),
+                of.deepest,
+            )
+        )
     return found

@@ -1,6 +1,6 @@
 """Fig. 9 of the paper: exponents from 1 to 2, and what is true of the negative forces.
 
-    python3 examples/run.py examples/paper/exponents.py
+python3 examples/run.py examples/paper/exponents.py
 """
 
 from math import cos, pi
@@ -10,7 +10,7 @@ import numpy as np
 import free_impact
 import statement
 import style
-from free_impact import EQUATION_10, EXPONENT, STIFFNESS
+from free_impact import EQUATION_10, STIFFNESS
 from statement import FAILS, Statement, holds
 
 PUBLISHED = [1.0, 1.3, 1.5, 1.7, 2.0]  # the paper's exponents
@@ -27,17 +27,26 @@ def outside(exponent):
 
 
 def parts():
-    return {"exponents": f"{exponents_table()}\n\n{statement.table(statements())}"}
+    return {"exponents": f"{exponents_table()}\n\n{statement.verdicts(statements())}"}
 
 
 def exponents_table():
-    head = ["n", "least force [kN]", "returns", "largest force, k in N/m^n [kN]", "largest force, k in N/mm^n [kN]", "cos(n pi)"]
+    head = [
+        "n",
+        "least force [kN]",
+        "returns",
+        "largest force, k = 3e7 N/m^n [kN]",
+        "largest force, k = 30000 kN/mm^n [MN]",
+        "cos(n pi)",
+    ]
     body = []
     for n in PUBLISHED:
         of, other = impact(n), in_millimetres(n)
         numbers = [f"{of.least_force / 1e3 + 0.0:.1f}", f"{of.restitution:.6f}", f"{of.peak_force / 1e3:.1f}"]
-        body.append([f"{n}", *numbers, f"{other.peak_force / 1e3:.3g}", f"{outside(n) + 0.0:.3f}".replace("-0.000", "0.000")])
-    return statement.rows(head, body)
+        body.append(
+            [f"{n}", *numbers, f"{other.peak_force / 1e6:.2f}", f"{outside(n) + 0.0:.3f}".replace("-0.000", "0.000")]
+        )
+    return statement.numbers(head, body)
 
 
 def impact(exponent, law=EQUATION_10):
@@ -57,28 +66,34 @@ def statements():
     fades = peaks[0] < 0.5 * peaks[-1] or others[0] < 0.5 * others[-1]
     return [
         Statement(
-            "Fig. 9", "n = 1 and 1.3 give negative forces, 1.5 none until the gap, 1.7 and 2 positive ones",
+            "Fig. 9",
+            "n = 1 and 1.3 give negative forces, 1.5 none until the gap, 1.7 and 2 positive ones",
             holds(least < 0),
-            f"no exponent gives a negative force: over eqs. 10 and 14 and `exact` the least is {least / 1e3 + 0.0:.1f} kN. "
-            "A contact with C = xi d^n cannot pull in a free impact, whatever n and xi: the bodies part at v > -V/a. Where "
-            "there is no contact, d < 0, a program that forgets to switch the spring off has d^n with a real part that "
-            f"goes as cos(n pi), last column: its signs are{'' if signs == SEEN else ' not'} those that the paper sees at "
-            "all five exponents. That they came about like this is our guess. The other way to a pull is a dashpot "
-            f"that does not fade with d: `kelvin_voigt`, n = 1, pulls with {-kelvin.least_force / kelvin.peak_force:.3f} of its peak",
+            f"no exponent gives a negative force: over eqs. 10 and 14 and `exact` the least is "
+            f"{least / 1e3 + 0.0:.1f} kN. A contact with C = xi d^n cannot pull in a free impact, whatever n and xi: "
+            f"the bodies part at v > -V/a. Where there is no contact, d < 0, a program that forgets to switch the "
+            f"spring off has d^n with a real part that goes as cos(n pi), last column: its signs "
+            f"are{'' if signs == SEEN else ' not'} those that the paper sees at all five exponents. That they came "
+            f"about like this is our guess. The other way to a pull is a dashpot that does not fade with d: "
+            f"`kelvin_voigt`, n = 1, pulls with {-kelvin.least_force / kelvin.peak_force:.3f} of its peak",
         ),
         Statement(
-            "on eq. 9", "a smaller n limits the force towards zero", holds(fades),
-            "the number 3e7 read in N/m^n gives forces that rise as n falls, from "
-            f"{peaks[-1] / 1e3:.0f} to {peaks[0] / 1e3:.0f} kN; 30000 read in kN/mm^n gives {min(others) / 1e6:.1f} to "
-            f"{max(others) / 1e6:.1f} MN for all. Stiffnesses with different n have different units and cannot be compared as "
-            "numbers; what is returned, third column, does not depend on n at all",
+            "on eq. 9",
+            "a smaller n limits the force towards zero",
+            holds(fades),
+            f"the number 3e7 read in N/m^n gives forces that rise as n falls, from {peaks[-1] / 1e3:.0f} to "
+            f"{peaks[0] / 1e3:.0f} kN; 30000 read in kN/mm^n gives {min(others) / 1e6:.1f} to {max(others) / 1e6:.1f} "
+            f"MN for all. Stiffnesses with different n have different units and cannot be compared as numbers; what "
+            f"is returned, third column, does not depend on n at all",
         ),
         Statement(
-            "on eq. 9", "n = 0 has no hysteresis, n without bound is a vertical line", FAILS,
-            "by the formulas (scenes have n from 1 to 3): with n = 0 C = xi is a constant, which goes on taking energy; "
-            "d^n grows without bound with n only where d > 1, in whatever unit d is",
+            "on eq. 9",
+            "n = 0 has no hysteresis, n without bound is a vertical line",
+            FAILS,
+            "by the formulas (scenes have n from 1 to 3): with n = 0 C = xi is a constant, which goes on taking "
+            "energy; d^n grows without bound with n only where d > 1, in whatever unit d is",
         ),
-    ]  # fmt: skip
+    ]
 
 
 def draw(folder):
@@ -90,7 +105,9 @@ def draw(folder):
         times.plot(1e3 * of.time, of.force / 1e3, **look)
     loops.set(xlabel="penetration [mm]", ylabel="contact force [kN]", title="Runs: eq. 10, e = 0.5, k = 3e7 N/m$^n$")
     loops.set(xlim=(0, None))
-    times.set(xlabel="time from the entry [ms]", ylabel="contact force [kN]", title="The same against time: never below 0")
+    times.set(
+        xlabel="time from the entry [ms]", ylabel="contact force [kN]", title="The same against time: never below 0"
+    )
     times.set(xlim=(0, None))
     for axes in (loops, times):
         axes.axhline(0, color=style.BLACK, linewidth=0.8)
@@ -108,8 +125,19 @@ def draw_signs(axes):
     words = {-1: "negative", 0: "none", 1: "positive"}
     for n, seen in zip(PUBLISHED, SEEN):
         aside = {"xytext": (10, -4), "ha": "left"} if n <= 1.5 else {"xytext": (-10, 4), "ha": "right"}
-        axes.annotate(f"paper: {words[seen]}", (n, outside(n)), textcoords="offset points", va="top" if n <= 1.5 else "bottom", **aside)
-    axes.set(xlabel="exponent n", ylabel="Re (-1)$^n$ = cos(n π)", title="A formula, no run: d$^n$ where d < 0", ylim=(-1.25, 1.25))
+        axes.annotate(
+            f"paper: {words[seen]}",
+            (n, outside(n)),
+            textcoords="offset points",
+            va="top" if n <= 1.5 else "bottom",
+            **aside,
+        )
+    axes.set(
+        xlabel="exponent n",
+        ylabel="Re (-1)$^n$ = cos(n π)",
+        title="A formula, no run: d$^n$ where d < 0",
+        ylim=(-1.25, 1.25),
+    )
 
 
 def main():

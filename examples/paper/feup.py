@@ -1,9 +1,10 @@
 """Section 3.2 of the paper: the natural frequencies of the FEUP frames.
 
-    python3 examples/run.py examples/paper/feup.py
+python3 examples/run.py examples/paper/feup.py
 """
 
 import functools
+from pathlib import Path
 
 import numpy as np
 
@@ -12,7 +13,7 @@ import statement
 import style
 from statement import Statement, holds
 
-SCENE = scenes.load("feup_free_vibration")
+SCENE = scenes.read(Path(__file__).with_name("scenes") / "feup_free_vibration.toml")
 STEP = 0.01  # s
 # Hz, as the paper prints them.
 PUBLISHED = {"left": ["2.77", "7.3"], "right": ["2", "5.60", "8.09"]}
@@ -20,7 +21,7 @@ NAMES = {"left": "2 storeys", "right": "3 storeys"}
 
 
 def parts():
-    return {"feup": f"{frequencies_table()}\n\n{statement.table(statements())}"}
+    return {"feup": f"{frequencies_table()}\n\n{statement.verdicts(statements())}"}
 
 
 @functools.cache
@@ -45,17 +46,19 @@ def agrees(published, ours):
 
 def frequencies_table():
     body = [[f"{frame}, mode {mode}", text, f"{ours:.4f}"] for frame, mode, text, ours in frequencies()]
-    return statement.rows(["frame", "published [Hz]", "ours [Hz]"], body)
+    return statement.numbers(["frame", "published [Hz]", "ours [Hz]"], body)
 
 
 def statements():
     good = [agrees(text, ours) for _, _, text, ours in frequencies()]
     return [
         Statement(
-            "section 3.2", "m = 3.65 kg and k = 2910 N/m give 2.77 and 7.3 Hz, and 2, 5.60 and 8.09 Hz", holds(all(good)),
+            "section 3.2",
+            "m = 3.65 kg and k = 2910 N/m give 2.77 and 7.3 Hz, and 2, 5.60 and 8.09 Hz",
+            holds(all(good)),
             f"{sum(good)} of {len(good)} agree to the printed digits, partly cut and partly rounded",
         ),
-    ]  # fmt: skip
+    ]
 
 
 def draw(folder):
@@ -66,7 +69,12 @@ def draw(folder):
         for text in PUBLISHED[side]:
             axes.axvline(float(text), color=style.BLACK, linestyle=":", linewidth=1.2)
             axes.annotate(f"{text} Hz", (float(text), 2.2), (5, 0), textcoords="offset points", va="center")
-        axes.set(xlabel="frequency [Hz]", xlim=(0, 10), ylim=(1e-4, 4), title=f"{NAMES[side]}, free vibration of the first floor (dotted: published)")
+        axes.set(
+            xlabel="frequency [Hz]",
+            xlim=(0, 10),
+            ylim=(1e-4, 4),
+            title=f"{NAMES[side]}, free vibration of the first floor (dotted: published)",
+        )
     panels[0].set_ylabel("amplitude / largest")
     style.save(figure, folder / "feup.png")
 

@@ -2,12 +2,13 @@
 
 import functools
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 import scenes
 
-SCENE = scenes.load("free_impact")
+SCENE = scenes.read(Path(__file__).with_name("scenes") / "free_impact.toml")
 MASSES = SCENE["left"]["mass"][0], SCENE["right"]["mass"][0]
 REDUCED_MASS = MASSES[0] * MASSES[1] / sum(MASSES)  # kg
 SPEED = SCENE["left"]["initial_velocity"][0]  # m/s

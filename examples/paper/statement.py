@@ -8,7 +8,9 @@ import engine
 PAGE = engine.ROOT / "docs/paper.md"
 PICTURES = engine.ROOT / "docs/images/paper"
 
-HOLDS, FAILS, IN_PART, OPEN = "holds", "does not hold", "holds in part", "cannot be checked"
+HOLDS, FAILS, IN_PART = "holds", "does not hold", "holds in part"
+# The paper leaves out what decides the number, or contradicts itself.
+NOT_TO_BE_HAD = "cannot be obtained"
 
 
 @dataclass(frozen=True)
@@ -34,15 +36,23 @@ def change(ratio, digits=1):
     return f"{100 * (ratio - 1):+.{digits}f} %"
 
 
-def table(statements):
-    lines = ["| the paper says | verdict | the runs show |", "|---|---|---|"]
-    lines += [f"| {of.place}: {of.paper} | **{of.verdict}** | {of.found} |" for of in statements]
-    return "\n".join(lines)
+def of_an_ordering(cases):
+    """The verdict on a statement that was looked at in several cases."""
+    return HOLDS if all(cases) else IN_PART if any(cases) else FAILS
 
 
-def rows(head, body):
-    """A Markdown table; all columns but the first hold numbers."""
-    lines = [head, ["---", *["---:"] * (len(head) - 1)], *body]
+def verdicts(statements):
+    body = [[f"{of.place}: {of.paper}", f"**{of.verdict}**", of.found] for of in statements]
+    return table(["the paper says", "verdict", "the runs show"], body)
+
+
+def numbers(head, body):
+    """A table whose columns hold numbers, but for the first."""
+    return table(head, body, ["---", *["---:"] * (len(head) - 1)])
+
+
+def table(head, body, rule=None):
+    lines = [head, rule or ["---"] * len(head), *body]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 

@@ -1,21 +1,14 @@
-"""Scenes of this folder, read from their files and changed where a parameter is varied."""
+"""Scenes as dictionaries: read from their files, changed where a parameter is varied, and run."""
 
 import json
 import tomllib
 from math import pi, sin
-from pathlib import Path
 
 import engine
 
-SCENES = Path(__file__).parent / "scenes"
-
-
-def load(name):
-    """A scene of this folder, its record by an absolute path so that its text can lie anywhere."""
-    return read(SCENES / f"{name}.toml")
-
 
 def read(file):
+    """A scene file, its record by an absolute path so that its text can lie anywhere."""
     scene = tomllib.loads(file.read_text())
     if "record" in scene.get("ground", {}):
         scene["ground"]["record"] = str((file.parent / scene["ground"]["record"]).resolve())
