@@ -77,7 +77,7 @@ record = '{RECORD}'
 floor_forces = {str(forces).lower()}
 """
     for wall, (top, (_, _, gap)) in enumerate(zip(tops, parts), start=1):
-        text += f"[[contact]]\nleft_floor = {top}\nright_floor = {wall}\ngap = {gap}\n"
+        text += f'[[contact]]\nleft_floor = {top}\nright_floor = {wall}\ngap = {gap}\n'
         text += 'law = "hertz_damped"\nstiffness = 1e9\nrestitution = 0.65\ndamping_formula = "exact"\n'
     return text
 
