@@ -4,7 +4,8 @@
     python3 examples/run.py examples/paper/all.py --kobe FILE      # and your record of Kobe besides
     python3 examples/run.py examples/paper/all.py --check          # only says whether the documents are up to date
 
-With --check, --pictures FOLDER draws all the same. A record of Kobe is a file of yours; without one, what the documents say of Kobe stays as it is.
+A record of Kobe is a file of yours; without one, what the documents say of Kobe stays as it is. With --check, pictures
+are drawn only where --pictures FOLDER says.
 """
 
 import argparse
@@ -48,7 +49,7 @@ def main():
 
 def read_arguments():
     parser = argparse.ArgumentParser(formatter_class=argparse.RawDescriptionHelpFormatter, description=__doc__)
-    parser.add_argument("--kobe", type=Path, metavar="FILE", help="your record of Kobe: time_s,accel_m_s2")
+    parser.add_argument("--kobe", type=heights.existing, metavar="FILE", help="your record of Kobe, CSV or AT2")
     parser.add_argument("--check", action="store_true", help="write no document; exit code 1 where one is out of date")
     parser.add_argument("--pictures", type=Path, metavar="FOLDER", help="draw there instead of in docs/images/paper")
     return parser.parse_args()

@@ -17,8 +17,9 @@ PUBLISHED = [1.0, 1.3, 1.5, 1.7, 2.0]  # the paper's exponents
 # What the paper sees at each: negative forces, none until the gap, positive forces.
 SEEN = [-1, -1, 0, 1, 1]
 LAWS = [EQUATION_10, free_impact.EQUATION_14_SPRING, free_impact.EQUATION_14_DAMPER, "exact"]
-COLOURS = [style.BLUE, style.SKY, style.BLACK, style.VERMILION, style.WINE]
-DASHES = ["-", (0, (6, 1)), "-", "--", (0, (1, 1))]
+# From dark to light, none of them that of a law: all curves are of one.
+COLOURS = ["#00224E", "#3B496C", "#6C6E72", "#9B9476", "#C8B866"]
+DASHES = ["-", (0, (6, 1)), "-.", "--", (0, (1, 1))]
 
 
 def outside(exponent):
@@ -100,7 +101,7 @@ def draw(folder):
     figure, panels = style.pyplot().subplots(1, 3, figsize=(12.4, 4.4), layout="constrained")
     loops, times, signs = panels
     for n, colour, dash in zip(PUBLISHED, COLOURS, DASHES):
-        of, look = impact(n), {"color": colour, "linestyle": dash, "linewidth": 1.9, "label": f"n = {n:g}"}
+        of, look = impact(n), {"color": colour, "linestyle": dash, "linewidth": 2.0, "label": f"n = {n:g}"}
         loops.plot(1e3 * of.penetration, of.force / 1e3, **look)
         times.plot(1e3 * of.time, of.force / 1e3, **look)
     loops.set(xlabel="penetration [mm]", ylabel="contact force [kN]", title="Runs: eq. 10, e = 0.5, k = 3e7 N/m$^n$")

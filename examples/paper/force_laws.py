@@ -107,8 +107,8 @@ def statements():
             "eqs. 7 and 8",
             "Jankowski's law starts from zero, rises steeply and never pulls",
             holds(jankowski.first_force < 0.01 * jankowski.peak_force and jankowski.least_force >= 0),
-            f"{percent(jankowski.first_force / jankowski.peak_force)} of the peak {jankowski.time[0]:.0e} s after the entry, "
-            f"{percent(share_after(jankowski, 0.01), 0)} after 1 % of the contact; never below 0; returns "
+            f"{percent(jankowski.first_force / jankowski.peak_force)} of the peak {jankowski.time[0]:.0e} s after the "
+            f"entry, {percent(share_after(jankowski, 0.01), 0)} after 1 % of the contact; never below 0; returns "
             f"{jankowski.restitution:.4f}",
         ),
         Statement(

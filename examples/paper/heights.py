@@ -15,8 +15,6 @@ from concurrent.futures import ThreadPoolExecutor
 from itertools import permutations
 from pathlib import Path
 
-import numpy as np
-
 import engine
 import free_impact
 import scenes
@@ -73,11 +71,15 @@ def parts_under(kobe):
 
 def about(record):
     """Which file it was."""
-    accelerations = np.loadtxt(record, delimiter=",", comments=("#", "t"), unpack=True)[1]
-    digest = hashlib.sha256(Path(record).read_bytes()).hexdigest()[:16]
-    peak = np.abs(accelerations).max() / engine.STANDARD_GRAVITY
-    samples = f"{len(accelerations)} samples, peak {peak:.4f} g before scaling"
-    return f"The file: `{Path(record).name}`, {samples}, SHA-256 {digest}..."
+    digest = hashlib.sha256(record.read_bytes()).hexdigest()
+    return f"The file: `{record.name}`, SHA-256 {digest[:16]}..."
+
+
+def existing(name):
+    """A file that an argument names."""
+    if not Path(name).is_file():
+        raise argparse.ArgumentTypeError(f"{name}: no such file")
+    return Path(name)
 
 
 def page(record):
@@ -288,7 +290,7 @@ def draw_sweep(axes, record):
 
 def main():
     arguments = argparse.ArgumentParser()
-    arguments.add_argument("--kobe", type=Path, metavar="FILE", help="your record of Kobe: time_s,accel_m_s2")
+    arguments.add_argument("--kobe", type=existing, metavar="FILE", help="your record of Kobe, CSV or AT2")
     kobe = arguments.parse_args().kobe
     draw(statement.PICTURES)
     statement.publish(parts())
