@@ -8,29 +8,17 @@ The numbers are those of free impacts that the engine runs (the example `laws`).
 import csv
 import subprocess
 from collections import defaultdict
-from pathlib import Path
 
-import matplotlib
 import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+import style
+from engine import ROOT
 
-ROOT = Path(__file__).resolve().parents[1]
 PICTURE = ROOT / "docs/images/laws.png"
 WORK = ROOT / "target/laws"
 
-# Okabe and Ito's colours, which colour-blind eyes tell apart; in black and white the line styles do.
-BLUE, ORANGE, GREEN, PURPLE, SKY, BLACK, GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#000000", "#888888"
-SPRING = {"color": GREY, "linestyle": "-", "linewidth": 1.2}
-FIRST = {"color": BLUE, "linestyle": "-", "linewidth": 1.8}
-SECOND = {"color": ORANGE, "linestyle": "--", "linewidth": 1.8}
-THIRD = {"color": GREEN, "linestyle": "-.", "linewidth": 1.8}
-FIFTH = {"color": SKY, "linestyle": (0, (6, 1)), "linewidth": 1.8}
-FOURTH = {"color": PURPLE, "linestyle": (0, (1, 1)), "linewidth": 2.2}
-
 # e and the mark of the impacts that it is asked for in.
-ASKED = [(0.1, "o", BLUE), (0.5, "s", ORANGE), (0.9, "D", GREEN)]
+ASKED = [(0.1, "o", style.BLUE), (0.5, "s", style.VERMILION), (0.9, "D", style.GREEN)]
 
 
 def main():
@@ -43,8 +31,7 @@ def main():
     draw_hertz(hertz, curves, outcomes)
     draw_formulas(formulas, curves, outcomes)
     draw_returns(returns, outcomes)
-    PICTURE.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(PICTURE, dpi=150, pil_kwargs={"optimize": True})
+    style.save(figure, PICTURE)
 
 
 def table(name):
@@ -57,26 +44,20 @@ def table(name):
 
 
 def prepare_figure():
-    plt.rcParams.update({"font.size": 10.5, "axes.titlesize": 11, "axes.titlelocation": "left"})
-    plt.rcParams.update({"axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False})
-    plt.rcParams.update({"axes.grid": True, "grid.alpha": 0.3, "axes.axisbelow": True})
-    figure = plt.figure(figsize=(10.4, 9.8), layout="constrained")
+    figure = style.pyplot().figure(figsize=(10.4, 9.8), layout="constrained")
     upper, lower = figure.subfigures(2, 1, hspace=0.03)
     panels = [*upper.subplots(1, 2), *lower.subplots(1, 2, width_ratios=[1.45, 1])]
     for axes in panels[:3]:
         axes.set(xlabel="penetration / largest of the undamped spring", ylabel="force / largest of the undamped spring")
         axes.set(xlim=(0, 1.05), ylim=(-0.3, 1.15))
-        axes.axhline(0, color=BLACK, linewidth=0.8)
+        axes.axhline(0, color=style.BLACK, linewidth=0.8)
     return figure, panels
 
 
-def draw(axes, numbers, label, style, at, text):
-    """A curve with its name beside it; `at` is the point of the curve that is named, as a share of its points."""
-    x, y = numbers
-    axes.plot(x, y, **style)
-    place = round(at * (len(x) - 1))
-    line = {"arrowstyle": "-", "color": style["color"], "linewidth": 1, "shrinkB": 1}
-    axes.annotate(label, (x[place], y[place]), text, arrowprops=line, va="center")
+def draw(axes, numbers, label, look, at, text):
+    """A curve with its name beside it."""
+    axes.plot(*numbers, **look)
+    style.name_curve(axes, numbers, label, look, at, text)
 
 
 def returned(outcomes, key):
@@ -86,35 +67,35 @@ def returned(outcomes, key):
 
 def draw_linear(axes, curves, outcomes):
     axes.set_title("Linear spring, $k\\,d$: free impact, e = 0.5")
-    draw(axes, curves["linear", ""], "linear:\nreturns 1", SPRING, 0.33, (0.66, 1.03))
+    draw(axes, curves["linear", ""], "linear:\nreturns 1", style.LAWS["linear"], 0.33, (0.66, 1.03))
     label = f"kelvin_voigt:\nreturns {returned(outcomes, ('kelvin_voigt', '')):.2f}, pulls"
-    draw(axes, curves["kelvin_voigt", ""], label, FIRST, 0.93, (0.27, -0.19))
+    draw(axes, curves["kelvin_voigt", ""], label, style.LAWS["kelvin_voigt"], 0.93, (0.27, -0.19))
     label = f"kelvin_voigt_no_tension:\nreturns {returned(outcomes, ('kelvin_voigt_no_tension', '')):.2f}"
-    draw(axes, curves["kelvin_voigt_no_tension", ""], label, SECOND, 0.72, (0.50, 0.12))
+    draw(axes, curves["kelvin_voigt_no_tension", ""], label, style.LAWS["kelvin_voigt_no_tension"], 0.72, (0.50, 0.12))
 
 
 def draw_hertz(axes, curves, outcomes):
     axes.set_title("Hertz spring, $k\\,d^{1.5}$: free impact, e = 0.5")
-    draw(axes, curves["hertz", ""], "hertz:\nreturns 1", SPRING, 0.42, (0.70, 1.03))
+    draw(axes, curves["hertz", ""], "hertz:\nreturns 1", style.LAWS["hertz"], 0.42, (0.70, 1.03))
     label = f"jankowski:\nreturns {returned(outcomes, ('jankowski', '')):.2f}"
-    draw(axes, curves["jankowski", ""], label, SECOND, 0.06, (0.02, 0.95))
+    draw(axes, curves["jankowski", ""], label, style.LAWS["jankowski"], 0.06, (0.02, 0.95))
     label = f"hertz_damped, exact:\nreturns {returned(outcomes, ('hertz_damped', 'exact')):.2f}"
-    draw(axes, curves["hertz_damped", "exact"], label, FIRST, 0.75, (0.60, 0.11))
+    draw(axes, curves["hertz_damped", "exact"], label, style.LAWS["exact"], 0.75, (0.60, 0.11))
 
 
 def draw_formulas(axes, curves, outcomes):
     axes.set_title("hertz_damped by the formulas of the paper, e = 0.5")
     axes.set(xlim=(0, 1.8), ylim=(0, 1.2), xticks=np.arange(0, 1.2, 0.2))
-    for name, style, at, height, also in [
-        ("barros_khatami", FOURTH, 0.28, 1.12, ""),
-        ("barros_khatami_damper", FIFTH, 0.22, 1.00, ""),
-        ("ye", THIRD, 0.30, 0.88, ""),
-        ("lankarani_nikravesh", SECOND, 0.47, 0.72, "\nand ye_printed"),
-        ("exact", FIRST, 0.62, 0.30, ""),
+    for name, at, height, also in [
+        ("barros_khatami", 0.28, 1.12, ""),
+        ("barros_khatami_damper", 0.22, 1.00, ""),
+        ("ye", 0.30, 0.88, ""),
+        ("lankarani_nikravesh", 0.47, 0.72, "\nand ye_printed"),
+        ("exact", 0.62, 0.30, ""),
     ]:
         key = ("hertz_damped", name)
         label = f"{name}{also}: {returned(outcomes, key):.2f}"
-        draw(axes, curves[key], label, style, at, (0.95, height))
+        draw(axes, curves[key], label, style.LAWS[name], at, (0.95, height))
     axes.text(0.95, 0.20, "(number: what is returned)", va="center")
 
 

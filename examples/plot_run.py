@@ -5,77 +5,45 @@
 The engine runs twice, with the scene as it is and without its contacts: what pounding does is the difference.
 """
 
-import csv
-import re
-import subprocess
-import tomllib
-from pathlib import Path
-
-import matplotlib
 import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+import engine
+import scenes
+import style
 
-ROOT = Path(__file__).resolve().parents[1]
-SCENE = ROOT / "examples/scenes/feup.toml"
-PICTURE = ROOT / "docs/images/first_run.png"
-WORK = ROOT / "target/first_run"
+SCENE = engine.ROOT / "examples/scenes/feup.toml"
+PICTURE = engine.ROOT / "docs/images/first_run.png"
 
 CONTACT = 2  # between the second floors
 STEP = 1e-4  # s: an impact lasts 4 ms, and its shape is to be seen
 STRONG_MOTION = (1.5, 5.5)  # s
 ONE_IMPACT = (-4.0, 9.0)  # ms after the hardest impact begins
-STANDARD_GRAVITY = 9.80665  # m/s2
+FORCE, PENETRATION = f"contact[{CONTACT}].force", f"contact[{CONTACT}].penetration"
+LEFT, RIGHT, ACCELERATION = "left.displacement[2]", "right.displacement[2]", "left.acceleration[2]"
 
-# Okabe and Ito's colours, which colour-blind eyes tell apart; in black and white the line styles do.
-LEFT = {"color": "#0072B2", "linestyle": "-", "linewidth": 1.4}
-RIGHT = {"color": "#D55E00", "linestyle": "--", "linewidth": 1.4}
-ALONE = {"color": "#009E73", "linestyle": (0, (3, 1)), "linewidth": 2.0}
-FORCE = {"color": "#000000", "linestyle": "-", "linewidth": 1.1}
+BLACK_LINE = {"color": style.BLACK, "linestyle": "-", "linewidth": 1.1}
 OPEN = {"color": "#999999", "alpha": 0.3, "linewidth": 0}
-OVERLAP = {"facecolor": "#F0E442", "edgecolor": "#000000", "hatch": "////", "linewidth": 0}
+OVERLAP = {"facecolor": style.YELLOW, "edgecolor": style.BLACK, "hatch": "////", "linewidth": 0}
 
 
 def main():
-    WORK.mkdir(parents=True, exist_ok=True)
-    alone = WORK / "without_contacts.toml"
-    alone.write_text(without_contacts(SCENE.read_text()))
-    draw(simulate(SCENE, "pounding"), simulate(alone, "alone")[0])
+    scene = scenes.read(SCENE)
+    how = {"step": STEP, "stop": STRONG_MOTION[1]}
+    pounding = scenes.run(scene, columns=(LEFT, RIGHT, ACCELERATION, FORCE, PENETRATION), **how)
+    alone = scenes.run({**scene, "contact": []}, columns=(ACCELERATION,), **how)
+    draw(pounding, alone.motion, scene["contact"][CONTACT - 1]["gap"])
 
 
-def simulate(scene, name):
-    """The engine's columns by name, and its table of impacts."""
-    motion, impacts = WORK / f"{name}.csv", WORK / f"{name}.impacts.csv"
-    command = ["cargo", "run", "--release", "--quiet", "--example", "simulate", "--", scene]
-    command += ["--step", str(STEP), "--stop", str(STRONG_MOTION[1]), "--csv", motion, "--impacts", impacts]
-    subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-    with motion.open() as lines:
-        names = next(lines).strip().split(",")
-        columns = np.loadtxt(lines, delimiter=",", unpack=True)
-    with impacts.open() as lines:
-        return dict(zip(names, columns)), list(csv.DictReader(lines))
-
-
-def without_contacts(text):
-    """The scene with every contact table taken out."""
-    text = re.sub(r"(?ms)^\[\[contact\]\]$.*?(?=^\[(?!\[contact\]\])|\Z)", "", text)
-    # The record is named relative to the scene file, which lies elsewhere now.
-    return re.sub(r'(?m)^record = "(.*)"', lambda found: f"record = '{SCENE.parent / found[1]}'", text)
-
-
-def draw(pounding, alone):
-    motion, impacts = pounding
-    gap = tomllib.loads(SCENE.read_text())["contact"][CONTACT - 1]["gap"]
-    ours = [impact for impact in impacts if impact["contact"] == str(CONTACT)]
-    hardest = max(ours, key=lambda impact: float(impact["peak_force"]))
-    start, force, penetration = (float(hardest[name]) for name in ["start_s", "peak_force", "peak_penetration"])
+def draw(pounding, alone, gap):
+    motion = pounding.motion
+    hardest = max(pounding.of_contact(CONTACT), key=lambda impact: impact.peak_force)
+    start, force, penetration = hardest.start_s, hardest.peak_force, hardest.peak_penetration
 
     figure, panels = prepare_figure()
     for column, clock, around in [(0, motion["time"], STRONG_MOTION), (1, 1e3 * (motion["time"] - start), ONE_IMPACT)]:
         shown = (clock >= around[0]) & (clock <= around[1])
         draw_edges(panels[0, column], clock, motion, shown, gap)
-        panels[1, column].plot(clock[shown], motion[f"contact[{CONTACT}].force"][shown], **FORCE)
+        panels[1, column].plot(clock[shown], motion[FORCE][shown], **BLACK_LINE)
         draw_acceleration(panels[2, column], clock, motion, alone, shown)
         panels[2, column].set_xlim(around)
 
@@ -85,8 +53,10 @@ def draw(pounding, alone):
     edges.legend(loc="upper right", ncols=2)
     forces.set_title(f"Contact force between them: up to {force:.0f} N")
     forces.set_ylabel("force [N]")
-    largest = [np.abs(run["left.acceleration[2]"]).max() / STANDARD_GRAVITY for run in (motion, alone)]
-    accelerations.set_title("Acceleration of floor 2, left frame: up to {:.0f} g, {:.1f} g without contact".format(*largest))
+    largest = [np.abs(run[ACCELERATION]).max() / engine.STANDARD_GRAVITY for run in (motion, alone)]
+    accelerations.set_title(
+        "Acceleration of floor 2, left frame: up to {:.0f} g, {:.1f} g without contact".format(*largest)
+    )
     accelerations.set(ylabel="acceleration [g]", xlabel="time [s]")
     accelerations.legend(loc="lower right", ncols=2)
 
@@ -94,16 +64,14 @@ def draw(pounding, alone):
     label_overlap(panels[0, 1], 1e3 * (motion["time"] - start), motion, f"penetration\n{1e3 * penetration:.2f} mm")
     panels[2, 1].set_xlabel(f"time [ms] after {start:.4f} s")
     figure.align_ylabels(panels[:, 0])
-    PICTURE.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(PICTURE, dpi=150, pil_kwargs={"optimize": True})
+    style.save(figure, PICTURE)
 
 
 def prepare_figure():
     """Three rows: edges, force, acceleration; on the left the strong motion, on the right one impact."""
-    plt.rcParams.update({"font.size": 10.5, "axes.titlesize": 10.5, "axes.titlelocation": "left"})
-    plt.rcParams.update({"axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False})
-    plt.rcParams.update({"axes.grid": True, "grid.alpha": 0.3, "axes.axisbelow": True, "hatch.linewidth": 0.6})
-    figure, panels = plt.subplots(3, 2, figsize=(9, 8.4), sharex="col", width_ratios=[2.7, 1], layout="constrained")
+    figure, panels = style.pyplot().subplots(
+        3, 2, figsize=(9, 8.4), sharex="col", width_ratios=[2.7, 1], layout="constrained"
+    )
     for row in [1, 2]:
         panels[row, 1].sharey(panels[row, 0])
         panels[row, 1].tick_params(labelleft=False)
@@ -112,25 +80,25 @@ def prepare_figure():
 
 def draw_edges(axes, clock, motion, shown, gap):
     """Where the two slab edges are: between them is the gap, and where they overlap they press."""
-    left, right = motion["left.displacement[2]"][shown], motion["right.displacement[2]"][shown] + gap
+    left, right = motion[LEFT][shown], motion[RIGHT][shown] + gap
     clock, left, right = clock[shown], 1e3 * left, 1e3 * right
     axes.fill_between(clock, left, right, where=right >= left, **OPEN)
     axes.fill_between(clock, left, right, where=left > right, **OVERLAP)
-    axes.plot(clock, right, label="right frame", **RIGHT)
-    axes.plot(clock, left, label="left frame", **LEFT)
+    axes.plot(clock, right, label="right frame", **style.RIGHT)
+    axes.plot(clock, left, label="left frame", **style.LEFT)
 
 
 def label_overlap(axes, clock, motion, text):
     """Names the largest overlap."""
-    deepest = np.argmax(motion[f"contact[{CONTACT}].penetration"])
-    place = (clock[deepest], 1e3 * motion["left.displacement[2]"][deepest])
+    deepest = np.argmax(motion[PENETRATION])
+    place = (clock[deepest], 1e3 * motion[LEFT][deepest])
     axes.margins(y=0.25)
     axes.annotate(text, place, (0.04, 0.05), textcoords="axes fraction", arrowprops={"arrowstyle": "-"})
 
 
 def draw_acceleration(axes, clock, motion, alone, shown):
-    for run, label, style in [(motion, "pounding", LEFT), (alone, "without contact", ALONE)]:
-        axes.plot(clock[shown], run["left.acceleration[2]"][shown] / STANDARD_GRAVITY, label=label, **style)
+    for run, label, look in [(motion, "pounding", style.LEFT), (alone, "without contact", style.ALONE)]:
+        axes.plot(clock[shown], run[ACCELERATION][shown] / engine.STANDARD_GRAVITY, label=label, **look)
 
 
 if __name__ == "__main__":

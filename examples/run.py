@@ -1,11 +1,13 @@
 """Runs a Python program of this project with the packages that it needs.
 
     python3 examples/run.py examples/plot_run.py
+    python3 examples/run.py examples/paper/all.py
     python3 examples/run.py benchmarks/work_precision.py --quick
 
-Needs Python 3.11 or later and nothing else. The packages of the requirements.txt beside the program go into an
-environment of their own, target/<folder>-python, which is made at the first use and again when a list of requirements
-has changed. Those of requirements-optional.txt go there too, where they can be had.
+Needs Python 3.11 or later and nothing else. The packages of the requirements.txt in the program's folder, or in the
+nearest one above it, go into an environment of their own, target/<folder>-python, which is made at the first use and
+again when a list of requirements has changed. Those of requirements-optional.txt go there too, where they can be had.
+The program can import what lies in its own folder and in that of the requirements.txt.
 """
 
 import os
@@ -54,9 +56,14 @@ def main():
     program = Path(sys.argv[1])
     if not program.exists():
         sys.exit(f"{program}: no such file")
-    environment = Environment(program.resolve().parent)
+    above = [folder for folder in program.resolve().parents if (folder / "requirements.txt").exists()]
+    if not above:
+        sys.exit(f"{program}: no requirements.txt in its folder or above")
+    environment = Environment(above[0])
     environment.prepare()
-    sys.exit(subprocess.run([environment.python, *sys.argv[1:]]).returncode)
+    paths = [str(above[0]), *filter(None, [os.environ.get("PYTHONPATH")])]
+    variables = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
+    sys.exit(subprocess.run([environment.python, *sys.argv[1:]], env=variables).returncode)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@
 
 use clap::Parser;
 use pounding::description::{Package, PackagedRecord};
-use pounding::engine::{Episode, Model, Point, State};
+use pounding::engine::{Episode, Model, Point, Side, State};
 use pounding::scene::Scene;
 use pounding::variables::{self, Output, Slot, Table, Value};
 use std::error::Error;
@@ -77,7 +77,12 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     if let Some(table) = impacts {
         write_impacts(table, &solution.episodes)?;
     }
-    let text = format!("{}solve_seconds={}\n", summary(scene, stop, &solution), solution.time.as_secs_f64());
+    let text = format!(
+        "{}{}solve_seconds={}\n",
+        summary(scene, stop, &solution),
+        frequencies(&model),
+        solution.time.as_secs_f64()
+    );
     std::io::stdout().write_all(text.as_bytes())?;
     Ok(())
 }
@@ -207,6 +212,15 @@ fn write_impacts(mut table: CsvFile, episodes: &[Episode]) -> csv::Result<()> {
     }
     table.flush()?;
     Ok(())
+}
+
+/// Natural frequencies of each building alone, ascending.
+fn frequencies(model: &Model) -> String {
+    let line = |name: &str, side: Side| {
+        let numbers: Vec<String> = model.natural_frequencies(side).iter().map(|f| format!("{f:.4}")).collect();
+        format!("  {name} frequencies: {} Hz\n", numbers.join(", "))
+    };
+    line("left", Side::Left) + &line("right", Side::Right)
 }
 
 fn summary(scene: &Scene, stop: f64, solution: &Solution) -> String {

@@ -8,9 +8,6 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const DOCUMENTS: [&str; 6] =
-    ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "docs/laws.md", "docs/coupling.md", "docs/guide.md"];
-
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -19,6 +16,13 @@ fn read(name: &str) -> String {
     let text = fs::read_to_string(root().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
     // Git may have changed the ends of the lines.
     text.replace('\r', "")
+}
+
+/// The pages that people read, by their path from the root.
+fn documents() -> Vec<String> {
+    let pages = files("docs", &["md"]).into_iter();
+    let pages = pages.map(|page| page.strip_prefix(root()).unwrap().to_str().unwrap().replace('\\', "/"));
+    ["README.md", "ARCHITECTURE.md", "CHANGELOG.md"].map(str::to_owned).into_iter().chain(pages).collect()
 }
 
 /// Files below a directory, with one of the endings.
@@ -64,7 +68,7 @@ fn every_citation_has_its_source_and_every_source_is_cited() {
             cited.extend(citations(&fs::read_to_string(file).unwrap()));
         }
     }
-    cited.extend(DOCUMENTS.iter().flat_map(|name| citations(&read(name))));
+    cited.extend(documents().iter().flat_map(|name| citations(&read(name))));
     let bibliography = read("REFERENCES.bib");
     let entries: BTreeSet<String> = (bibliography.lines().filter(|line| line.starts_with('@')))
         .map(|line| between(line, "{", ",").next().unwrap().to_owned())
@@ -207,9 +211,9 @@ fn headings(document: &Path) -> Vec<String> {
 
 #[test]
 fn the_files_that_the_documents_name_exist() {
-    for document in DOCUMENTS {
-        let text = read(document);
-        let folder = root().join(document);
+    for document in documents() {
+        let text = read(&document);
+        let folder = root().join(&document);
         for link in between(&text, "](", ")").filter(|link| !link.contains("://")) {
             let (file, heading) = link.split_once('#').unwrap_or((link, ""));
             let linked = folder.with_file_name(file);

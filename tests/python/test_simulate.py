@@ -3,6 +3,7 @@
 import csv
 import subprocess
 from decimal import Decimal
+from math import pi, sin, sqrt
 
 import pytest
 
@@ -78,6 +79,15 @@ def test_numbers_are_the_shortest_that_read_back(feup, tmp_path):
     motion, episodes = tables(feup.scene, tmp_path, "--stop", "3")
     cells = [cell for row in [*motion, *episodes] for cell in row.values()]
     assert all(Decimal(cell) == Decimal(repr(float(cell))) for cell in cells)
+
+
+def test_natural_frequencies_are_printed(feup):
+    """Those of equal floors and storeys, by their closed form."""
+    printed = simulate(feup.scene, "--stop", "0.1").stdout.splitlines()
+    for side, storeys in [("left", 2), ("right", 3)]:
+        angles = [(2 * mode - 1) * pi / (4 * storeys + 2) for mode in range(1, storeys + 1)]
+        frequencies = [sqrt(2910.0 / 3.65) * sin(angle) / pi for angle in angles]
+        assert f"  {side} frequencies: {', '.join(f'{f:.4f}' for f in frequencies)} Hz" in printed
 
 
 def test_a_record_is_for_a_scene_without_one(feup):
