@@ -165,10 +165,12 @@ impl Settings {
             let expected = "a record file, but it is none";
             return Err(Problem::new("ground.record", format!("{path:?}"), expected).into());
         }
-        let packaged = read_record(path, Path::new(path), self.scene.ground.scaling).map_err(|problem| {
+        let packaged = read_record(path, Path::new(path), self.scene.ground.scaling).map_err(|mut error| {
             // No variable says which peak the scene scales a record to.
-            let is_peak = problem.path == "ground.pga";
-            if is_peak { Problem::new("ground.record", format!("{path:?}"), problem.expected) } else { problem }
+            for problem in error.problems.iter_mut().filter(|problem| problem.path == "ground.pga") {
+                (problem.path, problem.found) = ("ground.record".to_owned(), format!("{path:?}"));
+            }
+            error
         })?;
         self.other_record = Some((path.to_owned(), Arc::new(packaged.record)));
         Ok(())
