@@ -47,8 +47,8 @@ pub fn pack(entries: &[Entry]) -> Result<Vec<u8>> {
 /// Bytes, unpacked: no FMU of ours comes near it, and a small archive can be made to unpack to anything.
 const MOST_UNPACKED: u64 = 1 << 30;
 
-/// Goes through the archive: `take` gets name and file, reads it to its end, but no more than so many bytes and one, and
-/// says how many.
+/// Goes through the archive: `take` gets name and file, reads it to its end, but no more than so many bytes and one,
+/// and says how many.
 fn each(
     fmu: &Path,
     most: u64,

@@ -1,5 +1,5 @@
-//! FMUs tried in a process of their own: an archive, a description or a library that crashes it or never comes back is a
-//! finding, not the end of this program.
+//! FMUs tried in a process of their own: an archive, a description or a library that crashes it or never comes back is
+//! a finding, not the end of this program.
 //!
 //! This program starts itself for that. The child writes what it finds line by line, so that nothing is lost with it.
 

@@ -68,8 +68,8 @@ impl Record {
     ///
     /// # Errors
     /// Everything that is wrong, each with its line (counted from 1), the value found and what was expected: a header
-    /// that does not fit (nothing behind it is looked at then), something that is not a finite number, times that do not
-    /// increase, fewer than two samples, a number of samples other than the one announced.
+    /// that does not fit (nothing behind it is looked at then), something that is not a finite number, times that do
+    /// not increase, fewer than two samples, a number of samples other than the one announced.
     pub fn parse(name: &str, bytes: &[u8]) -> Result<Record, RecordError> {
         match Format::of(name) {
             Format::Csv => csv::parse(bytes),

@@ -1,8 +1,8 @@
 //! `cargo fmu check`: what is wrong with an FMU, as far as it can be seen from outside.
 //!
 //! The description is read and validated, and the FMU run, by an importer that is not ours. What that importer and
-//! other validators do not look at is in [`lint`] (what is written in the FMU) and [`behaviour`] (what its library does).
-//! All of it happens in a process of its own, for as long as it may take.
+//! other validators do not look at is in [`lint`] (what is written in the FMU) and [`behaviour`] (what its library
+//! does). All of it happens in a process of its own, for as long as it may take.
 
 mod behaviour;
 mod lint;
