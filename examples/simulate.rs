@@ -94,7 +94,10 @@ fn give_record(package: &mut Package, file: &Path) -> Result<(), Box<dyn Error>>
     }
     let name = file.to_string_lossy().into_owned();
     let bytes = std::fs::read(file).map_err(|error| format!("cannot read {name}: {error}"))?;
-    let record = PackagedRecord::parse(&name, bytes).map_err(|error| format!("{name}: {error}"))?;
+    let record = PackagedRecord::parse(&name, bytes).map_err(|error| {
+        let problems = error.problems.iter().map(|problem| format!("{name}: {problem}"));
+        problems.collect::<Vec<_>>().join("\n")
+    })?;
     package.record = Some(record);
     package.scene.ground.record = Some(name);
     Ok(())

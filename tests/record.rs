@@ -90,6 +90,53 @@ fn csv_that_is_refused() {
 }
 
 #[test]
+fn everything_that_is_wrong_is_said_at_once() {
+    let rows = "0,1\n1,x\n2\n1.5,nan\ninf,inf\n# a comment\n3,0\n2.5,0\n4,0\n";
+    let expected = [
+        "line 4: accel_m_s2 = x: expected a number",
+        "line 5: 2: expected 2 values, time_s and accel_m_s2, not 1",
+        "line 6: acceleration NaN m/s2: expected a finite acceleration",
+        "line 7: time inf s: expected a finite time",
+        "line 7: acceleration inf m/s2: expected a finite acceleration",
+        "line 10: time 2.5 s: expected more than the time before it, 3 s",
+    ];
+    assert_eq!(Record::parse("a.csv", csv(rows).as_bytes()).unwrap_err().problems, expected);
+    assert_eq!(refused("a.csv", csv(rows)), expected.join("\n"));
+
+    let text = at2("NPTS= 4, DT= .5 SEC", "1 two\n3 1e999 5").replace("UNITS OF G", "UNITS OF CM/S2");
+    let expected = [
+        "line 3: ACCELERATION TIME SERIES IN UNITS OF CM/...: expected UNITS OF G",
+        "line 5: two: expected a number",
+        "line 6: acceleration inf m/s2: expected a finite acceleration",
+        "line 4: NPTS = 4: expected 5, the number of samples in the file",
+    ];
+    assert_eq!(Record::parse("a.at2", text.as_bytes()).unwrap_err().problems, expected);
+    let text = text.replace("NPTS", "N");
+    assert_eq!(Record::parse("a.at2", text.as_bytes()).unwrap_err().problems.len(), 2, "unit and sampling");
+}
+
+/// A time that is too late makes one problem, not one of each time that follows it.
+#[test]
+fn one_wrong_time_is_one_problem() {
+    let rows = |wrong: f64| (0..50).map(|k| format!("{},0\n", if k == 7 { wrong } else { f64::from(k) })).collect();
+    let rows: [String; 2] = [rows(700.0), rows(-7.0)];
+    assert_eq!(refused("a.csv", csv(&rows[0])), "line 11: time 8 s: expected more than the time before it, 700 s");
+    assert_eq!(refused("a.csv", csv(&rows[1])), "line 10: time -7 s: expected more than the time before it, 6 s");
+}
+
+#[test]
+fn of_many_problems_the_first_are_named_and_the_others_counted() {
+    for (wrong, expected) in
+        [(10, None), (11, Some("there is 1 more problem")), (5000, Some("there are 4990 more problems"))]
+    {
+        let said = Record::parse("a.csv", csv(&"1;2\n".repeat(wrong)).as_bytes()).unwrap_err().problems;
+        assert_eq!(said[9], "line 12: 1;2: expected 2 values, time_s and accel_m_s2, not 1");
+        assert_eq!(said.get(10).map(String::as_str), expected);
+        assert_eq!(said.len(), 10 + usize::from(expected.is_some()));
+    }
+}
+
+#[test]
 fn at2_in_every_spelling_of_its_header() {
     const G: f64 = 9.80665;
     for header in HEADERS {

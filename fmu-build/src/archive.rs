@@ -2,21 +2,24 @@
 
 use anyhow::{Context, Result, bail};
 use std::fs::File;
-use std::io::{Cursor, Write};
+use std::io::{self, Cursor, Read, Write};
 use std::path::{Path, PathBuf};
-use tempfile::TempDir;
+use zip::read::ZipFile;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
 /// A file inside an FMU.
+#[derive(Clone, PartialEq, Eq)]
 pub struct Entry {
-    path: String,
-    bytes: Vec<u8>,
+    /// With forward slashes, relative to the FMU's root.
+    pub path: String,
+    /// The contents.
+    pub bytes: Vec<u8>,
     permissions: u32,
 }
 
 impl Entry {
-    /// A file to read; `path` with forward slashes, relative to the FMU's root.
+    /// A file to read.
     pub fn file(path: &str, bytes: Vec<u8>) -> Entry {
         Entry { path: path.into(), bytes, permissions: 0o644 }
     }
@@ -41,36 +44,67 @@ pub fn pack(entries: &[Entry]) -> Result<Vec<u8>> {
     Ok(zip.finish()?.into_inner())
 }
 
-/// An FMU in a temporary directory, which goes when this is dropped.
-pub struct Unpacked {
-    directory: TempDir,
+/// Bytes, unpacked: no FMU of ours comes near it, and a small archive can be made to unpack to anything.
+const MOST_UNPACKED: u64 = 1 << 30;
+
+/// Goes through the archive: `take` gets name and file, reads it to its end, but no more than so many bytes and one,
+/// and says how many.
+fn each(
+    fmu: &Path,
+    most: u64,
+    mut take: impl FnMut(&str, &mut ZipFile<'_, File>, u64) -> io::Result<u64>,
+) -> Result<()> {
+    let file = File::open(fmu).with_context(|| format!("cannot open {}", fmu.display()))?;
+    let mut archive = ZipArchive::new(file)
+        .with_context(|| format!("{} is not an FMU: it cannot be read as a zip archive", fmu.display()))?;
+    let mut rest = most;
+    for index in 0..archive.len() {
+        let mut file = archive.by_index(index).context("the archive is damaged")?;
+        let name = String::from_utf8_lossy(file.name_raw()).into_owned();
+        let taken = take(&name, &mut file, rest).with_context(|| format!("the archive is damaged at {name}"))?;
+        let left = rest.checked_sub(taken);
+        rest = left.with_context(|| format!("{name}: more than {most} bytes in the archive up to here"))?;
+    }
+    Ok(())
+}
+
+/// The files of an FMU in memory, in their order.
+pub fn entries(fmu: &Path) -> Result<Vec<Entry>> {
+    let mut entries = Vec::new();
+    each(fmu, MOST_UNPACKED, |name, file, most| {
+        if !file.is_file() {
+            return Ok(0);
+        }
+        let mut bytes = Vec::new();
+        let taken = file.take(most + 1).read_to_end(&mut bytes)?;
+        entries.push(Entry::file(name, bytes));
+        Ok(taken as u64)
+    })?;
+    Ok(entries)
+}
+
+/// An FMU in a directory.
+pub struct Unpacked<'a> {
+    directory: &'a Path,
     /// Every name in the archive as it stands there.
     pub names: Vec<String>,
 }
 
-impl Unpacked {
+impl Unpacked<'_> {
     /// Unpacks every file whose name stays inside the directory; what is wrong with the names is for the lint to say.
-    pub fn open(fmu: &Path) -> Result<Unpacked> {
-        let file = File::open(fmu).with_context(|| format!("cannot open {}", fmu.display()))?;
-        let mut archive = ZipArchive::new(file)
-            .with_context(|| format!("{} is not an FMU: it cannot be read as a zip archive", fmu.display()))?;
-        let directory = TempDir::with_prefix("fmu-").context("cannot make a temporary directory")?;
+    pub fn open<'a>(fmu: &Path, directory: &'a Path) -> Result<Unpacked<'a>> {
         let mut names = Vec::new();
-        for index in 0..archive.len() {
-            let mut file = archive.by_index(index).context("the archive is damaged")?;
-            let name = String::from_utf8_lossy(file.name_raw()).into_owned();
-            if let Some(inside) = file.enclosed_name().filter(|_| file.is_file()) {
-                let target = directory.path().join(inside);
-                extract(&mut file, &target).with_context(|| format!("the archive is damaged at {name}"))?;
-            }
-            names.push(name);
-        }
+        each(fmu, MOST_UNPACKED, |name, file, most| {
+            names.push(name.to_owned());
+            let Some(inside) = file.enclosed_name().filter(|_| file.is_file()) else { return Ok(0) };
+            extract(&mut file.take(most + 1), &directory.join(inside))
+        })?;
         Ok(Unpacked { directory, names })
     }
 
     /// The directory that holds `modelDescription.xml`.
     pub fn root(&self) -> &Path {
-        self.directory.path()
+        self.directory
     }
 
     /// A file of the FMU.
@@ -96,10 +130,35 @@ pub fn resource_uri(root: &Path) -> String {
 }
 
 /// Copies one file of the archive; the zip reader compares its checksum at the end.
-fn extract(from: &mut impl std::io::Read, to: &Path) -> Result<()> {
+fn extract(from: &mut impl Read, to: &Path) -> io::Result<u64> {
     if let Some(folder) = to.parent() {
         std::fs::create_dir_all(folder)?;
     }
-    std::io::copy(from, &mut File::create(to)?)?;
-    Ok(())
+    io::copy(from, &mut File::create(to)?)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn what_unpacks_to_too_much_is_refused() {
+        let archive = tempfile::NamedTempFile::new().unwrap();
+        let entries = [Entry::file("a", vec![0; 600]), Entry::file("b", vec![0; 400])];
+        std::fs::write(archive.path(), pack(&entries).unwrap()).unwrap();
+        let read = |most| {
+            let mut sizes = Vec::new();
+            let result = each(archive.path(), most, |_, file, most| {
+                sizes.push(io::copy(&mut file.take(most + 1), &mut io::sink())?);
+                Ok(sizes.last().copied().unwrap_or_default())
+            });
+            (sizes, result.err().map(|error| error.to_string()))
+        };
+        assert_eq!(read(1000), (vec![600, 400], None));
+        let (sizes, error) = read(999);
+        assert_eq!(sizes, [600, 400]);
+        assert_eq!(error.unwrap(), "b: more than 999 bytes in the archive up to here");
+        assert_eq!(read(10).0, [11], "no more is read");
+    }
 }

@@ -2,6 +2,7 @@
 
 use anyhow::{Context, Result, bail};
 use fmi::model_description::fmi2::{Causality, ModelDescription, ScalarVariable, VariableType};
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
@@ -26,7 +27,7 @@ pub trait CoSimulation {
 }
 
 /// What a description proposes to run.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Experiment {
     /// s
     pub start: f64,
@@ -64,7 +65,7 @@ impl Experiment {
 }
 
 /// What a run has shown of one variable.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Seen {
     /// At the end.
     pub last: f64,
@@ -72,9 +73,30 @@ pub struct Seen {
     pub largest: f64,
 }
 
+/// How many variables an FMU has; every one is one of these.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct Variables {
+    /// Set at any time.
+    pub inputs: usize,
+    /// Results.
+    pub outputs: usize,
+    /// All others, calculated ones included.
+    pub parameters: usize,
+}
+
+impl Variables {
+    fn of(description: &ModelDescription) -> Variables {
+        let with = |causality| description.modelVariables.iter().filter(|v| v.causality == causality).count();
+        let (inputs, outputs) = (with(Causality::Input), with(Causality::Output));
+        Variables { inputs, outputs, parameters: description.modelVariables.len() - inputs - outputs }
+    }
+}
+
 /// What a run has shown.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub struct Outcome {
+    /// What the FMU has.
+    pub variables: Variables,
     /// What was run.
     pub experiment: Experiment,
     /// Communication steps.
@@ -155,7 +177,8 @@ pub fn run(description: &ModelDescription, fmu: &dyn CoSimulation) -> Result<Out
     look(&others, fmu, experiment.stop, &mut seen)?;
 
     let seen = seen.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
-    Ok(Outcome { experiment, steps: experiment.steps(), solving, seen, warnings: fmu.end()? })
+    let variables = Variables::of(description);
+    Ok(Outcome { variables, experiment, steps: experiment.steps(), solving, seen, warnings: fmu.end()? })
 }
 
 fn look<'a>(groups: &'a Groups, fmu: &dyn CoSimulation, time: f64, seen: &mut HashMap<&'a str, Seen>) -> Result<()> {

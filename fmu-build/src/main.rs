@@ -1,13 +1,15 @@
-//! `cargo fmu`: compiles a scene of two pounding buildings into an FMU, and checks FMUs.
+//! `cargo fmu`: compiles a scene of two pounding buildings into an FMU, checks FMUs, and merges them.
 //!
 //! | file | holds |
 //! |---|---|
 //! | `main.rs` | arguments, exit codes |
 //! | `recipe.rs` | from a scene file to an FMU that has been seen to run, step by step |
+//! | `merge.rs` | one FMU with the libraries of two |
 //! | `workspace.rs` | where the checkout is; compiling the library with cargo |
 //! | `documentation.rs` | the page about the model and the icon |
 //! | `licenses.rs` | the licence texts that travel inside the FMU |
 //! | `archive.rs` | the zip: writing it reproducibly, unpacking it safely |
+//! | `destination.rs` | where an FMU goes: at once and whole, or not at all |
 //! | `platform.rs` | where FMI 2.0 wants the library of each platform |
 //! | `functions.rs` | the names of the library's C functions |
 //! | `c_interface.rs` | the library's C functions, called by hand (the only unsafe code here) |
@@ -15,6 +17,8 @@
 //! | `log.rs` | what an FMU says through its logger |
 //! | `experiment.rs` | one run of an FMU over its default experiment, through either |
 //! | `summary.rs` | what happened in that run, for a person |
+//! | `trial.rs` | an FMU tried in a process of its own, for as long as it may take |
+//! | `report.rs` | what a trial has found, for a person and for a program |
 //! | `check/` | `cargo fmu check`: what is wrong with an FMU |
 #![deny(unsafe_code)]
 
@@ -22,16 +26,20 @@ mod archive;
 #[allow(unsafe_code)]
 mod c_interface;
 mod check;
+mod destination;
 mod documentation;
 mod experiment;
 mod functions;
 mod importer;
 mod licenses;
 mod log;
+mod merge;
 mod platform;
 mod progress;
 mod recipe;
+mod report;
 mod summary;
+mod trial;
 mod workspace;
 
 use clap::{Args, Parser, Subcommand};
@@ -39,6 +47,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
+use trial::Trial;
 
 /// Compiles a scene into an FMU (FMI 2.0, co-simulation), runs it once and says what happened.
 #[derive(Parser)]
@@ -54,6 +63,11 @@ struct Arguments {
 enum Command {
     /// Opens an FMU with an independent importer, validates it and runs it; exit code 1 where anything is wrong.
     Check(CheckArguments),
+    /// Makes one FMU of two that hold the same but for their libraries, which are for different platforms.
+    Merge(MergeArguments),
+    /// For this program itself, in a process of its own: tries an FMU.
+    #[command(hide = true)]
+    Trial { trial: Trial, fmu: PathBuf, directory: PathBuf },
 }
 
 #[derive(Args)]
@@ -64,6 +78,8 @@ struct BuildArguments {
     /// Where the FMU goes, in a directory that is made if need be; without it, target/fmu/NAME.fmu (NAME: the scene's).
     #[arg(short, long, value_name = "FILE.fmu")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    limit: Limit,
 }
 
 #[derive(Args)]
@@ -74,12 +90,28 @@ struct CheckArguments {
     /// Findings for a program to read, as docs/check.schema.json describes them.
     #[arg(long)]
     json: bool,
-    /// How long the library of the FMU may take, run included; then it is stopped, and that is a finding.
+    #[command(flatten)]
+    limit: Limit,
+}
+
+#[derive(Args)]
+struct MergeArguments {
+    /// One FMU.
+    #[arg(value_name = "A.fmu")]
+    one: PathBuf,
+    /// The other: the same scene, built with the same version for another platform.
+    #[arg(value_name = "B.fmu")]
+    other: PathBuf,
+    /// Where the merged FMU goes, in a directory that is made if need be.
+    #[arg(short, long, value_name = "C.fmu")]
+    output: PathBuf,
+}
+
+#[derive(Args)]
+struct Limit {
+    /// How long the FMU may take to be tried, its run included; then it is stopped, and that is a failure.
     #[arg(long, value_name = "SECONDS", default_value = "300", value_parser = seconds)]
     time_limit: Duration,
-    /// For this program itself: tries the library of an unpacked FMU.
-    #[arg(long, hide = true)]
-    trial: bool,
 }
 
 /// What a command has to say on standard output, and whether all is well.
@@ -105,18 +137,17 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(arguments: Arguments) -> anyhow::Result<Verdict> {
-    match arguments.command {
-        None => {
-            let text = recipe::build(arguments.build.scene.as_deref(), arguments.build.output.as_deref())?;
-            Ok(Verdict { text, well: true })
-        }
-        Some(Command::Check(check)) if check.trial => {
-            check::try_library(&check.fmu)?;
-            Ok(Verdict { text: String::new(), well: true })
+fn run(Arguments { command, build }: Arguments) -> anyhow::Result<Verdict> {
+    let done = |text| Ok(Verdict { text, well: true });
+    match command {
+        None => done(recipe::build(build.scene.as_deref(), build.output.as_deref(), build.limit.time_limit)?),
+        Some(Command::Merge(merge)) => done(merge::merge([&merge.one, &merge.other], &merge.output)?),
+        Some(Command::Trial { trial, fmu, directory }) => {
+            trial.make(&fmu, &directory)?;
+            done(String::new())
         }
         Some(Command::Check(check)) => {
-            let report = check::check(&check.fmu, check.time_limit);
+            let report = Trial::Check.report(&check.fmu, check.limit.time_limit);
             let text = if check.json { report.json()? } else { report.text() };
             Ok(Verdict { text, well: report.is_valid() })
         }

@@ -2,43 +2,44 @@
 
 use crate::archive::{self, Entry, Unpacked};
 use crate::c_interface::{Binary, Instance};
+use crate::destination::Destination;
 use crate::experiment::{self, Outcome};
 use crate::progress::Progress;
+use crate::trial::{Trial, need, ran};
 use crate::workspace::Workspace;
 use crate::{documentation, licenses, platform, summary};
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use fmi::model_description::fmi2::ModelDescription;
 use pounding::description::Package;
 use std::fmt::Write as _;
-use std::io::{ErrorKind, Write as _};
-use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
+use std::path::Path;
+use std::time::Duration;
 
 /// Builds the FMU of a scene and returns what there is to say about it. The FMU takes its place only when it has been
-/// loaded and has run: what fails leaves no FMU behind, and an older one where it was.
-pub fn build(scene: Option<&Path>, output: Option<&Path>) -> Result<String> {
+/// loaded and has run, for no longer than `limit`: what fails leaves no FMU behind, and an older one where it was.
+pub fn build(scene: Option<&Path>, output: Option<&Path>, limit: Duration) -> Result<String> {
     let progress = Progress::start();
     progress.step("reading the scene");
     let workspace = Workspace::find()?;
     let scene_file = scene.map_or_else(|| workspace.default_scene(), Path::to_path_buf);
     let package = read(&scene_file)?;
-    let destination = output.map_or_else(|| workspace.default_output(&package.scene.name), Path::to_path_buf);
-
+    let output = output.map_or_else(|| workspace.default_output(&package.scene.name), Path::to_path_buf);
     // Compiling may take minutes: what cannot be written shall fail before that.
-    open_draft(&destination)?;
+    let destination = Destination::open(output)?;
 
     progress.step("compiling the library");
     let library = workspace.compile_library()?;
 
     progress.step("packing the FMU");
-    let draft = write_draft(&archive::pack(&entries(&package, &library, &workspace)?)?, &destination)?;
+    let draft = destination.draft(&archive::pack(&entries(&package, &library, &workspace)?)?)?;
 
     progress.step("running the FMU");
-    let (description, outcome) = try_out(draft.path()).context("the FMU has been built but does not run")?;
-    draft.persist(&destination).with_context(|| format!("cannot write {}", destination.display()))?;
+    let trial = Trial::Run.report(draft.path(), limit);
+    let outcome = trial.outcome().context("the FMU has been built but does not run")?;
+    destination.take(draft)?;
 
     drop(progress);
-    Ok(report(&package, &destination, &description, &outcome))
+    Ok(report(&package, &destination, outcome))
 }
 
 fn read(scene_file: &Path) -> Result<Package> {
@@ -59,60 +60,25 @@ fn entries(package: &Package, library: &Path, workspace: &Workspace) -> Result<V
     Ok(entries)
 }
 
-/// The FMU in a temporary file beside its destination.
-fn write_draft(bytes: &[u8], destination: &Path) -> Result<NamedTempFile> {
-    let mut draft = open_draft(destination)?;
-    let written = draft.write_all(bytes).and_then(|()| draft.flush());
-    written.with_context(|| format!("cannot write {}", destination.display()))?;
-    Ok(draft)
-}
-
-/// A temporary file beside the destination, so that it can be renamed into its place. The directory is made if there is
-/// none.
-fn open_draft(destination: &Path) -> Result<NamedTempFile> {
-    match std::fs::metadata(destination) {
-        Ok(there) if there.is_dir() => {
-            bail!("{} is a directory: expected the path of the FMU file", destination.display());
-        }
-        Err(error) if error.kind() == ErrorKind::InvalidFilename => {
-            return Err(error).with_context(|| format!("cannot write {}", destination.display()));
-        }
-        Ok(_) | Err(_) => {}
-    }
-    let folder = match destination.parent() {
-        Some(parent) if parent != Path::new("") => parent.to_path_buf(),
-        _ => PathBuf::from("."),
+/// In a process of its own: loads the FMU as an importer would and runs it.
+pub fn try_out(fmu: &Path, directory: &Path) -> Result<()> {
+    let run = || {
+        let unpacked = Unpacked::open(fmu, directory)?;
+        let description = ModelDescription::from_string(&unpacked.description()?)?;
+        let binary = Binary::load(&unpacked.path(&platform::library_path(&description.modelName)))?;
+        let resources = archive::resource_uri(unpacked.root());
+        let instance = Instance::new(&binary, &description.modelName, &description.guid, &resources)?;
+        experiment::run(&description, &instance)
     };
-    let cannot = || format!("cannot write to {}", folder.display());
-    std::fs::create_dir_all(&folder).with_context(cannot)?;
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".fmu-").suffix(".part");
-    // As any file that a program writes, readable by others where the umask allows it.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(&folder).with_context(cannot)
+    need("run", run)?.map_or(Ok(()), ran)
 }
 
-/// Loads the FMU as an importer would and runs it.
-fn try_out(fmu: &Path) -> Result<(ModelDescription, Outcome)> {
-    let unpacked = Unpacked::open(fmu)?;
-    let description = ModelDescription::from_string(&unpacked.description()?)?;
-    let binary = Binary::load(&unpacked.path(&platform::library_path(&description.modelName)))?;
-    let instance =
-        Instance::new(&binary, &description.modelName, &description.guid, &archive::resource_uri(unpacked.root()))?;
-    let outcome = experiment::run(&description, &instance)?;
-    Ok((description, outcome))
-}
-
-fn report(package: &Package, destination: &Path, description: &ModelDescription, outcome: &Outcome) -> String {
+fn report(package: &Package, destination: &Destination, outcome: &Outcome) -> String {
     let about = &package.scene.description;
     let mut text = package.scene.name.clone() + if about.is_empty() { "" } else { ": " } + about + "\n";
-    let size = std::fs::metadata(destination).map_or(0, |file| file.len());
-    let here = std::env::current_dir().unwrap_or_default();
-    let shown = destination.strip_prefix(here).unwrap_or(destination).display();
-    let _ = writeln!(text, "  file         {shown} ({} kB)", size.div_ceil(1000));
-    let _ = writeln!(text, "  guid         {}", description.guid);
-    text + &summary::text(description, outcome, stop_reason(package))
+    let _ = writeln!(text, "  file         {}", destination.describe());
+    let _ = writeln!(text, "  guid         {}", package.guid());
+    text + &summary::text(outcome, stop_reason(package))
 }
 
 /// Why the default experiment ends when it does.

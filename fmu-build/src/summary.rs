@@ -1,13 +1,12 @@
 //! What happened in a run, for a person to check by eye.
 
-use crate::experiment::{Outcome, Seen};
-use fmi::model_description::fmi2::{Causality, ModelDescription};
+use crate::experiment::{Outcome, Seen, Variables};
 use std::fmt::Write;
 
 /// The summary; `stop_reason` says where the end of the experiment comes from.
-pub fn text(description: &ModelDescription, outcome: &Outcome, stop_reason: &str) -> String {
+pub fn text(outcome: &Outcome, stop_reason: &str) -> String {
     let run = Run(outcome);
-    let mut text = overview(description, &run, stop_reason);
+    let mut text = overview(&run, stop_reason);
     for table in [run.floors(), run.contacts(), run.energy()].into_iter().flatten() {
         text.push('\n');
         text.push_str(&table.aligned());
@@ -21,10 +20,7 @@ pub fn text(description: &ModelDescription, outcome: &Outcome, stop_reason: &str
     text
 }
 
-fn overview(description: &ModelDescription, run: &Run, stop_reason: &str) -> String {
-    let with = |causality| description.modelVariables.iter().filter(|v| v.causality == causality).count();
-    let (inputs, outputs) = (with(Causality::Input), with(Causality::Output));
-    let total = description.modelVariables.len();
+fn overview(run: &Run, stop_reason: &str) -> String {
     let experiment = run.0.experiment;
     let mut text = String::new();
     let mut line = |name: &str, what: String| {
@@ -36,7 +32,9 @@ fn overview(description: &ModelDescription, run: &Run, stop_reason: &str) -> Str
         let contacts = count(run.count_contacts(), "contact");
         format!("left {}, right {}, {contacts}", count(left, "floor"), count(right, "floor"))
     });
-    line("variables", format!("{total}: {inputs} inputs, {outputs} outputs, {} parameters", total - inputs - outputs));
+    let Variables { inputs, outputs, parameters } = run.0.variables;
+    let total = inputs + outputs + parameters;
+    line("variables", format!("{total}: {inputs} inputs, {outputs} outputs, {parameters} parameters"));
     for side in SIDES {
         let name = format!("{side}.frequency");
         let frequencies: Vec<String> = run.array(&name).map(|frequency| format!("{:.4}", frequency.last)).collect();

@@ -5,6 +5,7 @@ mod common;
 
 use common::{Files, cargo_fmu, changed_description, feup_fmu, files, replace_once, stderr, stdout, write_fmu};
 use serde_json::Value;
+use std::path::PathBuf;
 use std::process::Command;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
@@ -70,6 +71,52 @@ fn a_library_that_crashes_or_hangs_is_a_finding() {
     // Output of its own, even where it looks like a finding, does not mislead.
     let (code, report) = check(&with_library("print!(\"{{\\\"Begins\\\": \"); std::process::exit(0)"), "30");
     assert_eq!(code, Some(1), "{report:#}");
+}
+
+/// What reads the description is not ours and may not stand everything, or not soon: here it compares each attribute
+/// with all before it.
+#[test]
+fn a_description_that_its_reader_cannot_cope_with_is_a_finding() {
+    let attributes: String = (0..500_000).map(|k| format!(" a{k}=\"\"")).collect();
+    let annotation = format!("<VendorAnnotations><Tool name=\"x\"{attributes}/></VendorAnnotations><ModelVariables>");
+    let files = changed_description(|text| replace_once(text, "<ModelVariables>", &annotation));
+    let (code, report) = check(&files, "2");
+    assert_eq!(code, Some(1), "{report:#}");
+    assert_eq!(finding(&report, "archive"), "[]", "{report:#}");
+    assert!(report["checks"].to_string().contains("not over after 2 s"), "{report:#}");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn who_stops_the_check_stops_its_trial() {
+    let directory = TempDir::new().unwrap();
+    let fmu = directory.path().join("endless.fmu");
+    write_fmu(&fmu, &changed_description(|text| replace_once(text, "stopTime=\"20\"", "stopTime=\"1e9\"")));
+    let mut check = Command::new(env!("CARGO_BIN_EXE_cargo-fmu")).arg("check").arg(&fmu).spawn().unwrap();
+    let children = format!("/proc/{0}/task/{0}/children", check.id());
+    let trial = within_seconds(20, || {
+        let text = std::fs::read_to_string(&children).unwrap_or_default();
+        let trial = PathBuf::from("/proc").join(text.split_whitespace().next()?);
+        let libraries = std::fs::read_to_string(trial.join("maps")).unwrap_or_default();
+        libraries.contains("FeupFrames.so").then_some(trial)
+    });
+    let trial = trial.expect("a process that has loaded the library");
+    // It is in the middle of the run then, and has nothing to say.
+    std::thread::sleep(Duration::from_secs(1));
+    check.kill().unwrap();
+    check.wait().unwrap();
+    assert!(within_seconds(20, || (!trial.exists()).then_some(())).is_some(), "the trial goes on");
+}
+
+#[cfg(target_os = "linux")]
+fn within_seconds<T>(seconds: u64, mut look: impl FnMut() -> Option<T>) -> Option<T> {
+    let clock = Instant::now();
+    loop {
+        match look() {
+            None if clock.elapsed().as_secs() < seconds => std::thread::sleep(Duration::from_millis(20)),
+            seen => return seen,
+        }
+    }
 }
 
 #[test]

@@ -117,6 +117,30 @@ fn a_directory_for_the_fmu_is_made_where_the_scene_is_in_order() {
     assert!(stdout(&cargo_fmu(&["--help"])).contains("in a directory that is made if need be"));
 }
 
+#[test]
+fn a_trial_run_that_takes_too_long_is_stopped_and_leaves_nothing_behind() {
+    let directory = TempDir::new().unwrap();
+    let scene = changed_feup(directory.path(), |text| replace_once(text, "stop_time = 20.0", "stop_time = 1e9"));
+    let fmu = directory.path().join("one/other/here.fmu");
+    let arguments = [scene.to_str().unwrap(), "-o", fmu.to_str().unwrap(), "--time-limit", "1"];
+    let clock = std::time::Instant::now();
+    let output = cargo_fmu(&arguments);
+    assert!(clock.elapsed().as_secs() < 200, "compiling included: {:?}", clock.elapsed());
+    assert_eq!((output.status.code(), stdout(&output).as_str()), (Some(1), ""));
+    let said = stderr(&output);
+    let expected = "the FMU has been built but does not run: not over after 1 s, so it was stopped (--time-limit)";
+    assert!(said.contains(expected), "{said}");
+    assert!(!directory.path().join("one").exists());
+
+    // A directory that was there stays, with what is in it.
+    std::fs::create_dir_all(fmu.parent().unwrap()).unwrap();
+    std::fs::write(&fmu, "old").unwrap();
+    assert_eq!(cargo_fmu(&arguments).status.code(), Some(1));
+    assert_eq!(std::fs::read_to_string(&fmu).unwrap(), "old");
+    assert_eq!(std::fs::read_dir(fmu.parent().unwrap()).unwrap().count(), 1);
+    assert_eq!(cargo_fmu(&["--time-limit", "0"]).status.code(), Some(2));
+}
+
 /// Compiling takes minutes, writing does not: a destination that cannot be is refused before.
 #[test]
 fn what_cannot_be_written_is_refused_before_anything_is_compiled() {
@@ -164,6 +188,12 @@ fn every_problem_is_named_and_an_old_fmu_stays() {
     assert!(!said.contains("panicked"), "{said}");
     assert_eq!(std::fs::read_to_string(&fmu).unwrap(), "old");
     assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 3, "nothing half-written is left");
+    // Those of the record as well.
+    std::fs::write(directory.path().join("record.csv"), "time_s,accel_m_s2\n0,1\n1,x\n1,2\n1,3\n").unwrap();
+    let said = stderr(&cargo_fmu(&[scene.to_str().unwrap(), "-o", fmu.to_str().unwrap()]));
+    for expected in ["left.mass[2] = -1", "line 3: accel_m_s2 = x", "line 5: time 1 s", "nonsense"] {
+        assert!(said.contains(expected), "no {expected:?} in\n{said}");
+    }
 }
 
 #[test]

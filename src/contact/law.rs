@@ -48,6 +48,8 @@ pub struct LawInfo {
     pub defect: &'static str,
     /// The keys that the law has, all required but `exponent`.
     pub keys: &'static [LawKey],
+    /// Whether its force can be tension.
+    pub pulls: bool,
     /// Whether the law has the key `damping_formula`.
     pub has_damping_formula: bool,
     /// Unit of k; `None` for rigid floors, which cannot overlap.

@@ -102,11 +102,17 @@ impl Model {
         powers: &Powers,
     ) -> ContactPoint {
         let contact = &base.contacts[p];
-        if contact.in_contact() {
+        let mut shown = if contact.in_contact() {
             let contact = self.contact_at(base, step, p, elapsed, powers);
-            return show(&contact, contact.penetration);
+            show(&contact, contact.penetration)
+        } else {
+            show(contact, self.relative(p, point.coordinates, &point.q) - self.pairs[p].gap)
+        };
+        if !self.pairs[p].law.kind.info().pulls {
+            // All but 0 where a contact begins or ends, rounding decides on the sign.
+            (shown.force, shown.impulse) = (shown.force.max(0.0), shown.impulse.max(0.0));
         }
-        show(contact, self.relative(p, point.coordinates, &point.q) - self.pairs[p].gap)
+        shown
     }
 
     /// The episode that a contact is in at the communication time, if it is in one.
@@ -161,8 +167,8 @@ impl State {
     }
 
     fn change_floor_force(&mut self, side: Side, floor: usize, change: impl FnOnce(&mut LinearInput)) {
-        let first = if side == Side::Left { 0 } else { self.inputs.left_floors };
-        if let Some(input) = self.inputs.floor_forces.get_mut(first + floor) {
+        let place = self.inputs.place(side, floor);
+        if let Some(input) = self.inputs.floor_forces.get_mut(place) {
             change(input);
         }
     }
@@ -177,6 +183,6 @@ fn show(contact: &Contact, penetration: f64) -> ContactPoint {
         peak_force: contact.peak_force,
         impulse: contact.impulse,
         dissipated_energy: contact.dissipated_energy(),
-        approach_velocity: contact.episode.approach_velocity,
+        approach_velocity: contact.episode.approach_velocity.max(0.0), // a touch may have none but its rounding
     }
 }

@@ -6,7 +6,7 @@
 use super::input::LinearInput;
 use super::model::Model;
 use super::state::*;
-use super::{EngineError, Episode};
+use super::{EngineError, Episode, Side};
 use crate::contact::EpisodeForce;
 use serde::{Deserialize, Serialize};
 
@@ -49,6 +49,16 @@ impl SavedState {
     /// s, the communication time.
     pub fn time(&self) -> f64 {
         self.time
+    }
+
+    /// m/s2, where there is no record.
+    pub fn ground_acceleration(&self) -> &LinearInput {
+        &self.inputs.ground_acceleration
+    }
+
+    /// N, on a floor counted from 0; none where the scene has no floor forces.
+    pub fn floor_force(&self, side: Side, floor: usize) -> Option<&LinearInput> {
+        self.inputs.floor_forces.get(self.inputs.place(side, floor))
     }
 }
 

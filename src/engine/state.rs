@@ -1,6 +1,5 @@
 //! Everything that changes during a run: plain data, cloned to save it.
 
-use super::Episode;
 use super::closed_pairs::ClosedPairs;
 use super::complementarity::Complementarity;
 use super::dismissal::Watch;
@@ -8,6 +7,7 @@ use super::drift::PeakDrifts;
 use super::ground::Segment;
 use super::input::LinearInput;
 use super::onset_step::OnsetSeries;
+use super::{Episode, Side};
 use crate::contact::{EpisodeForce, Force};
 use crate::polynomial::{Coefficients, MAX_ORDER, Powers, ROOM};
 use crate::structure::{Interval, MotionSeries, Scratch, Structure};
@@ -36,6 +36,13 @@ pub(super) struct Inputs {
     /// N, left floors then right floors; empty without floor forces.
     pub floor_forces: Vec<LinearInput>,
     pub left_floors: usize,
+}
+
+impl Inputs {
+    /// Where the force of a floor is.
+    pub fn place(&self, side: Side, floor: usize) -> usize {
+        if side == Side::Left { floor } else { self.left_floors + floor }
+    }
 }
 
 /// What a vector of motion holds, floor by floor or mode by mode.

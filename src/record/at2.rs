@@ -1,6 +1,6 @@
 //! Records as PEER ground motion database files, `.AT2`.
 
-use super::{Record, RecordError, excerpt};
+use super::{Reading, Record, RecordError, excerpt, on_line};
 
 /// m/s2 in one g.
 const STANDARD_GRAVITY: f64 = 9.80665;
@@ -9,30 +9,35 @@ const HEADER_LINES: usize = 4;
 pub(super) fn parse(bytes: &[u8]) -> Result<Record, RecordError> {
     let mut lines = bytes.split(|&byte| byte == b'\n').enumerate().map(|(i, line)| (i + 1, line));
     let header: Vec<_> = lines.by_ref().take(HEADER_LINES).collect();
-    check_unit(&header)?;
+    let mut reading = Reading::with_capacity(0);
+    check_unit(&header, &mut reading);
     let Some(&(number, last)) = header.get(HEADER_LINES - 1) else {
-        return Err(RecordError::new(format!("{} lines: expected 4 header lines and the samples", header.len())));
+        reading.refuse(|| format!("{} lines: expected 4 header lines and the samples", header.len()));
+        return Err(reading.stop());
     };
-    let Sampling { samples, step } = Sampling::find(last).ok_or_else(|| {
-        RecordError::at(number, format!("{}: expected NPTS=..., DT=... or \"... ... NPTS, DT\"", excerpt(last)))
-    })?;
-    let mut record = Record::with_capacity(samples.min(bytes.len() / 2));
+    let Some(Sampling { samples, step }) = Sampling::find(last) else {
+        reading.refuse(|| {
+            on_line(number, format!("{}: expected NPTS=..., DT=... or \"... ... NPTS, DT\"", excerpt(last)))
+        });
+        return Err(reading.stop());
+    };
+    reading.record.times.reserve(samples.min(bytes.len() / 2));
+    reading.record.accelerations.reserve(samples.min(bytes.len() / 2));
     for (number, line) in lines {
         for field in line.split(u8::is_ascii_whitespace).filter(|field| !field.is_empty()) {
-            let time = record.times.len() as f64 * step;
-            let value = fortran_number(field).ok_or_else(|| format!("{}: expected a number", excerpt(field)));
-            let added = value.and_then(|value| record.push(time, value * STANDARD_GRAVITY));
-            added.map_err(|error| RecordError::at(number, error))?;
+            let time = reading.samples as f64 * step;
+            match fortran_number(field) {
+                Some(value) => reading.add(time, value * STANDARD_GRAVITY, |problem| on_line(number, problem)),
+                None => reading.skip(|| on_line(number, format!("{}: expected a number", excerpt(field)))),
+            }
         }
     }
-    if record.times.len() != samples {
-        let found = record.times.len();
-        return Err(RecordError::at(
-            number,
-            format!("NPTS = {samples}: expected {found}, the number of samples in the file"),
-        ));
+    let found = reading.samples;
+    if found != samples {
+        let expected = format!("NPTS = {samples}: expected {found}, the number of samples in the file");
+        reading.refuse(|| on_line(number, expected));
     }
-    record.complete()
+    reading.complete()
 }
 
 /// What the fourth line says.
@@ -62,15 +67,14 @@ impl Sampling {
 }
 
 /// Velocity and displacement files of the same database (`.VT2`, `.DT2`) have the same form and another unit.
-fn check_unit(header: &[(usize, &[u8])]) -> Result<(), RecordError> {
+fn check_unit(header: &[(usize, &[u8])], reading: &mut Reading) {
     for (number, line) in header {
         let text = String::from_utf8_lossy(line).to_ascii_uppercase();
         let words_after = text.split_once("UNITS OF").map(|(_, after)| after.split([' ', '\t', '\r', ',', '.']));
         if words_after.and_then(|mut words| words.find(|word| !word.is_empty())).is_some_and(|unit| unit != "G") {
-            return Err(RecordError::at(*number, format!("{}: expected UNITS OF G", excerpt(line))));
+            reading.refuse(|| on_line(*number, format!("{}: expected UNITS OF G", excerpt(line))));
         }
     }
-    Ok(())
 }
 
 /// A number as Fortran writes it: `.1234E-02`, `-0.5D-03`, and `.1234-102` where the exponent has three digits.

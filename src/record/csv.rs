@@ -1,6 +1,6 @@
 //! Records as CSV: `time_s,accel_m_s2`.
 
-use super::{Record, RecordError, excerpt};
+use super::{Reading, Record, RecordError, excerpt, on_line};
 use ::csv::{ByteRecord, ReaderBuilder, Trim};
 
 const COLUMNS: [&str; 2] = ["time_s", "accel_m_s2"];
@@ -16,28 +16,31 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Record, RecordError> {
         .from_reader(bytes);
     let mut row = ByteRecord::new();
     let mut header_read = false;
-    let mut record = Record::with_capacity(bytes.len() / 16);
+    let mut reading = Reading::with_capacity(bytes.len() / 16);
     loop {
         let more = reader.read_byte_record(&mut row).map_err(|e| RecordError::new(e.to_string()))?;
         if !more {
             break;
         }
         let end = usize::try_from(reader.position().byte()).unwrap_or(usize::MAX);
-        let at = |error: String| RecordError::at(line_that_ends_at(bytes, end), error);
+        let here = |problem: String| on_line(line_that_ends_at(bytes, end), problem);
         if is_blank_or_comment(&row) {
             continue;
         }
         if !header_read {
-            check_header(&row).map_err(at)?;
+            check_header(&row).map_err(|problem| RecordError::new(here(problem)))?;
             header_read = true;
             continue;
         }
-        sample(&row).and_then(|(time, acceleration)| record.push(time, acceleration)).map_err(at)?;
+        match sample(&row) {
+            Ok((time, acceleration)) => reading.add(time, acceleration, here),
+            Err(problem) => reading.skip(|| here(problem)),
+        }
     }
     if !header_read {
         return Err(RecordError::new(format!("no header line: expected {}", COLUMNS.join(","))));
     }
-    record.complete()
+    reading.complete()
 }
 
 /// The `csv` crate skips empty lines and lines that start with `#`; these are the ones with blanks before.

@@ -25,13 +25,17 @@ pub struct Record {
     pub accelerations: Vec<f64>,
 }
 
-/// A record file that cannot be read, with its line where there is one.
+/// A record file that cannot be read: everything that is wrong with it; displayed with one problem a line.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{message}")]
+#[error("{}", problems.join("\n"))]
 pub struct RecordError {
-    /// What is wrong, with line and value.
-    pub message: String,
+    /// What is wrong, with line and value, in the order of the file: the first [`MOST_PROBLEMS`], then how many more
+    /// there are.
+    pub problems: Vec<String>,
 }
+
+/// A file of the wrong kind has a problem in every line: nobody reads more than these.
+pub const MOST_PROBLEMS: usize = 10;
 
 /// The formats of record files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,9 +67,9 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// The first thing that is wrong, with its line (counted from 1), the value found and what was expected: a header
-    /// that does not fit, something that is not a finite number, times that do not increase, fewer than two samples, a
-    /// number of samples other than the one announced.
+    /// Everything that is wrong, each with its line (counted from 1), the value found and what was expected: a header
+    /// that does not fit (nothing behind it is looked at then), something that is not a finite number, times that do
+    /// not increase, fewer than two samples, a number of samples other than the one announced.
     pub fn parse(name: &str, bytes: &[u8]) -> Result<Record, RecordError> {
         match Format::of(name) {
             Format::Csv => csv::parse(bytes),
@@ -79,59 +83,101 @@ impl Record {
         if times != accelerations {
             return Err(RecordError::new(format!("{times} times and {accelerations} accelerations: expected as many")));
         }
-        let mut record = Record::with_capacity(times);
+        let mut reading = Reading::with_capacity(times);
         for (time, acceleration) in self.times.into_iter().zip(self.accelerations) {
-            record.push(time, acceleration).map_err(RecordError::new)?;
+            reading.add(time, acceleration, |problem| problem);
         }
-        record.complete()
+        reading.complete()
     }
 
     /// m/s2, largest magnitude.
     pub fn peak(&self) -> f64 {
         self.accelerations.iter().fold(0.0, |peak, a| peak.max(a.abs()))
     }
+}
 
-    fn with_capacity(samples: usize) -> Record {
-        Record { times: Vec::with_capacity(samples), accelerations: Vec::with_capacity(samples) }
+/// A record while it is being read, and what is wrong with it so far.
+struct Reading {
+    record: Record,
+    problems: Vec<String>,
+    /// Problems beyond the first ones.
+    more: usize,
+    /// In the file, good or bad.
+    samples: usize,
+}
+
+impl Reading {
+    fn with_capacity(samples: usize) -> Reading {
+        let record = Record { times: Vec::with_capacity(samples), accelerations: Vec::with_capacity(samples) };
+        Reading { record, problems: Vec::new(), more: 0, samples: 0 }
     }
 
-    /// Adds a sample, or says what is wrong with it.
-    fn push(&mut self, time: f64, acceleration: f64) -> Result<(), String> {
+    /// Adds a sample, or what is wrong with it; `place` says where.
+    fn add(&mut self, time: f64, acceleration: f64, place: impl Fn(String) -> String) {
+        self.samples += 1;
         if !time.is_finite() {
-            return Err(format!("time {time} s: expected a finite time"));
+            self.refuse(|| place(format!("time {time} s: expected a finite time")));
         }
         if !acceleration.is_finite() {
-            return Err(format!("acceleration {acceleration} m/s2: expected a finite acceleration"));
+            self.refuse(|| place(format!("acceleration {acceleration} m/s2: expected a finite acceleration")));
         }
-        if let Some(&last) = self.times.last()
+        if let Some(&last) = self.record.times.last()
             && time <= last
         {
-            return Err(format!("time {time} s: expected more than the time before it, {last} s"));
+            self.refuse(|| place(format!("time {time} s: expected more than the time before it, {last} s")));
         }
-        self.times.push(time);
-        self.accelerations.push(acceleration);
-        Ok(())
+        // What comes next is compared with this one, in or out of order: one wrong time is one problem, or two.
+        if time.is_finite() {
+            self.record.times.push(time);
+            self.record.accelerations.push(acceleration);
+        }
+    }
+
+    /// Notes a sample that is none.
+    fn skip(&mut self, problem: impl FnOnce() -> String) {
+        self.samples += 1;
+        self.refuse(problem);
+    }
+
+    fn refuse(&mut self, problem: impl FnOnce() -> String) {
+        if self.problems.len() < MOST_PROBLEMS {
+            self.problems.push(problem());
+        } else {
+            self.more += 1;
+        }
     }
 
     /// The record once its file has been read to the end.
-    fn complete(self) -> Result<Record, RecordError> {
-        match self.times.len() {
-            0 => Err(RecordError::new("0 samples: expected at least 2")),
-            1 => Err(RecordError::new("1 sample: expected at least 2")),
-            _ => Ok(self),
+    fn complete(mut self) -> Result<Record, RecordError> {
+        match self.samples {
+            0 => self.refuse(|| "0 samples: expected at least 2".to_owned()),
+            1 => self.refuse(|| "1 sample: expected at least 2".to_owned()),
+            _ => {}
         }
+        if self.problems.is_empty() { Ok(self.record) } else { Err(self.stop()) }
+    }
+
+    /// What has been found, where nothing behind it can be read.
+    fn stop(self) -> RecordError {
+        let Reading { mut problems, more, .. } = self;
+        match more {
+            0 => {}
+            1 => problems.push("there is 1 more problem".to_owned()),
+            _ => problems.push(format!("there are {more} more problems")),
+        }
+        RecordError { problems }
     }
 }
 
 impl RecordError {
-    fn new(message: impl Into<String>) -> RecordError {
-        RecordError { message: message.into() }
+    fn new(problem: impl Into<String>) -> RecordError {
+        RecordError { problems: vec![problem.into()] }
     }
+}
 
-    /// An error on a line, counted from 1.
-    fn at(line: usize, message: impl std::fmt::Display) -> RecordError {
-        RecordError { message: format!("line {line}: {message}") }
-    }
+/// A problem on a line, counted from 1.
+fn on_line(number: usize, problem: impl std::fmt::Display) -> String {
+    format!("line {number}: {problem}")
 }
 
 /// Bytes of a file as text for a message: one line, at most 40 characters.

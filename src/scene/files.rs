@@ -82,7 +82,7 @@ impl Package {
         if let Some(name) = draft.scene.ground.record.clone() {
             match read_record(&name, &record_path(&name), draft.scene.ground.scaling) {
                 Ok(packaged) => record = Some(packaged),
-                Err(problem) => draft.add(problem),
+                Err(error) => draft.add(error.problems),
             }
         }
         let scene = draft.finish()?;
@@ -112,12 +112,11 @@ fn read_text(path: &Path) -> Result<String, Problem> {
 }
 
 /// Reads a record file, named as `ground.record` names it, that this scaling fits.
-pub(crate) fn read_record(name: &str, path: &Path, scaling: Scaling) -> Result<PackagedRecord, Problem> {
-    let problem = |expected: String| Problem::new("ground.record", quoted(name), expected);
-    let unreadable = |error| problem(format!("a record file, but {}: {error}", path.display()));
-    let bytes = fs::read(path).map_err(unreadable)?;
-    let packaged =
-        PackagedRecord::parse(name, bytes).map_err(|error| problem(format!("a record file, but {error}")))?;
+pub(crate) fn read_record(name: &str, path: &Path, scaling: Scaling) -> Result<PackagedRecord, SceneError> {
+    let problem = |what: String| Problem::new("ground.record", quoted(name), format!("a record file, but {what}"));
+    let bytes = fs::read(path).map_err(|error| problem(format!("{}: {error}", path.display())))?;
+    let packaged = PackagedRecord::parse(name, bytes)
+        .map_err(|error| SceneError { problems: error.problems.into_iter().map(problem).collect() })?;
     scaling.factor(&packaged.record)?;
     Ok(packaged)
 }

@@ -205,21 +205,22 @@ impl Scaling {
     /// The factor by which the samples of a record are multiplied.
     ///
     /// # Errors
-    /// The problem, at `ground.scale` or `ground.pga`, where there is no such finite factor: an all-zero record has no
-    /// peak to scale, and accelerations may leave the range of numbers.
+    /// The problem, at `ground.scale` or `ground.pga`, where there is no such factor: an all-zero record has no peak to
+    /// scale, and accelerations go up to [`rule::MOST_ACCELERATION`].
     pub fn factor(self, record: &Record) -> Result<f64, Problem> {
         let peak = record.peak();
         let (path, value, factor) = match self {
             Scaling::Scale(scale) => ("ground.scale", scale, scale),
             Scaling::Pga(pga) => ("ground.pga", pga, pga / peak),
         };
-        if factor.is_finite() && (factor * peak).is_finite() {
+        if factor.is_finite() && (factor * peak).abs() <= rule::MOST_ACCELERATION {
             return Ok(factor);
         }
         let expected = if peak == 0.0 {
             "a record with a peak, but all its accelerations are 0".to_owned()
         } else {
-            format!("a factor that keeps a record with a peak of {} m/s2 finite", problem::number(peak))
+            let (peak, most) = (problem::number(peak), rule::MOST_ACCELERATION);
+            format!("accelerations up to {most:e} m/s2 from a record with a peak of {peak} m/s2")
         };
         Err(Problem::new(path, problem::number(value), expected))
     }

@@ -27,11 +27,11 @@ impl<'t> Draft<'t> {
         Ok(Draft { text, scene, problems })
     }
 
-    /// Adds what has been found wrong later, unless something has been said about that value.
-    pub(super) fn add(&mut self, problem: Problem) {
-        if !self.problems.iter().any(|known| known.covers(&problem.path)) {
-            self.problems.push(problem);
-        }
+    /// Adds what has been found wrong later, but nothing more about a value of which something has been said before.
+    pub(super) fn add(&mut self, problems: Vec<Problem>) {
+        let is_new = |problem: &Problem| !self.problems.iter().any(|known| known.covers(&problem.path));
+        let mut new: Vec<Problem> = problems.into_iter().filter(is_new).collect();
+        self.problems.append(&mut new);
     }
 
     /// The scene, if nothing is wrong with it.

@@ -29,6 +29,10 @@ impl Rule {
     }
 }
 
+/// m/s2: no ground shakes and no floor is pushed like that, a hundred thousand times the acceleration of free fall. What
+/// shakes beyond is a mistake in a unit, and much further beyond displacements leave no digit for a gap.
+pub const MOST_ACCELERATION: f64 = 1e6;
+
 /// Any finite number: entries of matrices.
 pub const ENTRY: Rule = Rule { expected: "a finite number", holds: |_| true };
 /// `stop_time`, s.

@@ -77,9 +77,7 @@ impl Slave {
             }
         }
         match (row.slot, value) {
-            (Slot::Input(_), Value::Real(value)) if !value.is_finite() => {
-                Some(format!("{} = {value}: expected a finite number", row.name))
-            }
+            (Slot::Input(_), Value::Real(value)) => row.problem(value),
             _ => None,
         }
     }

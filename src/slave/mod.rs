@@ -208,6 +208,12 @@ impl Slave {
         if !is_time(target) {
             return Err(Refusal::from(format!("the step leads to {target} s: expected a time up to {MOST_TIME:e} s")));
         }
+        // Only here it is known how far a line goes on.
+        if self.inputs.are_moving() {
+            let beyond = self.inputs.beyond(&self.table, target);
+            let at_end = |problem| format!("at the end of the step, {target} s, {problem}");
+            Refusal::unless_empty(beyond.into_iter().map(at_end).collect())?;
+        }
         // A tiny step may fall short of the rounding of `current`: time stands still then, it never runs back. So it
         // does for steps whose inverse is no number.
         let stands_still = target - self.time < f64::MIN_POSITIVE;

@@ -72,11 +72,15 @@ impl Slave {
     /// Makes a snapshot of a body in which every number can be anything.
     fn accept(&self, body: Body<'_>) -> Result<Snapshot, Refusal> {
         let Body { phase, time, stop_time, changes, inputs, state } = body;
-        if !(is_time(time) && stop_time.is_none_or(f64::is_finite) && inputs.fit(&self.defaults.scene)) {
+        let inputs_fit = is_time(time) && inputs.fit(&self.defaults.scene, &self.table, time);
+        if !(inputs_fit && stop_time.is_none_or(f64::is_finite)) {
             return Err(refuse("times or inputs that this FMU cannot have"));
         }
         if state.as_ref().is_some_and(|state| state.time().to_bits() != time.to_bits()) {
             return Err(refuse("two different times"));
+        }
+        if state.as_ref().is_some_and(|state| !inputs.are_in(state, &self.table, time)) {
+            return Err(refuse("inputs that are not those of its run"));
         }
         let settings = self.settings_with(&changes)?;
         let run = state.map(|state| self.accept_run(&settings, state.into_owned())).transpose()?;

@@ -5,7 +5,7 @@ use super::{
 };
 use crate::contact::LawKey;
 use crate::engine::Side;
-use crate::scene::{Building, ContactPair, Damping, Scene, Stiffness};
+use crate::scene::{Building, ContactPair, Damping, Scene, Stiffness, rule};
 
 // The motion that the nominal values stand for: m, m/s and m/s2.
 const DISPLACEMENT: f64 = 0.01;
@@ -57,7 +57,8 @@ impl Table {
         let (name, ty) = ("ground.acceleration", METRE_PER_SECOND_SQUARED);
         if scene.ground.record.is_none() {
             let about = "ground acceleration, positive to the right";
-            self.add(Input::GroundAcceleration, name, ty, about).nominal(ACCELERATION);
+            let row = self.add(Input::GroundAcceleration, name, ty, about);
+            row.between(-rule::MOST_ACCELERATION, rule::MOST_ACCELERATION).nominal(ACCELERATION);
             return;
         }
         let about = "ground acceleration of the scaled record, positive to the right";
@@ -72,7 +73,8 @@ impl Table {
         if floor_forces {
             let about = format!("external force on floor {i}, positive to the right");
             let row = self.add(Input::Force(side, floor), &format!("{name}.force[{i}]"), NEWTON, &about);
-            row.nominal(building.mass[floor] * ACCELERATION);
+            let most = building.mass[floor] * rule::MOST_ACCELERATION;
+            row.between(-most, most).nominal(building.mass[floor] * ACCELERATION);
         }
         for (output, quantity, ty, frame, scale) in [
             (Output::Displacement(side, floor), "displacement", METRE, "relative to the ground", DISPLACEMENT),
@@ -157,7 +159,8 @@ impl Table {
             let (name, about) = (format!("contact[{}].{name}", p + 1), format!("{about} {}", between(pair)));
             let row = self.add(Output::Contact(p, output), &name, ty, &about);
             row.nominal(scale);
-            if matches!(output, C::Impacts | C::PeakForce) {
+            let is_compression = matches!(output, C::Force | C::Impulse) && !pair.law.kind.info().pulls;
+            if is_compression || matches!(output, C::Impacts | C::PeakForce | C::ApproachVelocity) {
                 row.at_least(0.0);
             }
             if output == C::ApproachVelocity {
@@ -201,6 +204,13 @@ impl Table {
 }
 
 impl Row {
+    /// What is wrong with a value of an input, if anything is.
+    pub fn problem(&self, value: f64) -> Option<String> {
+        let (min, max) = (self.min.unwrap_or(f64::MIN), self.max.unwrap_or(f64::MAX));
+        let is_inside = (min..=max).contains(&value);
+        (!is_inside).then(|| format!("{} = {value:?}: expected a number from {min:e} to {max:e}", self.name))
+    }
+
     fn at_least(&mut self, min: f64) -> &mut Row {
         self.min = Some(min);
         self

@@ -1,7 +1,7 @@
 //! Reading and writing what a slot stands for: each one match over all slots.
 
-use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, building};
-use crate::engine::{ContactPoint, EnergyPoint, LinearInput, Model, Point, Side, State};
+use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, Row, Slot, Table, building};
+use crate::engine::{ContactPoint, EnergyPoint, LinearInput, Model, Point, SavedState, Side, State};
 use crate::record::Record;
 use crate::scene::{Building, Damping, Problem, Scaling, Scene, SceneError, Stiffness, read_record};
 use serde::{Deserialize, Serialize};
@@ -165,10 +165,12 @@ impl Settings {
             let expected = "a record file, but it is none";
             return Err(Problem::new("ground.record", format!("{path:?}"), expected).into());
         }
-        let packaged = read_record(path, Path::new(path), self.scene.ground.scaling).map_err(|problem| {
+        let packaged = read_record(path, Path::new(path), self.scene.ground.scaling).map_err(|mut error| {
             // No variable says which peak the scene scales a record to.
-            let is_peak = problem.path == "ground.pga";
-            if is_peak { Problem::new("ground.record", format!("{path:?}"), problem.expected) } else { problem }
+            for problem in error.problems.iter_mut().filter(|problem| problem.path == "ground.pga") {
+                (problem.path, problem.found) = ("ground.record".to_owned(), format!("{path:?}"));
+            }
+            error
         })?;
         self.other_record = Some((path.to_owned(), Arc::new(packaged.record)));
         Ok(())
@@ -194,12 +196,41 @@ impl Inputs {
         }
     }
 
-    /// Whether they can be those of a scene: as many forces as it has floors, and no number that could not be set.
-    pub fn fit(&self, scene: &Scene) -> bool {
-        let Inputs { ground_acceleration, left_force, right_force } = self;
-        left_force.len() == scene.left.mass.len()
-            && right_force.len() == scene.right.mass.len()
-            && left_force.iter().chain(right_force).chain([ground_acceleration]).all(LinearInput::is_finite)
+    /// Whether they can be those of a scene at a time, s: as many forces as it has floors, and no number that could not
+    /// have been set.
+    pub fn fit(&self, scene: &Scene, table: &Table, time: f64) -> bool {
+        self.left_force.len() == scene.left.mass.len()
+            && self.right_force.len() == scene.right.mass.len()
+            && self.all().all(LinearInput::is_finite)
+            && self.beyond(table, time).is_empty()
+    }
+
+    /// Whether those of a saved run are the same from a time on, s.
+    pub fn are_in(&self, saved: &SavedState, table: &Table, time: f64) -> bool {
+        let is_same = |input: Input| {
+            let line = self.get(input);
+            let same = |other: &LinearInput| other.at(time) == line.at(time) && other.slope() == line.slope();
+            input.of_saved(saved).is_some_and(same)
+        };
+        table.rows.iter().all(|row| if let Slot::Input(input) = row.slot { is_same(input) } else { true })
+    }
+
+    /// A problem for each input that is out of its range at a time, s.
+    pub fn beyond(&self, table: &Table, time: f64) -> Vec<String> {
+        let value = |row: &Row| match row.slot {
+            Slot::Input(input) => row.problem(self.get(input).at(time)),
+            Slot::Parameter(_) | Slot::Frequency(..) | Slot::Output(_) => None,
+        };
+        table.rows.iter().filter_map(value).collect()
+    }
+
+    /// Whether any changes with time.
+    pub fn are_moving(&self) -> bool {
+        self.all().any(|input| input.slope() != 0.0)
+    }
+
+    fn all(&self) -> impl Iterator<Item = &LinearInput> {
+        self.left_force.iter().chain(&self.right_force).chain([&self.ground_acceleration])
     }
 
     /// An input as a function of time.
@@ -233,6 +264,14 @@ impl Input {
         match self {
             Input::GroundAcceleration => state.set_ground_acceleration(value),
             Input::Force(side, floor) => state.set_floor_force(side, floor, value),
+        }
+    }
+
+    /// What a saved run has of it.
+    fn of_saved(self, saved: &SavedState) -> Option<&LinearInput> {
+        match self {
+            Input::GroundAcceleration => Some(saved.ground_acceleration()),
+            Input::Force(side, floor) => saved.floor_force(side, floor),
         }
     }
 

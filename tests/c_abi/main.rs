@@ -8,6 +8,7 @@ mod arguments;
 mod derivatives;
 mod directional;
 mod instantiation;
+mod limits;
 mod logging;
 mod outputs;
 mod rollback;

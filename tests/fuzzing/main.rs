@@ -45,7 +45,7 @@ fn damaged(seeds: &[Vec<u8>], which: Index, damage: &[Damage]) -> Vec<u8> {
     bytes
 }
 
-/// Every seed as it is, then some with damage: the same each time, for now and then a state is a minute of work.
+/// Every seed as it is, then some with damage: the same each time, so that a failure is seen again.
 fn try_out(target: &str, seeds: &[Vec<u8>], cases: u32, check: impl Fn(&[u8])) {
     seeds.iter().for_each(|seed| check(seed));
     let config = ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() };

@@ -1,13 +1,14 @@
 //! Any bytes as a record file: read or refused, and what is read is what [`Record`] promises.
 
-use pounding::record::Record;
+use pounding::record::{MOST_PROBLEMS, Record};
 
 /// Panics where the parser of the format that the name stands for does what it should not.
 pub fn check(name: &str, bytes: &[u8]) {
     let record = match Record::parse(name, bytes) {
         Ok(record) => record,
         Err(error) => {
-            assert!(!error.message.is_empty() && !error.message.contains('\n'), "{:?}", error.message);
+            assert!((1..=MOST_PROBLEMS + 1).contains(&error.problems.len()), "{error}");
+            assert!(error.problems.iter().all(|line| !line.is_empty() && !line.contains('\n')), "{error:?}");
             return;
         }
     };

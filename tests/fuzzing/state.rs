@@ -12,7 +12,7 @@ use uuid::Uuid;
 const OK: c_int = 0;
 const ERROR: c_int = 3;
 
-/// Inputs and motions above take the engine long to give up on; that is no matter of states.
+/// Motions above take the engine long to give up on; that is no matter of states.
 const WILD: f64 = 1e9;
 
 const SCENE: &str = r#"

@@ -6,9 +6,11 @@ use fmi::model_description::fmi2::Causality;
 use pounding::scene::Scene;
 use std::fs;
 
-/// What the scene says about a value, under the name that the parameter has.
-fn refusal_of_scene(name: &str, value: f64) -> Option<String> {
-    let error = Scene::from_toml(&edited(&[(name, value)])).err()?;
+/// What the scene with its record says about a value, under the name that the parameter has.
+fn refusal_of_scene(fmu: &Fmu, name: &str, value: f64) -> Option<String> {
+    let record = &fmu.package.record.as_ref().unwrap().record;
+    let scaled = Scene::from_toml(&edited(&[(name, value)])).and_then(|s| Ok(s.ground.scaling.factor(record)?));
+    let error = scaled.err()?;
     let [problem] = error.problems.as_slice() else { panic!("{name} = {value}: {error}") };
     Some(format!("fmi2SetReal: {name} = {}: expected {}", problem.found, problem.expected))
 }
@@ -25,7 +27,7 @@ fn the_library_refuses_what_the_scene_refuses_in_the_same_words() {
             let status = instance.set_real(name, value);
             let log = instance.log();
             let log = log.iter().map(|line| line.message.as_str()).collect::<Vec<_>>();
-            match refusal_of_scene(name, value) {
+            match refusal_of_scene(&fmu, name, value) {
                 None => assert_eq!((status, log.as_slice()), (OK, &[][..]), "{name} = {value}"),
                 Some(expected) => {
                     assert_eq!((status, log.as_slice()), (ERROR, &[expected.as_str()][..]), "{name} = {value}");

@@ -83,6 +83,18 @@ fn a_bad_record_is_refused_with_its_line() {
 }
 
 #[test]
+fn every_problem_of_a_record_is_one_of_the_scene() {
+    let bad = "time_s,accel_m_s2\n0,1\n0,x\n1,2\n1,2\n".to_owned() + &"?\n".repeat(20);
+    let (_folder, path) = folder("record = \"records/bad.csv\"\nscale = inf", &[("bad.csv", bad.as_bytes())]);
+    let said = said(scene::load(&path).unwrap_err());
+    let of_record = |what: &str| format!("ground.record = \"records/bad.csv\": expected a record file, but {what}");
+    assert_eq!(said[0], of_record("line 3: accel_m_s2 = x: expected a number"));
+    assert_eq!(said[1], of_record("line 5: time 1 s: expected more than the time before it, 1 s"));
+    assert_eq!(said[10], of_record("there are 12 more problems"));
+    assert_eq!(said[11..], ["ground.scale = inf: expected a finite factor"]);
+}
+
+#[test]
 fn a_record_without_motion_has_no_peak() {
     let flat = b"time_s,accel_m_s2\n0,0\n1,0\n";
     let (_folder, path) = folder("record = \"records/flat.csv\"\npga = 2.0", &[("flat.csv", flat)]);

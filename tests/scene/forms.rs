@@ -136,6 +136,10 @@ fn scaling_gives_one_factor() {
     let refused = |scaling: Scaling, record| scaling.factor(record).unwrap_err().to_string();
     let expected = "ground.pga = 3.0: expected a record with a peak, but all its accelerations are 0";
     assert_eq!(refused(Scaling::Pga(3.0), &flat), expected);
-    let expected = "ground.scale = 1e308: expected a factor that keeps a record with a peak of 4.0 m/s2 finite";
-    assert_eq!(refused(Scaling::Scale(1e308), &record), expected);
+    let expected = "expected accelerations up to 1e6 m/s2 from a record with a peak of 4.0 m/s2";
+    for scale in [1e308, -1e308, 250_001.0] {
+        assert_eq!(refused(Scaling::Scale(scale), &record), format!("ground.scale = {scale:?}: {expected}"));
+    }
+    assert_eq!(refused(Scaling::Pga(1.1e6), &record), format!("ground.pga = 1100000.0: {expected}"));
+    assert_eq!(Scaling::Scale(-250_000.0).factor(&record), Ok(-250_000.0));
 }

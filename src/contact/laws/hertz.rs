@@ -12,6 +12,7 @@ pub const INFO: LawInfo = LawInfo {
     valid: "1 <= n <= 3; n = 3/2 for round bodies that do not yield",
     defect: "loses no energy",
     keys: &[LawKey::Stiffness, LawKey::Exponent],
+    pulls: false,
     has_damping_formula: false,
     stiffness_unit: Some(StiffnessUnit::NewtonPerMetreToTheExponent),
     episode,

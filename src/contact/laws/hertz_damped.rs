@@ -17,6 +17,7 @@ pub const INFO: LawInfo = LawInfo {
             overlap at the start are not damped until they part",
     defect: "V damps the whole contact, however something else presses or parts the floors meanwhile",
     keys: &[LawKey::Stiffness, LawKey::Exponent, LawKey::Restitution],
+    pulls: false,
     has_damping_formula: true,
     stiffness_unit: Some(StiffnessUnit::NewtonPerMetreToTheExponent),
     episode,

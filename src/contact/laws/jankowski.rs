@@ -17,6 +17,7 @@ pub const INFO: LawInfo = LawInfo {
     valid: "0 < e <= 1",
     defect: "xi is an approximation: off by up to 0.0086 in what is returned, for e from 0.05 to 0.95",
     keys: &[LawKey::Stiffness, LawKey::Restitution],
+    pulls: false,
     has_damping_formula: false,
     stiffness_unit: Some(StiffnessUnit::NewtonPerMetreToTheThreeHalves),
     episode,

@@ -16,6 +16,7 @@ pub const INFO: LawInfo = LawInfo {
     valid: "0 < e <= 1",
     defect: "starts with a jump to c V and pulls at the end, at last with c e V",
     keys: &[LawKey::Stiffness, LawKey::Restitution],
+    pulls: true,
     has_damping_formula: false,
     stiffness_unit: Some(StiffnessUnit::NewtonPerMetre),
     episode,

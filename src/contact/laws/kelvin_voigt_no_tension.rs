@@ -16,6 +16,7 @@ pub const INFO: LawInfo = LawInfo {
     valid: "0 < e <= 1",
     defect: "c is made for a contact that pulls at the end; starts with a jump to c V",
     keys: &[LawKey::Stiffness, LawKey::Restitution],
+    pulls: false,
     has_damping_formula: false,
     stiffness_unit: Some(StiffnessUnit::NewtonPerMetre),
     episode,

@@ -12,6 +12,7 @@ pub const INFO: LawInfo = LawInfo {
     valid: "impacts that lose no energy",
     defect: "loses no energy",
     keys: &[LawKey::Stiffness],
+    pulls: false,
     has_damping_formula: false,
     stiffness_unit: Some(StiffnessUnit::NewtonPerMetre),
     episode,

@@ -23,6 +23,7 @@ pub const INFO: LawInfo = LawInfo {
     valid: "0 <= e <= 1; floors that do not overlap at the start",
     defect: "no penetration, no duration and no force of an impact",
     keys: &[LawKey::ImpulseRestitution],
+    pulls: false,
     has_damping_formula: false,
     stiffness_unit: None,
     episode,

@@ -1,10 +1,9 @@
-//! What a check has found, for a person and for a program.
+//! What a trial of an FMU has found, for a person and for a program.
 
 use crate::experiment::Outcome;
 use crate::summary;
-use anyhow::Result;
-use fmi::model_description::fmi2::ModelDescription;
-use serde::{Deserialize, Serialize};
+use anyhow::{Result, bail};
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
@@ -23,7 +22,7 @@ pub struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     run: Option<Figures>,
     #[serde(skip)]
-    summary: String,
+    outcome: Option<Outcome>,
 }
 
 #[derive(Serialize)]
@@ -34,7 +33,7 @@ struct Check {
 }
 
 /// What a run has shown, in figures.
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize)]
 struct Figures {
     /// s
     start: f64,
@@ -49,26 +48,17 @@ struct Figures {
     warnings: Vec<String>,
 }
 
-/// What a run has shown, in figures and in words.
-#[derive(Serialize, Deserialize)]
-pub struct Run {
-    figures: Figures,
-    summary: String,
-}
-
-impl Run {
+impl Figures {
     /// Of the default experiment.
-    pub fn new(description: &ModelDescription, outcome: Outcome) -> Run {
-        let summary = summary::text(description, &outcome, "default experiment of the FMU");
-        let figures = Figures {
+    fn new(outcome: &Outcome) -> Figures {
+        Figures {
             start: outcome.experiment.start,
             stop: outcome.experiment.stop,
             step: outcome.experiment.step,
             solve_seconds: outcome.solving.as_secs_f64(),
-            values: outcome.seen.into_iter().map(|(name, seen)| (name, seen.last)).collect(),
-            warnings: outcome.warnings,
-        };
-        Run { figures, summary }
+            values: outcome.seen.iter().map(|(name, seen)| (name.clone(), seen.last)).collect(),
+            warnings: outcome.warnings.clone(),
+        }
     }
 }
 
@@ -76,7 +66,7 @@ impl Report {
     /// Of a file that nothing is known about yet.
     pub fn new(file: &Path) -> Report {
         let (version, file) = (VERSION, file.display().to_string());
-        Report { version, file, valid: true, checks: Vec::new(), run: None, summary: String::new() }
+        Report { version, file, valid: true, checks: Vec::new(), run: None, outcome: None }
     }
 
     /// Adds what a check has found; checks of the same name are one.
@@ -88,19 +78,18 @@ impl Report {
         }
     }
 
-    /// Notes a step that the next ones need: its error is a finding, its value what they go on with.
-    pub fn need<T>(&mut self, name: &str, result: Result<T>) -> Option<T> {
-        let (value, findings) = match result {
-            Ok(value) => (Some(value), Vec::new()),
-            Err(error) => (None, vec![format!("{error:#}")]),
-        };
-        self.add(name, findings);
-        value
+    /// Notes the run.
+    pub fn ran(&mut self, outcome: Outcome) {
+        (self.run, self.outcome) = (Some(Figures::new(&outcome)), Some(outcome));
     }
 
-    /// Notes the run.
-    pub fn ran(&mut self, run: Run) {
-        (self.run, self.summary) = (Some(run.figures), run.summary);
+    /// What the run has shown, or everything that has been found.
+    pub fn outcome(&self) -> Result<&Outcome> {
+        let findings = self.checks.iter().flat_map(|check| &check.findings).cloned().collect::<Vec<_>>();
+        match &self.outcome {
+            Some(outcome) if findings.is_empty() => Ok(outcome),
+            _ => bail!("{}", findings.join("; ")),
+        }
     }
 
     /// Whether nothing has been found.
@@ -117,8 +106,8 @@ impl Report {
                 let _ = writeln!(text, "    {finding}");
             }
         }
-        if self.run.is_some() {
-            let _ = write!(text, "\n{}", self.summary);
+        if let Some(outcome) = &self.outcome {
+            let _ = write!(text, "\n{}", summary::text(outcome, "default experiment of the FMU"));
         }
         let verdict = if self.valid { "nothing wrong found" } else { "this FMU is not in order" };
         let _ = writeln!(text, "\n{verdict}");
