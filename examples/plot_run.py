@@ -9,15 +9,12 @@ import csv
 import re
 import subprocess
 import tomllib
-from pathlib import Path
 
-import matplotlib
+import matplotlib.pyplot as plt
 import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+from style import ALONE, FORCE, LEFT, OPEN, OVERLAP, RIGHT, ROOT, STANDARD_GRAVITY, save
 
-ROOT = Path(__file__).resolve().parents[1]
 SCENE = ROOT / "examples/scenes/feup.toml"
 PICTURE = ROOT / "docs/images/first_run.png"
 WORK = ROOT / "target/first_run"
@@ -26,15 +23,6 @@ CONTACT = 2  # between the second floors
 STEP = 1e-4  # s: an impact lasts 4 ms, and its shape is to be seen
 STRONG_MOTION = (1.5, 5.5)  # s
 ONE_IMPACT = (-4.0, 9.0)  # ms after the hardest impact begins
-STANDARD_GRAVITY = 9.80665  # m/s2
-
-# Okabe and Ito's colours, which colour-blind eyes tell apart; in black and white the line styles do.
-LEFT = {"color": "#0072B2", "linestyle": "-", "linewidth": 1.4}
-RIGHT = {"color": "#D55E00", "linestyle": "--", "linewidth": 1.4}
-ALONE = {"color": "#009E73", "linestyle": (0, (3, 1)), "linewidth": 2.0}
-FORCE = {"color": "#000000", "linestyle": "-", "linewidth": 1.1}
-OPEN = {"color": "#999999", "alpha": 0.3, "linewidth": 0}
-OVERLAP = {"facecolor": "#F0E442", "edgecolor": "#000000", "hatch": "////", "linewidth": 0}
 
 
 def main():
@@ -94,16 +82,12 @@ def draw(pounding, alone):
     label_overlap(panels[0, 1], 1e3 * (motion["time"] - start), motion, f"penetration\n{1e3 * penetration:.2f} mm")
     panels[2, 1].set_xlabel(f"time [ms] after {start:.4f} s")
     figure.align_ylabels(panels[:, 0])
-    PICTURE.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(PICTURE, dpi=150, pil_kwargs={"optimize": True})
+    save(figure, PICTURE)
 
 
 def prepare_figure():
     """Three rows: edges, force, acceleration; on the left the strong motion, on the right one impact."""
-    plt.rcParams.update({"font.size": 10.5, "axes.titlesize": 10.5, "axes.titlelocation": "left"})
-    plt.rcParams.update({"axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False})
-    plt.rcParams.update({"axes.grid": True, "grid.alpha": 0.3, "axes.axisbelow": True, "hatch.linewidth": 0.6})
-    figure, panels = plt.subplots(3, 2, figsize=(9, 8.4), sharex="col", width_ratios=[2.7, 1], layout="constrained")
+    figure, panels = plt.subplots(3, 2, figsize=(9, 8.4), sharex="col", width_ratios=[2.7, 1])
     for row in [1, 2]:
         panels[row, 1].sharey(panels[row, 0])
         panels[row, 1].tick_params(labelleft=False)
