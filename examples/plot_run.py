@@ -5,19 +5,14 @@
 The engine runs twice, with the scene as it is and without its contacts: what pounding does is the difference.
 """
 
-import csv
-import re
-import subprocess
-import tomllib
-
 import matplotlib.pyplot as plt
 import numpy as np
 
+from runs import Scene, simulate
 from style import ALONE, FORCE, LEFT, OPEN, OVERLAP, RIGHT, ROOT, STANDARD_GRAVITY, save
 
 SCENE = ROOT / "examples/scenes/feup.toml"
 PICTURE = ROOT / "docs/images/first_run.png"
-WORK = ROOT / "target/first_run"
 
 CONTACT = 2  # between the second floors
 STEP = 1e-4  # s: an impact lasts 4 ms, and its shape is to be seen
@@ -26,41 +21,17 @@ ONE_IMPACT = (-4.0, 9.0)  # ms after the hardest impact begins
 
 
 def main():
-    WORK.mkdir(parents=True, exist_ok=True)
-    alone = WORK / "without_contacts.toml"
-    alone.write_text(without_contacts(SCENE.read_text()))
-    draw(simulate(SCENE, "pounding"), simulate(alone, "alone")[0])
+    scene = Scene(SCENE)
+    draw(scene, *(simulate(scene, STEP, *flags, stop=STRONG_MOTION[1]) for flags in ([], ["--without-contacts"])))
 
 
-def simulate(scene, name):
-    """The engine's columns by name, and its table of impacts."""
-    motion, impacts = WORK / f"{name}.csv", WORK / f"{name}.impacts.csv"
-    command = ["cargo", "run", "--release", "--quiet", "--example", "simulate", "--", scene]
-    command += ["--step", str(STEP), "--stop", str(STRONG_MOTION[1]), "--csv", motion, "--impacts", impacts]
-    subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-    with motion.open() as lines:
-        names = next(lines).strip().split(",")
-        columns = np.loadtxt(lines, delimiter=",", unpack=True)
-    with impacts.open() as lines:
-        return dict(zip(names, columns)), list(csv.DictReader(lines))
-
-
-def without_contacts(text):
-    """The scene with every contact table taken out."""
-    text = re.sub(r"(?ms)^\[\[contact\]\]$.*?(?=^\[(?!\[contact\]\])|\Z)", "", text)
-    # The record is named relative to the scene file, which lies elsewhere now.
-    return re.sub(r'(?m)^record = "(.*)"', lambda found: f"record = '{SCENE.parent / found[1]}'", text)
-
-
-def draw(pounding, alone):
-    motion, impacts = pounding
-    gap = tomllib.loads(SCENE.read_text())["contact"][CONTACT - 1]["gap"]
-    ours = [impact for impact in impacts if impact["contact"] == str(CONTACT)]
-    hardest = max(ours, key=lambda impact: float(impact["peak_force"]))
-    start, force, penetration = (float(hardest[name]) for name in ["start_s", "peak_force", "peak_penetration"])
+def draw(scene, motion, alone):
+    gap = scene.contacts[CONTACT - 1]["gap"]
+    hardest = motion.hardest(CONTACT)
+    start, force, penetration = (hardest[name] for name in ["start_s", "peak_force", "peak_penetration"])
 
     figure, panels = prepare_figure()
-    for column, clock, around in [(0, motion["time"], STRONG_MOTION), (1, 1e3 * (motion["time"] - start), ONE_IMPACT)]:
+    for column, clock, around in [(0, motion.time, STRONG_MOTION), (1, 1e3 * (motion.time - start), ONE_IMPACT)]:
         shown = (clock >= around[0]) & (clock <= around[1])
         draw_edges(panels[0, column], clock, motion, shown, gap)
         panels[1, column].plot(clock[shown], motion[f"contact[{CONTACT}].force"][shown], **FORCE)
@@ -79,7 +50,7 @@ def draw(pounding, alone):
     accelerations.legend(loc="lower right", ncols=2)
 
     panels[0, 1].set_title("The hardest impact")
-    label_overlap(panels[0, 1], 1e3 * (motion["time"] - start), motion, f"penetration\n{1e3 * penetration:.2f} mm")
+    label_overlap(panels[0, 1], 1e3 * (motion.time - start), motion, f"penetration\n{1e3 * penetration:.2f} mm")
     panels[2, 1].set_xlabel(f"time [ms] after {start:.4f} s")
     figure.align_ylabels(panels[:, 0])
     save(figure, PICTURE)
