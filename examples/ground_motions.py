@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from style import ROOT
+from runs import ROOT
 
 SOIL = (15.6, 0.6)  # rad/s and damping ratio of the soil: firm ground
 HIGH_PASS = (1.5, 0.6)  # rad/s and damping ratio: below, the soil alone would leave a displacement that grows
@@ -43,8 +43,9 @@ def acceleration(seed):
     """Times, s, and accelerations, m/s2, with a peak of `PEAK`; the same seed gives the same motion."""
     time = np.arange(round(DURATION / STEP) + 1) * STEP
     phases = np.random.default_rng(seed).uniform(0, 2 * np.pi, len(FREQUENCIES))
-    waves = np.cos(2 * np.pi * np.outer(time, FREQUENCIES) + phases)
-    motion = envelope(time) * (waves @ np.sqrt(spectrum(FREQUENCIES)))
+    # The sum of cosines as a Fourier transform, of twice the duration: it repeats after that.
+    amplitudes = np.concatenate([[0.0], np.sqrt(spectrum(FREQUENCIES)) * np.exp(1j * phases)])
+    motion = envelope(time) * np.fft.irfft(amplitudes, round(2 * DURATION / STEP))[: len(time)]
     return time, PEAK * motion / np.abs(motion).max()
 
 
@@ -53,7 +54,7 @@ def write(folder, seed):
     path = Path(folder, f"synthetic_{seed:04d}.csv")
     path.parent.mkdir(parents=True, exist_ok=True)
     lines = [
-        "# SYNTHETIC, no recording: filtered noise (Kanai-Tajimi with the Clough-Penzien high-pass), examples/ground_motions.py",
+        "# SYNTHETIC, no recording: filtered noise (Kanai-Tajimi with the Clough-Penzien high-pass)",
         f"# seed {seed}; soil {SOIL[0]} rad/s, damping ratio {SOIL[1]}; high-pass {HIGH_PASS[0]} rad/s, {HIGH_PASS[1]}",
         "time_s,accel_m_s2",
         *(f"{time:.2f},{value:.6f}" for time, value in zip(*acceleration(seed))),

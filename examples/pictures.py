@@ -1,4 +1,4 @@
-"""What plot_scene.py draws of a run, one function a picture; each returns its figure, or None where it has no subject."""
+"""What plot_scene.py draws of a run, a function each; it returns a figure, or None where it has no subject."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -63,7 +63,9 @@ def floors(scene, run, alone, window):
         bottom = min(left.min(), right.min()) - 0.08 * np.ptp([left, right])
         axes.plot(hits, np.full(len(hits), bottom), "^", color=BLACK, markersize=4, label="impact")
         impacts = "1 impact" if len(hits) == 1 else f"{len(hits)} impacts"
-        axes.set_title(f"Facing edges, {name_of(scene, p)}: {impacts}; shaded: the gap, {1e3 * pair['gap']:g} mm at rest")
+        axes.set_title(
+            f"Facing edges, {name_of(scene, p)}: {impacts}; shaded: the gap, {1e3 * pair['gap']:g} mm at rest"
+        )
         axes.set_ylabel("position [mm]")
         axes.margins(y=0.12)
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper right", ncols=3)
@@ -152,7 +154,9 @@ def hysteresis(scene, run, alone, window):
         axes.axhline(0, color=GREY, linewidth=0.8)
         lost = handy(hardest["dissipated_energy"], "J")
         law = scene.contacts[p - 1]["law"]
-        axes.set_title(f"{name_of(scene, p).capitalize()}, {law}\n{len(run.of_contact(p))} impacts; the hardest (black) loses {lost}")
+        axes.set_title(
+            f"{name_of(scene, p).capitalize()}, {law}\n{len(run.of_contact(p))} impacts; the hardest (black): {lost} lost"
+        )
         axes.set(xlabel="penetration [mm]", ylabel=f"force [{unit}]", xlim=(0, None))
     for axes in panels.flat[len(contacts) :]:
         axes.axis("off")
@@ -173,7 +177,9 @@ def drifts(scene, run, alone, window):
             largest = max(largest, -low.min(), high.max())
             edges = np.arange(len(low) + 1)
             if one is run:
-                axes.stairs(high, edges, baseline=low, orientation="horizontal", fill=True, alpha=0.2, color=line["color"])
+                axes.stairs(
+                    high, edges, baseline=low, orientation="horizontal", fill=True, alpha=0.2, color=line["color"]
+                )
             for bound in (low, high):
                 named = label if bound is low else None
                 axes.stairs(bound, edges, orientation="horizontal", baseline=None, label=named, **line)

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from style import ROOT
+ROOT = Path(__file__).resolve().parents[1]
+STANDARD_GRAVITY = 9.80665  # m/s2
 
 # By another name where the program is there already.
 SIMULATE = shlex.split(os.environ.get("SIMULATE", "cargo run --release --quiet --example simulate --"))

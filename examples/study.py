@@ -26,9 +26,7 @@ import numpy as np
 from fmpy import read_model_description
 
 import ground_motions
-import study_pictures
-from runs import Scene
-from style import ROOT, STANDARD_GRAVITY
+from runs import ROOT, STANDARD_GRAVITY, Scene
 from study_results import Results
 from study_runners import runner
 from study_worker import Case, Materials
@@ -42,6 +40,8 @@ CARGO_FMU = shlex.split(os.environ.get("CARGO_FMU", "cargo fmu"))
 def main():
     options = arguments()
     cases, materials = plan(options)
+    if options.measure:
+        return measure(cases, materials)
     results = Results(options.output / "results.csv")
     missing = results.missing(cases)
     print(f"{len(cases)} cases, {len(cases) - len(missing)} of them done", file=sys.stderr)
@@ -60,6 +60,15 @@ def main():
     if len(rows) < len(cases):
         print(f"{len(cases) - len(rows)} cases failed: see the last column of {results.path}", file=sys.stderr)
     print(results.path)
+    draw(rows, options)
+
+
+def draw(rows, options):
+    try:
+        import study_pictures
+    except ModuleNotFoundError as missing:
+        print(f"no pictures without {missing.name}", file=sys.stderr)
+        return
     for scene in dict.fromkeys(row["scene"] for row in rows):
         of_scene = [row for row in rows if row["scene"] == scene]
         study_pictures.gaps(of_scene, NEVER_CLOSES, options.output / f"gaps_{scene}.png")
@@ -73,14 +82,21 @@ def arguments():
     parser.add_argument("--gaps", nargs="+", type=float, default=GAPS, metavar="M", help="m (default: %(default)s)")
     parser.add_argument("--pga", nargs="+", type=float, default=PGA, metavar="A", help="m/s2 (default: %(default)s)")
     parser.add_argument("--records", nargs="+", type=Path, metavar="FILE", help="CSV or AT2, instead of the usual ones")
-    parser.add_argument("--synthetic", type=int, default=20, metavar="N", help="synthetic records (default: %(default)s)")
+    parser.add_argument(
+        "--synthetic", type=int, default=20, metavar="N", help="synthetic records (default: %(default)s)"
+    )
     parser.add_argument("--seed", type=int, default=1, help="of the first of them")
     parser.add_argument("--stop", type=float, help="s, end of each run; without it, the end of its record")
     parser.add_argument("--scheduler", help="tcp://HOST:PORT of a Dask cluster, or `local` for one on this machine")
     parser.add_argument("--workers", type=int, default=os.cpu_count(), help="on this machine (default: all cores)")
     parser.add_argument("--force-limit", type=float, metavar="N", help="N, of the fragility; default: the median")
     parser.add_argument("--drift-limit", type=float, metavar="M", help="m, of the fragility; default: the median")
-    parser.add_argument("--output", type=lambda name: Path(name).resolve(), default=ROOT / "target/study", help="folder")
+    parser.add_argument(
+        "--output", type=lambda name: Path(name).resolve(), default=ROOT / "target/study", help="folder"
+    )
+    parser.add_argument(
+        "--measure", action="store_true", help="how many cases a second: one core, all, Dask; no results"
+    )
     options = parser.parse_args()
     if options.workers < 1 or min(options.pga) <= 0 or not np.all(np.isfinite([*options.gaps, *options.pga])):
         parser.error("expected at least one worker, --pga above 0 and finite --gaps")
@@ -112,7 +128,9 @@ def plan(options):
         },
     )
     cases = [
-        Case(scene, fingerprint(fmu), record.stem, names[record], pga, gap, options.stop or float(motions[record][0][-1]))
+        Case(
+            scene, fingerprint(fmu), record.stem, names[record], pga, gap, options.stop or float(motions[record][0][-1])
+        )
         for fmu, scene in fmus.items()
         for record in records
         for pga in dict.fromkeys(options.pga)
@@ -147,6 +165,23 @@ def read_record(path):
     step = float(lines[3].upper().split("DT=")[1].split()[0].strip(","))
     values = np.array(" ".join(lines[4:]).split(), float) * STANDARD_GRAVITY
     return np.array([step * np.arange(len(values)), values])
+
+
+def measure(cases, materials, repeats=3):
+    """Prints how fast each way of running is: the median of some repeats, and the slowest and the fastest."""
+    cores = os.cpu_count()
+    ways = [("one process", None, 1), (f"{cores} processes", None, cores)]
+    ways += [(f"local Dask cluster, {workers} workers", "local", workers) for workers in sorted({1, cores, 2 * cores})]
+    print(f"{len(cases)} cases, {cores} cores, workers started and FMUs loaded within the time")
+    for name, scheduler, workers in ways:
+        rates = []
+        for _ in range(repeats):
+            run, _ = runner(scheduler, workers)
+            start = time.monotonic()
+            done = sum(len(rows) for rows in run(cases, materials, workers))
+            rates.append(done / (time.monotonic() - start))
+        low, middle, high = np.percentile(rates, [0, 50, 100])
+        print(f"{name:32}  {middle:6.0f} a second ({low:.0f} to {high:.0f})", flush=True)
 
 
 class Progress:

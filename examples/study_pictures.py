@@ -38,13 +38,15 @@ def gaps(rows, never_closes, path):
             of_pga = [row for row in closing if row["pga_m_s2"] == pga]
             found = [[demand(row) for row in of_pga if row["gap_m"] == width] for width in widths]
             low, middle, high = np.array([np.percentile(values, [16, 50, 84]) for values in found]).T
-            panel.fill_between(np.array(widths) * 1e3, low, high, color=style["color"], alpha=0.12, linewidth=0)
+            if panel is axes[0]:
+                panel.fill_between(np.array(widths) * 1e3, low, high, color=style["color"], alpha=0.15, linewidth=0)
             panel.plot(np.array(widths) * 1e3, middle, **style, markersize=4, label=f"{pga / STANDARD_GRAVITY:.2f} g")
         panel.set(xlabel="gap [mm]", ylabel=label)
     axes[2].axhline(1.0, **{**ALONE, "linewidth": 1.2})
     records = len({row["record_id"] for row in rows})
-    figure.suptitle(f"{rows[0]['scene']}: medians of {records} records, shaded the middle 68 %", x=0.01, ha="left")
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=MOST_LINES, title="peak ground acceleration")
+    figure.suptitle(f"{rows[0]['scene']}: medians of {records} records (shaded: the middle 68 %)", x=0.01, ha="left")
+    lines = axes[0].get_legend_handles_labels()
+    figure.legend(*lines, loc="outside lower center", ncols=MOST_LINES, title="peak ground acceleration")
     save(figure, path)
 
 
@@ -56,8 +58,10 @@ def fragility(rows, never_closes, limits, path):
     panels = [("pounding", closing, lambda row: row["impacts"] > 0)]
     if hit:
         force, said = (force_limit, "") if force_limit is not None else (float(np.median(hit)), " (median)")
-        panels.append((f"peak force above {force:.3g} N{said}", closing, lambda row: row["peak_force_n"] > force))
-    bound, said = (drift_limit, "") if drift_limit is not None else (float(np.median([*map(drift, closing)])), " (median)")
+        shown = f"{force / 1e3:.3g} kN" if force >= 1e3 else f"{force:.3g} N"
+        panels.append((f"force above {shown}{said}", closing, lambda row: row["peak_force_n"] > force))
+    middle = float(np.median([drift(row) for row in closing]))
+    bound, said = (drift_limit, "") if drift_limit is not None else (middle, " (median)")
     panels.append((f"drift above {1e3 * bound:.3g} mm{said}", rows, lambda row: drift(row) > bound))
     figure, axes = plt.subplots(1, len(panels), figsize=(4 * len(panels), 4.2), sharey=True, squeeze=False)
     drawn = some(row["gap_m"] for row in closing)
@@ -65,12 +69,13 @@ def fragility(rows, never_closes, limits, path):
         for gap, style in [*zip(drawn, CYCLE), (never_closes, {"color": BLACK, "linestyle": ":", "marker": "x"})]:
             label = "no contact" if gap == never_closes else f"{1e3 * gap:g} mm"
             draw_fragility(panel, [row for row in of if row["gap_m"] == gap], exceeds, style, label)
-        panel.set_title(f"Probability of {title}")
+        panel.set_title(f"P({title})")
         panel.set(xlabel="peak ground acceleration [g]", ylim=(-0.03, 1.03), xlim=(0, None))
     axes[0, 0].set_ylabel("share of the records; lines: lognormal fit")
     records = len({row["record_id"] for row in rows})
     figure.suptitle(f"{rows[0]['scene']}: fragility, {records} records", x=0.01, ha="left")
-    figure.legend(*axes[0, -1].get_legend_handles_labels(), loc="outside lower center", ncols=MOST_LINES + 1, title="gap")
+    lines = axes[0, -1].get_legend_handles_labels()
+    figure.legend(*lines, loc="outside lower center", ncols=MOST_LINES + 1, title="gap")
     save(figure, path)
 
 
@@ -81,10 +86,12 @@ def draw_fragility(panel, rows, exceeds, style, label):
     counts = np.array([[exceeds(row) for row in rows if row["pga_m_s2"] == level].count(True) for level in levels])
     totals = np.array([sum(row["pga_m_s2"] == level for row in rows) for level in levels])
     colour = style["color"]
-    panel.plot(levels / STANDARD_GRAVITY, counts / totals, linestyle="", marker=style["marker"], color=colour, markersize=5)
+    shares = {"linestyle": "", "marker": style["marker"], "color": colour, "markersize": 5}
+    panel.plot(levels / STANDARD_GRAVITY, counts / totals, **shares)
     median, beta = fit_lognormal(levels, counts, totals)
     x = np.linspace(levels[0] / 2, levels[-1], 200)
-    panel.plot(x / STANDARD_GRAVITY, lognormal(x, median, beta), color=colour, linestyle=style["linestyle"], linewidth=1.6)
+    line = {"color": colour, "linestyle": style["linestyle"], "linewidth": 1.6}
+    panel.plot(x / STANDARD_GRAVITY, lognormal(x, median, beta), **line)
     panel.plot([], [], **style, markersize=5, label=label)
 
 

@@ -85,9 +85,7 @@ class FMU2Instance(FMU2Slave):
 
     def __init__(self, description, folder):
         identifier = description.coSimulation.modelIdentifier
-        super().__init__(
-            guid=description.guid, unzipDirectory=folder, modelIdentifier=identifier, instanceName="study"
-        )
+        super().__init__(guid=description.guid, unzipDirectory=folder, modelIdentifier=identifier, instanceName="study")
         self.reference = {variable.name: variable.valueReference for variable in description.modelVariables}
         self.said = []
         callbacks = fmi2CallbackFunctions()

@@ -1,4 +1,4 @@
-"""How all pictures of the examples look: colours by building and by law, font sizes, files that are the same each time."""
+"""How all pictures of the examples look: colours by building and by law, font sizes, files the same each time."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-ROOT = Path(__file__).resolve().parents[1]
+from runs import ROOT, STANDARD_GRAVITY  # noqa: F401
 
 # Okabe and Ito's colours, which colour-blind eyes tell apart; in black and white the line styles do.
 BLUE, ORANGE, GREEN, PURPLE = "#0072B2", "#D55E00", "#009E73", "#CC79A7"
@@ -42,8 +42,6 @@ CYCLE = [
         ["o", "s", "^", "D", "v", "P", "X"],
     )
 ]
-
-STANDARD_GRAVITY = 9.80665  # m/s2
 
 plt.rcParams.update({
     "font.size": 10.5, "axes.titlesize": 10.5, "axes.titlelocation": "left", "legend.frameon": False,
