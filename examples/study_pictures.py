@@ -102,7 +102,7 @@ def lognormal(levels, median, beta):
 
 
 def fit_lognormal(levels, counts, totals):
-    """Median and dispersion of the fragility with the largest likelihood [Baker2015, eq. 11].
+    """Median and dispersion of the fragility with the largest likelihood [Baker2015].
 
     Found on a grid that is refined: where all or no records exceed the limit at every level the likelihood has no
     largest value inside, and a grid then ends at its edge.

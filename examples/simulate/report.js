@@ -124,6 +124,8 @@ function drawChart(quantity) {
     label: column.name,
     width: 1.4,
     points: { show: false },
+    // Where a line is, not the pixel beside it: smooth under a magnifying glass.
+    pxAlign: 0,
     value: (_, value) => digits(value),
     paths: column.unit === "" ? uPlot.paths.stepped({ align: 1 }) : undefined,
     ...lineOf(column, groups.get(quantity)),
