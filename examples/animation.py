@@ -3,6 +3,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Rectangle
+from matplotlib.ticker import MaxNLocator
 from PIL import Image
 
 from style import BLACK, BUILDINGS, GREY, ROOT, YELLOW
@@ -40,11 +41,12 @@ class Building:
         colour = BUILDINGS[side]["color"]
         inner = -width if side == "left" else 0.0
         self.inner = inner
+        slab, column = max(0.12, 0.016 * len(edges)), max(1.2, 3.2 - 0.1 * len(edges))
         # Columns stand a little inside of the slabs' ends.
         self.columns = [inner + share * width for share in (0.06, 0.94)]
-        self.lines = [axes.plot([], [], color=colour, linewidth=3.0, solid_capstyle="butt")[0] for _ in self.columns]
+        self.lines = [axes.plot([], [], color=colour, linewidth=column, solid_capstyle="butt")[0] for _ in self.columns]
         self.slabs = [
-            axes.add_patch(Rectangle((0, floor - 0.06), width, 0.12, facecolor=colour, edgecolor="none", zorder=3))
+            axes.add_patch(Rectangle((0, floor - slab / 2), width, slab, facecolor=colour, edgecolor="none", zorder=3))
             for floor in range(1, len(edges) + 1)
         ]
 
@@ -95,8 +97,9 @@ class Stage:
         self.hardest = max((impact["impulse"] for impact in run.impacts), default=1.0)
 
     def prepare_axes(self, axes, xlim, top):
-        axes.set(xlim=xlim, ylim=(-0.25, top + 0.6), yticks=range(1, top + 1, max(1, top // 10)))
+        axes.set(xlim=xlim, ylim=(-0.08 * top, 1.14 * top + 0.3), yticks=range(1, top + 1, max(1, top // 10)))
         axes.set(xlabel="mm (displacements and gap to scale; heights and widths not)", ylabel="floor")
+        axes.xaxis.set_major_locator(MaxNLocator(6))
         axes.grid(False)
         axes.axhline(0, color=GREY, linewidth=3)
         axes.xaxis.label.set_size(9)

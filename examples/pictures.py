@@ -72,34 +72,60 @@ def floors(scene, run, alone, window):
     return figure
 
 
+def is_rigid(scene, p):
+    return scene.contacts[p - 1]["law"] == "stereomechanical"
+
+
 def forces(scene, run, alone, window):
-    """Bursts of contact force over the run, and the hardest of each contact from near."""
-    contacts = [p for p in busiest(scene, run) if any(impact["peak_force"] > 0 for impact in run.of_contact(p))]
+    """Bursts of contact force over the run, and the hardest of each contact from near; impulses of rigid contacts."""
+    contacts = [p for p in busiest(scene, run) if run.of_contact(p)]
     if not contacts:
         return None
-    largest = max(run.hardest(p)["peak_force"] for p in contacts)
-    factor, unit = force_unit(largest)
     figure, panels = plt.subplots(
-        len(contacts), 2, figsize=(9, 2.3 * len(contacts) + 0.8), squeeze=False, width_ratios=[2.5, 1], sharey=True
+        len(contacts), 2, figsize=(9, 2.3 * len(contacts) + 0.8), squeeze=False, width_ratios=[2.5, 1]
     )
+    largest = {p: run.hardest(p)["peak_force"] for p in contacts}
+    factor, unit = force_unit(max(largest.values()))
     for (bursts, near), p in zip(panels, contacts):
-        hardest = run.hardest(p)
-        force = run[f"contact[{p}].force"] / factor
-        bursts.plot(run.time, force, **FORCE)
-        # Each burst's own largest value, which falls between rows.
-        peaks = [(impact["peak_time_s"], impact["peak_force"] / factor) for impact in run.of_contact(p)]
-        bursts.plot(*zip(*peaks), ".", color=ORANGE, markersize=4)
-        bursts.set_title(f"{name_of(scene, p).capitalize()}: {len(peaks)} impacts")
-        bursts.set(ylabel=f"contact force [{unit}]", xlim=(0, run.time[-1]))
-        start, end = hardest["start_s"], np.nan_to_num(hardest["end_s"], nan=run.time[-1])
-        clock, margin = 1e3 * (run.time - start), 0.35 * 1e3 * (end - start)
-        around = (clock >= -margin) & (clock <= 1e3 * (end - start) + margin)
-        near.plot(clock[around], force[around], color=BLACK, linewidth=1.6)
-        near.fill_between(clock[around], 0, force[around], **OPEN)
-        near.set_title(f"Hardest: {handy(hardest['peak_force'], 'N')}, {handy(hardest['impulse'], 'N s')}")
-        near.set_xlabel(f"ms after {start:.4f} s")
+        title = f"{name_of(scene, p).capitalize()}: {len(run.of_contact(p))} impacts"
+        bursts.set(title=title, xlim=(0, run.time[-1]))
+        if is_rigid(scene, p):
+            draw_impulses(bursts, run.of_contact(p))
+            near.axis("off")
+            continue
+        draw_bursts(bursts, run, p, factor, unit)
+        draw_hardest(near, run, p, factor)
+        for axes in (bursts, near):
+            axes.set_ylim(top=1.08 * max(largest.values()) / factor)
     panels[-1, 0].set_xlabel("time [s]")
     return figure
+
+
+def draw_impulses(axes, impacts):
+    """Exchanges of momentum in no time, and what pressed rigid floors while they were held together."""
+    impulses = [impact["impulse"] for impact in impacts]
+    factor, unit = force_unit(max(impulses))
+    axes.vlines([impact["start_s"] for impact in impacts], 0, np.array(impulses) / factor, color=BLACK, linewidth=1.1)
+    axes.set_ylabel(f"impulse [{unit} s]")
+
+
+def draw_bursts(axes, run, p, factor, unit):
+    axes.plot(run.time, run[f"contact[{p}].force"] / factor, **FORCE)
+    peaks = [(impact["peak_time_s"], impact["peak_force"] / factor) for impact in run.of_contact(p)]
+    axes.plot(*zip(*peaks), ".", color=ORANGE, markersize=4)
+    axes.set_ylabel(f"contact force [{unit}]")
+
+
+def draw_hardest(axes, run, p, factor):
+    hardest = run.hardest(p)
+    start, end = hardest["start_s"], np.nan_to_num(hardest["end_s"], nan=run.time[-1])
+    clock, margin = 1e3 * (run.time - start), 0.35 * 1e3 * (end - start)
+    around = (clock >= -margin) & (clock <= 1e3 * (end - start) + margin)
+    force = run[f"contact[{p}].force"][around] / factor
+    axes.plot(clock[around], force, color=BLACK, linewidth=1.6)
+    axes.fill_between(clock[around], 0, force, **OPEN)
+    axes.set_title(f"Hardest: {handy(hardest['peak_force'], 'N')}, {handy(hardest['impulse'], 'N s')}")
+    axes.set_xlabel(f"ms after {start:.4f} s")
 
 
 def accelerations(scene, run, alone, window):
@@ -131,7 +157,7 @@ def accelerations(scene, run, alone, window):
 
 def hysteresis(scene, run, alone, window):
     """Force against penetration of every impact, the hardest in black: what a loop encloses is lost in it."""
-    contacts = [p for p in busiest(scene, run) if any(impact["peak_force"] > 0 for impact in run.of_contact(p))]
+    contacts = [p for p in busiest(scene, run) if run.of_contact(p) and not is_rigid(scene, p)]
     if not contacts:
         return None
     columns = min(2, len(contacts))
@@ -153,10 +179,8 @@ def hysteresis(scene, run, alone, window):
             axes.plot(penetration[loop], force[loop], **line)
         axes.axhline(0, color=GREY, linewidth=0.8)
         lost = handy(hardest["dissipated_energy"], "J")
-        law = scene.contacts[p - 1]["law"]
-        axes.set_title(
-            f"{name_of(scene, p).capitalize()}, {law}\n{len(run.of_contact(p))} impacts; the hardest (black): {lost} lost"
-        )
+        title = f"{name_of(scene, p).capitalize()}, {scene.contacts[p - 1]['law']}"
+        axes.set_title(f"{title}\n{len(run.of_contact(p))} impacts; the hardest (black): {lost} lost")
         axes.set(xlabel="penetration [mm]", ylabel=f"force [{unit}]", xlim=(0, None))
     for axes in panels.flat[len(contacts) :]:
         axes.axis("off")
@@ -193,6 +217,7 @@ def drifts(scene, run, alone, window):
     panels[0].set(ylabel="floor (diamond: faces another)", yticks=range(0, top + 1, every), ylim=(0, top + 0.1))
     for axes in panels:
         axes.set_xlim(-1.08 * largest, 1.08 * largest)
-    for axes in panels:
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2)
+    (left, free, *_), right = (axes.get_legend_handles_labels()[0] for axes in panels)
+    labels = ["left, pounding", "right, pounding", "without contact"]
+    figure.legend([left, right[0], free], labels, loc="outside lower center", ncols=3)
     return figure

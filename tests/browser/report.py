@@ -3,8 +3,8 @@
     python3 examples/run.py tests/browser/report.py
 
 Needs a Chromium (Debian: apt install chromium, or chromium-headless-shell; elsewhere name it in BROWSER) and says so
-where there is none. Leaves pictures of the page in target/browser. The structure of the page is tested without a browser
-in tests/python/test_report.py.
+where there is none. Leaves pictures of the page in target/browser. tests/python/test_report.py tests the structure of
+the page without a browser.
 """
 
 import csv
@@ -83,7 +83,10 @@ def reads(page, scene, impacts):
     counts = [int(rows.nth(row).locator("td").nth(4).inner_text()) for row in range(rows.count())]
     assert counts == [sum(impact["contact"] == contact for impact in impacts) for contact in "12"]
     assert page.locator(".chart").count() == 3
-    drawn = "canvas => new Set(new Uint32Array(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size"
+    drawn = """canvas => {
+        const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        return new Set(new Uint32Array(data.buffer)).size;
+    }"""
     assert all(page.locator(".chart canvas").nth(chart).evaluate(drawn) > 20 for chart in range(3))
     page.screenshot(path=FOLDER / "whole.png")
 

@@ -114,7 +114,7 @@ def test_synthetic_motions_are_what_they_say(tmp_path):
         sys.path.remove(str(harness.ROOT / "examples"))
     one, other = (motions.write(tmp_path, seed).read_text() for seed in (1, 2))
     assert one.startswith("# SYNTHETIC") and one != other and one == motions.write(tmp_path / "again", 1).read_text()
-    # While the envelope stays at 1 the power at each frequency is that of the filters: the mean over many motions shows it.
+    # While the envelope stays at 1 the mean power over many motions is that of the filters.
     powers = []
     for seed in range(100):
         time, motion = motions.acceleration(seed)
