@@ -4,11 +4,12 @@ Each is a function of cases, materials and the number of workers, and yields row
 """
 
 import multiprocessing
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent import futures
 from concurrent.futures.process import BrokenProcessPool
 
 import study_worker
 
+PROGRAM = study_worker.__file__
 # A batch takes long enough that handing it out costs little, and is short enough to lose when a worker dies.
 LARGEST_BATCH = 40
 BATCHES_PER_WORKER = 20
@@ -39,10 +40,10 @@ def pool(cases, materials, workers):
     if not cases:
         return
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(workers, context, study_worker.prepare, (materials,)) as executor:
-        futures = [executor.submit(study_worker.run_cases, batch) for batch in batches(cases, workers)]
+    with futures.ProcessPoolExecutor(workers, context, study_worker.prepare, (materials,)) as executor:
+        submitted = [executor.submit(study_worker.run_cases, batch) for batch in batches(cases, workers)]
         try:
-            for future in as_completed(futures):
+            for future in futures.as_completed(submitted):
                 yield future.result()
         except BrokenProcessPool:
             raise SystemExit("a worker process died; the same command goes on from here") from None
@@ -52,25 +53,31 @@ def pool(cases, materials, workers):
 
 def local_cluster(cases, materials, workers):
     """A Dask cluster on this machine: what a real one does, at the size of this machine."""
-    from distributed import LocalCluster
+    from distributed import Client, LocalCluster
 
-    with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as local:
-        yield from cluster(cases, materials, workers, local)
+    with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0") as local:
+        with Client(local) as client:
+            yield from through(client, cases, materials)
 
 
-def cluster(cases, materials, workers, where):
-    """A Dask cluster by its address. Its workers need FMPy; this module's worker and the materials are sent to them."""
+def cluster(cases, materials, workers, address):
+    """A Dask cluster by its address. Its workers need FMPy; the program that they run is sent to them."""
     from distributed import Client
-    from distributed import as_completed as dask_as_completed
 
-    with Client(where) as client:
-        client.upload_file(study_worker.__file__)
-        [everything] = client.scatter([materials], broadcast=True, hash=False)
-        threads = max(1, sum(client.nthreads().values()))
-        # Not pure: whether the cluster remembers a result of another study is not its business.
-        futures = [
-            client.submit(study_worker.run_cases, batch, everything, pure=False) for batch in batches(cases, threads)
-        ]
-        for future, rows in dask_as_completed(futures, with_results=True):
-            yield rows
-            future.release()
+    with Client(address) as client:
+        client.upload_file(PROGRAM)
+        yield from through(client, cases, materials)
+
+
+def through(client, cases, materials):
+    """The rows of all cases by way of a client of a cluster. The materials are sent once to each worker."""
+    from distributed import as_completed
+
+    [everything] = client.scatter([materials], broadcast=True, hash=False)
+    threads = max(1, sum(client.nthreads().values()))
+    # Not pure: the cluster shall not look whether it has run such a batch before.
+    send = client.submit
+    submitted = [send(study_worker.run_cases, batch, everything, pure=False) for batch in batches(cases, threads)]
+    for future, rows in as_completed(submitted, with_results=True):
+        yield rows
+        future.release()

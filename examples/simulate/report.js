@@ -189,11 +189,13 @@ function usual() {
   const top = { left: Math.max(...tops[0]), right: Math.max(...tops[1]) };
   // Top floors, and those that can hit: of many, as many as lines can be told apart.
   const facing = run.contacts.length <= 3 ? run.contacts : [run.contacts.at(-1)];
+  const forces = groups.get("contact force") ?? [];
+  const hardest = [...forces].sort((a, b) => b.largest - a.largest).slice(0, CYCLE.length);
   const isShown = (c) =>
     c.of in top
       ? ["displacement", "acceleration"].includes(c.quantity) &&
         (c.index === top[c.of] || facing.some((pair) => pair[`${c.of}_floor`] === c.index))
-      : c.quantity === "contact force" && c.index <= CYCLE.length;
+      : hardest.includes(c);
   choose(run.columns.filter(isShown), true);
 }
 
@@ -314,13 +316,14 @@ function impactTable() {
 
 function happened() {
   const count = run.impacts.length;
-  const hardest = run.impacts.reduce((most, impact) => (most && most[FORCE] >= impact[FORCE] ? most : impact), null);
+  // Rigid contacts have no force of an impact: there the impulse tells which was the hardest.
+  const [by, unit] = run.contacts.some((pair) => pair.law === "stereomechanical") ? [IMPULSE, "N s"] : [FORCE, "N"];
+  const hardest = run.impacts.reduce((most, impact) => (most && most[by] >= impact[by] ? most : impact), null);
   const text = `0 s to ${digits(run.stop)} s: ${count} impact${count === 1 ? "" : "s"}`;
   if (!hardest) return `${text}.`;
   const { left_floor, right_floor } = run.contacts[hardest[CONTACT] - 1];
   const where = `left floor ${left_floor} and right floor ${right_floor}`;
-  if (hardest[FORCE] === 0) return `${text}.`;
-  return `${text}, the hardest between ${where} at ${hardest[START].toFixed(3)} s with ${digits(hardest[FORCE])} N.`;
+  return `${text}, the hardest between ${where} at ${hardest[START].toFixed(3)} s with ${digits(hardest[by])} ${unit}.`;
 }
 
 document.title = run.name;

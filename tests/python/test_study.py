@@ -25,6 +25,18 @@ def command(folder, *more):
     return [sys.executable, str(STUDY), *map(str, [*plan, *more])]
 
 
+def example(name):
+    """A module of the examples."""
+    spec = importlib.util.spec_from_file_location(name, harness.ROOT / f"examples/{name}.py")
+    module = sys.modules[name] = importlib.util.module_from_spec(spec)
+    sys.path.insert(0, str(harness.ROOT / "examples"))
+    try:
+        spec.loader.exec_module(module)
+    finally:
+        sys.path.remove(str(harness.ROOT / "examples"))
+    return module
+
+
 ENVIRONMENT = {**os.environ, "CARGO_FMU": shlex.join(map(str, harness.CARGO_FMU))}
 
 
@@ -104,14 +116,27 @@ def test_two_studies_do_not_write_at_once(tmp_path):
     assert result.returncode == 1 and "another study" in result.stderr and "Traceback" not in result.stderr
 
 
+def test_what_comes_after_a_torn_row_is_whole(tmp_path):
+    """Killed while writing, gone on, killed again: only the torn row is missing."""
+    results, worker = example("study_results"), example("study_worker")
+    cases = [worker.Case("A", "a", "R", "r", pga, 0.01, 5.0) for pga in (1.0, 2.0, 3.0)]
+    found = {"impacts": 1, "peak_force": 2.0, "impulse": 0.1, "dissipated_energy": 0.5, "left_drift": 0.01}
+    row = {**found, "right_drift": 0.02, "error": ""}
+    table = tmp_path / "results.csv"
+    for case in cases[:2]:
+        opened = results.Results(table)
+        opened.add([(case, row)])
+        opened.close()
+        with table.open("a") as file:
+            file.write("A,a,R,r,9.0,0.0")
+    opened = results.Results(table)
+    assert opened.missing(cases) == cases[2:] and len(opened.rows) == 2
+    assert [line["pga_m_s2"] for line in opened.of(cases)] == [1.0, 2.0]
+    assert opened.of(cases)[1]["peak_force_n"] == 2.0
+
+
 def test_synthetic_motions_are_what_they_say(tmp_path):
-    spec = importlib.util.spec_from_file_location("ground_motions", harness.ROOT / "examples/ground_motions.py")
-    motions = importlib.util.module_from_spec(spec)
-    sys.path.insert(0, str(harness.ROOT / "examples"))
-    try:
-        spec.loader.exec_module(motions)
-    finally:
-        sys.path.remove(str(harness.ROOT / "examples"))
+    motions = example("ground_motions")
     one, other = (motions.write(tmp_path, seed).read_text() for seed in (1, 2))
     assert one.startswith("# SYNTHETIC") and one != other and one == motions.write(tmp_path / "again", 1).read_text()
     # While the envelope stays at 1 the mean power over many motions is that of the filters.
