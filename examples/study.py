@@ -174,11 +174,16 @@ def measure(cases, materials, repeats=3):
     ways += [(f"local Dask cluster, {workers} workers", "local", workers) for workers in sorted({1, cores, 2 * cores})]
     print(f"{len(cases)} cases, {cores} cores")
     for name, scheduler, workers in ways:
+        processor = time.process_time()
         found = [measure_once(cases, materials, *runner(scheduler, workers)) for _ in range(repeats)]
         rates, starts = zip(*found)
         low, middle, high = np.percentile(rates, [0, 50, 100])
         said = f"{middle:4.0f} cases a second ({low:.0f} to {high:.0f})"
         print(f"{name:30}  {said:34}  after {np.median(starts):.1f} s", flush=True)
+        if workers == 1 and scheduler is None:
+            # Of this process, whatever else the machine is doing.
+            each = (time.process_time() - processor) / (repeats * len(cases))
+            print(f"{'':30}  {1e3 * each:.2f} ms of processor time each", flush=True)
 
 
 def measure_once(cases, materials, run, workers):

@@ -22,7 +22,7 @@ impl Column {
 
     pub fn push(&mut self, value: f64) {
         let here = (self.rows, value);
-        if self.rows % self.bin == 0 {
+        if self.rows.is_multiple_of(self.bin) {
             self.close_bin();
         }
         // A line begins with the run.
