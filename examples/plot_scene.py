@@ -42,7 +42,7 @@ def main():
         else:
             figure = STATIC[name](scene, run, alone, window)
             if figure is None:
-                print(f"no picture of {name}: it needs contacts with a force")
+                print(f"no picture of {name}: nothing of the kind happens in this run")
             else:
                 save(figure, folder / f"{name}.{options.format}")
 

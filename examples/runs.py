@@ -22,9 +22,12 @@ class Scene:
 
     def __init__(self, path):
         self.path = Path(path).resolve()
-        content = tomllib.loads(self.path.read_text())
-        self.name = content["name"]
-        self.floors = {side: len(content[side]["mass"]) for side in ("left", "right")}
+        try:
+            content = tomllib.loads(self.path.read_text())
+            self.name = content["name"]
+            self.floors = {side: len(content[side]["mass"]) for side in ("left", "right")}
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise SystemExit(f"{path}: not a scene: {error}") from None
         self.contacts = content.get("contact", [])
 
 
@@ -55,11 +58,18 @@ def simulate(scene, step, *flags, **options):
         command = [*SIMULATE, scene.path, "--step", repr(step), "--csv", motion, "--impacts", impacts, *flags]
         for option, value in options.items():
             command += [] if value is None else [f"--{option.replace('_', '-')}", str(value)]
-        subprocess.run([str(part) for part in command], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+        run_or_stop(command)
         with motion.open() as lines:
             names = next(lines).strip().split(",")
             columns = np.loadtxt(lines, delimiter=",", unpack=True, ndmin=2)
         return Run(dict(zip(names, columns)), read_impacts(impacts))
+
+
+def run_or_stop(command):
+    """Runs a program of this project; where it fails it has said why."""
+    code = subprocess.run([str(part) for part in command], cwd=ROOT, stdout=subprocess.DEVNULL).returncode
+    if code != 0:
+        raise SystemExit(code)
 
 
 def read_impacts(path):

@@ -17,7 +17,6 @@ import csv
 import hashlib
 import os
 import shlex
-import subprocess
 import sys
 import time
 from pathlib import Path
@@ -26,7 +25,7 @@ import numpy as np
 from fmpy import read_model_description
 
 import ground_motions
-from runs import ROOT, STANDARD_GRAVITY, Scene
+from runs import ROOT, STANDARD_GRAVITY, Scene, run_or_stop
 from study_results import Results
 from study_runners import runner
 from study_worker import Case, Materials
@@ -143,7 +142,7 @@ def build(scene, folder):
     """The FMU of a scene."""
     folder.mkdir(parents=True, exist_ok=True)
     fmu = folder / f"{Scene(scene).name}.fmu"
-    subprocess.run([*CARGO_FMU, scene.resolve(), "-o", fmu], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    run_or_stop([*CARGO_FMU, scene.resolve(), "-o", fmu])
     names = {variable.name for variable in read_model_description(str(fmu)).modelVariables}
     for needed, why in [("ground.record", "a record in [ground]"), ("contact[1].gap", "a [[contact]]")]:
         if needed not in names:
@@ -157,14 +156,25 @@ def fingerprint(fmu):
 
 
 def read_record(path):
-    """Times, s, and accelerations, m/s2, of a record (CSV or AT2)."""
+    """Times, s, and accelerations, m/s2, of a record."""
+    try:
+        return read_at2(path) if path.suffix.lower() == ".at2" else read_csv(path)
+    except (ValueError, IndexError):
+        raise SystemExit(f"{path}: expected CSV with the columns time_s,accel_m_s2, or PEER AT2") from None
+
+
+def read_csv(path):
     lines = path.read_text().splitlines()
-    if path.suffix.lower() != ".at2":
-        rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))[1:]
-        return np.array(rows, float).T
+    rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))[1:]
+    time, acceleration = np.array(rows, float).T
+    return time, acceleration
+
+
+def read_at2(path):
+    lines = path.read_text().splitlines()
     step = float(lines[3].upper().split("DT=")[1].split()[0].strip(","))
     values = np.array(" ".join(lines[4:]).split(), float) * STANDARD_GRAVITY
-    return np.array([step * np.arange(len(values)), values])
+    return step * np.arange(len(values)), values
 
 
 def measure(cases, materials, repeats=3):
@@ -190,7 +200,8 @@ def measure_once(cases, materials, run, workers):
     """Cases a second from the first results on, and s until then."""
     start = time.monotonic()
     batches = run(cases, materials, workers)
-    first, begun = len(next(batches)), time.monotonic()
+    next(batches)
+    begun = time.monotonic()
     rest = sum(len(rows) for rows in batches)
     return rest / (time.monotonic() - begun), begun - start
 

@@ -23,8 +23,10 @@ def drift(row):
 
 def gaps(rows, never_closes, path):
     """Peak force, impacts and largest drift against the gap: median over the records and the middle two thirds."""
-    closing = [row for row in rows if row["gap_m"] < never_closes]
     free = {(row["record_id"], row["pga_m_s2"]): drift(row) for row in rows if row["gap_m"] == never_closes}
+    closing = [row for row in rows if row["gap_m"] < never_closes and free.get((row["record_id"], row["pga_m_s2"]))]
+    if not closing:
+        return
     large = max(row["peak_force_n"] for row in closing) >= 2000
     panels = {
         f"peak contact force [{'kN' if large else 'N'}]": lambda row: row["peak_force_n"] / (1e3 if large else 1.0),
@@ -36,7 +38,7 @@ def gaps(rows, never_closes, path):
     for panel, (label, demand) in zip(axes, panels.items()):
         for pga, style in zip(some(row["pga_m_s2"] for row in closing), CYCLE):
             of_pga = [row for row in closing if row["pga_m_s2"] == pga]
-            found = [[demand(row) for row in of_pga if row["gap_m"] == width] for width in widths]
+            found = [[demand(row) for row in of_pga if row["gap_m"] == width] or [np.nan] for width in widths]
             low, middle, high = np.array([np.percentile(values, [16, 50, 84]) for values in found]).T
             if panel is axes[0]:
                 panel.fill_between(np.array(widths) * 1e3, low, high, color=style["color"], alpha=0.15, linewidth=0)
@@ -53,6 +55,8 @@ def gaps(rows, never_closes, path):
 def fragility(rows, never_closes, limits, path):
     """Share of the records that exceed a limit, against peak ground acceleration, one curve for each gap."""
     closing = [row for row in rows if row["gap_m"] < never_closes]
+    if not closing:
+        return
     force_limit, drift_limit = limits
     hit = [row["peak_force_n"] for row in closing if row["peak_force_n"] > 0]
     panels = [("pounding", closing, lambda row: row["impacts"] > 0)]
