@@ -73,6 +73,8 @@ def test_it_loads_nothing_and_no_text_of_a_scene_becomes_markup(tmp_path):
     [policy] = [a["content"] for _, a in page.elements if a.get("http-equiv") == "Content-Security-Policy"]
     assert policy.startswith("default-src 'none'")
     assert "/*data*/" not in text and "/*report.js*/" not in text
+    # Its licence goes with the library.
+    assert (harness.ROOT / "examples/simulate/uplot/LICENSE").read_text() in text
 
 
 def test_its_numbers_are_those_of_the_tables(feup, tmp_path):
