@@ -7,43 +7,34 @@ The engine runs twice, with the scene as it is and without its contacts: what po
 
 import numpy as np
 
-import engine
-import scenes
-import style
+from engine import ROOT, STANDARD_GRAVITY
+from runs import Scene, simulate
+from style import ALONE, FORCE, LEFT, OPEN, OVERLAP, RIGHT, pyplot, save
 
-SCENE = engine.ROOT / "examples/scenes/feup.toml"
-PICTURE = engine.ROOT / "docs/images/first_run.png"
+SCENE = ROOT / "examples/scenes/feup.toml"
+PICTURE = ROOT / "docs/images/first_run.png"
 
 CONTACT = 2  # between the second floors
 STEP = 1e-4  # s: an impact lasts 4 ms, and its shape is to be seen
 STRONG_MOTION = (1.5, 5.5)  # s
 ONE_IMPACT = (-4.0, 9.0)  # ms after the hardest impact begins
-FORCE, PENETRATION = f"contact[{CONTACT}].force", f"contact[{CONTACT}].penetration"
-LEFT, RIGHT, ACCELERATION = "left.displacement[2]", "right.displacement[2]", "left.acceleration[2]"
-
-BLACK_LINE = {"color": style.BLACK, "linestyle": "-", "linewidth": 1.1}
-OPEN = {"color": "#999999", "alpha": 0.3, "linewidth": 0}
-OVERLAP = {"facecolor": style.YELLOW, "edgecolor": style.BLACK, "hatch": "////", "linewidth": 0}
 
 
 def main():
-    scene = scenes.read(SCENE)
-    how = {"step": STEP, "stop": STRONG_MOTION[1]}
-    pounding = scenes.run(scene, columns=(LEFT, RIGHT, ACCELERATION, FORCE, PENETRATION), **how)
-    alone = scenes.run({**scene, "contact": []}, columns=(ACCELERATION,), **how)
-    draw(pounding, alone.motion, scene["contact"][CONTACT - 1]["gap"])
+    scene = Scene(SCENE)
+    draw(scene, *(simulate(scene, STEP, *flags, stop=STRONG_MOTION[1]) for flags in ([], ["--without-contacts"])))
 
 
-def draw(pounding, alone, gap):
-    motion = pounding.motion
-    hardest = max(pounding.of_contact(CONTACT), key=lambda impact: impact.peak_force)
-    start, force, penetration = hardest.start_s, hardest.peak_force, hardest.peak_penetration
+def draw(scene, motion, alone):
+    gap = scene.contacts[CONTACT - 1]["gap"]
+    hardest = motion.hardest(CONTACT)
+    start, force, penetration = (hardest[name] for name in ["start_s", "peak_force", "peak_penetration"])
 
     figure, panels = prepare_figure()
-    for column, clock, around in [(0, motion["time"], STRONG_MOTION), (1, 1e3 * (motion["time"] - start), ONE_IMPACT)]:
+    for column, clock, around in [(0, motion.time, STRONG_MOTION), (1, 1e3 * (motion.time - start), ONE_IMPACT)]:
         shown = (clock >= around[0]) & (clock <= around[1])
         draw_edges(panels[0, column], clock, motion, shown, gap)
-        panels[1, column].plot(clock[shown], motion[FORCE][shown], **BLACK_LINE)
+        panels[1, column].plot(clock[shown], motion[f"contact[{CONTACT}].force"][shown], **FORCE)
         draw_acceleration(panels[2, column], clock, motion, alone, shown)
         panels[2, column].set_xlim(around)
 
@@ -53,25 +44,21 @@ def draw(pounding, alone, gap):
     edges.legend(loc="upper right", ncols=2)
     forces.set_title(f"Contact force between them: up to {force:.0f} N")
     forces.set_ylabel("force [N]")
-    largest = [np.abs(run[ACCELERATION]).max() / engine.STANDARD_GRAVITY for run in (motion, alone)]
-    accelerations.set_title(
-        "Acceleration of floor 2, left frame: up to {:.0f} g, {:.1f} g without contact".format(*largest)
-    )
+    largest = [np.abs(run["left.acceleration[2]"]).max() / STANDARD_GRAVITY for run in (motion, alone)]
+    accelerations.set_title("Acceleration of floor 2, left frame: up to {:.0f} g, {:.1f} g without contact".format(*largest))
     accelerations.set(ylabel="acceleration [g]", xlabel="time [s]")
     accelerations.legend(loc="lower right", ncols=2)
 
     panels[0, 1].set_title("The hardest impact")
-    label_overlap(panels[0, 1], 1e3 * (motion["time"] - start), motion, f"penetration\n{1e3 * penetration:.2f} mm")
+    label_overlap(panels[0, 1], 1e3 * (motion.time - start), motion, f"penetration\n{1e3 * penetration:.2f} mm")
     panels[2, 1].set_xlabel(f"time [ms] after {start:.4f} s")
     figure.align_ylabels(panels[:, 0])
-    style.save(figure, PICTURE)
+    save(figure, PICTURE)
 
 
 def prepare_figure():
     """Three rows: edges, force, acceleration; on the left the strong motion, on the right one impact."""
-    figure, panels = style.pyplot().subplots(
-        3, 2, figsize=(9, 8.4), sharex="col", width_ratios=[2.7, 1], layout="constrained"
-    )
+    figure, panels = pyplot().subplots(3, 2, figsize=(9, 8.4), sharex="col", width_ratios=[2.7, 1])
     for row in [1, 2]:
         panels[row, 1].sharey(panels[row, 0])
         panels[row, 1].tick_params(labelleft=False)
@@ -80,25 +67,25 @@ def prepare_figure():
 
 def draw_edges(axes, clock, motion, shown, gap):
     """Where the two slab edges are: between them is the gap, and where they overlap they press."""
-    left, right = motion[LEFT][shown], motion[RIGHT][shown] + gap
+    left, right = motion["left.displacement[2]"][shown], motion["right.displacement[2]"][shown] + gap
     clock, left, right = clock[shown], 1e3 * left, 1e3 * right
     axes.fill_between(clock, left, right, where=right >= left, **OPEN)
     axes.fill_between(clock, left, right, where=left > right, **OVERLAP)
-    axes.plot(clock, right, label="right frame", **style.RIGHT)
-    axes.plot(clock, left, label="left frame", **style.LEFT)
+    axes.plot(clock, right, label="right frame", **RIGHT)
+    axes.plot(clock, left, label="left frame", **LEFT)
 
 
 def label_overlap(axes, clock, motion, text):
     """Names the largest overlap."""
-    deepest = np.argmax(motion[PENETRATION])
-    place = (clock[deepest], 1e3 * motion[LEFT][deepest])
+    deepest = np.argmax(motion[f"contact[{CONTACT}].penetration"])
+    place = (clock[deepest], 1e3 * motion["left.displacement[2]"][deepest])
     axes.margins(y=0.25)
     axes.annotate(text, place, (0.04, 0.05), textcoords="axes fraction", arrowprops={"arrowstyle": "-"})
 
 
 def draw_acceleration(axes, clock, motion, alone, shown):
-    for run, label, look in [(motion, "pounding", style.LEFT), (alone, "without contact", style.ALONE)]:
-        axes.plot(clock[shown], run[ACCELERATION][shown] / engine.STANDARD_GRAVITY, label=label, **look)
+    for run, label, style in [(motion, "pounding", LEFT), (alone, "without contact", ALONE)]:
+        axes.plot(clock[shown], run["left.acceleration[2]"][shown] / STANDARD_GRAVITY, label=label, **style)
 
 
 if __name__ == "__main__":

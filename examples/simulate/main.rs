@@ -1,0 +1,130 @@
+//! The engine without FMI: a scene in, tables and a page to look at out.
+//!
+//! ```text
+//! cargo run --release --example simulate -- examples/scenes/feup.toml --csv motion.csv --impacts impacts.csv --html run.html
+//! ```
+//!
+//! `--csv` has `time` and one column per output of the scene's FMU, under the same names; `--impacts` has one row per
+//! contact episode; `--html` is one file with both, drawn, for a browser.
+
+mod instants;
+mod report;
+mod solve;
+mod tables;
+mod thinning;
+
+use clap::Parser;
+use pounding::description::{Package, PackagedRecord};
+use pounding::engine::Model;
+use solve::{Solution, Solved, episodes, solve};
+use std::error::Error;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Solves a scene with the engine alone.
+#[derive(Parser)]
+struct Arguments {
+    /// The scene.
+    #[arg(value_name = "SCENE.toml")]
+    scene: PathBuf,
+    /// Ground motion (CSV or AT2) of a scene that has no record of its own.
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+    /// Leaves out all contacts: how each building moves by itself.
+    #[arg(long)]
+    without_contacts: bool,
+    /// s, from row to row.
+    #[arg(long, value_name = "S", default_value_t = 0.01, value_parser = positive)]
+    step: f64,
+    /// s, time of the last row; without it, the scene's stop_time, else the end of the record, else 10.
+    #[arg(long, value_name = "T", value_parser = positive)]
+    stop: Option<f64>,
+    /// Table of the motion, a row every step.
+    #[arg(long, value_name = "OUT")]
+    csv: Option<PathBuf>,
+    /// Rows of --csv within each contact, beside those at its beginning, largest force and end, and every step.
+    #[arg(long, value_name = "N")]
+    rows_per_impact: Option<u16>,
+    /// Table of the contact episodes.
+    #[arg(long, value_name = "OUT")]
+    impacts: Option<PathBuf>,
+    /// Report of the run: one file that any browser shows, without a network.
+    #[arg(long, value_name = "OUT")]
+    html: Option<PathBuf>,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number > 0.0 && number.is_finite() => Ok(number),
+        _ => Err("expected a number > 0".into()),
+    }
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    let mut package = Package::from_scene_file(&arguments.scene)?;
+    if let Some(file) = &arguments.record {
+        give_record(&mut package, file)?;
+    }
+    if arguments.without_contacts {
+        package.scene.contacts.clear();
+    }
+    let stop = arguments.stop.or_else(|| package.stop_time()).unwrap_or(10.0);
+
+    let Package { scene, record, .. } = &package;
+    let model = Model::new(scene, record.as_ref().map(|packaged| &packaged.record))?;
+    let mut motion = arguments.csv.as_deref().map(|file| tables::Motion::create(file, scene)).transpose()?;
+    let impacts = arguments.impacts.as_deref().map(tables::create).transpose()?;
+    let mut page = arguments.html.as_deref().map(report::create).transpose()?;
+
+    let mut write = |solved: Solved| motion.as_mut().map_or(Ok(()), |motion| motion.write(solved));
+    let regular = instants::regular(arguments.step, stop);
+    let solution = match arguments.rows_per_impact {
+        None => solve(&model, regular, &mut write)?,
+        Some(count) => {
+            let within = instants::within(&episodes(&model, stop)?, stop, count);
+            solve(&model, instants::merge(regular, within), &mut write)?
+        }
+    };
+    if let Some(motion) = motion {
+        motion.finish()?;
+    }
+    if let Some(table) = impacts {
+        tables::write_impacts(table, &solution.episodes)?;
+    }
+    if let Some(page) = &mut page {
+        page.write_all(report::page(&package, &model, stop, &solution.episodes)?.as_bytes())?;
+    }
+    let Solution { time, .. } = &solution;
+    let text = format!(
+        "{}{}solve_seconds={}\n",
+        tables::summary(scene, stop, &solution),
+        tables::frequencies(&model),
+        time.as_secs_f64()
+    );
+    std::io::stdout().write_all(text.as_bytes())?;
+    Ok(())
+}
+
+/// Reads a record and makes it the scene's.
+fn give_record(package: &mut Package, file: &Path) -> Result<(), Box<dyn Error>> {
+    if let Some(own) = &package.scene.ground.record {
+        return Err(format!("--record is for a scene without one; this one has ground.record = {own:?}").into());
+    }
+    let name = file.to_string_lossy().into_owned();
+    let bytes = std::fs::read(file).map_err(|error| format!("cannot read {name}: {error}"))?;
+    let record = PackagedRecord::parse(&name, bytes).map_err(|error| format!("{name}: {error}"))?;
+    package.record = Some(record);
+    package.scene.ground.record = Some(name);
+    Ok(())
+}

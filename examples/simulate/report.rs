@@ -1,0 +1,176 @@
+//! The report of a run: one HTML file with everything in it, drawn by uPlot in the browser that opens it.
+//!
+//! All that the page shows travels as JSON in a script element of a type that browsers do not run. There `<` is written
+//! as an escape, so no text of a scene can end that element, and the page sets texts as texts, never as markup. Its
+//! Content-Security-Policy forbids it to load anything.
+
+use crate::instants;
+use crate::solve::{Solved, solve};
+use crate::tables::outputs;
+use crate::thinning::Column;
+use pounding::description::Package;
+use pounding::engine::{Episode, Model};
+use pounding::scene::Scene;
+use pounding::variables::{Type, Value};
+use serde::Serialize;
+use std::error::Error;
+use std::fs::File;
+use std::path::Path;
+
+/// Rows from beginning to end, as many as a wide screen has columns, and within each impact, for a look at it alone.
+const REGULAR_ROWS: f64 = 2000.0;
+const ROWS_PER_IMPACT: u16 = 24;
+/// Numbers in the page, at about 9 bytes each: where there would be more, columns are thinned.
+const MOST_NUMBERS: usize = 400_000;
+/// Digits of those numbers: a screen shows three or four.
+const DIGITS: usize = 6;
+
+const PAGE: &str = include_str!("report.html");
+/// What the page is put together from: marks in it, and what takes their place.
+const PARTS: [(&str, &str); 5] = [
+    ("/*uPlot.css*/", include_str!("uplot/uPlot.min.css")),
+    ("/*report.css*/", include_str!("report.css")),
+    ("@licence of uPlot@", include_str!("uplot/LICENSE")),
+    ("/*uPlot.js*/", include_str!("uplot/uPlot.iife.min.js")),
+    ("/*report.js*/", include_str!("report.js")),
+];
+const DATA: &str = "/*data*/";
+
+/// The data of the page, under the names that report.js reads.
+#[derive(Serialize)]
+struct Run<'a> {
+    name: &'a str,
+    description: &'a str,
+    scene: &'a str,
+    stop: f64,
+    contacts: Vec<Contact>,
+    /// s, of all rows.
+    times: Vec<f64>,
+    columns: Vec<Series>,
+    /// One row per contact episode, in the order of `--impacts`; where it has not ended, `null`.
+    impacts: Vec<[Option<f64>; 10]>,
+}
+
+#[derive(Serialize)]
+struct Contact {
+    left_floor: usize,
+    right_floor: usize,
+    gap: f64,
+    law: &'static str,
+}
+
+/// An output of the FMU.
+#[derive(Serialize)]
+struct Series {
+    name: String,
+    about: String,
+    unit: &'static str,
+    /// Another unit for people, and how much of it one of `unit` is.
+    display: Option<(&'static str, f64)>,
+    /// Numbers of the rows that are kept, each as the difference from the one before; all of them where there are none.
+    steps: Option<Vec<usize>>,
+    values: Vec<f64>,
+}
+
+/// The file, before the work that it is for.
+pub fn create(file: &Path) -> Result<File, Box<dyn Error>> {
+    File::create(file).map_err(|error| format!("cannot write {}: {error}", file.display()).into())
+}
+
+/// The page.
+pub fn page(package: &Package, model: &Model, stop: f64, episodes: &[Episode]) -> Result<String, Box<dyn Error>> {
+    let Package { scene, scene_text, .. } = package;
+    let (times, columns) = columns(scene, model, stop, episodes)?;
+    let run = Run {
+        name: &scene.name,
+        description: &scene.description,
+        scene: scene_text,
+        stop,
+        contacts: contacts(scene),
+        times,
+        columns,
+        impacts: episodes.iter().map(impact).collect(),
+    };
+    let data = serde_json::to_string(&run)?.replace('<', "\\u003c");
+    let page = PARTS.iter().fold(PAGE.to_owned(), |page, (mark, part)| page.replacen(mark, part, 1));
+    Ok(page.replacen(DATA, &data, 1))
+}
+
+fn contacts(scene: &Scene) -> Vec<Contact> {
+    let contact = |pair: &pounding::scene::ContactPair| Contact {
+        left_floor: pair.left_floor,
+        right_floor: pair.right_floor,
+        gap: pair.gap,
+        law: pair.law.kind.info().name,
+    };
+    scene.contacts.iter().map(contact).collect()
+}
+
+/// The times of all rows, and of each output what is kept of it.
+fn columns(
+    scene: &Scene,
+    model: &Model,
+    stop: f64,
+    episodes: &[Episode],
+) -> Result<(Vec<f64>, Vec<Series>), Box<dyn Error>> {
+    let within = instants::within(episodes, stop, ROWS_PER_IMPACT);
+    let times: Vec<f64> = instants::merge(instants::regular(stop / REGULAR_ROWS, stop), within).collect();
+    let outputs: Vec<_> = outputs(scene).collect();
+    let all = times.len() * outputs.len();
+    let bin = if all <= MOST_NUMBERS { 1 } else { 2 * all.div_ceil(MOST_NUMBERS) };
+
+    let mut columns: Vec<Column> = outputs.iter().map(|_| Column::new(bin)).collect();
+    solve(model, times.iter().copied(), |solved: Solved| {
+        for ((_, output), column) in outputs.iter().zip(&mut columns) {
+            column.push(as_number(solved.read(*output)));
+        }
+        Ok::<(), Box<dyn Error>>(())
+    })?;
+    let series = outputs.into_iter().zip(columns).map(|((row, _), column)| {
+        let info = match row.ty {
+            Type::Real(unit) => Some(unit.info()),
+            _ => None,
+        };
+        let kept = column.finish();
+        let last_rows = std::iter::once(0).chain(kept.iter().map(|(row, _)| *row));
+        Series {
+            name: row.name,
+            about: row.description,
+            unit: info.as_ref().map_or("", |info| info.name),
+            display: info.and_then(|info| info.display),
+            steps: (bin > 1).then(|| kept.iter().zip(last_rows).map(|((row, _), last)| row - last).collect()),
+            values: kept.iter().map(|(_, value)| rounded(*value)).collect(),
+        }
+    });
+    let series = series.collect();
+    Ok((times, series))
+}
+
+fn as_number(value: Value) -> f64 {
+    match value {
+        Value::Real(value) => value,
+        Value::Integer(value) => f64::from(value),
+        Value::Boolean(value) => f64::from(u8::from(value)),
+        Value::String(_) => f64::NAN,
+    }
+}
+
+/// The number with so few digits that it is short as text.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value)
+}
+
+fn impact(episode: &Episode) -> [Option<f64>; 10] {
+    [
+        Some((episode.contact + 1) as f64),
+        Some(episode.start),
+        episode.end,
+        Some(episode.approach_velocity),
+        Some(episode.separation_velocity),
+        Some(episode.peak_force),
+        Some(episode.peak_time),
+        Some(episode.peak_penetration),
+        Some(episode.impulse),
+        Some(episode.dissipated_energy),
+    ]
+}

@@ -1,0 +1,55 @@
+//! Runs the engine over a sequence of instants.
+
+use pounding::engine::{EngineError, Episode, Model, Point, State};
+use pounding::variables::Instant;
+use std::error::Error;
+use std::time::{Duration, Instant as Clock};
+
+/// A run that has come to an instant.
+pub type Solved<'a> = Instant<'a>;
+
+pub struct Solution {
+    pub rows: u64,
+    /// In the order of their start, open ones included.
+    pub episodes: Vec<Episode>,
+    /// Of the solve alone: reading and writing files is not in it.
+    pub time: Duration,
+}
+
+/// Solves from 0 to the last of ascending instants, s, and shows the solution at each.
+pub fn solve<E: Into<Box<dyn Error>>>(
+    model: &Model,
+    instants: impl Iterator<Item = f64>,
+    mut show: impl FnMut(Solved) -> Result<(), E>,
+) -> Result<Solution, Box<dyn Error>> {
+    let (mut state, mut point) = (model.start(0.0), Point::default());
+    let mut solution = Solution { rows: 0, episodes: Vec::new(), time: Duration::ZERO };
+    for time in instants {
+        let clock = Clock::now();
+        // The first row is the start as an FMU shows it: what happens at that very instant belongs to the first step.
+        if time > 0.0 {
+            model.advance(&mut state, time, &mut |episode| solution.episodes.push(*episode))?;
+        }
+        model.observe(&state, &mut point);
+        solution.time += clock.elapsed();
+        solution.rows += 1;
+        show(Instant { model, state: &state, point: &point }).map_err(Into::into)?;
+    }
+    add_open(model, &state, &mut solution.episodes);
+    Ok(solution)
+}
+
+/// The contact episodes until `stop`, s.
+pub fn episodes(model: &Model, stop: f64) -> Result<Vec<Episode>, EngineError> {
+    let (mut state, mut episodes) = (model.start(0.0), Vec::new());
+    model.advance(&mut state, stop, &mut |episode| episodes.push(*episode))?;
+    add_open(model, &state, &mut episodes);
+    Ok(episodes)
+}
+
+fn add_open(model: &Model, state: &State, episodes: &mut Vec<Episode>) {
+    let mut point = Point::default();
+    model.observe(state, &mut point);
+    episodes.extend((0..point.contacts.len()).filter_map(|contact| model.open_episode(state, contact)));
+    episodes.sort_by(|one, other| one.start.total_cmp(&other.start));
+}

@@ -1,0 +1,83 @@
+"""Where the cases of a study run: in this process, on the cores of this machine, or on a Dask cluster.
+
+Each is a function of cases, materials and the number of workers, and yields rows, in any order, as they come.
+"""
+
+import multiprocessing
+from concurrent import futures
+from concurrent.futures.process import BrokenProcessPool
+
+import study_worker
+
+PROGRAM = study_worker.__file__
+# A batch takes long enough that handing it out costs little, and is short enough to lose when a worker dies.
+LARGEST_BATCH = 40
+BATCHES_PER_WORKER = 20
+
+
+def runner(scheduler, workers):
+    """What runs the cases, and its number of workers."""
+    if scheduler is None:
+        return (serial if workers == 1 else pool), workers
+    if scheduler == "local":
+        return local_cluster, workers
+    return lambda cases, materials, workers: cluster(cases, materials, workers, scheduler), workers
+
+
+def batches(cases, workers):
+    size = min(LARGEST_BATCH, max(1, len(cases) // (BATCHES_PER_WORKER * workers)))
+    return [cases[start : start + size] for start in range(0, len(cases), size)]
+
+
+def serial(cases, materials, workers):
+    study_worker.prepare(materials)
+    for batch in batches(cases, 1):
+        yield study_worker.run_cases(batch)
+
+
+def pool(cases, materials, workers):
+    """A process for each core."""
+    if not cases:
+        return
+    context = multiprocessing.get_context("spawn")
+    with futures.ProcessPoolExecutor(workers, context, study_worker.prepare, (materials,)) as executor:
+        submitted = [executor.submit(study_worker.run_cases, batch) for batch in batches(cases, workers)]
+        try:
+            for future in futures.as_completed(submitted):
+                yield future.result()
+        except BrokenProcessPool:
+            raise SystemExit("a worker process died; the same command goes on from here") from None
+        finally:
+            executor.shutdown(wait=False, cancel_futures=True)
+
+
+def local_cluster(cases, materials, workers):
+    """A Dask cluster on this machine: what a real one does, at the size of this machine."""
+    from distributed import Client, LocalCluster
+
+    with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0") as local:
+        with Client(local) as client:
+            yield from through(client, cases, materials)
+
+
+def cluster(cases, materials, workers, address):
+    """A Dask cluster by its address. Its workers need FMPy; the program that they run is sent to them."""
+    from distributed import Client
+
+    with Client(address) as client:
+        client.upload_file(PROGRAM)
+        yield from through(client, cases, materials)
+
+
+def through(client, cases, materials):
+    """The rows of all cases by way of a client of a cluster. The materials are sent once to each worker."""
+    from distributed import as_completed
+
+    [everything] = client.scatter([materials], broadcast=True, hash=False)
+    threads = max(1, sum(client.nthreads().values()))
+    # Not pure: the cluster shall not look whether it has run such a batch before.
+    send = client.submit
+    submitted = [send(study_worker.run_cases, batch, everything, pure=False) for batch in batches(cases, threads)]
+    for future, rows in as_completed(submitted, with_results=True):
+        yield rows
+        future.release()

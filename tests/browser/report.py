@@ -1,0 +1,169 @@
+"""Looks at the HTML report of a run in a browser, as a person would: reads, hovers, zooms, chooses, sorts.
+
+    python3 examples/run.py tests/browser/report.py
+
+Needs a Chromium (Debian: apt install chromium, or chromium-headless-shell; elsewhere name it in BROWSER) and says so
+where there is none. Leaves pictures of the page in target/browser. tests/python/test_report.py tests the structure of
+the page without a browser.
+"""
+
+import csv
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SCENE = ROOT / "examples/scenes/feup.toml"
+FOLDER = ROOT / "target/browser"
+SIMULATE = shlex.split(os.environ.get("SIMULATE", "cargo run --release --quiet --example simulate --"))
+BROWSERS = ["chromium", "chromium-headless-shell", "chromium-browser", "google-chrome", "google-chrome-stable"]
+HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)> & <b>bold</b>"
+
+
+def main():
+    browser = os.environ.get("BROWSER") or next(filter(None, map(shutil.which, BROWSERS)), None)
+    if browser is None:
+        print(f"skipped: no browser here (looked for {', '.join(BROWSERS)}; BROWSER names another)")
+        return
+    from playwright.sync_api import sync_playwright
+
+    html, scene, impacts = make_report()
+    arguments = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=browser, args=arguments)
+        context = chromium.new_context(viewport={"width": 1300, "height": 900}, offline=True)
+        page = context.new_page()
+        troubles = listen(page)
+        page.goto(html.as_uri())
+        for look in [reads, hovers, zooms, chooses, sorts, finds_an_impact, is_narrow]:
+            look(page, scene, impacts)
+            print(f"{look.__name__.replace('_', ' ')}: well")
+        assert not troubles, troubles
+        print(f"nothing loaded, no error, in {browser} {chromium.version}")
+        chromium.close()
+
+
+def make_report():
+    """The report of the default scene with a description that would like to be markup; its text and its impacts."""
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    text = SCENE.read_text().replace("../records", str(ROOT / "examples/records"))
+    text = re.sub(r'description = ".*"', f'description = "{HOSTILE}"', text)
+    scene, html, impacts = (FOLDER / name for name in ["scene.toml", "report.html", "impacts.csv"])
+    scene.write_text(text)
+    subprocess.run([*SIMULATE, scene, "--html", html, "--impacts", impacts], cwd=ROOT, check=True, stdout=sys.stderr)
+    return html, text, list(csv.DictReader(impacts.open()))
+
+
+def listen(page):
+    """What a page must not do: report errors, open dialogs, load anything but itself."""
+    troubles = []
+    page.on("pageerror", lambda error: troubles.append(f"error: {error}"))
+    page.on("console", lambda message: message.type == "error" and troubles.append(f"console: {message.text}"))
+    page.on("dialog", lambda dialog: (troubles.append(f"dialog: {dialog.message}"), dialog.dismiss()))
+    page.on("request", lambda request: request.url.startswith("file:") or troubles.append(f"request: {request.url}"))
+    return troubles
+
+
+def stretch(page):
+    """From where to where the charts show time, as the page says it."""
+    return [float(number) for number in re.findall(r"[\d.]+", page.locator("#shown").inner_text())]
+
+
+def reads(page, scene, impacts):
+    assert page.title() == "FeupFrames" and page.locator("#description").inner_text() == HOSTILE
+    assert page.locator("#scene-text").text_content() == scene
+    assert page.locator("img, b").count() == 0
+    assert f"{len(impacts)} impacts" in page.locator("#happened").inner_text()
+    assert page.locator("#impact-table tbody tr").count() == len(impacts)
+    rows = page.locator("#contact-table tbody tr")
+    counts = [int(rows.nth(row).locator("td").nth(4).inner_text()) for row in range(rows.count())]
+    assert counts == [sum(impact["contact"] == contact for impact in impacts) for contact in "12"]
+    assert page.locator(".chart").count() == 3
+    drawn = """canvas => {
+        const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        return new Set(new Uint32Array(data.buffer)).size;
+    }"""
+    assert all(page.locator(".chart canvas").nth(chart).evaluate(drawn) > 20 for chart in range(3))
+    page.screenshot(path=FOLDER / "whole.png")
+
+
+def over(page, chart, share):
+    """A point of a chart: `share` of its width from the left."""
+    box = page.locator(".chart .u-over").nth(chart).bounding_box()
+    return box["x"] + share * box["width"], box["y"] + box["height"] / 2
+
+
+def hovers(page, scene, impacts):
+    page.mouse.move(*over(page, 0, 0.25))
+    # All charts show their values at the time under the cursor.
+    for chart in range(3):
+        values = page.locator(".chart").nth(chart).locator(".u-legend .u-value").all_inner_texts()
+        assert abs(float(values[0]) - 5.0) < 0.05 and all(re.fullmatch(r"-?[\d.]+(e-?\d+)?", value) for value in values)
+
+
+def zooms(page, scene, impacts):
+    page.mouse.move(*over(page, 1, 0.1))
+    page.mouse.down()
+    page.mouse.move(*over(page, 1, 0.2), steps=5)
+    page.mouse.up()
+    assert all(abs(at - wanted) < 0.05 for at, wanted in zip(stretch(page), [2.0, 4.0])), stretch(page)
+    shown = page.evaluate("[...charts.values()].map(({ plot }) => [plot.scales.x.min, plot.scales.x.max])")
+    assert len(shown) == 3 and all(one == shown[0] for one in shown), shown
+    page.locator("#later").click()
+    assert abs(stretch(page)[0] - 3.0) < 0.05
+    page.screenshot(path=FOLDER / "zoomed.png")
+    page.mouse.dblclick(*over(page, 0, 0.5))
+    assert stretch(page) == [0.0, 20.0], stretch(page)
+
+
+def chooses(page, scene, impacts):
+    page.locator("#filter").fill("left acc")
+    assert page.locator("#variables li:not(.group):visible").count() == 2
+    page.locator("#filter").fill("")
+    box = page.locator('input[data-name="contact[1].penetration"]')
+    box.check()
+    assert page.locator(".chart h3").all_inner_texts()[-1] == "penetration [mm]"
+    box.uncheck()
+    assert page.locator(".chart").count() == 3
+    page.locator("#none").click()
+    assert page.locator(".chart").count() == 0
+    page.locator("#usual").click()
+    assert page.locator(".chart").count() == 3
+
+
+def sorts(page, scene, impacts):
+    forces = sorted((float(impact["peak_force"]) for impact in impacts), reverse=True)
+    heading = page.get_by_role("button", name="peak force")
+
+    def column():
+        return [float(text) for text in page.locator("#impact-table tbody td:nth-child(6)").all_inner_texts()]
+
+    for wanted in (forces, forces[::-1]):
+        heading.click()
+        assert all(abs(one - other) <= 1e-4 * abs(other) for one, other in zip(column(), wanted, strict=True))
+
+
+def finds_an_impact(page, scene, impacts):
+    page.get_by_role("button", name="peak force").click()
+    page.locator("#impact-table tbody tr").first.click()
+    hardest = max(impacts, key=lambda impact: float(impact["peak_force"]))
+    start, end = stretch(page)
+    assert start < float(hardest["start_s"]) < float(hardest["end_s"]) < end < start + 0.05
+    page.wait_for_timeout(300)
+    page.screenshot(path=FOLDER / "impact.png")
+    page.locator("#whole").click()
+
+
+def is_narrow(page, scene, impacts):
+    page.set_viewport_size({"width": 420, "height": 800})
+    page.wait_for_timeout(200)
+    assert page.evaluate("document.documentElement.scrollWidth") <= 420
+    page.screenshot(path=FOLDER / "narrow.png")
+
+
+if __name__ == "__main__":
+    main()
