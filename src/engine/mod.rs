@@ -18,6 +18,7 @@ mod frequencies;
 mod glide;
 mod ground;
 mod input;
+mod look;
 mod model;
 mod observe;
 mod onset_step;
@@ -26,6 +27,7 @@ mod rigid;
 mod roots;
 mod saved;
 mod state;
+mod swing;
 
 pub use crate::structure::Side;
 pub use energy_rates::EnergyRates;

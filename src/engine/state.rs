@@ -7,6 +7,7 @@ use super::dismissal::Watch;
 use super::drift::PeakDrifts;
 use super::ground::Segment;
 use super::input::LinearInput;
+use super::look::Look;
 use super::onset_step::OnsetSeries;
 use crate::contact::{EpisodeForce, Force};
 use crate::polynomial::{Coefficients, MAX_ORDER, Powers, ROOM};
@@ -237,7 +238,7 @@ pub(super) enum Event {
 pub struct Counters {
     /// Internal flight steps.
     pub flight_steps: u64,
-    /// Flights that were expanded into a series to look for a contact.
+    /// Pieces of flights that were expanded into a series, or tried without one, to look for a contact.
     pub closer_looks: u64,
     /// Flights for which no pair had to be looked at: none can close that fast.
     pub flights_dismissed: u64,
@@ -271,6 +272,7 @@ pub(super) struct Workspace {
     pub scalar: Coefficients,
     pub powers: Powers,
     pub rigid: Complementarity,
+    pub look: Look,
 }
 
 impl Workspace {
@@ -292,6 +294,7 @@ impl Workspace {
             scalar: [0.0; ROOM],
             powers: Powers::default(),
             rigid: Complementarity::new(rigid),
+            look: Look::new(lanes),
         }
     }
 }

@@ -45,8 +45,8 @@ pub fn energy(run: &Run) -> f64 {
     account.kinetic + account.strain + account.impact
 }
 
-/// The energy at the start is half a joule and stays so; each impact may add its rounding and its share of the
-/// tolerance, in either direction, so that the drift grows like a random walk and at worst linearly.
+/// The energy at the start is half a joule and stays so. Each impact may err by its tolerance, 1e-12; a hundredth of
+/// that is allowed here, all of it in one direction.
 #[test]
 fn thousands_of_elastic_impacts_keep_the_energy() {
     for law in ELASTIC {
@@ -59,7 +59,7 @@ fn thousands_of_elastic_impacts_keep_the_energy() {
         }
         let impacts = run.point.impacts as f64;
         assert!(impacts > 1500.0, "{law}: {impacts} impacts");
-        assert!(worst < 1e-15 * impacts, "{law}: {worst:e} after {impacts} impacts");
+        assert!(worst < 1e-14 * impacts, "{law}: {worst:e} after {impacts} impacts");
         assert!(run.velocity(Side::Left, 0).abs() <= 1.0 + 1e-9);
         let lost: f64 = run.episodes.iter().map(|episode| episode.dissipated_energy.abs()).fold(0.0, f64::max);
         assert!(lost < 1e-11, "{law}: {lost:e} J lost in one impact");

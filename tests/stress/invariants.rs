@@ -35,13 +35,14 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// The motion, how many contacts there were, and how much a relative change of the record by 1e-9 has grown; none
-/// where that changes the number of contacts: a graze, where the answer itself jumps.
+/// The motion, how many contacts there were, and how much relative changes of the masses by 1e-9, one up, one down, have
+/// grown; none where that changes the number of contacts: a graze, where the answer itself jumps.
 fn with_growth(case: &Case) -> Option<(Vec<f64>, u64, f64)> {
     let (plain, run) = motion(case);
     let nudge = 2.0_f64.powi(-30);
     let mut nudged = case.clone();
-    nudged.record.accelerations.iter_mut().for_each(|a| *a *= 1.0 + nudge);
+    let masses = nudged.scene.left.mass.iter_mut().chain(&mut nudged.scene.right.mass);
+    masses.enumerate().for_each(|(i, mass)| *mass *= if i % 2 == 0 { 1.0 + nudge } else { 1.0 - nudge });
     let (moved, nudged_run) = motion(&nudged);
     let growth = difference(&plain, &moved) / (nudge * largest(&plain));
     (run.point.impacts == nudged_run.point.impacts).then_some((plain, run.point.impacts, growth.max(1.0)))
@@ -121,6 +122,12 @@ impl Units {
 
 const SAME_UNITS: Units = Units { mass: 1.0, length: 1.0, time: 1.0 };
 
+/// Whether the number of contacts is more than a matter of rounding: rigid floors that touch without pressing are held
+/// together or not, and where several pairs share floors which of them presses is not determined.
+fn counts_are_certain(scene: &Scene) -> bool {
+    scene.contacts.iter().all(|pair| pair.law.kind.info().name != "stereomechanical" || pair.gap > 0.0)
+}
+
 /// Whether every power in the laws of a scene is one of square roots, which powers of two scale exactly.
 fn has_exact_powers(scene: &Scene) -> bool {
     scene.contacts.iter().all(|pair| {
@@ -155,7 +162,7 @@ proptest! {
         let turned: Vec<f64> =
             back.chunks(all).flat_map(|row| row[all - left..].iter().chain(&row[..all - left])).map(|u| -u).collect();
         assert_same(&plain, &turned, growth, "mirrored")?;
-        prop_assert_eq!(run.point.impacts, impacts);
+        prop_assert!(run.point.impacts == impacts || !counts_are_certain(&case.scene), "{} impacts", run.point.impacts);
     }
 
     #[test]
@@ -184,7 +191,7 @@ proptest! {
         turned.scene.contacts.reverse();
         let (other, run) = motion(&turned);
         assert_same(&plain, &other, growth, "reversed")?;
-        prop_assert_eq!(run.point.impacts, impacts);
+        prop_assert!(run.point.impacts == impacts || !counts_are_certain(&case.scene), "{} impacts", run.point.impacts);
     }
 
     #[test]
