@@ -1,58 +1,92 @@
-//! Runs a grid of scenes at the extremes of their parameters and prints a row for each.
+//! Runs that try to break the engine, one CSV row each; `benchmarks/extremes.py` runs this and draws.
 //!
 //! ```text
-//! cargo run --release --example extremes
+//! cargo run --release --example extremes -- grid [LAW ...]     # scenes at the extremes of their parameters
+//! cargo run --release --example extremes -- drift IMPACTS      # energy over so many elastic impacts, law by law
+//! cargo run --release --example extremes -- hour               # an hour of shaking at 100 Hz, in one step and in many
 //! ```
 
+#[path = "../tests/common/mod.rs"]
+mod common;
+#[path = "../tests/stress/elastic.rs"]
+#[allow(dead_code)]
+mod elastic;
 #[path = "../tests/stress/extremes.rs"]
 mod extremes;
+#[path = "../tests/stress/hour.rs"]
+#[allow(dead_code)]
+mod hour;
 
-use extremes::{Extreme, LAWS, ORDINARY, Outcome};
+use common::Run;
+use extremes::{Extreme, LAWS, Outcome, grid};
+use std::process::ExitCode;
+use std::time::Instant;
 
-fn decades(low: i32, high: i32, step: usize) -> Vec<f64> {
-    (low..=high).step_by(step).map(|e| 10.0_f64.powi(e)).collect()
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    match words.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+        ["grid", laws @ ..] => run_grid(laws),
+        ["drift", impacts] if impacts.parse::<f64>().is_ok() => drift(impacts.parse().unwrap_or_default()),
+        ["hour"] => run_hour(),
+        _ => {
+            eprintln!("usage: extremes grid [LAW ...] | drift IMPACTS | hour");
+            return ExitCode::from(2);
+        }
+    }
+    ExitCode::SUCCESS
 }
 
-fn main() {
-    println!("plane,law,x,y,outcome,residual,impacts,contact_steps,flight_steps,events,seconds,message");
-    for law in LAWS {
-        let base = Extreme { law, ..ORDINARY };
-        for x in decades(4, 14, 2) {
-            for y in decades(-6, 6, 3) {
-                row("mass", law, x, y, Extreme { stiffness: x, mass_ratio: y, ..base.clone() });
-            }
-            for y in [1e-12, 1e-9, 1e-6, 1e-3, 0.03, 0.3, 0.9, 0.999, 1.0] {
-                row("restitution", law, x, y, Extreme { stiffness: x, restitution: y, ..base.clone() });
-            }
-            for y in decades(-4, 10, 2) {
-                row("speed", law, x, y, Extreme { stiffness: x, speed: y, ..base.clone() });
-            }
-            for y in [-0.1, -1e-3, -1e-6, 0.0, 1e-6, 1e-3, 0.1] {
-                row("gap", law, x, y, Extreme { stiffness: x, gap: y, ..base.clone() });
-            }
-            for y in [0.0, 1e-4, 1e-2, 1.0, 100.0, 1e4] {
-                row("damping", law, x, y, Extreme { stiffness: x, damping: y, ..base.clone() });
-            }
-            for y in [1e-4, 1e-3, 1e-2, 1e-1] {
-                row("spacing", law, x, y, Extreme { stiffness: x, spacing: y, ..base.clone() });
-            }
-            for y in [1.0, 1.001, 1.3, 1.5, 1.7, 2.0, 3.0] {
-                row("exponent", law, x, y, Extreme { stiffness: x, exponent: y, ..base.clone() });
-            }
+fn run_grid(only: &[&str]) {
+    println!("plane,law,stiffness,value,outcome,residual,impacts,contact_steps,flight_steps,seconds,message");
+    for law in LAWS.into_iter().filter(|law| only.is_empty() || only.contains(law)) {
+        for (plane, value, extreme) in grid(law) {
+            print_row(plane, value, &extreme);
         }
     }
 }
 
-fn row(plane: &str, law: &str, x: f64, y: f64, extreme: Extreme) {
+fn print_row(plane: &str, value: f64, extreme: &Extreme) {
     let trial = extreme.run();
     let (outcome, residual, message) = match trial.outcome {
         Outcome::Refused(message) => ("refused", f64::NAN, message),
         Outcome::Stopped(_, message) => ("stopped", f64::NAN, message),
         Outcome::Ended(residual) => ("ended", residual, String::new()),
     };
-    let c = trial.counters;
+    let (counters, impacts) = (trial.counters, trial.impacts);
     println!(
-        "{plane},{law},{x:e},{y:e},{outcome},{residual:.2e},{},{},{},{},{:.2e},\"{}\"",
-        trial.impacts, c.contact_steps, c.flight_steps, c.events, trial.seconds, message.replace('\n', "; ").replace('"', "'")
+        "{plane},{},{:e},{value:e},{outcome},{residual:.2e},{impacts},{},{},{:.2e},\"{}\"",
+        extreme.law,
+        extreme.stiffness,
+        counters.contact_steps,
+        counters.flight_steps,
+        trial.seconds,
+        message.replace('\n', "; ").replace('"', "'")
     );
+}
+
+fn drift(most: f64) {
+    println!("law,impacts,drift");
+    for law in elastic::ELASTIC {
+        let mut run = Run::new(&elastic::rattle(law), None);
+        let (mut next, mut worst) = (10.0, 0.0_f64);
+        while (run.point.impacts as f64) < most {
+            run.to(run.state.time() + 0.1);
+            let error = (elastic::energy(&run) / 0.5 - 1.0).abs();
+            worst = worst.max(error);
+            if run.point.impacts as f64 >= next {
+                println!("{},{},{worst:e}", law.replace('\n', " ").replace('"', ""), run.point.impacts);
+                next *= 1.3;
+            }
+        }
+    }
+}
+
+fn run_hour() {
+    println!("law,impacts,residual,difference,seconds");
+    for law in hour::LAWS {
+        let clock = Instant::now();
+        let (impacts, residual, difference) = hour::run(law, 3600.0);
+        let seconds = clock.elapsed().as_secs_f64();
+        println!("{},{impacts},{residual:e},{difference:e},{seconds:.2}", law.replace('\n', " ").replace('"', ""));
+    }
 }

@@ -12,14 +12,15 @@ impl Model {
         self.convert(&mut state.base, Coordinates::Modes, &mut state.work.q);
         let State { base, step, inputs, counters, work, .. } = state;
         counters.flight_steps += 1;
-        let remaining = limit - base.elapsed;
+        self.load(base, inputs, &mut work.load, &mut work.slope);
+        let whole = limit - base.elapsed;
+        let remaining = self.accounted_flight(base, (&work.load, &work.slope), whole);
         step.kind = StepKind::Flight;
         step.length = remaining;
-        step.reaches_limit = true;
+        step.reaches_limit = remaining >= whole;
         step.event = None;
         step.carried.fill(None);
         step.ends.clear();
-        self.load(base, inputs, &mut work.load, &mut work.slope);
         self.fly(base, remaining, work, (&mut step.q, &mut step.v));
         if self.pairs.is_empty() {
             return;

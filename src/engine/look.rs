@@ -70,14 +70,7 @@ impl Model {
     }
 
     /// Ends the step at the entry that has been found in the series of a piece, or with that piece.
-    fn cut_flight(
-        &self,
-        base: &Base,
-        step: &mut Step,
-        work: &mut Workspace,
-        length: f64,
-        entry: Option<(f64, usize)>,
-    ) {
+    fn cut_flight(&self, base: &Base, step: &mut Step, work: &mut Workspace, length: f64, entry: Option<(f64, usize)>) {
         let x = entry.map_or(1.0, |(x, _)| x);
         if entry.is_some() || length < step.length {
             work.powers.set(x, work.series.order);
@@ -123,8 +116,7 @@ impl Model {
     /// Whether no pair meets in a piece, shown by both ends as for a whole flight; if so, the look has moved on.
     fn piece_stays_apart(&self, base: &Base, work: &mut Workspace, length: f64, segment: Option<u64>) -> bool {
         let Look { q, v, load, .. } = &work.look;
-        let deviation =
-            self.deviation_from_cubic((q, v), (load, &work.slope), length, &mut work.scratch);
+        let deviation = self.deviation_from_cubic((q, v), (load, &work.slope), length, &mut work.scratch);
         let is_free = |p: usize| segment.is_some_and(|segment| base.watch.is_free(p, segment));
         self.fly_look(base, work, length);
         let Look { q, v, end_q, end_v, .. } = &work.look;

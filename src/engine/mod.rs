@@ -28,6 +28,7 @@ mod roots;
 mod saved;
 mod state;
 mod swing;
+mod work_limit;
 
 pub use crate::structure::Side;
 pub use energy_rates::EnergyRates;

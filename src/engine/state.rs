@@ -248,7 +248,7 @@ pub struct Counters {
     pub contact_steps: u64,
     /// Contact forces that were expanded into a series: one for each such step and pair whose law acts in it.
     pub law_evaluations: u64,
-    /// Steps over which the terms of the energy account were integrated.
+    /// Steps, or pieces of flights, over which the terms of the energy account were integrated.
     pub energy_steps: u64,
     /// Entries, releases and branch changes.
     pub events: u64,

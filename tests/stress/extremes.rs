@@ -86,7 +86,11 @@ impl Extreme {
             )
         };
         let contact = |floor: u8| {
-            format!("[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = {:?}\n{}", self.gap, self.law_keys())
+            format!(
+                "[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = {:?}\n{}",
+                self.gap,
+                self.law_keys()
+            )
         };
         let [left, right] = [building("left", 1.0, self.speed), building("right", self.mass_ratio, 0.0)];
         let [low, high] = [1, 2].map(contact);
@@ -128,9 +132,9 @@ impl Extreme {
         trial
     }
 
-    fn run_untimed(&self) -> Trial {
-        let mut trial =
-            Trial { outcome: Outcome::Ended(0.0), impacts: 0, counters: Counters::default(), seconds: 0.0 };
+    /// The same; what it took is left at 0 s.
+    pub fn run_untimed(&self) -> Trial {
+        let mut trial = Trial { outcome: Outcome::Ended(0.0), impacts: 0, counters: Counters::default(), seconds: 0.0 };
         let record = self.record();
         let model = Scene::from_toml(&self.toml()).and_then(|mut scene| {
             scene.ground.record = Some("record.csv".into());
@@ -154,4 +158,36 @@ impl Extreme {
         };
         trial
     }
+}
+
+fn decades(low: i32, high: i32, step: usize) -> Vec<f64> {
+    (low..=high).step_by(step).map(|exponent| 10.0_f64.powi(exponent)).collect()
+}
+
+/// The grid of a law: the stiffness of the contact against each other parameter, as (which, its value, scene).
+pub fn grid(law: &'static str) -> Vec<(&'static str, f64, Extreme)> {
+    type Set = fn(&mut Extreme, f64);
+    let planes: [(&str, Vec<f64>, Set); 7] = [
+        ("mass_ratio", decades(-6, 6, 2), |extreme, value| extreme.mass_ratio = value),
+        ("restitution", vec![1e-12, 1e-9, 1e-6, 1e-3, 0.03, 0.3, 0.9, 0.999, 1.0], |extreme, value| {
+            extreme.restitution = value;
+        }),
+        ("speed", decades(-4, 10, 2), |extreme, value| extreme.speed = value),
+        ("gap", vec![-0.1, -1e-3, -1e-6, 0.0, 1e-6, 1e-3, 0.1], |extreme, value| extreme.gap = value),
+        ("damping", vec![0.0, 1e-4, 1e-2, 1.0, 100.0, 1e4], |extreme, value| extreme.damping = value),
+        ("spacing", vec![1e-4, 1e-3, 1e-2, 1e-1], |extreme, value| extreme.spacing = value),
+        ("exponent", vec![1.0, 1.001, 1.3, 1.5, 1.7, 2.0, 3.0], |extreme, value| extreme.exponent = value),
+    ];
+    let mut points = Vec::new();
+    for stiffness in decades(4, 14, 2) {
+        for (plane, values, set) in &planes {
+            let has_it = *plane != "exponent" || law.starts_with("hertz");
+            for &value in values.iter().filter(|_| has_it) {
+                let mut extreme = Extreme { law, stiffness, ..ORDINARY };
+                set(&mut extreme, value);
+                points.push((*plane, value, extreme));
+            }
+        }
+    }
+    points
 }

@@ -8,6 +8,7 @@ mod common;
 mod elastic;
 mod extremes;
 mod grid;
+mod hour;
 mod invariants;
 mod limits;
 mod pressed;

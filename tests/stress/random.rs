@@ -105,11 +105,8 @@ pub fn contact((left, right): (usize, usize), gap: f64, law: &str) -> String {
 pub fn case(most_storeys: usize) -> impl Strategy<Value = Case> {
     let laws = prop::collection::vec((law(), prop_oneof![Just(0.0), 1e-4..2e-2_f64]), 9);
     ([frame(most_storeys), frame(most_storeys)], laws, any::<bool>()).prop_map(|(frames, laws, across)| {
-        let mut text = format!(
-            "name = \"Any\"\n{}{}[outputs]\nenergy = true\n",
-            frames[0].toml("left"),
-            frames[1].toml("right")
-        );
+        let mut text =
+            format!("name = \"Any\"\n{}{}[outputs]\nenergy = true\n", frames[0].toml("left"), frames[1].toml("right"));
         let (left, right) = (frames[0].storeys.len(), frames[1].storeys.len());
         let mut pairs: Vec<(usize, usize)> = (1..=left.min(right)).map(|floor| (floor, floor)).collect();
         // Two pairs of one floor.
