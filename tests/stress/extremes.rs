@@ -124,12 +124,17 @@ impl Extreme {
         Record { times, accelerations }
     }
 
-    /// Runs it in one communication step.
+    /// Runs it in one communication step, and again twice where that is quick: the time is the least.
     pub fn run(&self) -> Trial {
-        let clock = Instant::now();
-        let mut trial = self.run_untimed();
-        trial.seconds = clock.elapsed().as_secs_f64();
-        trial
+        let timed = || {
+            let clock = Instant::now();
+            let trial = self.run_untimed();
+            Trial { seconds: clock.elapsed().as_secs_f64(), ..trial }
+        };
+        let first = timed();
+        let again = if first.seconds < 0.1 { 2 } else { 0 };
+        let least = (0..again).map(|_| timed().seconds).fold(first.seconds, f64::min);
+        Trial { seconds: least, ..first }
     }
 
     /// The same; what it took is left at 0 s.
