@@ -16,6 +16,7 @@ import machine
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "docs/stability"
+PAGE = ROOT / "docs/stability.md"
 IMAGES = ROOT / "docs/images"
 # s; a run that is given up by the engine takes ten, and there are few of them.
 TOO_LONG = 3600
@@ -35,11 +36,13 @@ def main():
         measure(program, ["drift", "300" if options.quick else "100000"], results / "drift.csv")
         if not options.quick:
             measure(program, ["hour"], results / "hour.csv")
-            machine.write(results / "machine.txt", {}, [])
+            (results / "machine.txt").write_text(f"{machine.processor()}\n{machine.first_line(['rustc', '--version'])}\n")
     grid = read(results / "grid.csv")
     extremes_map.draw(grid, images / "extremes.png")
     extremes_map.draw_drift(read(results / "drift.csv"), images / "energy_drift.png")
-    (results / "summary.md").write_text(summary(grid))
+    if not options.quick:
+        renew("grid", summary(grid))
+        renew("hour", hour(read(results / "hour.csv")))
     print(f"results: {results.relative_to(ROOT)}, pictures: {images.relative_to(ROOT)}")
 
 
@@ -77,6 +80,22 @@ def summary(grid):
             f"{len(count['stopped'])} | {1e3 * times[len(times) // 2]:.2g} | {times[-1]:.1f} |"
         )
     return "\n".join(lines) + "\n"
+
+
+def hour(rows):
+    lines = ["| law | contacts | largest residual | difference, m | time of both runs, s |", "|---|---|---|---|---|"]
+    for row in rows:
+        law = row["law"].split()[2]
+        figures = [f"{float(row[name]):.0e}" for name in ("residual", "difference")]
+        lines.append(f"| `{law}` | {row['impacts']} | {' | '.join(figures)} | {float(row['seconds']):.1f} |")
+    return "\n".join(lines) + "\n"
+
+
+def renew(name, table):
+    """Puts a table between its marks in the page."""
+    before, rest = PAGE.read_text().split(f"<!-- {name} -->\n")
+    after = rest.split(f"<!-- end of {name} -->\n")[1]
+    PAGE.write_text(f"{before}<!-- {name} -->\n{table}<!-- end of {name} -->\n{after}")
 
 
 if __name__ == "__main__":

@@ -4,7 +4,6 @@
 use pounding::engine::{Counters, Model, Point};
 use pounding::record::Record;
 use pounding::scene::Scene;
-use std::time::Instant;
 
 /// s, of each run.
 pub const DURATION: f64 = 2.0;
@@ -60,8 +59,8 @@ pub const LAWS: [&str; 8] = [
 pub enum Outcome {
     /// The scene is not accepted.
     Refused(String),
-    /// The engine gave up at a time, s.
-    Stopped(f64, String),
+    /// The engine gave up.
+    Stopped(String),
     /// It went to the end, with this residual of the energy account.
     Ended(f64),
 }
@@ -72,7 +71,6 @@ pub struct Trial {
     pub outcome: Outcome,
     pub impacts: u64,
     pub counters: Counters,
-    pub seconds: f64,
 }
 
 impl Extreme {
@@ -124,22 +122,9 @@ impl Extreme {
         Record { times, accelerations }
     }
 
-    /// Runs it in one communication step, and again twice where that is quick: the time is the least.
+    /// Runs it in one communication step.
     pub fn run(&self) -> Trial {
-        let timed = || {
-            let clock = Instant::now();
-            let trial = self.run_untimed();
-            Trial { seconds: clock.elapsed().as_secs_f64(), ..trial }
-        };
-        let first = timed();
-        let again = if first.seconds < 0.1 { 2 } else { 0 };
-        let least = (0..again).map(|_| timed().seconds).fold(first.seconds, f64::min);
-        Trial { seconds: least, ..first }
-    }
-
-    /// The same; what it took is left at 0 s.
-    pub fn run_untimed(&self) -> Trial {
-        let mut trial = Trial { outcome: Outcome::Ended(0.0), impacts: 0, counters: Counters::default(), seconds: 0.0 };
+        let mut trial = Trial { outcome: Outcome::Ended(0.0), impacts: 0, counters: Counters::default() };
         let record = self.record();
         let model = Scene::from_toml(&self.toml()).and_then(|mut scene| {
             scene.ground.record = Some("record.csv".into());
@@ -159,7 +144,7 @@ impl Extreme {
         (trial.counters, trial.impacts) = (state.counters(), point.impacts);
         trial.outcome = match end {
             Ok(()) => Outcome::Ended(point.energy.map_or(f64::NAN, |energy| energy.residual)),
-            Err(error) => Outcome::Stopped(state.time(), error.to_string()),
+            Err(error) => Outcome::Stopped(error.to_string()),
         };
         trial
     }

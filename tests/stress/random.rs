@@ -5,9 +5,6 @@ use pounding::record::Record;
 use pounding::scene::Scene;
 use proptest::prelude::*;
 
-/// s.
-pub const DURATION: f64 = 2.0;
-
 /// A scene with its record, and what it reads like.
 #[derive(Clone)]
 pub struct Case {
