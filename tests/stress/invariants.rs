@@ -10,6 +10,7 @@ use pounding::engine::Side;
 use pounding::record::Record;
 use pounding::scene::{Scaling, Scene, Stiffness};
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 /// m, of all floors (left ones first) at 40 times.
 fn motion(case: &Case) -> (Vec<f64>, Run) {
@@ -143,8 +144,18 @@ fn has_exact_powers(scene: &Scene) -> bool {
     })
 }
 
+/// The same scenes each time, unless PROPTEST_RNG_SEED asks for others.
+fn config() -> ProptestConfig {
+    let default = ProptestConfig::default();
+    let rng_seed = match default.rng_seed {
+        RngSeed::Random => RngSeed::Fixed(1),
+        chosen => chosen,
+    };
+    ProptestConfig { cases: 48, max_shrink_iters: 50, rng_seed, ..default }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, max_shrink_iters: 50, ..ProptestConfig::default() })]
+    #![proptest_config(config())]
 
     #[test]
     fn the_energy_account_closes_and_nothing_pulls(case in case(4)) {
