@@ -3,24 +3,11 @@
 use super::ground::Segment;
 use super::model::Model;
 use super::state::*;
+use super::work_limit::Progress;
 use super::{EngineError, Episode, roots};
 use crate::contact::EpisodeForce;
 use crate::polynomial::{Coefficients, Powers};
 use crate::structure::LANES;
-
-/// Steps that may follow each other without any time passing.
-const MOST_STEPS_AT_ONCE: u32 = 100_000;
-
-/// Internal steps that one communication step may take: some ten seconds of work. A whole earthquake takes thousands.
-const MOST_STEPS: u64 = 10_000_000;
-
-/// What one communication step has taken so far.
-#[derive(Default)]
-struct Progress {
-    steps: u64,
-    /// Steps in a row without any time passing.
-    stalled: u32,
-}
 
 impl Model {
     /// Brings the state to a time, s, and reports each episode when it ends.
@@ -42,16 +29,12 @@ impl Model {
         if self.is_driven() {
             state.step.kind = StepKind::Unknown;
         }
-        if let Some(ground) = &self.ground
-            && ground.segments_after(state.time, until) > MOST_STEPS as f64
-        {
-            return Err(self.too_many_steps(&state.base));
-        }
-        let mut progress = Progress::default();
+        self.check_segments(state, until)?;
+        let mut progress = Progress::begin(state);
         loop {
-            let flown = self.glide(state, until, MOST_STEPS - progress.steps);
-            if flown > 0 {
-                progress = Progress { steps: progress.steps + flown, stalled: 0 };
+            let most = self.flights_left(&state.counters, &progress);
+            if self.glide(state, until, most) > 0 {
+                progress.note(true);
             }
             let segment = &state.base.segment;
             let limit = self.limit(segment, until);
@@ -62,10 +45,10 @@ impl Model {
                 if until - segment.start < end {
                     break;
                 }
-                progress.steps += 1;
-                progress.stalled = if end > state.base.elapsed { 0 } else { progress.stalled + 1 };
+                progress.note(end > state.base.elapsed);
                 self.take(state, end, on_episode);
-                self.check(state, &progress)?;
+                self.check_numbers(state)?;
+                self.check_progress(state, &progress)?;
             }
             if state.base.elapsed >= state.base.segment.length {
                 let Some(ground) = &self.ground else { break };
@@ -219,27 +202,10 @@ impl Model {
         }
     }
 
-    /// Nothing may run for ever or on without numbers.
-    fn check(&self, state: &State, progress: &Progress) -> Result<(), EngineError> {
+    /// Nothing may run on without numbers.
+    fn check_numbers(&self, state: &State) -> Result<(), EngineError> {
         let base = &state.base;
         let time = base.time();
-        let Progress { steps, stalled } = *progress;
-        if steps > MOST_STEPS {
-            return Err(self.too_many_steps(base));
-        }
-        if stalled > MOST_STEPS_AT_ONCE {
-            let open: Vec<String> = (base.contacts.iter().enumerate())
-                .filter(|(_, contact)| contact.in_contact())
-                .map(|(p, _)| format!("contact[{}]", p + 1))
-                .collect();
-            return Err(EngineError {
-                message: format!(
-                    "no progress at t = {time} s after {stalled} steps in a row, in contact: {}; \
-                     a softer contact stiffness or a larger solver.relative_tolerance would help",
-                    if open.is_empty() { "none".into() } else { open.join(", ") }
-                ),
-            });
-        }
         // A sum is finite only if all of its terms are.
         let contacts: f64 =
             base.contacts.iter().map(|contact| contact.impulse + contact.work + contact.peak_force).sum();
@@ -253,19 +219,6 @@ impl Model {
                  check the units of masses, stiffnesses and ground acceleration"
             ),
         })
-    }
-
-    #[cold]
-    fn too_many_steps(&self, base: &Base) -> EngineError {
-        let time = base.time();
-        EngineError {
-            message: format!(
-                "more than {MOST_STEPS} internal steps in one communication step, at t = {time} s, with {} impacts so \
-                 far; the fastest rate of the buildings is {:e} 1/s: check stiffnesses, masses and damping, lower \
-                 restitutions of floors that rebound for ever, or take smaller communication steps",
-                base.impacts, self.structure.fastest
-            ),
-        }
     }
 }
 

@@ -16,8 +16,8 @@ pub(super) struct ClosedPairs {
     readings: Vec<BlockReading>,
     /// Whether a pair of the block has just entered: where its floors move alike, its penetration is rounding.
     at_surface: Vec<bool>,
-    /// Whether any two pairs share a floor, so that each feels the other's force at once.
-    shares_floors: bool,
+    /// Of each pair the earlier ones with which it shares a floor, so that each feels the other's force at once.
+    neighbours: Vec<Vec<usize>>,
     /// Whether the penetrations have to wait for all forces.
     waits: bool,
     used: usize,
@@ -57,7 +57,7 @@ impl ClosedPairs {
             members: vec![[Member::default(); PAIRS]; most],
             readings: vec![BlockReading::default(); most],
             at_surface: vec![false; most],
-            shares_floors: all.iter().enumerate().any(|(p, a)| all[..p].iter().any(|b| shares(a, b))),
+            neighbours: (0..pairs).map(|p| (0..p).filter(|&q| shares(&all[p], &all[q])).collect()).collect(),
             waits: false,
             used: 0,
             places: vec![(0, 0); pairs],
@@ -67,8 +67,9 @@ impl ClosedPairs {
     /// Starts the series of all pairs in contact that are not held together; `scale` is the unit of time.
     pub fn start(&mut self, base: &Base, pairs: &[Pair], scale: f64) {
         self.used = 0;
-        self.waits = self.shares_floors;
-        for (p, contact) in base.contacts.iter().enumerate().filter(|(_, c)| c.in_contact() && !c.is_held()) {
+        self.waits = false;
+        let is_closed = |contact: &Contact| contact.in_contact() && !contact.is_held();
+        for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| is_closed(contact)) {
             let force = contact.starting_force();
             let b = self.block_for(Kind::of(&force));
             let lane = self.blocks[b].add(&force, scale, contact.penetration, contact.rate * scale);
@@ -78,7 +79,7 @@ impl ClosedPairs {
             let inverse_masses = [-left, right];
             self.members[b][lane] = Member { pair: p, floors, inverse_masses, softness: left + right, row };
             self.at_surface[b] |= contact.at_surface;
-            self.waits |= contact.at_surface;
+            self.waits |= contact.at_surface || self.neighbours[p].iter().any(|&q| is_closed(&base.contacts[q]));
         }
     }
 

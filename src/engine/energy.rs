@@ -9,6 +9,15 @@ use super::{EnergyPoint, Point};
 use crate::quadrature::{EIGHT, Rule, TWELVE, gauss, graded};
 use crate::structure::{MotionSeries, dot, flight_order};
 
+/// (Fastest rate) x (time) of a piece of a flight.
+const REACH: f64 = 1.5;
+
+/// Pieces of one flight: what is longer takes several, or none.
+const MOST_PIECES: f64 = 10_000.0;
+
+/// Share of the largest energy so far below which a motion has nothing to lose any more.
+const QUIET: f64 = 1e-20;
+
 /// Work over a stretch of time, J.
 #[derive(Clone, Copy, Debug, Default)]
 struct Work {
@@ -41,7 +50,10 @@ impl Model {
         if base.energy.is_none() {
             return;
         }
-        counters.energy_steps += 1;
+        counters.energy_steps += match step.kind {
+            StepKind::Flight => self.pieces(length).min(MOST_PIECES as u64),
+            _ => 1,
+        };
         let done = self.work_over(base, step, inputs, work, length);
         let impact: f64 = base.contacts.iter().map(Contact::dissipated_energy).sum();
         let (kinetic, strain) = self.structure_energies(base.coordinates, &base.q, &base.v);
@@ -102,15 +114,59 @@ impl Model {
         }
     }
 
+    /// Pieces of a flight of that length, s, each of which a series reaches.
+    fn pieces(&self, length: f64) -> u64 {
+        (self.structure.fastest * length / REACH).ceil().max(1.0) as u64
+    }
+
+    /// What a flight from the base over `length` seconds, under a load and its slope, is shortened to for the account:
+    /// some thousand pieces, unless nothing is left to integrate.
+    pub(super) fn accounted_flight(&self, base: &Base, loads: (&[f64], &[f64]), length: f64) -> f64 {
+        let most = self.longest_pieces();
+        match &base.energy {
+            Some(account) if length > most && !self.is_quiet(base, loads, account.largest) => most,
+            _ => length,
+        }
+    }
+
+    /// s.
+    fn longest_pieces(&self) -> f64 {
+        MOST_PIECES * REACH / self.structure.fastest
+    }
+
+    /// Whether damping takes nothing from now on: there is none, or the motion about where the load holds the buildings
+    /// has died out.
+    fn is_quiet(&self, base: &Base, (load, slope): (&[f64], &[f64]), largest: f64) -> bool {
+        if slope.iter().any(|slope| *slope != 0.0) {
+            return false;
+        }
+        let (w2, damping) = (&self.structure.omega2, &self.structure.damping);
+        let held = |m: usize| if w2[m] > 0.0 { load[m] / w2[m] } else { base.q[m] };
+        let swing = |m: usize| w2[m] * (base.q[m] - held(m)) * (base.q[m] - held(m)) + base.v[m] * base.v[m];
+        let moving: f64 = (0..damping.len()).filter(|m| damping[*m] > 0.0).map(swing).sum();
+        moving <= QUIET * largest && self.structure.is_classical() || moving == 0.0
+    }
+
+    /// A flight of any length in which damping takes nothing, under a load that is held.
+    fn integrate_quiet_flight(&self, base: &Base, work: &mut Workspace, length: f64, done: &mut Work) {
+        let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
+        self.fly(base, length, work, (&mut q, &mut v));
+        let moved = dot(&self.structure.participation, &q) - dot(&self.structure.participation, &base.q);
+        done.input -= base.segment.acceleration_at(base.elapsed) * moved;
+        (work.q, work.v) = (q, v);
+    }
+
     /// Flies in pieces that a series reaches; leaves the end in `work.q`, `work.v`.
     fn integrate_flight(&self, base: &Base, inputs: &Inputs, work: &mut Workspace, length: f64, done: &mut Work) {
-        const REACH: f64 = 1.5;
         // The account needs fewer digits than the motion, which it does not feed back into.
         const REMAINDER: f64 = 1e-16;
-        let pieces = (self.structure.fastest * length / REACH).ceil().max(1.0) as u64;
+        let pieces = self.pieces(length);
         let h = length / pieces as f64;
         let order = flight_order(self.structure.fastest * h, REMAINDER).unwrap_or(crate::polynomial::MAX_ORDER);
         self.load(base, inputs, &mut work.load, &mut work.slope);
+        if length > self.longest_pieces() {
+            return self.integrate_quiet_flight(base, work, length, done);
+        }
         work.q.copy_from_slice(&base.q);
         work.v.copy_from_slice(&base.v);
         let mut series = std::mem::take(&mut work.series);

@@ -1,10 +1,10 @@
 //! Flight: both buildings swing by themselves, exactly, until the segment ends or two floors meet.
 
 use super::ground::GroundMotion;
+use super::look::highest_of_cubic;
 use super::model::Model;
-use super::roots;
 use super::state::*;
-use crate::structure::{EXACT, flight_order, fly_in_one_series};
+use crate::structure::{EXACT, Scratch, flight_order, fly_in_one_series};
 
 impl Model {
     /// Works out the flight from the base until `limit` (s since the segment's start) or the first entry.
@@ -12,14 +12,15 @@ impl Model {
         self.convert(&mut state.base, Coordinates::Modes, &mut state.work.q);
         let State { base, step, inputs, counters, work, .. } = state;
         counters.flight_steps += 1;
-        let remaining = limit - base.elapsed;
+        self.load(base, inputs, &mut work.load, &mut work.slope);
+        let whole = limit - base.elapsed;
+        let remaining = self.accounted_flight(base, (&work.load, &work.slope), whole);
         step.kind = StepKind::Flight;
         step.length = remaining;
-        step.reaches_limit = true;
+        step.reaches_limit = remaining >= whole;
         step.event = None;
         step.carried.fill(None);
         step.ends.clear();
-        self.load(base, inputs, &mut work.load, &mut work.slope);
         self.fly(base, remaining, work, (&mut step.q, &mut step.v));
         if self.pairs.is_empty() {
             return;
@@ -33,7 +34,10 @@ impl Model {
             step.ends.resize(self.pairs.len(), None);
         } else if !self.certify(base, step, counters, work, segment) {
             step.ends.clear();
-            self.look_closer(base, step, counters, work, segment);
+            let loads = (&work.load[..], &work.slope[..]);
+            if !self.swings_stay_apart((&base.q, &base.v), loads, remaining) {
+                self.look_closer(base, step, counters, work, segment);
+            }
         }
     }
 
@@ -55,15 +59,8 @@ impl Model {
         segment: Option<u64>,
     ) -> bool {
         let h = step.length;
-        // Largest that |d''''| of any pair can be; each penetration stays this close to its cubic interpolant.
-        let (load, slope) = (&work.load, &work.slope);
-        let bound = self.structure.fourth_derivative_bound(
-            (&base.q, &base.v),
-            (load, slope),
-            &self.pair_weight,
-            &mut work.scratch,
-        );
-        let deviation = (h * h) * (h * h) / 384.0 * bound;
+        let loads = (&work.load[..], &work.slope[..]);
+        let deviation = self.deviation_from_cubic((&base.q, &base.v), loads, h, &mut work.scratch);
         self.pairs.iter().zip(&base.contacts).enumerate().all(|(p, (pair, contact))| {
             if segment.is_some_and(|segment| base.watch.is_free(p, segment)) {
                 step.ends.push(None);
@@ -72,11 +69,20 @@ impl Model {
             counters.pairs_evaluated += 1;
             let (end, end_rate) = pair.penetration(&step.q, &step.v);
             step.ends.push(Some((end, end_rate)));
-            let start = contact.flight_start();
-            let near_start = start + h / 3.0 * contact.rate;
-            let near_end = end - h / 3.0 * end_rate;
-            start.max(near_start).max(near_end).max(end) + deviation < 0.0
+            highest_of_cubic((contact.flight_start(), contact.rate), (end, end_rate), h) + deviation < 0.0
         })
+    }
+
+    /// How far any penetration can be from its cubic interpolant over the `h` seconds that follow a modal motion: by the
+    /// largest that any |d''''| can be.
+    pub(super) fn deviation_from_cubic(
+        &self,
+        motion: (&[f64], &[f64]),
+        loads: (&[f64], &[f64]),
+        h: f64,
+        scratch: &mut Scratch,
+    ) -> f64 {
+        (h * h) * (h * h) / 384.0 * self.structure.fourth_derivative_bound(motion, loads, &self.pair_weight, scratch)
     }
 
     /// Flies q, v of the base over `h` under `work.load` and `work.slope`.
@@ -99,52 +105,6 @@ impl Model {
             interval
         });
         interval.fly((&base.q, &base.v), (load, slope), (q, v), scratch);
-    }
-
-    /// Finds the first entry in the flight, from the power series of the penetrations. A flight too long for one
-    /// series is shortened to what one series reaches.
-    fn look_closer(
-        &self,
-        base: &Base,
-        step: &mut Step,
-        counters: &mut Counters,
-        work: &mut Workspace,
-        segment: Option<u64>,
-    ) {
-        let remaining = step.length;
-        const REACH: f64 = 1.5;
-        counters.closer_looks += 1;
-        let fastest = self.structure.fastest;
-        let mut h = if fastest * remaining > REACH { REACH / fastest } else { remaining };
-        if base.contacts.iter().any(|contact| contact.carried) {
-            self.structure.accelerate(&base.q, &base.v, &work.load, &mut work.q);
-            h = h.min(self.bounce_horizon(base, &work.q));
-        }
-        let order = flight_order(fastest * h, EXACT).unwrap_or(crate::polynomial::MAX_ORDER);
-        let (load, slope) = (&work.load, &work.slope);
-        work.series.expand_flight(&self.structure, (&base.q, &base.v), (load, slope), (h, order));
-        let mut first: Option<(f64, usize)> = None;
-        for (p, (pair, contact)) in self.pairs.iter().zip(&base.contacts).enumerate() {
-            if segment.is_some_and(|segment| base.watch.is_free(p, segment)) {
-                continue;
-            }
-            let penetration = &mut work.scalar[..=work.series.order];
-            let noise = pair.noise(self.project(p, Coordinates::Modes, &work.series, 1.0, penetration));
-            let noise = contact.begin_flight(penetration, h, noise);
-            let end = first.map_or(1.0, |(x, _)| x);
-            if let Some(x) = roots::first_rise(penetration, end, noise) {
-                first = Some((x, p));
-            }
-        }
-        let x = first.map_or(1.0, |(x, _)| x);
-        if first.is_some() || h < remaining {
-            work.powers.set(x, work.series.order);
-            work.series.evaluate(&work.powers, &mut step.q, &mut step.v);
-            step.length = x * h;
-            step.reaches_limit = false;
-            step.event = first.map(|(_, p)| Event::Entry(p));
-        }
-        self.carry(base, &work.series, x, &mut work.scalar, &mut step.carried);
     }
 }
 

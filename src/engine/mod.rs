@@ -57,6 +57,7 @@ mod frequencies;
 mod glide;
 mod ground;
 mod input;
+mod look;
 mod model;
 mod observe;
 mod onset_step;
@@ -65,6 +66,8 @@ mod rigid;
 mod roots;
 mod saved;
 mod state;
+mod swing;
+mod work_limit;
 
 pub use crate::structure::Side;
 pub use energy_rates::EnergyRates;

@@ -8,6 +8,7 @@ use super::input::LinearInput;
 use super::onset_step::OnsetSeries;
 use super::rigid::RigidPairs;
 use super::state::*;
+use super::work_limit::MOST_WORK;
 use super::{Episode, contact_step};
 use crate::contact::{EpisodeForce, ImpactLaw};
 use crate::polynomial::{MAX_ORDER, Powers, ROOM};
@@ -42,6 +43,8 @@ pub struct Model {
     pub(super) closing: ClosingSpeeds,
     pub(super) frequencies: [Vec<f64>; 2],
     initial: [Vec<f64>; 2],
+    /// What one communication step may take.
+    pub(super) most_work: f64,
 }
 
 /// Two facing floors.
@@ -102,6 +105,7 @@ impl Model {
             ground,
             step_tolerance,
             order,
+            most_work: MOST_WORK,
         })
     }
 

@@ -6,6 +6,7 @@ use super::dismissal::Watch;
 use super::drift::PeakDrifts;
 use super::ground::Segment;
 use super::input::LinearInput;
+use super::look::Look;
 use super::onset_step::OnsetSeries;
 use super::{Episode, Side};
 use crate::contact::{EpisodeForce, Force};
@@ -244,7 +245,7 @@ pub(super) enum Event {
 pub struct Counters {
     /// Internal flight steps.
     pub flight_steps: u64,
-    /// Flights that were expanded into a series to look for a contact.
+    /// Pieces of flights that were expanded into a series, or tried without one, to look for a contact.
     pub closer_looks: u64,
     /// Flights for which no pair had to be looked at: none can close that fast.
     pub flights_dismissed: u64,
@@ -254,7 +255,7 @@ pub struct Counters {
     pub contact_steps: u64,
     /// Contact forces that were expanded into a series: one for each such step and pair whose law acts in it.
     pub law_evaluations: u64,
-    /// Steps over which the terms of the energy account were integrated.
+    /// Steps, or pieces of flights, over which the terms of the energy account were integrated.
     pub energy_steps: u64,
     /// Entries, releases and branch changes.
     pub events: u64,
@@ -278,6 +279,7 @@ pub(super) struct Workspace {
     pub scalar: Coefficients,
     pub powers: Powers,
     pub rigid: Complementarity,
+    pub look: Look,
 }
 
 impl Workspace {
@@ -299,6 +301,7 @@ impl Workspace {
             scalar: [0.0; ROOM],
             powers: Powers::default(),
             rigid: Complementarity::new(rigid),
+            look: Look::new(lanes),
         }
     }
 }

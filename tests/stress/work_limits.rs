@@ -1,0 +1,171 @@
+//! Limits of work: whatever a scene asks for, a communication step ends after a bounded amount of work, and what it says
+//! then names the key to change. And what need not be worked for is not.
+
+use crate::common::{Run, assert_close, scene};
+use pounding::engine::Side;
+use pounding::scene::Scene;
+use std::time::Instant;
+
+/// Two masses of 1 t, at the top of springs of that stiffness, with forces on their floors.
+fn masses(stiffness: f64, damping: f64, speed: f64, gap: f64, law: &str) -> Scene {
+    let building = |speed: f64| {
+        format!(
+            "mass = [1.0e3]\nstiffness = [{stiffness:?}]\ndamping = {{ ratio = {damping:?} }}
+            initial_velocity = [{speed:?}]\n"
+        )
+    };
+    scene(&format!(
+        "name = \"Work\"\n[left]\n{}[right]\n{}[inputs]\nfloor_forces = true\n[outputs]\nenergy = true
+        [[contact]]\nleft_floor = 1\nright_floor = 1\ngap = {gap:?}\n{law}",
+        building(speed),
+        building(0.0)
+    ))
+}
+
+fn press(run: &mut Run, force: f64) {
+    run.state.set_floor_force(Side::Left, 0, force);
+    run.state.set_floor_force(Side::Right, 0, -force);
+}
+
+/// The message with which a step to `until` is given up after a tenth of a second of work.
+fn message(scene: &Scene, force: f64, until: f64) -> String {
+    let mut run = Run::new(scene, None);
+    run.model.limit_work(0.1);
+    press(&mut run, force);
+    let clock = Instant::now();
+    let given_up = run.model.advance(&mut run.state, until, &mut |_| ());
+    // The limit counts work, which a busy machine in a debug build does more slowly than it says: by much less than this.
+    assert!(clock.elapsed().as_secs_f64() < 20.0, "{:?}", clock.elapsed());
+    given_up.expect_err("more than a tenth of a second of work").message
+}
+
+#[track_caller]
+fn assert_names(message: &str, names: &[&str]) {
+    for name in names {
+        assert!(message.contains(name), "no word of {name}: {message}");
+    }
+}
+
+#[test]
+fn a_stiff_dashpot_is_named_with_its_restitution() {
+    // xi of eq. 8 is 0.6 / e: with e = 1e-12 the contact creeps for an age at rates of 1e12 1/s.
+    let law = "law = \"jankowski\"\nstiffness = 1.0e9\nrestitution = 1.0e-12";
+    let message = message(&masses(1e-20, 0.0, 0.5, 0.01, law), 1e3, 1.0);
+    assert_names(&message, &["contact[1].restitution (now 1e-12)", "damping", "smaller communication steps"]);
+}
+
+#[test]
+fn a_floor_on_the_approach_velocity_that_is_too_low_is_named() {
+    let law = "law = \"hertz_damped\"\nstiffness = 1.0e9\nrestitution = 0.1\ndamping_formula = \"ye\"";
+    let scene = masses(1e-20, 0.0, 0.0, 0.0, &format!("{law}\n[solver]\nmin_approach_velocity = 1.0e-14"));
+    assert_names(&message(&scene, 1e3, 10.0), &["solver.min_approach_velocity (now 1e-14)", "contact[1].restitution"]);
+}
+
+#[test]
+fn a_stiff_spring_that_is_pressed_for_long_is_named() {
+    // 4e5 rad/s for 1e5 s.
+    let message = message(&masses(1e-20, 0.0, 0.0, -1e-6, "law = \"linear\"\nstiffness = 1.0e14"), 1e9, 1e5);
+    assert_names(&message, &["contact[1].stiffness (now 1e14)", "spring"]);
+}
+
+#[test]
+fn floors_that_rebound_for_ever_are_named_with_their_restitution() {
+    // Pressed together at 1 m/s2 each and elastic: thrown apart at 1 um/s they meet again after a microsecond, for ever.
+    let law = "law = \"stereomechanical\"\nrestitution = 1.0";
+    let message = message(&masses(1e-20, 0.0, 1e-6, 0.0, law), 1e3, 1e3);
+    assert_names(&message, &["contact[1].restitution (now 1e0)", "impacts"]);
+    let springs = "law = \"linear\"\nstiffness = 1.0e14";
+    let message = self::message(&masses(1e-20, 0.0, 1e-6, 0.0, springs), 1e3, 1e6);
+    assert_names(&message, &["contact[1]"]);
+}
+
+#[test]
+fn a_building_that_is_too_stiff_or_damped_is_named() {
+    let law = "law = \"linear\"\nstiffness = 1.0e6";
+    let stiff = message(&masses(1e18, 0.0, 0.0, -1e-3, law), 1e3, 1e3);
+    assert_names(&stiff, &["left.stiffness", "left.mass"]);
+    let damped = message(&masses(1e6, 1e8, 0.0, -1e-3, law), 1e3, 1e3);
+    assert_names(&damped, &["left.damping"]);
+}
+
+/// The account of a motion under a load that changes is integrated at the pace of the fastest mode: for twelve days that
+/// is too much, and what costs it is said.
+#[test]
+fn an_energy_account_that_takes_too_long_is_named() {
+    let mut run = Run::new(&masses(1e6, 0.02, 0.0, 1.0, "law = \"linear\"\nstiffness = 1.0e6"), None);
+    run.model.limit_work(0.1);
+    run.state.set_floor_force_rate(Side::Left, 0, 1e-2);
+    let given_up = run.model.advance(&mut run.state, 1e6, &mut |_| ()).expect_err("an account of 3e7 pieces");
+    assert_names(&given_up.message, &["outputs.energy", "left.stiffness"]);
+}
+
+#[test]
+fn absurd_inputs_end_too() {
+    for law in ["law = \"linear\"\nstiffness = 1.0e9", "law = \"hertz\"\nstiffness = 1.0e9"] {
+        for acceleration in [1e10, 1e20, 1e100, 1e200, 1e300] {
+            let mut scene = masses(1e6, 0.02, 0.0, 0.01, law);
+            scene.left.mass[0] = 2e3;
+            let mut run = Run::new(&scene, None);
+            run.model.limit_work(0.1);
+            let clock = Instant::now();
+            for k in 1..=20 {
+                run.state.set_ground_acceleration(acceleration);
+                let end = run.model.advance(&mut run.state, 0.1 * f64::from(k), &mut |_| ());
+                if let Err(error) = end {
+                    let known = ["double precision", "contact[1]", "communication steps"];
+                    assert!(known.iter().any(|words| error.message.contains(words)), "{acceleration:e}: {error}");
+                    break;
+                }
+            }
+            assert!(clock.elapsed().as_secs_f64() < 20.0, "{law}, {acceleration:e}: {:?}", clock.elapsed());
+        }
+    }
+}
+
+/// A hundred thousand rebounds in one step, thrown up at 1 mm/s against 2 m/s2: one each millisecond, none lost.
+#[test]
+fn a_hundred_thousand_rebounds_in_one_step_are_counted() {
+    let law = "law = \"stereomechanical\"\nrestitution = 1.0";
+    let mut run = Run::new(&masses(1e-20, 0.0, 1e-3, 0.0, law), None);
+    press(&mut run, 1e3);
+    run.to(100.000_5);
+    assert_eq!(run.point.impacts, 100_001);
+    let last = run.episodes.last().unwrap();
+    assert_close(last.approach_velocity, 1e-3, 1e-9, "as fast as the first");
+    // A rounding error, 2e-16, for each.
+    assert!(run.point.energy.unwrap().residual.abs() < 2e-11, "{:?}", run.point.energy);
+}
+
+/// A step of twelve days: what has died out, or never reaches the other floor, costs nothing.
+#[test]
+fn quiet_time_costs_nothing_however_long() {
+    let law = "law = \"hertz\"\nstiffness = 1.0e9";
+    // Damped: some contacts, then rest at what the force holds.
+    let mut damped = Run::new(&masses(1e6, 0.02, 2.0, 0.01, law), None);
+    damped.state.set_floor_force(Side::Left, 0, 2e3);
+    damped.to(1e6);
+    assert!(damped.point.impacts > 3, "{}", damped.point.impacts);
+    assert_close(damped.displacement(Side::Left, 0), 2e-3, 1e-12, "held");
+    let energy = damped.point.energy.unwrap();
+    assert!(energy.residual.abs() < 1e-11, "{energy:?}");
+    assert!(damped.state.counters().closer_looks < 20_000, "{:?}", damped.state.counters());
+    // Undamped, below the gap: u = v / w sin(w t), its phase of 3e7 rad known to 4 eps of it.
+    let mut undamped = Run::new(&masses(1e6, 0.0, 0.3, 0.01, law), None);
+    undamped.to(1e6);
+    let w = 1e3_f64.sqrt();
+    let exact = 0.3 / w * (w * 1e6).sin();
+    let error = (undamped.displacement(Side::Left, 0) - exact).abs();
+    assert!(error < 0.3 / w * 4.0 * f64::EPSILON * w * 1e6, "{error:e}");
+    assert_eq!(undamped.point.impacts, 0);
+    assert!(undamped.state.counters().closer_looks < 10, "{:?}", undamped.state.counters());
+    assert!(undamped.point.energy.unwrap().residual.abs() < 1e-11, "{:?}", undamped.point.energy);
+    // A load that grows until it brings the floors together must not be slept through: k u = F t, u = gap.
+    let mut growing = masses(1e6, 0.02, 0.0, 0.01, law);
+    growing.energy = false;
+    let mut growing = Run::new(&growing, None);
+    growing.state.set_floor_force(Side::Left, 0, 0.0);
+    growing.state.set_floor_force_rate(Side::Left, 0, 1e-2);
+    growing.to(1.0001e6);
+    let start = growing.model.open_episode(&growing.state, 0).map_or(growing.episodes[0].start, |open| open.start);
+    assert_close(start, 1e6, 1e-6, "brought together");
+}
