@@ -13,5 +13,6 @@ mod invariants;
 mod limits;
 mod pressed;
 mod random;
+mod repetition;
 mod time;
 mod work_limits;
