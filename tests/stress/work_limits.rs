@@ -166,7 +166,8 @@ fn quiet_time_costs_nothing_however_long() {
     growing.state.set_floor_force(Side::Left, 0, 0.0);
     growing.state.set_floor_force_rate(Side::Left, 0, 1e-2);
     growing.to(1.0001e6);
-    let start = growing.model.open_episode(&growing.state, 0).map_or(growing.episodes[0].start, |open| open.start);
+    let start =
+        growing.model.open_episode(&growing.state, 0).map_or_else(|| growing.episodes[0].start, |open| open.start);
     assert_close(start, 1e6, 1e-6, "brought together");
 }
 
