@@ -6,9 +6,14 @@
 //! at most one; any other piece is halved. So the first root is found, or there is none: nothing is sampled.
 
 use crate::polynomial::{Coefficients, ROOM, Reading, value, value_and_slope};
+use std::cell::Cell;
 
 /// Pieces are not halved below this fraction of the step: two roots closer than this are one touch without duration.
 const NARROWEST: f64 = 1e-9;
+
+/// Pieces that a search for a rise may halve before what it finds is taken for rounding: one that means anything takes
+/// some dozens (a scene that needs this: `stress/work_limits.rs`).
+const MOST_HALVINGS: u32 = 20_000;
 
 /// A polynomial on 0..=end with the bound on its fourth derivative.
 #[derive(Clone, Copy)]
@@ -16,6 +21,8 @@ struct Curve<'a> {
     coefficients: &'a [f64],
     fourth: f64,
     noise: f64,
+    /// Halvings that are left for all pieces together, where they are counted.
+    left: Option<&'a Cell<u32>>,
 }
 
 /// One end of a piece.
@@ -28,7 +35,29 @@ struct End {
 
 impl<'a> Curve<'a> {
     fn new(coefficients: &'a [f64], end: f64, noise: f64) -> Curve<'a> {
-        Curve { coefficients, fourth: fourth_derivative(coefficients, end), noise }
+        Curve { coefficients, fourth: fourth_derivative(coefficients, end), noise, left: None }
+    }
+
+    /// The first rise in 0..=end. A curve that stays within rounding of 0 has passages everywhere, which the search would
+    /// follow up to the last of a billion pieces: there what lies below rounding is none.
+    fn first_rise_up_to(&self, end: f64) -> Option<f64> {
+        let left = Cell::new(MOST_HALVINGS);
+        let counted = Curve { left: Some(&left), ..*self };
+        let found = counted.first_rise(self.at(0.0), self.at(end));
+        if left.get() > 0 {
+            return found;
+        }
+        let size = self.coefficients.iter().rev().fold(0.0, |sum, c| sum * end + c.abs());
+        left.set(MOST_HALVINGS);
+        let rounded = Curve { noise: self.noise.max(4.0 * f64::EPSILON * size), ..counted };
+        rounded.first_rise(self.at(0.0), self.at(end))
+    }
+
+    /// Whether a piece may be halved once more.
+    fn may_halve(&self) -> bool {
+        let Some(left) = self.left else { return true };
+        left.set(left.get().saturating_sub(1));
+        left.get() > 0
     }
 
     fn at(&self, x: f64) -> End {
@@ -77,6 +106,9 @@ impl<'a> Curve<'a> {
         }
         if b.x - a.x < NARROWEST {
             return (b.value > self.noise).then(|| self.bisect_newton(a, b));
+        }
+        if !self.may_halve() {
+            return None;
         }
         let middle = self.at(0.5 * (a.x + b.x));
         self.up_to(middle).first_rise(a, middle).or_else(|| self.first_rise(middle, b))
@@ -201,8 +233,7 @@ pub fn first_rise(coefficients: &mut [f64], end: f64, noise: f64) -> Option<f64>
     if coefficients[0] == 0.0 {
         return first_rise_from_zero(coefficients, end, noise);
     }
-    let curve = Curve::new(coefficients, end, noise);
-    curve.first_rise(curve.at(0.0), curve.at(end))
+    Curve::new(coefficients, end, noise).first_rise_up_to(end)
 }
 
 /// As above with the root at x = 0 divided out: the sign just after it is that of the first power that is not 0.
@@ -216,8 +247,7 @@ fn first_rise_from_zero(coefficients: &[f64], end: f64, noise: f64) -> Option<f6
     if rest[0] > 0.0 {
         return Some(0.0);
     }
-    let curve = Curve::new(rest, end, noise);
-    curve.first_rise(curve.at(0.0), curve.at(end))
+    Curve::new(rest, end, noise).first_rise_up_to(end)
 }
 
 /// Where a polynomial is largest in 0..=end, if it exceeds `known` there: (x, value), from its value and slope at 0 and
@@ -231,7 +261,7 @@ pub fn maximum_above(
     terms: impl FnOnce(&mut Coefficients) -> usize,
 ) -> Option<(f64, f64)> {
     let (a, b) = (End { x: 0.0, value, slope }, End { x: end, value: reading.value, slope: reading.slope });
-    let bounds = Curve { coefficients: &[], fourth: reading.fourth, noise: 0.0 };
+    let bounds = Curve { coefficients: &[], fourth: reading.fourth, noise: 0.0, left: None };
     let mut best = (f64::NAN, known);
     for end in [a, b] {
         if end.value > best.1 {

@@ -166,6 +166,23 @@ fn quiet_time_costs_nothing_however_long() {
     growing.state.set_floor_force(Side::Left, 0, 0.0);
     growing.state.set_floor_force_rate(Side::Left, 0, 1e-2);
     growing.to(1.0001e6);
-    let start = growing.model.open_episode(&growing.state, 0).map_or(growing.episodes[0].start, |open| open.start);
+    let start =
+        growing.model.open_episode(&growing.state, 0).map_or_else(|| growing.episodes[0].start, |open| open.start);
     assert_close(start, 1e6, 1e-6, "brought together");
+}
+
+/// Four light storeys pressed against four heavy ones by very stiff contacts of three laws, and a rigid one beside them:
+/// for a while a rate is nothing but rounding, in which the search for its passages through 0 once had no end.
+#[test]
+fn a_rate_that_is_rounding_is_not_searched_for_ever() {
+    let mut scene = scene(include_str!("pressed_by_four.toml"));
+    scene.ground.record = Some("motion.csv".into());
+    let t = |k: i32| f64::from(k) / 64.0;
+    let motion: Vec<f64> = (0..=128).map(|k| 4.0 * (9.0 * t(k)).sin() + 2.0 * (31.0 * t(k)).sin()).collect();
+    let mut run = Run::new(&scene, Some(&crate::common::record(1.0 / 64.0, &motion)));
+    let clock = Instant::now();
+    run.to(2.0);
+    assert!(clock.elapsed().as_secs_f64() < 20.0, "{:?}", clock.elapsed());
+    assert!(run.point.impacts > 50);
+    assert!(run.point.energy.unwrap().residual.abs() < 1e-11, "{:?}", run.point.energy);
 }
