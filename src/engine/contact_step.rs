@@ -32,6 +32,10 @@ pub(super) fn accuracy(relative_tolerance: f64) -> (f64, usize) {
 /// Share of the time left for which floors are held together that rounding cannot tell from free ones.
 const SHORT_WHILE: f64 = 1e-3;
 
+/// Furthest reach of a series, in units of its scale: beyond, terms that have vanished in a scale far too short would be
+/// missed, and the powers of the step overflow. The next series has a better scale.
+const FURTHEST: f64 = 1e9;
+
 impl Model {
     /// Works out the step in contact from the base until `limit` (s since the segment's start) or the next event.
     pub(super) fn plan_contact(&self, state: &mut State, limit: f64) {
@@ -211,7 +215,7 @@ impl Model {
             };
             reach = reach.min(self.forceless_reach(left_out, base, series, whole));
         }
-        reach
+        reach.min(FURTHEST)
     }
 
     /// How far a last term stays below the tolerance where nothing has moved yet: relative to the velocity that any of
