@@ -1,6 +1,7 @@
-//! Shaking that comes again and again. Frames that lose energy forget how they began: their motion, impacts included,
-//! becomes one that comes again with the shaking, and stays that. An answer that drifts, or a contact that depends on what
-//! is long past, does not. Nothing needs to be known of that motion but its period.
+//! Shaking that comes again and again, with pauses in which the buildings lose more of what they remember than the impacts
+//! before had multiplied it by. So their motion, impacts included, becomes one that comes again with the shaking, and stays
+//! that. An answer that drifts, or a contact that depends on what is long past, does not. Nothing needs to be known of that
+//! motion but its period.
 
 use crate::common::{Run, record, scene};
 use pounding::engine::Side;
@@ -33,21 +34,24 @@ fn a_motion_comes_again_with_the_shaking() {
     ] {
         let building = |floors: usize| {
             let (mass, stiffness) = (vec![3.65; floors], vec![2910.0; floors]);
-            format!("mass = {mass:?}\nstiffness = {stiffness:?}\ndamping = {{ ratio = 0.02 }}\n")
+            format!("mass = {mass:?}\nstiffness = {stiffness:?}\ndamping = {{ ratio = 0.05 }}\n")
         };
         let contact = |floor| format!("[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = 0.005\n{law}\n");
         let mut scene = scene(&format!(
-            "name = \"Repetition\"\n[left]\n{}[right]\n{}{}{}",
+            "name = \"Repetition\"\n[left]\n{}initial_displacement = [-0.02, -0.03]\n[right]\n{}{}{}",
             building(2),
             building(3),
             contact(1),
             contact(2)
         ));
         scene.ground.record = Some("again.csv".into());
-        let wave =
-            |cycles: u32, k: u32| (2.0 * PI * f64::from(cycles * k % (RATE * PERIOD)) / f64::from(RATE * PERIOD)).sin();
+        // 6 s of shaking, 10 s of rest, in which the slowest mode falls to 2e-3.
         let samples: Vec<f64> = (0..=RATE * 520)
-            .map(|k| 3.0 * wave(1, k) * (wave(23, k) + 0.7 * wave(45, k) + 0.4 * wave(68, k)))
+            .map(|k| {
+                let t = f64::from(k % (RATE * PERIOD)) / f64::from(RATE);
+                let strength = if t < 6.0 { (PI * t / 6.0).sin().powi(2) } else { 0.0 };
+                strength * (4.0 * (9.0 * t).sin() + 3.0 * (17.7 * t).sin() + 2.0 * (31.4 * t).cos())
+            })
             .collect();
         let mut run = Run::new(&scene, Some(&record(1.0 / f64::from(RATE), &samples)));
         let early = period(&mut run, 0);
