@@ -189,6 +189,8 @@ proptest! {
     fn other_units_give_the_same_numbers(
         case in case(4), mass in -20..20_i32, length in -8..8_i32, time in -20..20_i32
     ) {
+        // Short enough for a record to stay below the accelerations that are refused.
+        let time = time.max(2 * length - 6);
         // Powers of two of which every root that the laws take is one, too.
         let units = Units { mass: 4.0_f64.powi(mass), length: 16.0_f64.powi(length), time: 2.0_f64.powi(time) };
         let (plain, scaled) = (case.run(), units.apply(&case).run());
