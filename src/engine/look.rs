@@ -29,10 +29,10 @@ impl Model {
         segment: Option<u64>,
     ) {
         let remaining = step.length;
-        let unit = if self.structure.fastest * remaining > REACH { REACH / self.structure.fastest } else { remaining };
+        let mut unit =
+            if self.structure.fastest * remaining > REACH { REACH / self.structure.fastest } else { remaining };
         let is_carried = base.contacts.iter().any(|contact| contact.carried);
         work.look.start(base, &work.load);
-        let mut unit = unit;
         if is_carried {
             self.structure.accelerate(&base.q, &base.v, &work.load, &mut work.q);
             unit = unit.min(self.bounce_horizon(base, &work.q));

@@ -1,0 +1,161 @@
+//! What begins, or does not, while another pair is in contact; each with an answer in closed form.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::{Run, record, scene};
+use pounding::engine::Side;
+use pounding::scene::Scene;
+
+/// Two floors a side on springs so soft that they are free; the left floors move, the right ones are at rest.
+fn two_free_floors(gaps: [f64; 2], laws: [&str; 2]) -> Scene {
+    let building = |mass: f64, speed: f64| {
+        format!(
+            "mass = [{mass:?}, {mass:?}]\nstiffness = [1.0e-20, 1.0e-20]\ndamping = {{ ratio = 0.0 }}
+            initial_velocity = [{speed:?}, {speed:?}]"
+        )
+    };
+    let contact = |floor: usize, gap: f64, law: &str| {
+        format!("[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = {gap:?}\n{law}")
+    };
+    scene(&format!(
+        "name = \"Free\"\n[left]\n{}\n[right]\n{}\n{}\n{}\n[outputs]\nenergy = true",
+        building(5.0e4, 0.5),
+        building(7.5e4, 0.0),
+        contact(1, gaps[0], laws[0]),
+        contact(2, gaps[1], laws[1])
+    ))
+}
+
+#[test]
+fn an_entry_is_seen_however_soon_after_another() {
+    // The first step of an episode is short, but the unit of time of its series is not known yet and far too long.
+    let linear = "law = \"linear\"\nstiffness = 3.0e11";
+    let rigid = "law = \"stereomechanical\"\nrestitution = 0.5";
+    for laws in [[linear, linear], [linear, rigid], [rigid, linear], [rigid, rigid]] {
+        for later in [1e-9, 1e-7, 1e-5, 1e-3] {
+            let mut run = Run::new(&two_free_floors([0.001, 0.001 + later], laws), None);
+            run.to(0.5);
+            let start = |p: usize| run.episodes.iter().find(|e| e.contact == p).unwrap().start;
+            // The penetration is the difference of positions of 0.001 m, rounded to their last digit.
+            assert!((start(0) - 0.002).abs() < 1e-17, "{} first", start(0));
+            let error = (start(1) - (0.002 + 2.0 * later)).abs();
+            assert!(error < 4e-18, "{} instead of {}: {error:e}, {laws:?}", start(1), 0.002 + 2.0 * later);
+            assert!(run.point.energy.unwrap().residual.abs() < 1e-14, "{:?}", run.point.energy);
+        }
+    }
+}
+
+/// A floor's ripple of some picometres while another floor's contact goes on: a step of that contact lasts about as long
+/// as a swing of the ripple, which is at the bottom at the ends of the step and touches in between. Its amplitude is what
+/// the tolerance leaves to a step of that length.
+///
+/// `left`, `right`: masses and stiffnesses of the buildings, whose floor `upper` is in contact from the start, and whose
+/// floor 1 swings with the stiffness `ripple`.
+fn ripple(left: &str, right: &str, upper: usize, amplitude: f64, gap: f64) -> Scene {
+    let at_rest = vec!["0.0"; upper - 1].join(", ");
+    let above = vec!["0.0"; upper - 2].join(", ");
+    scene(&format!(
+        "name = \"Ripple\"
+        [left]
+        {left}
+        damping = {{ ratio = 0.0 }}
+        initial_displacement = [{:?}, {above}{} 0.0]
+        initial_velocity = [{at_rest}, 100.0]
+        [right]
+        {right}
+        damping = {{ ratio = 0.0 }}
+        [[contact]]
+        left_floor = {upper}
+        right_floor = {upper}
+        gap = -0.01
+        law = \"linear\"
+        stiffness = 200.0
+        [[contact]]
+        left_floor = 1
+        right_floor = 1
+        gap = {gap:?}
+        law = \"linear\"
+        stiffness = 1.0",
+        -amplitude,
+        if upper > 2 { "," } else { "" }
+    ))
+}
+
+/// The touch of -amplitude cos(rate t) is found whatever the length of the step relative to the swing, from 0.8 of it to
+/// the whole, and a miss is none.
+#[track_caller]
+fn assert_ripple_touches(scene_of: impl Fn(f64, f64, f64) -> Scene) {
+    let speeds = (0..8).map(|k| 1e-9 / 2.0_f64.powi(k));
+    for (rate, speed) in speeds.flat_map(|speed| (80..160).step_by(10).map(move |rate| (f64::from(rate), speed))) {
+        let amplitude = speed / rate;
+        let begin = |share: f64| {
+            let mut run = Run::new(&scene_of(rate, amplitude, share * amplitude), None);
+            run.to(0.1);
+            assert!(run.point.contacts[0].active, "the other contact goes on");
+            (run.point.contacts[1].impacts > 0).then(|| run.episodes.iter().find(|e| e.contact == 1).unwrap().start)
+        };
+        let (found, expected) = (begin(0.99), (-0.99_f64).acos() / rate);
+        let what = format!("{speed:e} m/s, {rate}/s: {found:?} instead of {expected}");
+        assert!(found.is_some_and(|found| (found - expected).abs() < 0.01 / rate), "{what}");
+        assert_eq!(begin(1.01), None, "{speed:e} m/s, {rate}/s");
+    }
+}
+
+#[test]
+fn a_touch_in_the_middle_of_another_contacts_step_is_found() {
+    assert_ripple_touches(|rate, amplitude, gap| {
+        let left = format!("mass = [1.0, 1.0]\nstiffness_matrix = [[{:?}, 0.0], [0.0, 1.0]]", rate * rate);
+        ripple(&left, "mass = [1.0, 1.0]\nstiffness_matrix = [[1.0, 0.0], [0.0, 1.0]]", 2, amplitude, gap)
+    });
+}
+
+#[test]
+fn a_touch_in_the_middle_of_another_contacts_step_is_found_floor_by_floor() {
+    // Tall buildings whose storeys hold next to nothing but the ground floor's.
+    let storeys = 12;
+    let soft = vec!["1.0e-20"; storeys - 1].join(", ");
+    let mass = vec!["1.0"; storeys].join(", ");
+    assert_ripple_touches(|rate, amplitude, gap| {
+        let left = format!("mass = [{mass}]\nstiffness = [{:?}, {soft}]", rate * rate);
+        ripple(&left, &format!("mass = [{mass}]\nstiffness = [1.0, {soft}]"), storeys, amplitude, gap)
+    });
+}
+
+/// Floors of buildings whose masses and stiffnesses have the same ratio move alike, and touch at rest; the sign of a
+/// rounding error must not bring them into contact while others, here the top floors, are pressed together.
+#[test]
+fn floors_that_move_alike_do_not_meet_beside_another_contact() {
+    for storeys in [2, 12] {
+        let building = |factor: f64, speed: f64| {
+            let mass = vec![format!("{factor:?}"); storeys].join(", ");
+            let soft = ", 1.0e-20".repeat(storeys - 1);
+            let rest = "0.0, ".repeat(storeys - 1);
+            format!(
+                "mass = [{mass}]\nstiffness = [{:?}{soft}]\ndamping = {{ ratio = 0.0 }}
+                initial_velocity = [{rest}{speed:?}]",
+                400.0 * factor
+            )
+        };
+        let contact = |floor: usize, gap: f64| {
+            format!(
+                "[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = {gap:?}\nlaw = \"linear\"\n\
+                 stiffness = 100.0"
+            )
+        };
+        let mut scene = scene(&format!(
+            "name = \"Alike\"\n[left]\n{}\n[right]\n{}\n{}\n{}",
+            building(1.0, 1.0),
+            building(2.0, 0.0),
+            contact(storeys, -0.01),
+            contact(1, 0.0)
+        ));
+        scene.ground.record = Some("r.csv".into());
+        let motion: Vec<f64> = (0..50).map(|k| (f64::from(k) * 0.31).sin()).collect();
+        let mut run = Run::new(&scene, Some(&record(0.02, &motion)));
+        run.in_steps(0.02, 0.2);
+        assert!(run.point.contacts[0].active, "the top floors are still pressed");
+        assert!(run.displacement(Side::Left, 0).abs() > 1e-3, "they move");
+        assert_eq!(run.point.contacts[1].impacts, 0, "{storeys} storeys");
+    }
+}
