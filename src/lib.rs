@@ -26,6 +26,7 @@
 //! Sources are cited as [Key, place]; the keys are those of `REFERENCES.bib`. "Seed paper" is \[BarrosKhatami2013\].
 #![deny(unsafe_code)]
 
+mod collocation;
 pub mod contact;
 pub mod description;
 pub mod engine;

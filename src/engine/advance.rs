@@ -108,6 +108,12 @@ impl Model {
                 let x = step.length / step.onset.scale;
                 contacts.iter_mut().filter(|c| c.in_contact()).for_each(|c| c.follow_onset(&step.onset, x, start));
             }
+            StepKind::Window => {
+                contacts
+                    .iter_mut()
+                    .filter(|c| c.in_contact())
+                    .for_each(|c| c.follow_window(&step.window, step.length, start));
+            }
             StepKind::Contact if step.length > 0.0 => {
                 step.closed.follow(contacts, step.series.scale, start, &step.end);
                 for (terms, &p) in step.reactions.iter().zip(&self.rigid.pairs) {
@@ -126,6 +132,7 @@ impl Model {
         let p = contact.episode.contact;
         match step.kind {
             StepKind::Onset => contact.follow_onset(&step.onset, elapsed / step.onset.scale, start),
+            StepKind::Window if elapsed > 0.0 => contact.follow_window(&step.window, elapsed, start),
             StepKind::Contact if elapsed > 0.0 && contact.is_held() => {
                 let reaction = self.rigid.pairs.iter().position(|&pair| pair == p).map(|k| &step.reactions[k]);
                 if let Some(terms) = reaction {

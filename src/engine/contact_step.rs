@@ -50,6 +50,9 @@ impl Model {
         if let Some(p) = self.entry_at_once(&state.base) {
             return happen_now(state, Event::Entry(p));
         }
+        if !is_near_rigid && self.plan_window(state, remaining) {
+            return;
+        }
         let is_singular = touching(&state.base).any(|(_, contact)| contact.is_singular());
         if is_singular && !is_near_rigid && self.plan_onset(state, remaining) {
             return;
@@ -283,7 +286,7 @@ impl Model {
 }
 
 /// The power of two at or below x > 0: a scale that costs no rounding.
-fn power_of_two_below(x: f64) -> f64 {
+pub(super) fn power_of_two_below(x: f64) -> f64 {
     const MANTISSA: u64 = (1 << 52) - 1;
     let power = f64::from_bits(x.to_bits() & !MANTISSA);
     if power > 0.0 { power } else { x }

@@ -83,6 +83,7 @@ impl Model {
                 self.integrate(base, motion, graded(TWELVE, length), 0.0, work, &mut done);
                 onset.evaluate(length / onset.scale, &mut work.q, &mut work.v);
             }
+            StepKind::Window => self.integrate_window(base, step, length, work, &mut done),
             StepKind::Flight | StepKind::Unknown => self.integrate_flight(base, inputs, work, length, &mut done),
         }
         // Of the forces as they are at the base; what they change by has its part from the quadratures.
@@ -153,6 +154,19 @@ impl Model {
         self.fly(base, length, work, (&mut q, &mut v));
         let moved = dot(&self.structure.participation, &q) - dot(&self.structure.participation, &base.q);
         done.input -= base.segment.acceleration_at(base.elapsed) * moved;
+        (work.q, work.v) = (q, v);
+    }
+
+    /// At the nodes of the window's own rule; leaves the end in `work.q`, `work.v`.
+    fn integrate_window(&self, base: &Base, step: &Step, length: f64, work: &mut Workspace, done: &mut Work) {
+        let nodes = step.window.nodes(length);
+        let mut powers = std::mem::take(&mut work.powers);
+        let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
+        self.read_window(step, length, &mut powers, (&mut q, &mut v));
+        let room = std::cell::RefCell::new(powers);
+        let motion = |t: f64, q: &mut [f64], v: &mut [f64]| self.read_window(step, t, &mut room.borrow_mut(), (q, v));
+        self.integrate(base, motion, nodes.into_iter(), 0.0, work, done);
+        work.powers = room.into_inner();
         (work.q, work.v) = (q, v);
     }
 

@@ -67,6 +67,8 @@ mod roots;
 mod saved;
 mod state;
 mod swing;
+mod window;
+mod window_step;
 mod work_limit;
 
 pub use crate::structure::Side;

@@ -8,6 +8,7 @@ use super::input::LinearInput;
 use super::onset_step::OnsetSeries;
 use super::rigid::RigidPairs;
 use super::state::*;
+use super::window_step::Windows;
 use super::work_limit::MOST_WORK;
 use super::{Episode, contact_step};
 use crate::contact::{EpisodeForce, ImpactLaw};
@@ -41,6 +42,7 @@ pub struct Model {
     pub(super) order: usize,
     pub(super) drift: DriftShapes,
     pub(super) closing: ClosingSpeeds,
+    pub(super) windows: Option<Windows>,
     pub(super) frequencies: [Vec<f64>; 2],
     initial: [Vec<f64>; 2],
     /// What one communication step may take.
@@ -98,6 +100,7 @@ impl Model {
             least_approach: scene.solver.min_approach_velocity,
             contact_coordinates: contact_coordinates(&structure),
             floors: structure.floors.ones(),
+            windows: Windows::of(&structure, &pairs, has_singular_law(&pairs)),
             structure,
             rigid: RigidPairs::of(&pairs),
             pairs,
@@ -121,11 +124,7 @@ impl Model {
 
     /// Room to work in.
     pub(super) fn workspace(&self) -> Workspace {
-        Workspace::new(&self.structure, self.rigid.pairs.len())
-    }
-
-    fn has_singular_law(&self) -> bool {
-        self.pairs.iter().any(|pair| !EpisodeForce::new(&pair.law, pair.mass, None).engaged.is_regular())
+        Workspace::new(&self.structure, self.rigid.pairs.len(), self.windows.as_ref().map_or(0, |_| self.pairs.len()))
     }
 
     /// The initial state at a time, s.
@@ -167,7 +166,8 @@ impl Model {
                 closed: ClosedPairs::new(&self.pairs),
                 reactions: vec![[0.0; ROOM]; self.rigid.pairs.len()],
                 reaction_order: 0,
-                onset: OnsetSeries::new(lanes, self.pairs.len(), self.has_singular_law()),
+                onset: OnsetSeries::new(lanes, self.pairs.len(), has_singular_law(&self.pairs)),
+                window: Box::default(),
                 carried: vec![None; self.pairs.len()],
                 ends: Vec::with_capacity(self.pairs.len()),
             },
@@ -362,6 +362,11 @@ impl Contact {
             dissipated_energy: 0.0,
         };
     }
+}
+
+/// Whether a force has no power series at d = 0.
+fn has_singular_law(pairs: &[Pair]) -> bool {
+    pairs.iter().any(|pair| !EpisodeForce::new(&pair.law, pair.mass, None).engaged.is_regular())
 }
 
 /// Modes are cheaper where they are few, or where every floor feels every other.

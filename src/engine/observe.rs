@@ -66,6 +66,7 @@ impl Model {
                 step.series.evaluate(&work.powers, &mut point.q, &mut point.v);
             }
             StepKind::Onset => step.onset.evaluate(elapsed / step.onset.scale, &mut point.q, &mut point.v),
+            StepKind::Window => self.read_window(step, elapsed, &mut work.powers, (&mut point.q, &mut point.v)),
             StepKind::Flight | StepKind::Unknown => {
                 self.load(base, inputs, &mut work.load, &mut work.slope);
                 if !self.fly_back(step, step.length - elapsed, work, (&mut point.q, &mut point.v)) {

@@ -8,7 +8,9 @@ use super::ground::Segment;
 use super::input::LinearInput;
 use super::look::Look;
 use super::onset_step::OnsetSeries;
+use super::window::Window;
 use super::{Episode, Side};
+use crate::collocation::Room;
 use crate::contact::{EpisodeForce, Force};
 use crate::polynomial::{Coefficients, MAX_ORDER, Powers, ROOM};
 use crate::structure::{Interval, MotionSeries, Scratch, Structure};
@@ -209,6 +211,8 @@ pub(super) struct Step {
     pub end: Powers,
     /// For the first step after an entry.
     pub onset: OnsetSeries,
+    /// For a window of a contact; `series` holds the motion without its forces then.
+    pub window: Box<Window>,
     /// Penetration and rate at the end of each contact that is carried.
     pub carried: Carried,
     /// Penetration and rate at the end of each contact of a flight that met nothing, none where they were not needed;
@@ -227,6 +231,8 @@ pub(super) enum StepKind {
     Contact,
     /// In contact, the first step after an entry under a power law.
     Onset,
+    /// In contact, few pairs under power laws.
+    Window,
 }
 
 /// What ends a step, at which contact.
@@ -280,11 +286,12 @@ pub(super) struct Workspace {
     pub powers: Powers,
     pub rigid: Complementarity,
     pub look: Look,
+    pub windows: Room,
 }
 
 impl Workspace {
-    /// For a structure with that many rigid pairs.
-    pub fn new(structure: &Structure, rigid: usize) -> Workspace {
+    /// For a structure with that many rigid pairs, and pairs that windows are for.
+    pub fn new(structure: &Structure, rigid: usize, windowed: usize) -> Workspace {
         let lanes = structure.lanes;
         let vector = || vec![0.0; lanes];
         Workspace {
@@ -302,6 +309,7 @@ impl Workspace {
             powers: Powers::default(),
             rigid: Complementarity::new(rigid),
             look: Look::new(lanes),
+            windows: Room::new(windowed),
         }
     }
 }

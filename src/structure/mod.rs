@@ -10,6 +10,7 @@
 
 mod dense;
 mod floors;
+mod impulse_response;
 mod interval;
 mod modes;
 mod propagator;
@@ -17,6 +18,7 @@ mod series;
 mod short_flight;
 
 pub use floors::Floors;
+pub use impulse_response::ImpulseResponse;
 pub use interval::Interval;
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
 pub use propagator::{CoupledIncrement, ModeIncrement};
@@ -55,7 +57,7 @@ pub struct Structure {
     /// Damping of each mode by its own velocity, 1/s.
     pub damping: Vec<f64>,
     /// w + c, 1/s.
-    quickness: Vec<f64>,
+    pub quickness: Vec<f64>,
     /// kg^1/2.
     pub participation: Vec<f64>,
     /// Largest entry of each mode's shape, kg^-1/2: turns a modal error into the worst floor's.

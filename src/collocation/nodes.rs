@@ -1,0 +1,125 @@
+//! The nodes of a window and polynomials through them.
+
+use std::sync::OnceLock;
+
+/// Nodes of a window.
+pub const NODES: usize = 16;
+
+/// A number at each node.
+pub type Row = [f64; NODES];
+
+/// Nodes and weights of a Gauss rule on 0..=1, from Newton's method on the Legendre polynomials.
+pub fn rule(count: usize) -> Vec<(f64, f64)> {
+    let node = |i: usize| {
+        let mut x = -libm::cos(std::f64::consts::PI * (i as f64 + 0.75) / (count as f64 + 0.5));
+        let mut slope = 1.0;
+        for _ in 0..8 {
+            let (value, before) = legendre(count, x);
+            slope = count as f64 * (x * value - before) / (x * x - 1.0);
+            x -= value / slope;
+        }
+        (0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope))
+    };
+    (0..count).map(node).collect()
+}
+
+/// P_n and P_(n-1) at x in -1..=1.
+fn legendre(n: usize, x: f64) -> (f64, f64) {
+    let (mut last, mut before) = (1.0, 0.0);
+    for k in 0..n {
+        let k = k as f64;
+        (last, before) = (((2.0 * k + 1.0) * x * last - k * before) / (k + 1.0), last);
+    }
+    (last, before)
+}
+
+/// The rule of a window and what it makes of values at its nodes.
+pub struct Nodes {
+    /// x of each node in 0..=1.
+    pub x: Row,
+    /// Its weight.
+    pub weight: Row,
+    /// Row n: what the values add to the coefficient of the Legendre polynomial P_n(2 x - 1).
+    pub legendre: [Row; NODES],
+}
+
+/// The same for all windows.
+pub fn nodes() -> &'static Nodes {
+    static NODES_OF_ALL: OnceLock<Nodes> = OnceLock::new();
+    NODES_OF_ALL.get_or_init(|| {
+        let mut all = Nodes { x: [0.0; NODES], weight: [0.0; NODES], legendre: [[0.0; NODES]; NODES] };
+        for (i, (x, weight)) in rule(NODES).into_iter().enumerate() {
+            (all.x[i], all.weight[i]) = (x, weight);
+            for n in 0..NODES {
+                all.legendre[n][i] = (2 * n + 1) as f64 * weight * legendre(n, 2.0 * x - 1.0).0;
+            }
+        }
+        all
+    })
+}
+
+/// Sum of products in a fixed order.
+pub fn dot(a: &Row, b: &Row) -> f64 {
+    let mut sum = [0.0; 4];
+    for (a, b) in a.as_chunks::<4>().0.iter().zip(b.as_chunks::<4>().0) {
+        for i in 0..4 {
+            sum[i] += a[i] * b[i];
+        }
+    }
+    (sum[0] + sum[2]) + (sum[1] + sum[3])
+}
+
+/// Coefficient n of the Legendre series through values at the nodes.
+pub fn coefficient(values: &Row, n: usize) -> f64 {
+    dot(values, &nodes().legendre[n])
+}
+
+/// The polynomial through values at the nodes.
+#[derive(Clone, Copy, Debug)]
+pub struct Interpolant {
+    legendre: Row,
+}
+
+impl Interpolant {
+    /// Through these values.
+    pub fn through(values: &Row) -> Interpolant {
+        let mut legendre = [0.0; NODES];
+        for (n, c) in legendre.iter_mut().enumerate() {
+            *c = coefficient(values, n);
+        }
+        Interpolant { legendre }
+    }
+
+    /// Its values at points x of 0..=1.
+    pub fn at<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
+        let z = x.map(|x| 2.0 * x - 1.0);
+        let (mut last, mut before, mut sum) = ([1.0; N], [0.0; N], [0.0; N]);
+        for (n, c) in self.legendre.iter().enumerate() {
+            let n = n as f64;
+            let (rising, falling) = ((2.0 * n + 1.0) / (n + 1.0), n / (n + 1.0));
+            for i in 0..N {
+                sum[i] += c * last[i];
+                let next = rising * (z[i] * last[i]) - falling * before[i];
+                (before[i], last[i]) = (last[i], next);
+            }
+        }
+        sum
+    }
+
+    /// Value and first and second derivative by x.
+    pub fn derivatives(&self, x: f64) -> [f64; 3] {
+        let z = 2.0 * x - 1.0;
+        let (mut last, mut before, mut sum) = ([1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]);
+        for (n, c) in self.legendre.iter().enumerate() {
+            let n = n as f64;
+            let (rising, falling) = ((2.0 * n + 1.0) / (n + 1.0), n / (n + 1.0));
+            let products = [z * last[0], z * last[1] + 2.0 * last[0], z * last[2] + 4.0 * last[1]];
+            for i in 0..3 {
+                sum[i] += c * last[i];
+                let next = rising * products[i] - falling * before[i];
+                (before[i], last[i]) = (last[i], next);
+            }
+        }
+        sum
+    }
+}

@@ -1,0 +1,157 @@
+//! Integrals over a window of powers of the time left, times the polynomials through its nodes.
+
+use super::nodes::{NODES, Row, nodes, rule};
+use std::sync::OnceLock;
+
+/// Powers of the time left that are tabulated.
+pub const POWERS: usize = 14;
+
+/// How the time of a window goes with x, both from 0 to 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Map {
+    /// theta = x.
+    #[default]
+    Plain,
+    /// theta = x^2: square roots of the time since the start are polynomials.
+    SquareStart,
+    /// theta = x^4: fourth roots are.
+    FourthStart,
+    /// theta = 1 - (1 - x)^2: square roots of the time until the end are.
+    SquareEnd,
+}
+
+impl Map {
+    /// theta and its derivative at x.
+    pub fn at(self, x: f64) -> (f64, f64) {
+        match self {
+            Map::Plain => (x, 1.0),
+            Map::SquareStart => (x * x, 2.0 * x),
+            Map::FourthStart => (x * x * (x * x), 4.0 * x * (x * x)),
+            Map::SquareEnd => (x * (2.0 - x), 2.0 * (1.0 - x)),
+        }
+    }
+
+    /// x of a theta in 0..=1.
+    pub fn inverse(self, theta: f64) -> f64 {
+        match self {
+            Map::Plain => theta,
+            Map::SquareStart => theta.sqrt(),
+            Map::FourthStart => theta.sqrt().sqrt(),
+            Map::SquareEnd => theta / (1.0 + (1.0 - theta).max(0.0).sqrt()),
+        }
+    }
+}
+
+/// A number for each node, column by column: entry `[j][i]` is what node j adds at node i.
+pub type Matrix = [Row; NODES];
+
+/// The integrals of one map.
+pub struct Tables {
+    /// theta of each node.
+    pub theta: Row,
+    /// d theta / dx there, times the weight of the node.
+    pub weight: Row,
+    /// Of power k: the integral over 0..x_i of (theta_i - theta)^k l_j(x) theta' dx.
+    pub inner: [Matrix; POWERS],
+    /// The same over the whole window.
+    pub whole: [Row; POWERS],
+}
+
+impl Tables {
+    /// Those of a map, computed once.
+    pub fn of(map: Map) -> &'static Tables {
+        static ALL: [OnceLock<Box<Tables>>; 4] = [const { OnceLock::new() }; 4];
+        ALL[map as usize].get_or_init(|| Box::new(Tables::compute(map)))
+    }
+
+    fn compute(map: Map) -> Tables {
+        // Exact for the highest degree: 15 of the polynomial, 3 of the map's derivative, 4 for each power.
+        let fine = rule((NODES + 3 + 4 * POWERS) / 2 + 1);
+        let nodes = nodes();
+        let mut tables = Tables {
+            theta: nodes.x.map(|x| map.at(x).0),
+            weight: [0.0; NODES],
+            inner: [[[0.0; NODES]; NODES]; POWERS],
+            whole: [[0.0; NODES]; POWERS],
+        };
+        for i in 0..NODES {
+            tables.weight[i] = map.at(nodes.x[i]).1 * nodes.weight[i];
+        }
+        for i in 0..=NODES {
+            let end = nodes.x.get(i).copied().unwrap_or(1.0);
+            for &(y, weight) in &fine {
+                let x = end * y;
+                let (theta, rate) = map.at(x);
+                let left = map.at(end).0 - theta;
+                let mut share = end * weight * rate;
+                let basis = basis(x);
+                for k in 0..POWERS {
+                    for (j, basis) in basis.iter().enumerate() {
+                        match i < NODES {
+                            true => tables.inner[k][j][i] += share * basis,
+                            false => tables.whole[k][j] += share * basis,
+                        }
+                    }
+                    share *= left;
+                }
+            }
+        }
+        tables
+    }
+}
+
+/// The polynomials l_j at x that are 1 at node j and 0 at the others.
+fn basis(x: f64) -> Row {
+    let nodes = nodes();
+    let mut all = [0.0; NODES];
+    let z = 2.0 * x - 1.0;
+    let (mut last, mut before) = (1.0, 0.0);
+    for n in 0..NODES {
+        for (all, share) in all.iter_mut().zip(&nodes.legendre[n]) {
+            *all += share * last;
+        }
+        let k = n as f64;
+        (last, before) = (((2.0 * k + 1.0) * z * last - k * before) / (k + 1.0), last);
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The integral of (theta_1 - theta)^k theta^m over 0..theta_1 is m! k! / (m + k + 1)! theta_1^(m + k + 1).
+    #[test]
+    fn powers_of_the_time_are_integrated_to_rounding() {
+        for map in [Map::Plain, Map::SquareStart, Map::FourthStart, Map::SquareEnd] {
+            let tables = Tables::of(map);
+            for k in 0..POWERS {
+                for m in 0..=3 {
+                    let value = tables.theta.map(|theta| libm::pow(theta, f64::from(m)));
+                    let mut beta = 1.0 / (k as f64 + 1.0);
+                    for i in 1..=m {
+                        beta *= f64::from(i) / (k as f64 + 1.0 + f64::from(i));
+                    }
+                    let whole: f64 = tables.whole[k].iter().zip(&value).map(|(w, v)| w * v).sum();
+                    assert!((whole / beta - 1.0).abs() < 1e-12, "{map:?} {k} {m}: {whole} instead of {beta}");
+                    for i in 0..NODES {
+                        let sum: f64 = (0..NODES).map(|j| tables.inner[k][j][i] * value[j]).sum();
+                        let exact = beta * libm::pow(tables.theta[i], k as f64 + 1.0 + f64::from(m));
+                        assert!((sum - exact).abs() < 1e-15, "{map:?} {k} {m} {i}: {sum} instead of {exact}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_map_and_its_inverse_belong_together() {
+        for map in [Map::Plain, Map::SquareStart, Map::FourthStart, Map::SquareEnd] {
+            for x in [0.0, 1e-3, 0.3, 0.9, 1.0] {
+                assert!((map.inverse(map.at(x).0) - x).abs() < 1e-12, "{map:?} at {x}");
+                let difference = (map.at(x + 1e-7).0 - map.at(x - 1e-7).0) / 2e-7;
+                assert!((difference - map.at(x).1).abs() < 1e-7, "{map:?} at {x}");
+            }
+        }
+    }
+}

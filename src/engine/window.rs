@@ -1,0 +1,184 @@
+//! The solution over a window of a contact (see [`crate::collocation`]): reading it and following contacts through it.
+
+use super::model::Model;
+use super::state::*;
+use crate::collocation::{Equation, Interpolant, MOST_PAIRS, NODES, POWERS, Row, Solution, Tables, dot, nodes};
+use crate::polynomial::{Powers, value_and_slope};
+
+/// A window of the pairs in contact.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Window {
+    /// The contacts that are in it.
+    pub contacts: [usize; MOST_PAIRS],
+    pub equation: Equation,
+    pub solution: Solution,
+}
+
+/// The part of a window up to some time: nodes of its own, at which the forces are known.
+struct Part {
+    /// s since the start of the window.
+    times: Row,
+    /// s, for integrals over the part.
+    weights: Row,
+    /// x of the window.
+    x: Row,
+}
+
+impl Window {
+    /// Where a contact is in it.
+    pub fn place(&self, contact: usize) -> Option<usize> {
+        self.contacts[..self.equation.pairs].iter().position(|&p| p == contact)
+    }
+
+    fn part(&self, elapsed: f64) -> Part {
+        let Solution { map, length, .. } = self.solution;
+        let end = map.inverse((elapsed / length).min(1.0));
+        let nodes = nodes();
+        let x = nodes.x.map(|x| x * end);
+        let mut part = Part { times: [0.0; NODES], weights: [0.0; NODES], x };
+        for i in 0..NODES {
+            let (theta, rate) = map.at(x[i]);
+            part.times[i] = length * theta;
+            part.weights[i] = length * rate * (end * nodes.weight[i]);
+        }
+        part
+    }
+
+    /// Times, s, and weights for integrals until `elapsed`.
+    pub fn nodes(&self, elapsed: f64) -> [(f64, f64); NODES] {
+        let part = self.part(elapsed);
+        std::array::from_fn(|i| (part.times[i], part.weights[i]))
+    }
+
+    /// N s^(k+1): integrals of (time left)^k times the force of each pair until `elapsed`.
+    pub fn moments(&self, elapsed: f64) -> [[f64; POWERS]; MOST_PAIRS] {
+        let Equation { pairs, powers, .. } = self.equation;
+        let mut moments = [[0.0; POWERS]; MOST_PAIRS];
+        let Solution { map, length, ref force, .. } = self.solution;
+        if elapsed == length {
+            let whole = &Tables::of(map).whole;
+            for (moments, force) in moments.iter_mut().zip(force).take(pairs) {
+                let mut power = length;
+                for (moment, whole) in moments.iter_mut().zip(whole).take(powers) {
+                    *moment = power * dot(whole, force);
+                    power *= length;
+                }
+            }
+            return moments;
+        }
+        let part = self.part(elapsed);
+        for (moments, force) in moments.iter_mut().zip(force).take(pairs) {
+            let mut pushed = Interpolant::through(force).at(&part.x);
+            for (pushed, weight) in pushed.iter_mut().zip(&part.weights) {
+                *pushed *= weight;
+            }
+            for moment in moments.iter_mut().take(powers) {
+                *moment = pushed.iter().sum();
+                for (pushed, time) in pushed.iter_mut().zip(&part.times) {
+                    *pushed *= elapsed - time;
+                }
+            }
+        }
+        moments
+    }
+
+    /// Penetration, m, and rate, m/s, of a pair under these moments.
+    fn depth(&self, place: usize, elapsed: f64, moments: &[[f64; POWERS]; MOST_PAIRS]) -> (f64, f64) {
+        let Equation { pairs, powers, terms, scale, ref free, ref kernels, .. } = self.equation;
+        let (d, v) = value_and_slope(&free[place][..terms], elapsed / scale);
+        let (mut taken, mut slowed) = (0.0, 0.0);
+        for (kernel, moments) in kernels[place].iter().zip(moments).take(pairs) {
+            for k in (1..powers).rev() {
+                taken += kernel[k] * moments[k];
+                slowed += k as f64 * kernel[k] * moments[k - 1];
+            }
+        }
+        (d - taken, v / scale - slowed)
+    }
+}
+
+impl Model {
+    /// q and v, `elapsed` seconds into the window of a step.
+    pub(super) fn read_window(&self, step: &Step, elapsed: f64, powers: &mut Powers, (q, v): (&mut [f64], &mut [f64])) {
+        let Some(windows) = &self.windows else { return };
+        powers.set(elapsed / step.series.scale, step.series.order);
+        step.series.evaluate(powers, q, v);
+        let window = &step.window;
+        let moments = window.moments(elapsed);
+        for (p, moments) in window.contacts.iter().zip(&moments).take(window.equation.pairs) {
+            windows.response.push(&self.pairs[*p].row, &moments[..window.equation.powers], (q, v));
+        }
+    }
+}
+
+impl Contact {
+    /// Follows the contact `elapsed` seconds into a window that has begun at `start` [s]: penetration, impulse, peaks,
+    /// work.
+    pub(super) fn follow_window(&mut self, window: &Window, elapsed: f64, start: f64) {
+        let Some(place) = window.place(self.episode.contact) else { return };
+        let law = self.branch();
+        let solution = &window.solution;
+        let is_whole = elapsed == solution.length;
+        let moments = window.moments(elapsed);
+        self.impulse += moments[place][0];
+        self.episode.impulse += moments[place][0];
+        let (depth, rate) = (&solution.depth[place], &solution.rate[place]);
+        if law.is_damped() {
+            let sum = |weights: &Row, d: &Row, v: &Row| {
+                (0..NODES).map(|i| weights[i] * law.damping_power(d[i], v[i])).sum::<f64>()
+            };
+            self.work += if is_whole {
+                solution.length * sum(&Tables::of(solution.map).weight, depth, rate)
+            } else {
+                let part = window.part(elapsed);
+                let [d, v] = [depth, rate].map(|row| Interpolant::through(row).at(&part.x));
+                sum(&part.weights, &d, &v)
+            };
+        }
+        let end = if is_whole { solution.end[place] } else { window.depth(place, elapsed, &moments) };
+        let last = if is_whole { 1.0 } else { solution.map.inverse(elapsed / solution.length) };
+        if let Some((_, peak)) = highest(depth, last, end.0, self.episode.peak_penetration) {
+            self.episode.peak_penetration = peak;
+        }
+        if let Some((x, peak)) = highest(&solution.force[place], last, law.value(end.0, end.1), self.episode.peak_force)
+        {
+            self.episode.peak_force = peak;
+            self.episode.peak_time = start + solution.length * solution.map.at(x).0;
+            self.peak_force = self.peak_force.max(peak);
+        }
+        (self.penetration, self.rate) = end;
+    }
+}
+
+/// Where what has these values at the nodes and `end` at x = `last` is largest up to there, if above `known`.
+fn highest(values: &Row, last: f64, end: f64, known: f64) -> Option<(f64, f64)> {
+    let x = &nodes().x;
+    let before = x.iter().take_while(|x| **x < last).count();
+    let (mut best, mut at) = (end, before);
+    for (i, value) in values.iter().enumerate().take(before) {
+        if *value > best {
+            (best, at) = (*value, i);
+        }
+    }
+    // Between nodes it is at most a little higher than at them.
+    if best < 0.9 * known {
+        return None;
+    }
+    let (low, high) = (if at == 0 { 0.0 } else { x[at - 1] }, if at + 1 < before { x[at + 1] } else { last });
+    let (mut top, mut value) = (if at < before { x[at] } else { last }, best);
+    let interpolant = Interpolant::through(values);
+    let mut x = top;
+    for _ in 0..8 {
+        let [_, slope, curvature] = interpolant.derivatives(x);
+        let step = if curvature < 0.0 { slope / curvature } else { break };
+        x = (x - step).clamp(low, high);
+        if step.abs() < 1e-9 {
+            break;
+        }
+    }
+    let [found, ..] = interpolant.derivatives(x);
+    if found > value && x < last {
+        (top, value) = (x, found);
+    }
+    (value > known).then_some((top, value))
+}

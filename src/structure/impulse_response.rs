@@ -1,0 +1,81 @@
+//! What an impulse makes of each mode: h'' + c h' + w^2 h = 0 from h = 0, h' = 1, as a power series in time.
+
+use super::{LANES, Structure};
+use crate::collocation::POWERS;
+
+/// The series of all modes that damping does not couple.
+#[derive(Clone, Debug)]
+pub struct ImpulseResponse {
+    lanes: usize,
+    /// Power by power, s^(1 - k).
+    terms: Vec<f64>,
+    /// 1/s.
+    fastest: f64,
+}
+
+impl ImpulseResponse {
+    /// Of a structure; `None` where damping couples its modes.
+    pub fn of(structure: &Structure) -> Option<ImpulseResponse> {
+        if !structure.is_classical() {
+            return None;
+        }
+        let lanes = structure.lanes;
+        let mut terms = vec![0.0; POWERS * lanes];
+        terms[lanes..2 * lanes].fill(1.0);
+        for k in 2..POWERS {
+            let (known, next) = terms.split_at_mut(k * lanes);
+            let (before, last) = known[(k - 2) * lanes..].split_at(lanes);
+            let k = k as f64;
+            for m in 0..lanes {
+                next[m] =
+                    -((k - 1.0) * structure.damping[m] * last[m] + structure.omega2[m] * before[m]) / (k * (k - 1.0));
+            }
+        }
+        Some(ImpulseResponse { lanes, terms, fastest: structure.fastest })
+    }
+
+    /// Power k of all modes.
+    pub fn term(&self, k: usize) -> &[f64] {
+        &self.terms[k * self.lanes..(k + 1) * self.lanes]
+    }
+
+    /// How many powers are needed over a time, s, for a relative `remainder`; `None` where it is too long.
+    pub fn powers(&self, time: f64, remainder: f64) -> Option<usize> {
+        let reach = self.fastest * time;
+        let (mut term, mut k) = (1.0, 1);
+        while term > remainder {
+            k += 1;
+            term *= reach / k as f64;
+        }
+        (k < POWERS).then_some(k + 1)
+    }
+
+    /// G of the distance of a pair under the force of another, from their rows; m/(N s^k).
+    pub fn kernel(&self, row: &[f64], other: &[f64]) -> [f64; POWERS] {
+        let mut kernel = [0.0; POWERS];
+        for (k, kernel) in kernel.iter_mut().enumerate() {
+            let mut sum = [0.0; LANES];
+            let terms = self.term(k).as_chunks::<LANES>().0.iter();
+            let rows = row.as_chunks::<LANES>().0.iter().zip(other.as_chunks::<LANES>().0);
+            for (term, (row, other)) in terms.zip(rows) {
+                for i in 0..LANES {
+                    sum[i] += row[i] * other[i] * term[i];
+                }
+            }
+            *kernel = (sum[0] + sum[2]) + (sum[1] + sum[3]);
+        }
+        kernel
+    }
+
+    /// Takes from a motion what a force has done by its moments, N s^(k+1): the integrals of (time left)^k F.
+    pub fn push(&self, row: &[f64], moments: &[f64], (q, v): (&mut [f64], &mut [f64])) {
+        for k in 1..moments.len() {
+            let (now, before) = (moments[k], k as f64 * moments[k - 1]);
+            let motion = q.iter_mut().zip(v.iter_mut());
+            for (((q, v), row), term) in motion.zip(row).zip(self.term(k)) {
+                *q -= row * term * now;
+                *v -= row * term * before;
+            }
+        }
+    }
+}
