@@ -8,6 +8,9 @@ pub const NODES: usize = 16;
 /// A number at each node.
 pub type Row = [f64; NODES];
 
+/// A number for each two nodes, column by column: entry `[j][i]` is what node j adds at node i.
+pub type Matrix = [Row; NODES];
+
 /// Nodes and weights of a Gauss rule on 0..=1, from Newton's method on the Legendre polynomials.
 pub fn rule(count: usize) -> Vec<(f64, f64)> {
     let node = |i: usize| {
@@ -41,18 +44,31 @@ pub struct Nodes {
     pub weight: Row,
     /// Row n: what the values add to the coefficient of the Legendre polynomial P_n(2 x - 1).
     pub legendre: [Row; NODES],
+    /// Derivatives by x at the nodes of the polynomial through values at them.
+    pub derivative: Matrix,
 }
 
 /// The same for all windows.
 pub fn nodes() -> &'static Nodes {
     static NODES_OF_ALL: OnceLock<Nodes> = OnceLock::new();
     NODES_OF_ALL.get_or_init(|| {
-        let mut all = Nodes { x: [0.0; NODES], weight: [0.0; NODES], legendre: [[0.0; NODES]; NODES] };
+        let mut all = Nodes {
+            x: [0.0; NODES],
+            weight: [0.0; NODES],
+            legendre: [[0.0; NODES]; NODES],
+            derivative: [[0.0; NODES]; NODES],
+        };
         for (i, (x, weight)) in rule(NODES).into_iter().enumerate() {
             (all.x[i], all.weight[i]) = (x, weight);
             for n in 0..NODES {
                 all.legendre[n][i] = (2 * n + 1) as f64 * weight * legendre(n, 2.0 * x - 1.0).0;
             }
+        }
+        for j in 0..NODES {
+            let mut unit = [0.0; NODES];
+            unit[j] = 1.0;
+            let basis = Interpolant { legendre: std::array::from_fn(|n| dot(&unit, &all.legendre[n])) };
+            all.derivative[j] = all.x.map(|x| basis.derivatives(x)[1]);
         }
         all
     })

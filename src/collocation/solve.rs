@@ -3,8 +3,8 @@
 //! A sweep is an integral over time twice, so errors fall like the terms of the series of a cosine: faster and faster.
 //! Where a window ends with an event, its length is an unknown too and is corrected in between.
 
-use super::nodes::{NODES, Row, coefficient, dot};
-use super::tables::{Map, Matrix, POWERS, Tables};
+use super::nodes::{Matrix, NODES, Row, coefficient, dot, nodes};
+use super::tables::{Map, POWERS, Tables};
 use crate::contact::Force;
 use crate::polynomial::{Coefficients, ROOM};
 
@@ -155,12 +155,13 @@ impl Solution {
             self.close(equation, room);
             let (late, speed) = self.lateness(equation, ending);
             let missed = late.abs() * speed;
-            if missed > tolerance {
-                self.length = (self.length - late).clamp(0.6 * self.length, 1.5 * self.length);
-                if self.length.is_nan() || self.length > equation.scale {
+            if missed > tolerance && left <= (0.1 * missed).max(tolerance) {
+                let length = (self.length - late).clamp(0.6 * self.length, 1.5 * self.length);
+                if length.is_nan() || length > equation.scale {
                     return false;
                 }
-                equation.fly(map, self.length, room);
+                self.stretch(equation, length);
+                equation.fly(map, length, room);
             }
             let is_found = left.max(missed) <= tolerance;
             let negligible = if is_found { tolerance } else { 0.1 * change.max(tolerance) };
@@ -169,11 +170,31 @@ impl Solution {
             } else if is_found {
                 return true;
             }
-            if missed > change {
-                last_change = f64::INFINITY;
-            }
         }
         false
+    }
+
+    /// Takes the solution to another length of the window: the same motion at the times of the new nodes.
+    fn stretch(&mut self, equation: &Equation, length: f64) {
+        let (nodes, tables) = (nodes(), Tables::of(self.map));
+        let share = (length - self.length) / self.length;
+        for p in 0..equation.pairs {
+            let law = equation.forces[p];
+            let rows = if law.is_damped() {
+                &mut [&mut self.depth[p], &mut self.rate[p]][..]
+            } else {
+                &mut [&mut self.depth[p]]
+            };
+            for row in rows {
+                let mut slope = [0.0; NODES];
+                add_product(&mut slope, &nodes.derivative, row);
+                for i in 0..NODES {
+                    row[i] += share * tables.lag[i] * slope[i];
+                }
+            }
+            forces(&law, &self.depth[p], &self.rate[p], &mut self.force[p]);
+        }
+        self.length = length;
     }
 
     /// s, by how much the window is too long, and m/s, what that is weighed with.

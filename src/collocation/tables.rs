@@ -1,6 +1,6 @@
 //! Integrals over a window of powers of the time left, times the polynomials through its nodes.
 
-use super::nodes::{NODES, Row, nodes, rule};
+use super::nodes::{Matrix, NODES, Row, nodes, rule};
 use std::sync::OnceLock;
 
 /// Powers of the time left that are tabulated.
@@ -42,13 +42,12 @@ impl Map {
     }
 }
 
-/// A number for each node, column by column: entry `[j][i]` is what node j adds at node i.
-pub type Matrix = [Row; NODES];
-
 /// The integrals of one map.
 pub struct Tables {
     /// theta of each node.
     pub theta: Row,
+    /// theta / (d theta / dx): what x a node lags behind where the window grows by its length.
+    pub lag: Row,
     /// d theta / dx there, times the weight of the node.
     pub weight: Row,
     /// Of power k: the integral over 0..x_i of (theta_i - theta)^k l_j(x) theta' dx.
@@ -70,12 +69,15 @@ impl Tables {
         let nodes = nodes();
         let mut tables = Tables {
             theta: nodes.x.map(|x| map.at(x).0),
+            lag: [0.0; NODES],
             weight: [0.0; NODES],
             inner: [[[0.0; NODES]; NODES]; POWERS],
             whole: [[0.0; NODES]; POWERS],
         };
         for i in 0..NODES {
-            tables.weight[i] = map.at(nodes.x[i]).1 * nodes.weight[i];
+            let (theta, rate) = map.at(nodes.x[i]);
+            tables.lag[i] = theta / rate;
+            tables.weight[i] = rate * nodes.weight[i];
         }
         for i in 0..=NODES {
             let end = nodes.x.get(i).copied().unwrap_or(1.0);

@@ -14,14 +14,17 @@ use crate::contact::{Force, Guard};
 use crate::quadrature::{EIGHT, gauss};
 use crate::structure::{EXACT, ImpulseResponse, Structure, dot, flight_order};
 
-/// Longest window in units of a contact's time: half of a Hertz contact takes 1.61.
-const LONGEST: f64 = 1.65;
+/// Relative accuracy of a step for which windows are as long as [`longest`] says.
+const USUAL: f64 = 2e-11;
 
 /// How far a kernel may be off, relative to what one step may.
 const KERNEL_SHARE: f64 = 1e-3;
 
 /// How far the iteration may be off, relative to what one step may.
-const SWEEP_SHARE: f64 = 0.03;
+const SWEEP_SHARE: f64 = 0.3;
+
+/// Time since an entry, in units of the contact's, until which its root is felt.
+const FRESH: f64 = 0.3;
 
 /// What windows need to know of a scene.
 #[derive(Clone, Debug)]
@@ -82,7 +85,8 @@ impl Model {
             }
             let Window { equation, solution, .. } = &mut *step.window;
             let how = (draft.map, draft.length, draft.ending);
-            if !solution.solve(equation, &mut work.windows, how, SWEEP_SHARE * tolerance * draft.length) {
+            let is_solved = solution.solve(equation, &mut work.windows, how, SWEEP_SHARE * tolerance * draft.length);
+            if !is_solved {
                 draft = draft.shorter(0.5);
                 continue;
             }
@@ -130,16 +134,21 @@ impl Model {
     fn draft(&self, base: &Base, window: &mut Window, remaining: f64) -> Option<Draft> {
         let (mut longest, mut next) = (f64::INFINITY, (f64::INFINITY, Ending::Given));
         let mut map = Map::Plain;
+        let patience = libm::pow(self.step_tolerance / USUAL, 0.055).clamp(0.4, 1.2);
         for place in 0..window.equation.pairs {
             let p = window.contacts[place];
             let (contact, force) = (&base.contacts[p], window.equation.forces[place]);
             let prospect = Prospect::of(&force, self.pairs[p].mass, contact.penetration.max(0.0), contact.rate)?;
             window.equation.omega[place] = 1.0 / prospect.unit;
-            longest = longest.min(LONGEST * prospect.unit);
             let is_root = matches!(force, Force::Root { .. });
-            if contact.penetration <= 0.0 {
-                map = if is_root || map == Map::FourthStart { Map::FourthStart } else { Map::SquareStart };
-            }
+            let since = if contact.penetration > 0.0 { base.time() - contact.episode.start } else { 0.0 };
+            let is_fresh = since < FRESH * prospect.unit;
+            longest = longest.min(longest_window(&force, is_fresh) * prospect.unit);
+            map = match (is_fresh, is_root) {
+                (true, true) => Map::FourthStart,
+                (true, false) if map == Map::Plain => Map::SquareStart,
+                _ => map,
+            };
             let event = match is_root && contact.rate > 0.0 {
                 true => (prospect.turn, Ending::Turn(place)),
                 false => (prospect.release, Ending::Release(place)),
@@ -149,6 +158,7 @@ impl Model {
             }
         }
         let (time, ending) = next;
+        longest *= patience;
         let draft = match ending {
             Ending::Turn(_) if time <= longest => Draft { map, length: time, ending },
             Ending::Release(_) if time <= longest && map == Map::Plain => {
@@ -162,7 +172,9 @@ impl Model {
         if draft.length <= remaining {
             return Some(draft);
         }
-        Some(Draft { length: remaining, ..draft.shorter(1.0) })
+        // Not up to just before a release: its root would be felt.
+        let length = if matches!(ending, Ending::Release(_)) { remaining.min(0.8 * time) } else { remaining };
+        Some(Draft { length, ..draft.shorter(1.0) })
     }
 
     /// Fills in the free motion and the kernels for windows up to `longest`, s; whether series reach that far.
@@ -214,8 +226,19 @@ impl Model {
                 });
             }
         }
+        // Rates beyond a turn: it ends there.
+        for place in 0..equation.pairs {
+            let is_root = matches!(equation.forces[place], Force::Root { .. });
+            if is_root && draft.ending != Ending::Turn(place) {
+                let rates = solution.rate[place].iter().chain([&solution.end[place].1]);
+                if let Some(i) = rates.clone().position(|v| *v <= 0.0) {
+                    let length = theta.get(i).unwrap_or(&1.0) * solution.length;
+                    return Verdict::Another(Draft { map: draft.map, length, ending: Ending::Turn(place) });
+                }
+            }
+        }
         let error = solution.velocity_error(equation) / tolerance;
-        let allowed = 3.0 / libm::cbrt(self.step_tolerance);
+        let allowed = 10.0 / libm::cbrt(self.step_tolerance);
         if error > allowed {
             let share = libm::pow(allowed / error, 0.1);
             return Verdict::Another(draft.shorter((0.9 * share).max(0.3)));
@@ -310,6 +333,17 @@ impl Draft {
     }
 }
 
+/// Longest window in units of the contact's time; half of a Hertz contact takes 1.61. Found by trying.
+fn longest_window(force: &Force, is_fresh: bool) -> f64 {
+    match (force, is_fresh) {
+        (Force::Root { .. }, true) => 0.62,
+        (Force::Root { .. }, false) => 1.0,
+        (_, true) if force.is_damped() => 0.95,
+        (_, false) if force.is_damped() => 1.3,
+        _ => 1.65,
+    }
+}
+
 /// Sum of sizes of products.
 fn bound(row: &[f64], bounds: &[f64]) -> f64 {
     row.iter().zip(bounds).map(|(row, bound)| row.abs() * bound).sum()
@@ -373,7 +407,7 @@ fn recedes(window: &Window, place: usize, contact: &Contact, bend: f64) -> bool 
     let theta = &Tables::of(solution.map).theta;
     let law = contact.branch();
     let softness = window.equation.kernels[place][place][1];
-    let (mut time, mut depth, mut rate) = (0.0, contact.penetration, contact.rate.max(0.0));
+    let (mut time, mut depth, mut rate) = (0.0, contact.penetration, contact.rate);
     let nodes = theta.iter().zip(&solution.depth[place]).map(|(theta, d)| (theta * solution.length, *d));
     for (next, d) in nodes.chain([(solution.length, solution.end[place].0)]) {
         let gone = next - time;
