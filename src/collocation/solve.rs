@@ -8,8 +8,8 @@ use super::tables::{Map, POWERS, Tables};
 use crate::contact::Force;
 use crate::polynomial::{Coefficients, ROOM};
 
-/// Pairs in contact that a window is solved for at once.
-pub const MOST_PAIRS: usize = 3;
+/// Pairs that a window is solved for at once: those in contact, and those that may come into contact.
+pub const MOST_PAIRS: usize = 4;
 
 /// Sweeps after which a window is given up: it is too long for this, or its damping too stiff.
 const MOST_SWEEPS: usize = 24;
@@ -19,7 +19,9 @@ const MOST_SWEEPS: usize = 24;
 pub struct Equation {
     /// Number of pairs.
     pub pairs: usize,
-    /// Force of each.
+    /// How many of them are in contact: the first. The others are watched.
+    pub closed: usize,
+    /// Force of each that is in contact.
     pub forces: [Force; MOST_PAIRS],
     /// Penetration of each without contact forces from the start of the window on, m, in powers of t / `scale`.
     pub free: [Coefficients; MOST_PAIRS],
@@ -39,6 +41,7 @@ impl Default for Equation {
     fn default() -> Equation {
         Equation {
             pairs: 0,
+            closed: 0,
             forces: [Force::None; MOST_PAIRS],
             free: [[0.0; ROOM]; MOST_PAIRS],
             terms: 2,
@@ -59,6 +62,8 @@ pub enum Ending {
     Release(usize),
     /// A pair does not approach any more.
     Turn(usize),
+    /// A watched pair comes into contact.
+    Touch(usize),
 }
 
 /// A solved window.
@@ -130,55 +135,15 @@ impl Solution {
     ) -> bool {
         self.map = map;
         self.length = length;
-        self.guess(equation);
-        equation.assemble(map, length, room);
-        equation.fly(map, length, room);
-        let mut last_change = f64::INFINITY;
-        for sweep in 1..=MOST_SWEEPS {
-            let change = self.sweep(equation, room);
-            if !change.is_finite() {
-                return false;
-            }
-            // Each sweep takes off more than the one before.
-            let left = change * (change / last_change).min(1.0);
-            last_change = change;
-            if ending == Ending::Given {
-                if left <= tolerance && sweep > 1 {
-                    self.close(equation, room);
-                    return true;
-                }
-                continue;
-            }
-            if sweep < 3 {
-                continue;
-            }
-            self.close(equation, room);
-            let (late, speed) = self.lateness(equation, ending);
-            let missed = late.abs() * speed;
-            if missed > tolerance && left <= (0.1 * missed).max(tolerance) {
-                let length = (self.length - late).clamp(0.6 * self.length, 1.5 * self.length);
-                if length.is_nan() || length > equation.scale {
-                    return false;
-                }
-                self.stretch(equation, length);
-                equation.fly(map, length, room);
-            }
-            let is_found = left.max(missed) <= tolerance;
-            let negligible = if is_found { tolerance } else { 0.1 * change.max(tolerance) };
-            if equation.error_of_responses(self.length, room) > negligible {
-                equation.assemble(map, self.length, room);
-            } else if is_found {
-                return true;
-            }
-        }
-        false
+        iterate(self, equation, room, ending, tolerance)
     }
 
     /// Takes the solution to another length of the window: the same motion at the times of the new nodes.
-    fn stretch(&mut self, equation: &Equation, length: f64) {
-        let (nodes, tables) = (nodes(), Tables::of(self.map));
+    #[inline(always)]
+    fn stretch(&mut self, equation: &Equation, tables: &Tables, length: f64) {
+        let nodes = nodes();
         let share = (length - self.length) / self.length;
-        for p in 0..equation.pairs {
+        for p in 0..equation.closed {
             let law = equation.forces[p];
             let rows = if law.is_damped() {
                 &mut [&mut self.depth[p], &mut self.rate[p]][..]
@@ -201,7 +166,7 @@ impl Solution {
     fn lateness(&self, equation: &Equation, ending: Ending) -> (f64, f64) {
         match ending {
             Ending::Given => (0.0, 0.0),
-            Ending::Release(p) => (self.end[p].0 / self.end[p].1, self.end[p].1.abs()),
+            Ending::Release(p) | Ending::Touch(p) => (self.end[p].0 / self.end[p].1, self.end[p].1.abs()),
             Ending::Turn(p) => {
                 let (d, v) = self.end[p];
                 let x = self.length / equation.scale;
@@ -214,9 +179,10 @@ impl Solution {
     }
 
     /// Forces of an oscillation as quick as the contact.
-    fn guess(&mut self, equation: &Equation) {
-        let theta = &Tables::of(self.map).theta;
-        for p in 0..equation.pairs {
+    #[inline(always)]
+    fn guess(&mut self, equation: &Equation, tables: &Tables) {
+        let theta = &tables.theta;
+        for p in 0..equation.closed {
             let (d, v, omega) = (equation.free[p][0], equation.free[p][1] / equation.scale, equation.omega[p]);
             for i in 0..NODES {
                 let t = theta[i] * self.length;
@@ -231,13 +197,14 @@ impl Solution {
     }
 
     /// Penetrations from forces, pair by pair, and forces from these; the largest change of a penetration, m.
+    #[inline(always)]
     fn sweep(&mut self, equation: &Equation, room: &Room) -> f64 {
         // A little longer or shorter than when the responses were made: they go as t^2 and t.
         let ratio = self.length / room.assembled;
         let mut change = 0.0_f64;
-        for p in 0..equation.pairs {
+        for p in 0..equation.closed {
             let law = equation.forces[p];
-            let responses = &room.responses[p * equation.pairs..][..equation.pairs];
+            let responses = &room.responses[p * equation.closed..][..equation.closed];
             let mut depth = [0.0; NODES];
             for (response, force) in responses.iter().zip(&self.force) {
                 add_product(&mut depth, &response.depth, force);
@@ -263,10 +230,11 @@ impl Solution {
     }
 
     /// Penetrations and rates at the end.
+    #[inline(always)]
     fn close(&mut self, equation: &Equation, room: &Room) {
         let ratio = self.length / room.assembled;
         for p in 0..equation.pairs {
-            let responses = &room.responses[p * equation.pairs..][..equation.pairs];
+            let responses = &room.responses[p * equation.closed..][..equation.closed];
             let (mut d, mut v) = (0.0, 0.0);
             for (response, force) in responses.iter().zip(&self.force) {
                 d += dot(&response.depth_end, force);
@@ -277,37 +245,108 @@ impl Solution {
         }
     }
 
+    /// Penetrations of the watched pairs at the nodes.
+    #[inline(always)]
+    fn watch(&mut self, equation: &Equation, tables: &Tables, room: &Room) {
+        for p in equation.closed..equation.pairs {
+            let mut taken = [0.0; NODES];
+            for q in 0..equation.closed {
+                let (factors, _) = equation.factors(p, q, self.length);
+                let mut response = [[0.0; NODES]; NODES];
+                combine(&tables.inner[1..], &factors[1..equation.powers], &mut response);
+                add_product(&mut taken, &response, &self.force[q]);
+            }
+            for i in 0..NODES {
+                self.depth[p][i] = room.free[p].depth[i] - taken[i];
+            }
+        }
+    }
+
     /// m/s, what the forces between the nodes may leave open: from the last terms of their Legendre series.
     pub fn velocity_error(&self, equation: &Equation) -> f64 {
         let of_pair = |p: usize| {
             let last = (NODES - 3..NODES).map(|n| coefficient(&self.force[p], n).abs()).fold(0.0, f64::max);
             last * self.length * equation.kernels[p][p][1]
         };
-        (0..equation.pairs).map(of_pair).fold(0.0, f64::max)
+        (0..equation.closed).map(of_pair).fold(0.0, f64::max)
     }
 }
 
+/// See [`Solution::solve`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn iterate(solution: &mut Solution, equation: &Equation, room: &mut Room, ending: Ending, tolerance: f64) -> bool {
+    let tables = Tables::of(solution.map);
+    solution.guess(equation, tables);
+    equation.assemble(tables, solution.length, room);
+    equation.fly(tables, solution.length, room);
+    let mut last_change = f64::INFINITY;
+    for sweep in 1..=MOST_SWEEPS {
+        let change = solution.sweep(equation, room);
+        if !change.is_finite() {
+            return false;
+        }
+        // Each sweep takes off more than the one before.
+        let left = if last_change.is_finite() { change * (change / last_change).min(1.0) } else { change };
+        last_change = change;
+        if sweep < 3 && left > tolerance {
+            continue;
+        }
+        let mut missed = 0.0;
+        if ending != Ending::Given {
+            solution.close(equation, room);
+            let (late, speed) = solution.lateness(equation, ending);
+            missed = late.abs() * speed;
+            if missed > tolerance && left <= (0.1 * missed).max(tolerance) {
+                let length = (solution.length - late).clamp(0.6 * solution.length, 1.5 * solution.length);
+                if length.is_nan() || length > equation.scale {
+                    return false;
+                }
+                solution.stretch(equation, tables, length);
+                equation.fly(tables, length, room);
+            }
+        }
+        let is_found = left.max(missed) <= tolerance;
+        let negligible = if is_found { tolerance } else { 0.1 * change.max(tolerance) };
+        if equation.error_of_responses(solution.length, room) > negligible {
+            equation.assemble(tables, solution.length, room);
+        } else if is_found {
+            solution.close(equation, room);
+            solution.watch(equation, tables, room);
+            return true;
+        }
+    }
+    false
+}
+
 impl Equation {
+    /// What the powers of a kernel come to over a window of that length, for penetrations and for rates.
+    #[inline(always)]
+    fn factors(&self, p: usize, q: usize, length: f64) -> ([f64; POWERS], [f64; POWERS]) {
+        let kernel = &self.kernels[p][q];
+        let (mut depth, mut rate) = ([0.0; POWERS], [0.0; POWERS]);
+        let mut power = length;
+        for k in 1..self.powers.min(POWERS) {
+            rate[k - 1] = kernel[k] * (k as f64 * power);
+            power *= length;
+            depth[k] = kernel[k] * power;
+        }
+        (depth, rate)
+    }
+
     /// The responses over a window of that length.
-    fn assemble(&self, map: Map, length: f64, room: &mut Room) {
-        let tables = Tables::of(map);
-        let damped = self.forces[..self.pairs].iter().any(Force::is_damped);
+    #[inline(always)]
+    fn assemble(&self, tables: &Tables, length: f64, room: &mut Room) {
         room.assembled = length;
         for p in 0..self.pairs {
-            for q in 0..self.pairs {
-                let kernel = &self.kernels[p][q];
-                let (mut depth, mut rate) = ([0.0; POWERS], [0.0; POWERS]);
-                let mut power = length;
-                for k in 1..self.powers {
-                    rate[k - 1] = kernel[k] * (k as f64 * power);
-                    power *= length;
-                    depth[k] = kernel[k] * power;
-                }
-                let response = &mut room.responses[p * self.pairs + q];
+            for q in 0..self.closed {
+                let (depth, rate) = self.factors(p, q, length);
+                let response = &mut room.responses[p * self.closed + q];
                 let (depth, rate) = (&depth[1..self.powers], &rate[..self.powers - 1]);
-                combine(&tables.inner[1..], depth, &mut response.depth);
-                if damped {
-                    combine(&tables.inner, rate, &mut response.rate);
+                if p < self.closed {
+                    combine(&tables.inner[1..], depth, &mut response.depth);
+                    if self.forces[p].is_damped() {
+                        combine(&tables.inner, rate, &mut response.rate);
+                    }
                 }
                 response.depth_end = combined(&tables.whole[1..], depth);
                 response.rate_end = combined(&tables.whole, rate);
@@ -316,11 +355,12 @@ impl Equation {
     }
 
     /// The motion without contact forces over a window of that length.
-    fn fly(&self, map: Map, length: f64, room: &mut Room) {
+    #[inline(always)]
+    fn fly(&self, tables: &Tables, length: f64, room: &mut Room) {
         let x = length / self.scale;
-        let at = Tables::of(map).theta.map(|theta| theta * x);
+        let at = tables.theta.map(|theta| theta * x);
         for p in 0..self.pairs {
-            let terms = &self.free[p][..self.terms];
+            let terms = &self.free[p][..self.terms.min(ROOM)];
             let free = &mut room.free[p];
             (free.depth, free.rate) = values(terms, &at, self.scale);
             let ([d], [v]) = values(terms, &[x], self.scale);
@@ -339,12 +379,12 @@ impl Equation {
             }
             sum / kernel[1] * (self.free[p][0].abs() + self.free[p][1].abs())
         };
-        (length - room.assembled).abs() * (0..self.pairs).map(of_pair).sum::<f64>()
+        (length - room.assembled).abs() * (0..self.closed).map(of_pair).sum::<f64>()
     }
 }
 
-/// The sum of tables times factors. Wide instructions give the same bits.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
+/// The sum of tables times factors.
+#[inline(always)]
 fn combine(tables: &[Matrix], factors: &[f64], out: &mut Matrix) {
     for (j, out) in out.iter_mut().enumerate() {
         let mut sum = [0.0; NODES];
@@ -358,6 +398,7 @@ fn combine(tables: &[Matrix], factors: &[f64], out: &mut Matrix) {
     }
 }
 
+#[inline(always)]
 fn combined(rows: &[Row], factors: &[f64]) -> Row {
     let mut sum = [0.0; NODES];
     for (row, factor) in rows.iter().zip(factors) {
@@ -368,8 +409,8 @@ fn combined(rows: &[Row], factors: &[f64]) -> Row {
     sum
 }
 
-/// Adds a matrix times values. Wide instructions give the same bits.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
+/// Adds a matrix times values.
+#[inline(always)]
 fn add_product(to: &mut Row, matrix: &Matrix, values: &Row) {
     let mut sum = *to;
     for (column, value) in matrix.iter().zip(values) {
@@ -381,6 +422,7 @@ fn add_product(to: &mut Row, matrix: &Matrix, values: &Row) {
 }
 
 /// Forces of penetrations and rates; none where floors are apart.
+#[inline(always)]
 fn forces(force: &Force, depth: &Row, rate: &Row, out: &mut Row) {
     match *force {
         Force::Power { stiffness, exponent: 1.5, damping: 0.0 } => {
@@ -411,6 +453,7 @@ fn forces(force: &Force, depth: &Row, rate: &Row, out: &mut Row) {
 }
 
 /// Values and derivatives by t of a polynomial in x = t / scale.
+#[inline(always)]
 fn values<const N: usize>(terms: &[f64], x: &[f64; N], scale: f64) -> ([f64; N], [f64; N]) {
     let (mut value, mut slope) = ([0.0; N], [0.0; N]);
     for term in terms.iter().rev() {

@@ -63,6 +63,13 @@ impl Tables {
         ALL[map as usize].get_or_init(|| Box::new(Tables::compute(map)))
     }
 
+    /// Computes those of all maps, if that has not been done: not in the middle of a run.
+    pub fn prepare() {
+        for map in [Map::Plain, Map::SquareStart, Map::FourthStart, Map::SquareEnd] {
+            Tables::of(map);
+        }
+    }
+
     fn compute(map: Map) -> Tables {
         // Exact for the highest degree: 15 of the polynomial, 3 of the map's derivative, 4 for each power.
         let fine = rule((NODES + 3 + 4 * POWERS) / 2 + 1);

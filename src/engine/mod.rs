@@ -68,6 +68,8 @@ mod saved;
 mod state;
 mod swing;
 mod window;
+mod window_bounds;
+mod window_draft;
 mod window_step;
 mod work_limit;
 

@@ -5,6 +5,9 @@ use super::state::*;
 use crate::collocation::{Equation, Interpolant, MOST_PAIRS, NODES, POWERS, Row, Solution, Tables, dot, nodes};
 use crate::polynomial::{Powers, value_and_slope};
 
+/// Share of a peak that the node next to it has at least.
+const NEARLY: f64 = 0.97;
+
 /// A window of the pairs in contact.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Window {
@@ -52,7 +55,7 @@ impl Window {
 
     /// N s^(k+1): integrals of (time left)^k times the force of each pair until `elapsed`.
     pub fn moments(&self, elapsed: f64) -> [[f64; POWERS]; MOST_PAIRS] {
-        let Equation { pairs, powers, .. } = self.equation;
+        let Equation { closed: pairs, powers, .. } = self.equation;
         let mut moments = [[0.0; POWERS]; MOST_PAIRS];
         let Solution { map, length, ref force, .. } = self.solution;
         if elapsed == length {
@@ -84,7 +87,7 @@ impl Window {
 
     /// Penetration, m, and rate, m/s, of a pair under these moments.
     fn depth(&self, place: usize, elapsed: f64, moments: &[[f64; POWERS]; MOST_PAIRS]) -> (f64, f64) {
-        let Equation { pairs, powers, terms, scale, ref free, ref kernels, .. } = self.equation;
+        let Equation { closed: pairs, powers, terms, scale, ref free, ref kernels, .. } = self.equation;
         let (d, v) = value_and_slope(&free[place][..terms], elapsed / scale);
         let (mut taken, mut slowed) = (0.0, 0.0);
         for (kernel, moments) in kernels[place].iter().zip(moments).take(pairs) {
@@ -105,7 +108,7 @@ impl Model {
         step.series.evaluate(powers, q, v);
         let window = &step.window;
         let moments = window.moments(elapsed);
-        for (p, moments) in window.contacts.iter().zip(&moments).take(window.equation.pairs) {
+        for (p, moments) in window.contacts.iter().zip(&moments).take(window.equation.closed) {
             windows.response.push(&self.pairs[*p].row, &moments[..window.equation.powers], (q, v));
         }
     }
@@ -152,8 +155,8 @@ impl Contact {
 
 /// Where what has these values at the nodes and `end` at x = `last` is largest up to there, if above `known`.
 fn highest(values: &Row, last: f64, end: f64, known: f64) -> Option<(f64, f64)> {
-    let x = &nodes().x;
-    let before = x.iter().take_while(|x| **x < last).count();
+    let nodes = &nodes().x;
+    let before = nodes.iter().take_while(|x| **x < last).count();
     let (mut best, mut at) = (end, before);
     for (i, value) in values.iter().enumerate().take(before) {
         if *value > best {
@@ -161,24 +164,28 @@ fn highest(values: &Row, last: f64, end: f64, known: f64) -> Option<(f64, f64)> 
         }
     }
     // Between nodes it is at most a little higher than at them.
-    if best < 0.9 * known {
+    if best < NEARLY * known {
         return None;
     }
-    let (low, high) = (if at == 0 { 0.0 } else { x[at - 1] }, if at + 1 < before { x[at + 1] } else { last });
-    let (mut top, mut value) = (if at < before { x[at] } else { last }, best);
+    let x_of = |i: usize| if i < before { nodes[i] } else { last };
+    let (low, high) = (if at == 0 { 0.0 } else { nodes[at - 1] }, x_of(at + 1));
+    let (mut top, mut value) = (x_of(at), best);
     let interpolant = Interpolant::through(values);
     let mut x = top;
     for _ in 0..8 {
         let [_, slope, curvature] = interpolant.derivatives(x);
-        let step = if curvature < 0.0 { slope / curvature } else { break };
-        x = (x - step).clamp(low, high);
-        if step.abs() < 1e-9 {
+        let next = if curvature < 0.0 { (x - slope / curvature).clamp(low, high) } else { break };
+        let is_found = (next - x).abs() < 1e-9;
+        x = next;
+        if is_found || x == last {
             break;
         }
     }
-    let [found, ..] = interpolant.derivatives(x);
-    if found > value && x < last {
-        (top, value) = (x, found);
+    if x < last {
+        let [found, ..] = interpolant.derivatives(x);
+        if found > value {
+            (top, value) = (x, found);
+        }
     }
     (value > known).then_some((top, value))
 }

@@ -1,0 +1,141 @@
+//! Which window to try first: as long as the laws in it allow, and up to the next event if that is near.
+
+use super::model::Model;
+use super::state::*;
+use super::window::Window;
+use crate::collocation::{Ending, Map};
+use crate::contact::Force;
+use crate::contact::force::power;
+use crate::quadrature::{EIGHT, gauss};
+
+/// Relative accuracy of a step for which windows are as long as [`longest`] says, and how their length goes with it.
+const USUAL: (f64, f64) = (2e-11, 0.055);
+
+/// Time since an entry, in units of the contact's, until which its root is felt.
+const FRESH: f64 = 0.3;
+
+/// A dashpot helps the spring to turn a contact round.
+const DASHPOT: f64 = 0.85;
+
+/// Share of the time until a release up to which a window that does not reach it may go: its root would be felt.
+const BEFORE_RELEASE: f64 = 0.8;
+
+/// A window that is to be tried.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Draft {
+    pub map: Map,
+    /// s.
+    pub length: f64,
+    pub ending: Ending,
+    /// Made shorter since nothing could be shown of a longer one.
+    pub halved: bool,
+}
+
+impl Draft {
+    /// A window without an event, of that share of the length.
+    pub fn shorter(self, share: f64) -> Draft {
+        let map = if self.map == Map::SquareEnd { Map::Plain } else { self.map };
+        Draft { map, length: share * self.length, ending: Ending::Given, halved: self.halved }
+    }
+
+    /// The same up to an event.
+    pub fn until(self, ending: Ending, length: f64) -> Draft {
+        Draft { length, ending, ..self }
+    }
+}
+
+impl Model {
+    /// What to try first within the `remaining` seconds; `None` where a contact is beyond all measure.
+    pub(super) fn draft(&self, base: &Base, window: &mut Window, remaining: f64) -> Option<Draft> {
+        let patience = libm::pow(self.step_tolerance / USUAL.0, USUAL.1).clamp(0.4, 1.2);
+        let (mut longest, mut map) = (f64::INFINITY, Map::Plain);
+        let (mut time, mut ending) = (f64::INFINITY, Ending::Given);
+        for place in 0..window.equation.closed {
+            let p = window.contacts[place];
+            let (contact, force) = (&base.contacts[p], window.equation.forces[place]);
+            let prospect = Prospect::of(&force, self.pairs[p].mass, contact.penetration.max(0.0), contact.rate)?;
+            window.equation.omega[place] = 1.0 / prospect.unit;
+            let is_root = matches!(force, Force::Root { .. });
+            let since = if contact.penetration > 0.0 { base.time() - contact.episode.start } else { 0.0 };
+            let is_fresh = since < FRESH * prospect.unit;
+            longest = longest.min(patience * longest_window(&force, is_fresh) * prospect.unit);
+            if is_fresh && is_root && since > 0.0 {
+                longest = longest.min(8.0 * since);
+            }
+            map = match (is_fresh, is_root) {
+                (true, true) => Map::FourthStart,
+                (true, false) if map == Map::Plain => Map::SquareStart,
+                _ => map,
+            };
+            let event = match is_root && contact.rate > 0.0 {
+                true => (DASHPOT * prospect.turn, Ending::Turn(place)),
+                false => (prospect.release, Ending::Release(place)),
+            };
+            if event.0 < time {
+                (time, ending) = event;
+            }
+        }
+        let draft = Draft { map, length: time, ending, halved: false };
+        let draft = match ending {
+            Ending::Turn(_) if time <= longest => draft,
+            Ending::Release(_) if time <= longest && map == Map::Plain => Draft { map: Map::SquareEnd, ..draft },
+            _ => draft.until(Ending::Given, (time / (time / longest).ceil().max(2.0)).min(longest)),
+        };
+        if draft.length <= remaining {
+            return Some(draft);
+        }
+        let is_before_release = matches!(ending, Ending::Release(_));
+        let length = if is_before_release { remaining.min(BEFORE_RELEASE * time) } else { remaining };
+        Some(Draft { length, ..draft.shorter(1.0) })
+    }
+}
+
+/// Longest window in units of the contact's time; half of a Hertz contact takes 1.61. Found by trying.
+fn longest_window(force: &Force, is_fresh: bool) -> f64 {
+    match (force, is_fresh) {
+        (Force::Root { .. }, true) => 0.62,
+        (Force::Root { .. }, false) => 1.0,
+        (_, true) if force.is_damped() => 0.95,
+        (_, false) if force.is_damped() => 1.3,
+        _ => 1.65,
+    }
+}
+
+/// What a spring alone would do with a pair.
+struct Prospect {
+    /// s, its time: (m V^(1-n) / k)^(1/(n+1)) for the speed V of all of its energy.
+    unit: f64,
+    /// s, until it turns round.
+    turn: f64,
+    /// s, until it is released.
+    release: f64,
+}
+
+impl Prospect {
+    fn of(force: &Force, mass: f64, d: f64, rate: f64) -> Option<Prospect> {
+        let (stiffness, n) = match *force {
+            Force::Power { stiffness, exponent, .. } => (stiffness, exponent),
+            Force::Root { stiffness, .. } => (stiffness, 1.5),
+            Force::None | Force::Linear { .. } => return None,
+        };
+        let speed = (rate * rate + 2.0 * force.stored_energy(d) / mass).sqrt();
+        let unit = libm::pow(mass * libm::pow(speed, 1.0 - n) / stiffness, 1.0 / (n + 1.0));
+        let deepest = libm::pow(0.5 * (n + 1.0), 1.0 / (n + 1.0)) * unit * speed;
+        let (all, left) = (swing(n, 0.0), if d > 0.0 { swing(n, d / deepest) } else { swing(n, 0.0) });
+        let time = deepest / speed;
+        let (turn, release) = if rate >= 0.0 { (left, all + left) } else { (0.0, all - left) };
+        let is_sound = unit.is_finite() && unit > 0.0 && release > 0.0;
+        is_sound.then_some(Prospect { unit, turn: turn * time, release: release * time })
+    }
+}
+
+/// Integral of 1 / sqrt(1 - u^(n+1)) over from..1, roughly: the time from a depth to the deepest.
+fn swing(n: f64, from: f64) -> f64 {
+    let width = 1.0 - from.min(1.0);
+    gauss(EIGHT, 1.0)
+        .map(|(y, weight)| {
+            let u = 1.0 - width * y * y;
+            weight * 2.0 * width * y / (1.0 - power(u, n + 1.0)).max(f64::MIN_POSITIVE).sqrt()
+        })
+        .sum()
+}
