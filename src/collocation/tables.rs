@@ -4,7 +4,7 @@ use super::nodes::{Matrix, NODES, Row, nodes, rule};
 use std::sync::OnceLock;
 
 /// Powers of the time left that are tabulated.
-pub const POWERS: usize = 14;
+pub const POWERS: usize = 20;
 
 /// How the time of a window goes with x, both from 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -18,6 +18,10 @@ pub enum Map {
     FourthStart,
     /// theta = 1 - (1 - x)^2: square roots of the time until the end are.
     SquareEnd,
+    /// theta = x^2 (3 - 2 x): square roots of either.
+    SquareBoth,
+    /// theta = x^4 (5 - 4 x): fourth roots from the start, square roots until the end.
+    FourthBoth,
 }
 
 impl Map {
@@ -28,6 +32,8 @@ impl Map {
             Map::SquareStart => (x * x, 2.0 * x),
             Map::FourthStart => (x * x * (x * x), 4.0 * x * (x * x)),
             Map::SquareEnd => (x * (2.0 - x), 2.0 * (1.0 - x)),
+            Map::SquareBoth => (x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x)),
+            Map::FourthBoth => (x * x * (x * x) * (5.0 - 4.0 * x), 20.0 * x * (x * x) * (1.0 - x)),
         }
     }
 
@@ -38,8 +44,48 @@ impl Map {
             Map::SquareStart => theta.sqrt(),
             Map::FourthStart => theta.sqrt().sqrt(),
             Map::SquareEnd => theta / (1.0 + (1.0 - theta).max(0.0).sqrt()),
+            Map::SquareBoth | Map::FourthBoth => self.search(theta),
         }
     }
+
+    /// x of a theta by halving, to the last bit.
+    fn search(self, theta: f64) -> f64 {
+        let (mut low, mut high) = (0.0, 1.0);
+        loop {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                return if theta < 1.0 { low } else { 1.0 };
+            }
+            if self.at(middle).0 <= theta {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+    }
+
+    /// The same map but for the end.
+    pub fn without_end(self) -> Map {
+        match self {
+            Map::SquareEnd => Map::Plain,
+            Map::SquareBoth => Map::SquareStart,
+            Map::FourthBoth => Map::FourthStart,
+            _ => self,
+        }
+    }
+
+    /// The same map but for the end, at which square roots of the time left are polynomials.
+    pub fn with_end(self) -> Map {
+        match self {
+            Map::Plain => Map::SquareEnd,
+            Map::SquareStart => Map::SquareBoth,
+            Map::FourthStart => Map::FourthBoth,
+            _ => self,
+        }
+    }
+
+    const ALL: [Map; 6] =
+        [Map::Plain, Map::SquareStart, Map::FourthStart, Map::SquareEnd, Map::SquareBoth, Map::FourthBoth];
 }
 
 /// The integrals of one map.
@@ -59,20 +105,20 @@ pub struct Tables {
 impl Tables {
     /// Those of a map, computed once.
     pub fn of(map: Map) -> &'static Tables {
-        static ALL: [OnceLock<Box<Tables>>; 4] = [const { OnceLock::new() }; 4];
-        ALL[map as usize].get_or_init(|| Box::new(Tables::compute(map)))
+        static OF_MAPS: [OnceLock<Box<Tables>>; 6] = [const { OnceLock::new() }; 6];
+        OF_MAPS[map as usize].get_or_init(|| Box::new(Tables::compute(map)))
     }
 
     /// Computes those of all maps, if that has not been done: not in the middle of a run.
     pub fn prepare() {
-        for map in [Map::Plain, Map::SquareStart, Map::FourthStart, Map::SquareEnd] {
+        for map in Map::ALL {
             Tables::of(map);
         }
     }
 
     fn compute(map: Map) -> Tables {
-        // Exact for the highest degree: 15 of the polynomial, 3 of the map's derivative, 4 for each power.
-        let fine = rule((NODES + 3 + 4 * POWERS) / 2 + 1);
+        // Exact for the highest degree: 15 of the polynomial, 4 of the map's derivative, 5 for each power.
+        let fine = rule((NODES + 4 + 5 * POWERS) / 2 + 1);
         let nodes = nodes();
         let mut tables = Tables {
             theta: nodes.x.map(|x| map.at(x).0),
@@ -132,7 +178,7 @@ mod tests {
     /// The integral of (theta_1 - theta)^k theta^m over 0..theta_1 is m! k! / (m + k + 1)! theta_1^(m + k + 1).
     #[test]
     fn powers_of_the_time_are_integrated_to_rounding() {
-        for map in [Map::Plain, Map::SquareStart, Map::FourthStart, Map::SquareEnd] {
+        for map in Map::ALL {
             let tables = Tables::of(map);
             for k in 0..POWERS {
                 for m in 0..=3 {
@@ -155,7 +201,7 @@ mod tests {
 
     #[test]
     fn a_map_and_its_inverse_belong_together() {
-        for map in [Map::Plain, Map::SquareStart, Map::FourthStart, Map::SquareEnd] {
+        for map in Map::ALL {
             for x in [0.0, 1e-3, 0.3, 0.9, 1.0] {
                 assert!((map.inverse(map.at(x).0) - x).abs() < 1e-12, "{map:?} at {x}");
                 let difference = (map.at(x + 1e-7).0 - map.at(x - 1e-7).0) / 2e-7;

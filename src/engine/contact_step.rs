@@ -286,7 +286,7 @@ impl Model {
 }
 
 /// The power of two at or below x > 0: a scale that costs no rounding.
-pub(super) fn power_of_two_below(x: f64) -> f64 {
+fn power_of_two_below(x: f64) -> f64 {
     const MANTISSA: u64 = (1 << 52) - 1;
     let power = f64::from_bits(x.to_bits() & !MANTISSA);
     if power > 0.0 { power } else { x }

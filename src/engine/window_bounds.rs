@@ -154,6 +154,11 @@ impl Passage<'_> {
         self.pieces().all(holds)
     }
 
+    /// m, least penetration on a piece of a pair that stays in contact.
+    fn least(&self, piece: &Piece) -> f64 {
+        piece.from.min(piece.to) - 0.125 * self.bend * piece.gone * piece.gone
+    }
+
     /// m/s^2, what the spring at a depth takes off the rate.
     fn brake(&self, depth: f64) -> f64 {
         self.contact.branch().value(depth.max(0.0), 0.0) * self.window.equation.kernels[self.place][self.place][1]
@@ -164,7 +169,7 @@ impl Passage<'_> {
         let turns = self.ending == Ending::Turn(self.place);
         self.pieces().all(|piece| {
             // Up to a turn the depth only grows.
-            let depth = if turns { piece.from } else { 0.5 * piece.from.min(piece.to) };
+            let depth = if turns { piece.from } else { self.least(&piece) };
             let falls = self.brake(depth) > self.bend;
             if turns && piece.is_last {
                 return falls;
@@ -178,7 +183,7 @@ impl Passage<'_> {
     fn recedes(&self) -> bool {
         let mut rate = self.contact.rate;
         self.pieces().all(|piece| {
-            let falls = self.brake(0.5 * piece.from.min(piece.to)) > self.bend;
+            let falls = self.brake(self.least(&piece)) > self.bend;
             let recedes = falls || rate + self.bend * piece.gone < 0.0;
             rate = rate.min((piece.to - piece.from) / piece.gone) + self.bend * piece.gone;
             recedes

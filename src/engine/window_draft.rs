@@ -20,6 +20,9 @@ const DASHPOT: f64 = 0.85;
 /// Share of the time until a release up to which a window that does not reach it may go: its root would be felt.
 const BEFORE_RELEASE: f64 = 0.8;
 
+/// (Fastest rate) x (time) that the series of a window are for.
+const MODES_REACH: f64 = 1.0;
+
 /// A window that is to be tried.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Draft {
@@ -27,6 +30,8 @@ pub(super) struct Draft {
     /// s.
     pub length: f64,
     pub ending: Ending,
+    /// s, longest window that may be tried.
+    pub longest: f64,
     /// Made shorter since nothing could be shown of a longer one.
     pub halved: bool,
 }
@@ -34,8 +39,7 @@ pub(super) struct Draft {
 impl Draft {
     /// A window without an event, of that share of the length.
     pub fn shorter(self, share: f64) -> Draft {
-        let map = if self.map == Map::SquareEnd { Map::Plain } else { self.map };
-        Draft { map, length: share * self.length, ending: Ending::Given, halved: self.halved }
+        Draft { map: self.map.without_end(), length: share * self.length, ending: Ending::Given, ..self }
     }
 
     /// The same up to an event.
@@ -75,10 +79,11 @@ impl Model {
                 (time, ending) = event;
             }
         }
-        let draft = Draft { map, length: time, ending, halved: false };
+        longest = longest.min(MODES_REACH / self.structure.fastest);
+        let draft = Draft { map, length: time, ending, longest: longest.min(remaining), halved: false };
         let draft = match ending {
             Ending::Turn(_) if time <= longest => draft,
-            Ending::Release(_) if time <= longest && map == Map::Plain => Draft { map: Map::SquareEnd, ..draft },
+            Ending::Release(_) if time <= longest => Draft { map: map.with_end(), ..draft },
             _ => draft.until(Ending::Given, (time / (time / longest).ceil().max(2.0)).min(longest)),
         };
         if draft.length <= remaining {

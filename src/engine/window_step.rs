@@ -4,13 +4,13 @@
 //! only if bounds show that nothing else happens in it (see [`super::window_bounds`]). Where that cannot be shown power
 //! series in time go on.
 
-use super::contact_step::{power_of_two_below, touching};
+use super::contact_step::touching;
 use super::model::{Model, Pair};
 use super::state::*;
 use super::window::Window;
 use super::window_bounds::keeps_off;
 use super::window_draft::Draft;
-use crate::collocation::{Ending, MOST_PAIRS, Map, POWERS, Tables};
+use crate::collocation::{Ending, MOST_PAIRS, POWERS, Tables};
 use crate::contact::Force;
 use crate::structure::{EXACT, ImpulseResponse, Structure, dot, flight_order};
 
@@ -68,7 +68,7 @@ impl Model {
         }
         self.load(base, inputs, &mut work.load, &mut work.slope);
         let Some(mut draft) = self.draft(base, &mut step.window, remaining) else { return false };
-        if !self.set_equation(windows, base, step, work, 1.5 * draft.length) {
+        if !self.set_equation(windows, base, step, work, draft.longest.max(1.5 * draft.length)) {
             return false;
         }
         self.watch(windows, base, step, draft.length);
@@ -77,7 +77,11 @@ impl Model {
             let Window { equation, solution, .. } = &mut *step.window;
             let how = (draft.map, draft.length, draft.ending);
             if !solution.solve(equation, &mut work.windows, how, SWEEP_SHARE * tolerance * draft.length) {
-                draft = draft.shorter(0.5);
+                // An event that is not where it was expected may be late.
+                draft = match draft.ending {
+                    Ending::Given => draft.shorter(0.5),
+                    _ => draft.shorter(1.0).until(Ending::Given, draft.longest),
+                };
                 continue;
             }
             if solution.length > remaining {
@@ -126,14 +130,13 @@ impl Model {
     fn set_equation(&self, windows: &Windows, base: &Base, step: &mut Step, work: &Workspace, longest: f64) -> bool {
         let Step { window, series, .. } = step;
         let equation = &mut window.equation;
-        let scale = 2.0 * power_of_two_below(longest);
         let remainder = (KERNEL_SHARE * self.step_tolerance).max(1e-17);
         let powers = windows.response.powers(longest, remainder);
-        let (Some(powers), Some(order)) = (powers, flight_order(self.structure.fastest * scale, EXACT)) else {
+        let (Some(powers), Some(order)) = (powers, flight_order(self.structure.fastest * longest, EXACT)) else {
             return false;
         };
-        series.expand_flight(&self.structure, (&base.q, &base.v), (&work.load, &work.slope), (scale, order));
-        (equation.scale, equation.powers, equation.terms) = (scale, powers, series.order + 1);
+        series.expand_flight(&self.structure, (&base.q, &base.v), (&work.load, &work.slope), (longest, order));
+        (equation.scale, equation.powers, equation.terms) = (longest, powers, series.order + 1);
         for place in 0..equation.closed {
             self.set_pair(windows, base, step, place);
         }
@@ -244,15 +247,10 @@ impl Window {
             }
         }
         let (time, event) = first;
-        let ends_at_root = matches!(event, Ending::Release(_));
         match event {
             Ending::Given => None,
-            // A root at both ends is for no map.
-            _ if ends_at_root && !matches!(draft.map, Map::Plain | Map::SquareEnd) => {
-                Some(draft.shorter(1.0).until(Ending::Given, 0.5 * time))
-            }
-            _ if ends_at_root => Some(Draft { map: Map::SquareEnd, ..draft.until(event, time) }),
-            _ => Some(Draft { map: draft.shorter(1.0).map, ..draft.until(event, time) }),
+            Ending::Release(_) => Some(Draft { map: draft.map.with_end(), ..draft.until(event, time) }),
+            _ => Some(Draft { map: draft.map.without_end(), ..draft.until(event, time) }),
         }
     }
 }
