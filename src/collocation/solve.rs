@@ -6,7 +6,7 @@
 use super::nodes::{Matrix, NODES, Row, coefficient, dot, nodes};
 use super::tables::{Map, POWERS, Tables};
 use crate::contact::Force;
-use crate::polynomial::{Coefficients, ROOM};
+use crate::polynomial::{COUNT, Coefficients, ROOM};
 
 /// Pairs that a window is solved for at once: those in contact, and those that may come into contact.
 pub const MOST_PAIRS: usize = 4;
@@ -31,8 +31,10 @@ pub struct Equation {
     pub scale: f64,
     /// G_pq in powers of t: m per N s at t; from t^0, which is 0.
     pub kernels: [[[f64; POWERS]; MOST_PAIRS]; MOST_PAIRS],
-    /// Powers of these that matter.
+    /// Powers of these that matter over the longest window.
     pub powers: usize,
+    /// How far a kernel may be off, relative to G_pp.
+    pub remainder: f64,
     /// 1/s, what a first guess takes for the speed of each contact.
     pub omega: [f64; MOST_PAIRS],
 }
@@ -48,6 +50,7 @@ impl Default for Equation {
             scale: 1.0,
             kernels: [[[0.0; POWERS]; MOST_PAIRS]; MOST_PAIRS],
             powers: 2,
+            remainder: 0.0,
             omega: [0.0; MOST_PAIRS],
         }
     }
@@ -253,7 +256,8 @@ impl Solution {
             for q in 0..equation.closed {
                 let (factors, _) = equation.factors(p, q, self.length);
                 let mut response = [[0.0; NODES]; NODES];
-                combine(&tables.inner[1..], &factors[1..equation.powers], &mut response);
+                let powers = equation.powers_over(p, &factors, self.length);
+                combine(&tables.inner[1..], &factors[1..powers], &mut response);
                 add_product(&mut taken, &response, &self.force[q]);
             }
             for i in 0..NODES {
@@ -333,6 +337,14 @@ impl Equation {
         (depth, rate)
     }
 
+    /// How many of these factors for penetrations matter.
+    #[inline(always)]
+    fn powers_over(&self, p: usize, depth: &[f64; POWERS], length: f64) -> usize {
+        let negligible = self.remainder * self.kernels[p][p][1] * (length * length);
+        let last = (2..self.powers.min(POWERS)).rev().find(|k| (COUNT[*k] * depth[*k]).abs() > negligible);
+        last.unwrap_or(1) + 1
+    }
+
     /// The responses over a window of that length.
     #[inline(always)]
     fn assemble(&self, tables: &Tables, length: f64, room: &mut Room) {
@@ -340,8 +352,9 @@ impl Equation {
         for p in 0..self.pairs {
             for q in 0..self.closed {
                 let (depth, rate) = self.factors(p, q, length);
+                let powers = self.powers_over(p, &depth, length);
                 let response = &mut room.responses[p * self.closed + q];
-                let (depth, rate) = (&depth[1..self.powers], &rate[..self.powers - 1]);
+                let (depth, rate) = (&depth[1..powers], &rate[..powers - 1]);
                 if p < self.closed {
                     combine(&tables.inner[1..], depth, &mut response.depth);
                     if self.forces[p].is_damped() {

@@ -100,7 +100,7 @@ impl Model {
             least_approach: scene.solver.min_approach_velocity,
             contact_coordinates: contact_coordinates(&structure),
             floors: structure.floors.ones(),
-            windows: Windows::of(&structure, &pairs, has_singular_law(&pairs)),
+            windows: Windows::of(&structure, &pairs, step_tolerance),
             structure,
             rigid: RigidPairs::of(&pairs),
             pairs,

@@ -140,11 +140,24 @@ impl Contact {
         }
         let end = if is_whole { solution.end[place] } else { window.depth(place, elapsed, &moments) };
         let last = if is_whole { 1.0 } else { solution.map.inverse(elapsed / solution.length) };
-        if let Some((_, peak)) = highest(depth, last, end.0, self.episode.peak_penetration) {
+        let way = Way { last, rates: (self.rate, end.1) };
+        let deepest = way.highest(depth, end.0, self.episode.peak_penetration);
+        if let Some((_, peak)) = deepest {
             self.episode.peak_penetration = peak;
         }
-        if let Some((x, peak)) = highest(&solution.force[place], last, law.value(end.0, end.1), self.episode.peak_force)
-        {
+        let strongest = match law.is_damped() {
+            // A spring pushes most where it is deepest.
+            false => deepest.map(|(x, peak)| (x, law.value(peak, 0.0))),
+            true => {
+                let force = law.value(end.0, end.1);
+                Way { rates: (f64::NAN, f64::NAN), ..way }.highest(
+                    &solution.force[place],
+                    force,
+                    self.episode.peak_force,
+                )
+            }
+        };
+        if let Some((x, peak)) = strongest.filter(|(_, peak)| *peak > self.episode.peak_force) {
             self.episode.peak_force = peak;
             self.episode.peak_time = start + solution.length * solution.map.at(x).0;
             self.peak_force = self.peak_force.max(peak);
@@ -153,39 +166,58 @@ impl Contact {
     }
 }
 
-/// Where what has these values at the nodes and `end` at x = `last` is largest up to there, if above `known`.
-fn highest(values: &Row, last: f64, end: f64, known: f64) -> Option<(f64, f64)> {
-    let nodes = &nodes().x;
-    let before = nodes.iter().take_while(|x| **x < last).count();
-    let (mut best, mut at) = (end, before);
-    for (i, value) in values.iter().enumerate().take(before) {
-        if *value > best {
-            (best, at) = (*value, i);
+/// How far a window is followed, and how fast what is followed goes there.
+struct Way {
+    /// x.
+    last: f64,
+    /// At the start and at the end, where it is known.
+    rates: (f64, f64),
+}
+
+impl Way {
+    /// Where what has these values at the nodes and `end` at the end is largest, if above `known`, which it is not at the
+    /// start.
+    fn highest(&self, values: &Row, end: f64, known: f64) -> Option<(f64, f64)> {
+        let (nodes, last) = (&nodes().x, self.last);
+        let before = if last < 1.0 { nodes.iter().take_while(|x| **x < last).count() } else { NODES };
+        let (mut best, mut at) = (end, before);
+        for (i, value) in values.iter().enumerate().take(before) {
+            if *value > best {
+                (best, at) = (*value, i);
+            }
         }
+        // Between nodes it is at most a little higher than at them.
+        if best < NEARLY * known || at == 0 && self.rates.0 <= 0.0 {
+            return None;
+        }
+        let x_of = |i: usize| if i < before { nodes[i] } else { last };
+        let mut top = (x_of(at), best);
+        if at < before || !(self.rates.1 >= 0.0) {
+            let low = if at == 0 { 0.0 } else { nodes[at - 1] };
+            if let Some(found) = summit(values, (low, x_of(at), x_of(at + 1))).filter(|found| found.1 > best) {
+                top = found;
+            }
+        }
+        (top.1 > known).then_some(top)
     }
-    // Between nodes it is at most a little higher than at them.
-    if best < NEARLY * known {
-        return None;
-    }
-    let x_of = |i: usize| if i < before { nodes[i] } else { last };
-    let (low, high) = (if at == 0 { 0.0 } else { nodes[at - 1] }, x_of(at + 1));
-    let (mut top, mut value) = (x_of(at), best);
+}
+
+/// Where the polynomial through values at the nodes has its summit in low..high, by Newton's method from a point on.
+fn summit(values: &Row, (low, from, high): (f64, f64, f64)) -> Option<(f64, f64)> {
     let interpolant = Interpolant::through(values);
-    let mut x = top;
+    let mut x = from;
     for _ in 0..8 {
-        let [_, slope, curvature] = interpolant.derivatives(x);
-        let next = if curvature < 0.0 { (x - slope / curvature).clamp(low, high) } else { break };
-        let is_found = (next - x).abs() < 1e-9;
+        let [value, slope, curvature] = interpolant.derivatives(x);
+        let step = slope / curvature;
+        // The value at the summit is flat: half of the digits of x give all of its digits.
+        if curvature < 0.0 && step.abs() < 1e-9 {
+            return Some((x, value));
+        }
+        let next = if curvature < 0.0 { (x - step).clamp(low, high) } else { return None };
+        if next == x {
+            return None;
+        }
         x = next;
-        if is_found || x == last {
-            break;
-        }
     }
-    if x < last {
-        let [found, ..] = interpolant.derivatives(x);
-        if found > value {
-            (top, value) = (x, found);
-        }
-    }
-    (value > known).then_some((top, value))
+    None
 }

@@ -1,11 +1,11 @@
 //! Which window to try first: as long as the laws in it allow, and up to the next event if that is near.
 
-use super::model::Model;
+use super::model::{Model, Pair};
 use super::state::*;
 use super::window::Window;
 use crate::collocation::{Ending, Map};
-use crate::contact::Force;
 use crate::contact::force::power;
+use crate::contact::{EpisodeForce, Force};
 use crate::quadrature::{EIGHT, gauss};
 
 /// Relative accuracy of a step for which windows are as long as [`longest`] says, and how their length goes with it.
@@ -51,18 +51,20 @@ impl Draft {
 impl Model {
     /// What to try first within the `remaining` seconds; `None` where a contact is beyond all measure.
     pub(super) fn draft(&self, base: &Base, window: &mut Window, remaining: f64) -> Option<Draft> {
-        let patience = libm::pow(self.step_tolerance / USUAL.0, USUAL.1).clamp(0.4, 1.2);
+        let windows = self.windows.as_ref()?;
         let (mut longest, mut map) = (f64::INFINITY, Map::Plain);
         let (mut time, mut ending) = (f64::INFINITY, Ending::Given);
         for place in 0..window.equation.closed {
             let p = window.contacts[place];
             let (contact, force) = (&base.contacts[p], window.equation.forces[place]);
-            let prospect = Prospect::of(&force, self.pairs[p].mass, contact.penetration.max(0.0), contact.rate)?;
+            let d = contact.penetration.max(0.0);
+            let stored = force.stored_energy(d) / self.pairs[p].mass;
+            let prospect = windows.springs[p]?.prospect(d, contact.rate, stored)?;
             window.equation.omega[place] = 1.0 / prospect.unit;
             let is_root = matches!(force, Force::Root { .. });
             let since = if contact.penetration > 0.0 { base.time() - contact.episode.start } else { 0.0 };
             let is_fresh = since < FRESH * prospect.unit;
-            longest = longest.min(patience * longest_window(&force, is_fresh) * prospect.unit);
+            longest = longest.min(windows.patience * longest_window(&force, is_fresh) * prospect.unit);
             if is_fresh && is_root && since > 0.0 {
                 longest = longest.min(8.0 * since);
             }
@@ -106,29 +108,55 @@ fn longest_window(force: &Force, is_fresh: bool) -> f64 {
     }
 }
 
-/// What a spring alone would do with a pair.
-struct Prospect {
-    /// s, its time: (m V^(1-n) / k)^(1/(n+1)) for the speed V of all of its energy.
+/// The spring of a pair under a power law, which alone would let it swing through a contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spring {
+    exponent: f64,
+    /// Exponent of the speed in the unit of time: (1 - n) / (n + 1).
+    power: f64,
+    /// The unit of time for a speed of 1 m/s, s.
     unit: f64,
-    /// s, until it turns round.
+    /// Largest penetration in units of time and speed.
+    deepest: f64,
+    /// [`swing`] from the surface.
+    all: f64,
+}
+
+/// When a spring alone would do what, s.
+struct Prospect {
+    /// Its time: (m V^(1-n) / k)^(1/(n+1)) for the speed V of all of its energy.
+    unit: f64,
+    /// Until it turns round.
     turn: f64,
-    /// s, until it is released.
+    /// Until it is released.
     release: f64,
 }
 
-impl Prospect {
-    fn of(force: &Force, mass: f64, d: f64, rate: f64) -> Option<Prospect> {
-        let (stiffness, n) = match *force {
+impl Spring {
+    /// `None` for other laws.
+    pub fn of(pair: &Pair) -> Option<Spring> {
+        let (stiffness, n) = match EpisodeForce::new(&pair.law, pair.mass, None).engaged {
             Force::Power { stiffness, exponent, .. } => (stiffness, exponent),
             Force::Root { stiffness, .. } => (stiffness, 1.5),
             Force::None | Force::Linear { .. } => return None,
         };
-        let speed = (rate * rate + 2.0 * force.stored_energy(d) / mass).sqrt();
-        let unit = libm::pow(mass * libm::pow(speed, 1.0 - n) / stiffness, 1.0 / (n + 1.0));
-        let deepest = libm::pow(0.5 * (n + 1.0), 1.0 / (n + 1.0)) * unit * speed;
-        let (all, left) = (swing(n, 0.0), if d > 0.0 { swing(n, d / deepest) } else { swing(n, 0.0) });
-        let time = deepest / speed;
-        let (turn, release) = if rate >= 0.0 { (left, all + left) } else { (0.0, all - left) };
+        let root = |x: f64| libm::pow(x, 1.0 / (n + 1.0));
+        Some(Spring {
+            exponent: n,
+            power: (1.0 - n) / (n + 1.0),
+            unit: root(pair.mass / stiffness),
+            deepest: root(0.5 * (n + 1.0)),
+            all: swing(n, 0.0),
+        })
+    }
+
+    /// From a penetration, m, its rate, m/s, and the energy stored per unit of mass, J/kg; `None` beyond all measure.
+    fn prospect(&self, d: f64, rate: f64, stored: f64) -> Option<Prospect> {
+        let speed = (rate * rate + 2.0 * stored).sqrt();
+        let unit = self.unit * libm::pow(speed, self.power);
+        let left = if d > 0.0 { swing(self.exponent, d / (self.deepest * unit * speed)) } else { self.all };
+        let (turn, release) = if rate >= 0.0 { (left, self.all + left) } else { (0.0, self.all - left) };
+        let time = self.deepest * unit;
         let is_sound = unit.is_finite() && unit > 0.0 && release > 0.0;
         is_sound.then_some(Prospect { unit, turn: turn * time, release: release * time })
     }
@@ -143,4 +171,9 @@ fn swing(n: f64, from: f64) -> f64 {
             weight * 2.0 * width * y / (1.0 - power(u, n + 1.0)).max(f64::MIN_POSITIVE).sqrt()
         })
         .sum()
+}
+
+/// How long windows are for an accuracy of steps, relative to the usual.
+pub(super) fn patience(step_tolerance: f64) -> f64 {
+    libm::pow(step_tolerance / USUAL.0, USUAL.1).clamp(0.4, 1.2)
 }

@@ -9,13 +9,13 @@ use super::model::{Model, Pair};
 use super::state::*;
 use super::window::Window;
 use super::window_bounds::keeps_off;
-use super::window_draft::Draft;
+use super::window_draft::{Draft, Spring, patience};
 use crate::collocation::{Ending, MOST_PAIRS, POWERS, Tables};
 use crate::contact::Force;
 use crate::structure::{EXACT, ImpulseResponse, Structure, dot, flight_order};
 
 /// How far a kernel may be off, relative to what one step may.
-const KERNEL_SHARE: f64 = 1e-3;
+const KERNEL_SHARE: f64 = 0.03;
 
 /// How far the iteration may be off, relative to what one step may.
 const SWEEP_SHARE: f64 = 0.3;
@@ -33,18 +33,26 @@ pub(super) struct Windows {
     pub response: ImpulseResponse,
     /// G of each pair by itself.
     kernels: Vec<[f64; POWERS]>,
+    /// Error between nodes that a window may have, relative to what one step may.
+    allowed: f64,
+    /// Length of windows relative to the usual.
+    pub patience: f64,
+    /// Of each pair whose law has a root.
+    pub springs: Vec<Option<Spring>>,
 }
 
 impl Windows {
     /// `None` where no law needs them, or damping couples the modes.
-    pub fn of(structure: &Structure, pairs: &[Pair], needed: bool) -> Option<Windows> {
-        if !needed {
+    pub fn of(structure: &Structure, pairs: &[Pair], step_tolerance: f64) -> Option<Windows> {
+        let springs: Vec<Option<Spring>> = pairs.iter().map(Spring::of).collect();
+        if springs.iter().all(Option::is_none) {
             return None;
         }
         let response = ImpulseResponse::of(structure)?;
         Tables::prepare();
         let kernels = pairs.iter().map(|pair| response.kernel(&pair.row, &pair.row)).collect();
-        Some(Windows { response, kernels })
+        let allowed = BETWEEN_NODES / libm::cbrt(step_tolerance);
+        Some(Windows { response, kernels, allowed, patience: patience(step_tolerance), springs })
     }
 }
 
@@ -136,6 +144,7 @@ impl Model {
             return false;
         };
         series.expand_flight(&self.structure, (&base.q, &base.v), (&work.load, &work.slope), (longest, order));
+        equation.remainder = remainder;
         (equation.scale, equation.powers, equation.terms) = (longest, powers, series.order + 1);
         for place in 0..equation.closed {
             self.set_pair(windows, base, step, place);
@@ -155,6 +164,7 @@ impl Model {
         for (n, term) in free.iter_mut().enumerate().take(series.order + 1).skip(2) {
             *term = dot(row, series.term(n));
         }
+        equation.kernels[place][place] = windows.kernels[p];
         for other in 0..equation.closed {
             equation.kernels[place][other] = match other == place {
                 true => windows.kernels[p],
@@ -183,12 +193,13 @@ impl Model {
 
     /// Whether a solved window is right and certain, or what to try instead.
     fn judge(&self, base: &Base, step: &Step, work: &mut Workspace, draft: Draft, tolerance: f64) -> Verdict {
+        let Some(windows) = &self.windows else { return Verdict::Hopeless };
         let Window { equation, solution, .. } = &*step.window;
         if let Some(next) = step.window.passed(draft) {
             return Verdict::Another(next);
         }
         let error = solution.velocity_error(equation) / tolerance;
-        let allowed = BETWEEN_NODES / libm::cbrt(self.step_tolerance);
+        let allowed = windows.allowed;
         if error > allowed {
             let share = libm::pow(allowed / error, 0.1);
             return Verdict::Another(draft.shorter((0.9 * share).max(0.3)));
