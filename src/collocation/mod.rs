@@ -18,3 +18,6 @@ mod tables;
 pub use nodes::{Interpolant, NODES, Row, dot, nodes};
 pub use solve::{Ending, Equation, MOST_PAIRS, Room, Solution};
 pub use tables::{Map, POWERS, Tables};
+
+#[cfg(test)]
+mod tests;

@@ -1,10 +1,11 @@
 //! Integrals over a window of powers of the time left, times the polynomials through its nodes.
 
 use super::nodes::{Matrix, NODES, Row, nodes, rule};
+use crate::structure::RESPONSE_POWERS;
 use std::sync::OnceLock;
 
 /// Powers of the time left that are tabulated.
-pub const POWERS: usize = 20;
+pub const POWERS: usize = RESPONSE_POWERS;
 
 /// How the time of a window goes with x, both from 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

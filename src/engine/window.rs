@@ -87,10 +87,21 @@ impl Window {
 
     /// Penetration, m, and rate, m/s, of a pair under these moments.
     fn depth(&self, place: usize, elapsed: f64, moments: &[[f64; POWERS]; MOST_PAIRS]) -> (f64, f64) {
-        let Equation { closed: pairs, powers, terms, scale, ref free, ref kernels, .. } = self.equation;
-        let (d, v) = value_and_slope(&free[place][..terms], elapsed / scale);
+        let Equation { terms, ref free, ref kernels, .. } = self.equation;
+        self.depth_of((&free[place][..terms], &kernels[place]), elapsed, moments)
+    }
+
+    /// The same from the terms of its motion without contact forces and its kernels.
+    pub fn depth_of(
+        &self,
+        (free, kernels): (&[f64], &[[f64; POWERS]; MOST_PAIRS]),
+        elapsed: f64,
+        moments: &[[f64; POWERS]; MOST_PAIRS],
+    ) -> (f64, f64) {
+        let Equation { closed, powers, scale, .. } = self.equation;
+        let (d, v) = value_and_slope(free, elapsed / scale);
         let (mut taken, mut slowed) = (0.0, 0.0);
-        for (kernel, moments) in kernels[place].iter().zip(moments).take(pairs) {
+        for (kernel, moments) in kernels.iter().zip(moments).take(closed) {
             for k in (1..powers).rev() {
                 taken += kernel[k] * moments[k];
                 slowed += k as f64 * kernel[k] * moments[k - 1];

@@ -11,6 +11,9 @@ use crate::collocation::{Ending, MOST_PAIRS, POWERS, Row, Tables};
 use crate::contact::Guard;
 use crate::structure::dot;
 
+/// Pieces of a window are halved so many times to show that a pair stays apart: down to a distance of rounding.
+const MOST_HALVINGS: u32 = 16;
+
 impl Model {
     /// Whether nothing but its ending happens in the window of a step.
     pub(super) fn is_certain(&self, base: &Base, step: &Step, work: &mut Workspace, ending: Ending) -> bool {
@@ -21,7 +24,10 @@ impl Model {
             let at_once = |other: usize| if other == place { 0.0 } else { kernels[other][1].abs() };
             let bend = window.bend(&equation.free[place][..equation.terms], |other| (at_once(other), &kernels[other]));
             let passage = Passage { window, place, contact: &base.contacts[window.contacts[place]], bend, ending };
-            if place < equation.closed { passage.stays_in_contact() } else { passage.stays_apart() }
+            if place < equation.closed {
+                return passage.stays_in_contact();
+            }
+            passage.stays_apart(&Approach { window, free: &equation.free[place][..equation.terms], kernels, bend })
         });
         pairs_hold && self.others_stay_apart(base, step, work)
     }
@@ -44,7 +50,13 @@ impl Model {
                 false => [0.0; POWERS],
             });
             let bend = window.bend(terms, |q| (kernels[q][1].abs(), &kernels[q]));
-            keeps_off(contact, bend, solution.length)
+            if keeps_off(contact, bend, solution.length) {
+                return true;
+            }
+            (terms[0], terms[1]) = (contact.flight_start(), contact.rate * series.scale);
+            let approach = Approach { window, free: terms, kernels: &kernels, bend };
+            let end = (solution.length, approach.depth(solution.length));
+            end.1 < 0.0 && approach.stays_below((0.0, terms[0]), end, MOST_HALVINGS)
         })
     }
 }
@@ -78,6 +90,40 @@ impl Window {
 /// Bound on the size of a force between its nodes too.
 fn greatest(force: &Row) -> f64 {
     2.0 * force.iter().fold(0.0_f64, |most, force| most.max(force.abs()))
+}
+
+/// A pair that is apart while a window is under way, whose distance can be read anywhere. However near it comes: where it
+/// does not touch the window stays as it is, so that a contact that never closes changes nothing.
+struct Approach<'a> {
+    window: &'a Window,
+    /// Terms of its motion without contact forces.
+    free: &'a [f64],
+    kernels: &'a [[f64; POWERS]; MOST_PAIRS],
+    /// m/s^2, see [`Window::bend`].
+    bend: f64,
+}
+
+impl Approach<'_> {
+    /// m, penetration after so many seconds.
+    fn depth(&self, elapsed: f64) -> f64 {
+        self.window.depth_of((self.free, self.kernels), elapsed, &self.window.moments(elapsed)).0
+    }
+
+    /// Whether it stays below 0 between two times at which it is; pieces are halved up to so many times.
+    fn stays_below(&self, (start, from): (f64, f64), (end, to): (f64, f64), halvings: u32) -> bool {
+        let gone = end - start;
+        if from.max(to) < -0.125 * self.bend * gone * gone {
+            return true;
+        }
+        let middle = start + 0.5 * gone;
+        if halvings == 0 || middle <= start || middle >= end {
+            return false;
+        }
+        let middle = (middle, self.depth(middle));
+        middle.1 < 0.0
+            && self.stays_below((start, from), middle, halvings - 1)
+            && self.stays_below(middle, (end, to), halvings - 1)
+    }
 }
 
 /// One pair on its way through a window.
@@ -140,18 +186,20 @@ impl Passage<'_> {
     }
 
     /// Whether the pair stays apart.
-    fn stays_apart(&self) -> bool {
+    fn stays_apart(&self, approach: &Approach) -> bool {
         let touches = self.ending == Ending::Touch(self.place);
-        let holds = |piece: Piece| {
+        let mut time = 0.0;
+        self.pieces().all(|piece| {
+            let (start, end) = ((time, piece.from), (time + piece.gone, piece.to));
+            time = end.0;
             // Below the chord but for the bend.
             let swell = 0.5 * self.bend * piece.gone;
             match () {
                 _ if touches && piece.is_last => -piece.from / piece.gone > swell,
                 _ if piece.from >= 0.0 => -piece.to / piece.gone > swell,
-                _ => piece.from.max(piece.to) < -0.25 * swell * piece.gone,
+                _ => piece.to < 0.0 && approach.stays_below(start, end, MOST_HALVINGS),
             }
-        };
-        self.pieces().all(holds)
+        })
     }
 
     /// m, least penetration on a piece of a pair that stays in contact.

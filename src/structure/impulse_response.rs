@@ -1,7 +1,9 @@
 //! What an impulse makes of each mode: h'' + c h' + w^2 h = 0 from h = 0, h' = 1, as a power series in time.
 
 use super::{LANES, Structure};
-use crate::collocation::POWERS;
+
+/// Powers of time of an impulse response.
+pub const RESPONSE_POWERS: usize = 20;
 
 /// The series of all modes that damping does not couple.
 #[derive(Clone, Debug)]
@@ -20,9 +22,9 @@ impl ImpulseResponse {
             return None;
         }
         let lanes = structure.lanes;
-        let mut terms = vec![0.0; POWERS * lanes];
+        let mut terms = vec![0.0; RESPONSE_POWERS * lanes];
         terms[lanes..2 * lanes].fill(1.0);
-        for k in 2..POWERS {
+        for k in 2..RESPONSE_POWERS {
             let (known, next) = terms.split_at_mut(k * lanes);
             let (before, last) = known[(k - 2) * lanes..].split_at(lanes);
             let k = k as f64;
@@ -47,12 +49,12 @@ impl ImpulseResponse {
             k += 1;
             term *= reach / k as f64;
         }
-        (k < POWERS).then_some(k + 1)
+        (k < RESPONSE_POWERS).then_some(k + 1)
     }
 
     /// G of the distance of a pair under the force of another, from their rows; m/(N s^k).
-    pub fn kernel(&self, row: &[f64], other: &[f64]) -> [f64; POWERS] {
-        let mut kernel = [0.0; POWERS];
+    pub fn kernel(&self, row: &[f64], other: &[f64]) -> [f64; RESPONSE_POWERS] {
+        let mut kernel = [0.0; RESPONSE_POWERS];
         for (k, kernel) in kernel.iter_mut().enumerate() {
             let mut sum = [0.0; LANES];
             let terms = self.term(k).as_chunks::<LANES>().0.iter();
@@ -77,5 +79,43 @@ impl ImpulseResponse {
                 *v -= row * term * before;
             }
         }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn two_masses() -> Structure {
+        let text = "name = \"Two\"\n[left]\nmass = [2.0]\nstiffness = [50.0]\ndamping = { ratio = 0.1 }\n\
+                    [right]\nmass = [3.0]\nstiffness = [48.0]\ndamping = { ratio = 0.0 }";
+        let scene = Scene::from_toml(text).unwrap();
+        Structure::new(&scene.left, &scene.right).unwrap()
+    }
+
+    /// h = exp(-z w t) sin(w_d t) / w_d.
+    #[test]
+    fn it_is_that_of_an_oscillator() {
+        let response = ImpulseResponse::of(&two_masses()).unwrap();
+        for (mode, w, z) in [(0, 5.0_f64, 0.1_f64), (1, 4.0, 0.0)] {
+            let (t, wd) = (0.13, w * (1.0 - z * z).sqrt());
+            let series: f64 = (0..RESPONSE_POWERS).map(|k| response.term(k)[mode] * libm::pow(t, k as f64)).sum();
+            let exact = libm::exp(-z * w * t) * libm::sin(wd * t) / wd;
+            assert!((series / exact - 1.0).abs() < 1e-14, "{series} instead of {exact}");
+        }
+    }
+
+    #[test]
+    fn it_says_how_many_powers_are_needed() {
+        let structure = two_masses();
+        let response = ImpulseResponse::of(&structure).unwrap();
+        for time in [1e-3, 0.03, 0.1] {
+            let powers = response.powers(time, 1e-12).unwrap();
+            let sum = |last: usize| (0..last).map(|k| response.term(k)[0] * libm::pow(time, k as f64)).sum::<f64>();
+            assert!((sum(powers) / sum(RESPONSE_POWERS) - 1.0).abs() < 1e-12, "{time}: {powers}");
+        }
+        assert_eq!(response.powers(10.0, 1e-12), None);
     }
 }

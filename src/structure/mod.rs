@@ -18,7 +18,7 @@ mod series;
 mod short_flight;
 
 pub use floors::Floors;
-pub use impulse_response::ImpulseResponse;
+pub use impulse_response::{ImpulseResponse, RESPONSE_POWERS};
 pub use interval::Interval;
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
 pub use propagator::{CoupledIncrement, ModeIncrement};

@@ -1,0 +1,121 @@
+//! Windows against closed forms.
+
+use super::*;
+use crate::contact::Force;
+
+/// A pair of a free reduced mass.
+fn free_mass(mass: f64, force: Force, d: f64, v: f64, omega: f64, scale: f64) -> Equation {
+    let mut equation = Equation { pairs: 1, closed: 1, terms: 3, powers: 2, scale, ..Equation::default() };
+    equation.forces[0] = force;
+    equation.kernels[0][0][1] = 1.0 / mass;
+    (equation.free[0][0], equation.free[0][1]) = (d, v * scale);
+    equation.omega[0] = omega;
+    equation
+}
+
+fn solved(equation: &Equation, map: Map, length: f64, ending: Ending, tolerance: f64) -> Solution {
+    let mut solution = Solution::default();
+    assert!(
+        solution.solve(equation, &mut Room::new(2), (map, length, ending), tolerance),
+        "{map:?} {length} {ending:?}"
+    );
+    solution
+}
+
+/// [Goldsmith1960]: an elastic impact under k d^1.5 takes 2 (5/4)^(2/5) sqrt(pi) Gamma(7/5) / Gamma(9/10) times
+/// (m^2 / (k^2 V))^(1/5), and gives the speed back.
+#[test]
+fn two_windows_take_a_hertz_impact_from_entry_to_release() {
+    let (m, k, v) = (3e4, 3e10, 0.5);
+    let unit = libm::pow(m * m / (k * k * v), 0.2);
+    let exact = 2.0 * libm::pow(1.25, 0.4) * std::f64::consts::PI.sqrt() * libm::tgamma(1.4) / libm::tgamma(0.9);
+    let force = Force::Power { stiffness: k, exponent: 1.5, damping: 0.0 };
+    for first in [0.4, 1.0, 1.6] {
+        let entry = free_mass(m, force, 0.0, v, 1.0 / unit, 2.0 * unit);
+        let entry = solved(&entry, Map::SquareStart, first * unit, Ending::Given, 1e-16);
+        let (d, rate) = entry.end[0];
+        let middle = free_mass(m, force, d, rate, 1.0 / unit, 3.0 * unit);
+        let middle = solved(&middle, Map::Plain, (1.8 - first) * unit, Ending::Given, 1e-16);
+        let (d, rate) = middle.end[0];
+        let last = free_mass(m, force, d, rate, 1.0 / unit, 3.0 * unit);
+        let last = solved(&last, Map::SquareEnd, 1.3 * unit, Ending::Release(0), 1e-16);
+        let duration = (entry.length + middle.length + last.length) / unit;
+        assert!((duration / exact - 1.0).abs() < 1e-12, "{first}: {duration} instead of {exact}");
+        assert!((last.end[0].1 / v + 1.0).abs() < 1e-12, "{first}: leaves at {}", last.end[0].1);
+    }
+}
+
+/// [Gonthier2004]: a (1 + e) = ln[(1 + a) / (1 - a e)], whatever the other numbers are.
+#[test]
+fn a_damped_impact_returns_what_its_closed_form_says() {
+    let (m, k, v, e) = (3e4, 3e10, 0.5, 0.6);
+    let mut a = 0.5;
+    for _ in 0..200 {
+        a = (1.0 - libm::exp(-a * (1.0 + e)) * (1.0 + a)) / e;
+    }
+    let unit = libm::pow(m * m / (k * k * v), 0.2);
+    let force = Force::Power { stiffness: k, exponent: 1.5, damping: a / v };
+    let entry = free_mass(m, force, 0.0, v, 1.0 / unit, 3.0 * unit);
+    let turn = solved(&entry, Map::SquareStart, 1.2 * unit, Ending::Turn(0), 1e-16);
+    assert!(turn.end[0].1.abs() < 1e-12 * v, "still goes at {}", turn.end[0].1);
+    let rest = free_mass(m, force, turn.end[0].0, turn.end[0].1, 1.0 / unit, 3.0 * unit);
+    let rest = solved(&rest, Map::SquareEnd, 1.8 * unit, Ending::Release(0), 1e-16);
+    assert!((-rest.end[0].1 / v - e).abs() < 1e-10, "{} instead of {e}", -rest.end[0].1 / v);
+}
+
+/// A spring and dashpot beside another: one oscillator of the sums.
+#[test]
+fn a_mass_on_a_spring_swings_as_with_both_springs() {
+    let (m, w, z) = (2.0, 5.0, 0.04);
+    let (k, c) = (m * 7.0 * 7.0, 2.0 * m * 0.3);
+    let (d, v, t) = (0.1, 1.5, 0.2);
+    let mut equation = free_mass(m, Force::Linear { stiffness: k, damping: c }, d, v, 8.0, t);
+    let (damping, omega2) = (2.0 * z * w, w * w);
+    equation.powers = POWERS;
+    equation.terms = 30;
+    let kernel = &mut equation.kernels[0][0];
+    for n in 2..POWERS {
+        let k = n as f64;
+        kernel[n] = -((k - 1.0) * damping * kernel[n - 1] + omega2 * kernel[n - 2]) / (k * (k - 1.0));
+    }
+    let free = &mut equation.free[0];
+    for n in 2..30 {
+        let k = n as f64;
+        free[n] = -((k - 1.0) * damping * t * free[n - 1] + omega2 * t * t * free[n - 2]) / (k * (k - 1.0));
+    }
+    let (d1, v1) = solved(&equation, Map::Plain, t, Ending::Given, 1e-16).end[0];
+    let (damping, omega2) = (damping + c / m, omega2 + k / m);
+    let wd = (omega2 - 0.25 * damping * damping).sqrt();
+    let (fall, sine, cosine) = (libm::exp(-0.5 * damping * t), libm::sin(wd * t), libm::cos(wd * t));
+    let exact = fall * (d * cosine + (v + 0.5 * damping * d) / wd * sine);
+    let rate = fall * (v * cosine - (0.5 * damping * v + omega2 * d) / wd * sine);
+    assert!((d1 - exact).abs() < 1e-14 && (v1 - rate).abs() < 1e-13, "{d1}, {v1} instead of {exact}, {rate}");
+}
+
+/// A pair that no force reaches goes on as before: it touches when its gap is gone.
+#[test]
+fn a_watched_pair_ends_a_window_when_it_touches() {
+    let force = Force::Power { stiffness: 3e10, exponent: 1.5, damping: 0.0 };
+    let mut equation = free_mass(3e4, force, 1e-3, 0.1, 300.0, 6e-3);
+    equation.pairs = 2;
+    equation.kernels[1][1][1] = 1.0;
+    (equation.free[1][0], equation.free[1][1]) = (-1e-3, 0.4 * equation.scale);
+    let window = solved(&equation, Map::Plain, 2e-3, Ending::Touch(1), 1e-16);
+    assert!((window.length - 2.5e-3).abs() < 1e-15, "{}", window.length);
+    for (theta, d) in Tables::of(Map::Plain).theta.iter().zip(&window.depth[1]) {
+        assert!((d - (0.4 * theta * window.length - 1e-3)).abs() < 1e-17, "{d}");
+    }
+}
+
+/// Through 16 values goes every polynomial of degree 15.
+#[test]
+fn a_polynomial_comes_back_from_its_values() {
+    let polynomial = |x: f64| (0..16).map(|n| libm::pow(x - 0.3, f64::from(n)) * f64::from(n - 7)).sum::<f64>();
+    let slope = |x: f64| (1..16).map(|n| f64::from(n * (n - 7)) * libm::pow(x - 0.3, f64::from(n - 1))).sum::<f64>();
+    let interpolant = Interpolant::through(&nodes().x.map(polynomial));
+    for x in [0.0, 0.01, 0.37, 0.99, 1.0] {
+        let ([value], [same, rate, _]) = (interpolant.at(&[x]), interpolant.derivatives(x));
+        assert!((value - polynomial(x)).abs() < 1e-13 && (same - value).abs() < 1e-14, "{value} at {x}");
+        assert!((rate - slope(x)).abs() < 1e-11, "{rate} instead of {} at {x}", slope(x));
+    }
+}
