@@ -8,6 +8,9 @@ use crate::polynomial::{Powers, value_and_slope};
 /// Share of a peak that the node next to it has at least.
 const NEARLY: f64 = 0.97;
 
+/// How far a polynomial through the nodes is off at most, relative to a peak.
+const INTERPOLATED: f64 = 1e-6;
+
 /// A window of the pairs in contact.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Window {
@@ -152,13 +155,19 @@ impl Contact {
         let end = if is_whole { solution.end[place] } else { window.depth(place, elapsed, &moments) };
         let last = if is_whole { 1.0 } else { solution.map.inverse(elapsed / solution.length) };
         let way = Way { last, rates: (self.rate, end.1) };
+        // Between nodes forces are known to fewer digits than what they do: what is read there is worked out from that.
+        let read = |x: f64| {
+            let elapsed = solution.length * solution.map.at(x).0;
+            window.depth(place, elapsed, &window.moments(elapsed))
+        };
         let deepest = way.highest(depth, end.0, self.episode.peak_penetration);
-        if let Some((_, peak)) = deepest {
-            self.episode.peak_penetration = peak;
+        if let Some(x) = deepest {
+            let peak = if x == last { end.0 } else { read(x).0 };
+            self.episode.peak_penetration = self.episode.peak_penetration.max(peak);
         }
         let strongest = match law.is_damped() {
             // A spring pushes most where it is deepest.
-            false => deepest.map(|(x, peak)| (x, law.value(peak, 0.0))),
+            false => deepest,
             true => {
                 let force = law.value(end.0, end.1);
                 Way { rates: (f64::NAN, f64::NAN), ..way }.highest(
@@ -168,10 +177,14 @@ impl Contact {
                 )
             }
         };
-        if let Some((x, peak)) = strongest.filter(|(_, peak)| *peak > self.episode.peak_force) {
-            self.episode.peak_force = peak;
-            self.episode.peak_time = start + solution.length * solution.map.at(x).0;
-            self.peak_force = self.peak_force.max(peak);
+        if let Some(x) = strongest {
+            let (d, v) = if x == last { end } else { read(x) };
+            let peak = law.value(d, v);
+            if peak > self.episode.peak_force {
+                self.episode.peak_force = peak;
+                self.episode.peak_time = start + solution.length * solution.map.at(x).0;
+                self.peak_force = self.peak_force.max(peak);
+            }
         }
         (self.penetration, self.rate) = end;
     }
@@ -186,9 +199,9 @@ struct Way {
 }
 
 impl Way {
-    /// Where what has these values at the nodes and `end` at the end is largest, if above `known`, which it is not at the
-    /// start.
-    fn highest(&self, values: &Row, end: f64, known: f64) -> Option<(f64, f64)> {
+    /// x where what has these values at the nodes and `end` at the end is largest, if it is above `known` there; at the start
+    /// it is not.
+    fn highest(&self, values: &Row, end: f64, known: f64) -> Option<f64> {
         let (nodes, last) = (&nodes().x, self.last);
         let before = if last < 1.0 { nodes.iter().take_while(|x| **x < last).count() } else { NODES };
         let (mut best, mut at) = (end, before);
@@ -209,7 +222,7 @@ impl Way {
                 top = found;
             }
         }
-        (top.1 > known).then_some(top)
+        (top.1 > known * (1.0 - INTERPOLATED)).then_some(top.0)
     }
 }
 
