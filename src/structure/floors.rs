@@ -9,7 +9,7 @@
 //! ```
 
 use super::modes::{Modes, rayleigh_factors};
-use super::{LANES, ModalDamping};
+use super::{LANES, Lane, ModalDamping};
 use crate::scene::{Building, Damping, Stiffness};
 
 /// Both buildings floor by floor, of use where [`Floors::is_sparse`]. 0 in lanes that are no floors.
@@ -112,23 +112,43 @@ impl Floors {
     /// `out` -= M^-1 (K u + rate C v), m/s^2 for `rate` 1.
     #[inline(always)]
     pub fn resist(&self, u: &[f64], v: &[f64], rate: f64, out: &mut [f64]) {
-        let moved = |i: usize| u[i] + (rate * self.on_stiffness[i]) * v[i];
-        let lowest = self.storey[0] * moved(0) - self.storey[1] * (moved(1) - moved(0));
-        out[0] -= self.inverse_mass[0] * lowest + (rate * self.on_mass[0]) * v[0];
-        // From the second lane to the last but one: the last rests.
-        let inner = self.mass.len() - 2;
-        let [u, v, on_stiffness] = [u, v, &self.on_stiffness].map(|vector| Neighbours::of(vector, inner));
-        let (storey, storey_above) = (&self.storey[1..][..inner], &self.storey[2..][..inner]);
-        let (inverse_mass, on_mass) = (&self.inverse_mass[1..][..inner], &self.on_mass[1..][..inner]);
-        let out = &mut out[1..][..inner];
-        // Each storey's shear force is worked out for the floor above it and again for the floor below: so no sum waits
-        // for another, and nothing goes through memory.
-        for i in 0..inner {
-            let below = u.below[i] + (rate * on_stiffness.below[i]) * v.below[i];
-            let own = u.own[i] + (rate * on_stiffness.own[i]) * v.own[i];
-            let above = u.above[i] + (rate * on_stiffness.above[i]) * v.above[i];
-            let shear = storey[i] * (own - below) - storey_above[i] * (above - own);
-            out[i] -= inverse_mass[i] * shear + (rate * on_mass[i]) * v.own[i];
+        self.enter_resistance(u, v, rate, out.as_chunks_mut::<LANES>().0, |out, resistance| out - resistance);
+    }
+
+    /// Makes of each lane of `out` what `entry` says of its value and of its M^-1 (K u + rate C v), m/s^2 for `rate` 1.
+    ///
+    /// A floor feels the shear force of the storey below less that of the one above. Both come from neighbouring lanes,
+    /// which stay in registers: what has just been stored cannot be read back from other places without waiting for it.
+    #[inline(always)]
+    pub fn enter_resistance(&self, u: &[f64], v: &[f64], rate: f64, out: &mut [Lane], entry: impl Fn(f64, f64) -> f64) {
+        let [u, v, storey, inverse_mass, on_mass, on_stiffness] =
+            [u, v, &self.storey, &self.inverse_mass, &self.on_mass, &self.on_stiffness]
+                .map(|vector| vector.as_chunks::<LANES>().0);
+        // Says once that no index below leaves its table.
+        let blocks = storey.len();
+        let [u, v, inverse_mass, on_mass, on_stiffness] =
+            [u, v, inverse_mass, on_mass, on_stiffness].map(|table| &table[..blocks]);
+        let out = &mut out[..blocks];
+        let moved = |c: usize| each(|i| u[c][i] + (rate * on_stiffness[c][i]) * v[c][i]);
+        let shear = |c: usize, below: f64, own: &Lane| {
+            let below = [below, own[0], own[1], own[2]];
+            each(|i| storey[c][i] * (own[i] - below[i]))
+        };
+        let lowest = moved(0);
+        let (mut own, mut highest) = (shear(0, 0.0, &lowest), lowest[LANES - 1]);
+        for c in 0..blocks {
+            let mut next = [0.0; LANES];
+            if c + 1 < blocks {
+                let floors = moved(c + 1);
+                next = shear(c + 1, highest, &floors);
+                highest = floors[LANES - 1];
+            }
+            let above = [own[1], own[2], own[3], next[0]];
+            for i in 0..LANES {
+                let resistance = inverse_mass[c][i] * (own[i] - above[i]) + (rate * on_mass[c][i]) * v[c][i];
+                out[c][i] = entry(out[c][i], resistance);
+            }
+            own = next;
         }
     }
 
@@ -161,18 +181,14 @@ impl Floors {
     }
 }
 
-/// Floors from the second on, with those next to them.
-struct Neighbours<'a> {
-    below: &'a [f64],
-    own: &'a [f64],
-    above: &'a [f64],
-}
-
-impl<'a> Neighbours<'a> {
-    #[inline(always)]
-    fn of(vector: &'a [f64], floors: usize) -> Neighbours<'a> {
-        Neighbours { below: &vector[..floors], own: &vector[1..][..floors], above: &vector[2..][..floors] }
+/// A number for each lane: unlike `std::array::from_fn` it always becomes one wide instruction after the other.
+#[inline(always)]
+fn each(of: impl Fn(usize) -> f64) -> Lane {
+    let mut all = [0.0; LANES];
+    for (i, one) in all.iter_mut().enumerate() {
+        *one = of(i);
     }
+    all
 }
 
 #[cfg(test)]
