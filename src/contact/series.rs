@@ -18,7 +18,7 @@ type Rows = [Each; ROOM];
 type Sloped = [[Each; 2]; ROOM];
 
 /// Exponent of the power whose rate damps in a root law.
-const ROOT: f64 = 1.25;
+pub(super) const ROOT: f64 = 1.25;
 
 /// Where a series that is kept backwards begins.
 const LAST: usize = ROOM - 1;
@@ -328,15 +328,8 @@ impl PairBlock {
             (at[i], weights[i]) =
                 if released { (x * (1.0 - left * left), x * 2.0 * left * weight) } else { (node, weight) };
         }
-        let (mut d, mut rate) = ([0.0; 12], [0.0; 12]);
-        for term in terms.iter().rev() {
-            for i in 0..12 {
-                rate[i] = rate[i] * at[i] + d[i];
-                d[i] = d[i] * at[i] + term[lane];
-            }
-        }
-        let power = |i: usize| weights[i] * force.damping_power(d[i], rate[i] / scale);
-        scale * (0..12).map(power).sum::<f64>()
+        let powers = damping_powers(terms, lane, force, scale, &at);
+        scale * (0..12).map(|i| weights[i] * powers[i]).sum::<f64>()
     }
 
     /// The penetration of one pair, copied; returns the number of its terms.
@@ -355,6 +348,20 @@ fn copy(rows: &[Each], lane: usize, out: &mut Coefficients) -> usize {
         *out = row[lane];
     }
     rows.len()
+}
+
+/// Power of the damping part of a pair's force at twelve x. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn damping_powers(terms: &[Each], lane: usize, force: &Force, scale: f64, x: &[f64; 12]) -> [f64; 12] {
+    let (mut d, mut rate) = ([0.0; 12], [0.0; 12]);
+    for term in terms.iter().rev() {
+        let term = term[lane];
+        for i in 0..12 {
+            rate[i] = rate[i] * x[i] + d[i];
+            d[i] = d[i] * x[i] + term;
+        }
+    }
+    force.damping_powers(&d, &rate.map(|rate| rate / scale))
 }
 
 /// See [`PairBlock::read`]. Wide instructions give the same bits.
@@ -394,7 +401,7 @@ fn read_force(terms: &[Each], powers: &Powers) -> ForceReading {
 
 /// A number for each pair: unlike `std::array::from_fn` it always becomes one wide instruction after the other.
 #[inline(always)]
-fn each(of: impl Fn(usize) -> f64) -> Each {
+pub(super) fn each(of: impl Fn(usize) -> f64) -> Each {
     let mut all = [0.0; PAIRS];
     for (i, one) in all.iter_mut().enumerate() {
         *one = of(i);

@@ -28,7 +28,8 @@ pub(super) struct ClosedPairs {
 /// One pair of a block.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Member {
-    pair: usize,
+    /// Its number.
+    pub pair: usize,
     /// Lanes of the two floors.
     floors: [usize; 2],
     /// What a force does to each floor, 1/kg: minus and plus its inverse mass.
@@ -37,6 +38,15 @@ pub(super) struct Member {
     softness: f64,
     /// What the pair is to the first modes.
     row: [Lane; FEW_BLOCKS],
+}
+
+impl Member {
+    /// Of a pair by its number.
+    pub fn of(pair: usize, data: &Pair) -> Member {
+        let Pair { lanes: floors, inverse_masses: [left, right], .. } = *data;
+        let row = first_blocks(&data.row);
+        Member { pair, floors, inverse_masses: [-left, right], softness: left + right, row }
+    }
 }
 
 /// What a block comes to at the end of a step.
@@ -74,10 +84,7 @@ impl ClosedPairs {
             let b = self.block_for(Kind::of(&force));
             let lane = self.blocks[b].add(&force, scale, contact.penetration, contact.rate * scale);
             self.places[p] = (b, lane);
-            let Pair { lanes: floors, inverse_masses: [left, right], .. } = pairs[p];
-            let row = first_blocks(&pairs[p].row);
-            let inverse_masses = [-left, right];
-            self.members[b][lane] = Member { pair: p, floors, inverse_masses, softness: left + right, row };
+            self.members[b][lane] = Member::of(p, &pairs[p]);
             self.at_surface[b] |= contact.at_surface;
             self.waits |= contact.at_surface || self.neighbours[p].iter().any(|&q| is_closed(&base.contacts[q]));
         }

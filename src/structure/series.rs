@@ -224,12 +224,19 @@ impl MotionSeries {
 
     /// q and v at the x of the powers.
     pub fn evaluate(&self, powers: &Powers, q: &mut [f64], v: &mut [f64]) {
-        evaluate(self, powers, q, v);
+        let terms = (self.order + 1).min(ROOM);
+        let (power, slope, _) = powers.all();
+        let (q, v) = (&mut q[..self.lanes], &mut v[..self.lanes]);
+        let rate = 1.0 / self.scale;
+        sum_terms(&self.coefficients[..terms * self.lanes], (&power[..terms], &slope[..terms]), rate, q, v);
     }
 
     /// Bounds on the fourth derivatives by x up to the x of the powers.
     pub fn fourth_derivatives(&self, powers: &Powers, out: &mut [f64]) {
-        fourth_derivatives(&self.coefficients[..(self.order + 1) * self.lanes], powers, &mut out[..self.lanes]);
+        let (.., fourth) = powers.all();
+        let end = (self.order + 1) * self.lanes;
+        let terms = &self.coefficients[(4 * self.lanes).min(end)..end];
+        sum_sizes(terms, &fourth[4..], &mut out[..self.lanes]);
     }
 
     /// v alone at x.
@@ -267,37 +274,34 @@ impl MotionSeries {
 /// Blocks of lanes whose sums stand in registers side by side.
 const ABREAST: usize = 4;
 
-/// See [`MotionSeries::evaluate`]: from the smallest terms to the largest. Wide instructions give the same bits.
+/// Adds up terms, one vector each, times their powers and times the slopes of these: q and, times `rate`, v. From the last
+/// terms to the first, which are the largest. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn evaluate(series: &MotionSeries, powers: &Powers, q: &mut [f64], v: &mut [f64]) {
-    let (width, order) = (series.lanes / LANES, series.order.min(ROOM - 1));
-    let rate = 1.0 / series.scale;
-    let (terms, _) = series.coefficients.as_chunks::<LANES>();
-    let terms = &terms[..(order + 1) * width];
-    let (q, v) = (&mut q.as_chunks_mut::<LANES>().0[..width], &mut v.as_chunks_mut::<LANES>().0[..width]);
+pub fn sum_terms(terms: &[f64], powers: (&[f64], &[f64]), rate: f64, q: &mut [f64], v: &mut [f64]) {
+    let (terms, _) = terms.as_chunks::<LANES>();
+    let (q, v) = (q.as_chunks_mut::<LANES>().0, v.as_chunks_mut::<LANES>().0);
+    let width = q.len();
     let (wide_q, q) = q.as_chunks_mut::<ABREAST>();
     let (wide_v, v) = v.as_chunks_mut::<ABREAST>();
     for (k, (q, v)) in wide_q.iter_mut().zip(wide_v).enumerate() {
-        (*q, *v) = evaluate_blocks((terms, width), k * ABREAST, powers, rate);
+        (*q, *v) = sum_blocks((terms, width), k * ABREAST, powers, rate);
     }
     let first = width - width % ABREAST;
     for (k, (q, v)) in q.iter_mut().zip(v).enumerate() {
-        ([*q], [*v]) = evaluate_blocks((terms, width), first + k, powers, rate);
+        ([*q], [*v]) = sum_blocks((terms, width), first + k, powers, rate);
     }
 }
 
 /// q and v of `N` blocks of lanes.
 #[inline(always)]
-fn evaluate_blocks<const N: usize>(
+fn sum_blocks<const N: usize>(
     (terms, width): (&[Lane], usize),
     first: usize,
-    powers: &Powers,
+    (powers, slopes): (&[f64], &[f64]),
     rate: f64,
 ) -> ([Lane; N], [Lane; N]) {
-    let (power, slope, _) = powers.all();
     let (mut value, mut change) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
-    let rows = terms.chunks_exact(width).zip(power.iter().zip(slope));
-    for (row, (power, slope)) in rows.rev() {
+    for (row, (power, slope)) in terms.chunks_exact(width).zip(powers.iter().zip(slopes)).rev() {
         let row = &row[first..first + N];
         for c in 0..N {
             for i in 0..LANES {
@@ -309,30 +313,28 @@ fn evaluate_blocks<const N: usize>(
     (value, change.map(|change| change.map(|change| change * rate)))
 }
 
-/// See [`MotionSeries::fourth_derivatives`]. Wide instructions give the same bits.
+/// Adds up the sizes of terms, one vector each, times some factors. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn fourth_derivatives(terms: &[f64], powers: &Powers, out: &mut [f64]) {
+pub fn sum_sizes(terms: &[f64], factors: &[f64], out: &mut [f64]) {
     let (out, _) = out.as_chunks_mut::<LANES>();
     let (terms, width) = (terms.as_chunks::<LANES>().0, out.len());
     let (wide, rest) = out.as_chunks_mut::<ABREAST>();
     for (k, out) in wide.iter_mut().enumerate() {
-        *out = fourth_of_blocks((terms, width), k * ABREAST, powers);
+        *out = sizes_of_blocks((terms, width), k * ABREAST, factors);
     }
     for (k, out) in rest.iter_mut().enumerate() {
-        [*out] = fourth_of_blocks((terms, width), width - width % ABREAST + k, powers);
+        [*out] = sizes_of_blocks((terms, width), width - width % ABREAST + k, factors);
     }
 }
 
-/// Bounds on the fourth derivatives of `N` blocks of lanes.
 #[inline(always)]
-fn fourth_of_blocks<const N: usize>((terms, width): (&[Lane], usize), first: usize, powers: &Powers) -> [Lane; N] {
-    let (.., fourth) = powers.all();
+fn sizes_of_blocks<const N: usize>((terms, width): (&[Lane], usize), first: usize, factors: &[f64]) -> [Lane; N] {
     let mut sum = [[0.0; LANES]; N];
-    for (row, fourth) in terms.chunks_exact(width).zip(fourth).skip(4) {
+    for (row, factor) in terms.chunks_exact(width).zip(factors) {
         let row = &row[first..first + N];
         for c in 0..N {
             for i in 0..LANES {
-                sum[c][i] += row[c][i].abs() * fourth;
+                sum[c][i] += row[c][i].abs() * factor;
             }
         }
     }
