@@ -3,7 +3,7 @@
 
 use super::force::{Force, power};
 use crate::polynomial::{COUNT, Coefficients, Powers, RECIPROCAL, ROOM, Reading};
-use crate::quadrature::{TWELVE, gauss};
+use crate::quadrature::TWELVE_POINTS;
 
 /// Pairs that are worked on together: as many as today's machines take in one instruction.
 pub const PAIRS: usize = 4;
@@ -313,20 +313,21 @@ impl PairBlock {
         read_force(&self.force[..=self.order], powers)
     }
 
-    /// J, work of the damping part of a pair's force over 0..=x: twelve points side by side.
-    pub fn damping_work(&self, lane: usize, force: &Force, scale: f64, x: f64) -> f64 {
+    /// J, work of the damping part of a pair's force over 0..=x, where the penetration is `end`.
+    pub fn damping_work(&self, lane: usize, force: &Force, scale: f64, x: f64, end: f64) -> f64 {
         if !force.is_damped() {
             return 0.0;
         }
         let terms = &self.penetration[..self.order + 3];
-        let end = terms.iter().rev().fold(0.0, |sum, term| sum * x + term[lane]);
         // A power law's damping force ends with a root of the time left: even in the square root of that time.
         let released = !force.is_regular() && end < NEARLY_RELEASED * terms[0][lane];
         let (mut at, mut weights) = ([0.0; 12], [0.0; 12]);
-        for (i, (node, weight)) in gauss(TWELVE, if released { 1.0 } else { x }).enumerate().take(12) {
+        for (i, &(node, weight)) in TWELVE_POINTS.iter().enumerate() {
             let left = 1.0 - node;
-            (at[i], weights[i]) =
-                if released { (x * (1.0 - left * left), x * 2.0 * left * weight) } else { (node, weight) };
+            (at[i], weights[i]) = match released {
+                true => (x * (1.0 - left * left), x * 2.0 * left * weight),
+                false => (x * node, x * weight),
+            };
         }
         let powers = damping_powers(terms, lane, force, scale, &at);
         scale * (0..12).map(|i| weights[i] * powers[i]).sum::<f64>()
@@ -401,7 +402,7 @@ fn read_force(terms: &[Each], powers: &Powers) -> ForceReading {
 
 /// A number for each pair: unlike `std::array::from_fn` it always becomes one wide instruction after the other.
 #[inline(always)]
-pub(super) fn each(of: impl Fn(usize) -> f64) -> Each {
+pub fn each(of: impl Fn(usize) -> f64) -> Each {
     let mut all = [0.0; PAIRS];
     for (i, one) in all.iter_mut().enumerate() {
         *one = of(i);

@@ -3,7 +3,7 @@
 //! The step ends before anything else can happen - a turn, a release, an entry elsewhere -, shown by bounds on the sums
 //! of its terms, so it has no event of its own.
 
-use super::closed_pairs::{Meeting, Member, OnFloors, OnModes};
+use super::closed_pairs::{Meeting, Members, OnFloors, OnModes};
 use super::contact_step::touching;
 use super::model::{Model, Pair};
 use super::state::*;
@@ -26,7 +26,7 @@ pub(super) struct OnsetSeries {
     terms: Vec<f64>,
     /// The pairs in contact, in blocks of one kind each; the first `used` are filled.
     blocks: Vec<OnsetBlock>,
-    members: Vec<[Member; PAIRS]>,
+    members: Vec<Members>,
     used: usize,
     /// Block and lane of each contact.
     places: Vec<(usize, usize)>,
@@ -50,7 +50,7 @@ impl OnsetSeries {
             lanes,
             terms: vec![0.0; MOST_TERMS * lanes],
             blocks: vec![OnsetBlock::default(); most],
-            members: vec![Default::default(); most],
+            members: vec![Members::default(); most],
             used: 0,
             places: vec![(0, 0); pairs],
             scale: 1.0,
@@ -76,7 +76,7 @@ impl OnsetSeries {
             let force = contact.branch();
             let b = self.block_for(&grid, Kind::of(&force), contact.is_singular());
             let lane = self.blocks[b].add(&force, scale, contact.penetration, contact.rate * scale);
-            self.members[b][lane] = Member::of(p, &pairs[p]);
+            self.members[b].set(lane, p, &pairs[p], base.coordinates);
             self.places[p] = (b, lane);
         }
     }
@@ -92,7 +92,7 @@ impl OnsetSeries {
 
     /// The pairs of a block, lane by lane.
     fn pairs_of(&self, block: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.members[block].iter().map(|member| member.pair).enumerate().take(self.blocks[block].count)
+        self.members[block].pairs.iter().copied().enumerate().take(self.blocks[block].count)
     }
 
     /// Takes the readings of all blocks at x.
@@ -187,15 +187,10 @@ fn extend<M: Meeting>(
         }
     };
     for (block, members) in blocks.iter().zip(&onset.members) {
-        for (member, force) in members.iter().zip(&block.force[here - 1]).take(block.count) {
-            meeting.push(member, factor * force, next);
-        }
+        meeting.push(members, block.count, &block.force[here - 1].map(|force| factor * force), next);
     }
     for (block, members) in blocks.iter_mut().zip(&onset.members) {
-        let mut values = [0.0; PAIRS];
-        for (value, member) in values.iter_mut().zip(members).take(block.count) {
-            *value = meeting.relative(member, next);
-        }
+        let values = meeting.relative(members, block.count, next);
         block.set_penetration(grid, i, j, values);
     }
 }

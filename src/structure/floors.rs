@@ -21,18 +21,25 @@ pub struct Floors {
     count: [usize; 2],
     /// kg.
     mass: Vec<f64>,
-    /// 1/kg.
-    inverse_mass: Vec<f64>,
-    /// N/m, of the storey below each floor of a shear building.
-    storey: Vec<f64>,
-    /// Rayleigh damping, factor of the mass, 1/s.
-    on_mass: Vec<f64>,
-    /// Rayleigh damping, factor of the storey stiffness, s.
-    on_stiffness: Vec<f64>,
+    /// All else that a floor has.
+    blocks: Vec<Block>,
     /// Floors that rest: zeros.
     pub rest: Vec<f64>,
     /// Whether both are shear buildings with no more than Rayleigh damping, so that a floor feels its neighbours only.
     is_sparse: bool,
+}
+
+/// What some floors in a row resist with.
+#[derive(Clone, Copy, Debug, Default)]
+struct Block {
+    /// 1/kg.
+    inverse_mass: Lane,
+    /// N/m, of the storey below each floor of a shear building.
+    storey: Lane,
+    /// Rayleigh damping, factor of the mass, 1/s.
+    on_mass: Lane,
+    /// Rayleigh damping, factor of the storey stiffness, s.
+    on_stiffness: Lane,
 }
 
 impl Floors {
@@ -49,10 +56,7 @@ impl Floors {
             first: [0, count[0] + 1],
             count,
             mass: zeros.clone(),
-            inverse_mass: zeros.clone(),
-            storey: zeros.clone(),
-            on_mass: zeros.clone(),
-            on_stiffness: zeros.clone(),
+            blocks: vec![Block::default(); zeros.len() / LANES],
             rest: zeros,
             is_sparse: true,
         };
@@ -66,22 +70,33 @@ impl Floors {
         let (first, n) = (self.first[side], self.count[side]);
         for (i, &mass) in building.mass.iter().enumerate() {
             self.mass[first + i] = mass;
-            self.inverse_mass[first + i] = 1.0 / mass;
+            self.enter(first + i, |block| &mut block.inverse_mass, 1.0 / mass);
         }
         match &building.stiffness {
-            Stiffness::Shear(stiffness) => self.storey[first..][..n].copy_from_slice(stiffness),
+            Stiffness::Shear(stiffness) => {
+                for (i, &stiffness) in stiffness.iter().enumerate() {
+                    self.enter(first + i, |block| &mut block.storey, stiffness);
+                }
+            }
             Stiffness::Matrix(_) => self.is_sparse = false,
         }
         match (&building.damping, &modes.damping) {
-            (_, ModalDamping::Diagonal(c)) if n == 1 => self.on_mass[first] = c[0],
+            (_, ModalDamping::Diagonal(c)) if n == 1 => self.enter(first, |block| &mut block.on_mass, c[0]),
             (Damping::Rayleigh { ratio, modes: numbers }, _) => {
                 let (on_mass, on_stiffness) = rayleigh_factors(*ratio, *numbers, &modes.omega);
-                self.on_mass[first..][..n].fill(on_mass);
-                self.on_stiffness[first..][..n].fill(on_stiffness);
+                for lane in first..first + n {
+                    self.enter(lane, |block| &mut block.on_mass, on_mass);
+                    self.enter(lane, |block| &mut block.on_stiffness, on_stiffness);
+                }
             }
             (_, ModalDamping::Diagonal(c)) if c.iter().all(|c| *c == 0.0) => {}
             _ => self.is_sparse = false,
         }
+    }
+
+    /// Enters what the floor of a lane has.
+    fn enter(&mut self, lane: usize, what: impl FnOnce(&mut Block) -> &mut Lane, value: f64) {
+        what(&mut self.blocks[lane / LANES])[lane % LANES] = value;
     }
 
     /// Whether a floor feels its neighbours only.
@@ -101,7 +116,7 @@ impl Floors {
 
     /// 1/kg of a lane.
     pub fn inverse_mass(&self, lane: usize) -> f64 {
-        self.inverse_mass[lane]
+        self.blocks[lane / LANES].inverse_mass[lane % LANES]
     }
 
     /// 1 at every floor.
@@ -121,31 +136,28 @@ impl Floors {
     /// which stay in registers: what has just been stored cannot be read back from other places without waiting for it.
     #[inline(always)]
     pub fn enter_resistance(&self, u: &[f64], v: &[f64], rate: f64, out: &mut [Lane], entry: impl Fn(f64, f64) -> f64) {
-        let [u, v, storey, inverse_mass, on_mass, on_stiffness] =
-            [u, v, &self.storey, &self.inverse_mass, &self.on_mass, &self.on_stiffness]
-                .map(|vector| vector.as_chunks::<LANES>().0);
+        let [u, v] = [u, v].map(|vector| vector.as_chunks::<LANES>().0);
         // Says once that no index below leaves its table.
-        let blocks = storey.len();
-        let [u, v, inverse_mass, on_mass, on_stiffness] =
-            [u, v, inverse_mass, on_mass, on_stiffness].map(|table| &table[..blocks]);
-        let out = &mut out[..blocks];
-        let moved = |c: usize| each(|i| u[c][i] + (rate * on_stiffness[c][i]) * v[c][i]);
+        let (blocks, count) = (&self.blocks[..], self.blocks.len());
+        let (u, v, out) = (&u[..count], &v[..count], &mut out[..count]);
+        let moved = |c: usize| each(|i| u[c][i] + (rate * blocks[c].on_stiffness[i]) * v[c][i]);
         let shear = |c: usize, below: f64, own: &Lane| {
             let below = [below, own[0], own[1], own[2]];
-            each(|i| storey[c][i] * (own[i] - below[i]))
+            each(|i| blocks[c].storey[i] * (own[i] - below[i]))
         };
         let lowest = moved(0);
         let (mut own, mut highest) = (shear(0, 0.0, &lowest), lowest[LANES - 1]);
-        for c in 0..blocks {
+        for c in 0..count {
             let mut next = [0.0; LANES];
-            if c + 1 < blocks {
+            if c + 1 < count {
                 let floors = moved(c + 1);
                 next = shear(c + 1, highest, &floors);
                 highest = floors[LANES - 1];
             }
             let above = [own[1], own[2], own[3], next[0]];
+            let Block { inverse_mass, on_mass, .. } = &blocks[c];
             for i in 0..LANES {
-                let resistance = inverse_mass[c][i] * (own[i] - above[i]) + (rate * on_mass[c][i]) * v[c][i];
+                let resistance = inverse_mass[i] * (own[i] - above[i]) + (rate * on_mass[i]) * v[c][i];
                 out[c][i] = entry(out[c][i], resistance);
             }
             own = next;
@@ -156,8 +168,14 @@ impl Floors {
     pub fn energies(&self, u: &[f64], v: &[f64]) -> (f64, f64) {
         let kinetic: f64 = self.mass.iter().zip(v).map(|(m, v)| m * v * v).sum();
         let below = std::iter::once(&0.0).chain(u);
-        let strain: f64 =
-            self.storey.iter().zip(u).zip(below).map(|((k, u), below)| k * (u - below) * (u - below)).sum();
+        let strain: f64 = self
+            .blocks
+            .iter()
+            .flat_map(|block| &block.storey)
+            .zip(u)
+            .zip(below)
+            .map(|((k, u), below)| k * (u - below) * (u - below))
+            .sum();
         (0.5 * kinetic, 0.5 * strain)
     }
 
