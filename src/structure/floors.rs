@@ -42,6 +42,25 @@ struct Block {
     on_stiffness: Lane,
 }
 
+impl Block {
+    /// Enters the resistance of floors, from the shear forces below each and above the last.
+    #[inline(always)]
+    fn enter(
+        &self,
+        (below, above): (&Lane, f64),
+        v: &Lane,
+        rate: f64,
+        out: &mut Lane,
+        entry: impl Fn(f64, f64) -> f64,
+    ) {
+        let above = [below[1], below[2], below[3], above];
+        for i in 0..LANES {
+            let resistance = self.inverse_mass[i] * (below[i] - above[i]) + (rate * self.on_mass[i]) * v[i];
+            out[i] = entry(out[i], resistance);
+        }
+    }
+}
+
 impl Floors {
     /// Lanes that a vector of all floors needs.
     pub fn lanes(left: usize, right: usize) -> usize {
@@ -147,20 +166,14 @@ impl Floors {
         };
         let lowest = moved(0);
         let (mut own, mut highest) = (shear(0, 0.0, &lowest), lowest[LANES - 1]);
-        for c in 0..count {
-            let mut next = [0.0; LANES];
-            if c + 1 < count {
-                let floors = moved(c + 1);
-                next = shear(c + 1, highest, &floors);
-                highest = floors[LANES - 1];
-            }
-            let above = [own[1], own[2], own[3], next[0]];
-            let Block { inverse_mass, on_mass, .. } = &blocks[c];
-            for i in 0..LANES {
-                let resistance = inverse_mass[i] * (own[i] - above[i]) + (rate * on_mass[i]) * v[c][i];
-                out[c][i] = entry(out[c][i], resistance);
-            }
-            own = next;
+        for c in 1..count {
+            let floors = moved(c);
+            let next = shear(c, highest, &floors);
+            blocks[c - 1].enter((&own, next[0]), &v[c - 1], rate, &mut out[c - 1], &entry);
+            (own, highest) = (next, floors[LANES - 1]);
+        }
+        if let (Some(block), Some(v), Some(out)) = (blocks.last(), v.last(), out.last_mut()) {
+            block.enter((&own, 0.0), v, rate, out, &entry);
         }
     }
 
