@@ -21,6 +21,19 @@ pub const TWELVE: &Rule = &[
     (0.981_560_634_246_719_3, 0.047_175_336_386_511_83),
 ];
 
+/// The same points and weights for the integral over 0..=1.
+pub const TWELVE_POINTS: [(f64, f64); 12] = {
+    let mut points = [(0.0, 0.0); 12];
+    let mut i = 0;
+    while i < 6 {
+        let (node, weight) = TWELVE[i];
+        points[2 * i] = (0.5 * (1.0 - node), 0.5 * weight);
+        points[2 * i + 1] = (0.5 * (1.0 + node), 0.5 * weight);
+        i += 1;
+    }
+    points
+};
+
 /// Points and weights for the integral over 0..=length.
 pub fn gauss(rule: &Rule, length: f64) -> impl Iterator<Item = (f64, f64)> {
     let half = 0.5 * length;

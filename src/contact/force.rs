@@ -45,13 +45,20 @@ impl Force {
         }
     }
 
-    /// W, power of the damping part.
-    pub fn damping_power(&self, d: f64, v: f64) -> f64 {
+    /// W, power of the damping part at some penetrations and rates.
+    #[inline(always)]
+    pub fn damping_powers<const N: usize>(&self, d: &[f64; N], v: &[f64; N]) -> [f64; N] {
         match *self {
-            Force::None => 0.0,
-            Force::Linear { damping, .. } => damping * v * v,
-            Force::Power { stiffness, exponent, damping } => stiffness * power(d, exponent) * damping * v * v,
-            Force::Root { damping, .. } => damping * power(d, 0.25) * v * v,
+            Force::None => [0.0; N],
+            Force::Linear { damping, .. } => std::array::from_fn(|i| damping * v[i] * v[i]),
+            Force::Power { stiffness, exponent, damping } => {
+                let power = powers(d, exponent);
+                std::array::from_fn(|i| stiffness * power[i] * damping * v[i] * v[i])
+            }
+            Force::Root { damping, .. } => {
+                let power = powers(d, 0.25);
+                std::array::from_fn(|i| damping * power[i] * v[i] * v[i])
+            }
         }
     }
 
@@ -93,6 +100,17 @@ pub fn power(d: f64, exponent: f64) -> f64 {
         1.5 => d * d.sqrt(),
         2.5 => d * d * d.sqrt(),
         _ => libm::pow(d, exponent),
+    }
+}
+
+/// The same of some d side by side.
+#[inline(always)]
+fn powers<const N: usize>(d: &[f64; N], exponent: f64) -> [f64; N] {
+    let inside = d.map(|d| if d <= 0.0 { 0.0 } else { d });
+    match exponent {
+        0.25 => inside.map(|d| d.sqrt().sqrt()),
+        1.5 => inside.map(|d| d * d.sqrt()),
+        _ => inside.map(|d| power(d, exponent)),
     }
 }
 

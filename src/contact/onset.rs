@@ -13,11 +13,12 @@
 //! ```
 
 use super::force::{Force, power};
+use super::series::{Each, Kind, PAIRS, ROOT, each};
 
 /// Most terms of a double series.
-pub const MOST_TERMS: usize = 128;
+pub const MOST_TERMS: usize = 64;
 /// Most rows (powers of z).
-const MOST_ROWS: usize = 14;
+const MOST_ROWS: usize = 12;
 
 /// Which powers x^(i + beta j) a double series has: those up to `highest`.
 #[derive(Clone, Copy, Debug)]
@@ -93,177 +94,369 @@ impl Grid {
 }
 
 /// A scalar double series.
-type Terms = [f64; MOST_TERMS];
+pub type Terms = [f64; MOST_TERMS];
 
-/// What is taken to a power: e of a pair that enters, or d of a pair that is in contact already.
-#[derive(Clone, Copy, Debug)]
-struct Base {
-    terms: Terms,
-    /// Each term times its exponent of x.
-    slopes: Terms,
-}
+/// A double series of each pair.
+type Rows = [Each; MOST_TERMS];
 
-/// One contact over an onset step.
-#[derive(Clone, Copy, Debug)]
-pub struct OnsetPair {
-    /// m, terms of the penetration.
-    pub penetration: Terms,
+/// Up to [`PAIRS`] contacts of one kind over an onset step, all of which enter or all of which touch already.
+#[derive(Clone, Debug)]
+pub struct OnsetBlock {
+    kind: Kind,
+    /// Whether the pairs enter now: d = 0.
+    pub enters: bool,
+    /// Pairs in it.
+    pub count: usize,
+    /// k of the law.
+    stiffness: Each,
+    /// Damping factor of the law divided by the scale.
+    damping: Each,
+    exponent: Each,
+    /// 1/e_0 of pairs that enter, 1/d_0 of others.
+    inverse: Each,
+    /// m, terms of the penetration d; those of e stand one place further.
+    penetration: Rows,
+    /// Terms of what is taken to a power, e or d, each times its exponent of x; in the places of the penetration's.
+    slopes: Rows,
     /// N, terms of the force times x: row j holds the powers i - 1 + beta j.
-    pub force: Terms,
-    base: Base,
-    power: Terms,
-    root: Terms,
-    /// Whether the pair enters now: d = 0.
-    enters: bool,
+    pub force: Rows,
+    power: Rows,
+    root: Rows,
 }
 
-impl Default for OnsetPair {
+impl Default for OnsetBlock {
     fn default() -> Self {
-        let zeros = [0.0; MOST_TERMS];
-        OnsetPair {
-            penetration: zeros,
-            force: zeros,
-            base: Base { terms: zeros, slopes: zeros },
-            power: zeros,
-            root: zeros,
+        let (lane, rows) = ([0.0; PAIRS], [[0.0; PAIRS]; MOST_TERMS]);
+        OnsetBlock {
+            kind: Kind::None,
             enters: false,
+            count: 0,
+            stiffness: lane,
+            damping: lane,
+            exponent: lane,
+            inverse: lane,
+            penetration: rows,
+            slopes: rows,
+            force: rows,
+            power: rows,
+            root: rows,
         }
     }
 }
 
-impl OnsetPair {
-    /// Starts from a penetration, m, and its rate times the scale, m.
-    pub fn start(&mut self, grid: &Grid, penetration: f64, step_rate: f64, enters: bool) {
-        self.penetration[..grid.terms()].fill(0.0);
-        self.force[..grid.terms()].fill(0.0);
-        self.base.terms[..grid.terms()].fill(0.0);
-        self.base.slopes[..grid.terms()].fill(0.0);
-        self.enters = enters;
-        self.set_penetration(grid, 0, 0, penetration);
-        self.set_penetration(grid, 1, 0, step_rate);
-    }
+/// The contacts of a block at some x.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OnsetReading {
+    /// Penetration, m.
+    pub penetration: Each,
+    /// Its derivative by x.
+    pub slope: Each,
+    /// Force, N.
+    pub force: Each,
+    /// Its derivative by x.
+    pub force_slope: Each,
+    /// Its integral over x.
+    pub impulse: Each,
+}
 
-    /// Enters a term of the penetration.
-    pub fn set_penetration(&mut self, grid: &Grid, i: usize, j: usize, value: f64) {
-        self.penetration[grid.index(i, j)] = value;
-        // e is d a power of x down.
-        let shift = usize::from(self.enters);
-        if i >= shift {
-            let here = grid.index(i - shift, j);
-            self.base.terms[here] = value;
-            self.base.slopes[here] = grid.exponent(i - shift, j) * value;
+impl OnsetBlock {
+    /// Starts a block with no pair in it yet: springs without stiffness.
+    pub fn start(&mut self, grid: &Grid, kind: Kind, enters: bool) {
+        let (zeros, ones) = ([0.0; PAIRS], [1.0; PAIRS]);
+        (self.kind, self.enters, self.count) = (kind, enters, 0);
+        (self.stiffness, self.damping, self.exponent, self.inverse) = (zeros, zeros, ones, ones);
+        for rows in [&mut self.penetration, &mut self.slopes, &mut self.force] {
+            rows[..grid.terms()].fill(zeros);
         }
+        (self.power[0], self.root[0]) = (ones, ones);
     }
 
-    /// The force terms of a row for a pair that enters; they follow from the rows before.
-    pub fn extend_entering_row(&mut self, grid: &Grid, force: &Force, j: usize, scale: f64) {
+    /// Whether there is room for another pair of a kind.
+    pub fn takes(&self, kind: Kind, enters: bool) -> bool {
+        self.kind == kind && self.enters == enters && self.count < PAIRS
+    }
+
+    /// Adds a pair from its penetration, m, and its rate times the scale, m; returns its lane.
+    pub fn add(&mut self, force: &Force, scale: f64, penetration: f64, step_rate: f64) -> usize {
+        let lane = self.count;
+        self.count += 1;
+        (self.stiffness[lane], self.exponent[lane], self.damping[lane]) = match *force {
+            Force::None => (0.0, 1.0, 0.0),
+            Force::Linear { stiffness, damping } => (stiffness, 1.0, damping / scale),
+            Force::Power { stiffness, exponent, damping } => (stiffness, exponent, damping / scale),
+            Force::Root { stiffness, damping } => (stiffness, 1.5, 0.8 * damping / scale),
+        };
+        let first = if self.enters { step_rate } else { penetration };
+        self.inverse[lane] = 1.0 / first;
+        if !force.is_regular() {
+            self.power[0][lane] = power(first, self.exponent[lane]);
+            self.root[0][lane] = power(first, ROOT);
+        }
+        self.penetration[0][lane] = penetration;
+        self.penetration[1][lane] = step_rate;
+        // Of e, the first term has the exponent 0.
+        self.slopes[1][lane] = if self.enters { 0.0 } else { step_rate };
+        lane
+    }
+
+    /// Enters terms of the penetrations.
+    #[inline(always)]
+    pub fn set_penetration(&mut self, grid: &Grid, i: usize, j: usize, values: Each) {
+        let here = grid.index(i, j);
+        let exponent = grid.exponent(i, j) - f64::from(u8::from(self.enters));
+        self.penetration[here] = values;
+        self.slopes[here] = each(|k| exponent * values[k]);
+    }
+
+    /// The force terms of a row for pairs that enter; they follow from the rows before.
+    #[inline(always)]
+    pub fn extend_entering_row(&mut self, grid: &Grid, j: usize) {
         if j == 0 {
             return;
         }
-        match *force {
-            Force::None | Force::Linear { .. } => {}
-            Force::Power { stiffness, exponent, damping } => {
-                self.power_row(grid, exponent, j - 1);
-                // x^n e^n (1 + b d') lands one row on, one power of x down: the same i in `force`, which is times x.
-                for i in 0..=grid.last(j) {
-                    let mut term = self.power[grid.index(i, j - 1)];
-                    if damping != 0.0 {
-                        term += damping / scale * self.times_rate(grid, i, j - 1);
-                    }
-                    self.force[grid.index(i, j)] = stiffness * term;
-                }
+        if self.kind == Kind::Root {
+            self.extend_entering_root(grid, j);
+            return;
+        }
+        for i in 0..grid.last(j - 1) {
+            self.extend_power(grid, i, j - 1);
+        }
+        // x^n e^n (1 + b d') lands one row on, one power of x down: the same i in `force`, which is times x.
+        for i in 0..=grid.last(j) {
+            let mut term = self.power[grid.index(i, j - 1)];
+            if self.kind == Kind::Power {
+                let product = self.times_rate(grid, i, j - 1);
+                term = each(|k| term[k] + self.damping[k] * product[k]);
             }
-            Force::Root { stiffness, damping } => {
-                self.root_row(grid, 1.25, j - 1);
-                if j >= 2 {
-                    self.power_row(grid, 1.5, j - 2);
-                }
-                for i in 0..=grid.last(j) {
-                    let elastic = if j >= 2 { stiffness * self.power[grid.index(i, j - 2)] } else { 0.0 };
-                    let rate = 0.8 * damping / scale * (1.25 + grid.exponent(i, j - 1));
-                    self.force[grid.index(i, j)] = elastic + rate * self.root[grid.index(i, j - 1)];
-                }
-            }
+            self.force[grid.index(i, j)] = each(|k| self.stiffness[k] * term[k]);
         }
     }
 
-    /// One force term, x^(i + beta j), of a pair that is in contact already.
-    pub fn extend_touching(&mut self, grid: &Grid, force: &Force, i: usize, j: usize, scale: f64) {
-        let here = grid.index(i, j);
-        // The rate's terms: one power of x down from the penetration's.
-        let rate = (grid.exponent(i, j) + 1.0) / scale * self.penetration[here + 1];
-        let value = match *force {
-            Force::None => 0.0,
-            Force::Linear { stiffness, damping } => stiffness * self.penetration[here] + damping * rate,
-            Force::Power { stiffness, exponent, damping } => {
-                extend_power(&mut self.power, &self.base, grid, exponent, i, j);
-                let mut term = self.power[here];
-                if damping != 0.0 {
-                    term += damping / scale * self.times_rate(grid, i, j);
-                }
-                stiffness * term
+    #[inline(always)]
+    fn extend_entering_root(&mut self, grid: &Grid, j: usize) {
+        for i in 0..grid.last(j - 1) {
+            self.extend_root(grid, i, j - 1);
+        }
+        if j >= 2 {
+            for i in 0..grid.last(j - 2) {
+                self.extend_power(grid, i, j - 2);
             }
-            Force::Root { stiffness, damping } => {
+        }
+        for i in 0..=grid.last(j) {
+            let rate = ROOT + grid.exponent(i, j - 1);
+            let root = self.root[grid.index(i, j - 1)];
+            let elastic = if j >= 2 { self.power[grid.index(i, j - 2)] } else { [0.0; PAIRS] };
+            self.force[grid.index(i, j)] = each(|k| self.stiffness[k] * elastic[k] + rate * self.damping[k] * root[k]);
+        }
+    }
+
+    /// One force term, x^(i + beta j), of pairs that are in contact already.
+    #[inline(always)]
+    pub fn extend_touching(&mut self, grid: &Grid, i: usize, j: usize) {
+        let here = grid.index(i, j);
+        let (d, slope) = (self.penetration[here], self.slopes[here + 1]);
+        self.force[here + 1] = match self.kind {
+            Kind::None => [0.0; PAIRS],
+            // The rate's terms: one power of x down from the penetration's.
+            Kind::Linear => each(|k| self.stiffness[k] * d[k] + self.damping[k] * slope[k]),
+            Kind::Spring => {
+                let power = self.extend_power(grid, i, j);
+                each(|k| self.stiffness[k] * power[k])
+            }
+            Kind::Power => {
+                let power = self.extend_power(grid, i, j);
+                let product = self.times_rate(grid, i, j);
+                each(|k| self.stiffness[k] * (power[k] + self.damping[k] * product[k]))
+            }
+            Kind::Root => {
                 if i == 0 {
-                    extend_power(&mut self.root, &self.base, grid, 1.25, 0, j);
+                    self.extend_root(grid, 0, j);
                 }
-                extend_power(&mut self.power, &self.base, grid, 1.5, i, j);
-                extend_power(&mut self.root, &self.base, grid, 1.25, i + 1, j);
-                let root = (grid.exponent(i, j) + 1.0) / scale * self.root[here + 1];
-                stiffness * self.power[here] + 0.8 * damping * root
+                let power = self.extend_power(grid, i, j);
+                let root = self.extend_root(grid, i + 1, j);
+                let rate = grid.exponent(i + 1, j);
+                each(|k| self.stiffness[k] * power[k] + self.damping[k] * (rate * root[k]))
             }
         };
-        if i < grid.last(j) {
-            self.force[here + 1] = value;
-        }
     }
 
-    fn power_row(&mut self, grid: &Grid, exponent: f64, j: usize) {
-        for i in 0..grid.last(j) {
-            extend_power(&mut self.power, &self.base, grid, exponent, i, j);
+    #[inline(always)]
+    fn extend_power(&mut self, grid: &Grid, i: usize, j: usize) -> Each {
+        let here = grid.index(i, j);
+        if here > 0 {
+            self.power[here] = self.next_power(&self.power, self.exponent, grid, i, j);
         }
+        self.power[here]
     }
 
-    fn root_row(&mut self, grid: &Grid, exponent: f64, j: usize) {
-        for i in 0..grid.last(j) {
-            extend_power(&mut self.root, &self.base, grid, exponent, i, j);
+    #[inline(always)]
+    fn extend_root(&mut self, grid: &Grid, i: usize, j: usize) -> Each {
+        let here = grid.index(i, j);
+        if here > 0 {
+            self.root[here] = self.next_power(&self.root, [ROOT; PAIRS], grid, i, j);
         }
+        self.root[here]
+    }
+
+    /// Places of the terms of e or d in row `row` that take part in term i of a product, and the first one's power of x.
+    /// Only e has terms in x^(beta row) alone.
+    #[inline(always)]
+    fn factors(&self, grid: &Grid, i: usize, row: usize) -> (std::ops::Range<usize>, usize) {
+        let from = grid.index(usize::from(self.enters), row);
+        let first = usize::from(row == 0 || !self.enters);
+        (from + first..from + i + 1, first)
+    }
+
+    /// Term (i, j) of base^exponent (Miller's recurrence for x d/dx): with s the exponent of x in a term,
+    /// s p_c b_0 = sum over a > 0 of (exponent s_a - s_(c-a)) b_a p_(c-a), where s_(c-a) = s - s_a.
+    #[inline(always)]
+    fn next_power(&self, power: &Rows, exponent: Each, grid: &Grid, i: usize, j: usize) -> Each {
+        let (mut whole, mut weighted) = ([0.0; PAIRS], [0.0; PAIRS]);
+        for row in 0..=j {
+            let (factors, first) = self.factors(grid, i, row);
+            if factors.is_empty() {
+                continue;
+            }
+            let against = grid.index(0, j - row);
+            let powers = &power[against..=against + i - first];
+            let factors = self.penetration[factors.clone()].iter().zip(&self.slopes[factors]);
+            for ((term, slope), power) in factors.zip(powers.iter().rev()) {
+                for k in 0..PAIRS {
+                    whole[k] += term[k] * power[k];
+                    weighted[k] += slope[k] * power[k];
+                }
+            }
+        }
+        let reciprocal = 1.0 / grid.exponent(i, j);
+        each(|k| ((exponent[k] + 1.0) * reciprocal * weighted[k] - whole[k]) * self.inverse[k])
     }
 
     /// Term (i, j) of power times d' (in units of the scale).
-    fn times_rate(&self, grid: &Grid, i: usize, j: usize) -> f64 {
-        let mut sum = 0.0;
+    #[inline(always)]
+    fn times_rate(&self, grid: &Grid, i: usize, j: usize) -> Each {
+        let mut sum = [0.0; PAIRS];
+        // d' has (exponent) times the penetration's term one power of x up.
+        let missing = f64::from(u8::from(self.enters));
         for row in 0..=j {
-            for k in 0..=i {
-                // d' has (exponent) times the penetration's term one power of x up.
-                let rate = (grid.exponent(k, row) + 1.0) * self.penetration[grid.index(k + 1, row)];
-                sum += rate * self.power[grid.index(i - k, j - row)];
+            let (from, against) = (grid.index(1, row), grid.index(0, j - row));
+            let terms = self.penetration[from..=from + i].iter().zip(&self.slopes[from..=from + i]);
+            for ((term, slope), power) in terms.zip(self.power[against..=against + i].iter().rev()) {
+                for k in 0..PAIRS {
+                    sum[k] += (slope[k] + missing * term[k]) * power[k];
+                }
             }
         }
         sum
     }
+
+    /// Penetrations, forces and their integrals at the x of the powers.
+    pub fn read(&self, powers: &GridPowers) -> OnsetReading {
+        read(&self.penetration[..powers.terms], &self.force[..powers.terms], powers)
+    }
+
+    /// Bounds, over 0..=x, on what the terms from x^2 on change the penetrations and their derivatives by x by.
+    pub fn room(&self, powers: &GridPowers) -> [Each; 2] {
+        room(&self.penetration[..powers.terms], powers)
+    }
+
+    /// The penetration of one pair, copied.
+    pub fn copy_penetration(&self, lane: usize) -> Terms {
+        self.penetration.map(|row| row[lane])
+    }
+
+    /// The force of one pair times x, copied.
+    pub fn copy_force(&self, lane: usize) -> Terms {
+        self.force.map(|row| row[lane])
+    }
 }
 
-/// Term (i, j) of base^exponent (Miller's recurrence for x d/dx): with s the exponent of x in a term,
-/// s p_c b_0 = sum over a > 0 of (exponent s_a - s_(c-a)) b_a p_(c-a), where s_(c-a) = s - s_a.
-fn extend_power(power: &mut Terms, base: &Base, grid: &Grid, exponent: f64, i: usize, j: usize) {
-    if i == 0 && j == 0 {
-        power[0] = super::force::power(base.terms[0], exponent);
-        return;
+/// The powers of x of a grid, and what derivatives and integrals need.
+#[derive(Clone, Debug)]
+pub struct GridPowers {
+    /// x > 0.
+    pub x: f64,
+    terms: usize,
+    /// x^e of each exponent e.
+    value: Terms,
+    /// e x^(e-1).
+    slope: Terms,
+    /// x^e / e; 0 for e = 0.
+    primitive: Terms,
+}
+
+impl Default for GridPowers {
+    fn default() -> Self {
+        let zeros = [0.0; MOST_TERMS];
+        GridPowers { x: 0.0, terms: 0, value: zeros, slope: zeros, primitive: zeros }
     }
-    let (mut whole, mut weighted) = (0.0, 0.0);
-    for row in 0..=j {
-        let (from, against) = (grid.index(0, row), grid.index(0, j - row));
-        let first = usize::from(row == 0);
-        let (terms, slopes) = (&base.terms[from + first..=from + i], &base.slopes[from + first..=from + i]);
-        let powers = &power[against..=against + i - first];
-        for ((term, slope), power) in terms.iter().zip(slopes).zip(powers.iter().rev()) {
-            whole += term * power;
-            weighted += slope * power;
+}
+
+impl GridPowers {
+    /// Tables for x > 0.
+    pub fn at(grid: &Grid, x: f64) -> GridPowers {
+        let mut powers = GridPowers::default();
+        powers.set(grid, x);
+        powers
+    }
+
+    /// The same in place.
+    pub fn set(&mut self, grid: &Grid, x: f64) {
+        (self.x, self.terms) = (x, grid.terms());
+        let (z, inverse) = (power(x, grid.beta), 1.0 / x);
+        let mut shift = 0.0;
+        let mut first = 1.0;
+        for j in 0..grid.rows {
+            let mut value = first;
+            for (i, place) in (grid.index(0, j)..=grid.index(grid.last(j), j)).enumerate() {
+                let exponent = shift + i as f64;
+                self.value[place] = value;
+                self.slope[place] = exponent * (value * inverse);
+                self.primitive[place] = if exponent > 0.0 { value / exponent } else { 0.0 };
+                value *= x;
+            }
+            first *= z;
+            shift += grid.beta;
         }
     }
-    let s = grid.exponent(i, j);
-    power[grid.index(i, j)] = ((exponent + 1.0) / s * weighted - whole) / base.terms[0];
+
+    /// x^e and e x^(e-1) of each exponent e.
+    pub fn all(&self) -> (&[f64], &[f64]) {
+        (&self.value[..self.terms], &self.slope[..self.terms])
+    }
+}
+
+/// See [`OnsetBlock::read`]: from the smallest terms of each row to the largest. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn read(penetration: &[Each], force: &[Each], powers: &GridPowers) -> OnsetReading {
+    let [mut value, mut slope, mut product, mut product_slope, mut impulse] = [[0.0; PAIRS]; 5];
+    let tables = powers.value.iter().zip(&powers.slope).zip(&powers.primitive).take(powers.terms);
+    for ((d, force), ((power, rate), primitive)) in penetration.iter().zip(force).zip(tables).rev() {
+        for k in 0..PAIRS {
+            value[k] += d[k] * power;
+            slope[k] += d[k] * rate;
+            product[k] += force[k] * power;
+            product_slope[k] += force[k] * rate;
+            impulse[k] += force[k] * primitive;
+        }
+    }
+    // The stored force terms are those of F x.
+    let inverse = 1.0 / powers.x;
+    let force = each(|k| product[k] * inverse);
+    let force_slope = each(|k| (product_slope[k] - force[k]) * inverse);
+    OnsetReading { penetration: value, slope, force, force_slope, impulse }
+}
+
+/// See [`OnsetBlock::room`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn room(penetration: &[Each], powers: &GridPowers) -> [Each; 2] {
+    let (mut moved, mut turned) = ([0.0; PAIRS], [0.0; PAIRS]);
+    for (d, (power, rate)) in penetration.iter().zip(powers.value.iter().zip(&powers.slope)).skip(2) {
+        for k in 0..PAIRS {
+            moved[k] += d[k].abs() * power;
+            turned[k] += d[k].abs() * rate;
+        }
+    }
+    [moved, turned]
 }
 
 /// Value and slope at x of a double series.
@@ -272,7 +465,8 @@ pub fn value_and_slope(grid: &Grid, terms: &[f64], x: f64) -> (f64, f64) {
     (value, slope)
 }
 
-/// The same at some x side by side.
+/// The same at some x side by side. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn values_and_slopes<const N: usize>(grid: &Grid, terms: &[f64], x: &[f64; N]) -> ([f64; N], [f64; N]) {
     let z = x.map(|x| power(x, grid.beta));
     let (mut value, mut slope, mut factor) = ([0.0; N], [0.0; N], [1.0; N]);

@@ -3,17 +3,22 @@
 
 use super::force::{Force, power};
 use crate::polynomial::{COUNT, Coefficients, Powers, RECIPROCAL, ROOM, Reading};
-use crate::quadrature::{TWELVE, gauss};
+use crate::quadrature::TWELVE_POINTS;
 
-/// Pairs that are worked on together. With four abreast, which today's machines take in one instruction, scenes with few
-/// contacts took 10 to 20 % longer for their larger blocks, and one with 20 contacts as long.
-pub const PAIRS: usize = 2;
+/// Pairs that are worked on together: as many as today's machines take in one instruction.
+pub const PAIRS: usize = 4;
 
 /// One number of each pair.
 pub type Each = [f64; PAIRS];
 
 /// A series of each pair.
 type Rows = [Each; ROOM];
+
+/// A series of each pair with n times its term n beside it.
+type Sloped = [[Each; 2]; ROOM];
+
+/// Exponent of the power whose rate damps in a root law.
+pub(super) const ROOT: f64 = 1.25;
 
 /// Where a series that is kept backwards begins.
 const LAST: usize = ROOM - 1;
@@ -69,23 +74,21 @@ pub struct PairBlock {
     pub penetration: Rows,
     /// The same backwards, term 0 at [`LAST`]: a product of series then goes through memory in one direction.
     backwards: Rows,
-    /// n times term n of the penetration, backwards.
+    /// n times term n of the penetration, backwards; of [`Kind::Power`] only.
     slope: Rows,
     /// Force, N.
     pub force: Rows,
     /// d^n of a power law, d^1.5 of a root law.
-    power: Rows,
-    power_slope: Rows,
+    power: Sloped,
     /// d^1.25 of a root law.
-    root: Rows,
-    root_slope: Rows,
+    root: Sloped,
     /// Powers of the force that are filled, the last one; the penetration has two more.
     pub order: usize,
 }
 
 impl Default for PairBlock {
     fn default() -> Self {
-        let (lane, rows) = ([0.0; PAIRS], [[0.0; PAIRS]; ROOM]);
+        let (lane, rows, sloped) = ([0.0; PAIRS], [[0.0; PAIRS]; ROOM], [[[0.0; PAIRS]; 2]; ROOM]);
         PairBlock {
             kind: Kind::None,
             count: 0,
@@ -98,10 +101,8 @@ impl Default for PairBlock {
             backwards: rows,
             slope: rows,
             force: rows,
-            power: rows,
-            power_slope: rows,
-            root: rows,
-            root_slope: rows,
+            power: sloped,
+            root: sloped,
             order: 0,
         }
     }
@@ -141,17 +142,16 @@ impl ForceReading {
 }
 
 impl PairBlock {
-    /// Starts a block of one kind, with no pair in it yet.
+    /// Starts a block of one kind, with no pair in it yet: springs without stiffness, with d = 1.
     pub fn start(&mut self, kind: Kind) {
+        let (zeros, ones) = ([0.0; PAIRS], [1.0; PAIRS]);
         self.kind = kind;
         self.count = 0;
-        self.stiffness = [0.0; PAIRS];
-        self.damping = [0.0; PAIRS];
-        self.exponent = [1.0; PAIRS];
-        self.inverse = [1.0; PAIRS];
-        // A lane without a pair is a spring without stiffness.
-        self.set_penetration(0, [1.0; PAIRS]);
-        self.set_penetration(1, [0.0; PAIRS]);
+        (self.stiffness, self.damping) = (zeros, zeros);
+        (self.exponent, self.inverse, self.lead) = (ones, ones, [ones; 2]);
+        (self.power[0], self.root[0]) = ([ones, zeros], [ones, zeros]);
+        self.set_penetration(0, ones);
+        self.set_penetration(1, zeros);
     }
 
     /// Adds a pair from its penetration and its rate per unit of x, both m; returns its lane.
@@ -164,11 +164,20 @@ impl PairBlock {
             Force::Power { stiffness, exponent, damping } => (stiffness, exponent, damping / scale),
             Force::Root { stiffness, damping } => (stiffness, 1.5, 0.8 * damping / scale),
         };
-        self.inverse[lane] = 1.0 / penetration;
+        let inverse = 1.0 / penetration;
+        self.inverse[lane] = inverse;
+        if !force.is_regular() {
+            let (exponent, value) = (self.exponent[lane], power(penetration, self.exponent[lane]));
+            (self.power[0][0][lane], self.lead[0][lane]) = (value, exponent * value * inverse);
+        }
+        if self.kind == Kind::Root {
+            let value = power(penetration, ROOT);
+            (self.root[0][0][lane], self.lead[1][lane]) = (value, ROOT * value * inverse);
+        }
         for (n, value) in [penetration, step_rate].into_iter().enumerate() {
-            let mut values = self.penetration[n];
-            values[lane] = value;
-            self.set_penetration(n, values);
+            self.penetration[n][lane] = value;
+            self.backwards[LAST - n][lane] = value;
+            self.slope[LAST - n][lane] = COUNT[n] * value;
         }
         lane
     }
@@ -184,7 +193,9 @@ impl PairBlock {
         if n < ROOM {
             self.penetration[n] = values;
             self.backwards[LAST - n] = values;
-            self.slope[LAST - n] = each(|i| COUNT[n] * values[i]);
+            if self.kind == Kind::Power {
+                self.slope[LAST - n] = each(|i| COUNT[n] * values[i]);
+            }
         }
     }
 
@@ -196,86 +207,98 @@ impl PairBlock {
             return;
         }
         self.order = n;
-        match self.kind {
-            Kind::None => self.force[n] = [0.0; PAIRS],
-            Kind::Linear => self.extend_linear(n),
-            Kind::Spring => {
-                self.extend_power(n);
-                let power = self.power[n];
-                self.force[n] = each(|i| self.stiffness[i] * power[i]);
+        self.force[n] = match self.kind {
+            Kind::None => [0.0; PAIRS],
+            Kind::Linear => self.linear_force(n),
+            Kind::Spring => self.spring_force(n),
+            Kind::Power => self.damped_power_force(n),
+            Kind::Root => self.root_force(n),
+        };
+    }
+
+    #[inline(always)]
+    fn linear_force(&self, n: usize) -> Each {
+        let (d, next) = (self.penetration[n], self.penetration[n + 1]);
+        each(|i| self.stiffness[i] * d[i] + self.damping[i] * (COUNT[n + 1] * next[i]))
+    }
+
+    #[inline(always)]
+    fn spring_force(&mut self, n: usize) -> Each {
+        let mut sums = [[0.0; PAIRS]; 2];
+        if n >= 2 {
+            for (d, p) in self.backwards[LAST - (n - 1)..LAST - 1].iter().zip(&self.power[1..n - 1]) {
+                add_products(&mut sums, d, p);
             }
-            Kind::Power => self.extend_damped_power(n),
-            Kind::Root => self.extend_root(n),
         }
+        let power = self.extend_power(n, &sums);
+        each(|i| self.stiffness[i] * power[i])
     }
 
+    /// d^n (1 + b d'), the product with the newest terms last.
     #[inline(always)]
-    fn extend_linear(&mut self, n: usize) {
-        let (d, slope) = (self.penetration[n], self.slope[LAST - (n + 1)]);
-        self.force[n] = each(|i| self.stiffness[i] * d[i] + self.damping[i] * slope[i]);
-    }
-
-    #[inline(always)]
-    fn extend_damped_power(&mut self, n: usize) {
-        self.extend_power(n);
-        let (power, product) = (self.power[n], product(&self.power, &self.slope, n));
-        self.force[n] = each(|i| self.stiffness[i] * (power[i] + self.damping[i] * product[i]));
-    }
-
-    /// d^0.25 d' = (4/5) (d^1.25)': no product of series.
-    #[inline(always)]
-    fn extend_root(&mut self, n: usize) {
-        if n == 0 {
-            self.root[0] = each(|i| power(self.penetration[0][i], 1.25));
-            self.root_slope[0] = [0.0; PAIRS];
-            self.lead[1] = each(|i| 1.25 * self.root[0][i] * self.inverse[i]);
-        }
-        self.extend_power(n);
-        let root = self.next_power(&self.root, &self.root_slope, [1.25; PAIRS], self.lead[1], n + 1);
-        let (power, slope) = (self.power[n], each(|i| COUNT[n + 1] * root[i]));
-        self.root[n + 1] = root;
-        self.root_slope[n + 1] = slope;
-        self.force[n] = each(|i| self.stiffness[i] * power[i] + self.damping[i] * slope[i]);
-    }
-
-    /// Term n of d^exponent.
-    #[inline(always)]
-    fn extend_power(&mut self, n: usize) {
-        if n == 0 {
-            for i in 0..PAIRS {
-                self.power[0][i] = power(self.penetration[0][i], self.exponent[i]);
-                self.lead[0][i] = self.exponent[i] * self.power[0][i] * self.inverse[i];
+    fn damped_power_force(&mut self, n: usize) -> Each {
+        let (mut sums, mut product) = ([[0.0; PAIRS]; 2], [0.0; PAIRS]);
+        if n >= 2 {
+            let depths = &self.backwards[LAST - (n - 1)..LAST - 1];
+            let slopes = &self.slope[LAST - n..LAST - 2];
+            for ((d, slope), p) in depths.iter().zip(slopes).zip(&self.power[1..n - 1]) {
+                add_products(&mut sums, d, p);
+                add_product(&mut product, &p[0], slope);
             }
-            self.power_slope[0] = [0.0; PAIRS];
-            return;
         }
-        let next = self.next_power(&self.power, &self.power_slope, self.exponent, self.lead[0], n);
-        self.power[n] = next;
-        self.power_slope[n] = each(|i| COUNT[n] * next[i]);
+        let power = self.extend_power(n, &sums);
+        for j in n.saturating_sub(1).max(1)..=n {
+            add_product(&mut product, &self.power[j][0], &self.slope[LAST - (n + 1 - j)]);
+        }
+        add_product(&mut product, &self.power[0][0], &self.slope[LAST - (n + 1)]);
+        each(|i| self.stiffness[i] * (power[i] + self.damping[i] * product[i]))
+    }
+
+    /// d^0.25 d' = (4/5) (d^1.25)': no product of series, but a root that is one power ahead.
+    #[inline(always)]
+    fn root_force(&mut self, n: usize) -> Each {
+        let (mut sums, mut roots) = ([[0.0; PAIRS]; 2], [[0.0; PAIRS]; 2]);
+        if n >= 2 {
+            add_products(&mut roots, &self.backwards[LAST - n], &self.root[1]);
+            let depths = &self.backwards[LAST - (n - 1)..LAST - 1];
+            for ((d, p), root) in depths.iter().zip(&self.power[1..n - 1]).zip(&self.root[2..n]) {
+                add_products(&mut sums, d, p);
+                add_products(&mut roots, d, root);
+            }
+        }
+        let power = self.extend_power(n, &sums);
+        let root = self.next_power(&self.root, [ROOT; PAIRS], self.lead[1], &roots, n + 1);
+        let slope = each(|i| COUNT[n + 1] * root[i]);
+        self.root[n + 1] = [root, slope];
+        each(|i| self.stiffness[i] * power[i] + self.damping[i] * slope[i])
+    }
+
+    /// Enters term n of d^exponent.
+    #[inline(always)]
+    fn extend_power(&mut self, n: usize, sums: &[Each; 2]) -> Each {
+        if n == 0 {
+            return self.power[0][0];
+        }
+        let next = self.next_power(&self.power, self.exponent, self.lead[0], sums, n);
+        self.power[n] = [next, each(|i| COUNT[n] * next[i])];
+        next
     }
 
     /// Term n >= 1 of p = d^exponent, from d p' = exponent p d' (Miller's recurrence): n d_0 p_n is the sum over j < n of
-    /// (exponent (n - j) - j) d_(n-j) p_j. What the newest terms d_n and p_(n-1) add comes last and by one product each,
-    /// so that a processor can work on all the rest before these are known.
+    /// (exponent (n - j) - j) d_(n-j) p_j. `sums` are those of d_(n-j) p_j and of d_(n-j) j p_j over 0 < j < n - 1. What
+    /// the newest terms d_n and p_(n-1) add comes last and by one product each, so that a processor can work on all the
+    /// rest before these are known.
     #[inline(always)]
-    fn next_power(&self, p: &Rows, p_slope: &Rows, exponent: Each, lead: Each, n: usize) -> Each {
+    fn next_power(&self, p: &Sloped, exponent: Each, lead: Each, [whole, weighted]: &[Each; 2], n: usize) -> Each {
         let (second, newest) = (&self.penetration[1], &self.penetration[n]);
         if n == 1 {
             return each(|i| lead[i] * newest[i]);
-        }
-        let (mut whole, mut weighted) = ([0.0; PAIRS], [0.0; PAIRS]);
-        let older = self.backwards[LAST - (n - 1)..LAST - 1].iter().zip(&p[1..n - 1]).zip(&p_slope[1..n - 1]);
-        for ((d, p), p_slope) in older {
-            for i in 0..PAIRS {
-                whole[i] += d[i] * p[i];
-                weighted[i] += d[i] * p_slope[i];
-            }
         }
         let reciprocal = RECIPROCAL[n - 1];
         each(|i| {
             let older = exponent[i] * whole[i] - ((exponent[i] + 1.0) * reciprocal) * weighted[i];
             let share = (exponent[i] + 1.0) * reciprocal - 1.0;
-            let last = (self.inverse[i] * second[i]) * share * p[n - 1][i];
+            let last = (self.inverse[i] * second[i]) * share * p[n - 1][0][i];
             (self.inverse[i] * older + last) + lead[i] * newest[i]
         })
     }
@@ -290,30 +313,24 @@ impl PairBlock {
         read_force(&self.force[..=self.order], powers)
     }
 
-    /// J, work of the damping part of a pair's force over 0..=x: twelve points side by side.
-    pub fn damping_work(&self, lane: usize, force: &Force, scale: f64, x: f64) -> f64 {
+    /// J, work of the damping part of a pair's force over 0..=x, where the penetration is `end`.
+    pub fn damping_work(&self, lane: usize, force: &Force, scale: f64, x: f64, end: f64) -> f64 {
         if !force.is_damped() {
             return 0.0;
         }
         let terms = &self.penetration[..self.order + 3];
-        let end = terms.iter().rev().fold(0.0, |sum, term| sum * x + term[lane]);
         // A power law's damping force ends with a root of the time left: even in the square root of that time.
         let released = !force.is_regular() && end < NEARLY_RELEASED * terms[0][lane];
         let (mut at, mut weights) = ([0.0; 12], [0.0; 12]);
-        for (i, (node, weight)) in gauss(TWELVE, if released { 1.0 } else { x }).enumerate().take(12) {
+        for (i, &(node, weight)) in TWELVE_POINTS.iter().enumerate() {
             let left = 1.0 - node;
-            (at[i], weights[i]) =
-                if released { (x * (1.0 - left * left), x * 2.0 * left * weight) } else { (node, weight) };
+            (at[i], weights[i]) = match released {
+                true => (x * (1.0 - left * left), x * 2.0 * left * weight),
+                false => (x * node, x * weight),
+            };
         }
-        let (mut d, mut rate) = ([0.0; 12], [0.0; 12]);
-        for term in terms.iter().rev() {
-            for i in 0..12 {
-                rate[i] = rate[i] * at[i] + d[i];
-                d[i] = d[i] * at[i] + term[lane];
-            }
-        }
-        let power = |i: usize| weights[i] * force.damping_power(d[i], rate[i] / scale);
-        scale * (0..12).map(power).sum::<f64>()
+        let powers = damping_powers(terms, lane, force, scale, &at);
+        scale * (0..12).map(|i| weights[i] * powers[i]).sum::<f64>()
     }
 
     /// The penetration of one pair, copied; returns the number of its terms.
@@ -332,6 +349,20 @@ fn copy(rows: &[Each], lane: usize, out: &mut Coefficients) -> usize {
         *out = row[lane];
     }
     rows.len()
+}
+
+/// Power of the damping part of a pair's force at twelve x. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn damping_powers(terms: &[Each], lane: usize, force: &Force, scale: f64, x: &[f64; 12]) -> [f64; 12] {
+    let (mut d, mut rate) = ([0.0; 12], [0.0; 12]);
+    for term in terms.iter().rev() {
+        let term = term[lane];
+        for i in 0..12 {
+            rate[i] = rate[i] * x[i] + d[i];
+            d[i] = d[i] * x[i] + term;
+        }
+    }
+    force.damping_powers(&d, &rate.map(|rate| rate / scale))
 }
 
 /// See [`PairBlock::read`]. Wide instructions give the same bits.
@@ -371,7 +402,7 @@ fn read_force(terms: &[Each], powers: &Powers) -> ForceReading {
 
 /// A number for each pair: unlike `std::array::from_fn` it always becomes one wide instruction after the other.
 #[inline(always)]
-fn each(of: impl Fn(usize) -> f64) -> Each {
+pub fn each(of: impl Fn(usize) -> f64) -> Each {
     let mut all = [0.0; PAIRS];
     for (i, one) in all.iter_mut().enumerate() {
         *one = of(i);
@@ -379,38 +410,49 @@ fn each(of: impl Fn(usize) -> f64) -> Each {
     all
 }
 
-/// Sum over j <= n of a_j b_(n + 1 - j), with b backwards and the newest terms last.
+/// sum += a b.
 #[inline(always)]
-fn product(a: &Rows, backwards: &Rows, n: usize) -> Each {
-    let mut sum = [0.0; PAIRS];
-    for (a, b) in a[1..=n].iter().zip(&backwards[LAST - n..LAST]) {
-        for i in 0..PAIRS {
-            sum[i] += a[i] * b[i];
-        }
+fn add_product(sum: &mut Each, a: &Each, b: &Each) {
+    for i in 0..PAIRS {
+        sum[i] += a[i] * b[i];
     }
-    let newest = &backwards[LAST - (n + 1)];
-    each(|i| sum[i] + a[0][i] * newest[i])
+}
+
+/// The same for a term and for n times it.
+#[inline(always)]
+fn add_products(sums: &mut [Each; 2], d: &Each, term: &[Each; 2]) {
+    for (sum, term) in sums.iter_mut().zip(term) {
+        add_product(sum, d, term);
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// The terms of k d^n (1 + b d') for d = 1 + x, from the binomial series.
-    #[test]
-    fn a_damped_power_of_a_straight_line_is_the_binomial_series() {
-        let force = Force::Power { stiffness: 3.0, exponent: 1.7, damping: 0.5 };
+    /// The terms of a force for d = (1 + x)^2 and d' = 2 (1 + x): those of a sum of powers (factor, exponent) of 1 + x.
+    fn compare(force: Force, powers: &[(f64, f64)]) {
         let mut block = PairBlock::default();
         block.start(Kind::of(&force));
-        block.add(&force, 1.0, 1.0, 1.0);
-        let mut binomial = 1.0;
+        block.add(&force, 1.0, 1.0, 2.0);
         for n in 0..12 {
-            block.set_penetration(n + 2, [0.0; PAIRS]);
+            block.set_penetration(n + 2, [if n == 0 { 1.0 } else { 0.0 }; PAIRS]);
             block.extend_force(n);
-            let expected: f64 = 3.0 * 1.5 * binomial;
-            assert!((block.force[n][0] - expected).abs() <= 1e-14 * expected.abs(), "{n}: {}", block.force[n][0]);
-            binomial *= (1.7 - n as f64) / (n + 1) as f64;
+            let term = |(factor, exponent): &(f64, f64)| {
+                factor * (0..n).map(|k| (exponent - k as f64) / (k + 1) as f64).product::<f64>()
+            };
+            let expected: f64 = powers.iter().map(term).sum();
+            let got = block.force[n][0];
+            assert!((got - expected).abs() <= 1e-13 * expected.abs().max(0.1), "{force:?} {n}: {got} not {expected}");
         }
+    }
+
+    #[test]
+    fn forces_of_a_square_are_binomial_series() {
+        compare(Force::Linear { stiffness: 3.0, damping: 0.5 }, &[(3.0, 2.0), (1.0, 1.0)]);
+        compare(Force::Power { stiffness: 3.0, exponent: 1.7, damping: 0.0 }, &[(3.0, 3.4)]);
+        compare(Force::Power { stiffness: 3.0, exponent: 1.7, damping: 0.5 }, &[(3.0, 3.4), (3.0, 4.4)]);
+        compare(Force::Root { stiffness: 3.0, damping: 0.4 }, &[(3.0, 3.0), (0.8, 1.5)]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::model::{Model, Pair};
 use super::roots;
 use super::state::*;
-use crate::contact::series::{BlockReading, ForceReading, Kind, PAIRS, PairBlock};
+use crate::contact::series::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock, each};
 use crate::polynomial::{Coefficients, Powers, Reading};
 use crate::structure::{FEW_BLOCKS, LANES, Lane, PairForces, difference};
 
@@ -12,7 +12,7 @@ use crate::structure::{FEW_BLOCKS, LANES, Lane, PairForces, difference};
 pub(super) struct ClosedPairs {
     /// Room for all; the first `used` are filled.
     blocks: Vec<PairBlock>,
-    members: Vec<[Member; PAIRS]>,
+    members: Vec<Members>,
     readings: Vec<BlockReading>,
     /// Whether a pair of the block has just entered: where its floors move alike, its penetration is rounding.
     at_surface: Vec<bool>,
@@ -25,18 +25,33 @@ pub(super) struct ClosedPairs {
     places: Vec<(usize, usize)>,
 }
 
-/// One pair of a block.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Member {
-    pair: usize,
+/// The pairs of a block, lane by lane; lanes without a pair hold what was there before.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Members {
+    /// Their numbers.
+    pub pairs: [usize; PAIRS],
     /// Lanes of the two floors.
-    floors: [usize; 2],
+    floors: [[usize; 2]; PAIRS],
     /// What a force does to each floor, 1/kg: minus and plus its inverse mass.
-    inverse_masses: [f64; 2],
+    inverse_masses: [[f64; 2]; PAIRS],
     /// 1/kg, relative acceleration of the pair by its own force.
-    softness: f64,
+    softness: Each,
     /// What the pair is to the first modes.
-    row: [Lane; FEW_BLOCKS],
+    rows: [[Lane; FEW_BLOCKS]; PAIRS],
+}
+
+impl Members {
+    /// Enters a pair by its number.
+    pub fn set(&mut self, lane: usize, pair: usize, data: &Pair, coordinates: Coordinates) {
+        let Pair { lanes: floors, inverse_masses: [left, right], .. } = *data;
+        self.pairs[lane] = pair;
+        self.floors[lane] = floors;
+        self.inverse_masses[lane] = [-left, right];
+        self.softness[lane] = left + right;
+        if coordinates == Coordinates::Modes {
+            self.rows[lane] = first_blocks(&data.row);
+        }
+    }
 }
 
 /// What a block comes to at the end of a step.
@@ -54,7 +69,7 @@ impl ClosedPairs {
         let most = if pairs == 0 { 0 } else { pairs.div_ceil(PAIRS) + KINDS.min(pairs) - 1 };
         ClosedPairs {
             blocks: vec![PairBlock::default(); most],
-            members: vec![[Member::default(); PAIRS]; most],
+            members: vec![Members::default(); most],
             readings: vec![BlockReading::default(); most],
             at_surface: vec![false; most],
             neighbours: (0..pairs).map(|p| (0..p).filter(|&q| shares(&all[p], &all[q])).collect()).collect(),
@@ -74,10 +89,7 @@ impl ClosedPairs {
             let b = self.block_for(Kind::of(&force));
             let lane = self.blocks[b].add(&force, scale, contact.penetration, contact.rate * scale);
             self.places[p] = (b, lane);
-            let Pair { lanes: floors, inverse_masses: [left, right], .. } = pairs[p];
-            let row = first_blocks(&pairs[p].row);
-            let inverse_masses = [-left, right];
-            self.members[b][lane] = Member { pair: p, floors, inverse_masses, softness: left + right, row };
+            self.members[b].set(lane, p, &pairs[p], base.coordinates);
             self.at_surface[b] |= contact.at_surface;
             self.waits |= contact.at_surface || self.neighbours[p].iter().any(|&q| is_closed(&base.contacts[q]));
         }
@@ -88,7 +100,6 @@ impl ClosedPairs {
             return b;
         }
         self.blocks[self.used].start(kind);
-        self.members[self.used] = Default::default();
         self.at_surface[self.used] = false;
         self.used += 1;
         self.used - 1
@@ -107,7 +118,7 @@ impl ClosedPairs {
 
     /// The pairs of a block, lane by lane.
     pub fn pairs_of(&self, block: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
-        (0..self.blocks[block].count).map(move |lane| (lane, self.members[block][lane].pair))
+        self.members[block].pairs.iter().copied().enumerate().take(self.blocks[block].count)
     }
 
     /// Reads the penetrations at the end of the step.
@@ -132,8 +143,8 @@ impl ClosedPairs {
     /// Calls for each pair with its number and power n of its force.
     pub fn each_force(&self, n: usize, mut visit: impl FnMut(usize, f64)) {
         for (block, members) in self.blocks.iter().zip(&self.members).take(self.used) {
-            for (member, force) in members.iter().zip(&block.force[n]).take(block.count) {
-                visit(member.pair, *force);
+            for (pair, force) in members.pairs.iter().zip(&block.force[n]).take(block.count) {
+                visit(*pair, *force);
             }
         }
     }
@@ -143,8 +154,8 @@ impl ClosedPairs {
         let blocks = self.blocks.iter_mut().zip(&self.members).zip(&self.at_surface);
         for ((block, members), at_surface) in blocks.take(self.used) {
             let mut values = [0.0; PAIRS];
-            for (value, member) in values.iter_mut().zip(members).take(block.count) {
-                *value = term(member.pair, *at_surface);
+            for (value, pair) in values.iter_mut().zip(&members.pairs).take(block.count) {
+                *value = term(*pair, *at_surface);
             }
             block.set_penetration(n, values);
         }
@@ -177,14 +188,14 @@ fn first_blocks(row: &[f64]) -> [Lane; FEW_BLOCKS] {
     blocks
 }
 
-/// How contact forces and the motion meet in its coordinates.
+/// How contact forces and the motion meet in its coordinates. `count` lanes of the members hold pairs.
 pub(super) trait Meeting {
-    /// Relative motion of a pair.
-    fn relative(&self, member: &Member, term: &[Lane]) -> f64;
+    /// Relative motions of the pairs.
+    fn relative(&self, members: &Members, count: usize, term: &[Lane]) -> Each;
     /// The same, 0 where the floors move alike but for rounding.
-    fn difference(&self, member: &Member, term: &[Lane]) -> f64;
-    /// Adds what a force does.
-    fn push(&self, member: &Member, force: f64, term: &mut [Lane]);
+    fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each;
+    /// Adds what the forces do.
+    fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]);
 }
 
 /// The motion is that of the floors.
@@ -192,21 +203,24 @@ pub(super) struct OnFloors;
 
 impl Meeting for OnFloors {
     #[inline(always)]
-    fn relative(&self, member: &Member, term: &[Lane]) -> f64 {
+    fn relative(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
         let term = term.as_flattened();
-        term[member.floors[0]] - term[member.floors[1]]
+        lane_by_lane(count, |lane| term[members.floors[lane][0]] - term[members.floors[lane][1]])
     }
 
-    fn difference(&self, member: &Member, term: &[Lane]) -> f64 {
+    fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
         let term = term.as_flattened();
-        apart(term[member.floors[0]], term[member.floors[1]])
+        lane_by_lane(count, |lane| apart(term[members.floors[lane][0]], term[members.floors[lane][1]]))
     }
 
     #[inline(always)]
-    fn push(&self, member: &Member, force: f64, term: &mut [Lane]) {
+    fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) {
         let term = term.as_flattened_mut();
-        for (floor, inverse_mass) in member.floors.iter().zip(&member.inverse_masses) {
-            term[*floor] += inverse_mass * force;
+        let places = members.floors.iter().zip(&members.inverse_masses);
+        for ((floors, inverse_masses), force) in places.zip(forces).take(count) {
+            for (floor, inverse_mass) in floors.iter().zip(inverse_masses) {
+                term[*floor] += inverse_mass * force;
+            }
         }
     }
 }
@@ -216,37 +230,58 @@ pub(super) struct OnFewModes;
 
 impl Meeting for OnFewModes {
     #[inline(always)]
-    fn relative(&self, member: &Member, term: &[Lane]) -> f64 {
-        dot_blocks(&member.row, term)
+    fn relative(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
+        lane_by_lane(count, |lane| dot_blocks(&members.rows[lane], term))
     }
 
-    fn difference(&self, member: &Member, term: &[Lane]) -> f64 {
-        difference(member.row.as_flattened(), term.as_flattened()).0
+    fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
+        lane_by_lane(count, |lane| difference(members.rows[lane].as_flattened(), term.as_flattened()).0)
     }
 
     #[inline(always)]
-    fn push(&self, member: &Member, force: f64, term: &mut [Lane]) {
-        push_blocks(&member.row, force, term);
+    fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) {
+        for (row, force) in members.rows.iter().zip(forces).take(count) {
+            push_blocks(row, *force, term);
+        }
     }
 }
 
 /// The motion is that of the modes.
 pub(super) struct OnModes<'a>(pub &'a [Pair]);
 
+impl OnModes<'_> {
+    #[inline(always)]
+    fn row(&self, pair: usize) -> &[Lane] {
+        self.0[pair].row.as_chunks::<LANES>().0
+    }
+}
+
 impl Meeting for OnModes<'_> {
     #[inline(always)]
-    fn relative(&self, member: &Member, term: &[Lane]) -> f64 {
-        dot_blocks(self.0[member.pair].row.as_chunks::<LANES>().0, term)
+    fn relative(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
+        lane_by_lane(count, |lane| dot_blocks(self.row(members.pairs[lane]), term))
     }
 
-    fn difference(&self, member: &Member, term: &[Lane]) -> f64 {
-        difference(&self.0[member.pair].row, term.as_flattened()).0
+    fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
+        lane_by_lane(count, |lane| difference(&self.0[members.pairs[lane]].row, term.as_flattened()).0)
     }
 
     #[inline(always)]
-    fn push(&self, member: &Member, force: f64, term: &mut [Lane]) {
-        push_blocks(self.0[member.pair].row.as_chunks::<LANES>().0, force, term);
+    fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) {
+        for (pair, force) in members.pairs.iter().zip(forces).take(count) {
+            push_blocks(self.row(*pair), *force, term);
+        }
     }
+}
+
+/// A number for each lane that holds a pair, 0 for others.
+#[inline(always)]
+fn lane_by_lane(count: usize, of: impl Fn(usize) -> f64) -> Each {
+    let mut all = [0.0; PAIRS];
+    for (lane, one) in all.iter_mut().enumerate().take(count) {
+        *one = of(lane);
+    }
+    all
 }
 
 /// The closed pairs in some coordinates.
@@ -268,15 +303,9 @@ impl<M: Meeting> PairForces for Acting<'_, M> {
         for (block, members) in blocks {
             block.extend_force(n);
             // What a force does to its own pair needs no detour by the motion: the next powers of the force wait for it.
-            let force = block.force[n];
-            let mut values = [0.0; PAIRS];
-            for ((value, member), force) in values.iter_mut().zip(members).zip(&force).take(block.count) {
-                *value = self.meeting.relative(member, term) - factor * member.softness * force;
-            }
-            for (member, force) in members.iter().zip(&force).take(block.count) {
-                self.meeting.push(member, factor * force, term);
-            }
-            block.set_penetration(n + 2, values);
+            let (force, relative) = (block.force[n], self.meeting.relative(members, block.count, term));
+            block.set_penetration(n + 2, each(|i| relative[i] - factor * members.softness[i] * force[i]));
+            self.meeting.push(members, block.count, &force.map(|force| factor * force), term);
         }
     }
 }
@@ -288,13 +317,10 @@ impl<M: Meeting> Acting<'_, M> {
         let closed = &mut *self.closed;
         let blocks = closed.blocks.iter_mut().zip(&closed.members).zip(&closed.at_surface);
         for ((block, members), at_surface) in blocks.take(closed.used) {
-            let mut values = [0.0; PAIRS];
-            for (value, member) in values.iter_mut().zip(members).take(block.count) {
-                *value = match at_surface {
-                    true => self.meeting.difference(member, term),
-                    false => self.meeting.relative(member, term),
-                };
-            }
+            let values = match at_surface {
+                true => self.meeting.difference(members, block.count, term),
+                false => self.meeting.relative(members, block.count, term),
+            };
             block.set_penetration(n + 2, values);
         }
     }
@@ -303,9 +329,7 @@ impl<M: Meeting> Acting<'_, M> {
     fn push(&self, n: usize, factor: f64, term: &mut [Lane]) {
         let closed = &*self.closed;
         for (block, members) in closed.blocks.iter().zip(&closed.members).take(closed.used) {
-            for (member, force) in members.iter().zip(&block.force[n]).take(block.count) {
-                self.meeting.push(member, factor * force, term);
-            }
+            self.meeting.push(members, block.count, &block.force[n].map(|force| factor * force), term);
         }
     }
 }
@@ -350,7 +374,7 @@ impl Contact {
         let impulse = scale * end.force.impulse[lane];
         self.impulse += impulse;
         self.episode.impulse += impulse;
-        self.work += block.damping_work(lane, &self.branch(), scale, x);
+        self.work += block.damping_work(lane, &self.branch(), scale, x, end.motion.penetration[lane]);
         let terms = |out: &mut Coefficients| block.copy_force(lane, out);
         let first = (block.force[0][lane], block.force[1][lane]);
         if let Some((at, peak)) = roots::maximum_above(first, x, &end.force.of(lane), self.episode.peak_force, terms) {

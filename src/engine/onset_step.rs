@@ -3,14 +3,17 @@
 //! The step ends before anything else can happen - a turn, a release, an entry elsewhere -, shown by bounds on the sums
 //! of its terms, so it has no event of its own.
 
+use super::closed_pairs::{Meeting, Members, OnFloors, OnModes};
 use super::contact_step::touching;
-use super::model::Model;
+use super::model::{Model, Pair};
 use super::state::*;
 use crate::contact::Force;
-use crate::contact::force::power;
-use crate::contact::onset::{Grid, MOST_TERMS, OnsetPair, value_and_slope, values_and_slopes};
+use crate::contact::onset::{
+    Grid, GridPowers, MOST_TERMS, OnsetBlock, OnsetReading, value_and_slope, values_and_slopes,
+};
+use crate::contact::series::{Kind, PAIRS};
 use crate::quadrature::{TWELVE, graded};
-use crate::structure::LANES;
+use crate::structure::{LANES, Structure, sum_sizes, sum_terms};
 
 /// Highest power of x of the double series: its cost grows with the square, its reach hardly.
 const HIGHEST: f64 = 10.0;
@@ -21,9 +24,17 @@ pub(super) struct OnsetSeries {
     grid: Option<Grid>,
     lanes: usize,
     terms: Vec<f64>,
-    pub pairs: Vec<OnsetPair>,
+    /// The pairs in contact, in blocks of one kind each; the first `used` are filled.
+    blocks: Vec<OnsetBlock>,
+    members: Vec<Members>,
+    used: usize,
+    /// Block and lane of each contact.
+    places: Vec<(usize, usize)>,
     /// s.
     pub scale: f64,
+    /// Powers of the x that was looked at last, and the blocks there.
+    powers: GridPowers,
+    readings: Vec<OnsetReading>,
 }
 
 impl OnsetSeries {
@@ -32,42 +43,155 @@ impl OnsetSeries {
         if !needed {
             return OnsetSeries::default();
         }
-        let terms = vec![0.0; MOST_TERMS * lanes];
-        OnsetSeries { grid: None, lanes, terms, pairs: vec![OnsetPair::default(); pairs], scale: 1.0 }
+        // Each of five kinds has one block that is not full, of pairs that enter and of pairs that touch.
+        let most = pairs.div_ceil(PAIRS) + 10.min(pairs) - 1;
+        OnsetSeries {
+            grid: None,
+            lanes,
+            terms: vec![0.0; MOST_TERMS * lanes],
+            blocks: vec![OnsetBlock::default(); most],
+            members: vec![Members::default(); most],
+            used: 0,
+            places: vec![(0, 0); pairs],
+            scale: 1.0,
+            powers: GridPowers::default(),
+            readings: vec![OnsetReading::default(); most],
+        }
     }
 
     fn term(&self, index: usize) -> &[f64] {
         &self.terms[index * self.lanes..(index + 1) * self.lanes]
     }
 
+    /// Starts from the state of the base; `scale` is the unit of time, s.
+    fn start(&mut self, base: &Base, pairs: &[Pair], grid: Grid, scale: f64) {
+        (self.grid, self.scale, self.used) = (Some(grid), scale, 0);
+        let (first, rest) = self.terms.split_at_mut(self.lanes);
+        first.copy_from_slice(&base.q);
+        rest.iter_mut().zip(&base.v).for_each(|(term, v)| *term = v * scale);
+        for j in 1..grid.rows {
+            self.terms[grid.index(0, j) * self.lanes..][..self.lanes].fill(0.0);
+        }
+        for (p, contact) in touching(base) {
+            let force = contact.branch();
+            let b = self.block_for(&grid, Kind::of(&force), contact.is_singular());
+            let lane = self.blocks[b].add(&force, scale, contact.penetration, contact.rate * scale);
+            self.members[b].set(lane, p, &pairs[p], base.coordinates);
+            self.places[p] = (b, lane);
+        }
+    }
+
+    fn block_for(&mut self, grid: &Grid, kind: Kind, enters: bool) -> usize {
+        if let Some(b) = (0..self.used).find(|&b| self.blocks[b].takes(kind, enters)) {
+            return b;
+        }
+        self.blocks[self.used].start(grid, kind, enters);
+        self.used += 1;
+        self.used - 1
+    }
+
+    /// The pairs of a block, lane by lane.
+    fn pairs_of(&self, block: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.members[block].pairs.iter().copied().enumerate().take(self.blocks[block].count)
+    }
+
+    /// Takes the readings of all blocks at x.
+    fn read(&mut self, x: f64) {
+        let Some(grid) = &self.grid else { return };
+        self.powers.set(grid, x);
+        for (reading, block) in self.readings.iter_mut().zip(&self.blocks).take(self.used) {
+            *reading = block.read(&self.powers);
+        }
+    }
+
     /// u and v at x > 0.
     pub fn evaluate(&self, x: f64, q: &mut [f64], v: &mut [f64]) {
         let Some(grid) = &self.grid else { return };
-        let z = power(x, grid.beta);
-        let rate = 1.0 / (x * self.scale);
-        for chunk in (0..self.lanes).step_by(LANES) {
-            let (mut value, mut slope, mut factor) = ([0.0; LANES], [0.0; LANES], 1.0);
-            for j in 0..grid.rows {
-                let (mut r, mut s) = ([0.0; LANES], [0.0; LANES]);
-                for i in (0..=grid.last(j)).rev() {
-                    let exponent = grid.exponent(i, j);
-                    let term = &self.term(grid.index(i, j))[chunk..chunk + LANES];
-                    for m in 0..LANES {
-                        r[m] = r[m] * x + term[m];
-                        s[m] = s[m] * x + exponent * term[m];
-                    }
-                }
-                for m in 0..LANES {
-                    value[m] += factor * r[m];
-                    slope[m] += factor * s[m];
-                }
-                factor *= z;
-            }
-            q[chunk..chunk + LANES].copy_from_slice(&value);
-            for m in 0..LANES {
-                v[chunk + m] = slope[m] * rate;
-            }
+        let other;
+        let powers = if self.powers.x == x {
+            &self.powers
+        } else {
+            other = GridPowers::at(grid, x);
+            &other
+        };
+        let terms = &self.terms[..grid.terms() * self.lanes];
+        sum_terms(terms, powers.all(), 1.0 / self.scale, &mut q[..self.lanes], &mut v[..self.lanes]);
+    }
+}
+
+/// All terms, row by row: u_(i+2) from the force, load, damping and stiffness terms two powers of x below. Wide
+/// instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn expand<M: Meeting>(
+    onset: &mut OnsetSeries,
+    structure: &Structure,
+    coordinates: Coordinates,
+    loads: (&[f64], &[f64]),
+    meeting: &M,
+) {
+    let Some(grid) = onset.grid else { return };
+    for j in 0..grid.rows {
+        for block in onset.blocks[..onset.used].iter_mut().filter(|block| block.enters) {
+            block.extend_entering_row(&grid, j);
         }
+        let first = if j == 0 { 2 } else { 1 };
+        for i in first..=grid.last(j) {
+            extend(onset, structure, coordinates, loads, meeting, &grid, (i, j));
+        }
+    }
+}
+
+/// One term x^(i + beta j) of the motion.
+#[inline(always)]
+fn extend<M: Meeting>(
+    onset: &mut OnsetSeries,
+    structure: &Structure,
+    coordinates: Coordinates,
+    (load, slope): (&[f64], &[f64]),
+    meeting: &M,
+    grid: &Grid,
+    (i, j): (usize, usize),
+) {
+    let (lanes, scale) = (onset.lanes, onset.scale);
+    let here = grid.index(i, j);
+    let exponent = grid.exponent(i, j);
+    let blocks = &mut onset.blocks[..onset.used];
+    let (known, rest) = onset.terms.split_at_mut(here * lanes);
+    let next = &mut rest[..lanes];
+    let mut moved = &structure.floors.rest[..];
+    if i >= 2 {
+        // A loop: what an iterator's `for_each` calls would not have the wide instructions.
+        for block in blocks.iter_mut().filter(|block| !block.enters) {
+            block.extend_touching(grid, i - 2, j);
+        }
+        moved = &known[(here - 2) * lanes..][..lanes];
+    }
+    match (i, j) {
+        (2, 0) => next.copy_from_slice(load),
+        (3, 0) => next.iter_mut().zip(slope).for_each(|(next, slope)| *next = slope * scale),
+        _ => next.fill(0.0),
+    }
+    let moving = &known[(here - 1) * lanes..];
+    let rate = (exponent - 1.0) / scale;
+    let factor = scale * scale / (exponent * (exponent - 1.0));
+    let (next, _) = match coordinates {
+        Coordinates::Modes => {
+            structure.resist(moved, moving, rate, next);
+            next.iter_mut().for_each(|next| *next *= factor);
+            next.as_chunks_mut::<LANES>()
+        }
+        Coordinates::Floors => {
+            let (next, rest) = next.as_chunks_mut::<LANES>();
+            structure.floors.enter_resistance(moved, moving, rate, next, |load, own| (load - own) * factor);
+            (next, rest)
+        }
+    };
+    for (block, members) in blocks.iter().zip(&onset.members) {
+        meeting.push(members, block.count, &block.force[here - 1].map(|force| factor * force), next);
+    }
+    for (block, members) in blocks.iter_mut().zip(&onset.members) {
+        let values = meeting.relative(members, block.count, next);
+        block.set_penetration(grid, i, j, values);
     }
 }
 
@@ -78,9 +202,17 @@ impl Model {
         let State { base, step, inputs, counters, work, .. } = state;
         self.load(base, inputs, &mut work.load, &mut work.slope);
         let Some((grid, scale)) = self.onset_grid(base, work, remaining) else { return false };
-        self.expand_onset(base, &mut step.onset, work, grid, scale);
+        step.onset.start(base, &self.pairs, grid, scale);
+        let loads = (&work.load[..], &work.slope[..]);
+        match base.coordinates {
+            Coordinates::Floors => expand(&mut step.onset, &self.structure, base.coordinates, loads, &OnFloors),
+            Coordinates::Modes => {
+                expand(&mut step.onset, &self.structure, base.coordinates, loads, &OnModes(&self.pairs));
+            }
+        }
         let accurate = self.onset_reach(base, &step.onset, &grid);
-        let Some(x) = self.certain_reach(base, &step.onset, &grid, accurate.min(remaining / scale)) else {
+        let reach = accurate.min(remaining / scale);
+        let Some(x) = self.certain_reach(base, &mut step.onset, &mut work.node_q, reach) else {
             return false;
         };
         counters.contact_steps += 1;
@@ -91,6 +223,7 @@ impl Model {
         step.event = None;
         step.reaches_limit = x * scale >= remaining;
         step.length = if step.reaches_limit { remaining } else { x * scale };
+        step.onset.read(step.length / scale);
         step.onset.evaluate(step.length / scale, &mut step.q, &mut step.v);
         base.last_length = step.length;
         true
@@ -121,65 +254,6 @@ impl Model {
         found.map(|grid| (grid, scale))
     }
 
-    /// All terms, row by row: u_(i+2) from the force, load, damping and stiffness terms two powers of x below.
-    fn expand_onset(&self, base: &Base, onset: &mut OnsetSeries, work: &Workspace, grid: Grid, scale: f64) {
-        let lanes = self.structure.lanes;
-        onset.grid = Some(grid);
-        onset.scale = scale;
-        onset.terms[2 * lanes..grid.terms() * lanes].fill(0.0);
-        onset.terms[..lanes].copy_from_slice(&base.q);
-        for (term, v) in onset.terms[lanes..].iter_mut().zip(&base.v) {
-            *term = v * scale;
-        }
-        for (p, contact) in touching(base) {
-            onset.pairs[p].start(&grid, contact.penetration, contact.rate * scale, contact.is_singular());
-        }
-        for j in 0..grid.rows {
-            for (p, contact) in touching(base).filter(|(_, contact)| contact.is_singular()) {
-                onset.pairs[p].extend_entering_row(&grid, &contact.branch(), j, scale);
-            }
-            let first = if j == 0 { 2 } else { 1 };
-            for i in first..=grid.last(j) {
-                self.extend_onset(base, onset, work, &grid, i, j);
-            }
-        }
-    }
-
-    /// One term x^(i + beta j) of the motion.
-    fn extend_onset(&self, base: &Base, onset: &mut OnsetSeries, work: &Workspace, grid: &Grid, i: usize, j: usize) {
-        let (lanes, scale) = (self.structure.lanes, onset.scale);
-        let here = grid.index(i, j);
-        let exponent = grid.exponent(i, j);
-        let (known, rest) = onset.terms.split_at_mut(here * lanes);
-        let next = &mut rest[..lanes];
-        let mut moved = &self.structure.floors.rest[..];
-        if i >= 2 {
-            for (p, contact) in touching(base).filter(|(_, contact)| !contact.is_singular()) {
-                onset.pairs[p].extend_touching(grid, &contact.branch(), i - 2, j, scale);
-            }
-            match (i - 2, j) {
-                (0, 0) => next.copy_from_slice(&work.load),
-                (1, 0) => next.iter_mut().zip(&work.slope).for_each(|(next, slope)| *next = slope * scale),
-                _ => {}
-            }
-            moved = &known[(here - 2) * lanes..];
-        }
-        let moving = &known[(here - 1) * lanes..];
-        let rate = (exponent - 1.0) / scale;
-        self.resist(base.coordinates, moved, moving, rate, next);
-        for (p, _) in touching(base) {
-            self.push_apart_by(p, base.coordinates, onset.pairs[p].force[here - 1], next);
-        }
-        let factor = scale * scale / (exponent * (exponent - 1.0));
-        for next in next.iter_mut() {
-            *next *= factor;
-        }
-        for (p, _) in touching(base) {
-            let value = self.relative(p, base.coordinates, &onset.terms[here * lanes..(here + 1) * lanes]);
-            onset.pairs[p].set_penetration(grid, i, j, value);
-        }
-    }
-
     /// How far the last terms stay below the tolerance. Free masses have the terms x^(1 + beta j) only, and the last row
     /// begins up to one power of x and one of z below the highest.
     fn onset_reach(&self, base: &Base, onset: &OnsetSeries, grid: &Grid) -> f64 {
@@ -202,56 +276,72 @@ impl Model {
         0.9 * x
     }
 
-    /// How far it is certain, up to `reach`, that no contact changes its state.
-    fn certain_reach(&self, base: &Base, onset: &OnsetSeries, grid: &Grid, reach: f64) -> Option<f64> {
+    /// How far it is certain, up to `reach`, that no contact changes its state; `sizes` is room to work in.
+    fn certain_reach(&self, base: &Base, onset: &mut OnsetSeries, sizes: &mut [f64], reach: f64) -> Option<f64> {
+        let grid = onset.grid?;
         let mut x = reach;
-        let mut room = Room { grid, scale: onset.scale, sizes: [0.0; MOST_TERMS], turns: [0.0; MOST_TERMS] };
-        for (p, contact) in base.contacts.iter().enumerate() {
-            let start = if contact.in_contact() {
-                let terms = &onset.pairs[p].penetration;
-                room.set(|index| terms[index]);
-                contact.penetration
-            } else {
-                room.set(|index| self.relative(p, base.coordinates, onset.term(index)));
-                if contact.at_surface { 0.0 } else { contact.penetration.min(0.0) }
-            };
-            let mut tries = 0;
-            while !room.holds(contact, start, x) {
-                x *= 0.7;
-                tries += 1;
-                if tries > 60 {
-                    return None;
-                }
+        for _ in 0..=60 {
+            onset.powers.set(&grid, x);
+            if self.stays_touching(base, onset) && self.stays_free(base, onset, sizes) {
+                return Some(x);
             }
+            x *= 0.7;
         }
-        Some(x)
+        None
+    }
+
+    /// Whether all pairs that touch go on to do so, on the same branch, up to the x of the powers.
+    fn stays_touching(&self, base: &Base, onset: &OnsetSeries) -> bool {
+        (0..onset.used).all(|b| {
+            let [moved, turned] = onset.blocks[b].room(&onset.powers);
+            onset.pairs_of(b).all(|(lane, p)| {
+                let room = Room { x: onset.powers.x, scale: onset.scale, moved: moved[lane], turned: turned[lane] };
+                room.holds(&base.contacts[p])
+            })
+        })
+    }
+
+    /// Whether all pairs that are apart stay so: by how far each floor can get, or else by the pair's own terms.
+    fn stays_free(&self, base: &Base, onset: &OnsetSeries, sizes: &mut [f64]) -> bool {
+        let mut apart = base.contacts.iter().enumerate().filter(|(_, contact)| !contact.in_contact()).peekable();
+        if apart.peek().is_none() {
+            return true;
+        }
+        let (powers, _) = onset.powers.all();
+        let beyond = &powers[2..];
+        let sizes = &mut sizes[..onset.lanes];
+        sum_sizes(&onset.terms[2 * onset.lanes..powers.len() * onset.lanes], beyond, sizes);
+        apart.all(|(p, contact)| {
+            let Pair { row, lanes: [left, right], .. } = &self.pairs[p];
+            let most = match base.coordinates {
+                Coordinates::Floors => sizes[*left] + sizes[*right],
+                Coordinates::Modes => row.iter().zip(&*sizes).map(|(row, size)| row.abs() * size).sum(),
+            };
+            let stays = |moved| Room { x: onset.powers.x, scale: onset.scale, moved, turned: 0.0 }.holds(contact);
+            let own = |(power, n)| self.relative(p, base.coordinates, onset.term(n)).abs() * power;
+            stays(most) || stays(beyond.iter().zip(2..).map(own).sum())
+        })
     }
 }
 
-/// Sizes of a penetration's terms from x^2 on: how far it can get.
-struct Room<'a> {
-    grid: &'a Grid,
+/// How far a penetration and its derivative by x can get over 0..=x by their terms from x^2 on.
+struct Room {
+    x: f64,
     scale: f64,
-    sizes: [f64; MOST_TERMS],
-    turns: [f64; MOST_TERMS],
+    moved: f64,
+    turned: f64,
 }
 
-impl Room<'_> {
-    fn set(&mut self, term: impl Fn(usize) -> f64) {
-        self.grid.each(|index, exponent| {
-            self.sizes[index] = if index > 1 { term(index).abs() } else { 0.0 };
-            self.turns[index] = exponent * self.sizes[index];
-        });
-    }
-
-    /// Whether there is no room for an entry, a release or a change of branch within 0..=x, from penetration `d`.
-    fn holds(&self, contact: &Contact, d: f64, x: f64) -> bool {
-        let moved = self.grid.sum(&self.sizes, x);
-        let step_rate = contact.rate * self.scale;
+impl Room {
+    /// Whether there is no room for an entry, a release or a change of branch within 0..=x.
+    fn holds(&self, contact: &Contact) -> bool {
+        let &Room { x, scale, moved, turned } = self;
+        let d = contact.penetration;
+        let step_rate = contact.rate * scale;
         if !contact.in_contact() {
+            let d = if contact.at_surface { 0.0 } else { d.min(0.0) };
             return if d == 0.0 { step_rate * x + moved < 0.0 } else { d + x * step_rate.max(0.0) + moved < 0.0 };
         }
-        let turned = self.grid.sum(&self.turns, x) / x;
         if d <= 0.0 {
             // Entered now: it goes on deeper, which is also the engaged side of every guard.
             return step_rate > turned;
@@ -259,7 +349,7 @@ impl Room<'_> {
         let inside = d + x * step_rate.min(0.0) - moved > 0.0;
         inside
             && contact.force.guard.is_none_or(|guard| {
-                let change = guard.stiffness * (x * step_rate.abs() + moved) + guard.damping * turned / self.scale;
+                let change = guard.stiffness * (x * step_rate.abs() + moved) + guard.damping * turned / scale;
                 guard.value(d, contact.rate).abs() > change
             })
     }
@@ -280,61 +370,76 @@ impl Contact {
     /// Follows the contact over 0..=x of an onset step: penetration, impulse, peaks, work.
     pub(super) fn follow_onset(&mut self, onset: &OnsetSeries, x: f64, start: f64) {
         let Some(grid) = &onset.grid else { return };
-        let (pair, scale) = (&onset.pairs[self.episode.contact], onset.scale);
+        let ((block, lane), scale) = (onset.places[self.episode.contact], onset.scale);
+        let (block, reading) = (&onset.blocks[block], &onset.readings[block]);
+        let end = if onset.powers.x == x { *reading } else { block.read(&GridPowers::at(grid, x)) };
         let law = self.branch();
-        let penetration = |x: f64| value_and_slope(grid, &pair.penetration, x);
-        // The stored force terms are those of F x.
-        let force = |x: f64| {
-            let (product, slope) = value_and_slope(grid, &pair.force, x);
-            (product / x, (slope - product / x) / x)
-        };
-        let mut primitive = [0.0; MOST_TERMS];
-        grid.each(|index, exponent| {
-            if index > 0 {
-                primitive[index] = pair.force[index] / exponent;
-            }
-        });
-        let impulse = grid.sum(&primitive, x);
-        self.impulse += impulse * scale;
-        self.episode.impulse += impulse * scale;
+        let impulse = end.impulse[lane] * scale;
+        self.impulse += impulse;
+        self.episode.impulse += impulse;
         if law.is_damped() {
             let (mut at, mut weights) = ([0.0; 12], [0.0; 12]);
             for ((at, weight), node) in at.iter_mut().zip(&mut weights).zip(graded(TWELVE, x)) {
                 (*at, *weight) = node;
             }
-            let (depths, rates) = values_and_slopes(grid, &pair.penetration, &at);
-            let power = |i: usize| weights[i] * law.damping_power(depths[i], rates[i] / scale);
-            self.work += scale * (0..12).map(power).sum::<f64>();
+            let (depths, rates) = values_and_slopes(grid, &block.copy_penetration(lane), &at);
+            let powers = law.damping_powers(&depths, &rates.map(|rate| rate / scale));
+            self.work += scale * weights.iter().zip(&powers).map(|(weight, power)| weight * power).sum::<f64>();
         }
-        if let Some((at, peak)) = highest(force, x, self.episode.peak_force) {
+        // The stored force terms are those of F x.
+        let force = || {
+            let terms = block.copy_force(lane);
+            move |x: f64| {
+                let (product, slope) = value_and_slope(grid, &terms, x);
+                (product / x, (slope - product / x) / x)
+            }
+        };
+        let last = (end.force[lane], end.force_slope[lane]);
+        if let Some((at, peak)) = highest(force, x, last, self.episode.peak_force) {
             self.episode.peak_force = peak;
             self.episode.peak_time = start + at * scale;
             self.peak_force = self.peak_force.max(peak);
         }
-        if let Some((_, peak)) = highest(penetration, x, self.episode.peak_penetration) {
+        let penetration = || {
+            let terms = block.copy_penetration(lane);
+            move |x: f64| value_and_slope(grid, &terms, x)
+        };
+        let last = (end.penetration[lane], end.slope[lane]);
+        if let Some((_, peak)) = highest(penetration, x, last, self.episode.peak_penetration) {
             self.episode.peak_penetration = peak;
         }
-        let (d, rate) = penetration(x);
-        self.penetration = d;
-        self.rate = rate / scale;
+        (self.penetration, self.rate) = (last.0, last.1 / scale);
     }
 }
 
-/// The largest value of a smooth single-peaked curve of (value, slope) over 0..=end, if above `known`.
-fn highest(curve: impl Fn(f64) -> (f64, f64), end: f64, known: f64) -> Option<(f64, f64)> {
-    let (mut at, (mut value, slope)) = (end, curve(end));
-    let (mut low, mut high) = (0.0, end);
-    if slope < 0.0 && curve(1e-3 * end).1 > 0.0 {
-        while high - low > 1e-9 * end {
-            let middle = 0.5 * (low + high);
-            if curve(middle).1 > 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
+/// The largest value of a smooth single-peaked curve of (value, slope) over 0..=end, where it is `last`, if above `known`.
+fn highest<C: Fn(f64) -> (f64, f64)>(
+    curve: impl FnOnce() -> C,
+    end: f64,
+    last: (f64, f64),
+    known: f64,
+) -> Option<(f64, f64)> {
+    let (mut at, (mut value, slope)) = (end, last);
+    if slope < 0.0 {
+        let curve = curve();
+        if curve(1e-3 * end).1 > 0.0 {
+            at = turning_point(&curve, end);
+            value = curve(at).0;
         }
-        at = 0.5 * (low + high);
-        value = curve(at).0;
     }
     (value > known).then_some((at, value))
+}
+
+/// Where the slope of a curve passes 0 downwards in 0..=end.
+fn turning_point(curve: impl Fn(f64) -> (f64, f64), end: f64) -> f64 {
+    let (mut low, mut high) = (0.0, end);
+    while high - low > 1e-9 * end {
+        let middle = 0.5 * (low + high);
+        if curve(middle).1 > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
 }

@@ -9,7 +9,7 @@
 //! ```
 
 use super::modes::{Modes, rayleigh_factors};
-use super::{LANES, ModalDamping};
+use super::{LANES, Lane, ModalDamping};
 use crate::scene::{Building, Damping, Stiffness};
 
 /// Both buildings floor by floor, of use where [`Floors::is_sparse`]. 0 in lanes that are no floors.
@@ -21,18 +21,44 @@ pub struct Floors {
     count: [usize; 2],
     /// kg.
     mass: Vec<f64>,
-    /// 1/kg.
-    inverse_mass: Vec<f64>,
-    /// N/m, of the storey below each floor of a shear building.
-    storey: Vec<f64>,
-    /// Rayleigh damping, factor of the mass, 1/s.
-    on_mass: Vec<f64>,
-    /// Rayleigh damping, factor of the storey stiffness, s.
-    on_stiffness: Vec<f64>,
+    /// All else that a floor has.
+    blocks: Vec<Block>,
     /// Floors that rest: zeros.
     pub rest: Vec<f64>,
     /// Whether both are shear buildings with no more than Rayleigh damping, so that a floor feels its neighbours only.
     is_sparse: bool,
+}
+
+/// What some floors in a row resist with.
+#[derive(Clone, Copy, Debug, Default)]
+struct Block {
+    /// 1/kg.
+    inverse_mass: Lane,
+    /// N/m, of the storey below each floor of a shear building.
+    storey: Lane,
+    /// Rayleigh damping, factor of the mass, 1/s.
+    on_mass: Lane,
+    /// Rayleigh damping, factor of the storey stiffness, s.
+    on_stiffness: Lane,
+}
+
+impl Block {
+    /// Enters the resistance of floors, from the shear forces below each and above the last.
+    #[inline(always)]
+    fn enter(
+        &self,
+        (below, above): (&Lane, f64),
+        v: &Lane,
+        rate: f64,
+        out: &mut Lane,
+        entry: impl Fn(f64, f64) -> f64,
+    ) {
+        let above = [below[1], below[2], below[3], above];
+        for i in 0..LANES {
+            let resistance = self.inverse_mass[i] * (below[i] - above[i]) + (rate * self.on_mass[i]) * v[i];
+            out[i] = entry(out[i], resistance);
+        }
+    }
 }
 
 impl Floors {
@@ -49,10 +75,7 @@ impl Floors {
             first: [0, count[0] + 1],
             count,
             mass: zeros.clone(),
-            inverse_mass: zeros.clone(),
-            storey: zeros.clone(),
-            on_mass: zeros.clone(),
-            on_stiffness: zeros.clone(),
+            blocks: vec![Block::default(); zeros.len() / LANES],
             rest: zeros,
             is_sparse: true,
         };
@@ -66,22 +89,33 @@ impl Floors {
         let (first, n) = (self.first[side], self.count[side]);
         for (i, &mass) in building.mass.iter().enumerate() {
             self.mass[first + i] = mass;
-            self.inverse_mass[first + i] = 1.0 / mass;
+            self.enter(first + i, |block| &mut block.inverse_mass, 1.0 / mass);
         }
         match &building.stiffness {
-            Stiffness::Shear(stiffness) => self.storey[first..][..n].copy_from_slice(stiffness),
+            Stiffness::Shear(stiffness) => {
+                for (i, &stiffness) in stiffness.iter().enumerate() {
+                    self.enter(first + i, |block| &mut block.storey, stiffness);
+                }
+            }
             Stiffness::Matrix(_) => self.is_sparse = false,
         }
         match (&building.damping, &modes.damping) {
-            (_, ModalDamping::Diagonal(c)) if n == 1 => self.on_mass[first] = c[0],
+            (_, ModalDamping::Diagonal(c)) if n == 1 => self.enter(first, |block| &mut block.on_mass, c[0]),
             (Damping::Rayleigh { ratio, modes: numbers }, _) => {
                 let (on_mass, on_stiffness) = rayleigh_factors(*ratio, *numbers, &modes.omega);
-                self.on_mass[first..][..n].fill(on_mass);
-                self.on_stiffness[first..][..n].fill(on_stiffness);
+                for lane in first..first + n {
+                    self.enter(lane, |block| &mut block.on_mass, on_mass);
+                    self.enter(lane, |block| &mut block.on_stiffness, on_stiffness);
+                }
             }
             (_, ModalDamping::Diagonal(c)) if c.iter().all(|c| *c == 0.0) => {}
             _ => self.is_sparse = false,
         }
+    }
+
+    /// Enters what the floor of a lane has.
+    fn enter(&mut self, lane: usize, what: impl FnOnce(&mut Block) -> &mut Lane, value: f64) {
+        what(&mut self.blocks[lane / LANES])[lane % LANES] = value;
     }
 
     /// Whether a floor feels its neighbours only.
@@ -101,7 +135,7 @@ impl Floors {
 
     /// 1/kg of a lane.
     pub fn inverse_mass(&self, lane: usize) -> f64 {
-        self.inverse_mass[lane]
+        self.blocks[lane / LANES].inverse_mass[lane % LANES]
     }
 
     /// 1 at every floor.
@@ -112,23 +146,34 @@ impl Floors {
     /// `out` -= M^-1 (K u + rate C v), m/s^2 for `rate` 1.
     #[inline(always)]
     pub fn resist(&self, u: &[f64], v: &[f64], rate: f64, out: &mut [f64]) {
-        let moved = |i: usize| u[i] + (rate * self.on_stiffness[i]) * v[i];
-        let lowest = self.storey[0] * moved(0) - self.storey[1] * (moved(1) - moved(0));
-        out[0] -= self.inverse_mass[0] * lowest + (rate * self.on_mass[0]) * v[0];
-        // From the second lane to the last but one: the last rests.
-        let inner = self.mass.len() - 2;
-        let [u, v, on_stiffness] = [u, v, &self.on_stiffness].map(|vector| Neighbours::of(vector, inner));
-        let (storey, storey_above) = (&self.storey[1..][..inner], &self.storey[2..][..inner]);
-        let (inverse_mass, on_mass) = (&self.inverse_mass[1..][..inner], &self.on_mass[1..][..inner]);
-        let out = &mut out[1..][..inner];
-        // Each storey's shear force is worked out for the floor above it and again for the floor below: so no sum waits
-        // for another, and nothing goes through memory.
-        for i in 0..inner {
-            let below = u.below[i] + (rate * on_stiffness.below[i]) * v.below[i];
-            let own = u.own[i] + (rate * on_stiffness.own[i]) * v.own[i];
-            let above = u.above[i] + (rate * on_stiffness.above[i]) * v.above[i];
-            let shear = storey[i] * (own - below) - storey_above[i] * (above - own);
-            out[i] -= inverse_mass[i] * shear + (rate * on_mass[i]) * v.own[i];
+        self.enter_resistance(u, v, rate, out.as_chunks_mut::<LANES>().0, |out, resistance| out - resistance);
+    }
+
+    /// Makes of each lane of `out` what `entry` says of its value and of its M^-1 (K u + rate C v), m/s^2 for `rate` 1.
+    ///
+    /// A floor feels the shear force of the storey below less that of the one above. Both come from neighbouring lanes,
+    /// which stay in registers: what has just been stored cannot be read back from other places without waiting for it.
+    #[inline(always)]
+    pub fn enter_resistance(&self, u: &[f64], v: &[f64], rate: f64, out: &mut [Lane], entry: impl Fn(f64, f64) -> f64) {
+        let [u, v] = [u, v].map(|vector| vector.as_chunks::<LANES>().0);
+        // Says once that no index below leaves its table.
+        let (blocks, count) = (&self.blocks[..], self.blocks.len());
+        let (u, v, out) = (&u[..count], &v[..count], &mut out[..count]);
+        let moved = |c: usize| each(|i| u[c][i] + (rate * blocks[c].on_stiffness[i]) * v[c][i]);
+        let shear = |c: usize, below: f64, own: &Lane| {
+            let below = [below, own[0], own[1], own[2]];
+            each(|i| blocks[c].storey[i] * (own[i] - below[i]))
+        };
+        let lowest = moved(0);
+        let (mut own, mut highest) = (shear(0, 0.0, &lowest), lowest[LANES - 1]);
+        for c in 1..count {
+            let floors = moved(c);
+            let next = shear(c, highest, &floors);
+            blocks[c - 1].enter((&own, next[0]), &v[c - 1], rate, &mut out[c - 1], &entry);
+            (own, highest) = (next, floors[LANES - 1]);
+        }
+        if let (Some(block), Some(v), Some(out)) = (blocks.last(), v.last(), out.last_mut()) {
+            block.enter((&own, 0.0), v, rate, out, &entry);
         }
     }
 
@@ -136,8 +181,14 @@ impl Floors {
     pub fn energies(&self, u: &[f64], v: &[f64]) -> (f64, f64) {
         let kinetic: f64 = self.mass.iter().zip(v).map(|(m, v)| m * v * v).sum();
         let below = std::iter::once(&0.0).chain(u);
-        let strain: f64 =
-            self.storey.iter().zip(u).zip(below).map(|((k, u), below)| k * (u - below) * (u - below)).sum();
+        let strain: f64 = self
+            .blocks
+            .iter()
+            .flat_map(|block| &block.storey)
+            .zip(u)
+            .zip(below)
+            .map(|((k, u), below)| k * (u - below) * (u - below))
+            .sum();
         (0.5 * kinetic, 0.5 * strain)
     }
 
@@ -161,18 +212,14 @@ impl Floors {
     }
 }
 
-/// Floors from the second on, with those next to them.
-struct Neighbours<'a> {
-    below: &'a [f64],
-    own: &'a [f64],
-    above: &'a [f64],
-}
-
-impl<'a> Neighbours<'a> {
-    #[inline(always)]
-    fn of(vector: &'a [f64], floors: usize) -> Neighbours<'a> {
-        Neighbours { below: &vector[..floors], own: &vector[1..][..floors], above: &vector[2..][..floors] }
+/// A number for each lane: unlike `std::array::from_fn` it always becomes one wide instruction after the other.
+#[inline(always)]
+fn each(of: impl Fn(usize) -> f64) -> Lane {
+    let mut all = [0.0; LANES];
+    for (i, one) in all.iter_mut().enumerate() {
+        *one = of(i);
     }
+    all
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ pub use impulse_response::{ImpulseResponse, RESPONSE_POWERS};
 pub use interval::Interval;
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
 pub use propagator::{CoupledIncrement, ModeIncrement};
-pub use series::{EXACT, FEW_BLOCKS, MotionSeries, PairForces, difference, dot, flight_order};
+pub use series::{EXACT, FEW_BLOCKS, MotionSeries, PairForces, difference, dot, flight_order, sum_sizes, sum_terms};
 pub use short_flight::fly_in_one_series;
 
 use dense::Dense;

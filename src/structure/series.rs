@@ -224,12 +224,19 @@ impl MotionSeries {
 
     /// q and v at the x of the powers.
     pub fn evaluate(&self, powers: &Powers, q: &mut [f64], v: &mut [f64]) {
-        evaluate(self, powers, q, v);
+        let terms = (self.order + 1).min(ROOM);
+        let (power, slope, _) = powers.all();
+        let (q, v) = (&mut q[..self.lanes], &mut v[..self.lanes]);
+        let rate = 1.0 / self.scale;
+        sum_terms(&self.coefficients[..terms * self.lanes], (&power[..terms], &slope[..terms]), rate, q, v);
     }
 
     /// Bounds on the fourth derivatives by x up to the x of the powers.
     pub fn fourth_derivatives(&self, powers: &Powers, out: &mut [f64]) {
-        fourth_derivatives(&self.coefficients[..(self.order + 1) * self.lanes], powers, &mut out[..self.lanes]);
+        let (.., fourth) = powers.all();
+        let end = (self.order + 1) * self.lanes;
+        let terms = &self.coefficients[(4 * self.lanes).min(end)..end];
+        sum_sizes(terms, &fourth[4..], &mut out[..self.lanes]);
     }
 
     /// v alone at x.
@@ -264,47 +271,74 @@ impl MotionSeries {
     }
 }
 
-/// See [`MotionSeries::evaluate`]: from the smallest terms to the largest. Wide instructions give the same bits.
+/// Blocks of lanes whose sums stand in registers side by side.
+const ABREAST: usize = 4;
+
+/// Adds up terms, one vector each, times their powers and times the slopes of these: q and, times `rate`, v. From the last
+/// terms to the first, which are the largest. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn evaluate(series: &MotionSeries, powers: &Powers, q: &mut [f64], v: &mut [f64]) {
-    let (width, order) = (series.lanes / LANES, series.order.min(ROOM - 1));
-    let rate = 1.0 / series.scale;
-    let (power, slope, _) = powers.all();
-    let (terms, _) = series.coefficients.as_chunks::<LANES>();
+pub fn sum_terms(terms: &[f64], powers: (&[f64], &[f64]), rate: f64, q: &mut [f64], v: &mut [f64]) {
+    let (terms, _) = terms.as_chunks::<LANES>();
     let (q, v) = (q.as_chunks_mut::<LANES>().0, v.as_chunks_mut::<LANES>().0);
-    for (c, (q, v)) in q.iter_mut().zip(v).enumerate().take(width) {
-        let (mut value, mut change) = ([0.0; LANES], [0.0; LANES]);
-        let mut n = order + 1;
-        for row in terms[..n * width].rchunks_exact(width) {
-            n -= 1;
-            let (term, power, slope) = (&row[c], power[n], slope[n]);
-            for i in 0..LANES {
-                value[i] += term[i] * power;
-                change[i] += term[i] * slope;
-            }
-        }
-        *q = value;
-        for i in 0..LANES {
-            v[i] = change[i] * rate;
-        }
+    let width = q.len();
+    let (wide_q, q) = q.as_chunks_mut::<ABREAST>();
+    let (wide_v, v) = v.as_chunks_mut::<ABREAST>();
+    for (k, (q, v)) in wide_q.iter_mut().zip(wide_v).enumerate() {
+        (*q, *v) = sum_blocks((terms, width), k * ABREAST, powers, rate);
+    }
+    let first = width - width % ABREAST;
+    for (k, (q, v)) in q.iter_mut().zip(v).enumerate() {
+        ([*q], [*v]) = sum_blocks((terms, width), first + k, powers, rate);
     }
 }
 
-/// See [`MotionSeries::fourth_derivatives`]. Wide instructions give the same bits.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn fourth_derivatives(terms: &[f64], powers: &Powers, out: &mut [f64]) {
-    let (.., fourth) = powers.all();
-    let (width, (out, _)) = (out.len() / LANES, out.as_chunks_mut::<LANES>());
-    let (terms, _) = terms.as_chunks::<LANES>();
-    for (c, out) in out.iter_mut().enumerate() {
-        let mut sum = [0.0; LANES];
-        for (row, fourth) in terms.chunks_exact(width).zip(fourth).skip(4) {
+/// q and v of `N` blocks of lanes.
+#[inline(always)]
+fn sum_blocks<const N: usize>(
+    (terms, width): (&[Lane], usize),
+    first: usize,
+    (powers, slopes): (&[f64], &[f64]),
+    rate: f64,
+) -> ([Lane; N], [Lane; N]) {
+    let (mut value, mut change) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
+    for (row, (power, slope)) in terms.chunks_exact(width).zip(powers.iter().zip(slopes)).rev() {
+        let row = &row[first..first + N];
+        for c in 0..N {
             for i in 0..LANES {
-                sum[i] += row[c][i].abs() * fourth;
+                value[c][i] += row[c][i] * power;
+                change[c][i] += row[c][i] * slope;
             }
         }
-        *out = sum;
     }
+    (value, change.map(|change| change.map(|change| change * rate)))
+}
+
+/// Adds up the sizes of terms, one vector each, times some factors. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+pub fn sum_sizes(terms: &[f64], factors: &[f64], out: &mut [f64]) {
+    let (out, _) = out.as_chunks_mut::<LANES>();
+    let (terms, width) = (terms.as_chunks::<LANES>().0, out.len());
+    let (wide, rest) = out.as_chunks_mut::<ABREAST>();
+    for (k, out) in wide.iter_mut().enumerate() {
+        *out = sizes_of_blocks((terms, width), k * ABREAST, factors);
+    }
+    for (k, out) in rest.iter_mut().enumerate() {
+        [*out] = sizes_of_blocks((terms, width), width - width % ABREAST + k, factors);
+    }
+}
+
+#[inline(always)]
+fn sizes_of_blocks<const N: usize>((terms, width): (&[Lane], usize), first: usize, factors: &[f64]) -> [Lane; N] {
+    let mut sum = [[0.0; LANES]; N];
+    for (row, factor) in terms.chunks_exact(width).zip(factors) {
+        let row = &row[first..first + N];
+        for c in 0..N {
+            for i in 0..LANES {
+                sum[c][i] += row[c][i].abs() * factor;
+            }
+        }
+    }
+    sum
 }
 
 /// See [`MotionSeries::expand_few_modes`]. Wide instructions give the same bits.
@@ -355,18 +389,17 @@ fn expand_floors<F: PairForces>(
     for n in 0..order - 1 {
         let (known, rest) = series.coefficients.split_at_mut((n + 2) * lanes);
         let (u, v) = known[n * lanes..].split_at(lanes);
-        let next = &mut rest[..lanes];
-        match n {
-            0 => next.copy_from_slice(load),
-            1 => next.iter_mut().zip(slope).for_each(|(next, slope)| *next = slope * series.scale),
-            _ => next.fill(0.0),
-        }
-        floors.resist(u, v, (n + 1) as f64 / series.scale, next);
+        let (next, _) = rest[..lanes].as_chunks_mut::<LANES>();
+        let rate = (n + 1) as f64 / series.scale;
         let factor = scale2 * RECIPROCAL[n];
-        for next in next.iter_mut() {
-            *next *= factor;
+        if n < 2 {
+            let (load, unit) = if n == 0 { (load, 1.0) } else { (slope, series.scale) };
+            next.as_flattened_mut().iter_mut().zip(load).for_each(|(next, load)| *next = load * unit);
+            floors.enter_resistance(u, v, rate, next, |load, resistance| (load - resistance) * factor);
+        } else {
+            floors.enter_resistance(u, v, rate, next, |_, resistance| (0.0 - resistance) * factor);
         }
-        forces.act(n, factor, next.as_chunks_mut::<LANES>().0);
+        forces.act(n, factor, next);
     }
     series.order = order;
 }
