@@ -115,8 +115,8 @@ fn a_polynomial_comes_back_from_its_values() {
     let interpolant = Interpolant::through(&nodes().x.map(polynomial));
     for x in [0.0, 0.01, 0.37, 0.99, 1.0] {
         let ([value], [same, rate, _]) = (interpolant.at(&[x]), interpolant.derivatives(x));
-        // 16 values of up to 20.
-        assert!((value - polynomial(x)).abs() < 1e-12 && (same - value).abs() < 1e-12, "{value} at {x}");
+        // Derivatives at the ends of a polynomial of degree n lose up to n^2 of its rounding, twice.
+        assert!((value - polynomial(x)).abs() < 1e-13 && (same - value).abs() < 1e-13, "{value} at {x}");
         assert!((rate - slope(x)).abs() < 1e-9, "{rate} instead of {} at {x}", slope(x));
     }
 }

@@ -141,9 +141,7 @@ impl Contact {
         self.episode.impulse += moments[place][0];
         let (depth, rate) = (&solution.depth[place], &solution.rate[place]);
         if law.is_damped() {
-            let sum = |weights: &Row, d: &Row, v: &Row| {
-                (0..NODES).map(|i| weights[i] * law.damping_power(d[i], v[i])).sum::<f64>()
-            };
+            let sum = |weights: &Row, d: &Row, v: &Row| dot(weights, &law.damping_powers(d, v));
             self.work += if is_whole {
                 solution.length * sum(&Tables::of(solution.map).weight, depth, rate)
             } else {
