@@ -3,7 +3,6 @@
 use super::ground::Segment;
 use super::model::Model;
 use super::state::*;
-use super::work_limit::Progress;
 use super::{EngineError, Episode, roots};
 use crate::contact::EpisodeForce;
 use crate::polynomial::{Coefficients, Powers};
@@ -29,11 +28,13 @@ impl Model {
         if self.is_driven() {
             state.step.kind = StepKind::Unknown;
         }
-        self.check_segments(state, until)?;
-        let mut progress = Progress::begin(state);
+        let mut progress = self.begin(state, until)?;
         loop {
-            let most = self.flights_left(&state.counters, &progress);
-            if self.glide(state, until, most) > 0 {
+            let glide = self.glide(state, until, progress.flights_left(&state.counters));
+            if glide.has_arrived {
+                break;
+            }
+            if glide.flown > 0 {
                 progress.note(true);
             }
             let segment = &state.base.segment;
@@ -140,7 +141,7 @@ impl Model {
     /// Penetrations and rates at the end of a step.
     fn move_contacts(&self, base: &mut Base, step: &Step) {
         if !step.ends.is_empty() {
-            base.watch.move_on();
+            base.watch.move_on(1);
             for (p, (contact, end)) in base.contacts.iter_mut().zip(&step.ends).enumerate() {
                 contact.at_surface = false;
                 contact.let_go = false;
@@ -156,7 +157,7 @@ impl Model {
         if step.length == 0.0 {
             return;
         }
-        base.watch.move_on();
+        base.watch.move_on(1);
         for (p, contact) in base.contacts.iter_mut().enumerate() {
             base.watch.set_known(p);
             contact.at_surface = false;

@@ -78,14 +78,19 @@ impl Watch {
         self.pairs[p] > segment
     }
 
+    /// The first segment for which any pair has not been.
+    pub fn due(&self) -> u64 {
+        self.due
+    }
+
     /// Whether all pairs have been.
     pub fn are_all_free(&self, segment: u64) -> bool {
         self.due > segment
     }
 
-    /// The base has moved: no contact is known any more.
-    pub fn move_on(&mut self) {
-        self.moves += 1;
+    /// The base has moved, so often: no contact is known any more.
+    pub fn move_on(&mut self, moves: u64) {
+        self.moves += moves;
     }
 
     /// Penetration and rate of a contact are those at the base.

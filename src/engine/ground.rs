@@ -4,6 +4,7 @@ use super::input::LinearInput;
 use crate::record::Record;
 use crate::structure::{Interval, Structure};
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// Records with up to this many different sample spacings have their exact flight prepared for each.
 const MOST_PREPARED: usize = 8;
@@ -89,6 +90,11 @@ impl GroundMotion {
         (until - from.max(end)) / self.spacing
     }
 
+    /// Whether these are more than so many.
+    pub fn are_more_after(&self, (from, until): (f64, f64), segments: f64) -> bool {
+        until - from > segments * self.spacing && self.segments_after(from, until) > segments
+    }
+
     /// The segment that follows one.
     pub fn following(&self, segment: &Segment) -> Segment {
         match self.number(segment) {
@@ -102,6 +108,19 @@ impl GroundMotion {
     pub fn segment(&self, number: u64) -> Segment {
         let samples = self.lengths.len() as u64;
         if number < samples { self.sample(number as usize) } else { self.after(number - samples) }
+    }
+
+    /// The segments with these numbers.
+    #[inline(always)]
+    pub fn segments(&self, numbers: Range<u64>) -> impl Iterator<Item = Segment> {
+        let samples = self.lengths.len() as u64;
+        let [first, end] = [numbers.start, numbers.end].map(|number| number.min(samples) as usize);
+        let ends = self.accelerations[first..].windows(2);
+        let of_record = self.times[first..end].iter().zip(&self.lengths[first..end]).zip(ends).zip(first..);
+        let of_record = of_record
+            .map(|(((start, length), ends), sample)| Segment::between(sample, *start, *length, [ends[0], ends[1]]));
+        let after = numbers.start.saturating_sub(samples)..numbers.end.saturating_sub(samples);
+        of_record.chain(after.map(|k| self.after(k)))
     }
 
     /// The exact flight over a whole segment, where it has been prepared.
@@ -145,8 +164,7 @@ impl GroundMotion {
 
     #[inline(always)]
     fn sample(&self, i: usize) -> Segment {
-        let (a0, a1, length) = (self.accelerations[i], self.accelerations[i + 1], self.lengths[i]);
-        Segment { start: self.times[i], length, acceleration: a0, slope: (a1 - a0) / length, place: Place::Sample(i) }
+        Segment::between(i, self.times[i], self.lengths[i], [self.accelerations[i], self.accelerations[i + 1]])
     }
 
     #[inline(always)]
@@ -163,6 +181,12 @@ impl GroundMotion {
 }
 
 impl Segment {
+    /// From a sample to the next.
+    #[inline(always)]
+    fn between(sample: usize, start: f64, length: f64, [a0, a1]: [f64; 2]) -> Segment {
+        Segment { start, length, acceleration: a0, slope: (a1 - a0) / length, place: Place::Sample(sample) }
+    }
+
     /// A stretch under an input.
     pub fn under_input(start: f64, length: f64, input: &LinearInput) -> Segment {
         Segment { start, length, acceleration: input.at(start), slope: input.slope(), place: Place::Outside }

@@ -8,7 +8,7 @@ use super::input::LinearInput;
 use super::onset_step::OnsetSeries;
 use super::rigid::RigidPairs;
 use super::state::*;
-use super::work_limit::MOST_WORK;
+use super::work_limit::{MOST_WORK, most_flights};
 use super::{Episode, contact_step};
 use crate::contact::{EpisodeForce, ImpactLaw};
 use crate::polynomial::{MAX_ORDER, Powers, ROOM};
@@ -43,8 +43,8 @@ pub struct Model {
     pub(super) closing: ClosingSpeeds,
     pub(super) frequencies: [Vec<f64>; 2],
     initial: [Vec<f64>; 2],
-    /// What one communication step may take.
-    pub(super) most_work: f64,
+    /// What one communication step may take, in flights.
+    pub(super) most_flights: f64,
 }
 
 /// Two facing floors.
@@ -98,6 +98,7 @@ impl Model {
             least_approach: scene.solver.min_approach_velocity,
             contact_coordinates: contact_coordinates(&structure),
             floors: structure.floors.ones(),
+            most_flights: most_flights(&structure, pairs.len(), MOST_WORK),
             structure,
             rigid: RigidPairs::of(&pairs),
             pairs,
@@ -105,7 +106,6 @@ impl Model {
             ground,
             step_tolerance,
             order,
-            most_work: MOST_WORK,
         })
     }
 

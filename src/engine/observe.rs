@@ -10,12 +10,13 @@ use crate::structure::{EXACT, flight_order, fly_in_one_series};
 impl Model {
     /// Reads the state at its present time; the buffers of `point` are reused.
     ///
-    /// Floors are not computed here but when one is asked for.
+    /// Floors and accelerations are not computed here but when one is asked for.
     pub fn observe(&self, state: &State, point: &mut Point) {
         let lanes = self.structure.lanes;
         point.floors.forget(lanes);
-        for vector in [&mut point.q, &mut point.v, &mut point.acceleration, &mut point.resisted] {
-            vector.resize(lanes, 0.0);
+        if point.q.len() != lanes {
+            point.q.resize(lanes, 0.0);
+            point.v.resize(lanes, 0.0);
         }
         point.time = state.time;
         point.coordinates = state.base.coordinates;
@@ -39,15 +40,12 @@ impl Model {
             }
         }
         point.impacts = base.impacts;
-        work.load.fill(0.0);
-        self.accelerate(point.coordinates, (&point.q, &point.v), &work.load, &mut point.resisted);
-        self.add_floor_forces(inputs, point.coordinates, |force| force.at(state.time), &mut work.load);
-        for (p, contact) in point.contacts.iter().enumerate().filter(|(_, contact)| contact.force != 0.0) {
-            self.push_apart_by(p, point.coordinates, contact.force, &mut work.load);
-        }
-        // Without the ground's load these are absolute accelerations.
-        for ((acceleration, resisted), load) in point.acceleration.iter_mut().zip(&point.resisted).zip(&work.load) {
-            *acceleration = resisted + load;
+        if self.floor_forces || point.contacts.iter().any(|contact| contact.force != 0.0) {
+            let load = point.floors.start_load();
+            self.add_floor_forces(inputs, point.coordinates, |force| force.at(state.time), load);
+            for (p, contact) in point.contacts.iter().enumerate().filter(|(_, contact)| contact.force != 0.0) {
+                self.push_apart_by(p, point.coordinates, contact.force, load);
+            }
         }
         self.read_energy(state, elapsed, &mut work, point);
         point.work = Some(work);

@@ -17,7 +17,7 @@ mod series;
 mod short_flight;
 
 pub use floors::Floors;
-pub use interval::Interval;
+pub use interval::{Interval, ModeBlock};
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
 pub use propagator::{CoupledIncrement, ModeIncrement};
 pub use series::{EXACT, FEW_BLOCKS, MotionSeries, PairForces, difference, dot, flight_order};
@@ -181,6 +181,10 @@ impl Structure {
     pub fn at_floor<const N: usize>(&self, side: Side, floor: usize, modal: [&[f64]; N]) -> [f64; N] {
         let (modes, range) = (self.floors(side), self.range(side));
         let shape = &self.floor_shapes[side as usize][floor * modes..][..modes];
+        if modes < LANES {
+            return modal
+                .map(|modal| shape.iter().zip(&modal[range.start..]).fold(0.0, |sum, (shape, q)| sum + shape * q));
+        }
         let (lanes, rest) = products(shape, modal.map(|modal| &modal[range.clone()]));
         std::array::from_fn(|k| lanes[k].iter().sum::<f64>() + rest[k])
     }
