@@ -28,15 +28,25 @@ impl Model {
         if self.is_driven() {
             state.step.kind = StepKind::Unknown;
         }
-        let mut progress = self.begin(state, until)?;
+        self.check_segments(state, until)?;
+        let glide = self.glide(state, until, self.most_flights as u64);
+        if !glide.has_arrived {
+            self.go_on(state, until, glide.flown, on_episode)?;
+        }
+        state.time = until;
+        Ok(())
+    }
+
+    /// Advances where gliding has ended, after so many segments.
+    fn go_on(
+        &self,
+        state: &mut State,
+        until: f64,
+        flown: u64,
+        on_episode: &mut dyn FnMut(&Episode),
+    ) -> Result<(), EngineError> {
+        let mut progress = self.progress(state, flown);
         loop {
-            let glide = self.glide(state, until, progress.flights_left(&state.counters));
-            if glide.has_arrived {
-                break;
-            }
-            if glide.flown > 0 {
-                progress.note(true);
-            }
             let segment = &state.base.segment;
             let limit = self.limit(segment, until);
             if limit > state.base.elapsed || !self.is_driven() {
@@ -58,8 +68,14 @@ impl Model {
             } else if self.is_driven() && state.base.elapsed >= limit {
                 break;
             }
+            let glide = self.glide(state, until, progress.flights_left(&state.counters));
+            if glide.flown > 0 {
+                progress.note(true);
+            }
+            if glide.has_arrived {
+                break;
+            }
         }
-        state.time = until;
         Ok(())
     }
 

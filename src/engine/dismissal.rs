@@ -11,6 +11,16 @@
 //! ```
 //!
 //! The first never falls with t and the second is convex: what lies below 0 at the end of a stretch did so all along.
+//! Where damping couples no modes, the pair's own acceleration by springs and dashpots, a = -row (c v + w^2 q), changes by
+//! no more than |a'| <= sum of |row| (k (e + A) + c |participation| |ground acceleration|) with
+//! k^2 = (w^2 + c^2)^2 + c^2 w^2, so that with S, the integral of |ground acceleration|,
+//!
+//! ```text
+//! penetration <= penetration now + t rate now + t^2/2 (a now + S sum of |row| c |participation|)
+//!                + t^3/6 sum over modes of |row| k (e + A)
+//! ```
+//!
+//! a cubic, which lies below its Bernstein coefficients.
 
 use super::ground::GroundMotion;
 use super::model::{Model, Pair};
@@ -21,6 +31,9 @@ use std::ops::Range;
 
 /// Most segments that one look is good for.
 const MOST: u64 = 64;
+
+/// As many as are tried first.
+const USUAL: u64 = 8;
 
 /// Margin for rounding, relative to the numbers that a penetration or a closing speed is added up from.
 const MARGIN: f64 = 1e-10;
@@ -35,17 +48,22 @@ pub(super) struct ClosingSpeeds {
     omega: Vec<f64>,
     /// w + c, 1/s, of each mode.
     quickness: Vec<f64>,
+    /// k, 1/s2, of each mode; infinite where damping couples it to others.
+    bend: Vec<f64>,
     /// The sums over modes of each pair for the e of a shaking (integral of |ground acceleration|) of 1 m/s.
     growth: Vec<Sums>,
+    /// What that shaking may do to each pair's acceleration by dashpots, m/s2.
+    dragged: Vec<f64>,
     /// Modes of a building in which damping couples them.
     coupled: Vec<Range<usize>>,
 }
 
-/// Sums over modes of |row| e, m/s, and of |row| (w + c) e, m/s2.
+/// Sums over modes of |row| e, m/s, of |row| (w + c) e, m/s2, and of |row| k e, m/s3.
 #[derive(Clone, Copy, Debug)]
 struct Sums {
     speed: f64,
     change: f64,
+    bend: f64,
 }
 
 /// What is known of pairs that are apart.
@@ -133,8 +151,19 @@ impl ClosingSpeeds {
             // |C| |v| + w |w q|, with the largest row sum of C.
             quickness[range.clone()].fill(2.0 * structure.fastest);
         }
-        let sums = |pair: &Pair| Sums::of(&pair.row, &growth, &quickness);
-        ClosingSpeeds { growth: pairs.iter().map(sums).collect(), omega, quickness, coupled }
+        let of_mode = |(w, c): (&f64, &f64)| ((w * w + c * c) * (w * w + c * c) + c * c * w * w).sqrt();
+        let mut bend: Vec<f64> = omega.iter().zip(&structure.damping).map(of_mode).collect();
+        for range in &coupled {
+            bend[range.clone()].fill(f64::INFINITY);
+        }
+        let dragged = |pair: &Pair| {
+            let of_modes = pair.row.iter().zip(&structure.damping).zip(&structure.participation);
+            of_modes.map(|((row, c), participation)| (row * c * participation).abs()).sum()
+        };
+        let dragged = pairs.iter().map(dragged).collect();
+        let mut closing = ClosingSpeeds { growth: Vec::new(), omega, quickness, bend, dragged, coupled };
+        closing.growth = pairs.iter().map(|pair| closing.sums(&pair.row, &growth)).collect();
+        closing
     }
 }
 
@@ -165,22 +194,42 @@ impl Model {
             if contact.carried {
                 continue;
             }
-            let sums = Sums::of(&pair.row, amplitude, &self.closing.quickness);
-            let growth = &self.closing.growth[p];
+            let sums = self.closing.sums(&pair.row, amplitude);
+            let (growth, dragged) = (&self.closing.growth[p], self.closing.dragged[p]);
             let start = contact.flight_start() + MARGIN * (pair.gap.abs() + size);
+            let pull = self.pull(&pair.row, (&base.q, &base.v)) + MARGIN * sums.change;
             let stays_apart = |segments: u64| {
                 let (time, shaking) = ground.ahead(segment, segments);
                 let time = (1.0 + MARGIN) * (time - base.elapsed);
                 let speed = sums.speed + growth.speed * shaking;
                 let change = sums.change + growth.change * shaking;
-                let by_rate = contact.rate + MARGIN * speed + 0.5 * time * change;
+                let bend = sums.bend + growth.bend * shaking;
+                let rate = contact.rate + MARGIN * speed;
+                let (first, second) = (time * rate, 0.5 * time * time * (pull + shaking * dragged));
+                let third = time * time * time / 6.0 * bend;
+                let inner = (start + first / 3.0).max(start + 2.0 / 3.0 * first + second / 3.0);
                 // Written so that a NaN never stays apart.
-                start + time * speed < 0.0 || start + time * by_rate < 0.0
+                start + time * speed < 0.0
+                    || start + time * (rate + 0.5 * time * change) < 0.0
+                    || start < 0.0 && inner < 0.0 && start + (first + second + third) < 0.0
             };
             base.watch.pairs[p] = segment + longest(stays_apart);
         }
         base.watch.due = base.watch.pairs.iter().copied().min().unwrap_or(u64::MAX);
         base.watch.are_all_free(segment)
+    }
+
+    /// m/s2, a pair's acceleration by springs and dashpots, where damping couples no modes.
+    fn pull(&self, row: &[f64], (q, v): (&[f64], &[f64])) -> f64 {
+        let [(row, _), (q, _), (v, _), (damping, _), (omega2, _)] =
+            [row, q, v, &self.structure.damping, &self.structure.omega2].map(<[f64]>::as_chunks::<LANES>);
+        let mut pull = [0.0; LANES];
+        for ((((row, q), v), damping), omega2) in row.iter().zip(q).zip(v).zip(damping).zip(omega2) {
+            for i in 0..LANES {
+                pull[i] -= row[i] * (damping[i] * v[i] + omega2[i] * q[i]);
+            }
+        }
+        pull.iter().sum()
     }
 
     /// Bounds on sqrt(v^2 + w^2 q^2) of all modes at the base. Returns a bound on what the displacements add to any
@@ -211,30 +260,35 @@ fn share_amplitude(modes: &mut [f64]) {
 
 /// The largest of 0, 1, 2, 3, 4, 6, 8, 12 ... segments, up to MOST, for which a pair stays apart.
 fn longest(stays_apart: impl Fn(u64) -> bool) -> u64 {
-    let mut free = 0;
-    while free < MOST {
-        let next = (2 * free).max(1);
-        if !stays_apart(next) {
-            let between = free + free / 2;
-            return if between > free && stays_apart(between) { between } else { free };
+    let mut free = USUAL;
+    if stays_apart(free) {
+        while free < MOST && stays_apart(2 * free) {
+            free *= 2;
         }
-        free = next;
+    } else {
+        free /= 2;
+        while free > 0 && !stays_apart(free) {
+            free /= 2;
+        }
     }
-    free
+    let between = free + free / 2;
+    if between > free && between < MOST && stays_apart(between) { between } else { free }
 }
 
-impl Sums {
-    fn of(row: &[f64], amplitude: &[f64], quickness: &[f64]) -> Sums {
-        let (mut speed, mut change) = ([0.0; LANES], [0.0; LANES]);
-        let [(row, _), (amplitude, _), (quickness, _)] = [row, amplitude, quickness].map(<[f64]>::as_chunks::<LANES>);
-        for ((row, amplitude), quickness) in row.iter().zip(amplitude).zip(quickness) {
+impl ClosingSpeeds {
+    fn sums(&self, row: &[f64], amplitude: &[f64]) -> Sums {
+        let (mut speed, mut change, mut bend) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let [(row, _), (amplitude, _), (quicknesses, _), (bends, _)] =
+            [row, amplitude, &self.quickness, &self.bend].map(<[f64]>::as_chunks::<LANES>);
+        for (((row, amplitude), quickness), own_bend) in row.iter().zip(amplitude).zip(quicknesses).zip(bends) {
             for i in 0..LANES {
                 let part = row[i].abs() * amplitude[i];
                 speed[i] += part;
                 change[i] += quickness[i] * part;
+                bend[i] += own_bend[i] * part;
             }
         }
-        Sums { speed: speed.iter().sum(), change: change.iter().sum() }
+        Sums { speed: speed.iter().sum(), change: change.iter().sum(), bend: bend.iter().sum() }
     }
 }
 

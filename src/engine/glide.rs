@@ -124,13 +124,15 @@ fn fly_over(
     segments: Range<u64>,
     until: f64,
 ) -> u64 {
+    let is_simple = model.drift.are_few() && ground.is_in_record(segments.start);
     match model.structure.lanes / LANES {
-        1 if model.drift.are_few() => fly_few::<1>(model, ground, base, segments, until),
-        2 if model.drift.are_few() => fly_few::<2>(model, ground, base, segments, until),
-        3 if model.drift.are_few() => fly_few::<3>(model, ground, base, segments, until),
+        1 if is_simple => fly_few::<1>(model, ground, base, segments, until),
+        2 if is_simple => fly_few::<2>(model, ground, base, segments, until),
+        3 if is_simple => fly_few::<3>(model, ground, base, segments, until),
         _ => {
             let mut flown = 0;
-            for segment in ground.segments(segments) {
+            while segments.start + flown < segments.end {
+                let segment = ground.segment(segments.start + flown);
                 if ends_after(&segment, until) || !fly_segment(model, ground, &segment, base, step) {
                     break;
                 }
@@ -158,7 +160,7 @@ fn fly_segment(model: &Model, ground: &GroundMotion, segment: &Segment, base: &B
     )
 }
 
-/// The same loop for a few blocks of modes, which stay in registers. It goes as far as segments are of one length, and
+/// The same loop within the record for a few blocks of modes, which stay in registers. It goes as far as segments are of one length, and
 /// leaves the base as it is if the motion does not stay finite: numbers that are not finite never become so again.
 #[inline(always)]
 fn fly_few<const WIDTH: usize>(
@@ -174,11 +176,10 @@ fn fly_few<const WIDTH: usize>(
     let [participation, mut q, mut v] = [&model.structure.participation, &base.q, &base.v].map(|all| few::<WIDTH>(all));
     let (mut raised, mut spoiled) = (*peaks, [0.0; LANES]);
     let mut flown = 0;
-    for segment in ground.segments(segments) {
-        if ends_after(&segment, until) || segment.length != interval.length {
+    for (start, length, load) in ground.of_record(segments) {
+        if until - start < length || length != interval.length {
             break;
         }
-        let load = (segment.acceleration_at(0.0), segment.slope);
         fly_blocks(modes, (&mut q, &mut v), &participation, load, &mut spoiled);
         model.drift.raise_few(q.as_flattened(), &mut raised);
         flown += 1;

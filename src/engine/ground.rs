@@ -110,17 +110,19 @@ impl GroundMotion {
         if number < samples { self.sample(number as usize) } else { self.after(number - samples) }
     }
 
-    /// The segments with these numbers.
+    /// Whether a number is that of a segment of the record.
+    pub fn is_in_record(&self, number: u64) -> bool {
+        number < self.lengths.len() as u64
+    }
+
+    /// Start, length, acceleration and slope of segments of the record, from a number on.
     #[inline(always)]
-    pub fn segments(&self, numbers: Range<u64>) -> impl Iterator<Item = Segment> {
+    pub fn of_record(&self, numbers: Range<u64>) -> impl Iterator<Item = (f64, f64, (f64, f64))> {
         let samples = self.lengths.len() as u64;
         let [first, end] = [numbers.start, numbers.end].map(|number| number.min(samples) as usize);
         let ends = self.accelerations[first..].windows(2);
-        let of_record = self.times[first..end].iter().zip(&self.lengths[first..end]).zip(ends).zip(first..);
-        let of_record = of_record
-            .map(|(((start, length), ends), sample)| Segment::between(sample, *start, *length, [ends[0], ends[1]]));
-        let after = numbers.start.saturating_sub(samples)..numbers.end.saturating_sub(samples);
-        of_record.chain(after.map(|k| self.after(k)))
+        let segments = self.times[first..end].iter().zip(&self.lengths[first..end]).zip(ends);
+        segments.map(|((start, length), ends)| (*start, *length, (ends[0], slope([ends[0], ends[1]], *length))))
     }
 
     /// The exact flight over a whole segment, where it has been prepared.
@@ -152,10 +154,12 @@ impl GroundMotion {
     /// s that so many segments last, the first of which has that number, and the integral of |acceleration| over them,
     /// m/s: never less than exact.
     pub fn ahead(&self, first: u64, segments: u64) -> (f64, f64) {
-        let last = self.lengths.len();
-        let at = |number: u64| {
-            let (time, shaking) = self.passed[last.min(number as usize)];
-            (time + number.saturating_sub(last as u64) as f64 * self.spacing, shaking)
+        let at = |number: u64| match self.passed.get(number as usize) {
+            Some(passed) => *passed,
+            None => {
+                let last = self.lengths.len();
+                (self.passed[last].0 + (number - last as u64) as f64 * self.spacing, self.passed[last].1)
+            }
         };
         let ((start, before), (end, after)) = (at(first), at(first + segments));
         let rounding = 4.0 * f64::EPSILON;
@@ -164,7 +168,9 @@ impl GroundMotion {
 
     #[inline(always)]
     fn sample(&self, i: usize) -> Segment {
-        Segment::between(i, self.times[i], self.lengths[i], [self.accelerations[i], self.accelerations[i + 1]])
+        let (start, length, ends) =
+            (self.times[i], self.lengths[i], [self.accelerations[i], self.accelerations[i + 1]]);
+        Segment { start, length, acceleration: ends[0], slope: slope(ends, length), place: Place::Sample(i) }
     }
 
     #[inline(always)]
@@ -181,12 +187,6 @@ impl GroundMotion {
 }
 
 impl Segment {
-    /// From a sample to the next.
-    #[inline(always)]
-    fn between(sample: usize, start: f64, length: f64, [a0, a1]: [f64; 2]) -> Segment {
-        Segment { start, length, acceleration: a0, slope: (a1 - a0) / length, place: Place::Sample(sample) }
-    }
-
     /// A stretch under an input.
     pub fn under_input(start: f64, length: f64, input: &LinearInput) -> Segment {
         Segment { start, length, acceleration: input.at(start), slope: input.slope(), place: Place::Outside }
@@ -203,6 +203,11 @@ impl Segment {
     pub fn acceleration_at(&self, elapsed: f64) -> f64 {
         self.acceleration + self.slope * elapsed
     }
+}
+
+#[inline(always)]
+fn slope([start, end]: [f64; 2], length: f64) -> f64 {
+    (end - start) / length
 }
 
 /// Time and integral of |acceleration| up to each sample, summed without loss (Neumaier): their differences matter.

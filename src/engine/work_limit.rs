@@ -3,6 +3,7 @@
 //! Work is counted, not timed: the same step is given up at the same place on every machine. What is said names the
 //! contact or the building that makes the steps short, or meets so often, and the key of the scene to change.
 
+use super::ground::GroundMotion;
 use super::model::Model;
 use super::state::*;
 use super::{Counters, EngineError};
@@ -63,28 +64,33 @@ impl Model {
         self.most_flights = most_flights(&self.structure, self.pairs.len(), 1e6 * seconds);
     }
 
-    /// Begins a communication step.
-    ///
-    /// # Errors
-    /// One that has more segments of the record than it may take flights.
-    pub(super) fn begin(&self, state: &State, until: f64) -> Result<Progress, EngineError> {
-        let (State { time, counters, base, .. }, most) = (state, self.most_flights);
+    /// Refuses a communication step that has more segments of the record than it may take flights.
+    #[inline]
+    pub(super) fn check_segments(&self, state: &State, until: f64) -> Result<(), EngineError> {
         match &self.ground {
-            Some(ground) if ground.are_more_after((*time, until), most) => Err(EngineError {
-                message: format!(
-                    "a communication step from t = {time} s to {until} s is {:.1e} sample intervals of the record, more \
-                     than the {most:.1e} that one step may take: take smaller communication steps",
-                    ground.segments_after(*time, until)
-                ),
-            }),
-            _ => Ok(Progress {
-                start: *time,
-                before: *counters,
-                impacts_before: base.impacts,
-                stalled: 0,
-                most: most as u64,
-            }),
+            Some(ground) if ground.are_more_after((state.time, until), self.most_flights) => {
+                Err(self.too_many_segments(ground, state.time, until))
+            }
+            _ => Ok(()),
         }
+    }
+
+    #[cold]
+    fn too_many_segments(&self, ground: &GroundMotion, time: f64, until: f64) -> EngineError {
+        let (segments, most) = (ground.segments_after(time, until), self.most_flights);
+        EngineError {
+            message: format!(
+                "a communication step from t = {time} s to {until} s is {segments:.1e} sample intervals of the record, \
+                 more than the {most:.1e} that one step may take: take smaller communication steps"
+            ),
+        }
+    }
+
+    /// What a communication step has taken that has flown over so many segments and no more.
+    pub(super) fn progress(&self, state: &State, flown: u64) -> Progress {
+        let State { time, counters, base, .. } = state;
+        let before = Counters { flight_steps: counters.flight_steps.saturating_sub(flown), ..*counters };
+        Progress { start: *time, before, impacts_before: base.impacts, stalled: 0, most: self.most_flights as u64 }
     }
 
     /// Nothing may run for ever or on without numbers.
