@@ -86,8 +86,10 @@ impl Model {
 
     /// Works out the next step, unless that has been done already.
     pub(super) fn plan(&self, state: &mut State, limit: f64) {
-        if state.step.kind != StepKind::Unknown {
-            return;
+        match state.step.kind {
+            StepKind::Unknown => {}
+            StepKind::Glide => self.forget_glide(state),
+            _ => return,
         }
         // A step in contact notes its length in the base: all else that planning changes there it would find again.
         state.step.planned_from = state.base.last_length;

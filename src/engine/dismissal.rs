@@ -181,6 +181,7 @@ impl Model {
             return true;
         }
         let size = self.amplitudes(base, amplitude);
+        let ahead = ground.ahead_of(segment);
         for (p, pair) in self.pairs.iter().enumerate() {
             if base.watch.is_free(p, segment) {
                 continue;
@@ -199,19 +200,20 @@ impl Model {
             let start = contact.flight_start() + MARGIN * (pair.gap.abs() + size);
             let pull = self.pull(&pair.row, (&base.q, &base.v)) + MARGIN * sums.change;
             let stays_apart = |segments: u64| {
-                let (time, shaking) = ground.ahead(segment, segments);
+                let (time, shaking) = ahead.over(segments);
                 let time = (1.0 + MARGIN) * (time - base.elapsed);
                 let speed = sums.speed + growth.speed * shaking;
                 let change = sums.change + growth.change * shaking;
                 let bend = sums.bend + growth.bend * shaking;
                 let rate = contact.rate + MARGIN * speed;
-                let (first, second) = (time * rate, 0.5 * time * time * (pull + shaking * dragged));
-                let third = time * time * time / 6.0 * bend;
-                let inner = (start + first / 3.0).max(start + 2.0 / 3.0 * first + second / 3.0);
                 // Written so that a NaN never stays apart.
-                start + time * speed < 0.0
-                    || start + time * (rate + 0.5 * time * change) < 0.0
-                    || start < 0.0 && inner < 0.0 && start + (first + second + third) < 0.0
+                if start + time * speed < 0.0 || start + time * (rate + 0.5 * time * change) < 0.0 {
+                    return true;
+                }
+                let (first, second) = (time * rate, 0.5 * time * time * (pull + shaking * dragged));
+                let end = start + (first + second + time * time * time * (bend * (1.0 / 6.0)));
+                let inner = [3.0 * start + first, 3.0 * start + 2.0 * first + second];
+                start < 0.0 && inner[0] < 0.0 && inner[1] < 0.0 && end < 0.0
             };
             base.watch.pairs[p] = segment + longest(stays_apart);
         }

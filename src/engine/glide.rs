@@ -28,28 +28,29 @@ impl Model {
         let mut next = first;
         let has_arrived = loop {
             let State { base, step, counters, work, .. } = &mut *state;
-            let is_planned = step.kind == StepKind::Flight;
+            let is_planned = step.kind != StepKind::Unknown;
             let is_free = base.watch.are_all_free(next)
                 || !is_planned && self.dismiss(ground, base, next, counters, &mut work.node_v);
             if !is_free || next - first >= most {
                 break false;
             }
             if ends_after(&base.segment, until) {
-                break is_planned || self.plan_glide(ground, state);
+                if !is_planned {
+                    step.kind = StepKind::Glide;
+                    step.planned_from = base.last_length;
+                    self.count_glide(counters, 1);
+                }
+                break true;
             }
-            let flown = if is_planned {
-                self.take_glide(state)
-            } else {
-                let end = (next + MOST_AT_ONCE).min(base.watch.due()).min(first.saturating_add(most));
-                let flown = fly_over(self, ground, base, step, next..end, until);
-                self.count_glide(counters, flown);
-                flown
-            };
+            let end = (next + MOST_AT_ONCE).min(base.watch.due()).min(first.saturating_add(most));
+            let flown = fly_over(self, ground, base, step, next..end, until);
             if flown == 0 {
                 break false;
             }
+            self.count_glide(counters, flown - u64::from(is_planned));
+            step.kind = StepKind::Unknown;
             next += flown;
-            state.base.segment = ground.segment(next);
+            base.segment = ground.segment(next);
         };
         Glide { flown: next - first, has_arrived }
     }
@@ -57,7 +58,7 @@ impl Model {
     /// The record and the number of the base's segment, where the motion can glide.
     fn gliding(&self, state: &State) -> Option<(&GroundMotion, u64)> {
         let State { base, step, .. } = state;
-        let is_plain = matches!(step.kind, StepKind::Unknown | StepKind::Flight)
+        let is_plain = matches!(step.kind, StepKind::Unknown | StepKind::Glide | StepKind::Flight)
             && base.elapsed == 0.0
             && base.coordinates == Coordinates::Modes
             && base.energy.is_none()
@@ -71,30 +72,11 @@ impl Model {
         counters.flights_dismissed += if self.pairs.is_empty() { 0 } else { flown };
     }
 
-    /// Plans the flight over the base's segment, for which all pairs have been dismissed; whether its end is finite.
-    fn plan_glide(&self, ground: &GroundMotion, state: &mut State) -> bool {
-        let State { base, step, counters, .. } = state;
-        if !fly_one(self, ground, base, step) {
-            return false;
-        }
-        self.count_glide(counters, 1);
-        step.kind = StepKind::Flight;
-        step.length = base.segment.length;
-        step.planned_from = base.last_length;
-        step.reaches_limit = true;
-        step.event = None;
-        step.carried.fill(None);
-        step.ends.clear();
-        step.ends.resize(self.pairs.len(), None);
-        true
-    }
-
-    /// Takes a planned flight for which all pairs have been dismissed.
-    fn take_glide(&self, state: &mut State) -> u64 {
-        let State { base, step, .. } = state;
-        step.kind = StepKind::Unknown;
-        self.move_base(base, step);
-        1
+    /// Leaves the planned glide to be planned by other means.
+    pub(super) fn forget_glide(&self, state: &mut State) {
+        state.step.kind = StepKind::Unknown;
+        state.counters.flight_steps -= 1;
+        state.counters.flights_dismissed -= u64::from(!self.pairs.is_empty());
     }
 
     /// Makes the end of a flight the base.
@@ -142,12 +124,6 @@ fn fly_over(
             flown
         }
     }
-}
-
-/// The flight over the base's segment into the step; whether its end is finite.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn fly_one(model: &Model, ground: &GroundMotion, base: &Base, step: &mut Step) -> bool {
-    fly_segment(model, ground, &base.segment, base, step)
 }
 
 #[inline(always)]

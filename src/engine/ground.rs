@@ -151,19 +151,26 @@ impl GroundMotion {
         own == *segment
     }
 
-    /// s that so many segments last, the first of which has that number, and the integral of |acceleration| over them,
-    /// m/s: never less than exact.
-    pub fn ahead(&self, first: u64, segments: u64) -> (f64, f64) {
-        let at = |number: u64| match self.passed.get(number as usize) {
+    /// From the start of the segment with a number on.
+    pub fn ahead_of(&self, number: u64) -> Ahead<'_> {
+        let (start, before) = self.passed_at(number);
+        Ahead { ground: self, number, start, before }
+    }
+
+    /// Up to the start of a segment: s, and the integral of |acceleration|, m/s.
+    #[inline(always)]
+    fn passed_at(&self, number: u64) -> (f64, f64) {
+        match self.passed.get(number as usize) {
             Some(passed) => *passed,
-            None => {
-                let last = self.lengths.len();
-                (self.passed[last].0 + (number - last as u64) as f64 * self.spacing, self.passed[last].1)
-            }
-        };
-        let ((start, before), (end, after)) = (at(first), at(first + segments));
-        let rounding = 4.0 * f64::EPSILON;
-        (end - start + rounding * end, after - before + rounding * after)
+            None => self.passed_after(number),
+        }
+    }
+
+    #[cold]
+    fn passed_after(&self, number: u64) -> (f64, f64) {
+        let last = self.lengths.len();
+        let (time, shaking) = self.passed[last];
+        (time + (number - last as u64) as f64 * self.spacing, shaking)
     }
 
     #[inline(always)]
@@ -183,6 +190,25 @@ impl GroundMotion {
             slope: 0.0,
             place: Place::After(k),
         }
+    }
+}
+
+/// What is to come from the start of a segment on.
+pub struct Ahead<'a> {
+    ground: &'a GroundMotion,
+    number: u64,
+    /// s and m/s, up to there.
+    start: f64,
+    before: f64,
+}
+
+impl Ahead<'_> {
+    /// s that so many segments last, and the integral of |acceleration| over them, m/s: never less than exact.
+    #[inline(always)]
+    pub fn over(&self, segments: u64) -> (f64, f64) {
+        const ROUNDING: f64 = 4.0 * f64::EPSILON;
+        let (end, after) = self.ground.passed_at(self.number + segments);
+        (end - self.start + ROUNDING * end, after - self.before + ROUNDING * after)
     }
 }
 

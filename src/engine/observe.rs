@@ -64,29 +64,44 @@ impl Model {
                 step.series.evaluate(&work.powers, &mut point.q, &mut point.v);
             }
             StepKind::Onset => step.onset.evaluate(elapsed / step.onset.scale, &mut point.q, &mut point.v),
-            StepKind::Flight | StepKind::Unknown => {
+            StepKind::Flight | StepKind::Glide | StepKind::Unknown => {
                 self.load(base, inputs, &mut work.load, &mut work.slope);
-                if !self.fly_back(step, step.length - elapsed, work, (&mut point.q, &mut point.v)) {
+                if !self.fly_back(state, elapsed, work, (&mut point.q, &mut point.v)) {
                     self.fly(base, elapsed, work, (&mut point.q, &mut point.v));
                 }
             }
         }
     }
 
-    /// Reads a flight that is all but over from its end, `left` seconds on, which is known; whether it is one. Masters
-    /// whose time differs from that of a sample by its rounding ask for it all the time, and few terms are enough.
-    fn fly_back(&self, step: &Step, left: f64, work: &mut Workspace, (q, v): (&mut [f64], &mut [f64])) -> bool {
+    /// Reads a flight that is all but over from its end; whether it is one. Masters whose time differs from that of a
+    /// sample by its rounding ask for it all the time, and few terms are enough.
+    fn fly_back(&self, state: &State, elapsed: f64, work: &mut Workspace, (q, v): (&mut [f64], &mut [f64])) -> bool {
         // Far below what a series reaches, so that what damping takes forwards is not given back as rounding.
         const NEAR: f64 = 1e-6;
+        let State { base, step, .. } = state;
+        let length = match step.kind {
+            StepKind::Flight => step.length,
+            StepKind::Glide => base.segment.length,
+            _ => return false,
+        };
+        let left = length - elapsed;
         let reach = self.structure.fastest * left;
-        if step.kind != StepKind::Flight || !self.structure.is_classical() || !(left > 0.0 && reach <= NEAR) {
+        if !self.structure.is_classical() || !(left > 0.0 && reach <= NEAR) {
             return false;
         }
-        for (load, slope) in work.load.iter_mut().zip(&work.slope) {
-            *load += slope * step.length;
-        }
         let Some(order) = flight_order(reach, EXACT) else { return false };
-        fly_in_one_series(&self.structure, (&step.q, &step.v), (&work.load, &work.slope), (-left, order), (q, v));
+        let end = if step.kind == StepKind::Glide {
+            let (mut end_q, mut end_v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
+            self.fly(base, length, work, (&mut end_q, &mut end_v));
+            (work.q, work.v) = (end_q, end_v);
+            (&work.q, &work.v)
+        } else {
+            (&step.q, &step.v)
+        };
+        for (load, slope) in work.load.iter_mut().zip(&work.slope) {
+            *load += slope * length;
+        }
+        fly_in_one_series(&self.structure, (end.0, end.1), (&work.load, &work.slope), (-left, order), (q, v));
         true
     }
 

@@ -182,8 +182,13 @@ impl Structure {
         let (modes, range) = (self.floors(side), self.range(side));
         let shape = &self.floor_shapes[side as usize][floor * modes..][..modes];
         if modes < LANES {
-            return modal
-                .map(|modal| shape.iter().zip(&modal[range.start..]).fold(0.0, |sum, (shape, q)| sum + shape * q));
+            let mut sums = [0.0; N];
+            for (sum, modal) in sums.iter_mut().zip(modal) {
+                for (shape, q) in shape.iter().zip(&modal[range.start..]) {
+                    *sum += shape * q;
+                }
+            }
+            return sums;
         }
         let (lanes, rest) = products(shape, modal.map(|modal| &modal[range.clone()]));
         std::array::from_fn(|k| lanes[k].iter().sum::<f64>() + rest[k])
