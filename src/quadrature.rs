@@ -21,6 +21,18 @@ pub const TWELVE: &Rule = &[
     (0.981_560_634_246_719_3, 0.047_175_336_386_511_83),
 ];
 
+/// Nodes on -1..=1 and weights of [`TWELVE`], side by side.
+pub const TWELVE_ABREAST: ([f64; 12], [f64; 12]) = {
+    let (mut nodes, mut weights) = ([0.0; 12], [0.0; 12]);
+    let mut i = 0;
+    while i < 12 {
+        let (node, weight) = TWELVE[i / 2];
+        (nodes[i], weights[i]) = (if i % 2 == 0 { -node } else { node }, weight);
+        i += 1;
+    }
+    (nodes, weights)
+};
+
 /// Points and weights for the integral over 0..=length.
 pub fn gauss(rule: &Rule, length: f64) -> impl Iterator<Item = (f64, f64)> {
     let half = 0.5 * length;
@@ -40,7 +52,7 @@ pub fn graded(rule: &Rule, length: f64) -> impl Iterator<Item = (f64, f64)> {
 
 #[cfg(test)]
 mod tests {
-    use super::{EIGHT, TWELVE, gauss, graded};
+    use super::{EIGHT, TWELVE, TWELVE_ABREAST, gauss, graded};
 
     #[test]
     fn quarter_powers_are_integrated_from_a_start_at_0() {
@@ -49,6 +61,12 @@ mod tests {
             let exact = f64::powf(0.3, power + 1.0) / (power + 1.0);
             assert!((sum - exact).abs() <= 4e-15 * exact, "t^{power}: {sum} instead of {exact}");
         }
+    }
+
+    #[test]
+    fn points_abreast_are_those_of_the_rule() {
+        let (nodes, weights) = TWELVE_ABREAST;
+        assert!(gauss(TWELVE, 2.0).eq(nodes.into_iter().map(|node| 1.0 + node).zip(weights)));
     }
 
     #[test]

@@ -161,9 +161,8 @@ impl ClosingSpeeds {
             of_modes.map(|((row, c), participation)| (row * c * participation).abs()).sum()
         };
         let dragged = pairs.iter().map(dragged).collect();
-        let mut closing = ClosingSpeeds { growth: Vec::new(), omega, quickness, bend, dragged, coupled };
-        closing.growth = pairs.iter().map(|pair| closing.sums(&pair.row, &growth)).collect();
-        closing
+        let growth = pairs.iter().map(|pair| Sums::of(&pair.row, &growth, &quickness, &bend)).collect();
+        ClosingSpeeds { growth, omega, quickness, bend, dragged, coupled }
     }
 }
 
@@ -186,19 +185,19 @@ impl Model {
             if base.watch.is_free(p, segment) {
                 continue;
             }
+            let Seen { bounds: sums, pull, moved, rate } = look(self, base, &pair.row, amplitude);
             let contact = &mut base.contacts[p];
             if !base.watch.is_known(p) {
                 counters.pairs_evaluated += 1;
-                (contact.penetration, contact.rate) = pair.penetration(&base.q, &base.v);
+                (contact.penetration, contact.rate) = (moved - pair.gap, rate);
                 base.watch.set_known(p);
             }
             if contact.carried {
                 continue;
             }
-            let sums = self.closing.sums(&pair.row, amplitude);
             let (growth, dragged) = (&self.closing.growth[p], self.closing.dragged[p]);
             let start = contact.flight_start() + MARGIN * (pair.gap.abs() + size);
-            let pull = self.pull(&pair.row, (&base.q, &base.v)) + MARGIN * sums.change;
+            let pull = pull + MARGIN * sums.change;
             let stays_apart = |segments: u64| {
                 let (time, shaking) = ahead.over(segments);
                 let time = (1.0 + MARGIN) * (time - base.elapsed);
@@ -219,19 +218,6 @@ impl Model {
         }
         base.watch.due = base.watch.pairs.iter().copied().min().unwrap_or(u64::MAX);
         base.watch.are_all_free(segment)
-    }
-
-    /// m/s2, a pair's acceleration by springs and dashpots, where damping couples no modes.
-    fn pull(&self, row: &[f64], (q, v): (&[f64], &[f64])) -> f64 {
-        let [(row, _), (q, _), (v, _), (damping, _), (omega2, _)] =
-            [row, q, v, &self.structure.damping, &self.structure.omega2].map(<[f64]>::as_chunks::<LANES>);
-        let mut pull = [0.0; LANES];
-        for ((((row, q), v), damping), omega2) in row.iter().zip(q).zip(v).zip(damping).zip(omega2) {
-            for i in 0..LANES {
-                pull[i] -= row[i] * (damping[i] * v[i] + omega2[i] * q[i]);
-            }
-        }
-        pull.iter().sum()
     }
 
     /// Bounds on sqrt(v^2 + w^2 q^2) of all modes at the base. Returns a bound on what the displacements add to any
@@ -277,20 +263,56 @@ fn longest(stays_apart: impl Fn(u64) -> bool) -> u64 {
     if between > free && between < MOST && stays_apart(between) { between } else { free }
 }
 
-impl ClosingSpeeds {
-    fn sums(&self, row: &[f64], amplitude: &[f64]) -> Sums {
-        let (mut speed, mut change, mut bend) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        let [(row, _), (amplitude, _), (quicknesses, _), (bends, _)] =
-            [row, amplitude, &self.quickness, &self.bend].map(<[f64]>::as_chunks::<LANES>);
-        for (((row, amplitude), quickness), own_bend) in row.iter().zip(amplitude).zip(quicknesses).zip(bends) {
-            for i in 0..LANES {
-                let part = row[i].abs() * amplitude[i];
-                speed[i] += part;
-                change[i] += quickness[i] * part;
-                bend[i] += own_bend[i] * part;
-            }
+/// The sums over modes of one pair: of bounds, and of what its motion is at the base. Wide instructions give the same
+/// bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn look<'a>(model: &'a Model, base: &'a Base, row: &'a [f64], amplitude: &'a [f64]) -> Seen {
+    let ClosingSpeeds { quickness, bend: bends, .. } = &model.closing;
+    let Structure { damping, omega2, .. } = &model.structure;
+    let blocks = |all: &'a [f64]| all.as_chunks::<LANES>().0;
+    let row = blocks(row);
+    let (amplitude, q, v) =
+        (&blocks(amplitude)[..row.len()], &blocks(&base.q)[..row.len()], &blocks(&base.v)[..row.len()]);
+    let (quickness, bends) = (&blocks(quickness)[..row.len()], &blocks(bends)[..row.len()]);
+    let (damping, omega2) = (&blocks(damping)[..row.len()], &blocks(omega2)[..row.len()]);
+    let (mut speed, mut change, mut bend) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    let (mut pull, mut moved, mut rate) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    for (c, row) in row.iter().enumerate() {
+        for i in 0..LANES {
+            let part = row[i].abs() * amplitude[c][i];
+            speed[i] += part;
+            change[i] += quickness[c][i] * part;
+            bend[i] += bends[c][i] * part;
+            pull[i] -= row[i] * (damping[c][i] * v[c][i] + omega2[c][i] * q[c][i]);
+            moved[i] += row[i] * q[c][i];
+            rate[i] += row[i] * v[c][i];
         }
-        Sums { speed: speed.iter().sum(), change: change.iter().sum(), bend: bend.iter().sum() }
+    }
+    let sum = |lanes: [f64; LANES]| lanes.iter().sum();
+    let bounds = Sums { speed: sum(speed), change: sum(change), bend: sum(bend) };
+    Seen { bounds, pull: sum(pull), moved: sum(moved), rate: sum(rate) }
+}
+
+/// What a look at a pair tells.
+struct Seen {
+    bounds: Sums,
+    /// m/s2, acceleration by springs and dashpots, where damping couples no modes.
+    pull: f64,
+    /// m and m/s, how far and how fast the left floor has moved towards the right one.
+    moved: f64,
+    rate: f64,
+}
+
+impl Sums {
+    fn of(row: &[f64], amplitude: &[f64], quickness: &[f64], bends: &[f64]) -> Sums {
+        let (mut speed, mut change, mut bend) = (0.0, 0.0, 0.0);
+        for (((row, amplitude), quickness), own_bend) in row.iter().zip(amplitude).zip(quickness).zip(bends) {
+            let part = row.abs() * amplitude;
+            speed += part;
+            change += quickness * part;
+            bend += own_bend * part;
+        }
+        Sums { speed, change, bend }
     }
 }
 
