@@ -86,7 +86,7 @@ impl Model {
         };
         let left = length - elapsed;
         let reach = self.structure.fastest * left;
-        if !self.structure.is_classical() || !(left > 0.0 && reach <= NEAR) {
+        if !(self.structure.is_classical() && left > 0.0 && reach <= NEAR) {
             return false;
         }
         let Some(order) = flight_order(reach, EXACT) else { return false };
@@ -94,14 +94,14 @@ impl Model {
             let (mut end_q, mut end_v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
             self.fly(base, length, work, (&mut end_q, &mut end_v));
             (work.q, work.v) = (end_q, end_v);
-            (&work.q, &work.v)
+            (&work.q[..], &work.v[..])
         } else {
-            (&step.q, &step.v)
+            (&step.q[..], &step.v[..])
         };
         for (load, slope) in work.load.iter_mut().zip(&work.slope) {
             *load += slope * length;
         }
-        fly_in_one_series(&self.structure, (end.0, end.1), (&work.load, &work.slope), (-left, order), (q, v));
+        fly_in_one_series(&self.structure, end, (&work.load, &work.slope), (-left, order), (q, v));
         true
     }
 
