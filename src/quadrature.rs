@@ -53,7 +53,7 @@ pub fn graded(rule: &Rule, length: f64) -> impl Iterator<Item = (f64, f64)> {
 
 #[cfg(test)]
 mod tests {
-    use super::{EIGHT, TWELVE, gauss, graded};
+    use super::{EIGHT, TWELVE, TWELVE_POINTS, gauss, graded};
 
     #[test]
     fn quarter_powers_are_integrated_from_a_start_at_0() {
@@ -62,6 +62,11 @@ mod tests {
             let exact = f64::powf(0.3, power + 1.0) / (power + 1.0);
             assert!((sum - exact).abs() <= 4e-15 * exact, "t^{power}: {sum} instead of {exact}");
         }
+    }
+
+    #[test]
+    fn points_abreast_are_those_of_the_rule() {
+        assert!(gauss(TWELVE, 1.0).eq(TWELVE_POINTS));
     }
 
     #[test]

@@ -138,6 +138,47 @@ fn a_floor_that_another_drags_along_by_damping_enters_on_time() {
 }
 
 #[test]
+fn a_floor_that_the_moving_ground_drags_along_enters_on_time() {
+    // Two free bodies at rest, one with a dashpot to the ground, which is kicked away from under both of them: it keeps
+    // up with the ground, the other one does not.
+    let mut samples = [0.0; 200];
+    samples[1] = 64.0;
+    for k in 1..60 {
+        let (c, gap) = (0.3 * f64::from(k), 0.002 * f64::from(k));
+        let text = format!(
+            "name = \"K\"\n[left]\nmass = [1.0]\nstiffness = [1.0]\ndamping = {{ ratio = {:?} }}
+            [right]\nmass = [1.0]\nstiffness = [1.0e-20]\ndamping = {{ ratio = 0.0 }}
+            [[contact]]\nleft_floor = 1\nright_floor = 1\ngap = {gap:?}\nlaw = \"linear\"\nstiffness = 1.0e4\n",
+            0.5 * c
+        );
+        let mut scene = scene(&text);
+        scene.ground.record = Some("r.csv".into());
+        let (start, counters) = entry(&scene, &record(STEP, &samples), 3.0);
+        scene.floor_forces = true;
+        let (expected, looked) = entry(&scene, &record(STEP, &samples), 3.0);
+        assert_close(start, expected, 1e-12, "entry");
+        assert!(counters.flights_dismissed > 0 || k < 4, "{k}: {counters:?}");
+        assert_eq!(looked.flights_dismissed, 0);
+    }
+}
+
+#[test]
+fn a_body_that_turns_round_just_beyond_the_gap_is_not_dismissed() {
+    // It is slow and near its turn, on a spring that pulls it back at once: apart now and some samples later.
+    for k in 1..60 {
+        let (omega, speed) = (1.0 + 0.2 * f64::from(k), 0.01 * f64::from(k));
+        let reach = (1.0 + speed * speed / (omega * omega)).sqrt();
+        let impacts = |gap: f64| {
+            let mut scene = oscillator([omega * omega, 1.0], speed, gap);
+            scene.left.initial_displacement = vec![1.0];
+            Run::new(&scene, Some(&record(STEP, &[0.0; 200]))).to(2.0).point.impacts
+        };
+        assert!(impacts(reach * (1.0 - 1e-9)) >= 1, "{k}: missed");
+        assert_eq!(impacts(reach * (1.0 + 1e-9)), 0, "{k}");
+    }
+}
+
+#[test]
 fn a_graze_is_not_dismissed() {
     // 0.5 m/s and 7 rad/s: it reaches 1/14 m, at many places of the segment.
     for start in 1..40 {

@@ -13,11 +13,15 @@ const STEP: f64 = 1.0 / 64.0;
 
 /// 5 and 17 storeys, softer towards the top: some storeys reach their peaks early, others late.
 fn towers(contacts: &str) -> (Scene, Record) {
+    buildings([5, 17], contacts)
+}
+
+fn buildings([left, right]: [u32; 2], contacts: &str) -> (Scene, Record) {
     let building = |storeys: u32, stiffness: f64| {
         let stiffness: Vec<f64> = (0..storeys).map(|i| stiffness * (1.0 - 0.04 * f64::from(i))).collect();
         format!("mass = {:?}\nstiffness = {stiffness:?}\ndamping = {{ ratio = 0.03 }}", vec![3e5; storeys as usize])
     };
-    let text = format!("name = \"D\"\n[left]\n{}\n[right]\n{}\n{contacts}", building(5, 3e8), building(17, 7e8));
+    let text = format!("name = \"D\"\n[left]\n{}\n[right]\n{}\n{contacts}", building(left, 3e8), building(right, 7e8));
     let mut scene = scene(&text);
     scene.ground.record = Some("r.csv".into());
     // Two bursts, the second a little stronger.
@@ -46,6 +50,32 @@ fn rounding(run: &Run) -> f64 {
 fn peaks(run: &Run) -> Vec<f64> {
     let of = |side: Side| (0..run.model.floors(side)).map(move |floor| run.model.peak_drift(&run.state, side, floor));
     of(Side::Left).chain(of(Side::Right)).collect()
+}
+
+#[test]
+fn peaks_of_few_storeys_are_the_largest_drifts_at_all_samples() {
+    for storeys in [[1, 1], [2, 3], [4, 4], [1, 5], [7, 2]] {
+        let (scene, record) = buildings(storeys, "");
+        let mut run = Run::new(&scene, Some(&record));
+        let mut largest = vec![0.0_f64; (storeys[0] + storeys[1]) as usize];
+        let mut rounding_error = 0.0_f64;
+        for k in 1..=890 {
+            run.to(f64::from(k) * STEP);
+            rounding_error = rounding_error.max(rounding(&run));
+            for (largest, drift) in largest.iter_mut().zip(drifts(&run)) {
+                *largest = largest.max(drift.abs());
+            }
+        }
+        // At once, and beyond the last of the samples that have been compared.
+        for (step, stop) in [(890.0, 890.0), (89.0, 890.0), (0.7, 890.3)] {
+            let mut run = Run::new(&scene, Some(&record));
+            run.in_steps(step * STEP, stop * STEP);
+            for (storey, (peak, largest)) in peaks(&run).into_iter().zip(&largest).enumerate() {
+                let error = (peak - largest).abs();
+                assert!(error <= rounding_error, "{storeys:?}, {storey}: {peak:e} instead of {largest:e}");
+            }
+        }
+    }
 }
 
 #[test]

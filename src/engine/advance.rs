@@ -3,7 +3,6 @@
 use super::ground::Segment;
 use super::model::Model;
 use super::state::*;
-use super::work_limit::Progress;
 use super::{EngineError, Episode, roots};
 use crate::contact::EpisodeForce;
 use crate::polynomial::{Coefficients, Powers};
@@ -30,12 +29,24 @@ impl Model {
             state.step.kind = StepKind::Unknown;
         }
         self.check_segments(state, until)?;
-        let mut progress = Progress::begin(state);
+        let glide = self.glide(state, until, self.most_flights as u64);
+        if !glide.has_arrived {
+            self.go_on(state, until, glide.flown, on_episode)?;
+        }
+        state.time = until;
+        Ok(())
+    }
+
+    /// Advances where gliding has ended, after so many segments.
+    fn go_on(
+        &self,
+        state: &mut State,
+        until: f64,
+        flown: u64,
+        on_episode: &mut dyn FnMut(&Episode),
+    ) -> Result<(), EngineError> {
+        let mut progress = self.progress(state, flown);
         loop {
-            let most = self.flights_left(&state.counters, &progress);
-            if self.glide(state, until, most) > 0 {
-                progress.note(true);
-            }
             let segment = &state.base.segment;
             let limit = self.limit(segment, until);
             if limit > state.base.elapsed || !self.is_driven() {
@@ -57,8 +68,14 @@ impl Model {
             } else if self.is_driven() && state.base.elapsed >= limit {
                 break;
             }
+            let glide = self.glide(state, until, progress.flights_left(&state.counters));
+            if glide.flown > 0 {
+                progress.note(true);
+            }
+            if glide.has_arrived {
+                break;
+            }
         }
-        state.time = until;
         Ok(())
     }
 
@@ -69,8 +86,10 @@ impl Model {
 
     /// Works out the next step, unless that has been done already.
     pub(super) fn plan(&self, state: &mut State, limit: f64) {
-        if state.step.kind != StepKind::Unknown {
-            return;
+        match state.step.kind {
+            StepKind::Unknown => {}
+            StepKind::Glide => self.forget_glide(state),
+            _ => return,
         }
         // A step in contact notes its length in the base: all else that planning changes there it would find again.
         state.step.planned_from = state.base.last_length;
@@ -147,7 +166,7 @@ impl Model {
     /// Penetrations and rates at the end of a step.
     fn move_contacts(&self, base: &mut Base, step: &Step) {
         if !step.ends.is_empty() {
-            base.watch.move_on();
+            base.watch.move_on(1);
             for (p, (contact, end)) in base.contacts.iter_mut().zip(&step.ends).enumerate() {
                 contact.at_surface = false;
                 contact.let_go = false;
@@ -163,7 +182,7 @@ impl Model {
         if step.length == 0.0 {
             return;
         }
-        base.watch.move_on();
+        base.watch.move_on(1);
         for (p, contact) in base.contacts.iter_mut().enumerate() {
             base.watch.set_known(p);
             contact.at_surface = false;

@@ -11,6 +11,16 @@
 //! ```
 //!
 //! The first never falls with t and the second is convex: what lies below 0 at the end of a stretch did so all along.
+//! Where damping couples no modes, the pair's own acceleration by springs and dashpots, a = -row (c v + w^2 q), changes by
+//! no more than |a'| <= sum of |row| (k (e + A) + c |participation| |ground acceleration|) with
+//! k^2 = (w^2 + c^2)^2 + c^2 w^2, so that with S, the integral of |ground acceleration|,
+//!
+//! ```text
+//! penetration <= penetration now + t rate now + t^2/2 (a now + S sum of |row| c |participation|)
+//!                + t^3/6 sum over modes of |row| k (e + A)
+//! ```
+//!
+//! a cubic, which lies below its Bernstein coefficients.
 
 use super::ground::GroundMotion;
 use super::model::{Model, Pair};
@@ -21,6 +31,9 @@ use std::ops::Range;
 
 /// Most segments that one look is good for.
 const MOST: u64 = 64;
+
+/// As many as are tried first.
+const USUAL: u64 = 8;
 
 /// Margin for rounding, relative to the numbers that a penetration or a closing speed is added up from.
 const MARGIN: f64 = 1e-10;
@@ -35,17 +48,22 @@ pub(super) struct ClosingSpeeds {
     omega: Vec<f64>,
     /// w + c, 1/s, of each mode.
     quickness: Vec<f64>,
+    /// k, 1/s2, of each mode; infinite where damping couples it to others.
+    bend: Vec<f64>,
     /// The sums over modes of each pair for the e of a shaking (integral of |ground acceleration|) of 1 m/s.
     growth: Vec<Sums>,
+    /// What that shaking may do to each pair's acceleration by dashpots, m/s2.
+    dragged: Vec<f64>,
     /// Modes of a building in which damping couples them.
     coupled: Vec<Range<usize>>,
 }
 
-/// Sums over modes of |row| e, m/s, and of |row| (w + c) e, m/s2.
+/// Sums over modes of |row| e, m/s, of |row| (w + c) e, m/s2, and of |row| k e, m/s3.
 #[derive(Clone, Copy, Debug)]
 struct Sums {
     speed: f64,
     change: f64,
+    bend: f64,
 }
 
 /// What is known of pairs that are apart.
@@ -78,14 +96,19 @@ impl Watch {
         self.pairs[p] > segment
     }
 
+    /// The first segment for which any pair has not been.
+    pub fn due(&self) -> u64 {
+        self.due
+    }
+
     /// Whether all pairs have been.
     pub fn are_all_free(&self, segment: u64) -> bool {
         self.due > segment
     }
 
-    /// The base has moved: no contact is known any more.
-    pub fn move_on(&mut self) {
-        self.moves += 1;
+    /// The base has moved, so often: no contact is known any more.
+    pub fn move_on(&mut self, moves: u64) {
+        self.moves += moves;
     }
 
     /// Penetration and rate of a contact are those at the base.
@@ -128,8 +151,18 @@ impl ClosingSpeeds {
             // |C| |v| + w |w q|, with the largest row sum of C.
             quickness[range.clone()].fill(2.0 * structure.fastest);
         }
-        let sums = |pair: &Pair| Sums::of(&pair.row, &growth, &quickness);
-        ClosingSpeeds { growth: pairs.iter().map(sums).collect(), omega, quickness, coupled }
+        let of_mode = |(w, c): (&f64, &f64)| ((w * w + c * c) * (w * w + c * c) + c * c * w * w).sqrt();
+        let mut bend: Vec<f64> = omega.iter().zip(&structure.damping).map(of_mode).collect();
+        for range in &coupled {
+            bend[range.clone()].fill(f64::INFINITY);
+        }
+        let dragged = |pair: &Pair| {
+            let of_modes = pair.row.iter().zip(&structure.damping).zip(&structure.participation);
+            of_modes.map(|((row, c), participation)| (row * c * participation).abs()).sum()
+        };
+        let dragged = pairs.iter().map(dragged).collect();
+        let growth = pairs.iter().map(|pair| Sums::of(&pair.row, &growth, &quickness, &bend)).collect();
+        ClosingSpeeds { growth, omega, quickness, bend, dragged, coupled }
     }
 }
 
@@ -147,30 +180,39 @@ impl Model {
             return true;
         }
         let size = self.amplitudes(base, amplitude);
+        let ahead = ground.ahead_of(segment);
         for (p, pair) in self.pairs.iter().enumerate() {
             if base.watch.is_free(p, segment) {
                 continue;
             }
+            let Seen { bounds: sums, pull, moved, rate } = look(self, base, &pair.row, amplitude);
             let contact = &mut base.contacts[p];
             if !base.watch.is_known(p) {
                 counters.pairs_evaluated += 1;
-                (contact.penetration, contact.rate) = pair.penetration(&base.q, &base.v);
+                (contact.penetration, contact.rate) = (moved - pair.gap, rate);
                 base.watch.set_known(p);
             }
             if contact.carried {
                 continue;
             }
-            let sums = Sums::of(&pair.row, amplitude, &self.closing.quickness);
-            let growth = &self.closing.growth[p];
+            let (growth, dragged) = (&self.closing.growth[p], self.closing.dragged[p]);
             let start = contact.flight_start() + MARGIN * (pair.gap.abs() + size);
+            let pull = pull + MARGIN * sums.change;
             let stays_apart = |segments: u64| {
-                let (time, shaking) = ground.ahead(segment, segments);
+                let (time, shaking) = ahead.over(segments);
                 let time = (1.0 + MARGIN) * (time - base.elapsed);
                 let speed = sums.speed + growth.speed * shaking;
                 let change = sums.change + growth.change * shaking;
-                let by_rate = contact.rate + MARGIN * speed + 0.5 * time * change;
+                let bend = sums.bend + growth.bend * shaking;
+                let rate = contact.rate + MARGIN * speed;
                 // Written so that a NaN never stays apart.
-                start + time * speed < 0.0 || start + time * by_rate < 0.0
+                if start + time * speed < 0.0 || start + time * (rate + 0.5 * time * change) < 0.0 {
+                    return true;
+                }
+                let (first, second) = (time * rate, 0.5 * time * time * (pull + shaking * dragged));
+                let end = start + (first + second + time * time * time * (bend * (1.0 / 6.0)));
+                let inner = [3.0 * start + first, 3.0 * start + 2.0 * first + second];
+                start < 0.0 && inner[0] < 0.0 && inner[1] < 0.0 && end < 0.0
             };
             base.watch.pairs[p] = segment + longest(stays_apart);
         }
@@ -206,30 +248,71 @@ fn share_amplitude(modes: &mut [f64]) {
 
 /// The largest of 0, 1, 2, 3, 4, 6, 8, 12 ... segments, up to MOST, for which a pair stays apart.
 fn longest(stays_apart: impl Fn(u64) -> bool) -> u64 {
-    let mut free = 0;
-    while free < MOST {
-        let next = (2 * free).max(1);
-        if !stays_apart(next) {
-            let between = free + free / 2;
-            return if between > free && stays_apart(between) { between } else { free };
+    let mut free = USUAL;
+    if stays_apart(free) {
+        while free < MOST && stays_apart(2 * free) {
+            free *= 2;
         }
-        free = next;
+    } else {
+        free /= 2;
+        while free > 0 && !stays_apart(free) {
+            free /= 2;
+        }
     }
-    free
+    let between = free + free / 2;
+    if between > free && between < MOST && stays_apart(between) { between } else { free }
+}
+
+/// The sums over modes of one pair: of bounds, and of what its motion is at the base. Wide instructions give the same
+/// bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn look<'a>(model: &'a Model, base: &'a Base, row: &'a [f64], amplitude: &'a [f64]) -> Seen {
+    let ClosingSpeeds { quickness, bend: bends, .. } = &model.closing;
+    let Structure { damping, omega2, .. } = &model.structure;
+    let blocks = |all: &'a [f64]| all.as_chunks::<LANES>().0;
+    let row = blocks(row);
+    let (amplitude, q, v) =
+        (&blocks(amplitude)[..row.len()], &blocks(&base.q)[..row.len()], &blocks(&base.v)[..row.len()]);
+    let (quickness, bends) = (&blocks(quickness)[..row.len()], &blocks(bends)[..row.len()]);
+    let (damping, omega2) = (&blocks(damping)[..row.len()], &blocks(omega2)[..row.len()]);
+    let (mut speed, mut change, mut bend) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    let (mut pull, mut moved, mut rate) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    for (c, row) in row.iter().enumerate() {
+        for i in 0..LANES {
+            let part = row[i].abs() * amplitude[c][i];
+            speed[i] += part;
+            change[i] += quickness[c][i] * part;
+            bend[i] += bends[c][i] * part;
+            pull[i] -= row[i] * (damping[c][i] * v[c][i] + omega2[c][i] * q[c][i]);
+            moved[i] += row[i] * q[c][i];
+            rate[i] += row[i] * v[c][i];
+        }
+    }
+    let sum = |lanes: [f64; LANES]| lanes.iter().sum();
+    let bounds = Sums { speed: sum(speed), change: sum(change), bend: sum(bend) };
+    Seen { bounds, pull: sum(pull), moved: sum(moved), rate: sum(rate) }
+}
+
+/// What a look at a pair tells.
+struct Seen {
+    bounds: Sums,
+    /// m/s2, acceleration by springs and dashpots, where damping couples no modes.
+    pull: f64,
+    /// m and m/s, how far and how fast the left floor has moved towards the right one.
+    moved: f64,
+    rate: f64,
 }
 
 impl Sums {
-    fn of(row: &[f64], amplitude: &[f64], quickness: &[f64]) -> Sums {
-        let (mut speed, mut change) = ([0.0; LANES], [0.0; LANES]);
-        let [(row, _), (amplitude, _), (quickness, _)] = [row, amplitude, quickness].map(<[f64]>::as_chunks::<LANES>);
-        for ((row, amplitude), quickness) in row.iter().zip(amplitude).zip(quickness) {
-            for i in 0..LANES {
-                let part = row[i].abs() * amplitude[i];
-                speed[i] += part;
-                change[i] += quickness[i] * part;
-            }
+    fn of(row: &[f64], amplitude: &[f64], quickness: &[f64], bends: &[f64]) -> Sums {
+        let (mut speed, mut change, mut bend) = (0.0, 0.0, 0.0);
+        for (((row, amplitude), quickness), own_bend) in row.iter().zip(amplitude).zip(quickness).zip(bends) {
+            let part = row.abs() * amplitude;
+            speed += part;
+            change += quickness * part;
+            bend += own_bend * part;
         }
-        Sums { speed: speed.iter().sum(), change: change.iter().sum() }
+        Sums { speed, change, bend }
     }
 }
 

@@ -164,7 +164,7 @@ impl BuildingShapes {
 
 /// Adds what modes of these displacements do to a block of storeys.
 #[inline(always)]
-fn add_modes(drift: &mut [f64; LANES], shapes: &[[f64; LANES]], q: &[f64]) {
+fn add_modes<'q>(drift: &mut [f64; LANES], shapes: &[[f64; LANES]], q: impl IntoIterator<Item = &'q f64>) {
     for (shape, q) in shapes.iter().zip(q) {
         for i in 0..LANES {
             drift[i] += shape[i] * q;
@@ -177,7 +177,9 @@ fn add_modes(drift: &mut [f64; LANES], shapes: &[[f64; LANES]], q: &[f64]) {
 fn raise_to(peak: &mut [f64; LANES], drift: &[f64; LANES]) -> bool {
     let before = *peak;
     for i in 0..LANES {
-        peak[i] = peak[i].max(drift[i].abs());
+        // Not `max`, which has to look for a NaN among the peaks.
+        let size = drift[i].abs();
+        peak[i] = if size > peak[i] { size } else { peak[i] };
     }
     *peak != before
 }
@@ -192,6 +194,31 @@ fn blocks_of_storeys(shape: &DMatrix<f64>) -> Vec<[f64; LANES]> {
     blocks
         .flat_map(|first| (0..shape.ncols()).map(move |mode| std::array::from_fn(|i| drift(first + i, mode))))
         .collect()
+}
+
+impl DriftShapes {
+    /// Whether no building has more than [`FIRST`] modes, and so a block of storeys.
+    pub fn are_few(&self) -> bool {
+        self.buildings.iter().all(|building| building.weight.len() <= FIRST)
+    }
+
+    /// Raises the peaks of both buildings to the drifts of modal displacements, where these are few.
+    #[inline(always)]
+    pub fn raise_few(&self, q: &[f64], peaks: &mut [[f64; LANES]; 2]) {
+        let mut q = q.iter();
+        for (building, peak) in self.buildings.iter().zip(peaks) {
+            let mut drift = [0.0; LANES];
+            add_modes(&mut drift, &building.shapes, &mut q);
+            raise_to(peak, &drift);
+        }
+    }
+}
+
+impl PeakDrifts {
+    /// The peaks of both buildings where they have a block of storeys each.
+    pub fn few(&mut self) -> Option<&mut [[f64; LANES]; 2]> {
+        self.peaks.as_chunks_mut::<LANES>().0.try_into().ok()
+    }
 }
 
 impl Model {

@@ -84,7 +84,9 @@ impl Model {
                 onset.evaluate(length / onset.scale, &mut work.q, &mut work.v);
             }
             StepKind::Window => self.integrate_window(base, step, length, work, &mut done),
-            StepKind::Flight | StepKind::Unknown => self.integrate_flight(base, inputs, work, length, &mut done),
+            StepKind::Flight | StepKind::Glide | StepKind::Unknown => {
+                self.integrate_flight(base, inputs, work, length, &mut done)
+            }
         }
         // Of the forces as they are at the base; what they change by has its part from the quadratures.
         work.load.fill(0.0);

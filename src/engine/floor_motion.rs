@@ -1,40 +1,72 @@
-//! The floors of an observed solution. A floor is worked out when it is first asked for.
+//! The floors of an observed solution. A floor is worked out when it is first asked for, and so are accelerations.
 
 use super::model::Model;
 use super::state::Coordinates;
 use super::{Point, Side};
-use std::cell::{Cell, OnceCell};
+use std::cell::{Cell, OnceCell, RefCell};
 
-/// One floor at one time.
-#[derive(Clone, Debug)]
-struct FloorMotion {
-    /// m, relative to the ground.
-    displacement: f64,
-    /// m/s, relative to the ground.
-    velocity: f64,
-    /// m/s2, absolute.
-    acceleration: f64,
+/// Some numbers of one floor, and the observation that they are of.
+#[derive(Clone, Copy, Debug, Default)]
+struct Known<T> {
+    observation: u64,
+    numbers: T,
 }
 
 /// What is known of the floors at one time.
 #[derive(Clone, Debug, Default)]
 pub(super) struct FloorMotions {
-    /// One per lane of a vector of all floors.
-    known: Vec<OnceCell<FloorMotion>>,
+    /// Number of this observation, from 1 on.
+    observation: u64,
+    /// Displacement, m, and velocity, m/s, relative to the ground; one per lane of a vector of all floors.
+    motion: Vec<Cell<Known<[f64; 2]>>>,
+    /// m/s2, absolute.
+    acceleration: Vec<Cell<Known<f64>>>,
     rows_read: Cell<u64>,
+    /// Of the floor and contact forces, per unit of mass and in the coordinates of the point; of use where `is_loaded`.
+    load: Vec<f64>,
+    is_loaded: bool,
+    accelerations: OnceCell<Accelerations>,
+    /// Memory for them.
+    room: RefCell<Accelerations>,
+}
+
+/// Accelerations in the coordinates of a point, m/s2.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Accelerations {
+    /// Relative to a ground at rest.
+    pub absolute: Vec<f64>,
+    /// The part that comes from the buildings' own stiffness and damping.
+    pub resisted: Vec<f64>,
 }
 
 impl FloorMotions {
     /// Nothing is known of any floor.
     pub fn forget(&mut self, lanes: usize) {
-        self.known.clear();
-        self.known.resize(lanes, OnceCell::new());
+        self.observation += 1;
+        self.is_loaded = false;
+        if let Some(accelerations) = self.accelerations.take() {
+            *self.room.get_mut() = accelerations;
+        }
+        if self.motion.len() != lanes {
+            self.motion = vec![Cell::default(); lanes];
+            self.acceleration = vec![Cell::default(); lanes];
+            self.load = vec![0.0; lanes];
+            *self.room.get_mut() = Accelerations { absolute: vec![0.0; lanes], resisted: vec![0.0; lanes] };
+        }
+    }
+
+    /// The load to add forces to.
+    pub fn start_load(&mut self) -> &mut [f64] {
+        self.is_loaded = true;
+        self.load.fill(0.0);
+        &mut self.load
     }
 }
 
 impl Point {
-    /// Rows of the modal matrix that have been summed up for floors, since this point was made: one for each floor and
-    /// observation, if any of its motion is asked for; none where the solution is that of the floors.
+    /// Rows of the modal matrix that have been summed up for floors, since this point was made: for each floor and
+    /// observation one if its displacement or velocity is asked for, one if its acceleration is; none where the solution
+    /// is that of the floors.
     pub fn rows_read(&self) -> u64 {
         self.floors.rows_read.get()
     }
@@ -44,19 +76,27 @@ impl Model {
     /// m, relative to the ground; floors counted from 0.
     #[inline]
     pub fn displacement(&self, point: &Point, side: Side, floor: usize) -> f64 {
-        self.floor_motion(point, side, floor).displacement
+        self.floor_motion(point, side, floor)[0]
     }
 
     /// m/s, relative to the ground.
     #[inline]
     pub fn velocity(&self, point: &Point, side: Side, floor: usize) -> f64 {
-        self.floor_motion(point, side, floor).velocity
+        self.floor_motion(point, side, floor)[1]
     }
 
     /// m/s2, absolute.
     #[inline]
     pub fn acceleration(&self, point: &Point, side: Side, floor: usize) -> f64 {
-        self.floor_motion(point, side, floor).acceleration
+        let floors = &point.floors;
+        let known = &floors.acceleration[self.structure.floors.lane(side as usize, floor)];
+        let Known { observation, numbers } = known.get();
+        if observation == floors.observation {
+            return numbers;
+        }
+        let [numbers] = self.at_floor(point, side, floor, [&self.accelerations(point).absolute]);
+        known.set(Known { observation: floors.observation, numbers });
+        numbers
     }
 
     /// N, force of the building on the ground.
@@ -64,25 +104,39 @@ impl Model {
     pub fn base_shear(&self, point: &Point, side: Side) -> f64 {
         match point.coordinates {
             Coordinates::Modes => self.structure.base_shear(side, &point.q, &point.v),
-            Coordinates::Floors => self.structure.floors.base_shear(side as usize, &point.resisted),
+            Coordinates::Floors => self.structure.floors.base_shear(side as usize, &self.accelerations(point).resisted),
         }
     }
 
+    /// Displacement and velocity at once: it takes one pass over the floor's row.
     #[inline]
-    fn floor_motion<'p>(&self, point: &'p Point, side: Side, floor: usize) -> &'p FloorMotion {
-        let known = &point.floors.known[self.structure.floors.lane(side as usize, floor)];
-        match known.get() {
-            Some(motion) => motion,
-            None => known.get_or_init(|| self.work_out_floor(point, side, floor)),
+    fn floor_motion(&self, point: &Point, side: Side, floor: usize) -> [f64; 2] {
+        let floors = &point.floors;
+        let known = &floors.motion[self.structure.floors.lane(side as usize, floor)];
+        let Known { observation, numbers } = known.get();
+        if observation == floors.observation {
+            return numbers;
         }
+        let numbers = self.at_floor(point, side, floor, [&point.q, &point.v]);
+        known.set(Known { observation: floors.observation, numbers });
+        numbers
     }
 
-    /// All of a floor's motion at once: it takes one pass over its row.
-    #[inline(never)]
-    fn work_out_floor(&self, point: &Point, side: Side, floor: usize) -> FloorMotion {
-        let motion = [&point.q[..], &point.v, &point.acceleration];
-        let [displacement, velocity, acceleration] = self.at_floor(point, side, floor, motion);
-        FloorMotion { displacement, velocity, acceleration }
+    /// The accelerations of an observed solution.
+    pub(super) fn accelerations<'p>(&self, point: &'p Point) -> &'p Accelerations {
+        let floors = &point.floors;
+        floors.accelerations.get_or_init(|| {
+            let mut accelerations = floors.room.take();
+            let Accelerations { absolute, resisted } = &mut accelerations;
+            resisted.fill(0.0);
+            self.resist(point.coordinates, &point.q, &point.v, 1.0, resisted);
+            // Without the ground's load these are absolute accelerations.
+            absolute.copy_from_slice(resisted);
+            if floors.is_loaded {
+                absolute.iter_mut().zip(&floors.load).for_each(|(absolute, load)| *absolute += load);
+            }
+            accelerations
+        })
     }
 
     /// One floor of some vectors of motion at the observed time.

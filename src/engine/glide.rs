@@ -2,64 +2,193 @@
 //!
 //! Nothing here is needed for the result: `plan` and `take` do the same segment by segment, bit for bit.
 
-use super::ground::GroundMotion;
+use super::ground::{GroundMotion, Segment};
 use super::model::Model;
 use super::state::*;
+use crate::structure::{LANES, Lane, ModeBlock};
+use std::ops::Range;
 
-impl Model {
-    /// Flies over up to `most` whole segments that end by `until`, as long as no pair has to be looked at more closely;
-    /// returns how many.
-    pub(super) fn glide(&self, state: &mut State, until: f64, most: u64) -> u64 {
-        let State { base, step, .. } = state;
-        if step.kind != StepKind::Unknown || until - base.segment.start < base.segment.length {
-            return 0;
-        }
-        let Some((ground, first)) = self.watched_segment(base) else { return 0 };
-        let is_plain = self.structure.is_classical() && base.energy.is_none() && base.elapsed == 0.0;
-        if !is_plain
-            || base.coordinates != Coordinates::Modes
-            || base.contacts.iter().any(|contact| contact.in_contact() || contact.at_surface)
-        {
-            return 0;
-        }
-        let flown = fly_over(self, ground, state, (first, most), until);
-        if flown > 0 {
-            state.base.segment = ground.segment(first + flown);
-            state.counters.flight_steps += flown;
-            state.counters.flights_dismissed += if self.pairs.is_empty() { 0 } else { flown };
-        }
-        flown
-    }
+/// Most segments that are flown over without looking at what has come out.
+const MOST_AT_ONCE: u64 = 64;
+
+/// How far a glide has come.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Glide {
+    /// Segments flown over to their end.
+    pub flown: u64,
+    /// Whether the state is there, on its way through the next segment: nothing is left to do.
+    pub has_arrived: bool,
 }
 
-/// The loop over segments, from number `first` on. Wide instructions are chosen where the machine has them; they do the
-/// same operations in the same order, so they give the same bits.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn fly_over(model: &Model, ground: &GroundMotion, state: &mut State, (first, most): (u64, u64), until: f64) -> u64 {
-    let State { base, step, counters, work, .. } = state;
-    for number in first..first.saturating_add(most) {
-        let segment = ground.segment(number);
-        if until - segment.start < segment.length {
-            return number - first;
-        }
-        let Some(interval) = ground.prepared(&segment) else { return number - first };
-        let is_free = base.watch.are_all_free(number);
-        if !is_free && !model.dismiss(ground, base, number, counters, &mut work.node_v) {
-            return number - first;
-        }
-        let is_finite = interval.fly_on_ground(
-            (&base.q, &base.v),
-            (&model.structure.participation, (segment.acceleration_at(0.0), segment.slope)),
-            (&mut step.q, &mut step.v),
-        );
-        if !is_finite {
-            return number - first;
-        }
+impl Model {
+    /// Flies over up to `most` segments of the record as far as `until`, as long as no pair has to be looked at more
+    /// closely.
+    pub(super) fn glide(&self, state: &mut State, until: f64, most: u64) -> Glide {
+        let Some((ground, first)) = self.gliding(state) else { return Glide::default() };
+        let mut next = first;
+        let has_arrived = loop {
+            let State { base, step, counters, work, .. } = &mut *state;
+            let is_planned = step.kind != StepKind::Unknown;
+            let is_free = base.watch.are_all_free(next)
+                || !is_planned && self.dismiss(ground, base, next, counters, &mut work.node_v);
+            if !is_free || next - first >= most {
+                break false;
+            }
+            if ends_after(&base.segment, until) {
+                if !is_planned {
+                    step.kind = StepKind::Glide;
+                    step.planned_from = base.last_length;
+                    self.count_glide(counters, 1);
+                }
+                break true;
+            }
+            let end = (next + MOST_AT_ONCE).min(base.watch.due()).min(first.saturating_add(most));
+            let flown = fly_over(self, ground, base, step, next..end, until);
+            if flown == 0 {
+                break false;
+            }
+            self.count_glide(counters, flown - u64::from(is_planned));
+            step.kind = StepKind::Unknown;
+            next += flown;
+            base.segment = ground.segment(next);
+        };
+        Glide { flown: next - first, has_arrived }
+    }
+
+    /// The record and the number of the base's segment, where the motion can glide.
+    fn gliding(&self, state: &State) -> Option<(&GroundMotion, u64)> {
+        let State { base, step, .. } = state;
+        let is_plain = matches!(step.kind, StepKind::Unknown | StepKind::Glide | StepKind::Flight)
+            && base.elapsed == 0.0
+            && base.coordinates == Coordinates::Modes
+            && base.energy.is_none()
+            && self.structure.is_classical()
+            && !base.contacts.iter().any(|contact| contact.in_contact() || contact.at_surface);
+        if is_plain { self.watched_segment(base) } else { None }
+    }
+
+    fn count_glide(&self, counters: &mut Counters, flown: u64) {
+        counters.flight_steps += flown;
+        counters.flights_dismissed += if self.pairs.is_empty() { 0 } else { flown };
+    }
+
+    /// Leaves the planned glide to be planned by other means.
+    pub(super) fn forget_glide(&self, state: &mut State) {
+        state.step.kind = StepKind::Unknown;
+        state.counters.flight_steps -= 1;
+        state.counters.flights_dismissed -= u64::from(!self.pairs.is_empty());
+    }
+
+    /// Makes the end of a flight the base.
+    #[inline(always)]
+    fn move_base(&self, base: &mut Base, step: &mut Step) {
         std::mem::swap(&mut base.q, &mut step.q);
         std::mem::swap(&mut base.v, &mut step.v);
         // No contact has a flag to clear: none was at the surface at the start, and one that is carried is not dismissed.
-        base.watch.move_on();
-        model.update_peak_drift(base);
+        base.watch.move_on(1);
+        self.update_peak_drift(base);
     }
-    most
+}
+
+fn ends_after(segment: &Segment, time: f64) -> bool {
+    time - segment.start < segment.length
+}
+
+/// The loop over segments that end by `until` and for which all pairs have been dismissed; returns how many. Wide
+/// instructions are chosen where the machine has them; they do the same operations in the same order, so they give the
+/// same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn fly_over(
+    model: &Model,
+    ground: &GroundMotion,
+    base: &mut Base,
+    step: &mut Step,
+    segments: Range<u64>,
+    until: f64,
+) -> u64 {
+    let is_simple = model.drift.are_few() && ground.is_in_record(segments.start);
+    match model.structure.lanes / LANES {
+        1 if is_simple => fly_few::<1>(model, ground, base, segments, until),
+        2 if is_simple => fly_few::<2>(model, ground, base, segments, until),
+        3 if is_simple => fly_few::<3>(model, ground, base, segments, until),
+        _ => {
+            let mut flown = 0;
+            while segments.start + flown < segments.end {
+                let segment = ground.segment(segments.start + flown);
+                if ends_after(&segment, until) || !fly_segment(model, ground, &segment, base, step) {
+                    break;
+                }
+                model.move_base(base, step);
+                flown += 1;
+            }
+            flown
+        }
+    }
+}
+
+#[inline(always)]
+fn fly_segment(model: &Model, ground: &GroundMotion, segment: &Segment, base: &Base, step: &mut Step) -> bool {
+    let Some(interval) = ground.prepared(segment) else { return false };
+    interval.fly_on_ground(
+        (&base.q, &base.v),
+        (&model.structure.participation, (segment.acceleration_at(0.0), segment.slope)),
+        (&mut step.q, &mut step.v),
+    )
+}
+
+/// The same loop within the record for a few blocks of modes, which stay in registers. It goes as far as segments are of one length, and
+/// leaves the base as it is if the motion does not stay finite: numbers that are not finite never become so again.
+#[inline(always)]
+fn fly_few<const WIDTH: usize>(
+    model: &Model,
+    ground: &GroundMotion,
+    base: &mut Base,
+    segments: Range<u64>,
+    until: f64,
+) -> u64 {
+    let Some(interval) = ground.prepared(&ground.segment(segments.start)) else { return 0 };
+    let Some(modes) = interval.blocks::<WIDTH>() else { return 0 };
+    let Some(peaks) = base.peak_drift.few() else { return 0 };
+    let [participation, mut q, mut v] = [&model.structure.participation, &base.q, &base.v].map(|all| few::<WIDTH>(all));
+    let (mut raised, mut spoiled) = (*peaks, [0.0; LANES]);
+    let mut flown = 0;
+    for (start, length, load) in ground.of_record(segments) {
+        if until - start < length || length != interval.length {
+            break;
+        }
+        fly_blocks(modes, (&mut q, &mut v), &participation, load, &mut spoiled);
+        model.drift.raise_few(q.as_flattened(), &mut raised);
+        flown += 1;
+    }
+    if spoiled.iter().any(|spoiled| spoiled.is_nan()) {
+        return 0;
+    }
+    *peaks = raised;
+    base.q.copy_from_slice(q.as_flattened());
+    base.v.copy_from_slice(v.as_flattened());
+    base.watch.move_on(flown);
+    flown
+}
+
+/// One segment; `spoiled` becomes NaN where the motion does not stay finite.
+#[inline(always)]
+fn fly_blocks<const WIDTH: usize>(
+    modes: &[ModeBlock; WIDTH],
+    (q, v): (&mut [Lane; WIDTH], &mut [Lane; WIDTH]),
+    participation: &[Lane; WIDTH],
+    load: (f64, f64),
+    spoiled: &mut Lane,
+) {
+    for c in 0..WIDTH {
+        (q[c], v[c]) = modes[c].end_on_ground((&q[c], &v[c]), &participation[c], load);
+        for i in 0..LANES {
+            spoiled[i] += 0.0 * (q[c][i] + v[c][i]);
+        }
+    }
+}
+
+fn few<const WIDTH: usize>(all: &[f64]) -> [Lane; WIDTH] {
+    let mut blocks = [[0.0; LANES]; WIDTH];
+    blocks.as_flattened_mut().copy_from_slice(&all[..WIDTH * LANES]);
+    blocks
 }

@@ -4,6 +4,7 @@ use super::input::LinearInput;
 use crate::record::Record;
 use crate::structure::{Interval, Structure};
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// Records with up to this many different sample spacings have their exact flight prepared for each.
 const MOST_PREPARED: usize = 8;
@@ -89,6 +90,11 @@ impl GroundMotion {
         (until - from.max(end)) / self.spacing
     }
 
+    /// Whether these are more than so many.
+    pub fn are_more_after(&self, (from, until): (f64, f64), segments: f64) -> bool {
+        until - from > segments * self.spacing && self.segments_after(from, until) > segments
+    }
+
     /// The segment that follows one.
     pub fn following(&self, segment: &Segment) -> Segment {
         match self.number(segment) {
@@ -102,6 +108,21 @@ impl GroundMotion {
     pub fn segment(&self, number: u64) -> Segment {
         let samples = self.lengths.len() as u64;
         if number < samples { self.sample(number as usize) } else { self.after(number - samples) }
+    }
+
+    /// Whether a number is that of a segment of the record.
+    pub fn is_in_record(&self, number: u64) -> bool {
+        number < self.lengths.len() as u64
+    }
+
+    /// Start, length, acceleration and slope of segments of the record, from a number on.
+    #[inline(always)]
+    pub fn of_record(&self, numbers: Range<u64>) -> impl Iterator<Item = (f64, f64, (f64, f64))> {
+        let samples = self.lengths.len() as u64;
+        let [first, end] = [numbers.start, numbers.end].map(|number| number.min(samples) as usize);
+        let ends = self.accelerations[first..].windows(2);
+        let segments = self.times[first..end].iter().zip(&self.lengths[first..end]).zip(ends);
+        segments.map(|((start, length), ends)| (*start, *length, (ends[0], slope([ends[0], ends[1]], *length))))
     }
 
     /// The exact flight over a whole segment, where it has been prepared.
@@ -130,23 +151,33 @@ impl GroundMotion {
         own == *segment
     }
 
-    /// s that so many segments last, the first of which has that number, and the integral of |acceleration| over them,
-    /// m/s: never less than exact.
-    pub fn ahead(&self, first: u64, segments: u64) -> (f64, f64) {
+    /// From the start of the segment with a number on.
+    pub fn ahead_of(&self, number: u64) -> Ahead<'_> {
+        let (start, before) = self.passed_at(number);
+        Ahead { ground: self, number, start, before }
+    }
+
+    /// Up to the start of a segment: s, and the integral of |acceleration|, m/s.
+    #[inline(always)]
+    fn passed_at(&self, number: u64) -> (f64, f64) {
+        match self.passed.get(number as usize) {
+            Some(passed) => *passed,
+            None => self.passed_after(number),
+        }
+    }
+
+    #[cold]
+    fn passed_after(&self, number: u64) -> (f64, f64) {
         let last = self.lengths.len();
-        let at = |number: u64| {
-            let (time, shaking) = self.passed[last.min(number as usize)];
-            (time + number.saturating_sub(last as u64) as f64 * self.spacing, shaking)
-        };
-        let ((start, before), (end, after)) = (at(first), at(first + segments));
-        let rounding = 4.0 * f64::EPSILON;
-        (end - start + rounding * end, after - before + rounding * after)
+        let (time, shaking) = self.passed[last];
+        (time + (number - last as u64) as f64 * self.spacing, shaking)
     }
 
     #[inline(always)]
     fn sample(&self, i: usize) -> Segment {
-        let (a0, a1, length) = (self.accelerations[i], self.accelerations[i + 1], self.lengths[i]);
-        Segment { start: self.times[i], length, acceleration: a0, slope: (a1 - a0) / length, place: Place::Sample(i) }
+        let (start, length, ends) =
+            (self.times[i], self.lengths[i], [self.accelerations[i], self.accelerations[i + 1]]);
+        Segment { start, length, acceleration: ends[0], slope: slope(ends, length), place: Place::Sample(i) }
     }
 
     #[inline(always)]
@@ -159,6 +190,25 @@ impl GroundMotion {
             slope: 0.0,
             place: Place::After(k),
         }
+    }
+}
+
+/// What is to come from the start of a segment on.
+pub struct Ahead<'a> {
+    ground: &'a GroundMotion,
+    number: u64,
+    /// s and m/s, up to there.
+    start: f64,
+    before: f64,
+}
+
+impl Ahead<'_> {
+    /// s that so many segments last, and the integral of |acceleration| over them, m/s: never less than exact.
+    #[inline(always)]
+    pub fn over(&self, segments: u64) -> (f64, f64) {
+        const ROUNDING: f64 = 4.0 * f64::EPSILON;
+        let (end, after) = self.ground.passed_at(self.number + segments);
+        (end - self.start + ROUNDING * end, after - self.before + ROUNDING * after)
     }
 }
 
@@ -179,6 +229,11 @@ impl Segment {
     pub fn acceleration_at(&self, elapsed: f64) -> f64 {
         self.acceleration + self.slope * elapsed
     }
+}
+
+#[inline(always)]
+fn slope([start, end]: [f64; 2], length: f64) -> f64 {
+    (end - start) / length
 }
 
 /// Time and integral of |acceleration| up to each sample, summed without loss (Neumaier): their differences matter.

@@ -97,12 +97,9 @@ pub struct Point {
     pub energy: Option<EnergyPoint>,
     /// What the following vectors hold.
     coordinates: state::Coordinates,
-    /// Displacements, velocities and accelerations (absolute), of which `floors` is made.
+    /// Displacements and velocities, of which `floors` is made.
     q: Vec<f64>,
     v: Vec<f64>,
-    acceleration: Vec<f64>,
-    /// The part of the acceleration that comes from the buildings' own stiffness and damping.
-    resisted: Vec<f64>,
     floors: floor_motion::FloorMotions,
     work: Option<Box<state::Workspace>>,
 }

@@ -9,7 +9,7 @@ use super::onset_step::OnsetSeries;
 use super::rigid::RigidPairs;
 use super::state::*;
 use super::window_step::Windows;
-use super::work_limit::MOST_WORK;
+use super::work_limit::{MOST_WORK, most_flights};
 use super::{Episode, contact_step};
 use crate::contact::{EpisodeForce, ImpactLaw};
 use crate::polynomial::{MAX_ORDER, Powers, ROOM};
@@ -45,8 +45,8 @@ pub struct Model {
     pub(super) windows: Option<Windows>,
     pub(super) frequencies: [Vec<f64>; 2],
     initial: [Vec<f64>; 2],
-    /// What one communication step may take.
-    pub(super) most_work: f64,
+    /// What one communication step may take, in flights.
+    pub(super) most_flights: f64,
 }
 
 /// Two facing floors.
@@ -101,6 +101,7 @@ impl Model {
             contact_coordinates: contact_coordinates(&structure),
             floors: structure.floors.ones(),
             windows: Windows::of(&structure, &pairs, step_tolerance),
+            most_flights: most_flights(&structure, pairs.len(), MOST_WORK),
             structure,
             rigid: RigidPairs::of(&pairs),
             pairs,
@@ -108,7 +109,6 @@ impl Model {
             ground,
             step_tolerance,
             order,
-            most_work: MOST_WORK,
         })
     }
 

@@ -10,12 +10,13 @@ use crate::structure::{EXACT, flight_order, fly_in_one_series};
 impl Model {
     /// Reads the state at its present time; the buffers of `point` are reused.
     ///
-    /// Floors are not computed here but when one is asked for.
+    /// Floors and accelerations are not computed here but when one is asked for.
     pub fn observe(&self, state: &State, point: &mut Point) {
         let lanes = self.structure.lanes;
         point.floors.forget(lanes);
-        for vector in [&mut point.q, &mut point.v, &mut point.acceleration, &mut point.resisted] {
-            vector.resize(lanes, 0.0);
+        if point.q.len() != lanes {
+            point.q.resize(lanes, 0.0);
+            point.v.resize(lanes, 0.0);
         }
         point.time = state.time;
         point.coordinates = state.base.coordinates;
@@ -39,15 +40,12 @@ impl Model {
             }
         }
         point.impacts = base.impacts;
-        work.load.fill(0.0);
-        self.accelerate(point.coordinates, (&point.q, &point.v), &work.load, &mut point.resisted);
-        self.add_floor_forces(inputs, point.coordinates, |force| force.at(state.time), &mut work.load);
-        for (p, contact) in point.contacts.iter().enumerate().filter(|(_, contact)| contact.force != 0.0) {
-            self.push_apart_by(p, point.coordinates, contact.force, &mut work.load);
-        }
-        // Without the ground's load these are absolute accelerations.
-        for ((acceleration, resisted), load) in point.acceleration.iter_mut().zip(&point.resisted).zip(&work.load) {
-            *acceleration = resisted + load;
+        if self.floor_forces || point.contacts.iter().any(|contact| contact.force != 0.0) {
+            let load = point.floors.start_load();
+            self.add_floor_forces(inputs, point.coordinates, |force| force.at(state.time), load);
+            for (p, contact) in point.contacts.iter().enumerate().filter(|(_, contact)| contact.force != 0.0) {
+                self.push_apart_by(p, point.coordinates, contact.force, load);
+            }
         }
         self.read_energy(state, elapsed, &mut work, point);
         point.work = Some(work);
@@ -67,29 +65,44 @@ impl Model {
             }
             StepKind::Onset => step.onset.evaluate(elapsed / step.onset.scale, &mut point.q, &mut point.v),
             StepKind::Window => self.read_window(step, elapsed, &mut work.powers, (&mut point.q, &mut point.v)),
-            StepKind::Flight | StepKind::Unknown => {
+            StepKind::Flight | StepKind::Glide | StepKind::Unknown => {
                 self.load(base, inputs, &mut work.load, &mut work.slope);
-                if !self.fly_back(step, step.length - elapsed, work, (&mut point.q, &mut point.v)) {
+                if !self.fly_back(state, elapsed, work, (&mut point.q, &mut point.v)) {
                     self.fly(base, elapsed, work, (&mut point.q, &mut point.v));
                 }
             }
         }
     }
 
-    /// Reads a flight that is all but over from its end, `left` seconds on, which is known; whether it is one. Masters
-    /// whose time differs from that of a sample by its rounding ask for it all the time, and few terms are enough.
-    fn fly_back(&self, step: &Step, left: f64, work: &mut Workspace, (q, v): (&mut [f64], &mut [f64])) -> bool {
+    /// Reads a flight that is all but over from its end; whether it is one. Masters whose time differs from that of a
+    /// sample by its rounding ask for it all the time, and few terms are enough.
+    fn fly_back(&self, state: &State, elapsed: f64, work: &mut Workspace, (q, v): (&mut [f64], &mut [f64])) -> bool {
         // Far below what a series reaches, so that what damping takes forwards is not given back as rounding.
         const NEAR: f64 = 1e-6;
+        let State { base, step, .. } = state;
+        let length = match step.kind {
+            StepKind::Flight => step.length,
+            StepKind::Glide => base.segment.length,
+            _ => return false,
+        };
+        let left = length - elapsed;
         let reach = self.structure.fastest * left;
-        if step.kind != StepKind::Flight || !self.structure.is_classical() || !(left > 0.0 && reach <= NEAR) {
+        if !(self.structure.is_classical() && left > 0.0 && reach <= NEAR) {
             return false;
         }
-        for (load, slope) in work.load.iter_mut().zip(&work.slope) {
-            *load += slope * step.length;
-        }
         let Some(order) = flight_order(reach, EXACT) else { return false };
-        fly_in_one_series(&self.structure, (&step.q, &step.v), (&work.load, &work.slope), (-left, order), (q, v));
+        let end = if step.kind == StepKind::Glide {
+            let (mut end_q, mut end_v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
+            self.fly(base, length, work, (&mut end_q, &mut end_v));
+            (work.q, work.v) = (end_q, end_v);
+            (&work.q[..], &work.v[..])
+        } else {
+            (&step.q[..], &step.v[..])
+        };
+        for (load, slope) in work.load.iter_mut().zip(&work.slope) {
+            *load += slope * length;
+        }
+        fly_in_one_series(&self.structure, end, (&work.load, &work.slope), (-left, order), (q, v));
         true
     }
 

@@ -69,7 +69,8 @@ impl Model {
         };
         rates.ground_acceleration = [slope, 0.0];
         let shares = self.participation(point.coordinates);
-        for ((relative, absolute), share) in rates.acceleration.iter_mut().zip(&point.acceleration).zip(shares) {
+        let absolute = &self.accelerations(point).absolute;
+        for ((relative, absolute), share) in rates.acceleration.iter_mut().zip(absolute).zip(shares) {
             *relative = absolute - share * point.ground_acceleration;
         }
         rates.is_beginning = self.differentiate_penetrations(state, point, rates, &mut work);

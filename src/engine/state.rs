@@ -228,6 +228,8 @@ pub(super) enum StepKind {
     /// Not worked out yet.
     Unknown,
     Flight,
+    /// A flight over a whole segment for which every pair has been dismissed; its end has not been worked out.
+    Glide,
     Contact,
     /// In contact, the first step after an entry under a power law.
     Onset,

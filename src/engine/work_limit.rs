@@ -3,17 +3,24 @@
 //! Work is counted, not timed: the same step is given up at the same place on every machine. What is said names the
 //! contact or the building that makes the steps short, or meets so often, and the key of the scene to change.
 
+use super::ground::GroundMotion;
 use super::model::Model;
 use super::state::*;
 use super::{Counters, EngineError};
 use crate::contact::LawKey;
-use crate::structure::Side;
+use crate::structure::{Side, Structure};
 
 /// Work that one communication step may be: some ten seconds. A whole earthquake takes some thousandths of that.
 pub(super) const MOST_WORK: f64 = 1e7;
 
 /// Steps that may follow each other without any time passing.
 const MOST_STEPS_AT_ONCE: u32 = 100_000;
+
+/// Flights that are as much work as so many microseconds: an internal step with a series takes as long as some twenty.
+pub(super) fn most_flights(structure: &Structure, pairs: usize, work: f64) -> f64 {
+    let step_work = 2.0 + 0.2 * structure.lanes as f64 + 0.5 * pairs as f64;
+    work / (0.05 * step_work)
+}
 
 /// What one communication step has taken so far.
 pub(super) struct Progress {
@@ -24,11 +31,24 @@ pub(super) struct Progress {
     impacts_before: u64,
     /// Steps in a row without any time passing.
     stalled: u32,
+    /// What it may take, in flights.
+    most: u64,
 }
 
 impl Progress {
-    pub fn begin(state: &State) -> Progress {
-        Progress { start: state.time, before: state.counters, impacts_before: state.base.impacts, stalled: 0 }
+    /// Work of a communication step so far, in that of flights.
+    fn work(&self, counters: &Counters) -> u64 {
+        let before = &self.before;
+        let with_series = counters.contact_steps - before.contact_steps;
+        let looked = counters.closer_looks - before.closer_looks;
+        let flown = counters.flight_steps - before.flight_steps;
+        let accounted = counters.energy_steps - before.energy_steps;
+        20 * with_series + 10 * looked + 6 * accounted + flown
+    }
+
+    /// Flights that may be taken without looking at the work again.
+    pub fn flights_left(&self, counters: &Counters) -> u64 {
+        self.most.saturating_sub(self.work(counters))
     }
 
     /// Notes whether a step takes any time.
@@ -41,49 +61,41 @@ impl Model {
     /// Limits the work of each communication step to so many seconds, as far as they can be told beforehand (on a core
     /// of 2020, within a factor of a few). Ten where nothing is said.
     pub fn limit_work(&mut self, seconds: f64) {
-        self.most_work = 1e6 * seconds;
-    }
-
-    /// Microseconds that an internal step with a series takes, roughly.
-    fn step_work(&self) -> f64 {
-        2.0 + 0.2 * self.structure.lanes as f64 + 0.5 * self.pairs.len() as f64
-    }
-
-    /// Work of a communication step so far.
-    fn work(&self, counters: &Counters, progress: &Progress) -> f64 {
-        let Progress { before, .. } = progress;
-        let with_series = counters.contact_steps - before.contact_steps;
-        let looked = counters.closer_looks - before.closer_looks;
-        let flown = counters.flight_steps - before.flight_steps;
-        let accounted = counters.energy_steps - before.energy_steps;
-        self.step_work() * (with_series as f64 + 0.5 * looked as f64 + 0.3 * accounted as f64)
-            + 0.05 * self.step_work() * flown as f64
-    }
-
-    /// Flights that may be taken without looking at the work again.
-    pub(super) fn flights_left(&self, counters: &Counters, progress: &Progress) -> u64 {
-        ((self.most_work - self.work(counters, progress)) / (0.05 * self.step_work())).max(0.0) as u64
+        self.most_flights = most_flights(&self.structure, self.pairs.len(), 1e6 * seconds);
     }
 
     /// Refuses a communication step that has more segments of the record than it may take flights.
+    #[inline]
     pub(super) fn check_segments(&self, state: &State, until: f64) -> Result<(), EngineError> {
-        let most = self.most_work / (0.05 * self.step_work());
         match &self.ground {
-            Some(ground) if ground.segments_after(state.time, until) > most => Err(EngineError {
-                message: format!(
-                    "a communication step from t = {} s to {until} s is {:.1e} sample intervals of the record, more than \
-                     the {most:.1e} that one step may take: take smaller communication steps",
-                    state.time,
-                    ground.segments_after(state.time, until)
-                ),
-            }),
+            Some(ground) if ground.are_more_after((state.time, until), self.most_flights) => {
+                Err(self.too_many_segments(ground, state.time, until))
+            }
             _ => Ok(()),
         }
     }
 
+    #[cold]
+    fn too_many_segments(&self, ground: &GroundMotion, time: f64, until: f64) -> EngineError {
+        let (segments, most) = (ground.segments_after(time, until), self.most_flights);
+        EngineError {
+            message: format!(
+                "a communication step from t = {time} s to {until} s is {segments:.1e} sample intervals of the record, \
+                 more than the {most:.1e} that one step may take: take smaller communication steps"
+            ),
+        }
+    }
+
+    /// What a communication step has taken that has flown over so many segments and no more.
+    pub(super) fn progress(&self, state: &State, flown: u64) -> Progress {
+        let State { time, counters, base, .. } = state;
+        let before = Counters { flight_steps: counters.flight_steps.saturating_sub(flown), ..*counters };
+        Progress { start: *time, before, impacts_before: base.impacts, stalled: 0, most: self.most_flights as u64 }
+    }
+
     /// Nothing may run for ever or on without numbers.
     pub(super) fn check_progress(&self, state: &State, progress: &Progress) -> Result<(), EngineError> {
-        if self.work(&state.counters, progress) > self.most_work {
+        if progress.work(&state.counters) > progress.most {
             return Err(self.gave_up(state, progress, "more work than one communication step may be"));
         }
         if progress.stalled > MOST_STEPS_AT_ONCE {

@@ -1,10 +1,10 @@
 //! The exact flight of all modes over one interval of time.
 
-use super::{CoupledIncrement, LANES, ModalDamping, ModeIncrement, Scratch, Side, Structure};
+use super::{CoupledIncrement, LANES, Lane, ModalDamping, ModeIncrement, Scratch, Side, Structure};
 
 /// The increments of [`LANES`] modes side by side.
 #[derive(Clone, Copy, Debug, Default)]
-struct ModeBlock {
+pub struct ModeBlock {
     dqq: [f64; LANES],
     dqv: [f64; LANES],
     dvq: [f64; LANES],
@@ -45,6 +45,19 @@ impl ModeBlock {
         }
         end
     }
+
+    /// The same under the ground's acceleration and its slope alone.
+    #[inline(always)]
+    pub fn end_on_ground(
+        &self,
+        (q, v): (&Lane, &Lane),
+        participation: &Lane,
+        (acceleration, slope): (f64, f64),
+    ) -> (Lane, Lane) {
+        let l0 = participation.map(|p| -p * acceleration);
+        let l1 = participation.map(|p| -p * slope);
+        self.end(q, v, &l0, &l1)
+    }
 }
 
 /// The exact flight of all modes over one interval length.
@@ -84,6 +97,11 @@ impl Interval {
                 }
             }
         }
+    }
+
+    /// The increments of all modes, where they are so many blocks of them and damping couples none.
+    pub fn blocks<const WIDTH: usize>(&self) -> Option<&[ModeBlock; WIDTH]> {
+        self.modes.as_slice().try_into().ok().filter(|_| self.coupled.is_empty())
     }
 
     /// Flies `q`, `v` over the interval under a modal load and its slope, into `end_q`, `end_v`.
@@ -132,9 +150,7 @@ impl Interval {
         let (q1, v1) = (&mut q1[..width], &mut v1[..width]);
         let mut sum = [0.0; LANES];
         for (c, m) in self.modes.iter().enumerate() {
-            let l0 = participation[c].map(|p| -p * acceleration);
-            let l1 = participation[c].map(|p| -p * slope);
-            let (q, v) = m.end(&q0[c], &v0[c], &l0, &l1);
+            let (q, v) = m.end_on_ground((&q0[c], &v0[c]), &participation[c], (acceleration, slope));
             for i in 0..LANES {
                 // Finite only if all of its terms are.
                 sum[i] += q[i] + v[i];

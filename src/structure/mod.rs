@@ -19,7 +19,7 @@ mod short_flight;
 
 pub use floors::Floors;
 pub use impulse_response::{ImpulseResponse, RESPONSE_POWERS};
-pub use interval::Interval;
+pub use interval::{Interval, ModeBlock};
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
 pub use propagator::{CoupledIncrement, ModeIncrement};
 pub use series::{EXACT, FEW_BLOCKS, MotionSeries, PairForces, difference, dot, flight_order, sum_sizes, sum_terms};
@@ -183,6 +183,15 @@ impl Structure {
     pub fn at_floor<const N: usize>(&self, side: Side, floor: usize, modal: [&[f64]; N]) -> [f64; N] {
         let (modes, range) = (self.floors(side), self.range(side));
         let shape = &self.floor_shapes[side as usize][floor * modes..][..modes];
+        if modes < LANES {
+            let mut sums = [0.0; N];
+            for (sum, modal) in sums.iter_mut().zip(modal) {
+                for (shape, q) in shape.iter().zip(&modal[range.start..]) {
+                    *sum += shape * q;
+                }
+            }
+            return sums;
+        }
         let (lanes, rest) = products(shape, modal.map(|modal| &modal[range.clone()]));
         std::array::from_fn(|k| lanes[k].iter().sum::<f64>() + rest[k])
     }

@@ -4,8 +4,8 @@ use super::series::RECIPROCAL;
 use super::{LANES, Lane, Structure};
 use crate::polynomial::{COUNT, ROOM};
 
-/// The terms of a block of modes.
-type Terms = [Lane; ROOM];
+/// Room for the terms of a flight that is hardly one.
+const FEW_TERMS: usize = 8;
 
 /// Flies `q`, `v` over `h`, s, under a modal load and its slope, where damping couples no modes, by a series of at least
 /// `order`, into `end_q`, `end_v`: what [`super::MotionSeries::expand_flight`] evaluates to there, bit for bit, without
@@ -13,23 +13,41 @@ type Terms = [Lane; ROOM];
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn fly_in_one_series(
     structure: &Structure,
+    motion: (&[f64], &[f64]),
+    loads: (&[f64], &[f64]),
+    (h, order): (f64, usize),
+    end: (&mut [f64], &mut [f64]),
+) {
+    let order = order.max(3);
+    if order < FEW_TERMS {
+        fly::<FEW_TERMS>(structure, motion, loads, (h, order), end);
+    } else {
+        fly::<ROOM>(structure, motion, loads, (h, order), end);
+    }
+}
+
+/// The same with room for so many terms of a block of modes.
+#[inline(always)]
+fn fly<const TERMS: usize>(
+    structure: &Structure,
     (q, v): (&[f64], &[f64]),
     (load, slope): (&[f64], &[f64]),
     (h, order): (f64, usize),
     (end_q, end_v): (&mut [f64], &mut [f64]),
 ) {
-    let (order, h2, rate) = (order.max(3), h * h, 1.0 / h);
+    let (h2, rate) = (h * h, 1.0 / h);
     let [(q, _), (v, _), (load, _), (slope, _), (damping, _), (omega2, _)] =
         [q, v, load, slope, &structure.damping, &structure.omega2].map(<[f64]>::as_chunks::<LANES>);
     let [(end_q, _), (end_v, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
-    let mut terms = [[0.0; LANES]; ROOM];
+    let mut terms = [[0.0; LANES]; TERMS];
     for c in 0..structure.lanes / LANES {
         terms[0] = q[c];
         terms[1] = v[c].map(|v| v * h);
         let loads = [load[c].map(|load| load * h2), slope[c].map(|slope| slope * (h2 * h))];
         let rates = (damping[c].map(|damping| damping * h), omega2[c].map(|omega2| omega2 * h2));
-        expand(&mut terms, order, loads, rates);
-        let (q, v) = sums(&terms[..=order]);
+        let terms = &mut terms[..=order];
+        expand(terms, loads, rates);
+        let (q, v) = sums(terms);
         end_q[c] = q;
         end_v[c] = v.map(|v| v * rate);
     }
@@ -37,9 +55,9 @@ pub fn fly_in_one_series(
 
 /// (n+1)(n+2) q_{n+2} = load_n - (n+1) damping q_{n+1} - w^2 q_n in units of h.
 #[inline(always)]
-fn expand(terms: &mut Terms, order: usize, loads: [Lane; 2], (damping, omega2): (Lane, Lane)) {
+fn expand(terms: &mut [Lane], loads: [Lane; 2], (damping, omega2): (Lane, Lane)) {
     let (mut before, mut last) = (terms[0], terms[1]);
-    let each = terms[2..=order].iter_mut().zip(&COUNT[1..]).zip(&RECIPROCAL).enumerate();
+    let each = terms[2..].iter_mut().zip(&COUNT[1..]).zip(&RECIPROCAL).enumerate();
     for (n, ((term, count), factor)) in each {
         let mut next = loads.get(n).copied().unwrap_or_default();
         for i in 0..LANES {
