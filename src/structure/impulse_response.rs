@@ -69,14 +69,24 @@ impl ImpulseResponse {
         kernel
     }
 
-    /// Takes from a motion what a force has done by its moments, N s^(k+1): the integrals of (time left)^k F.
+    /// Takes from a motion what a force has done by its moments, N s^(k+1): the integrals of (time left)^k F. Its terms are
+    /// added up before they meet the larger motion, from the smallest on.
     pub fn push(&self, row: &[f64], moments: &[f64], (q, v): (&mut [f64], &mut [f64])) {
-        for k in 1..moments.len() {
-            let (now, before) = (moments[k], k as f64 * moments[k - 1]);
-            let motion = q.iter_mut().zip(v.iter_mut());
-            for (((q, v), row), term) in motion.zip(row).zip(self.term(k)) {
-                *q -= row * term * now;
-                *v -= row * term * before;
+        let width = self.lanes / LANES;
+        let (terms, row) = (self.terms.as_chunks::<LANES>().0, row.as_chunks::<LANES>().0);
+        let motion = q.as_chunks_mut::<LANES>().0.iter_mut().zip(v.as_chunks_mut::<LANES>().0);
+        for (c, ((q, v), row)) in motion.zip(row).enumerate() {
+            let (mut moved, mut slowed) = ([0.0; LANES], [0.0; LANES]);
+            for k in (1..moments.len()).rev() {
+                let (term, now, before) = (&terms[k * width + c], moments[k], k as f64 * moments[k - 1]);
+                for i in 0..LANES {
+                    moved[i] += term[i] * now;
+                    slowed[i] += term[i] * before;
+                }
+            }
+            for i in 0..LANES {
+                q[i] -= row[i] * moved[i];
+                v[i] -= row[i] * slowed[i];
             }
         }
     }
