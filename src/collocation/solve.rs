@@ -213,11 +213,13 @@ impl Solution {
                 add_product(&mut depth, &response.depth, force);
             }
             let (known, square) = (&mut self.depth[p], ratio * ratio);
+            let mut changes = [0.0; 4];
             for i in 0..NODES {
                 let new = room.free[p].depth[i] - square * depth[i];
-                change = change.max((new - known[i]).abs());
+                changes[i % 4] = larger((new - known[i]).abs(), changes[i % 4]);
                 known[i] = new;
             }
+            change = changes.into_iter().fold(change, larger);
             if law.is_damped() {
                 let mut rate = [0.0; NODES];
                 for (response, force) in responses.iter().zip(&self.force) {
@@ -286,9 +288,6 @@ fn iterate(solution: &mut Solution, equation: &Equation, room: &mut Room, ending
     let mut last_change = f64::INFINITY;
     for sweep in 1..=MOST_SWEEPS {
         let change = solution.sweep(equation, room);
-        if !change.is_finite() {
-            return false;
-        }
         // Each sweep takes off more than the one before.
         let left = if last_change.is_finite() { change * (change / last_change).min(1.0) } else { change };
         last_change = change;
@@ -316,7 +315,7 @@ fn iterate(solution: &mut Solution, equation: &Equation, room: &mut Room, ending
         } else if is_found {
             solution.close(equation, room);
             solution.watch(equation, tables, room);
-            return true;
+            return solution.end[..equation.pairs].iter().all(|(d, v)| (d + v).is_finite());
         }
     }
     false
@@ -426,12 +425,19 @@ fn combined(rows: &[Row], factors: &[f64]) -> Row {
 #[inline(always)]
 fn add_product(to: &mut Row, matrix: &Matrix, values: &Row) {
     let mut sum = *to;
-    for (column, value) in matrix.iter().zip(values) {
+    for j in 0..NODES {
+        let (column, value) = (&matrix[j], values[j]);
         for i in 0..NODES {
             sum[i] += column[i] * value;
         }
     }
     *to = sum;
+}
+
+/// The larger of two numbers, in one instruction; the second where they are none.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// Forces of penetrations and rates; none where floors are apart.
@@ -440,26 +446,26 @@ fn forces(force: &Force, depth: &Row, rate: &Row, out: &mut Row) {
     match *force {
         Force::Power { stiffness, exponent: 1.5, damping: 0.0 } => {
             for i in 0..NODES {
-                let d = depth[i].max(0.0);
+                let d = larger(depth[i], 0.0);
                 out[i] = stiffness * (d * d.sqrt());
             }
         }
         Force::Power { stiffness, exponent: 1.5, damping } => {
             for i in 0..NODES {
-                let d = depth[i].max(0.0);
+                let d = larger(depth[i], 0.0);
                 out[i] = stiffness * (d * d.sqrt()) * (1.0 + damping * rate[i]);
             }
         }
         Force::Root { stiffness, damping } => {
             for i in 0..NODES {
-                let d = depth[i].max(0.0);
+                let d = larger(depth[i], 0.0);
                 let root = d.sqrt();
                 out[i] = stiffness * (d * root) + damping * root.sqrt() * rate[i];
             }
         }
         _ => {
             for i in 0..NODES {
-                out[i] = force.value(depth[i].max(0.0), rate[i]);
+                out[i] = force.value(larger(depth[i], 0.0), rate[i]);
             }
         }
     }
