@@ -5,7 +5,7 @@
 //! control points and the bound stay on one side of 0 holds no root; a piece on which the slope keeps its sign holds
 //! at most one; any other piece is halved. So the first root is found, or there is none: nothing is sampled.
 
-use crate::polynomial::{COUNT, Coefficients, FOURTH, ROOM, Reading, value_and_slope};
+use crate::polynomial::{Coefficients, ROOM, Reading, value, value_and_slope};
 use std::cell::Cell;
 
 /// Pieces are not halved below this fraction of the step: two roots closer than this are one touch without duration.
@@ -14,9 +14,6 @@ const NARROWEST: f64 = 1e-9;
 /// Pieces that a search for a rise may halve before what it finds is taken for rounding: one that means anything takes
 /// some dozens (a scene that needs this: `stress/work_limits.rs`).
 const MOST_HALVINGS: u32 = 20_000;
-
-/// A Newton step of this share of a piece and less is off by as little as the slopes before and after it say.
-const NEAR: f64 = 1e-6;
 
 /// A polynomial on 0..=end with the bound on its fourth derivative.
 #[derive(Clone, Copy)]
@@ -46,14 +43,14 @@ impl<'a> Curve<'a> {
     fn first_rise_up_to(&self, end: f64) -> Option<f64> {
         let left = Cell::new(MOST_HALVINGS);
         let counted = Curve { left: Some(&left), ..*self };
-        let (start, end) = (self.start(), self.at(end));
-        let found = counted.first_rise(start, end);
+        let found = counted.first_rise(self.at(0.0), self.at(end));
         if left.get() > 0 {
             return found;
         }
+        let size = self.coefficients.iter().rev().fold(0.0, |sum, c| sum * end + c.abs());
         left.set(MOST_HALVINGS);
-        let rounded = Curve { noise: self.noise.max(rounding(self.coefficients, end.x)), ..counted };
-        rounded.first_rise(start, end)
+        let rounded = Curve { noise: self.noise.max(4.0 * f64::EPSILON * size), ..counted };
+        rounded.first_rise(self.at(0.0), self.at(end))
     }
 
     /// Whether a piece may be halved once more.
@@ -64,12 +61,8 @@ impl<'a> Curve<'a> {
     }
 
     fn at(&self, x: f64) -> End {
-        End::of(self.coefficients, x)
-    }
-
-    fn start(&self) -> End {
-        let of = |n: usize| self.coefficients.get(n).copied().unwrap_or_default();
-        End { x: 0.0, value: of(0), slope: of(1) }
+        let (value, slope) = value_and_slope(self.coefficients, x);
+        End { x, value, slope }
     }
 
     /// The same curve up to an end only: what happens far out says nothing about pieces near the start.
@@ -109,10 +102,10 @@ impl<'a> Curve<'a> {
             return Some(a.x);
         }
         if b.value > 0.0 && self.rises(a, b) {
-            return Some(self.root(a, b));
+            return Some(self.bisect_newton(a, b));
         }
         if b.x - a.x < NARROWEST {
-            return (b.value > self.noise).then(|| self.root(a, b));
+            return (b.value > self.noise).then(|| self.bisect_newton(a, b));
         }
         if !self.may_halve() {
             return None;
@@ -121,9 +114,28 @@ impl<'a> Curve<'a> {
         self.up_to(middle).first_rise(a, middle).or_else(|| self.first_rise(middle, b))
     }
 
-    /// The root between a point below 0 and one above.
-    fn root(&self, a: End, b: End) -> f64 {
-        newton(self.coefficients, (a, b), |x| 0.25 * f64::EPSILON * x)
+    /// The root between a point below 0 and one above: Newton, kept inside a shrinking bracket.
+    fn bisect_newton(&self, a: End, b: End) -> f64 {
+        let (mut low, mut high) = (a.x, b.x);
+        let mut x = low + (high - low) * (a.value / (a.value - b.value)).clamp(0.0, 1.0);
+        for _ in 0..100 {
+            let (f, slope) = value_and_slope(self.coefficients, x);
+            if f > 0.0 {
+                high = x;
+            } else {
+                low = x;
+            }
+            let step = x - f / slope;
+            let next = if step > low && step < high { step } else { 0.5 * (low + high) };
+            if next == x || next <= low && low == x || high - low <= f64::EPSILON * high {
+                return next;
+            }
+            if (next - x).abs() <= 0.25 * f64::EPSILON * x {
+                return next;
+            }
+            x = next;
+        }
+        x
     }
 
     /// Raises `best` = (x, value) to the largest value over a piece.
@@ -145,7 +157,7 @@ impl<'a> Curve<'a> {
         if self.is_concave(a, b) {
             if a.slope > 0.0 && b.slope < 0.0 {
                 let x = self.top(a, b);
-                let value = self.at(x).value;
+                let value = value(self.coefficients, x);
                 if value > best.1 {
                     *best = (x, value);
                 }
@@ -160,94 +172,50 @@ impl<'a> Curve<'a> {
     /// Whether the curvature is negative over a piece (that of the interpolant is off by at most w^2/12 max|f''''|).
     fn is_concave(&self, a: End, b: End) -> bool {
         let w = b.x - a.x;
-        let [at_a, at_b] = curvatures(a, b);
+        let secant = (b.value - a.value) / w;
+        let at_a = (6.0 * secant - 4.0 * a.slope - 2.0 * b.slope) / w;
+        let at_b = (-6.0 * secant + 2.0 * a.slope + 4.0 * b.slope) / w;
         at_a.max(at_b) < -w * w / 12.0 * self.fourth
     }
 
-    /// Where the slope of a concave piece passes 0.
+    /// Where the slope of a concave piece passes 0: Newton, kept inside a shrinking bracket.
     fn top(&self, a: End, b: End) -> f64 {
-        let mut fall = [0.0; ROOM];
-        let terms = self.coefficients.len().saturating_sub(1);
-        for ((fall, c), count) in fall.iter_mut().zip(&self.coefficients[1..]).zip(&COUNT[1..]) {
-            *fall = -count * c;
+        let (mut low, mut high) = (a.x, b.x);
+        let mut x = a.x + (b.x - a.x) * (a.slope / (a.slope - b.slope)).clamp(0.0, 1.0);
+        for _ in 0..60 {
+            let slope = value_and_slope(self.coefficients, x).1;
+            if slope > 0.0 {
+                low = x;
+            } else {
+                high = x;
+            }
+            let newton = x - slope / self.curvature(x);
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            // The value at the top is flat: half of the digits of x give all digits of the value.
+            if (next - x).abs() <= 1e-12 * (b.x - a.x) {
+                return next;
+            }
+            x = next;
         }
-        let [at_a, at_b] = curvatures(a, b);
-        let start = End { x: a.x, value: -a.slope, slope: -at_a };
-        let end = End { x: b.x, value: -b.slope, slope: -at_b };
-        // The value at the top is flat: half of the digits of x give all digits of the value.
-        newton(&fall[..terms], (start, end), |_| 1e-12 * (b.x - a.x))
+        x
     }
-}
 
-impl End {
-    fn of(coefficients: &[f64], x: f64) -> End {
-        let (value, slope) = value_and_slope(coefficients, x);
-        End { x, value, slope }
+    fn curvature(&self, x: f64) -> f64 {
+        let mut sum = 0.0;
+        for (n, c) in self.coefficients.iter().enumerate().skip(2).rev() {
+            sum = sum * x + (n * (n - 1)) as f64 * c;
+        }
+        sum
     }
-}
-
-/// The curvatures of a piece's interpolant at both ends, between which its others lie.
-fn curvatures(a: End, b: End) -> [f64; 2] {
-    let w = b.x - a.x;
-    let secant = (b.value - a.value) / w;
-    [(6.0 * secant - 4.0 * a.slope - 2.0 * b.slope) / w, (-6.0 * secant + 2.0 * a.slope + 4.0 * b.slope) / w]
-}
-
-/// Where a polynomial that is below 0 at `a` and above at `b` is 0 in between, but for `allowed`(x) and rounding: Newton,
-/// kept inside a shrinking bracket.
-fn newton(coefficients: &[f64], (a, b): (End, End), allowed: impl Fn(f64) -> f64) -> f64 {
-    let (mut low, mut high) = (a.x, b.x);
-    let mut last = End::of(coefficients, first_guess(a, b));
-    let mut before = if last.value > 0.0 { b } else { a };
-    for _ in 0..100 {
-        let x = last.x;
-        if last.value > 0.0 {
-            high = x;
-        } else {
-            low = x;
-        }
-        let step = x - last.value / last.slope;
-        let is_newton = step > low && step < high;
-        let next = if is_newton { step } else { 0.5 * (low + high) };
-        let (moved, allowed) = ((next - x).abs(), allowed(x));
-        if moved <= allowed || next == x || next <= low && low == x || high - low <= f64::EPSILON * high {
-            return next;
-        }
-        // What a Newton step is off by: half the curvature, here that between the last two points, times its square.
-        let bend = ((last.slope - before.slope) / (x - before.x)).abs();
-        if is_newton && moved <= NEAR * (b.x - a.x) && 4.0 * bend * moved * moved <= allowed * last.slope.abs() {
-            return next;
-        }
-        before = last;
-        last = End::of(coefficients, next);
-    }
-    last.x
-}
-
-/// Where a piece passes 0, by the cubic that has x as a function of the value, with the slopes at both ends, where that
-/// is inside; else by the chord.
-fn first_guess(a: End, b: End) -> f64 {
-    let (w, rise) = (b.x - a.x, b.value - a.value);
-    let share = (-a.value / rise).clamp(0.0, 1.0);
-    let rest = 1.0 - share;
-    let (from_a, from_b) = (rise / a.slope - w, rise / b.slope - w);
-    let x = a.x + share * (w + rest * (rest * from_a - share * from_b));
-    if x > a.x && x < b.x { x } else { a.x + w * share }
-}
-
-/// What rounding may make of the values of a polynomial in 0..=end.
-fn rounding(coefficients: &[f64], end: f64) -> f64 {
-    4.0 * f64::EPSILON * coefficients.iter().rev().fold(0.0, |sum, c| sum * end + c.abs())
 }
 
 /// Bound on |f''''| over 0..=end.
 fn fourth_derivative(coefficients: &[f64], end: f64) -> f64 {
-    let mut terms = [0.0; ROOM];
-    let of_fourth = coefficients.iter().zip(&FOURTH).skip(4);
-    for (term, (c, factor)) in terms.iter_mut().zip(of_fourth) {
-        *term = factor * c.abs();
+    let mut sum = 0.0;
+    for (n, c) in coefficients.iter().enumerate().skip(4).rev() {
+        sum = sum * end + (n * (n - 1) * (n - 2) * (n - 3)) as f64 * c.abs();
     }
-    value_and_slope(&terms[..coefficients.len().saturating_sub(4)], end).0
+    sum
 }
 
 /// Upper bound over 0..=x of a polynomial from its values and slopes at both ends and the bound on its fourth derivative.
@@ -271,7 +239,7 @@ pub fn first_rise(coefficients: &mut [f64], end: f64, noise: f64) -> Option<f64>
 /// As above with the root at x = 0 divided out: the sign just after it is that of the first power that is not 0.
 fn first_rise_from_zero(coefficients: &[f64], end: f64, noise: f64) -> Option<f64> {
     let whole = Curve::new(coefficients, end, noise);
-    if whole.ceiling(whole.start(), whole.at(end)) <= noise {
+    if whole.ceiling(whole.at(0.0), whole.at(end)) <= noise {
         return None;
     }
     let leading = coefficients.iter().position(|c| *c != 0.0)?;
@@ -305,7 +273,8 @@ pub fn maximum_above(
         let mut coefficients = [0.0; ROOM];
         let count = terms(&mut coefficients);
         let coefficients = &coefficients[..count];
-        let curve = Curve { coefficients, noise: rounding(coefficients, end), ..bounds };
+        let size = coefficients.iter().rev().fold(0.0, |sum, c| sum * end + c.abs());
+        let curve = Curve { coefficients, noise: 4.0 * f64::EPSILON * size, ..bounds };
         curve.maximum(a, b, &mut best);
     }
     best.0.is_finite().then_some(best)

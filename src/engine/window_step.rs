@@ -24,6 +24,9 @@ const SWEEP_SHARE: f64 = 0.3;
 /// far better than between its nodes.
 const BETWEEN_NODES: f64 = 10.0;
 
+/// Share of a contact's force that moves it, and of its speed, below which it is at rest.
+const AT_REST: f64 = 0.1;
+
 /// Windows that are tried for one step.
 const MOST_TRIES: usize = 5;
 
@@ -77,6 +80,9 @@ impl Model {
         self.load(base, inputs, &mut work.load, &mut work.slope);
         let Some(mut draft) = self.draft(base, &mut step.window, remaining) else { return false };
         if !self.set_equation(windows, base, step, work, draft.longest.max(1.5 * draft.length)) {
+            return false;
+        }
+        if (0..step.window.equation.closed).any(|place| self.is_at_rest(base, &step.window, place)) {
             return false;
         }
         self.watch(windows, base, step, draft.length);
@@ -171,6 +177,18 @@ impl Model {
                 false => windows.response.kernel(row, &self.pairs[contacts[other]].row),
             };
         }
+    }
+
+    /// Whether a pair leans on another without moving much: its force and all that it holds off cancel, and a window adds
+    /// them up apart, over and over; a power series adds up what is left of them.
+    fn is_at_rest(&self, base: &Base, window: &Window, place: usize) -> bool {
+        let Window { equation, contacts, .. } = window;
+        let (p, force) = (contacts[place], equation.forces[place]);
+        let (d, rate) = (base.contacts[p].penetration, base.contacts[p].rate);
+        let pushed = equation.kernels[place][place][1] * force.value(d, rate);
+        let left = 2.0 * equation.free[place][2] / (equation.scale * equation.scale) - pushed;
+        let stored = force.stored_energy(d) / self.pairs[p].mass;
+        left.abs() < AT_REST * pushed && 0.5 * rate * rate < AT_REST * AT_REST * stored
     }
 
     /// Adds the pairs that may come into contact over `length` seconds, as far as there is room.
