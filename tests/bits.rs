@@ -65,15 +65,15 @@ fn whole_runs_have_the_bits_of_every_other_machine() {
     let cases = [
         (case("law = \"stereomechanical\"\nrestitution = 0.6", RATIO), 0xc435_341b_d5cf_a375),
         (case("law = \"linear\"\nstiffness = 2.0e8", RATIO), 0x0619_7e3a_8a1c_279d),
-        (case("law = \"kelvin_voigt\"\nstiffness = 2.0e8\nrestitution = 0.6", RAYLEIGH), 0x2dfe_2e5e_2c65_e35a),
-        (case("law = \"kelvin_voigt_no_tension\"\nstiffness = 2.0e8\nrestitution = 0.6", RATIO), 0x8ce9_39fc_189b_7f90),
-        (case("law = \"hertz\"\nstiffness = 2.0e9", RATIO), 0x1703_7b91_6773_79fb),
+        (case("law = \"kelvin_voigt\"\nstiffness = 2.0e8\nrestitution = 0.6", RAYLEIGH), 0xf8bd_218a_7f7c_ceea),
+        (case("law = \"kelvin_voigt_no_tension\"\nstiffness = 2.0e8\nrestitution = 0.6", RATIO), 0xe251_2a7c_1e96_48b0),
+        (case("law = \"hertz\"\nstiffness = 2.0e9", RATIO), 0xdaac_60a6_29d2_9cc0),
         (case("law = \"hertz\"\nstiffness = 2.0e9\nexponent = 1.7", RATIO), 0x1f8b_f92b_5c81_6512),
-        (case(JANKOWSKI, RATIO), 0x41af_82fc_f99a_6006),
+        (case(JANKOWSKI, RATIO), 0xb4e2_ad40_20b8_1a0f),
         (case(DAMPED, MATRIX), 0x82f0_870d_58cc_f3a9),
         (Case { storeys: 9, energy: false, ..case(JANKOWSKI, RAYLEIGH) }, 0x73a7_d98a_9f12_c882),
         (Case { storeys: 9, ..case(DAMPED, RAYLEIGH) }, 0x7912_e0e7_8084_0e1d),
-        (Case { energy: false, ..case(DAMPED, RATIO) }, 0xcc85_30ab_8604_cf47),
+        (Case { energy: false, ..case(DAMPED, RATIO) }, 0xd9cc_0fd5_705d_3af0),
     ];
     let got = cases.each_ref().map(|(case, _)| fingerprint(case));
     let expected = cases.map(|(_, expected)| expected);
