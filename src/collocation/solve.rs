@@ -187,8 +187,8 @@ impl Solution {
         let theta = &tables.theta;
         for p in 0..equation.closed {
             let (d, v, omega) = (equation.free[p][0], equation.free[p][1] / equation.scale, equation.omega[p]);
-            for i in 0..NODES {
-                let t = theta[i] * self.length;
+            for (i, theta) in theta.iter().enumerate() {
+                let t = theta * self.length;
                 let s = (omega * t) * (omega * t);
                 let cosine = 1.0 - s * (0.5 - s * (1.0 / 24.0));
                 let sine = t * (1.0 - s * ((1.0 / 6.0) - s * (1.0 / 120.0)));
@@ -225,8 +225,8 @@ impl Solution {
                 for (response, force) in responses.iter().zip(&self.force) {
                     add_product(&mut rate, &response.rate, force);
                 }
-                for i in 0..NODES {
-                    self.rate[p][i] = room.free[p].rate[i] - ratio * rate[i];
+                for (i, slowed) in rate.iter().enumerate() {
+                    self.rate[p][i] = room.free[p].rate[i] - ratio * slowed;
                 }
             }
             forces(&law, &self.depth[p], &self.rate[p], &mut self.force[p]);
@@ -262,8 +262,8 @@ impl Solution {
                 combine(&tables.inner[1..], &factors[1..powers], &mut response);
                 add_product(&mut taken, &response, &self.force[q]);
             }
-            for i in 0..NODES {
-                self.depth[p][i] = room.free[p].depth[i] - taken[i];
+            for (i, taken) in taken.iter().enumerate() {
+                self.depth[p][i] = room.free[p].depth[i] - taken;
             }
         }
     }

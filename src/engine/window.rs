@@ -42,10 +42,10 @@ impl Window {
         let nodes = nodes();
         let x = nodes.x.map(|x| x * end);
         let mut part = Part { times: [0.0; NODES], weights: [0.0; NODES], x };
-        for i in 0..NODES {
-            let (theta, rate) = map.at(x[i]);
+        for (i, (x, weight)) in x.iter().zip(&nodes.weight).enumerate() {
+            let (theta, rate) = map.at(*x);
             part.times[i] = length * theta;
-            part.weights[i] = length * rate * (end * nodes.weight[i]);
+            part.weights[i] = length * rate * (end * weight);
         }
         part
     }
@@ -214,7 +214,7 @@ impl Way {
         }
         let x_of = |i: usize| if i < before { nodes[i] } else { last };
         let mut top = (x_of(at), best);
-        if at < before || !(self.rates.1 >= 0.0) {
+        if at < before || self.rates.1 < 0.0 || self.rates.1.is_nan() {
             let low = if at == 0 { 0.0 } else { nodes[at - 1] };
             if let Some(found) = summit(values, (low, x_of(at), x_of(at + 1))).filter(|found| found.1 > best) {
                 top = found;

@@ -171,11 +171,8 @@ impl Model {
             *term = dot(row, series.term(n));
         }
         equation.kernels[place][place] = windows.kernels[p];
-        for other in 0..equation.closed {
-            equation.kernels[place][other] = match other == place {
-                true => windows.kernels[p],
-                false => windows.response.kernel(row, &self.pairs[contacts[other]].row),
-            };
+        for (other, q) in contacts.iter().enumerate().take(equation.closed).filter(|(other, _)| *other != place) {
+            equation.kernels[place][other] = windows.response.kernel(row, &self.pairs[*q].row);
         }
     }
 
