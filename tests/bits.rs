@@ -69,11 +69,11 @@ fn whole_runs_have_the_bits_of_every_other_machine() {
         (case("law = \"kelvin_voigt_no_tension\"\nstiffness = 2.0e8\nrestitution = 0.6", RATIO), 0xe251_2a7c_1e96_48b0),
         (case("law = \"hertz\"\nstiffness = 2.0e9", RATIO), 0xdaac_60a6_29d2_9cc0),
         (case("law = \"hertz\"\nstiffness = 2.0e9\nexponent = 1.7", RATIO), 0x1f8b_f92b_5c81_6512),
-        (case(JANKOWSKI, RATIO), 0xb4e2_ad40_20b8_1a0f),
+        (case(JANKOWSKI, RATIO), 0x4a0c_ef01_c938_eb7b),
         (case(DAMPED, MATRIX), 0x82f0_870d_58cc_f3a9),
         (Case { storeys: 9, energy: false, ..case(JANKOWSKI, RAYLEIGH) }, 0x73a7_d98a_9f12_c882),
         (Case { storeys: 9, ..case(DAMPED, RAYLEIGH) }, 0x7912_e0e7_8084_0e1d),
-        (Case { energy: false, ..case(DAMPED, RATIO) }, 0xd9cc_0fd5_705d_3af0),
+        (Case { energy: false, ..case(DAMPED, RATIO) }, 0x2e11_fa11_d036_70d3),
     ];
     let got = cases.each_ref().map(|(case, _)| fingerprint(case));
     let expected = cases.map(|(_, expected)| expected);

@@ -136,8 +136,10 @@ impl Model {
             window.equation.forces[place] = force;
             window.equation.closed += 1;
         }
-        window.equation.pairs = window.equation.closed;
-        true
+        let closed = window.equation.closed;
+        window.equation.pairs = closed;
+        // Of several pairs with dashpots series are the cheaper: their sweeps take a matrix more for each two pairs.
+        closed == 1 || window.equation.forces[..closed].iter().all(|force| !force.is_damped())
     }
 
     /// Fills in the free motion and the kernels for windows up to `longest`, s; whether series reach that far.
