@@ -8,7 +8,7 @@ use crate::contact::force::power;
 use crate::contact::{EpisodeForce, Force};
 use crate::quadrature::{EIGHT, gauss};
 
-/// Relative accuracy of a step for which windows are as long as [`longest`] says, and how their length goes with it.
+/// Relative accuracy of a step for which windows are as long as [`longest_window`] says, and how their length goes with it.
 const USUAL: (f64, f64) = (2e-11, 0.055);
 
 /// Time since an entry, in units of the contact's, until which its root is felt.
