@@ -62,6 +62,17 @@ impl Force {
         }
     }
 
+    /// k, n, and the factor of what damping multiplies with the rate's series in powers of t / `scale`; of
+    /// [`Force::Root`], that of the derivative of d^1.25.
+    pub fn in_units_of(&self, scale: f64) -> (f64, f64, f64) {
+        match *self {
+            Force::None => (0.0, 1.0, 0.0),
+            Force::Linear { stiffness, damping } => (stiffness, 1.0, damping / scale),
+            Force::Power { stiffness, exponent, damping } => (stiffness, exponent, damping / scale),
+            Force::Root { stiffness, damping } => (stiffness, 1.5, 0.8 * damping / scale),
+        }
+    }
+
     /// Whether the force has a damping part.
     pub fn is_damped(&self) -> bool {
         match *self {

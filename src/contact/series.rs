@@ -158,12 +158,7 @@ impl PairBlock {
     pub fn add(&mut self, force: &Force, scale: f64, penetration: f64, step_rate: f64) -> usize {
         let lane = self.count;
         self.count += 1;
-        (self.stiffness[lane], self.exponent[lane], self.damping[lane]) = match *force {
-            Force::None => (0.0, 1.0, 0.0),
-            Force::Linear { stiffness, damping } => (stiffness, 1.0, damping / scale),
-            Force::Power { stiffness, exponent, damping } => (stiffness, exponent, damping / scale),
-            Force::Root { stiffness, damping } => (stiffness, 1.5, 0.8 * damping / scale),
-        };
+        (self.stiffness[lane], self.exponent[lane], self.damping[lane]) = force.in_units_of(scale);
         let inverse = 1.0 / penetration;
         self.inverse[lane] = inverse;
         if !force.is_regular() {
