@@ -8,15 +8,18 @@
 //! ```
 //!
 //! G_pq(t) is what an impulse at pair q makes of the distance of pair p, a power series in t that the modes give once
-//! and for all. So the forces at [`NODES`] times are all that is unknown, however many storeys there are. The time is
-//! mapped, t = h theta(x), so that roots of the time since an entry or until a release are polynomials in x.
+//! and for all. So the forces at the nodes, eight to sixteen times, are all that is unknown, however many storeys there
+//! are. The time is mapped, t = h theta(x), so that roots of the time since an entry or until a release are polynomials in x.
 
+mod equation;
 mod nodes;
+mod rows;
 mod solve;
 mod tables;
 
-pub use nodes::{Interpolant, NODES, Row, dot, nodes};
-pub use solve::{Ending, Equation, MOST_PAIRS, Room, Solution};
+pub use equation::{Equation, MOST_PAIRS, Room};
+pub use nodes::{NODES, Nodes, Row, Rule, dot, nodes};
+pub use solve::{Ending, Frame, Solution};
 pub use tables::{Map, POWERS, Tables};
 
 #[cfg(test)]

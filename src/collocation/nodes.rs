@@ -2,14 +2,45 @@
 
 use std::sync::OnceLock;
 
-/// Nodes of a window.
+/// Most nodes of a window.
 pub const NODES: usize = 16;
 
-/// A number at each node.
+/// A number at each node; 0 beyond those of the rule.
 pub type Row = [f64; NODES];
 
 /// A number for each two nodes, column by column: entry `[j][i]` is what node j adds at node i.
 pub type Matrix = [Row; NODES];
+
+/// How many nodes a window has: sixteen for long ones, fewer for those that samples of the record or events cut short.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Rule {
+    Eight,
+    Twelve,
+    #[default]
+    Sixteen,
+}
+
+impl Rule {
+    pub const ALL: [Rule; 3] = [Rule::Eight, Rule::Twelve, Rule::Sixteen];
+
+    /// Number of nodes.
+    pub const fn count(self) -> usize {
+        match self {
+            Rule::Eight => 8,
+            Rule::Twelve => 12,
+            Rule::Sixteen => NODES,
+        }
+    }
+
+    /// With more nodes, if there is one.
+    pub fn next(self) -> Option<Rule> {
+        match self {
+            Rule::Eight => Some(Rule::Twelve),
+            Rule::Twelve => Some(Rule::Sixteen),
+            Rule::Sixteen => None,
+        }
+    }
+}
 
 /// Nodes and weights of a Gauss rule on 0..=1, from Newton's method on the Legendre polynomials.
 pub fn rule(count: usize) -> Vec<(f64, f64)> {
@@ -36,8 +67,9 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (last, before)
 }
 
-/// The rule of a window and what it makes of values at its nodes.
+/// The nodes of a rule and what it makes of values at them.
 pub struct Nodes {
+    pub count: usize,
     /// x of each node in 0..=1.
     pub x: Row,
     /// Its weight.
@@ -46,32 +78,6 @@ pub struct Nodes {
     pub legendre: [Row; NODES],
     /// Derivatives by x at the nodes of the polynomial through values at them.
     pub derivative: Matrix,
-}
-
-/// The same for all windows.
-pub fn nodes() -> &'static Nodes {
-    static NODES_OF_ALL: OnceLock<Nodes> = OnceLock::new();
-    NODES_OF_ALL.get_or_init(|| {
-        let mut all = Nodes {
-            x: [0.0; NODES],
-            weight: [0.0; NODES],
-            legendre: [[0.0; NODES]; NODES],
-            derivative: [[0.0; NODES]; NODES],
-        };
-        for (i, (x, weight)) in rule(NODES).into_iter().enumerate() {
-            (all.x[i], all.weight[i]) = (x, weight);
-            for n in 0..NODES {
-                all.legendre[n][i] = (2 * n + 1) as f64 * weight * legendre(n, 2.0 * x - 1.0).0;
-            }
-        }
-        for j in 0..NODES {
-            let mut unit = [0.0; NODES];
-            unit[j] = 1.0;
-            let basis = Interpolant { legendre: std::array::from_fn(|n| dot(&unit, &all.legendre[n])) };
-            all.derivative[j] = all.x.map(|x| basis.derivatives(x)[1]);
-        }
-        all
-    })
 }
 
 /// Sum of products in a fixed order.
@@ -85,32 +91,66 @@ pub fn dot(a: &Row, b: &Row) -> f64 {
     (sum[0] + sum[2]) + (sum[1] + sum[3])
 }
 
-/// Coefficient n of the Legendre series through values at the nodes.
-pub fn coefficient(values: &Row, n: usize) -> f64 {
-    dot(values, &nodes().legendre[n])
+/// Those of a rule, computed once.
+pub fn nodes(rule: Rule) -> &'static Nodes {
+    static OF_RULES: [OnceLock<Nodes>; 3] = [const { OnceLock::new() }; 3];
+    OF_RULES[rule as usize].get_or_init(|| Nodes::compute(rule.count()))
 }
 
-/// The polynomial through values at the nodes.
+impl Nodes {
+    fn compute(count: usize) -> Nodes {
+        let mut all = Nodes {
+            count,
+            x: [0.0; NODES],
+            weight: [0.0; NODES],
+            legendre: [[0.0; NODES]; NODES],
+            derivative: [[0.0; NODES]; NODES],
+        };
+        for (i, (x, weight)) in rule(count).into_iter().enumerate() {
+            (all.x[i], all.weight[i]) = (x, weight);
+            for n in 0..count {
+                all.legendre[n][i] = (2 * n + 1) as f64 * weight * legendre(n, 2.0 * x - 1.0).0;
+            }
+        }
+        for j in 0..count {
+            let mut unit = [0.0; NODES];
+            unit[j] = 1.0;
+            let basis = all.interpolant(&unit);
+            for i in 0..count {
+                all.derivative[j][i] = basis.derivatives(all.x[i])[1];
+            }
+        }
+        all
+    }
+
+    /// Coefficient n of the Legendre series through values at the nodes.
+    pub fn coefficient(&self, values: &Row, n: usize) -> f64 {
+        dot(values, &self.legendre[n])
+    }
+
+    /// The polynomial through values at the nodes.
+    pub fn interpolant(&self, values: &Row) -> Interpolant {
+        let mut legendre = [0.0; NODES];
+        for (n, c) in legendre.iter_mut().enumerate().take(self.count) {
+            *c = self.coefficient(values, n);
+        }
+        Interpolant { legendre, count: self.count }
+    }
+}
+
+/// A polynomial through values at nodes.
 #[derive(Clone, Copy, Debug)]
 pub struct Interpolant {
     legendre: Row,
+    count: usize,
 }
 
 impl Interpolant {
-    /// Through these values.
-    pub fn through(values: &Row) -> Interpolant {
-        let mut legendre = [0.0; NODES];
-        for (n, c) in legendre.iter_mut().enumerate() {
-            *c = coefficient(values, n);
-        }
-        Interpolant { legendre }
-    }
-
     /// Its values at points x of 0..=1.
     pub fn at<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
         let z = x.map(|x| 2.0 * x - 1.0);
         let (mut last, mut before, mut sum) = ([1.0; N], [0.0; N], [0.0; N]);
-        for (n, c) in self.legendre.iter().enumerate() {
+        for (n, c) in self.legendre[..self.count].iter().enumerate() {
             let n = n as f64;
             let (rising, falling) = ((2.0 * n + 1.0) / (n + 1.0), n / (n + 1.0));
             for i in 0..N {
@@ -126,7 +166,7 @@ impl Interpolant {
     pub fn derivatives(&self, x: f64) -> [f64; 3] {
         let z = 2.0 * x - 1.0;
         let (mut last, mut before, mut sum) = ([1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]);
-        for (n, c) in self.legendre.iter().enumerate() {
+        for (n, c) in self.legendre[..self.count].iter().enumerate() {
             let n = n as f64;
             let (rising, falling) = ((2.0 * n + 1.0) / (n + 1.0), n / (n + 1.0));
             let products = [z * last[0], z * last[1] + 2.0 * last[0], z * last[2] + 4.0 * last[1]];

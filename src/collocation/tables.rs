@@ -1,6 +1,6 @@
 //! Integrals over a window of powers of the time left, times the polynomials through its nodes.
 
-use super::nodes::{Matrix, NODES, Row, nodes, rule};
+use super::nodes::{Matrix, NODES, Nodes, Row, Rule, nodes, rule};
 use crate::structure::RESPONSE_POWERS;
 use std::sync::OnceLock;
 
@@ -89,7 +89,7 @@ impl Map {
         [Map::Plain, Map::SquareStart, Map::FourthStart, Map::SquareEnd, Map::SquareBoth, Map::FourthBoth];
 }
 
-/// The integrals of one map.
+/// The integrals of one map and rule.
 pub struct Tables {
     /// theta of each node.
     pub theta: Row,
@@ -104,46 +104,47 @@ pub struct Tables {
 }
 
 impl Tables {
-    /// Those of a map, computed once.
-    pub fn of(map: Map) -> &'static Tables {
-        static OF_MAPS: [OnceLock<Box<Tables>>; 6] = [const { OnceLock::new() }; 6];
-        OF_MAPS[map as usize].get_or_init(|| Box::new(Tables::compute(map)))
+    /// Those of a map and a rule, computed once.
+    pub fn of(map: Map, rule: Rule) -> &'static Tables {
+        static ALL: [[OnceLock<Box<Tables>>; 6]; 3] = [const { [const { OnceLock::new() }; 6] }; 3];
+        ALL[rule as usize][map as usize].get_or_init(|| Box::new(Tables::compute(map, nodes(rule))))
     }
 
-    /// Computes those of all maps, if that has not been done: not in the middle of a run.
+    /// Computes them all, if that has not been done: not in the middle of a run.
     pub fn prepare() {
-        for map in Map::ALL {
-            Tables::of(map);
+        for (map, rule) in Map::ALL.into_iter().flat_map(|map| Rule::ALL.map(|rule| (map, rule))) {
+            Tables::of(map, rule);
         }
     }
 
-    fn compute(map: Map) -> Tables {
+    fn compute(map: Map, nodes: &Nodes) -> Tables {
         // Exact for the highest degree: 15 of the polynomial, 4 of the map's derivative, 5 for each power.
         let fine = rule((NODES + 4 + 5 * POWERS) / 2 + 1);
-        let nodes = nodes();
+        let count = nodes.count;
         let mut tables = Tables {
-            theta: nodes.x.map(|x| map.at(x).0),
+            theta: [0.0; NODES],
             lag: [0.0; NODES],
             weight: [0.0; NODES],
             inner: [[[0.0; NODES]; NODES]; POWERS],
             whole: [[0.0; NODES]; POWERS],
         };
-        for i in 0..NODES {
+        for i in 0..count {
             let (theta, rate) = map.at(nodes.x[i]);
+            tables.theta[i] = theta;
             tables.lag[i] = theta / rate;
             tables.weight[i] = rate * nodes.weight[i];
         }
-        for i in 0..=NODES {
-            let end = nodes.x.get(i).copied().unwrap_or(1.0);
+        for i in 0..=count {
+            let end = if i < count { nodes.x[i] } else { 1.0 };
             for &(y, weight) in &fine {
                 let x = end * y;
                 let (theta, rate) = map.at(x);
                 let left = map.at(end).0 - theta;
                 let mut share = end * weight * rate;
-                let basis = basis(x);
+                let basis = basis(x, nodes);
                 for k in 0..POWERS {
-                    for (j, basis) in basis.iter().enumerate() {
-                        match i < NODES {
+                    for (j, basis) in basis.iter().enumerate().take(count) {
+                        match i < count {
                             true => tables.inner[k][j][i] += share * basis,
                             false => tables.whole[k][j] += share * basis,
                         }
@@ -157,12 +158,11 @@ impl Tables {
 }
 
 /// The polynomials l_j at x that are 1 at node j and 0 at the others.
-fn basis(x: f64) -> Row {
-    let nodes = nodes();
+fn basis(x: f64, nodes: &Nodes) -> Row {
     let mut all = [0.0; NODES];
     let z = 2.0 * x - 1.0;
     let (mut last, mut before) = (1.0, 0.0);
-    for n in 0..NODES {
+    for n in 0..nodes.count {
         for (all, share) in all.iter_mut().zip(&nodes.legendre[n]) {
             *all += share * last;
         }
@@ -176,22 +176,35 @@ fn basis(x: f64) -> Row {
 mod tests {
     use super::*;
 
+    impl Map {
+        fn degree(self) -> usize {
+            match self {
+                Map::Plain => 1,
+                Map::SquareStart | Map::SquareEnd => 2,
+                Map::SquareBoth => 3,
+                Map::FourthStart => 4,
+                Map::FourthBoth => 5,
+            }
+        }
+    }
+
     /// The integral of (theta_1 - theta)^k theta^m over 0..theta_1 is m! k! / (m + k + 1)! theta_1^(m + k + 1).
     #[test]
     fn powers_of_the_time_are_integrated_to_rounding() {
-        for map in Map::ALL {
-            let tables = Tables::of(map);
+        for (map, rule) in Map::ALL.into_iter().flat_map(|map| Rule::ALL.map(|rule| (map, rule))) {
+            let (tables, count) = (Tables::of(map, rule), rule.count());
             for k in 0..POWERS {
-                for m in 0..=3 {
+                // Of polynomials in x of a degree that the nodes hold.
+                for m in 0..=(((count - 1) / map.degree()).min(3) as u32) {
                     let value = tables.theta.map(|theta| libm::pow(theta, f64::from(m)));
                     let mut beta = 1.0 / (k as f64 + 1.0);
                     for i in 1..=m {
                         beta *= f64::from(i) / (k as f64 + 1.0 + f64::from(i));
                     }
-                    let whole: f64 = tables.whole[k].iter().zip(&value).map(|(w, v)| w * v).sum();
+                    let whole: f64 = tables.whole[k].iter().zip(&value).take(count).map(|(w, v)| w * v).sum();
                     assert!((whole / beta - 1.0).abs() < 1e-12, "{map:?} {k} {m}: {whole} instead of {beta}");
-                    for i in 0..NODES {
-                        let sum: f64 = (0..NODES).map(|j| tables.inner[k][j][i] * value[j]).sum();
+                    for i in 0..count {
+                        let sum: f64 = (0..count).map(|j| tables.inner[k][j][i] * value[j]).sum();
                         let exact = beta * libm::pow(tables.theta[i], k as f64 + 1.0 + f64::from(m));
                         assert!((sum - exact).abs() < 1e-15, "{map:?} {k} {m} {i}: {sum} instead of {exact}");
                     }

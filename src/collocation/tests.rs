@@ -14,9 +14,13 @@ fn free_mass(mass: f64, force: Force, d: f64, v: f64, omega: f64, scale: f64) ->
 }
 
 fn solved(equation: &Equation, map: Map, length: f64, ending: Ending, tolerance: f64) -> Solution {
+    solved_by(Rule::Sixteen, equation, map, length, ending, tolerance)
+}
+
+fn solved_by(rule: Rule, equation: &Equation, map: Map, length: f64, ending: Ending, tolerance: f64) -> Solution {
     let mut solution = Solution::default();
     assert!(
-        solution.solve(equation, &mut Room::new(2), (map, length, ending), tolerance),
+        solution.solve(equation, &mut Room::new(2), Frame { map, rule, length, ending }, tolerance),
         "{map:?} {length} {ending:?}"
     );
     solution
@@ -42,6 +46,32 @@ fn two_windows_take_a_hertz_impact_from_entry_to_release() {
         let duration = (entry.length + middle.length + last.length) / unit;
         assert!((duration / exact - 1.0).abs() < 1e-12, "{first}: {duration} instead of {exact}");
         assert!((last.end[0].1 / v + 1.0).abs() < 1e-12, "{first}: leaves at {}", last.end[0].1);
+    }
+}
+
+/// The same with fewer nodes, in more and shorter windows.
+#[test]
+fn windows_of_fewer_nodes_take_a_hertz_impact_in_more_steps() {
+    let (m, k, v) = (3e4, 3e10, 0.5);
+    let unit = libm::pow(m * m / (k * k * v), 0.2);
+    let exact = 2.0 * libm::pow(1.25, 0.4) * std::f64::consts::PI.sqrt() * libm::tgamma(1.4) / libm::tgamma(0.9);
+    let force = Force::Power { stiffness: k, exponent: 1.5, damping: 0.0 };
+    for (rule, ends) in [
+        (Rule::Eight, &[0.1, 0.2, 0.4, 0.7, 1.1, 1.6, 2.1, 2.5, 2.8, 3.0, 3.1][..]),
+        (Rule::Twelve, &[0.5, 1.1, 1.8, 2.6]),
+    ] {
+        let entry = free_mass(m, force, 0.0, v, 1.0 / unit, 2.0 * unit);
+        let mut window = solved_by(rule, &entry, Map::SquareStart, ends[0] * unit, Ending::Given, 1e-16);
+        for (from, to) in ends.iter().zip(&ends[1..]) {
+            let equation = free_mass(m, force, window.end[0].0, window.end[0].1, 1.0 / unit, 2.0 * unit);
+            window = solved_by(rule, &equation, Map::Plain, (to - from) * unit, Ending::Given, 1e-16);
+        }
+        let last = free_mass(m, force, window.end[0].0, window.end[0].1, 1.0 / unit, 2.0 * unit);
+        let rest = exact - ends.last().unwrap();
+        let last = solved_by(rule, &last, Map::SquareEnd, 0.95 * rest * unit, Ending::Release(0), 1e-16);
+        let late = last.length / (rest * unit) - 1.0;
+        assert!(late.abs() * rest < 1e-11, "{rule:?}: released too late by {late}");
+        assert!((last.end[0].1 / v + 1.0).abs() < 1e-11, "{rule:?}: leaves at {}", last.end[0].1);
     }
 }
 
@@ -102,7 +132,7 @@ fn a_watched_pair_ends_a_window_when_it_touches() {
     (equation.free[1][0], equation.free[1][1]) = (-1e-3, 0.4 * equation.scale);
     let window = solved(&equation, Map::Plain, 2e-3, Ending::Touch(1), 1e-16);
     assert!((window.length - 2.5e-3).abs() < 1e-15, "{}", window.length);
-    for (theta, d) in Tables::of(Map::Plain).theta.iter().zip(&window.depth[1]) {
+    for (theta, d) in Tables::of(Map::Plain, Rule::Sixteen).theta.iter().zip(&window.depth[1]) {
         assert!((d - (0.4 * theta * window.length - 1e-3)).abs() < 1e-17, "{d}");
     }
 }
@@ -112,7 +142,8 @@ fn a_watched_pair_ends_a_window_when_it_touches() {
 fn a_polynomial_comes_back_from_its_values() {
     let polynomial = |x: f64| (0..16).map(|n| libm::pow(x - 0.3, f64::from(n)) * f64::from(n - 7)).sum::<f64>();
     let slope = |x: f64| (1..16).map(|n| f64::from(n * (n - 7)) * libm::pow(x - 0.3, f64::from(n - 1))).sum::<f64>();
-    let interpolant = Interpolant::through(&nodes().x.map(polynomial));
+    let nodes = nodes(Rule::Sixteen);
+    let interpolant = nodes.interpolant(&nodes.x.map(polynomial));
     for x in [0.0, 0.01, 0.37, 0.99, 1.0] {
         let ([value], [same, rate, _]) = (interpolant.at(&[x]), interpolant.derivatives(x));
         // Derivatives at the ends of a polynomial of degree n lose up to n^2 of its rounding, twice.

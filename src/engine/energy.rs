@@ -167,7 +167,7 @@ impl Model {
         self.read_window(step, length, &mut powers, (&mut q, &mut v));
         let room = std::cell::RefCell::new(powers);
         let motion = |t: f64, q: &mut [f64], v: &mut [f64]| self.read_window(step, t, &mut room.borrow_mut(), (q, v));
-        self.integrate(base, motion, nodes.into_iter(), 0.0, work, done);
+        self.integrate(base, motion, nodes, 0.0, work, done);
         work.powers = room.into_inner();
         (work.q, work.v) = (q, v);
     }

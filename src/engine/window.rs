@@ -2,7 +2,7 @@
 
 use super::model::Model;
 use super::state::*;
-use crate::collocation::{Equation, Interpolant, MOST_PAIRS, NODES, POWERS, Row, Solution, Tables, dot, nodes};
+use crate::collocation::{Equation, MOST_PAIRS, NODES, Nodes, POWERS, Row, Solution, Tables, dot, nodes};
 use crate::polynomial::{Powers, value_and_slope};
 
 /// Share of a peak that the node next to it has at least.
@@ -11,6 +11,9 @@ const NEARLY: f64 = 0.97;
 /// How far a polynomial through the nodes is off at most, relative to a peak.
 const INTERPOLATED: f64 = 1e-6;
 
+/// N s^(k+1): integrals of (time left)^k times the force of each pair of a window.
+pub(super) type Moments = [[f64; POWERS]; MOST_PAIRS];
+
 /// A window of the pairs in contact.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Window {
@@ -18,6 +21,8 @@ pub(super) struct Window {
     pub contacts: [usize; MOST_PAIRS],
     pub equation: Equation,
     pub solution: Solution,
+    /// Until its end.
+    whole: Moments,
 }
 
 /// The part of a window up to some time: nodes of its own, at which the forces are known.
@@ -37,12 +42,12 @@ impl Window {
     }
 
     fn part(&self, elapsed: f64) -> Part {
-        let Solution { map, length, .. } = self.solution;
+        let Solution { map, rule, length, .. } = self.solution;
         let end = map.inverse((elapsed / length).min(1.0));
-        let nodes = nodes();
+        let nodes = nodes(rule);
         let x = nodes.x.map(|x| x * end);
         let mut part = Part { times: [0.0; NODES], weights: [0.0; NODES], x };
-        for (i, (x, weight)) in x.iter().zip(&nodes.weight).enumerate() {
+        for (i, (x, weight)) in x.iter().zip(&nodes.weight).enumerate().take(nodes.count) {
             let (theta, rate) = map.at(*x);
             part.times[i] = length * theta;
             part.weights[i] = length * rate * (end * weight);
@@ -51,30 +56,35 @@ impl Window {
     }
 
     /// Times, s, and weights for integrals until `elapsed`.
-    pub fn nodes(&self, elapsed: f64) -> [(f64, f64); NODES] {
+    pub fn nodes(&self, elapsed: f64) -> impl Iterator<Item = (f64, f64)> {
         let part = self.part(elapsed);
-        std::array::from_fn(|i| (part.times[i], part.weights[i]))
+        part.times.into_iter().zip(part.weights).take(self.solution.rule.count())
     }
 
-    /// N s^(k+1): integrals of (time left)^k times the force of each pair until `elapsed`.
-    pub fn moments(&self, elapsed: f64) -> [[f64; POWERS]; MOST_PAIRS] {
-        let Equation { closed: pairs, powers, .. } = self.equation;
-        let mut moments = [[0.0; POWERS]; MOST_PAIRS];
-        let Solution { map, length, ref force, .. } = self.solution;
-        if elapsed == length {
-            let whole = &Tables::of(map).whole;
-            for (moments, force) in moments.iter_mut().zip(force).take(pairs) {
-                let mut power = length;
-                for (moment, whole) in moments.iter_mut().zip(whole).take(powers) {
-                    *moment = power * dot(whole, force);
-                    power *= length;
-                }
+    /// Works out the moments until the end of a solution that has been found.
+    pub fn close(&mut self) {
+        let Equation { closed, powers, .. } = self.equation;
+        let Solution { map, rule, length, ref force, .. } = self.solution;
+        let whole = &Tables::of(map, rule).whole;
+        for (moments, force) in self.whole.iter_mut().zip(force).take(closed) {
+            let mut power = length;
+            for (moment, whole) in moments.iter_mut().zip(whole).take(powers) {
+                *moment = power * dot(whole, force);
+                power *= length;
             }
-            return moments;
         }
-        let part = self.part(elapsed);
-        for (moments, force) in moments.iter_mut().zip(force).take(pairs) {
-            let mut pushed = Interpolant::through(force).at(&part.x);
+    }
+
+    /// The moments until `elapsed`, for which there is `room`.
+    pub fn moments<'a>(&'a self, elapsed: f64, room: &'a mut Moments) -> &'a Moments {
+        let Equation { closed, powers, .. } = self.equation;
+        let Solution { rule, length, ref force, .. } = self.solution;
+        if elapsed == length {
+            return &self.whole;
+        }
+        let (nodes, part) = (nodes(rule), self.part(elapsed));
+        for (moments, force) in room.iter_mut().zip(force).take(closed) {
+            let mut pushed = nodes.interpolant(force).at(&part.x);
             for (pushed, weight) in pushed.iter_mut().zip(&part.weights) {
                 *pushed *= weight;
             }
@@ -85,11 +95,11 @@ impl Window {
                 }
             }
         }
-        moments
+        room
     }
 
     /// Penetration, m, and rate, m/s, of a pair under these moments.
-    fn depth(&self, place: usize, elapsed: f64, moments: &[[f64; POWERS]; MOST_PAIRS]) -> (f64, f64) {
+    fn depth(&self, place: usize, elapsed: f64, moments: &Moments) -> (f64, f64) {
         let Equation { terms, ref free, ref kernels, .. } = self.equation;
         self.depth_of((&free[place][..terms], &kernels[place]), elapsed, moments)
     }
@@ -99,7 +109,7 @@ impl Window {
         &self,
         (free, kernels): (&[f64], &[[f64; POWERS]; MOST_PAIRS]),
         elapsed: f64,
-        moments: &[[f64; POWERS]; MOST_PAIRS],
+        moments: &Moments,
     ) -> (f64, f64) {
         let Equation { closed, powers, scale, .. } = self.equation;
         let (d, v) = value_and_slope(free, elapsed / scale);
@@ -121,8 +131,9 @@ impl Model {
         powers.set(elapsed / step.series.scale, step.series.order);
         step.series.evaluate(powers, q, v);
         let window = &step.window;
-        let moments = window.moments(elapsed);
-        for (p, moments) in window.contacts.iter().zip(&moments).take(window.equation.closed) {
+        let mut room = Moments::default();
+        let moments = window.moments(elapsed, &mut room);
+        for (p, moments) in window.contacts.iter().zip(moments).take(window.equation.closed) {
             windows.response.push(&self.pairs[*p].row, &moments[..window.equation.powers], (q, v));
         }
     }
@@ -135,28 +146,30 @@ impl Contact {
         let Some(place) = window.place(self.episode.contact) else { return };
         let law = self.branch();
         let solution = &window.solution;
+        let nodes = nodes(solution.rule);
         let is_whole = elapsed == solution.length;
-        let moments = window.moments(elapsed);
+        let mut room = Moments::default();
+        let moments = window.moments(elapsed, &mut room);
         self.impulse += moments[place][0];
         self.episode.impulse += moments[place][0];
         let (depth, rate) = (&solution.depth[place], &solution.rate[place]);
         if law.is_damped() {
             let sum = |weights: &Row, d: &Row, v: &Row| dot(weights, &law.damping_powers(d, v));
             self.work += if is_whole {
-                solution.length * sum(&Tables::of(solution.map).weight, depth, rate)
+                solution.length * sum(&Tables::of(solution.map, solution.rule).weight, depth, rate)
             } else {
                 let part = window.part(elapsed);
-                let [d, v] = [depth, rate].map(|row| Interpolant::through(row).at(&part.x));
+                let [d, v] = [depth, rate].map(|row| nodes.interpolant(row).at(&part.x));
                 sum(&part.weights, &d, &v)
             };
         }
-        let end = if is_whole { solution.end[place] } else { window.depth(place, elapsed, &moments) };
+        let end = if is_whole { solution.end[place] } else { window.depth(place, elapsed, moments) };
         let last = if is_whole { 1.0 } else { solution.map.inverse(elapsed / solution.length) };
-        let way = Way { last, rates: (self.rate, end.1) };
+        let way = Way { nodes, last, rates: (self.rate, end.1) };
         // Between nodes forces are known to fewer digits than what they do: what is read there is worked out from that.
         let read = |x: f64| {
             let elapsed = solution.length * solution.map.at(x).0;
-            window.depth(place, elapsed, &window.moments(elapsed))
+            window.depth(place, elapsed, window.moments(elapsed, &mut Moments::default()))
         };
         let deepest = way.highest(depth, end.0, self.episode.peak_penetration);
         if let Some(x) = deepest {
@@ -190,6 +203,7 @@ impl Contact {
 
 /// How far a window is followed, and how fast what is followed goes there.
 struct Way {
+    nodes: &'static Nodes,
     /// x.
     last: f64,
     /// At the start and at the end, where it is known.
@@ -200,8 +214,8 @@ impl Way {
     /// x where what has these values at the nodes and `end` at the end is largest, if it is above `known` there; at the start
     /// it is not.
     fn highest(&self, values: &Row, end: f64, known: f64) -> Option<f64> {
-        let (nodes, last) = (&nodes().x, self.last);
-        let before = if last < 1.0 { nodes.iter().take_while(|x| **x < last).count() } else { NODES };
+        let (nodes, last) = (&self.nodes.x[..self.nodes.count], self.last);
+        let before = if last < 1.0 { nodes.iter().take_while(|x| **x < last).count() } else { nodes.len() };
         let (mut best, mut at) = (end, before);
         for (i, value) in values.iter().enumerate().take(before) {
             if *value > best {
@@ -216,30 +230,30 @@ impl Way {
         let mut top = (x_of(at), best);
         if at < before || self.rates.1 < 0.0 || self.rates.1.is_nan() {
             let low = if at == 0 { 0.0 } else { nodes[at - 1] };
-            if let Some(found) = summit(values, (low, x_of(at), x_of(at + 1))).filter(|found| found.1 > best) {
+            if let Some(found) = self.summit(values, (low, x_of(at), x_of(at + 1))).filter(|found| found.1 > best) {
                 top = found;
             }
         }
         (top.1 > known * (1.0 - INTERPOLATED)).then_some(top.0)
     }
-}
 
-/// Where the polynomial through values at the nodes has its summit in low..high, by Newton's method from a point on.
-fn summit(values: &Row, (low, from, high): (f64, f64, f64)) -> Option<(f64, f64)> {
-    let interpolant = Interpolant::through(values);
-    let mut x = from;
-    for _ in 0..8 {
-        let [value, slope, curvature] = interpolant.derivatives(x);
-        let step = slope / curvature;
-        // The value at the summit is flat: half of the digits of x give all of its digits.
-        if curvature < 0.0 && step.abs() < 1e-9 {
-            return Some((x, value));
+    /// Where the polynomial through values at the nodes has its summit in low..high, by Newton's method from a point on.
+    fn summit(&self, values: &Row, (low, from, high): (f64, f64, f64)) -> Option<(f64, f64)> {
+        let interpolant = self.nodes.interpolant(values);
+        let mut x = from;
+        for _ in 0..8 {
+            let [value, slope, curvature] = interpolant.derivatives(x);
+            let step = slope / curvature;
+            // The value at the summit is flat: half of the digits of x give all of its digits.
+            if curvature < 0.0 && step.abs() < 1e-9 {
+                return Some((x, value));
+            }
+            let next = if curvature < 0.0 { (x - step).clamp(low, high) } else { return None };
+            if next == x {
+                return None;
+            }
+            x = next;
         }
-        let next = if curvature < 0.0 { (x - step).clamp(low, high) } else { return None };
-        if next == x {
-            return None;
-        }
-        x = next;
+        None
     }
-    None
 }

@@ -6,8 +6,8 @@
 
 use super::model::Model;
 use super::state::*;
-use super::window::Window;
-use crate::collocation::{Ending, MOST_PAIRS, POWERS, Row, Tables};
+use super::window::{Moments, Window};
+use crate::collocation::{Ending, MOST_PAIRS, POWERS, Tables};
 use crate::contact::Guard;
 use crate::structure::dot;
 
@@ -36,7 +36,7 @@ impl Model {
     fn others_stay_apart(&self, base: &Base, step: &Step, work: &mut Workspace) -> bool {
         let Some(windows) = &self.windows else { return false };
         let (window, series) = (&*step.window, &step.series);
-        let Window { contacts, equation, solution } = window;
+        let Window { contacts, equation, solution, .. } = window;
         let is_other = |p: usize, contact: &Contact| !contact.in_contact() && window.place(p).is_none();
         let mut others = base.contacts.iter().enumerate().filter(|(p, contact)| is_other(*p, contact));
         others.all(|(p, contact)| {
@@ -46,7 +46,7 @@ impl Model {
                 *term = dot(row, series.term(n));
             }
             let kernels: [[f64; POWERS]; MOST_PAIRS] = std::array::from_fn(|q| match q < equation.closed {
-                true => windows.response.kernel(row, &self.pairs[contacts[q]].row),
+                true => windows.kernel(&self.pairs, p, contacts[q]),
                 false => [0.0; POWERS],
             });
             let bend = window.bend(terms, |q| (kernels[q][1].abs(), &kernels[q]));
@@ -81,14 +81,14 @@ impl Window {
         for q in 0..equation.closed {
             let (at_once, kernel) = kernels(q);
             let later = (2..equation.powers).rev().fold(0.0, |sum, k| sum * h + (k * (k - 1)) as f64 * kernel[k].abs());
-            bend += greatest(&solution.force[q]) * (at_once + later * h);
+            bend += greatest(&solution.force[q][..solution.rule.count()]) * (at_once + later * h);
         }
         bend.max(0.0)
     }
 }
 
 /// Bound on the size of a force between its nodes too.
-fn greatest(force: &Row) -> f64 {
+fn greatest(force: &[f64]) -> f64 {
     2.0 * force.iter().fold(0.0_f64, |most, force| most.max(force.abs()))
 }
 
@@ -106,7 +106,8 @@ struct Approach<'a> {
 impl Approach<'_> {
     /// m, penetration after so many seconds.
     fn depth(&self, elapsed: f64) -> f64 {
-        self.window.depth_of((self.free, self.kernels), elapsed, &self.window.moments(elapsed)).0
+        let mut room = Moments::default();
+        self.window.depth_of((self.free, self.kernels), elapsed, self.window.moments(elapsed, &mut room)).0
     }
 
     /// Whether it stays below 0 between two times at which it is; pieces are halved up to so many times.
@@ -149,7 +150,7 @@ impl Passage<'_> {
     /// From the start by all nodes to the end.
     fn pieces(&self) -> impl Iterator<Item = Piece> {
         let Window { solution, .. } = self.window;
-        let theta = &Tables::of(solution.map).theta;
+        let theta = &Tables::of(solution.map, solution.rule).theta[..solution.rule.count()];
         let (depth, rate) = (&solution.depth[self.place], &solution.rate[self.place]);
         let nodes = theta.iter().zip(depth).zip(rate).map(|((theta, d), v)| (theta * solution.length, *d, *v));
         let (d, v) = solution.end[self.place];

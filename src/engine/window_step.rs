@@ -27,6 +27,12 @@ const BETWEEN_NODES: f64 = 10.0;
 /// Share of a contact's force that moves it, and of its speed, below which it is at rest.
 const AT_REST: f64 = 0.1;
 
+/// Pairs with dashpots that a window is for: of more, series are the cheaper. Sweeps take two matrices for each two pairs.
+const MOST_DAMPED: usize = 2;
+
+/// Pairs of which all kernels are kept: 64 kB.
+const MOST_KNOWN: usize = 20;
+
 /// Windows that are tried for one step.
 const MOST_TRIES: usize = 5;
 
@@ -34,7 +40,7 @@ const MOST_TRIES: usize = 5;
 #[derive(Clone, Debug)]
 pub(super) struct Windows {
     pub response: ImpulseResponse,
-    /// G of each pair by itself.
+    /// G_pq of pairs p and q, one row after the other, where they are few.
     kernels: Vec<[f64; POWERS]>,
     /// Error between nodes that a window may have, relative to what one step may.
     allowed: f64,
@@ -53,9 +59,18 @@ impl Windows {
         }
         let response = ImpulseResponse::of(structure)?;
         Tables::prepare();
-        let kernels = pairs.iter().map(|pair| response.kernel(&pair.row, &pair.row)).collect();
+        let known = if pairs.len() <= MOST_KNOWN { pairs } else { &[] };
+        let kernels = known.iter().flat_map(|p| known.iter().map(|q| response.kernel(&p.row, &q.row))).collect();
         let allowed = BETWEEN_NODES / libm::cbrt(step_tolerance);
         Some(Windows { response, kernels, allowed, patience: patience(step_tolerance), springs })
+    }
+}
+
+impl Windows {
+    /// G_pq of two pairs.
+    pub fn kernel(&self, pairs: &[Pair], p: usize, q: usize) -> [f64; POWERS] {
+        let known = self.kernels.get(p * pairs.len() + q);
+        known.copied().unwrap_or_else(|| self.response.kernel(&pairs[p].row, &pairs[q].row))
     }
 }
 
@@ -79,7 +94,7 @@ impl Model {
         }
         self.load(base, inputs, &mut work.load, &mut work.slope);
         let Some(mut draft) = self.draft(base, &mut step.window, remaining) else { return false };
-        if !self.set_equation(windows, base, step, work, draft.longest.max(1.5 * draft.length)) {
+        if !self.set_equation(windows, base, step, work, draft.room()) {
             return false;
         }
         if (0..step.window.equation.closed).any(|place| self.is_at_rest(base, &step.window, place)) {
@@ -89,19 +104,19 @@ impl Model {
         let tolerance = self.step_tolerance * base.velocity_scale;
         for _ in 0..MOST_TRIES {
             let Window { equation, solution, .. } = &mut *step.window;
-            let how = (draft.map, draft.length, draft.ending);
-            if !solution.solve(equation, &mut work.windows, how, SWEEP_SHARE * tolerance * draft.length) {
+            if !solution.solve(equation, &mut work.windows, draft.frame(), SWEEP_SHARE * tolerance * draft.length) {
                 // An event that is not where it was expected may be late.
                 draft = match draft.ending {
                     Ending::Given => draft.shorter(0.5),
-                    _ => draft.shorter(1.0).until(Ending::Given, draft.longest),
+                    _ => draft.shorter(1.0).until(Ending::Given, draft.longest.min(equation.scale)),
                 };
                 continue;
             }
             if solution.length > remaining {
-                draft = draft.shorter(1.0).until(Ending::Given, remaining);
+                draft = draft.shorter(1.0).until(Ending::Given, remaining.min(equation.scale));
                 continue;
             }
+            step.window.close();
             match self.judge(base, step, work, draft, tolerance) {
                 Verdict::Good => {
                     counters.contact_steps += 1;
@@ -138,8 +153,7 @@ impl Model {
         }
         let closed = window.equation.closed;
         window.equation.pairs = closed;
-        // Of several pairs with dashpots series are the cheaper: their sweeps take a matrix more for each two pairs.
-        closed == 1 || window.equation.forces[..closed].iter().all(|force| !force.is_damped())
+        closed <= MOST_DAMPED || window.equation.forces[..closed].iter().all(|force| !force.is_damped())
     }
 
     /// Fills in the free motion and the kernels for windows up to `longest`, s; whether series reach that far.
@@ -172,9 +186,9 @@ impl Model {
         for (n, term) in free.iter_mut().enumerate().take(series.order + 1).skip(2) {
             *term = dot(row, series.term(n));
         }
-        equation.kernels[place][place] = windows.kernels[p];
+        equation.kernels[place][place] = windows.kernel(&self.pairs, p, p);
         for (other, q) in contacts.iter().enumerate().take(equation.closed).filter(|(other, _)| *other != place) {
-            equation.kernels[place][other] = windows.response.kernel(row, &self.pairs[*q].row);
+            equation.kernels[place][other] = windows.kernel(&self.pairs, p, *q);
         }
     }
 
@@ -218,6 +232,9 @@ impl Model {
         let error = solution.velocity_error(equation) / tolerance;
         let allowed = windows.allowed;
         if error > allowed {
+            if let Some(least) = solution.rule.next() {
+                return Verdict::Another(Draft { least, ..draft });
+            }
             let share = libm::pow(allowed / error, 0.1);
             return Verdict::Another(draft.shorter((0.9 * share).max(0.3)));
         }
@@ -253,7 +270,8 @@ impl Window {
     /// The window up to the first event that a solved one has passed.
     fn passed(&self, draft: Draft) -> Option<Draft> {
         let Window { equation, solution, .. } = self;
-        let theta = &Tables::of(solution.map).theta;
+        let count = solution.rule.count();
+        let theta = &Tables::of(solution.map, solution.rule).theta[..count];
         let mut first = (f64::INFINITY, Ending::Given);
         for place in 0..equation.pairs {
             let (depth, rate, (d, v)) = (&solution.depth[place], &solution.rate[place], solution.end[place]);
@@ -261,10 +279,10 @@ impl Window {
             let event = if is_closed { Ending::Release(place) } else { Ending::Touch(place) };
             let is_beyond = |d: f64| if is_closed { d <= 0.0 } else { d > 0.0 };
             // Right after a release or entry it is at the surface.
-            let beyond = depth.iter().chain([&d]).position(|d| is_beyond(*d));
+            let beyond = depth[..count].iter().chain([&d]).position(|d| is_beyond(*d));
             let beyond = beyond.filter(|i| *i < theta.len() || draft.ending != event).map(|i| (i, event));
             let turns = is_closed && matches!(equation.forces[place], Force::Root { .. });
-            let turned = rate.iter().chain([&v]).position(|v| turns && *v <= 0.0);
+            let turned = rate[..count].iter().chain([&v]).position(|v| turns && *v <= 0.0);
             let turn = Ending::Turn(place);
             let turned = turned.filter(|i| *i < theta.len() || draft.ending != turn).map(|i| (i, turn));
             for (i, event) in [beyond, turned].into_iter().flatten() {
