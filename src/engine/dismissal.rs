@@ -179,49 +179,14 @@ impl Model {
         if base.watch.are_all_free(segment) {
             return true;
         }
-        let size = self.amplitudes(base, amplitude);
-        let ahead = ground.ahead_of(segment);
-        for (p, pair) in self.pairs.iter().enumerate() {
-            if base.watch.is_free(p, segment) {
-                continue;
-            }
-            let Seen { bounds: sums, pull, moved, rate } = look(self, base, &pair.row, amplitude);
-            let contact = &mut base.contacts[p];
-            if !base.watch.is_known(p) {
-                counters.pairs_evaluated += 1;
-                (contact.penetration, contact.rate) = (moved - pair.gap, rate);
-                base.watch.set_known(p);
-            }
-            if contact.carried {
-                continue;
-            }
-            let (growth, dragged) = (&self.closing.growth[p], self.closing.dragged[p]);
-            let start = contact.flight_start() + MARGIN * (pair.gap.abs() + size);
-            let pull = pull + MARGIN * sums.change;
-            let stays_apart = |segments: u64| {
-                let (time, shaking) = ahead.over(segments);
-                let time = (1.0 + MARGIN) * (time - base.elapsed);
-                let speed = sums.speed + growth.speed * shaking;
-                let change = sums.change + growth.change * shaking;
-                let bend = sums.bend + growth.bend * shaking;
-                let rate = contact.rate + MARGIN * speed;
-                // Written so that a NaN never stays apart.
-                if start + time * speed < 0.0 || start + time * (rate + 0.5 * time * change) < 0.0 {
-                    return true;
-                }
-                let (first, second) = (time * rate, 0.5 * time * time * (pull + shaking * dragged));
-                let end = start + (first + second + time * time * time * (bend * (1.0 / 6.0)));
-                let inner = [3.0 * start + first, 3.0 * start + 2.0 * first + second];
-                start < 0.0 && inner[0] < 0.0 && inner[1] < 0.0 && end < 0.0
-            };
-            base.watch.pairs[p] = segment + longest(stays_apart);
-        }
+        look_at_all(self, ground, base, segment, counters, amplitude);
         base.watch.due = base.watch.pairs.iter().copied().min().unwrap_or(u64::MAX);
         base.watch.are_all_free(segment)
     }
 
     /// Bounds on sqrt(v^2 + w^2 q^2) of all modes at the base. Returns a bound on what the displacements add to any
     /// penetration, m.
+    #[inline(always)]
     fn amplitudes(&self, base: &Base, amplitude: &mut [f64]) -> f64 {
         let [(q, _), (v, _), (omega, _), (weight, _)] =
             [&base.q, &base.v, &self.closing.omega, &self.pair_weight].map(|vector| vector.as_chunks::<LANES>());
@@ -246,26 +211,83 @@ fn share_amplitude(modes: &mut [f64]) {
     modes.fill(whole);
 }
 
-/// The largest of 0, 1, 2, 3, 4, 6, 8, 12 ... segments, up to MOST, for which a pair stays apart.
-fn longest(stays_apart: impl Fn(u64) -> bool) -> u64 {
-    let mut free = USUAL;
-    if stays_apart(free) {
-        while free < MOST && stays_apart(2 * free) {
-            free *= 2;
+/// Looks at each pair that has not been dismissed for a segment. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn look_at_all(
+    model: &Model,
+    ground: &GroundMotion,
+    base: &mut Base,
+    segment: u64,
+    counters: &mut Counters,
+    amplitude: &mut [f64],
+) {
+    let size = model.amplitudes(base, amplitude);
+    let ahead = ground.ahead_of(segment);
+    for (p, pair) in model.pairs.iter().enumerate() {
+        if base.watch.is_free(p, segment) {
+            continue;
         }
-    } else {
-        free /= 2;
-        while free > 0 && !stays_apart(free) {
-            free /= 2;
+        let Seen { bounds: sums, pull, moved, rate } = look(model, base, &pair.row, amplitude);
+        let contact = &mut base.contacts[p];
+        if !base.watch.is_known(p) {
+            counters.pairs_evaluated += 1;
+            (contact.penetration, contact.rate) = (moved - pair.gap, rate);
+            base.watch.set_known(p);
         }
+        if contact.carried {
+            continue;
+        }
+        let (growth, dragged) = (&model.closing.growth[p], model.closing.dragged[p]);
+        let start = contact.flight_start() + MARGIN * (pair.gap.abs() + size);
+        let pull = pull + MARGIN * sums.change;
+        let stays_apart = |segments: u64| {
+            let (time, shaking) = ahead.over(segments);
+            let time = (1.0 + MARGIN) * (time - base.elapsed);
+            let speed = sums.speed + growth.speed * shaking;
+            let change = sums.change + growth.change * shaking;
+            let bend = sums.bend + growth.bend * shaking;
+            let rate = contact.rate + MARGIN * speed;
+            // Written so that a NaN never stays apart.
+            if start + time * speed < 0.0 || start + time * (rate + 0.5 * time * change) < 0.0 {
+                return true;
+            }
+            let (first, second) = (time * rate, 0.5 * time * time * (pull + shaking * dragged));
+            let end = start + (first + second + time * time * time * (bend * (1.0 / 6.0)));
+            let inner = [3.0 * start + first, 3.0 * start + 2.0 * first + second];
+            start < 0.0 && inner[0] < 0.0 && inner[1] < 0.0 && end < 0.0
+        };
+        base.watch.pairs[p] = segment + longest(stays_apart);
     }
-    let between = free + free / 2;
-    if between > free && between < MOST && stays_apart(between) { between } else { free }
 }
 
-/// The sums over modes of one pair: of bounds, and of what its motion is at the base. Wide instructions give the same
-/// bits.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
+/// The largest of 0, 1, 2, 3, 4, 6, 8, 12 ... segments, up to MOST, for which a pair stays apart: doubled or halved first,
+/// then half as much again.
+#[inline(always)]
+fn longest(stays_apart: impl Fn(u64) -> bool) -> u64 {
+    let (mut free, mut tried, mut has_failed) = (0, USUAL, false);
+    loop {
+        let between = tried % 3 == 0;
+        if stays_apart(tried) {
+            free = tried;
+        } else {
+            has_failed = true;
+        }
+        if between || free == MOST {
+            return free;
+        }
+        tried = match free {
+            0 => tried / 2,
+            _ if has_failed => free + free / 2,
+            _ => 2 * free,
+        };
+        if tried == free {
+            return free;
+        }
+    }
+}
+
+/// The sums over modes of one pair: of bounds, and of what its motion is at the base.
+#[inline(always)]
 fn look<'a>(model: &'a Model, base: &'a Base, row: &'a [f64], amplitude: &'a [f64]) -> Seen {
     let ClosingSpeeds { quickness, bend: bends, .. } = &model.closing;
     let Structure { damping, omega2, .. } = &model.structure;

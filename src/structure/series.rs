@@ -104,7 +104,7 @@ impl MotionSeries {
         self.order += 1;
     }
 
-    /// Expands from a started series of modes that damping does not couple to `order`, under a load, its slope and the
+    /// Expands from a started series of modes that damping does not couple to `order`, or goes on with an expanded one, under a load, its slope and the
     /// forces of some pairs; the terms of up to [`FEW_BLOCKS`] blocks of modes stay in registers.
     pub fn expand_few_modes(
         &mut self,
@@ -281,6 +281,12 @@ pub fn sum_terms(terms: &[f64], powers: (&[f64], &[f64]), rate: f64, q: &mut [f6
     let (terms, _) = terms.as_chunks::<LANES>();
     let (q, v) = (q.as_chunks_mut::<LANES>().0, v.as_chunks_mut::<LANES>().0);
     let width = q.len();
+    match width {
+        1 => return sum_few::<1>(terms, powers, rate, q, v),
+        2 => return sum_few::<2>(terms, powers, rate, q, v),
+        3 => return sum_few::<3>(terms, powers, rate, q, v),
+        _ => {}
+    }
     let (wide_q, q) = q.as_chunks_mut::<ABREAST>();
     let (wide_v, v) = v.as_chunks_mut::<ABREAST>();
     for (k, (q, v)) in wide_q.iter_mut().zip(wide_v).enumerate() {
@@ -290,6 +296,28 @@ pub fn sum_terms(terms: &[f64], powers: (&[f64], &[f64]), rate: f64, q: &mut [f6
     for (k, (q, v)) in q.iter_mut().zip(v).enumerate() {
         ([*q], [*v]) = sum_blocks((terms, width), first + k, powers, rate);
     }
+}
+
+/// The same for vectors of `N` blocks.
+#[inline(always)]
+fn sum_few<const N: usize>(
+    terms: &[Lane],
+    (powers, slopes): (&[f64], &[f64]),
+    rate: f64,
+    q: &mut [Lane],
+    v: &mut [Lane],
+) {
+    let (mut value, mut change) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
+    for (row, (power, slope)) in terms.as_chunks::<N>().0.iter().zip(powers.iter().zip(slopes)).rev() {
+        for c in 0..N {
+            for i in 0..LANES {
+                value[c][i] += row[c][i] * power;
+                change[c][i] += row[c][i] * slope;
+            }
+        }
+    }
+    q.copy_from_slice(&value);
+    v.copy_from_slice(&change.map(|change| change.map(|change| change * rate)));
 }
 
 /// q and v of `N` blocks of lanes.
@@ -352,9 +380,10 @@ fn expand_blocks<const WIDTH: usize, F: PairForces>(
 ) {
     let [damping, omega2, load, slope] =
         [&structure.damping, &structure.omega2, load, slope].map(first_blocks::<WIDTH>);
-    let mut before = first_blocks::<WIDTH>(series.term(0));
-    let mut last = first_blocks::<WIDTH>(series.term(1));
-    for (n, reciprocal) in RECIPROCAL.iter().enumerate().take(order - 1) {
+    let (terms, _) = series.coefficients.as_chunks_mut::<LANES>().0.as_chunks_mut::<WIDTH>();
+    let first = series.order - 1;
+    let (mut before, mut last) = (terms[first], terms[first + 1]);
+    for ((n, reciprocal), term) in RECIPROCAL.iter().enumerate().skip(first).zip(&mut terms[first + 2..=order]) {
         let mut next = match n {
             0 => load,
             1 => slope.map(|slope| slope.map(|slope| slope * series.scale)),
@@ -369,7 +398,7 @@ fn expand_blocks<const WIDTH: usize, F: PairForces>(
             }
         }
         forces.act(n, factor, &mut next);
-        series.coefficients[(n + 2) * series.lanes..][..series.lanes].copy_from_slice(next.as_flattened());
+        *term = next;
         (before, last) = (last, next);
     }
     series.order = order;
