@@ -164,8 +164,13 @@ fn fly_few<const WIDTH: usize>(
         model.drift.raise_few(q.as_flattened(), &mut raised);
         flown += 1;
     }
-    let numbers = q.as_flattened().iter().chain(v.as_flattened());
-    if numbers.fold(0.0, |spoiled, number| spoiled + 0.0 * number).is_nan() {
+    let mut spoiled = [0.0; LANES];
+    for c in 0..WIDTH {
+        for i in 0..LANES {
+            spoiled[i] += 0.0 * (q[c][i] + v[c][i]);
+        }
+    }
+    if spoiled.iter().any(|spoiled| spoiled.is_nan()) {
         return 0;
     }
     *peaks = raised;

@@ -95,7 +95,7 @@ impl Model {
         let (step_tolerance, order) = contact_step::accuracy(scene.solver.relative_tolerance);
         Ok(Model {
             drift: DriftShapes::of(&structure),
-            closing: ClosingSpeeds::of(&structure, &pairs),
+            closing: ClosingSpeeds::of(&structure, &pairs, &pair_weight),
             frequencies: [Side::Left, Side::Right]
                 .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
             initial: initial_state(scene, &structure),
