@@ -337,9 +337,15 @@ fn look(model: &Model, base: &Base, row: &[f64], amplitude: &[f64]) -> Seen {
         moved = each(|i| moved[i] + row[i] * q[i]);
         rate = each(|i| rate[i] + row[i] * v[i]);
     }
-    let sum = |lanes: [f64; LANES]| lanes.iter().sum();
-    let bounds = Sums { speed: sum(speed), change: sum(change), bend: sum(bend) };
-    Seen { bounds, pull: sum(pull), moved: sum(moved), rate: sum(rate) }
+    let [speed, change, bend, pull, moved, rate] = totals(&[speed, change, bend, pull, moved, rate]);
+    Seen { bounds: Sums { speed, change, bend }, pull, moved, rate }
+}
+
+/// Sums over lanes, from left to right. Not inlined: else compilers add up the same lane of several sums abreast, for which
+/// they turn round every block of modes.
+#[inline(never)]
+fn totals(sums: &[Lane; 6]) -> [f64; 6] {
+    sums.map(|lanes| lanes.iter().sum())
 }
 
 /// What a look at a pair tells.
