@@ -345,7 +345,11 @@ fn look(model: &Model, base: &Base, row: &[f64], amplitude: &[f64]) -> Seen {
 /// they turn round every block of modes.
 #[inline(never)]
 fn totals(sums: &[Lane; 6]) -> [f64; 6] {
-    sums.map(|lanes| lanes.iter().sum())
+    let mut totals = [0.0; 6];
+    for (total, [a, b, c, d]) in totals.iter_mut().zip(sums) {
+        *total = ((a + b) + c) + d;
+    }
+    totals
 }
 
 /// What a look at a pair tells.

@@ -460,6 +460,29 @@ mod tests {
     }
 
     #[test]
+    fn a_root_does_not_depend_on_where_the_search_ends() {
+        let mut curve = polynomial(0.7, &[0.31, 1.4, -0.2, 2.3, -1.7]);
+        curve.iter_mut().enumerate().for_each(|(n, c)| *c *= 1.0 + 1e-3 * n as f64);
+        let first = first_rise(&mut curve.clone(), 1.0, 0.0).unwrap();
+        for k in 0..1000 {
+            let end = 0.35 + 1e-3 * f64::from(k);
+            assert_eq!(first_rise(&mut curve.clone(), end, 0.0), Some(first), "up to {end}");
+        }
+        assert_eq!(first_rise(&mut curve, first, 0.0).unwrap_or(first), first);
+    }
+
+    #[test]
+    fn a_curve_has_passed_at_its_root() {
+        // So have others that are the same: what meets at one instant is not taken for two impacts.
+        for k in 1..1000 {
+            let mut curve = polynomial(1.0, &[1e-3 * f64::from(k), 1.1 + 1e-4 * f64::from(k), 1.7, -0.3]);
+            let root = first_rise(&mut curve, 1.0, 0.0).unwrap();
+            let value = curve.iter().rev().fold(0.0, |sum, c| sum * root + c);
+            assert!(value >= 0.0 && (root - 1e-3 * f64::from(k)).abs() < 1e-14, "{value} at {root}");
+        }
+    }
+
+    #[test]
     fn two_passages_between_the_ends_are_seen() {
         // Below 0 at both ends, above 0 for a short while: what sampling misses.
         for width in [0.3, 1e-2, 1e-4, 1e-6] {
