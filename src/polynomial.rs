@@ -25,7 +25,7 @@ pub const COUNT: Coefficients = {
 };
 
 /// n (n-1) (n-2) (n-3).
-const FOURTH: Coefficients = {
+pub const FOURTH: Coefficients = {
     let mut table = [0.0; ROOM];
     let mut n = 4;
     while n < ROOM {
@@ -142,11 +142,6 @@ impl Powers {
 
 fn total(block: [f64; BLOCK]) -> f64 {
     (block[0] + block[2]) + (block[1] + block[3])
-}
-
-/// Value of a polynomial at x.
-pub fn value(coefficients: &[f64], x: f64) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
 
 /// Value and slope of a polynomial at x.

@@ -98,6 +98,21 @@ fn a_free_impact_takes_a_few_windows() {
 }
 
 #[test]
+fn a_free_impact_on_a_spring_takes_one_series() {
+    // From entry to release; an order for power laws takes three.
+    for (law, most) in [("linear", 1), ("kelvin_voigt", 2)] {
+        let keys = if law == "linear" { "" } else { "restitution = 0.6" };
+        let mut scene = common::free_impact((3e4, 5e4), &format!("law = \"{law}\"\nstiffness = 3.0e10\n{keys}"), 0.5);
+        scene.ground.record = Some("r.csv".into());
+        scene.solver.relative_tolerance = 1e-8;
+        let mut run = Run::new(&scene, Some(&record(1.0, &[0.0; 2])));
+        let counters = run.to(0.9).state.counters();
+        assert_eq!(run.episodes.len(), 1, "{law}");
+        assert!(counters.contact_steps <= most, "{law}: {counters:?}");
+    }
+}
+
+#[test]
 fn an_entry_beside_another_contact_takes_no_more_steps() {
     // Measured: 6.7, 5.4 and 10.1 for each event. An entry that cannot use its own series takes some forty steps more.
     let laws = [

@@ -204,17 +204,31 @@ impl PairBlock {
         self.order = n;
         self.force[n] = match self.kind {
             Kind::None => [0.0; PAIRS],
-            Kind::Linear => self.linear_force(n),
+            Kind::Linear => self.linear_force(n, &self.penetration[n], &self.penetration[n + 1]),
             Kind::Spring => self.spring_force(n),
             Kind::Power => self.damped_power_force(n),
             Kind::Root => self.root_force(n),
         };
     }
 
+    /// Power n of linear forces, from the powers n and n + 1 of the penetrations.
     #[inline(always)]
-    fn linear_force(&self, n: usize) -> Each {
-        let (d, next) = (self.penetration[n], self.penetration[n + 1]);
+    pub fn linear_force(&self, n: usize, d: &Each, next: &Each) -> Each {
         each(|i| self.stiffness[i] * d[i] + self.damping[i] * (COUNT[n + 1] * next[i]))
+    }
+
+    /// Enters power n of linear forces and the power n + 2 of the penetrations that follows from it.
+    #[inline(always)]
+    pub fn enter_linear(&mut self, n: usize, force: Each, penetration: Each) {
+        if n + 2 < ROOM {
+            (self.force[n], self.penetration[n + 2]) = (force, penetration);
+            self.order = n;
+        }
+    }
+
+    /// Whether all forces are linear.
+    pub fn is_linear(&self) -> bool {
+        self.kind == Kind::Linear
     }
 
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! Advancing: plan a step, take it, handle its event, until the communication time is reached.
 
+use super::glide::Glide;
 use super::ground::Segment;
 use super::model::Model;
 use super::state::*;
@@ -31,26 +32,26 @@ impl Model {
         self.check_segments(state, until)?;
         let glide = self.glide(state, until, self.most_flights as u64);
         if !glide.has_arrived {
-            self.go_on(state, until, glide.flown, on_episode)?;
+            self.go_on(state, until, glide, on_episode)?;
         }
         state.time = until;
         Ok(())
     }
 
-    /// Advances where gliding has ended, after so many segments.
+    /// Advances from where gliding has ended.
     fn go_on(
         &self,
         state: &mut State,
         until: f64,
-        flown: u64,
+        mut glide: Glide,
         on_episode: &mut dyn FnMut(&Episode),
     ) -> Result<(), EngineError> {
-        let mut progress = self.progress(state, flown);
+        let mut progress = self.progress(state, glide.flown);
         loop {
             let segment = &state.base.segment;
             let limit = self.limit(segment, until);
             if limit > state.base.elapsed || !self.is_driven() {
-                self.plan(state, limit);
+                self.plan(state, limit, glide.is_refused);
                 let segment = &state.base.segment;
                 let end = state.step_end(limit);
                 if until - segment.start < end {
@@ -68,7 +69,7 @@ impl Model {
             } else if self.is_driven() && state.base.elapsed >= limit {
                 break;
             }
-            let glide = self.glide(state, until, progress.flights_left(&state.counters));
+            glide = self.glide(state, until, progress.flights_left(&state.counters));
             if glide.flown > 0 {
                 progress.note(true);
             }
@@ -84,8 +85,9 @@ impl Model {
         if self.is_driven() { segment.length.min(until - segment.start) } else { segment.length }
     }
 
-    /// Works out the next step, unless that has been done already.
-    pub(super) fn plan(&self, state: &mut State, limit: f64) {
+    /// Works out the next step, unless that has been done already; `is_refused` where no flight need ask again whether all
+    /// pairs can be dismissed for its segment.
+    pub(super) fn plan(&self, state: &mut State, limit: f64, is_refused: bool) {
         match state.step.kind {
             StepKind::Unknown => {}
             StepKind::Glide => self.forget_glide(state),
@@ -96,7 +98,7 @@ impl Model {
         if state.base.contacts.iter().any(Contact::in_contact) {
             self.plan_contact(state, limit);
         } else {
-            self.plan_flight(state, limit);
+            self.plan_flight(state, limit, is_refused);
         }
     }
 

@@ -3,6 +3,7 @@
 use super::model::{Model, Pair};
 use super::roots;
 use super::state::*;
+use crate::contact::Force;
 use crate::contact::series::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock, each};
 use crate::polynomial::{Coefficients, Powers, Reading};
 use crate::structure::{FEW_BLOCKS, LANES, Lane, PairForces, difference};
@@ -35,7 +36,7 @@ pub(super) struct Members {
     /// What a force does to each floor, 1/kg: minus and plus its inverse mass.
     inverse_masses: [[f64; 2]; PAIRS],
     /// 1/kg, relative acceleration of the pair by its own force.
-    softness: Each,
+    pub softness: Each,
     /// What the pair is to the first modes.
     rows: [[Lane; FEW_BLOCKS]; PAIRS],
 }
@@ -49,7 +50,7 @@ impl Members {
         self.inverse_masses[lane] = [-left, right];
         self.softness[lane] = left + right;
         if coordinates == Coordinates::Modes {
-            self.rows[lane] = first_blocks(&data.row);
+            self.rows[lane] = data.first_blocks;
         }
     }
 }
@@ -103,6 +104,22 @@ impl ClosedPairs {
         self.at_surface[self.used] = false;
         self.used += 1;
         self.used - 1
+    }
+
+    /// The block of all pairs where they fit into one and are under linear laws: its members, whether one of them has just
+    /// entered, and whether the penetrations have to wait for all forces.
+    pub fn only_linear_block(&mut self) -> Option<(&mut PairBlock, &Members, bool, bool)> {
+        if self.used != 1 || !self.blocks[0].is_linear() {
+            return None;
+        }
+        Some((&mut self.blocks[0], &self.members[0], self.at_surface[0], self.waits))
+    }
+
+    /// Whether any pair is released by x, as far as the first powers tell.
+    pub fn are_some_nearly_released(&self, x: f64) -> bool {
+        let parabola = |d: &[Each], lane: usize| d[0][lane] + x * (d[1][lane] + x * d[2][lane]);
+        let blocks = &self.blocks[..self.used];
+        blocks.iter().any(|block| (0..block.count).any(|lane| parabola(&block.penetration, lane) < 0.0))
     }
 
     /// Number of blocks in use.
@@ -177,15 +194,6 @@ impl ClosedPairs {
         let end = BlockEnd::of(block, block.read(powers), powers);
         contact.follow_lane((block, lane), &end, scale, start, powers.x);
     }
-}
-
-/// The first blocks of a row, filled up with zeros.
-fn first_blocks(row: &[f64]) -> [Lane; FEW_BLOCKS] {
-    let mut blocks = [[0.0; LANES]; FEW_BLOCKS];
-    for (block, row) in blocks.as_flattened_mut().iter_mut().zip(row) {
-        *block = *row;
-    }
-    blocks
 }
 
 /// How contact forces and the motion meet in its coordinates. `count` lanes of the members hold pairs.
@@ -375,13 +383,6 @@ impl Contact {
         self.impulse += impulse;
         self.episode.impulse += impulse;
         self.work += block.damping_work(lane, &self.branch(), scale, x, end.motion.penetration[lane]);
-        let terms = |out: &mut Coefficients| block.copy_force(lane, out);
-        let first = (block.force[0][lane], block.force[1][lane]);
-        if let Some((at, peak)) = roots::maximum_above(first, x, &end.force.of(lane), self.episode.peak_force, terms) {
-            self.episode.peak_force = peak;
-            self.episode.peak_time = start + at * scale;
-            self.peak_force = self.peak_force.max(peak);
-        }
         let depth = Reading {
             value: end.motion.penetration[lane],
             slope: end.motion.slope[lane],
@@ -389,8 +390,23 @@ impl Contact {
         };
         let terms = |out: &mut Coefficients| block.copy_penetration(lane, out);
         let first = (block.penetration[0][lane], block.penetration[1][lane]);
-        if let Some((_, peak)) = roots::maximum_above(first, x, &depth, self.episode.peak_penetration, terms) {
+        let deepest = roots::maximum_above(first, x, &depth, self.episode.peak_penetration, terms);
+        if let Some((_, peak)) = deepest {
             self.episode.peak_penetration = peak;
+        }
+        let strongest = match self.branch() {
+            // A spring alone is strongest where it is deepest.
+            Force::Linear { stiffness, damping: 0.0 } => deepest.map(|(at, peak)| (at, stiffness * peak)),
+            _ => {
+                let terms = |out: &mut Coefficients| block.copy_force(lane, out);
+                let first = (block.force[0][lane], block.force[1][lane]);
+                roots::maximum_above(first, x, &end.force.of(lane), self.episode.peak_force, terms)
+            }
+        };
+        if let Some((at, peak)) = strongest.filter(|(_, peak)| *peak > self.episode.peak_force) {
+            self.episode.peak_force = peak;
+            self.episode.peak_time = start + at * scale;
+            self.peak_force = self.peak_force.max(peak);
         }
         self.penetration = depth.value;
         self.rate = depth.slope / scale;

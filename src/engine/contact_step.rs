@@ -6,6 +6,7 @@
 
 use super::closed_pairs::{Acting, OnFewModes, OnFloors, OnModes};
 use super::complementarity::Complementarity;
+use super::linear_pairs::LinearPairs;
 use super::model::Model;
 use super::state::*;
 use crate::contact::Force;
@@ -27,6 +28,21 @@ pub(super) fn accuracy(relative_tolerance: f64) -> (f64, usize) {
     // 1.5 for each digit is about cheapest: with 1.2 single masses took 5 to 15 % more instructions, tall frames as many.
     let order = (-1.5 * libm::log10(tolerance)).round().clamp(8.0, (MAX_ORDER - 2) as f64);
     (tolerance, order as usize)
+}
+
+/// Phase of its swing, rad, that a contact under a linear law goes through from entry to release, over the share of its
+/// reach that a series is used for.
+const WHOLE_CONTACT: f64 = 3.5;
+
+/// The order at which one series takes a linear contact from entry to release: there each power costs a few products only,
+/// where each step costs its events and its end.
+pub(super) fn linear_order(tolerance: f64, order: usize) -> usize {
+    let (mut term, mut powers) = (1.0, 0);
+    while term > tolerance && powers < MAX_ORDER - 2 {
+        powers += 1;
+        term *= WHOLE_CONTACT / powers as f64;
+    }
+    powers.max(order)
 }
 
 /// Share of the time left for which floors are held together that rounding cannot tell from free ones.
@@ -65,16 +81,25 @@ impl Model {
         self.load(base, inputs, &mut work.load, &mut work.slope);
         let scale = self.series_scale(base, remaining);
         self.expand(base, step, work, scale);
-        let reach = self.accurate_reach(base, step, remaining / scale);
+        let mut reach = self.accurate_reach(base, step, remaining / scale);
+        if reach < remaining / scale && self.expand_further(base, step, work, reach) {
+            reach = self.accurate_reach(base, step, remaining / scale);
+        }
         let whole = remaining / scale <= reach;
         let end = if whole { remaining / scale } else { reach };
         step.end.set(end, step.series.order);
-        step.series.evaluate(&step.end, &mut step.q, &mut step.v);
         step.closed.read(&step.end);
+        // Only an entry is looked for in the motion.
+        let may_enter = !base.contacts.iter().all(Contact::in_contact);
+        if may_enter {
+            step.series.evaluate(&step.end, &mut step.q, &mut step.v);
+        }
         let event = self.first_event(base, step, work);
         if let Some((x, _)) = event {
             step.end.set(x, step.series.order);
             step.closed.read(&step.end);
+        }
+        if event.is_some() || !may_enter {
             step.series.evaluate(&step.end, &mut step.q, &mut step.v);
         }
         step.event = event.map(|(_, event)| event);
@@ -147,12 +172,14 @@ impl Model {
             }
             Coordinates::Modes if self.structure.is_classical() && work.rigid.pairs.is_empty() => {
                 let order = self.order + 1;
-                if base.q.len() <= FEW_BLOCKS * LANES {
-                    let mut forces = Acting { closed, meeting: OnFewModes };
-                    series.expand_few_modes(&self.structure, order, loads, &mut forces);
-                } else {
+                if base.q.len() > FEW_BLOCKS * LANES {
                     let mut forces = Acting { closed, meeting: OnModes(&self.pairs) };
                     series.expand_modes(&self.structure, order, loads, &mut forces);
+                } else if let Some(mut forces) = LinearPairs::of(closed, &self.pairs, 0) {
+                    series.expand_few_modes(&self.structure, order, loads, &mut forces);
+                } else {
+                    let mut forces = Acting { closed, meeting: OnFewModes };
+                    series.expand_few_modes(&self.structure, order, loads, &mut forces);
                 }
             }
             Coordinates::Modes => {
@@ -161,6 +188,23 @@ impl Model {
                 }
             }
         }
+    }
+
+    /// More powers of the series where these are cheap and it does not reach the release of any pair yet, within
+    /// `reach`; whether there are more now.
+    fn expand_further(&self, base: &Base, step: &mut Step, work: &Workspace, reach: f64) -> bool {
+        let Step { series, closed, .. } = step;
+        let is_on_few_modes = base.coordinates == Coordinates::Modes
+            && base.q.len() <= FEW_BLOCKS * LANES
+            && self.structure.is_classical()
+            && work.rigid.pairs.is_empty();
+        if !is_on_few_modes || self.linear_order <= self.order || closed.are_some_nearly_released(reach) {
+            return false;
+        }
+        let Some(mut forces) = LinearPairs::of(closed, &self.pairs, series.order - 1) else { return false };
+        let loads = (&work.load[..], &work.slope[..]);
+        series.expand_few_modes(&self.structure, self.linear_order + 1, loads, &mut forces);
+        true
     }
 
     /// One power of the modes, where floors are held together.

@@ -25,7 +25,8 @@
 use super::ground::GroundMotion;
 use super::model::{Model, Pair};
 use super::state::*;
-use crate::structure::{LANES, ModalDamping, Side, Structure};
+use crate::contact::series::each;
+use crate::structure::{LANES, Lane, ModalDamping, Side, Structure};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -44,18 +45,36 @@ const CHORD: f64 = 0.414_213_562_4;
 /// What stays the same during a run.
 #[derive(Debug)]
 pub(super) struct ClosingSpeeds {
-    /// rad/s, of each mode.
-    omega: Vec<f64>,
-    /// w + c, 1/s, of each mode.
-    quickness: Vec<f64>,
-    /// k, 1/s2, of each mode; infinite where damping couples it to others.
-    bend: Vec<f64>,
-    /// The sums over modes of each pair for the e of a shaking (integral of |ground acceleration|) of 1 m/s.
-    growth: Vec<Sums>,
-    /// What that shaking may do to each pair's acceleration by dashpots, m/s2.
-    dragged: Vec<f64>,
+    modes: Vec<ModeBlock>,
+    /// What a shaking (integral of |ground acceleration|) of 1 m/s does to each pair.
+    pairs: Vec<Growth>,
     /// Modes of a building in which damping couples them.
     coupled: Vec<Range<usize>>,
+}
+
+/// What [`LANES`] modes are, side by side.
+#[derive(Clone, Copy, Debug, Default)]
+struct ModeBlock {
+    /// rad/s.
+    omega: Lane,
+    /// w + c, 1/s.
+    quickness: Lane,
+    /// k, 1/s2; infinite where damping couples the mode to others.
+    bend: Lane,
+    /// c, 1/s, and w^2, 1/s2.
+    damping: Lane,
+    omega2: Lane,
+    /// Largest |row| of all pairs.
+    weight: Lane,
+}
+
+/// What a shaking of 1 m/s does to a pair.
+#[derive(Clone, Copy, Debug)]
+struct Growth {
+    /// The sums over modes for its e.
+    sums: Sums,
+    /// To the pair's acceleration by dashpots, m/s2.
+    dragged: f64,
 }
 
 /// Sums over modes of |row| e, m/s, of |row| (w + c) e, m/s2, and of |row| k e, m/s3.
@@ -136,7 +155,7 @@ impl Watch {
 }
 
 impl ClosingSpeeds {
-    pub fn of(structure: &Structure, pairs: &[Pair]) -> ClosingSpeeds {
+    pub fn of(structure: &Structure, pairs: &[Pair], weight: &[f64]) -> ClosingSpeeds {
         let mut growth: Vec<f64> = structure.participation.iter().map(|p| p.abs()).collect();
         let coupled = [Side::Left, Side::Right]
             .into_iter()
@@ -160,9 +179,24 @@ impl ClosingSpeeds {
             let of_modes = pair.row.iter().zip(&structure.damping).zip(&structure.participation);
             of_modes.map(|((row, c), participation)| (row * c * participation).abs()).sum()
         };
-        let dragged = pairs.iter().map(dragged).collect();
-        let growth = pairs.iter().map(|pair| Sums::of(&pair.row, &growth, &quickness, &bend)).collect();
-        ClosingSpeeds { growth, omega, quickness, bend, dragged, coupled }
+        let growth =
+            |pair: &Pair| Growth { sums: Sums::of(&pair.row, &growth, &quickness, &bend), dragged: dragged(pair) };
+        let block = |c: usize| {
+            let lane = |all: &[f64]| -> Lane { std::array::from_fn(|i| all[c * LANES + i]) };
+            ModeBlock {
+                omega: lane(&omega),
+                quickness: lane(&quickness),
+                bend: lane(&bend),
+                damping: lane(&structure.damping),
+                omega2: lane(&structure.omega2),
+                weight: lane(weight),
+            }
+        };
+        ClosingSpeeds {
+            modes: (0..structure.lanes / LANES).map(block).collect(),
+            pairs: pairs.iter().map(growth).collect(),
+            coupled,
+        }
     }
 }
 
@@ -179,59 +213,26 @@ impl Model {
         if base.watch.are_all_free(segment) {
             return true;
         }
-        let size = self.amplitudes(base, amplitude);
-        let ahead = ground.ahead_of(segment);
-        for (p, pair) in self.pairs.iter().enumerate() {
-            if base.watch.is_free(p, segment) {
-                continue;
-            }
-            let Seen { bounds: sums, pull, moved, rate } = look(self, base, &pair.row, amplitude);
-            let contact = &mut base.contacts[p];
-            if !base.watch.is_known(p) {
-                counters.pairs_evaluated += 1;
-                (contact.penetration, contact.rate) = (moved - pair.gap, rate);
-                base.watch.set_known(p);
-            }
-            if contact.carried {
-                continue;
-            }
-            let (growth, dragged) = (&self.closing.growth[p], self.closing.dragged[p]);
-            let start = contact.flight_start() + MARGIN * (pair.gap.abs() + size);
-            let pull = pull + MARGIN * sums.change;
-            let stays_apart = |segments: u64| {
-                let (time, shaking) = ahead.over(segments);
-                let time = (1.0 + MARGIN) * (time - base.elapsed);
-                let speed = sums.speed + growth.speed * shaking;
-                let change = sums.change + growth.change * shaking;
-                let bend = sums.bend + growth.bend * shaking;
-                let rate = contact.rate + MARGIN * speed;
-                // Written so that a NaN never stays apart.
-                if start + time * speed < 0.0 || start + time * (rate + 0.5 * time * change) < 0.0 {
-                    return true;
-                }
-                let (first, second) = (time * rate, 0.5 * time * time * (pull + shaking * dragged));
-                let end = start + (first + second + time * time * time * (bend * (1.0 / 6.0)));
-                let inner = [3.0 * start + first, 3.0 * start + 2.0 * first + second];
-                start < 0.0 && inner[0] < 0.0 && inner[1] < 0.0 && end < 0.0
-            };
-            base.watch.pairs[p] = segment + longest(stays_apart);
-        }
+        look_at_all(self, ground, base, segment, counters, amplitude);
         base.watch.due = base.watch.pairs.iter().copied().min().unwrap_or(u64::MAX);
         base.watch.are_all_free(segment)
     }
 
     /// Bounds on sqrt(v^2 + w^2 q^2) of all modes at the base. Returns a bound on what the displacements add to any
     /// penetration, m.
+    #[inline(always)]
     fn amplitudes(&self, base: &Base, amplitude: &mut [f64]) -> f64 {
-        let [(q, _), (v, _), (omega, _), (weight, _)] =
-            [&base.q, &base.v, &self.closing.omega, &self.pair_weight].map(|vector| vector.as_chunks::<LANES>());
+        let [(q, _), (v, _)] = [&base.q, &base.v].map(|vector| vector.as_chunks::<LANES>());
         let mut size = [0.0; LANES];
-        for (c, amplitude) in amplitude.as_chunks_mut::<LANES>().0.iter_mut().enumerate() {
-            for i in 0..LANES {
-                let (a, b) = (v[c][i].abs(), omega[c][i] * q[c][i].abs());
-                amplitude[i] = if a > b { a + CHORD * b } else { b + CHORD * a };
-                size[i] += weight[c][i] * q[c][i].abs();
-            }
+        let blocks = self.closing.modes.iter().zip(q).zip(v);
+        for (((mode, q), v), amplitude) in blocks.zip(amplitude.as_chunks_mut::<LANES>().0) {
+            let moved = each(|i| q[i].abs());
+            let (a, b) = (each(|i| v[i].abs()), each(|i| mode.omega[i] * moved[i]));
+            // Not `max` and `min`, which pass over a NaN.
+            let more = each(|i| if a[i] > b[i] { a[i] } else { b[i] });
+            let less = each(|i| if a[i] > b[i] { b[i] } else { a[i] });
+            *amplitude = each(|i| more[i] + CHORD * less[i]);
+            size = each(|i| size[i] + mode.weight[i] * moved[i]);
         }
         for range in &self.closing.coupled {
             share_amplitude(&mut amplitude[range.clone()]);
@@ -246,51 +247,109 @@ fn share_amplitude(modes: &mut [f64]) {
     modes.fill(whole);
 }
 
-/// The largest of 0, 1, 2, 3, 4, 6, 8, 12 ... segments, up to MOST, for which a pair stays apart.
-fn longest(stays_apart: impl Fn(u64) -> bool) -> u64 {
-    let mut free = USUAL;
-    if stays_apart(free) {
-        while free < MOST && stays_apart(2 * free) {
-            free *= 2;
+/// Looks at each pair that has not been dismissed for a segment. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn look_at_all(
+    model: &Model,
+    ground: &GroundMotion,
+    base: &mut Base,
+    segment: u64,
+    counters: &mut Counters,
+    amplitude: &mut [f64],
+) {
+    let size = model.amplitudes(base, amplitude);
+    let ahead = ground.ahead_of(segment);
+    for (p, pair) in model.pairs.iter().enumerate() {
+        if base.watch.is_free(p, segment) {
+            continue;
         }
-    } else {
-        free /= 2;
-        while free > 0 && !stays_apart(free) {
-            free /= 2;
+        let Seen { bounds: sums, pull, moved, rate } = look(model, base, &pair.row, amplitude);
+        let contact = &mut base.contacts[p];
+        if !base.watch.is_known(p) {
+            counters.pairs_evaluated += 1;
+            (contact.penetration, contact.rate) = (moved - pair.gap, rate);
+            base.watch.set_known(p);
         }
+        if contact.carried {
+            continue;
+        }
+        let Growth { sums: growth, dragged } = &model.closing.pairs[p];
+        let start = contact.flight_start() + MARGIN * (pair.gap.abs() + size);
+        let pull = pull + MARGIN * sums.change;
+        let stays_apart = |segments: u64| {
+            let (time, shaking) = ahead.over(segments);
+            let time = (1.0 + MARGIN) * (time - base.elapsed);
+            let speed = sums.speed + growth.speed * shaking;
+            let change = sums.change + growth.change * shaking;
+            let bend = sums.bend + growth.bend * shaking;
+            let rate = contact.rate + MARGIN * speed;
+            // Written so that a NaN never stays apart.
+            if start + time * speed < 0.0 || start + time * (rate + 0.5 * time * change) < 0.0 {
+                return true;
+            }
+            let (first, second) = (time * rate, 0.5 * time * time * (pull + shaking * dragged));
+            let end = start + (first + second + time * time * time * (bend * (1.0 / 6.0)));
+            let inner = [3.0 * start + first, 3.0 * start + 2.0 * first + second];
+            start < 0.0 && inner[0] < 0.0 && inner[1] < 0.0 && end < 0.0
+        };
+        base.watch.pairs[p] = segment + longest(stays_apart);
     }
-    let between = free + free / 2;
-    if between > free && between < MOST && stays_apart(between) { between } else { free }
 }
 
-/// The sums over modes of one pair: of bounds, and of what its motion is at the base. Wide instructions give the same
-/// bits.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn look<'a>(model: &'a Model, base: &'a Base, row: &'a [f64], amplitude: &'a [f64]) -> Seen {
-    let ClosingSpeeds { quickness, bend: bends, .. } = &model.closing;
-    let Structure { damping, omega2, .. } = &model.structure;
-    let blocks = |all: &'a [f64]| all.as_chunks::<LANES>().0;
-    let row = blocks(row);
-    let (amplitude, q, v) =
-        (&blocks(amplitude)[..row.len()], &blocks(&base.q)[..row.len()], &blocks(&base.v)[..row.len()]);
-    let (quickness, bends) = (&blocks(quickness)[..row.len()], &blocks(bends)[..row.len()]);
-    let (damping, omega2) = (&blocks(damping)[..row.len()], &blocks(omega2)[..row.len()]);
+/// The largest of 0, 1, 2, 3, 4, 6, 8, 12 ... segments, up to MOST, for which a pair stays apart: doubled or halved first,
+/// then half as much again.
+#[inline(always)]
+fn longest(stays_apart: impl Fn(u64) -> bool) -> u64 {
+    let (mut free, mut tried, mut has_failed, mut is_last) = (0, USUAL, false, false);
+    loop {
+        if stays_apart(tried) {
+            free = tried;
+        } else {
+            has_failed = true;
+        }
+        if is_last || free == MOST {
+            return free;
+        }
+        tried = match free {
+            0 => tried / 2,
+            _ if has_failed => free + free / 2,
+            _ => 2 * free,
+        };
+        if tried == free {
+            return free;
+        }
+        is_last = has_failed && free > 0;
+    }
+}
+
+/// The sums over modes of one pair: of bounds, and of what its motion is at the base.
+#[inline(always)]
+fn look(model: &Model, base: &Base, row: &[f64], amplitude: &[f64]) -> Seen {
+    let [row, amplitude, q, v] = [row, amplitude, &base.q, &base.v].map(|all| all.as_chunks::<LANES>().0);
     let (mut speed, mut change, mut bend) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
     let (mut pull, mut moved, mut rate) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-    for (c, row) in row.iter().enumerate() {
-        for i in 0..LANES {
-            let part = row[i].abs() * amplitude[c][i];
-            speed[i] += part;
-            change[i] += quickness[c][i] * part;
-            bend[i] += bends[c][i] * part;
-            pull[i] -= row[i] * (damping[c][i] * v[c][i] + omega2[c][i] * q[c][i]);
-            moved[i] += row[i] * q[c][i];
-            rate[i] += row[i] * v[c][i];
-        }
+    for ((((row, mode), amplitude), q), v) in row.iter().zip(&model.closing.modes).zip(amplitude).zip(q).zip(v) {
+        let part = each(|i| row[i].abs() * amplitude[i]);
+        speed = each(|i| speed[i] + part[i]);
+        change = each(|i| change[i] + mode.quickness[i] * part[i]);
+        bend = each(|i| bend[i] + mode.bend[i] * part[i]);
+        pull = each(|i| pull[i] - row[i] * (mode.damping[i] * v[i] + mode.omega2[i] * q[i]));
+        moved = each(|i| moved[i] + row[i] * q[i]);
+        rate = each(|i| rate[i] + row[i] * v[i]);
     }
-    let sum = |lanes: [f64; LANES]| lanes.iter().sum();
-    let bounds = Sums { speed: sum(speed), change: sum(change), bend: sum(bend) };
-    Seen { bounds, pull: sum(pull), moved: sum(moved), rate: sum(rate) }
+    let [speed, change, bend, pull, moved, rate] = totals(&[speed, change, bend, pull, moved, rate]);
+    Seen { bounds: Sums { speed, change, bend }, pull, moved, rate }
+}
+
+/// Sums over lanes, from left to right. Not inlined: else compilers add up the same lane of several sums abreast, for which
+/// they turn round every block of modes.
+#[inline(never)]
+fn totals(sums: &[Lane; 6]) -> [f64; 6] {
+    let mut totals = [0.0; 6];
+    for (total, [a, b, c, d]) in totals.iter_mut().zip(sums) {
+        *total = ((a + b) + c) + d;
+    }
+    totals
 }
 
 /// What a look at a pair tells.

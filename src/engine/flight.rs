@@ -7,8 +7,9 @@ use super::state::*;
 use crate::structure::{EXACT, Scratch, flight_order, fly_in_one_series};
 
 impl Model {
-    /// Works out the flight from the base until `limit` (s since the segment's start) or the first entry.
-    pub(super) fn plan_flight(&self, state: &mut State, limit: f64) {
+    /// Works out the flight from the base until `limit` (s since the segment's start) or the first entry; `is_refused` where
+    /// not all pairs can be dismissed for its segment, as has been found out already.
+    pub(super) fn plan_flight(&self, state: &mut State, limit: f64, is_refused: bool) {
         self.convert(&mut state.base, Coordinates::Modes, &mut state.work.q);
         let State { base, step, inputs, counters, work, .. } = state;
         counters.flight_steps += 1;
@@ -28,6 +29,7 @@ impl Model {
         let watched = self.watched_segment(base);
         let segment = watched.map(|(_, segment)| segment);
         if let Some((ground, segment)) = watched
+            && !is_refused
             && self.dismiss(ground, base, segment, counters, &mut work.node_v)
         {
             counters.flights_dismissed += 1;

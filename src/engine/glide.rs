@@ -5,7 +5,7 @@
 use super::ground::{GroundMotion, Segment};
 use super::model::Model;
 use super::state::*;
-use crate::structure::{LANES, Lane, ModeBlock};
+use crate::structure::{LANES, Lane};
 use std::ops::Range;
 
 /// Most segments that are flown over without looking at what has come out.
@@ -18,6 +18,8 @@ pub(super) struct Glide {
     pub flown: u64,
     /// Whether the state is there, on its way through the next segment: nothing is left to do.
     pub has_arrived: bool,
+    /// Whether some pair has just been looked at for the segment at the base and may meet in it.
+    pub is_refused: bool,
 }
 
 impl Model {
@@ -25,13 +27,14 @@ impl Model {
     /// closely.
     pub(super) fn glide(&self, state: &mut State, until: f64, most: u64) -> Glide {
         let Some((ground, first)) = self.gliding(state) else { return Glide::default() };
-        let mut next = first;
+        let (mut next, mut is_refused) = (first, false);
         let has_arrived = loop {
             let State { base, step, counters, work, .. } = &mut *state;
             let is_planned = step.kind != StepKind::Unknown;
             let is_free = base.watch.are_all_free(next)
                 || !is_planned && self.dismiss(ground, base, next, counters, &mut work.node_v);
             if !is_free || next - first >= most {
+                is_refused = !is_free && !is_planned;
                 break false;
             }
             if ends_after(&base.segment, until) {
@@ -52,7 +55,7 @@ impl Model {
             next += flown;
             base.segment = ground.segment(next);
         };
-        Glide { flown: next - first, has_arrived }
+        Glide { flown: next - first, has_arrived, is_refused }
     }
 
     /// The record and the number of the base's segment, where the motion can glide.
@@ -150,15 +153,22 @@ fn fly_few<const WIDTH: usize>(
     let Some(modes) = interval.blocks::<WIDTH>() else { return 0 };
     let Some(peaks) = base.peak_drift.few() else { return 0 };
     let [participation, mut q, mut v] = [&model.structure.participation, &base.q, &base.v].map(|all| few::<WIDTH>(all));
-    let (mut raised, mut spoiled) = (*peaks, [0.0; LANES]);
-    let mut flown = 0;
+    let (mut raised, mut flown) = (*peaks, 0);
     for (start, length, load) in ground.of_record(segments) {
         if until - start < length || length != interval.length {
             break;
         }
-        fly_blocks(modes, (&mut q, &mut v), &participation, load, &mut spoiled);
+        for c in 0..WIDTH {
+            (q[c], v[c]) = modes[c].end_on_ground((&q[c], &v[c]), &participation[c], load);
+        }
         model.drift.raise_few(q.as_flattened(), &mut raised);
         flown += 1;
+    }
+    let mut spoiled = [0.0; LANES];
+    for c in 0..WIDTH {
+        for i in 0..LANES {
+            spoiled[i] += 0.0 * (q[c][i] + v[c][i]);
+        }
     }
     if spoiled.iter().any(|spoiled| spoiled.is_nan()) {
         return 0;
@@ -168,23 +178,6 @@ fn fly_few<const WIDTH: usize>(
     base.v.copy_from_slice(v.as_flattened());
     base.watch.move_on(flown);
     flown
-}
-
-/// One segment; `spoiled` becomes NaN where the motion does not stay finite.
-#[inline(always)]
-fn fly_blocks<const WIDTH: usize>(
-    modes: &[ModeBlock; WIDTH],
-    (q, v): (&mut [Lane; WIDTH], &mut [Lane; WIDTH]),
-    participation: &[Lane; WIDTH],
-    load: (f64, f64),
-    spoiled: &mut Lane,
-) {
-    for c in 0..WIDTH {
-        (q[c], v[c]) = modes[c].end_on_ground((&q[c], &v[c]), &participation[c], load);
-        for i in 0..LANES {
-            spoiled[i] += 0.0 * (q[c][i] + v[c][i]);
-        }
-    }
 }
 
 fn few<const WIDTH: usize>(all: &[f64]) -> [Lane; WIDTH] {

@@ -57,6 +57,7 @@ mod frequencies;
 mod glide;
 mod ground;
 mod input;
+mod linear_pairs;
 mod look;
 mod model;
 mod observe;

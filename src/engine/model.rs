@@ -15,7 +15,7 @@ use crate::contact::{EpisodeForce, ImpactLaw};
 use crate::polynomial::{MAX_ORDER, Powers, ROOM};
 use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
-use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, Side, Structure};
+use crate::structure::{FEW_BLOCKS, LANES, Lane, MotionSeries, Side, Structure};
 use std::f64::consts::PI;
 
 /// Everything that stays as it is during a run.
@@ -40,6 +40,8 @@ pub struct Model {
     pub(super) step_tolerance: f64,
     /// Order of the contact series.
     pub(super) order: usize,
+    /// The same under linear laws, where it is worth while.
+    pub(super) linear_order: usize,
     pub(super) drift: DriftShapes,
     pub(super) closing: ClosingSpeeds,
     pub(super) windows: Option<Windows>,
@@ -67,6 +69,8 @@ pub(super) struct Pair {
     pub inverse_masses: [f64; 2],
     /// Their lanes in a vector of all floors.
     pub lanes: [usize; 2],
+    /// `row` as far as it goes, where modes are few.
+    pub first_blocks: [Lane; FEW_BLOCKS],
 }
 
 impl Model {
@@ -91,7 +95,7 @@ impl Model {
         let (step_tolerance, order) = contact_step::accuracy(scene.solver.relative_tolerance);
         Ok(Model {
             drift: DriftShapes::of(&structure),
-            closing: ClosingSpeeds::of(&structure, &pairs),
+            closing: ClosingSpeeds::of(&structure, &pairs, &pair_weight),
             frequencies: [Side::Left, Side::Right]
                 .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
             initial: initial_state(scene, &structure),
@@ -109,6 +113,7 @@ impl Model {
             ground,
             step_tolerance,
             order,
+            linear_order: contact_step::linear_order(step_tolerance, order),
         })
     }
 
@@ -283,6 +288,10 @@ impl Pair {
         structure.add_floor_force(Side::Right, right, -1.0, &mut row);
         let (m1, m2) = (scene.left.mass[left], scene.right.mass[right]);
         let lanes = [structure.floors.lane(0, left), structure.floors.lane(1, right)];
+        let mut first_blocks = [[0.0; LANES]; FEW_BLOCKS];
+        for (first, row) in first_blocks.as_flattened_mut().iter_mut().zip(&row) {
+            *first = *row;
+        }
         Pair {
             row,
             gap: pair.gap,
@@ -292,6 +301,7 @@ impl Pair {
             masses: [m1, m2],
             inverse_masses: [1.0 / m1, 1.0 / m2],
             lanes,
+            first_blocks,
         }
     }
 

@@ -104,7 +104,7 @@ impl MotionSeries {
         self.order += 1;
     }
 
-    /// Expands from a started series of modes that damping does not couple to `order`, under a load, its slope and the
+    /// Expands from a started series of modes that damping does not couple to `order`, or goes on with an expanded one, under a load, its slope and the
     /// forces of some pairs; the terms of up to [`FEW_BLOCKS`] blocks of modes stay in registers.
     pub fn expand_few_modes(
         &mut self,
@@ -170,7 +170,7 @@ impl MotionSeries {
         (scale, order): (f64, usize),
     ) {
         if structure.is_classical() {
-            return self.expand_single_modes(structure, (q, v), (load, slope), (scale, order));
+            return expand_single_modes(self, structure, (q, v), (load, slope), (scale, order));
         }
         self.start(scale, q, v);
         while self.order < order.max(2) {
@@ -181,44 +181,6 @@ impl MotionSeries {
                 _ => {}
             };
             self.extend(structure, load_of_power, |_| {});
-        }
-    }
-
-    /// A flight without coupling: each mode by itself, a few at a time, which then stay in registers.
-    fn expand_single_modes(
-        &mut self,
-        structure: &Structure,
-        (q, v): (&[f64], &[f64]),
-        (load, slope): (&[f64], &[f64]),
-        (scale, order): (f64, usize),
-    ) {
-        self.scale = scale;
-        self.order = order.max(3);
-        let width = self.lanes / LANES;
-        let scale2 = scale * scale;
-        let [(q, _), (v, _), (load, _), (slope, _), (damping, _), (omega2, _)] =
-            [q, v, load, slope, &structure.damping, &structure.omega2].map(|vector| vector.as_chunks::<LANES>());
-        let (terms, _) = self.coefficients.as_chunks_mut::<LANES>();
-        for c in 0..width {
-            let a = damping[c].map(|damping| damping * scale);
-            let b = omega2[c].map(|omega2| omega2 * scale2);
-            let mut before = q[c];
-            let mut last = v[c].map(|v| v * scale);
-            terms[c] = before;
-            terms[width + c] = last;
-            for n in 0..self.order - 1 {
-                let mut next = match n {
-                    0 => load[c].map(|load| load * scale2),
-                    1 => slope[c].map(|slope| slope * (scale2 * scale)),
-                    _ => [0.0; LANES],
-                };
-                let (k1, factor) = ((n + 1) as f64, RECIPROCAL[n]);
-                for i in 0..LANES {
-                    next[i] = (next[i] - (k1 * a[i] * last[i] + b[i] * before[i])) * factor;
-                }
-                terms[(n + 2) * width + c] = next;
-                (before, last) = (last, next);
-            }
         }
     }
 
@@ -281,6 +243,12 @@ pub fn sum_terms(terms: &[f64], powers: (&[f64], &[f64]), rate: f64, q: &mut [f6
     let (terms, _) = terms.as_chunks::<LANES>();
     let (q, v) = (q.as_chunks_mut::<LANES>().0, v.as_chunks_mut::<LANES>().0);
     let width = q.len();
+    match width {
+        1 => return sum_few::<1>(terms, powers, rate, q, v),
+        2 => return sum_few::<2>(terms, powers, rate, q, v),
+        3 => return sum_few::<3>(terms, powers, rate, q, v),
+        _ => {}
+    }
     let (wide_q, q) = q.as_chunks_mut::<ABREAST>();
     let (wide_v, v) = v.as_chunks_mut::<ABREAST>();
     for (k, (q, v)) in wide_q.iter_mut().zip(wide_v).enumerate() {
@@ -290,6 +258,28 @@ pub fn sum_terms(terms: &[f64], powers: (&[f64], &[f64]), rate: f64, q: &mut [f6
     for (k, (q, v)) in q.iter_mut().zip(v).enumerate() {
         ([*q], [*v]) = sum_blocks((terms, width), first + k, powers, rate);
     }
+}
+
+/// The same for vectors of `N` blocks.
+#[inline(always)]
+fn sum_few<const N: usize>(
+    terms: &[Lane],
+    (powers, slopes): (&[f64], &[f64]),
+    rate: f64,
+    q: &mut [Lane],
+    v: &mut [Lane],
+) {
+    let (mut value, mut change) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
+    for (row, (power, slope)) in terms.as_chunks::<N>().0.iter().zip(powers.iter().zip(slopes)).rev() {
+        for c in 0..N {
+            for i in 0..LANES {
+                value[c][i] += row[c][i] * power;
+                change[c][i] += row[c][i] * slope;
+            }
+        }
+    }
+    q.copy_from_slice(&value);
+    v.copy_from_slice(&change.map(|change| change.map(|change| change * rate)));
 }
 
 /// q and v of `N` blocks of lanes.
@@ -341,6 +331,47 @@ fn sizes_of_blocks<const N: usize>((terms, width): (&[Lane], usize), first: usiz
     sum
 }
 
+/// A flight without coupling: each mode by itself, a few at a time, which then stay in registers. Wide instructions give
+/// the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn expand_single_modes(
+    series: &mut MotionSeries,
+    structure: &Structure,
+    (q, v): (&[f64], &[f64]),
+    (load, slope): (&[f64], &[f64]),
+    (scale, order): (f64, usize),
+) {
+    series.scale = scale;
+    series.order = order.max(3);
+    let width = series.lanes / LANES;
+    let scale2 = scale * scale;
+    let [(q, _), (v, _), (load, _), (slope, _), (damping, _), (omega2, _)] =
+        [q, v, load, slope, &structure.damping, &structure.omega2].map(|vector| vector.as_chunks::<LANES>());
+    let (terms, _) = series.coefficients.as_chunks_mut::<LANES>();
+    for c in 0..width {
+        let a = damping[c].map(|damping| damping * scale);
+        let b = omega2[c].map(|omega2| omega2 * scale2);
+        let mut before = q[c];
+        let mut last = v[c].map(|v| v * scale);
+        terms[c] = before;
+        terms[width + c] = last;
+        let rows = terms[2 * width + c..].iter_mut().step_by(width).take(series.order - 1);
+        for ((n, factor), term) in RECIPROCAL.iter().enumerate().zip(rows) {
+            let mut next = match n {
+                0 => load[c].map(|load| load * scale2),
+                1 => slope[c].map(|slope| slope * (scale2 * scale)),
+                _ => [0.0; LANES],
+            };
+            let k1 = (n + 1) as f64;
+            for i in 0..LANES {
+                next[i] = (next[i] - (k1 * a[i] * last[i] + b[i] * before[i])) * factor;
+            }
+            *term = next;
+            (before, last) = (last, next);
+        }
+    }
+}
+
 /// See [`MotionSeries::expand_few_modes`]. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn expand_blocks<const WIDTH: usize, F: PairForces>(
@@ -352,9 +383,10 @@ fn expand_blocks<const WIDTH: usize, F: PairForces>(
 ) {
     let [damping, omega2, load, slope] =
         [&structure.damping, &structure.omega2, load, slope].map(first_blocks::<WIDTH>);
-    let mut before = first_blocks::<WIDTH>(series.term(0));
-    let mut last = first_blocks::<WIDTH>(series.term(1));
-    for (n, reciprocal) in RECIPROCAL.iter().enumerate().take(order - 1) {
+    let (terms, _) = series.coefficients.as_chunks_mut::<LANES>().0.as_chunks_mut::<WIDTH>();
+    let first = series.order - 1;
+    let (mut before, mut last) = (terms[first], terms[first + 1]);
+    for ((n, reciprocal), term) in RECIPROCAL.iter().enumerate().skip(first).zip(&mut terms[first + 2..=order]) {
         let mut next = match n {
             0 => load,
             1 => slope.map(|slope| slope.map(|slope| slope * series.scale)),
@@ -369,7 +401,7 @@ fn expand_blocks<const WIDTH: usize, F: PairForces>(
             }
         }
         forces.act(n, factor, &mut next);
-        series.coefficients[(n + 2) * series.lanes..][..series.lanes].copy_from_slice(next.as_flattened());
+        *term = next;
         (before, last) = (last, next);
     }
     series.order = order;
@@ -415,18 +447,29 @@ fn first_blocks<const WIDTH: usize>(vector: &[f64]) -> [Lane; WIDTH] {
 ///
 /// Two floors that move alike have a distance of 0 to rounding; the sign of that rounding must not decide what happens.
 pub fn difference(row: &[f64], modal: &[f64]) -> (f64, f64) {
-    let value = dot(row, modal);
-    let size: f64 = row.iter().zip(modal).map(|(row, q)| (row * q).abs()).sum();
+    let (mut sum, mut size) = ([0.0; LANES], [0.0; LANES]);
+    for (row, q) in row.as_chunks::<LANES>().0.iter().zip(modal.as_chunks::<LANES>().0) {
+        for i in 0..LANES {
+            let product = row[i] * q[i];
+            sum[i] += product;
+            size[i] += product.abs();
+        }
+    }
+    let [value, size] = [sum, size].map(from_left_to_right);
     if value.abs() <= 4.0 * f64::EPSILON * size { (0.0, size) } else { (value, size) }
 }
 
 /// Sum of products in a fixed order: one partial sum per lane, then the lanes from left to right.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut lanes = [0.0; LANES];
-    for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
+    for (a, b) in a.as_chunks::<LANES>().0.iter().zip(b.as_chunks::<LANES>().0) {
         for i in 0..LANES {
             lanes[i] += a[i] * b[i];
         }
     }
-    lanes.iter().sum()
+    from_left_to_right(lanes)
+}
+
+fn from_left_to_right([a, b, c, d]: Lane) -> f64 {
+    ((a + b) + c) + d
 }
