@@ -59,7 +59,7 @@ impl Kind {
 #[derive(Clone, Debug)]
 pub struct PairBlock {
     kind: Kind,
-    /// Pairs in it.
+    /// Lanes up to the last one that holds a pair.
     pub count: usize,
     /// k of the law.
     stiffness: Each,
@@ -142,22 +142,21 @@ impl ForceReading {
 }
 
 impl PairBlock {
-    /// Starts a block of one kind, with no pair in it yet: springs without stiffness, with d = 1.
+    /// Starts a block of one kind, with no pair in it yet: springs without stiffness, whose powers vanish.
     pub fn start(&mut self, kind: Kind) {
-        let (zeros, ones) = ([0.0; PAIRS], [1.0; PAIRS]);
+        let zeros = [0.0; PAIRS];
         self.kind = kind;
         self.count = 0;
-        (self.stiffness, self.damping) = (zeros, zeros);
-        (self.exponent, self.inverse, self.lead) = (ones, ones, [ones; 2]);
-        (self.power[0], self.root[0]) = ([ones, zeros], [ones, zeros]);
-        self.set_penetration(0, ones);
+        (self.stiffness, self.damping, self.exponent) = (zeros, zeros, zeros);
+        (self.inverse, self.lead) = (zeros, [zeros; 2]);
+        (self.power[0], self.root[0]) = ([zeros; 2], [zeros; 2]);
+        self.set_penetration(0, zeros);
         self.set_penetration(1, zeros);
     }
 
-    /// Adds a pair from its penetration and its rate per unit of x, both m; returns its lane.
-    pub fn add(&mut self, force: &Force, scale: f64, penetration: f64, step_rate: f64) -> usize {
-        let lane = self.count;
-        self.count += 1;
+    /// Adds a pair in a lane from its penetration and its rate per unit of x, both m.
+    pub fn add(&mut self, lane: usize, force: &Force, scale: f64, penetration: f64, step_rate: f64) {
+        self.count = self.count.max(lane + 1);
         (self.stiffness[lane], self.exponent[lane], self.damping[lane]) = force.in_units_of(scale);
         let inverse = 1.0 / penetration;
         self.inverse[lane] = inverse;
@@ -174,12 +173,11 @@ impl PairBlock {
             self.backwards[LAST - n][lane] = value;
             self.slope[LAST - n][lane] = COUNT[n] * value;
         }
-        lane
     }
 
-    /// Whether there is room for another pair of a kind.
-    pub fn takes(&self, kind: Kind) -> bool {
-        self.kind == kind && self.count < PAIRS
+    /// Whether its pairs are of a kind.
+    pub fn is_of(&self, kind: Kind) -> bool {
+        self.kind == kind
     }
 
     /// Enters power n of the penetrations.
@@ -452,7 +450,7 @@ mod tests {
     fn compare(force: Force, powers: &[(f64, f64)]) {
         let mut block = PairBlock::default();
         block.start(Kind::of(&force));
-        block.add(&force, 1.0, 1.0, 2.0);
+        block.add(0, &force, 1.0, 1.0, 2.0);
         for n in 0..12 {
             block.set_penetration(n + 2, [if n == 0 { 1.0 } else { 0.0 }; PAIRS]);
             block.extend_force(n);
@@ -479,9 +477,9 @@ mod tests {
         let series = |which: &[usize]| {
             let mut block = PairBlock::default();
             block.start(Kind::Root);
-            for &i in which {
+            for (lane, &i) in which.iter().enumerate() {
                 let (stiffness, damping) = forces[i];
-                block.add(&Force::Root { stiffness, damping }, 1.0, 0.5 + i as f64, -0.1);
+                block.add(lane, &Force::Root { stiffness, damping }, 1.0, 0.5 + i as f64, -0.1);
             }
             for n in 0..8 {
                 block.set_penetration(n + 2, [0.01 / (n + 1) as f64; PAIRS]);

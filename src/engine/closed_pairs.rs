@@ -25,15 +25,47 @@ pub(super) struct ClosedPairs {
     places: Vec<(usize, usize)>,
 }
 
+/// Which block of a kind a pair belongs to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Place {
+    /// Any that has a free lane.
+    #[default]
+    Any,
+    /// That of the pairs between two blocks of floors, in the lane of its floors: what happens to a block of pairs is then
+    /// the same for whole blocks of floors.
+    Between {
+        /// The blocks of the left and of the right floors.
+        blocks: [usize; 2],
+        lane: usize,
+    },
+}
+
+impl Place {
+    /// Of a pair.
+    pub fn of(pair: &Pair, coordinates: Coordinates) -> Place {
+        let [left, right] = pair.lanes;
+        match coordinates {
+            Coordinates::Floors if left % LANES == right % LANES => {
+                Place::Between { blocks: [left / LANES, right / LANES], lane: left % LANES }
+            }
+            _ => Place::Any,
+        }
+    }
+}
+
 /// The pairs of a block, lane by lane; lanes without a pair hold what was there before.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Members {
     /// Their numbers.
-    pub pairs: [usize; PAIRS],
+    pairs: [usize; PAIRS],
+    /// Which lanes hold a pair.
+    taken: [bool; PAIRS],
+    /// The blocks of floors between which they are, where each pair stands in the lane of its floors.
+    between: Option<[usize; 2]>,
     /// Lanes of the two floors.
     floors: [[usize; 2]; PAIRS],
     /// What a force does to each floor, 1/kg: minus and plus its inverse mass.
-    inverse_masses: [[f64; 2]; PAIRS],
+    inverse_masses: [Each; 2],
     /// 1/kg, relative acceleration of the pair by its own force.
     softness: Each,
     /// What the pair is to the first modes.
@@ -41,17 +73,49 @@ pub(super) struct Members {
 }
 
 impl Members {
+    /// Starts without a pair; returns the lane of the first, which belongs to a place.
+    pub fn start(&mut self, place: Place) -> usize {
+        self.taken = [false; PAIRS];
+        let (between, lane) = match place {
+            Place::Any => (None, 0),
+            Place::Between { blocks, lane } => (Some(blocks), lane),
+        };
+        self.between = between;
+        lane
+    }
+
+    /// The lane for another pair, if there is room.
+    pub fn free_lane(&self, place: Place) -> Option<usize> {
+        match place {
+            Place::Any if self.between.is_none() => self.taken.iter().position(|taken| !taken),
+            Place::Between { blocks, lane } if self.between == Some(blocks) && !self.taken[lane] => Some(lane),
+            _ => None,
+        }
+    }
+
     /// Enters a pair by its number.
     pub fn set(&mut self, lane: usize, pair: usize, data: &Pair, coordinates: Coordinates) {
         let Pair { lanes: floors, inverse_masses: [left, right], .. } = *data;
         self.pairs[lane] = pair;
+        self.taken[lane] = true;
         self.floors[lane] = floors;
-        self.inverse_masses[lane] = [-left, right];
+        (self.inverse_masses[0][lane], self.inverse_masses[1][lane]) = (-left, right);
         self.softness[lane] = left + right;
         if coordinates == Coordinates::Modes {
             self.rows[lane] = first_blocks(&data.row);
         }
     }
+
+    /// The lanes that hold a pair, with its number.
+    pub fn lanes(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.pairs.iter().copied().enumerate().zip(&self.taken).filter(|(_, taken)| **taken).map(|(pair, _)| pair)
+    }
+}
+
+/// Most blocks that so many pairs of some kinds fill.
+pub(super) fn most_blocks(pairs: usize, kinds: usize, on_floors: bool) -> usize {
+    // Every block has at least one pair; on floors their places may keep them apart.
+    if on_floors || pairs == 0 { pairs } else { pairs.min(pairs.div_ceil(PAIRS) + kinds - 1) }
 }
 
 /// What a block comes to at the end of a step.
@@ -62,11 +126,10 @@ pub(super) struct BlockEnd {
 
 impl ClosedPairs {
     /// Room for these pairs.
-    pub fn new(all: &[Pair]) -> ClosedPairs {
-        const KINDS: usize = 5;
+    pub fn new(all: &[Pair], on_floors: bool) -> ClosedPairs {
         let pairs = all.len();
         let shares = |a: &Pair, b: &Pair| a.floors[0] == b.floors[0] || a.floors[1] == b.floors[1];
-        let most = if pairs == 0 { 0 } else { pairs.div_ceil(PAIRS) + KINDS.min(pairs) - 1 };
+        let most = most_blocks(pairs, 5, on_floors);
         ClosedPairs {
             blocks: vec![PairBlock::default(); most],
             members: vec![Members::default(); most],
@@ -86,8 +149,8 @@ impl ClosedPairs {
         let is_closed = |contact: &Contact| contact.in_contact() && !contact.is_held();
         for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| is_closed(contact)) {
             let force = contact.starting_force();
-            let b = self.block_for(Kind::of(&force));
-            let lane = self.blocks[b].add(&force, scale, contact.penetration, contact.rate * scale);
+            let (b, lane) = self.room_for(Kind::of(&force), Place::of(&pairs[p], base.coordinates));
+            self.blocks[b].add(lane, &force, scale, contact.penetration, contact.rate * scale);
             self.places[p] = (b, lane);
             self.members[b].set(lane, p, &pairs[p], base.coordinates);
             self.at_surface[b] |= contact.at_surface;
@@ -95,14 +158,20 @@ impl ClosedPairs {
         }
     }
 
-    fn block_for(&mut self, kind: Kind) -> usize {
-        if let Some(b) = (0..self.used).find(|&b| self.blocks[b].takes(kind)) {
-            return b;
+    /// Block and lane for a pair of a kind.
+    fn room_for(&mut self, kind: Kind, place: Place) -> (usize, usize) {
+        let blocks = self.blocks.iter().zip(&self.members).take(self.used).enumerate();
+        let room = |(b, (block, members)): (usize, (&PairBlock, &Members))| {
+            if block.is_of(kind) { members.free_lane(place).map(|lane| (b, lane)) } else { None }
+        };
+        if let Some(found) = blocks.filter_map(room).next() {
+            return found;
         }
-        self.blocks[self.used].start(kind);
-        self.at_surface[self.used] = false;
+        let b = self.used;
+        self.blocks[b].start(kind);
+        self.at_surface[b] = false;
         self.used += 1;
-        self.used - 1
+        (b, self.members[b].start(place))
     }
 
     /// Number of blocks in use.
@@ -118,7 +187,7 @@ impl ClosedPairs {
 
     /// The pairs of a block, lane by lane.
     pub fn pairs_of(&self, block: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.members[block].pairs.iter().copied().enumerate().take(self.blocks[block].count)
+        self.members[block].lanes()
     }
 
     /// Reads the penetrations at the end of the step.
@@ -143,8 +212,8 @@ impl ClosedPairs {
     /// Calls for each pair with its number and power n of its force.
     pub fn each_force(&self, n: usize, mut visit: impl FnMut(usize, f64)) {
         for (block, members) in self.blocks.iter().zip(&self.members).take(self.used) {
-            for (pair, force) in members.pairs.iter().zip(&block.force[n]).take(block.count) {
-                visit(*pair, *force);
+            for (lane, pair) in members.lanes() {
+                visit(pair, block.force[n][lane]);
             }
         }
     }
@@ -154,8 +223,8 @@ impl ClosedPairs {
         let blocks = self.blocks.iter_mut().zip(&self.members).zip(&self.at_surface);
         for ((block, members), at_surface) in blocks.take(self.used) {
             let mut values = [0.0; PAIRS];
-            for (value, pair) in values.iter_mut().zip(&members.pairs).take(block.count) {
-                *value = term(*pair, *at_surface);
+            for (lane, pair) in members.lanes() {
+                values[lane] = term(pair, *at_surface);
             }
             block.set_penetration(n, values);
         }
@@ -204,22 +273,37 @@ pub(super) struct OnFloors;
 impl Meeting for OnFloors {
     #[inline(always)]
     fn relative(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
+        if let Some([left, right]) = members.between {
+            let (left, right) = (&term[left], &term[right]);
+            return each(|lane| left[lane] - right[lane]);
+        }
         let term = term.as_flattened();
         lane_by_lane(count, |lane| term[members.floors[lane][0]] - term[members.floors[lane][1]])
     }
 
     fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
+        if let Some([left, right]) = members.between {
+            return each(|lane| apart(term[left][lane], term[right][lane]));
+        }
         let term = term.as_flattened();
         lane_by_lane(count, |lane| apart(term[members.floors[lane][0]], term[members.floors[lane][1]]))
     }
 
     #[inline(always)]
     fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) {
+        if let Some(blocks) = members.between {
+            for (block, inverse_masses) in blocks.iter().zip(&members.inverse_masses) {
+                let term = &mut term[*block];
+                for lane in 0..LANES {
+                    term[lane] += inverse_masses[lane] * forces[lane];
+                }
+            }
+            return;
+        }
         let term = term.as_flattened_mut();
-        let places = members.floors.iter().zip(&members.inverse_masses);
-        for ((floors, inverse_masses), force) in places.zip(forces).take(count) {
-            for (floor, inverse_mass) in floors.iter().zip(inverse_masses) {
-                term[*floor] += inverse_mass * force;
+        for (lane, (floors, force)) in members.floors.iter().zip(forces).enumerate().take(count) {
+            for (floor, inverse_masses) in floors.iter().zip(&members.inverse_masses) {
+                term[*floor] += inverse_masses[lane] * force;
             }
         }
     }

@@ -250,25 +250,13 @@ impl Model {
 
     /// Largest floor displacement, velocity ... of a vector of motion; of modes, that any one of them stands for.
     pub(super) fn worst_floor(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
-        let mut largest = [0.0_f64; LANES];
-        let (motion, _) = motion.as_chunks::<LANES>();
         match coordinates {
-            Coordinates::Floors => {
-                for motion in motion {
-                    for i in 0..LANES {
-                        largest[i] = largest[i].max(motion[i].abs());
-                    }
-                }
-            }
+            Coordinates::Floors => largest_of(motion, |_, size| size),
             Coordinates::Modes => {
-                for (motion, weight) in motion.iter().zip(self.structure.weight.as_chunks::<LANES>().0) {
-                    for i in 0..LANES {
-                        largest[i] = largest[i].max(motion[i].abs() * weight[i]);
-                    }
-                }
+                let weights = self.structure.weight.as_chunks::<LANES>().0;
+                largest_of(motion, |(c, i), size| size * weights[c][i])
             }
         }
-        largest.iter().fold(0.0, |a, b| a.max(*b))
     }
 
     /// The velocity that contact errors are measured against: of the floors, or what the springs can give them.
@@ -283,6 +271,20 @@ impl Model {
         });
         springs.fold(floors, f64::max)
     }
+}
+
+/// The largest of the sizes of a motion, each as `weighed` by its block and lane.
+#[inline(always)]
+fn largest_of(motion: &[f64], weighed: impl Fn((usize, usize), f64) -> f64) -> f64 {
+    let mut largest = [0.0_f64; LANES];
+    for (c, motion) in motion.as_chunks::<LANES>().0.iter().enumerate() {
+        for i in 0..LANES {
+            // Not `max`, which has to look for a NaN in both.
+            let size = weighed((c, i), motion[i].abs());
+            largest[i] = if size > largest[i] { size } else { largest[i] };
+        }
+    }
+    largest.iter().fold(0.0, |a, b| a.max(*b))
 }
 
 /// The power of two at or below x > 0: a scale that costs no rounding.
