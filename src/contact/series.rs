@@ -175,6 +175,11 @@ impl PairBlock {
         }
     }
 
+    /// Whether its forces may have a damping part.
+    pub fn is_damped(&self) -> bool {
+        !matches!(self.kind, Kind::None | Kind::Spring)
+    }
+
     /// Whether its pairs are of a kind.
     pub fn is_of(&self, kind: Kind) -> bool {
         self.kind == kind
@@ -192,21 +197,24 @@ impl PairBlock {
         }
     }
 
-    /// Fills power n of the forces from the powers 0..=n + 1 of the penetrations, for n = 0, 1, 2, ... in turn.
+    /// Fills power n of the forces from the powers 0..=n + 1 of the penetrations, for n = 0, 1, 2, ... in turn, and
+    /// returns it.
     #[inline(always)]
-    pub fn extend_force(&mut self, n: usize) {
+    pub fn extend_force(&mut self, n: usize) -> Each {
         // Says once that no index below leaves its table.
         if n + 2 >= ROOM {
-            return;
+            return [0.0; PAIRS];
         }
         self.order = n;
-        self.force[n] = match self.kind {
+        let force = match self.kind {
             Kind::None => [0.0; PAIRS],
             Kind::Linear => self.linear_force(n),
             Kind::Spring => self.spring_force(n),
             Kind::Power => self.damped_power_force(n),
             Kind::Root => self.root_force(n),
         };
+        self.force[n] = force;
+        force
     }
 
     #[inline(always)]
@@ -219,9 +227,7 @@ impl PairBlock {
     fn spring_force(&mut self, n: usize) -> Each {
         let mut sums = [[0.0; PAIRS]; 2];
         if n >= 2 {
-            for (d, p) in self.backwards[LAST - (n - 1)..LAST - 1].iter().zip(&self.power[1..n - 1]) {
-                add_products(&mut sums, d, p);
-            }
+            add_all_products(&mut sums, &self.backwards[LAST - (n - 1)..LAST - 1], &self.power[1..n - 1]);
         }
         let power = self.extend_power(n, &sums);
         each(|i| self.stiffness[i] * power[i])
@@ -439,6 +445,19 @@ fn add_product(sum: &mut Each, a: &Each, b: &Each) {
 fn add_products(sums: &mut [Each; 2], d: &Each, term: &[Each; 2]) {
     for (sum, term) in sums.iter_mut().zip(term) {
         add_product(sum, d, term);
+    }
+}
+
+/// The same for as many terms as there are, two in a row.
+#[inline(always)]
+fn add_all_products(sums: &mut [Each; 2], d: &[Each], terms: &[[Each; 2]]) {
+    let ((d, last), (terms, last_term)) = (d.as_chunks::<2>(), terms.as_chunks::<2>());
+    for (d, terms) in d.iter().zip(terms) {
+        add_products(sums, &d[0], &terms[0]);
+        add_products(sums, &d[1], &terms[1]);
+    }
+    if let ([d], [term]) = (last, last_term) {
+        add_products(sums, d, term);
     }
 }
 

@@ -18,6 +18,9 @@ pub(super) struct ClosedPairs {
     at_surface: Vec<bool>,
     /// Of each pair the earlier ones with which it shares a floor, so that each feels the other's force at once.
     neighbours: Vec<Vec<usize>>,
+    /// The closed pairs that have been given a block and a lane, with their kinds, and in which coordinates.
+    assigned: Vec<(usize, Kind)>,
+    coordinates: Coordinates,
     /// Whether the penetrations have to wait for all forces.
     waits: bool,
     used: usize,
@@ -122,6 +125,8 @@ pub(super) fn most_blocks(pairs: usize, kinds: usize, on_floors: bool) -> usize 
 pub(super) struct BlockEnd {
     motion: BlockReading,
     force: ForceReading,
+    /// Whether a force, or a penetration, may be largest in between.
+    turns: [[bool; PAIRS]; 2],
 }
 
 impl ClosedPairs {
@@ -136,6 +141,8 @@ impl ClosedPairs {
             readings: vec![BlockReading::default(); most],
             at_surface: vec![false; most],
             neighbours: (0..pairs).map(|p| (0..p).filter(|&q| shares(&all[p], &all[q])).collect()).collect(),
+            assigned: Vec::with_capacity(pairs),
+            coordinates: Coordinates::default(),
             waits: false,
             used: 0,
             places: vec![(0, 0); pairs],
@@ -144,32 +151,56 @@ impl ClosedPairs {
 
     /// Starts the series of all pairs in contact that are not held together; `scale` is the unit of time.
     pub fn start(&mut self, base: &Base, pairs: &[Pair], scale: f64) {
-        self.used = 0;
+        self.at_surface.fill(false);
         self.waits = false;
-        let is_closed = |contact: &Contact| contact.in_contact() && !contact.is_held();
-        for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| is_closed(contact)) {
-            let force = contact.starting_force();
-            let (b, lane) = self.room_for(Kind::of(&force), Place::of(&pairs[p], base.coordinates));
-            self.blocks[b].add(lane, &force, scale, contact.penetration, contact.rate * scale);
-            self.places[p] = (b, lane);
-            self.members[b].set(lane, p, &pairs[p], base.coordinates);
-            self.at_surface[b] |= contact.at_surface;
-            self.waits |= contact.at_surface || self.neighbours[p].iter().any(|&q| is_closed(&base.contacts[q]));
+        if !self.start_again(base, scale) {
+            self.assign(base, pairs);
+            self.start_again(base, scale);
         }
     }
 
-    /// Block and lane for a pair of a kind.
+    /// Gives each closed pair its block and lane.
+    fn assign(&mut self, base: &Base, pairs: &[Pair]) {
+        self.used = 0;
+        self.assigned.clear();
+        self.coordinates = base.coordinates;
+        for (p, contact) in closed(base) {
+            let kind = Kind::of(&contact.starting_force());
+            let (b, lane) = self.room_for(kind, Place::of(&pairs[p], base.coordinates));
+            self.members[b].set(lane, p, &pairs[p], base.coordinates);
+            self.blocks[b].count = self.blocks[b].count.max(lane + 1);
+            self.places[p] = (b, lane);
+            self.assigned.push((p, kind));
+        }
+    }
+
+    /// Enters the closed pairs where they have been assigned; whether they are the same as then.
+    fn start_again(&mut self, base: &Base, scale: f64) -> bool {
+        let mut assigned = self.assigned.iter();
+        for (p, contact) in closed(base) {
+            let force = contact.starting_force();
+            if assigned.next() != Some(&(p, Kind::of(&force))) {
+                return false;
+            }
+            let (b, lane) = self.places[p];
+            self.blocks[b].add(lane, &force, scale, contact.penetration, contact.rate * scale);
+            self.at_surface[b] |= contact.at_surface;
+            self.waits |= contact.at_surface || self.neighbours[p].iter().any(|&q| is_closed(&base.contacts[q]));
+        }
+        assigned.next().is_none() && self.coordinates == base.coordinates
+    }
+
+    /// Block and lane for a pair of a kind: mostly in the newest block.
     fn room_for(&mut self, kind: Kind, place: Place) -> (usize, usize) {
-        let blocks = self.blocks.iter().zip(&self.members).take(self.used).enumerate();
-        let room = |(b, (block, members)): (usize, (&PairBlock, &Members))| {
-            if block.is_of(kind) { members.free_lane(place).map(|lane| (b, lane)) } else { None }
-        };
-        if let Some(found) = blocks.filter_map(room).next() {
-            return found;
+        for b in (0..self.used).rev() {
+            if self.blocks[b].is_of(kind)
+                && let Some(lane) = self.members[b].free_lane(place)
+            {
+                return (b, lane);
+            }
         }
         let b = self.used;
         self.blocks[b].start(kind);
-        self.at_surface[b] = false;
         self.used += 1;
         (b, self.members[b].start(place))
     }
@@ -200,6 +231,22 @@ impl ClosedPairs {
     /// Penetrations of a block at the end of the step.
     pub fn reading(&self, block: usize) -> &BlockReading {
         &self.readings[block]
+    }
+
+    /// Which pairs of a block certainly stay in contact up to x, the end of the step.
+    pub fn stays_closed(&self, block: usize, x: f64) -> [bool; PAIRS] {
+        if self.at_surface[block] {
+            return [false; PAIRS];
+        }
+        let (PairBlock { penetration: terms, .. }, end) = (&self.blocks[block], &self.readings[block]);
+        let bound = (x * x) * (x * x) / 384.0;
+        let smaller = |a: f64, b: f64| if a < b { a } else { b };
+        // As `roots::ceiling` has it.
+        let least = each(|i| {
+            let (start, end, slope) = (terms[0][i], end.penetration[i], end.slope[i]);
+            smaller(smaller(start, end), smaller(start + x * terms[1][i] / 3.0, end - x * slope / 3.0))
+        });
+        std::array::from_fn(|i| least[i] > 0.0 && least[i] >= bound * end.fourth[i])
     }
 
     /// Power n of the forces, from the powers of the penetrations so far.
@@ -248,6 +295,15 @@ impl ClosedPairs {
     }
 }
 
+/// The pairs that have a force, with their numbers.
+fn closed(base: &Base) -> impl Iterator<Item = (usize, &Contact)> {
+    base.contacts.iter().enumerate().filter(|(_, contact)| is_closed(contact))
+}
+
+fn is_closed(contact: &Contact) -> bool {
+    contact.in_contact() && !contact.is_held()
+}
+
 /// The first blocks of a row, filled up with zeros.
 fn first_blocks(row: &[f64]) -> [Lane; FEW_BLOCKS] {
     let mut blocks = [[0.0; LANES]; FEW_BLOCKS];
@@ -265,6 +321,13 @@ pub(super) trait Meeting {
     fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each;
     /// Adds what the forces do.
     fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]);
+    /// Adds what the forces do; returns the relative motions without that.
+    #[inline(always)]
+    fn meet(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) -> Each {
+        let relative = self.relative(members, count, term);
+        self.push(members, count, forces, term);
+        relative
+    }
 }
 
 /// The motion is that of the floors.
@@ -291,15 +354,27 @@ impl Meeting for OnFloors {
 
     #[inline(always)]
     fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) {
-        if let Some(blocks) = members.between {
-            for (block, inverse_masses) in blocks.iter().zip(&members.inverse_masses) {
-                let term = &mut term[*block];
-                for lane in 0..LANES {
-                    term[lane] += inverse_masses[lane] * forces[lane];
-                }
-            }
-            return;
-        }
+        self.meet(members, count, forces, term);
+    }
+
+    #[inline(always)]
+    fn meet(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) -> Each {
+        let Some(blocks) = members.between else {
+            let relative = self.relative(members, count, term);
+            OnFloors::push_floors(members, count, forces, term);
+            return relative;
+        };
+        let Ok([left, right]) = term.get_disjoint_mut(blocks) else { return [0.0; PAIRS] };
+        let (was_left, was_right, [pushed_left, pushed_right]) = (*left, *right, &members.inverse_masses);
+        *left = each(|lane| was_left[lane] + pushed_left[lane] * forces[lane]);
+        *right = each(|lane| was_right[lane] + pushed_right[lane] * forces[lane]);
+        each(|lane| was_left[lane] - was_right[lane])
+    }
+}
+
+impl OnFloors {
+    #[inline(always)]
+    fn push_floors(members: &Members, count: usize, forces: &Each, term: &mut [Lane]) {
         let term = term.as_flattened_mut();
         for (lane, (floors, force)) in members.floors.iter().zip(forces).enumerate().take(count) {
             for (floor, inverse_masses) in floors.iter().zip(&members.inverse_masses) {
@@ -381,15 +456,16 @@ impl<M: Meeting> PairForces for Acting<'_, M> {
         let used = closed.used;
         let blocks = closed.blocks[..used].iter_mut().zip(&closed.members[..used]);
         if closed.waits {
-            blocks.for_each(|(block, _)| block.extend_force(n));
+            for (block, _) in blocks {
+                block.extend_force(n);
+            }
             return self.act_in_turn(n, factor, term);
         }
         for (block, members) in blocks {
-            block.extend_force(n);
+            let force = block.extend_force(n);
+            let relative = self.meeting.meet(members, block.count, &each(|i| factor * force[i]), term);
             // What a force does to its own pair needs no detour by the motion: the next powers of the force wait for it.
-            let (force, relative) = (block.force[n], self.meeting.relative(members, block.count, term));
             block.set_penetration(n + 2, each(|i| relative[i] - factor * members.softness[i] * force[i]));
-            self.meeting.push(members, block.count, &force.map(|force| factor * force), term);
         }
     }
 }
@@ -448,8 +524,40 @@ pub(super) fn apart(left: f64, right: f64) -> f64 {
 
 impl BlockEnd {
     fn of(block: &PairBlock, motion: BlockReading, powers: &Powers) -> BlockEnd {
-        BlockEnd { motion, force: block.read_force(powers) }
+        let force = block.read_force(powers);
+        let of_force = may_turn(&block.force, (&force.value, &force.slope), &force.fourth, powers.x);
+        let of_motion = may_turn(&block.penetration, (&motion.penetration, &motion.slope), &motion.fourth, powers.x);
+        BlockEnd { motion, force, turns: [of_force, of_motion] }
     }
+}
+
+/// Whether the slope of each series may pass 0 within 0..=x, by bounds as [`roots`] has them.
+#[inline(always)]
+fn may_turn(terms: &[Each], (end, slope): (&Each, &Each), fourth: &Each, x: f64) -> [bool; PAIRS] {
+    let (smaller, larger) = (|a: f64, b: f64| if a < b { a } else { b }, |a: f64, b: f64| if a > b { a } else { b });
+    let (start, first) = (&terms[0], &terms[1]);
+    let middle = each(|i| 3.0 * (end[i] - start[i]) / x - (first[i] + slope[i]));
+    let least = each(|i| smaller(middle[i], smaller(first[i], slope[i])));
+    let most = each(|i| larger(middle[i], larger(first[i], slope[i])));
+    let error = each(|i| 0.008_02 * x * x * x * fourth[i]);
+    std::array::from_fn(|i| !(least[i] > error[i] || most[i] < -error[i]))
+}
+
+/// See [`roots::maximum_above`]; only of what `turns` more than the ends has to be looked at.
+#[inline(always)]
+fn highest(
+    turns: bool,
+    first: (f64, f64),
+    x: f64,
+    end: &Reading,
+    known: f64,
+    terms: impl FnOnce(&mut Coefficients) -> usize,
+) -> Option<(f64, f64)> {
+    if turns {
+        return roots::maximum_above(first, x, end, known, terms);
+    }
+    let (at, value) = if end.value > first.0 { (x, end.value) } else { (0.0, first.0) };
+    (value > known).then_some((at, value))
 }
 
 impl Contact {
@@ -458,10 +566,13 @@ impl Contact {
         let impulse = scale * end.force.impulse[lane];
         self.impulse += impulse;
         self.episode.impulse += impulse;
-        self.work += block.damping_work(lane, &self.branch(), scale, x, end.motion.penetration[lane]);
+        if block.is_damped() {
+            self.work += block.damping_work(lane, &self.branch(), scale, x, end.motion.penetration[lane]);
+        }
         let terms = |out: &mut Coefficients| block.copy_force(lane, out);
         let first = (block.force[0][lane], block.force[1][lane]);
-        if let Some((at, peak)) = roots::maximum_above(first, x, &end.force.of(lane), self.episode.peak_force, terms) {
+        let [force_turns, motion_turns] = end.turns.map(|turns| turns[lane]);
+        if let Some((at, peak)) = highest(force_turns, first, x, &end.force.of(lane), self.episode.peak_force, terms) {
             self.episode.peak_force = peak;
             self.episode.peak_time = start + at * scale;
             self.peak_force = self.peak_force.max(peak);
@@ -473,7 +584,7 @@ impl Contact {
         };
         let terms = |out: &mut Coefficients| block.copy_penetration(lane, out);
         let first = (block.penetration[0][lane], block.penetration[1][lane]);
-        if let Some((_, peak)) = roots::maximum_above(first, x, &depth, self.episode.peak_penetration, terms) {
+        if let Some((_, peak)) = highest(motion_turns, first, x, &depth, self.episode.peak_penetration, terms) {
             self.episode.peak_penetration = peak;
         }
         self.penetration = depth.value;
@@ -483,6 +594,7 @@ impl Contact {
 
 impl Model {
     /// The rate or other motion of a pair: that of its left floor less that of its right floor.
+    #[inline(always)]
     pub(super) fn relative(&self, p: usize, coordinates: Coordinates, motion: &[f64]) -> f64 {
         let Pair { row, lanes: [left, right], .. } = &self.pairs[p];
         match coordinates {

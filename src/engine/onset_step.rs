@@ -84,12 +84,12 @@ impl OnsetSeries {
 
     /// Block and lane for a pair of a kind.
     fn room_for(&mut self, grid: &Grid, kind: Kind, enters: bool, place: Place) -> (usize, usize) {
-        let blocks = self.blocks.iter().zip(&self.members).take(self.used).enumerate();
-        let room = |(b, (block, members)): (usize, (&OnsetBlock, &Members))| {
-            if block.is_of(kind, enters) { members.free_lane(place).map(|lane| (b, lane)) } else { None }
-        };
-        if let Some(found) = blocks.filter_map(room).next() {
-            return found;
+        for b in (0..self.used).rev() {
+            if self.blocks[b].is_of(kind, enters)
+                && let Some(lane) = self.members[b].free_lane(place)
+            {
+                return (b, lane);
+            }
         }
         let b = self.used;
         self.blocks[b].start(grid, kind, enters);

@@ -1,8 +1,9 @@
 //! The two buildings floor by floor: the coordinates of contact, where a force acts on two floors only and, in a shear
 //! building, a floor knows nothing but its neighbours.
 //!
-//! Both buildings' floors stand in one vector, the left building's first. Where they are many each building begins with a
-//! block of lanes, so that floors of one level stand in the same place of a block; else a lane that rests parts them:
+//! Both buildings' floors stand in one vector, the left building's first, with a lane that rests above each building
+//! and the first lane below. Where they are many each building begins with a block of lanes, so that floors of one level
+//! stand in the same place of a block.
 //!
 //! ```text
 //! M u'' + C u' + K u = -M 1 ground acceleration + floor forces - contact forces
@@ -19,8 +20,6 @@ pub struct Floors {
     first: [usize; 2],
     /// Number of floors of each building.
     count: [usize; 2],
-    /// Blocks before those in which the second building has its floors alone; all where both share a block.
-    parted: usize,
     /// kg.
     mass: Vec<f64>,
     /// All else that a floor has.
@@ -64,25 +63,27 @@ impl Block {
 }
 
 impl Floors {
+    /// Lane of the right building's lowest floor, and the lanes that a vector of all floors needs.
+    fn layout(left: usize, right: usize) -> (usize, usize) {
+        let lanes = |second: usize| (second + right + 1).next_multiple_of(LANES);
+        let shared = left + 1;
+        let second = if lanes(shared) <= FEW_BLOCKS * LANES { shared } else { shared.next_multiple_of(LANES) };
+        (second, lanes(second))
+    }
+
     /// Lanes that a vector of all floors needs.
     pub fn lanes(left: usize, right: usize) -> usize {
-        let shared = (left + right + 2).next_multiple_of(LANES);
-        if shared <= FEW_BLOCKS * LANES {
-            return shared;
-        }
-        (left.next_multiple_of(LANES) + right.next_multiple_of(LANES)).max((FEW_BLOCKS + 1) * LANES)
+        Floors::layout(left, right).1
     }
 
     /// For two buildings and their modes.
     pub fn new(buildings: [&Building; 2], modes: &[Modes; 2]) -> Floors {
         let count = buildings.map(|building| building.mass.len());
-        let zeros = vec![0.0; Floors::lanes(count[0], count[1])];
-        let are_many = zeros.len() > FEW_BLOCKS * LANES;
-        let second = if are_many { count[0].next_multiple_of(LANES) } else { count[0] + 1 };
+        let (second, lanes) = Floors::layout(count[0], count[1]);
+        let zeros = vec![0.0; lanes];
         let mut floors = Floors {
             first: [0, second],
             count,
-            parted: if are_many { second / LANES } else { zeros.len() / LANES },
             mass: zeros.clone(),
             blocks: vec![Block::default(); zeros.len() / LANES],
             rest: zeros,
@@ -159,32 +160,45 @@ impl Floors {
     }
 
     /// Makes of each lane of `out` what `entry` says of its value and of its M^-1 (K u + rate C v), m/s^2 for `rate` 1.
+    ///
+    /// A floor feels the shear force of the storey below less that of the one above. Both come from neighbouring lanes,
+    /// which stay in registers: what has just been stored cannot be read back from other places without waiting for it.
     #[inline(always)]
     pub fn enter_resistance(&self, u: &[f64], v: &[f64], rate: f64, out: &mut [Lane], entry: impl Fn(f64, f64) -> f64) {
         let [u, v] = [u, v].map(|vector| vector.as_chunks::<LANES>().0);
-        let (blocks, rest) = self.blocks.split_at(self.parted);
-        let (left_u, right_u) = u.split_at(self.parted);
-        let (left_v, right_v) = v.split_at(self.parted);
-        let (left, right) = out.split_at_mut(self.parted);
-        enter_building(blocks, left_u, left_v, rate, left, &entry);
-        if !rest.is_empty() {
-            enter_building(rest, right_u, right_v, rate, right, &entry);
+        // Says once that no index below leaves its table.
+        let (blocks, count) = (&self.blocks[..], self.blocks.len());
+        let (u, v, out) = (&u[..count], &v[..count], &mut out[..count]);
+        let moved = |c: usize| each(|i| u[c][i] + (rate * blocks[c].on_stiffness[i]) * v[c][i]);
+        let shear = |c: usize, below: f64, own: &Lane| {
+            let below = [below, own[0], own[1], own[2]];
+            each(|i| blocks[c].storey[i] * (own[i] - below[i]))
+        };
+        let lowest = moved(0);
+        let (mut own, mut highest) = (shear(0, 0.0, &lowest), lowest[LANES - 1]);
+        for c in 1..count {
+            let floors = moved(c);
+            let next = shear(c, highest, &floors);
+            blocks[c - 1].enter((&own, next[0]), &v[c - 1], rate, &mut out[c - 1], &entry);
+            (own, highest) = (next, floors[LANES - 1]);
+        }
+        if let (Some(block), Some(v), Some(out)) = (blocks.last(), v.last(), out.last_mut()) {
+            block.enter((&own, 0.0), v, rate, out, &entry);
         }
     }
 
     /// Kinetic and strain energy, J.
     pub fn energies(&self, u: &[f64], v: &[f64]) -> (f64, f64) {
         let kinetic: f64 = self.mass.iter().zip(v).map(|(m, v)| m * v * v).sum();
-        let storeys = self.blocks.iter().flat_map(|block| &block.storey);
-        let mut below = 0.0;
-        let mut strain = 0.0;
-        for (lane, (k, u)) in storeys.zip(u).enumerate() {
-            if lane == self.first[1] {
-                below = 0.0;
-            }
-            strain += k * (u - below) * (u - below);
-            below = *u;
-        }
+        let below = std::iter::once(&0.0).chain(u);
+        let strain: f64 = self
+            .blocks
+            .iter()
+            .flat_map(|block| &block.storey)
+            .zip(u)
+            .zip(below)
+            .map(|((k, u), below)| k * (u - below) * (u - below))
+            .sum();
         (0.5 * kinetic, 0.5 * strain)
     }
 
@@ -205,40 +219,6 @@ impl Floors {
     /// kg, per lane.
     pub fn mass(&self) -> &[f64] {
         &self.mass
-    }
-}
-
-/// Enters the resistance of floors that stand on the ground, one on the other.
-///
-/// A floor feels the shear force of the storey below less that of the one above. Both come from neighbouring lanes,
-/// which stay in registers: what has just been stored cannot be read back from other places without waiting for it.
-#[inline(always)]
-fn enter_building(
-    blocks: &[Block],
-    u: &[Lane],
-    v: &[Lane],
-    rate: f64,
-    out: &mut [Lane],
-    entry: &impl Fn(f64, f64) -> f64,
-) {
-    // Says once that no index below leaves its table.
-    let count = blocks.len();
-    let (u, v, out) = (&u[..count], &v[..count], &mut out[..count]);
-    let moved = |c: usize| each(|i| u[c][i] + (rate * blocks[c].on_stiffness[i]) * v[c][i]);
-    let shear = |c: usize, below: f64, own: &Lane| {
-        let below = [below, own[0], own[1], own[2]];
-        each(|i| blocks[c].storey[i] * (own[i] - below[i]))
-    };
-    let lowest = moved(0);
-    let (mut own, mut highest) = (shear(0, 0.0, &lowest), lowest[LANES - 1]);
-    for c in 1..count {
-        let floors = moved(c);
-        let next = shear(c, highest, &floors);
-        blocks[c - 1].enter((&own, next[0]), &v[c - 1], rate, &mut out[c - 1], entry);
-        (own, highest) = (next, floors[LANES - 1]);
-    }
-    if let (Some(block), Some(v), Some(out)) = (blocks.last(), v.last(), out.last_mut()) {
-        block.enter((&own, 0.0), v, rate, out, entry);
     }
 }
 

@@ -271,25 +271,40 @@ impl MotionSeries {
     }
 }
 
-/// Blocks of lanes whose sums stand in registers side by side.
-const ABREAST: usize = 4;
-
 /// Adds up terms, one vector each, times their powers and times the slopes of these: q and, times `rate`, v. From the last
 /// terms to the first, which are the largest. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn sum_terms(terms: &[f64], powers: (&[f64], &[f64]), rate: f64, q: &mut [f64], v: &mut [f64]) {
     let (terms, _) = terms.as_chunks::<LANES>();
     let (q, v) = (q.as_chunks_mut::<LANES>().0, v.as_chunks_mut::<LANES>().0);
-    let width = q.len();
-    let (wide_q, q) = q.as_chunks_mut::<ABREAST>();
-    let (wide_v, v) = v.as_chunks_mut::<ABREAST>();
-    for (k, (q, v)) in wide_q.iter_mut().zip(wide_v).enumerate() {
-        (*q, *v) = sum_blocks((terms, width), k * ABREAST, powers, rate);
+    let terms = (terms, q.len());
+    // As many blocks at a time as have their sums in registers side by side.
+    let mut first = 0;
+    while first < q.len() {
+        first += match q.len() - first {
+            1 => sum_next::<1>(terms, first, powers, rate, (q, v)),
+            2 => sum_next::<2>(terms, first, powers, rate, (q, v)),
+            3 => sum_next::<3>(terms, first, powers, rate, (q, v)),
+            5 => sum_next::<5>(terms, first, powers, rate, (q, v)),
+            6 => sum_next::<6>(terms, first, powers, rate, (q, v)),
+            _ => sum_next::<4>(terms, first, powers, rate, (q, v)),
+        };
     }
-    let first = width - width % ABREAST;
-    for (k, (q, v)) in q.iter_mut().zip(v).enumerate() {
-        ([*q], [*v]) = sum_blocks((terms, width), first + k, powers, rate);
-    }
+}
+
+/// Enters `N` blocks of q and v, from the `first` on; returns how many that are.
+#[inline(always)]
+fn sum_next<const N: usize>(
+    terms: (&[Lane], usize),
+    first: usize,
+    powers: (&[f64], &[f64]),
+    rate: f64,
+    (q, v): (&mut [Lane], &mut [Lane]),
+) -> usize {
+    let (sums, rates) = sum_blocks::<N>(terms, first, powers, rate);
+    q[first..first + N].copy_from_slice(&sums);
+    v[first..first + N].copy_from_slice(&rates);
+    N
 }
 
 /// q and v of `N` blocks of lanes.
@@ -312,6 +327,9 @@ fn sum_blocks<const N: usize>(
     }
     (value, change.map(|change| change.map(|change| change * rate)))
 }
+
+/// Blocks of lanes whose sums stand in registers side by side.
+const ABREAST: usize = 4;
 
 /// Adds up the sizes of terms, one vector each, times some factors. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
@@ -386,7 +404,7 @@ fn expand_floors<F: PairForces>(
 ) {
     let lanes = series.lanes;
     let scale2 = series.scale * series.scale;
-    for n in 0..order - 1 {
+    for n in 0..(order - 1).min(ROOM - 3) {
         let (known, rest) = series.coefficients.split_at_mut((n + 2) * lanes);
         let (u, v) = known[n * lanes..].split_at(lanes);
         let (next, _) = rest[..lanes].as_chunks_mut::<LANES>();
