@@ -6,6 +6,7 @@ use super::state::*;
 use crate::contact::series::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock, each};
 use crate::polynomial::{Coefficients, Powers, Reading};
 use crate::structure::{FEW_BLOCKS, LANES, Lane, PairForces, difference};
+use std::marker::PhantomData;
 
 /// The pairs in contact, in blocks of one kind of law each.
 #[derive(Clone, Debug)]
@@ -203,6 +204,18 @@ impl ClosedPairs {
         self.blocks[b].start(kind);
         self.used += 1;
         (b, self.members[b].start(place))
+    }
+
+    /// The kind of all closed pairs, where there is one and nothing has to wait.
+    pub fn only_kind(&self) -> Option<Kind> {
+        let mut kinds = self.blocks[..self.used].iter().map(PairBlock::kind);
+        let first = kinds.next().filter(|_| !self.waits)?;
+        kinds.all(|kind| kind == first).then_some(first)
+    }
+
+    /// How many pairs have a force.
+    pub fn count_forces(&self) -> u64 {
+        self.assigned.iter().filter(|(_, kind)| *kind != Kind::None).count() as u64
     }
 
     /// Number of blocks in use.
@@ -443,34 +456,70 @@ fn lane_by_lane(count: usize, of: impl Fn(usize) -> f64) -> Each {
     all
 }
 
-/// The closed pairs in some coordinates.
-pub(super) struct Acting<'a, M> {
-    pub closed: &'a mut ClosedPairs,
-    pub meeting: M,
+/// What is known of all closed pairs together when a series is expanded: work for each kind by itself is less.
+pub(super) trait Kinds {
+    /// The kind of all of them.
+    const ONE: Option<Kind>;
 }
 
-impl<M: Meeting> PairForces for Acting<'_, M> {
+/// Some are of one kind, some of another.
+pub(super) struct AnyKinds;
+
+impl Kinds for AnyKinds {
+    const ONE: Option<Kind> = None;
+}
+
+/// All are [`Kind::Spring`].
+pub(super) struct Springs;
+
+impl Kinds for Springs {
+    const ONE: Option<Kind> = Some(Kind::Spring);
+}
+
+/// All are [`Kind::Power`].
+pub(super) struct DampedPowers;
+
+impl Kinds for DampedPowers {
+    const ONE: Option<Kind> = Some(Kind::Power);
+}
+
+/// The closed pairs in some coordinates.
+pub(super) struct Acting<'a, M, K> {
+    closed: &'a mut ClosedPairs,
+    meeting: M,
+    kinds: PhantomData<K>,
+}
+
+impl<'a, M, K> Acting<'a, M, K> {
+    pub fn new(closed: &'a mut ClosedPairs, meeting: M) -> Self {
+        Acting { closed, meeting, kinds: PhantomData }
+    }
+}
+
+impl<M: Meeting, K: Kinds> PairForces for Acting<'_, M, K> {
     #[inline(always)]
     fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
         let closed = &mut *self.closed;
         let used = closed.used;
         let blocks = closed.blocks[..used].iter_mut().zip(&closed.members[..used]);
-        if closed.waits {
+        if K::ONE.is_none() && closed.waits {
             for (block, _) in blocks {
                 block.extend_force(n);
             }
             return self.act_in_turn(n, factor, term);
         }
         for (block, members) in blocks {
-            let force = block.extend_force(n);
+            let kind = K::ONE.unwrap_or(block.kind());
+            let force = block.extend_force_of(kind, n);
             let relative = self.meeting.meet(members, block.count, &each(|i| factor * force[i]), term);
             // What a force does to its own pair needs no detour by the motion: the next powers of the force wait for it.
-            block.set_penetration(n + 2, each(|i| relative[i] - factor * members.softness[i] * force[i]));
+            let relative = each(|i| relative[i] - factor * members.softness[i] * force[i]);
+            block.set_penetration_of(kind, n + 2, relative);
         }
     }
 }
 
-impl<M: Meeting> Acting<'_, M> {
+impl<M: Meeting, K> Acting<'_, M, K> {
     /// One after the other: pairs that share a floor, or have just entered.
     fn act_in_turn(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
         self.push(n, factor, term);

@@ -4,11 +4,12 @@
 //! of series. The step is as long as the last terms allow. The motion is that of the floors where they are many and feel
 //! their neighbours only, else that of the modes, as always near rigid contacts.
 
-use super::closed_pairs::{Acting, OnFewModes, OnFloors, OnModes};
+use super::closed_pairs::{Acting, AnyKinds, DampedPowers, OnFewModes, OnFloors, OnModes, Springs};
 use super::complementarity::Complementarity;
 use super::model::Model;
 use super::state::*;
 use crate::contact::Force;
+use crate::contact::series::Kind;
 use crate::polynomial::{MAX_ORDER, ROOM, rough_root};
 use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, difference, dot};
 
@@ -59,13 +60,13 @@ impl Model {
         }
         let State { base, step, inputs, counters, work, .. } = state;
         counters.contact_steps += 1;
-        counters.law_evaluations += base.count_forces(Contact::starting_force);
         step.ends.clear();
         step.kind = StepKind::Contact;
         self.load(base, inputs, &mut work.load, &mut work.slope);
         let scale = self.series_scale(base, remaining);
         self.expand(base, step, work, scale);
-        let reach = self.accurate_reach(base, step, remaining / scale);
+        counters.law_evaluations += step.closed.count_forces();
+        let reach = self.accurate_reach(base, step, is_singular, remaining / scale);
         let whole = remaining / scale <= reach;
         let end = if whole { remaining / scale } else { reach };
         step.end.set(end, step.series.order);
@@ -142,16 +143,29 @@ impl Model {
         let loads = (&work.load[..], &work.slope[..]);
         match base.coordinates {
             Coordinates::Floors => {
-                let mut forces = Acting { closed, meeting: OnFloors };
-                series.expand_floors(&self.structure.floors, self.order + 1, loads, &mut forces);
+                let (floors, order, meeting) = (&self.structure.floors, self.order + 1, OnFloors);
+                match closed.only_kind() {
+                    Some(Kind::Spring) => {
+                        series.expand_floors(floors, order, loads, &mut Acting::<_, Springs>::new(closed, meeting));
+                    }
+                    Some(Kind::Power) => {
+                        series.expand_floors(
+                            floors,
+                            order,
+                            loads,
+                            &mut Acting::<_, DampedPowers>::new(closed, meeting),
+                        );
+                    }
+                    _ => series.expand_floors(floors, order, loads, &mut Acting::<_, AnyKinds>::new(closed, meeting)),
+                }
             }
             Coordinates::Modes if self.structure.is_classical() && work.rigid.pairs.is_empty() => {
                 let order = self.order + 1;
                 if base.q.len() <= FEW_BLOCKS * LANES {
-                    let mut forces = Acting { closed, meeting: OnFewModes };
+                    let mut forces = Acting::<_, AnyKinds>::new(closed, OnFewModes);
                     series.expand_few_modes(&self.structure, order, loads, &mut forces);
                 } else {
-                    let mut forces = Acting { closed, meeting: OnModes(&self.pairs) };
+                    let mut forces = Acting::<_, AnyKinds>::new(closed, OnModes(&self.pairs));
                     series.expand_modes(&self.structure, order, loads, &mut forces);
                 }
             }
@@ -192,7 +206,7 @@ impl Model {
     ///
     /// It is the velocity that is controlled: over a contact of a millisecond a displacement error is a velocity error
     /// a thousand times larger.
-    fn accurate_reach(&self, base: &Base, step: &Step, whole: f64) -> f64 {
+    fn accurate_reach(&self, base: &Base, step: &Step, is_singular: bool, whole: f64) -> f64 {
         let (series, coordinates) = (&step.series, base.coordinates);
         let allowed = self.step_tolerance * base.velocity_scale * series.scale;
         let mut reach = f64::INFINITY;
@@ -206,6 +220,9 @@ impl Model {
             }
         }
         reach *= 0.9;
+        if !is_singular {
+            return reach.min(FURTHEST);
+        }
         for (p, contact) in touching(base).filter(|(_, contact)| contact.is_singular()) {
             let law = contact.branch();
             let mut terms = [0.0; ROOM];

@@ -170,17 +170,17 @@ impl Floors {
         let (blocks, count) = (&self.blocks[..], self.blocks.len());
         let (u, v, out) = (&u[..count], &v[..count], &mut out[..count]);
         let moved = |c: usize| each(|i| u[c][i] + (rate * blocks[c].on_stiffness[i]) * v[c][i]);
-        let shear = |c: usize, below: f64, own: &Lane| {
-            let below = [below, own[0], own[1], own[2]];
+        let shear = |c: usize, before: &Lane, own: &Lane| {
+            let below = [before[LANES - 1], own[0], own[1], own[2]];
             each(|i| blocks[c].storey[i] * (own[i] - below[i]))
         };
-        let lowest = moved(0);
-        let (mut own, mut highest) = (shear(0, 0.0, &lowest), lowest[LANES - 1]);
+        let mut before = moved(0);
+        let mut own = shear(0, &[0.0; LANES], &before);
         for c in 1..count {
             let floors = moved(c);
-            let next = shear(c, highest, &floors);
+            let next = shear(c, &before, &floors);
             blocks[c - 1].enter((&own, next[0]), &v[c - 1], rate, &mut out[c - 1], &entry);
-            (own, highest) = (next, floors[LANES - 1]);
+            (own, before) = (next, floors);
         }
         if let (Some(block), Some(v), Some(out)) = (blocks.last(), v.last(), out.last_mut()) {
             block.enter((&own, 0.0), v, rate, out, &entry);

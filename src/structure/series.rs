@@ -328,21 +328,32 @@ fn sum_blocks<const N: usize>(
     (value, change.map(|change| change.map(|change| change * rate)))
 }
 
-/// Blocks of lanes whose sums stand in registers side by side.
-const ABREAST: usize = 4;
-
 /// Adds up the sizes of terms, one vector each, times some factors. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn sum_sizes(terms: &[f64], factors: &[f64], out: &mut [f64]) {
     let (out, _) = out.as_chunks_mut::<LANES>();
     let (terms, width) = (terms.as_chunks::<LANES>().0, out.len());
-    let (wide, rest) = out.as_chunks_mut::<ABREAST>();
-    for (k, out) in wide.iter_mut().enumerate() {
-        *out = sizes_of_blocks((terms, width), k * ABREAST, factors);
+    let terms = (terms, width);
+    let mut first = 0;
+    while first < width {
+        first += match width - first {
+            1 => sum_next_sizes::<1>(terms, first, factors, out),
+            2 => sum_next_sizes::<2>(terms, first, factors, out),
+            3 => sum_next_sizes::<3>(terms, first, factors, out),
+            4 => sum_next_sizes::<4>(terms, first, factors, out),
+            5 => sum_next_sizes::<5>(terms, first, factors, out),
+            6 => sum_next_sizes::<6>(terms, first, factors, out),
+            7 => sum_next_sizes::<7>(terms, first, factors, out),
+            _ => sum_next_sizes::<8>(terms, first, factors, out),
+        };
     }
-    for (k, out) in rest.iter_mut().enumerate() {
-        [*out] = sizes_of_blocks((terms, width), width - width % ABREAST + k, factors);
-    }
+}
+
+/// Enters `N` blocks, from the `first` on; returns how many that are.
+#[inline(always)]
+fn sum_next_sizes<const N: usize>(terms: (&[Lane], usize), first: usize, factors: &[f64], out: &mut [Lane]) -> usize {
+    out[first..first + N].copy_from_slice(&sizes_of_blocks::<N>(terms, first, factors));
+    N
 }
 
 #[inline(always)]
@@ -412,7 +423,9 @@ fn expand_floors<F: PairForces>(
         let factor = scale2 * RECIPROCAL[n];
         if n < 2 {
             let (load, unit) = if n == 0 { (load, 1.0) } else { (slope, series.scale) };
-            next.as_flattened_mut().iter_mut().zip(load).for_each(|(next, load)| *next = load * unit);
+            for (next, load) in next.iter_mut().zip(load.as_chunks::<LANES>().0) {
+                *next = load.map(|load| load * unit);
+            }
             floors.enter_resistance(u, v, rate, next, |load, resistance| (load - resistance) * factor);
         } else {
             floors.enter_resistance(u, v, rate, next, |_, resistance| (0.0 - resistance) * factor);
