@@ -415,6 +415,8 @@ fn expand_floors<F: PairForces>(
 ) {
     let lanes = series.lanes;
     let scale2 = series.scale * series.scale;
+    series.coefficients[2 * lanes..3 * lanes].copy_from_slice(&load[..lanes]);
+    series.coefficients[3 * lanes..4 * lanes].copy_from_slice(&slope[..lanes]);
     for n in 0..(order - 1).min(ROOM - 3) {
         let (known, rest) = series.coefficients.split_at_mut((n + 2) * lanes);
         let (u, v) = known[n * lanes..].split_at(lanes);
@@ -422,11 +424,8 @@ fn expand_floors<F: PairForces>(
         let rate = (n + 1) as f64 / series.scale;
         let factor = scale2 * RECIPROCAL[n];
         if n < 2 {
-            let (load, unit) = if n == 0 { (load, 1.0) } else { (slope, series.scale) };
-            for (next, load) in next.iter_mut().zip(load.as_chunks::<LANES>().0) {
-                *next = load.map(|load| load * unit);
-            }
-            floors.enter_resistance(u, v, rate, next, |load, resistance| (load - resistance) * factor);
+            let unit = if n == 0 { 1.0 } else { series.scale };
+            floors.enter_resistance(u, v, rate, next, |load, resistance| (load * unit - resistance) * factor);
         } else {
             floors.enter_resistance(u, v, rate, next, |_, resistance| (0.0 - resistance) * factor);
         }
