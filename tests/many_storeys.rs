@@ -6,7 +6,7 @@ mod common;
 use common::{Run, record, scene};
 use pounding::engine::Side;
 use pounding::record::Record;
-use pounding::scene::Scene;
+use pounding::scene::{Scene, Stiffness};
 
 /// 9 and 8 storeys that swing against each other.
 fn towers(contacts: &str, more: &str) -> (Scene, Record) {
@@ -90,5 +90,52 @@ fn peak_drifts_see_what_happens_in_contact() {
     for (floor, (drift, _)) in largest.iter().enumerate() {
         let peak = run.model.peak_drift(&run.state, Side::Left, floor);
         assert!(peak >= 0.98 * drift && peak <= (1.0 + 1e-6) * drift, "storey {floor}: {peak} instead of {drift}");
+    }
+}
+
+/// The same buildings given by their stiffness matrices are followed mode by mode: another way to the same motion, whether
+/// floors face each other at one level or not, alone or two to one, under one law or several.
+#[test]
+fn floors_go_where_their_modes_go() {
+    const DAMPED: &str = "law = \"hertz_damped\"\nstiffness = 2.0e9\nrestitution = 0.6\ndamping_formula = \"exact\"";
+    const JANKOWSKI: &str = "law = \"jankowski\"\nstiffness = 2.0e9\nrestitution = 0.6";
+    let level = |law: &str| (3..9).map(|floor| contact(floor, floor, law)).collect::<String>();
+    let cases = [
+        level(HERTZ),
+        level(DAMPED),
+        level(JANKOWSKI),
+        level(LINEAR),
+        contact(8, 8, HERTZ) + &contact(9, 8, LINEAR) + &contact(7, 6, DAMPED) + &contact(6, 5, JANKOWSKI),
+        contact(8, 4, DAMPED) + &contact(7, 3, HERTZ) + &contact(6, 6, JANKOWSKI) + &contact(5, 5, LINEAR),
+    ];
+    for contacts in cases {
+        let (scene, record) = towers(&contacts, "[solver]\nrelative_tolerance = 1e-11");
+        let mut by_modes = scene.clone();
+        for building in [&mut by_modes.left, &mut by_modes.right] {
+            let Stiffness::Shear(storeys) = &building.stiffness else { panic!("a shear building") };
+            let entry = |i: usize, j: usize| match i.abs_diff(j) {
+                0 => storeys[i] + storeys.get(i + 1).unwrap_or(&0.0),
+                1 => -storeys[i.max(j)],
+                _ => 0.0,
+            };
+            let row = |i: usize| (0..storeys.len()).map(|j| entry(i, j)).collect();
+            building.stiffness = Stiffness::Matrix((0..storeys.len()).map(row).collect());
+        }
+        let (mut floors, mut modes) = (Run::new(&scene, Some(&record)), Run::new(&by_modes, Some(&record)));
+        let (mut largest, mut closed) = (0.0_f64, 0);
+        for k in 1..=300 {
+            let time = 0.01 * f64::from(k);
+            floors.to(time);
+            modes.to(time);
+            for (side, storeys) in [(Side::Left, 9), (Side::Right, 8)] {
+                for floor in 0..storeys {
+                    let (u, expected) = (floors.displacement(side, floor), modes.displacement(side, floor));
+                    largest = largest.max(expected.abs());
+                    assert!((u - expected).abs() < 1e-8 * largest, "t = {time} s, floor {floor}: {u} not {expected}");
+                }
+            }
+            closed += i32::from(floors.point.contacts.iter().any(|contact| contact.active));
+        }
+        assert!(closed > 20, "closed at {closed} of 300 times");
     }
 }

@@ -105,7 +105,7 @@ pub struct OnsetBlock {
     kind: Kind,
     /// Whether the pairs enter now: d = 0.
     pub enters: bool,
-    /// Pairs in it.
+    /// Lanes up to the last one that holds a pair.
     pub count: usize,
     /// k of the law.
     stiffness: Each,
@@ -160,26 +160,25 @@ pub struct OnsetReading {
 }
 
 impl OnsetBlock {
-    /// Starts a block with no pair in it yet: springs without stiffness.
+    /// Starts a block with no pair in it yet: springs without stiffness, whose powers vanish.
     pub fn start(&mut self, grid: &Grid, kind: Kind, enters: bool) {
-        let (zeros, ones) = ([0.0; PAIRS], [1.0; PAIRS]);
+        let zeros = [0.0; PAIRS];
         (self.kind, self.enters, self.count) = (kind, enters, 0);
-        (self.stiffness, self.damping, self.exponent, self.inverse) = (zeros, zeros, ones, ones);
+        (self.stiffness, self.damping, self.exponent, self.inverse) = (zeros, zeros, zeros, zeros);
         for rows in [&mut self.penetration, &mut self.slopes, &mut self.force] {
             rows[..grid.terms()].fill(zeros);
         }
-        (self.power[0], self.root[0]) = (ones, ones);
+        (self.power[0], self.root[0]) = (zeros, zeros);
     }
 
-    /// Whether there is room for another pair of a kind.
-    pub fn takes(&self, kind: Kind, enters: bool) -> bool {
-        self.kind == kind && self.enters == enters && self.count < PAIRS
+    /// Whether its pairs are of a kind and enter or touch already.
+    pub fn is_of(&self, kind: Kind, enters: bool) -> bool {
+        self.kind == kind && self.enters == enters
     }
 
-    /// Adds a pair from its penetration, m, and its rate times the scale, m; returns its lane.
-    pub fn add(&mut self, force: &Force, scale: f64, penetration: f64, step_rate: f64) -> usize {
-        let lane = self.count;
-        self.count += 1;
+    /// Adds a pair in a lane from its penetration, m, and its rate times the scale, m.
+    pub fn add(&mut self, lane: usize, force: &Force, scale: f64, penetration: f64, step_rate: f64) {
+        self.count = self.count.max(lane + 1);
         (self.stiffness[lane], self.exponent[lane], self.damping[lane]) = force.in_units_of(scale);
         let first = if self.enters { step_rate } else { penetration };
         self.inverse[lane] = 1.0 / first;
@@ -191,7 +190,6 @@ impl OnsetBlock {
         self.penetration[1][lane] = step_rate;
         // Of e, the first term has the exponent 0.
         self.slopes[1][lane] = if self.enters { 0.0 } else { step_rate };
-        lane
     }
 
     /// Enters terms of the penetrations.

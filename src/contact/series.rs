@@ -59,7 +59,7 @@ impl Kind {
 #[derive(Clone, Debug)]
 pub struct PairBlock {
     kind: Kind,
-    /// Pairs in it.
+    /// Lanes up to the last one that holds a pair.
     pub count: usize,
     /// k of the law.
     stiffness: Each,
@@ -142,22 +142,21 @@ impl ForceReading {
 }
 
 impl PairBlock {
-    /// Starts a block of one kind, with no pair in it yet: springs without stiffness, with d = 1.
+    /// Starts a block of one kind, with no pair in it yet: springs without stiffness, whose powers vanish.
     pub fn start(&mut self, kind: Kind) {
-        let (zeros, ones) = ([0.0; PAIRS], [1.0; PAIRS]);
+        let zeros = [0.0; PAIRS];
         self.kind = kind;
         self.count = 0;
-        (self.stiffness, self.damping) = (zeros, zeros);
-        (self.exponent, self.inverse, self.lead) = (ones, ones, [ones; 2]);
-        (self.power[0], self.root[0]) = ([ones, zeros], [ones, zeros]);
-        self.set_penetration(0, ones);
+        (self.stiffness, self.damping, self.exponent) = (zeros, zeros, zeros);
+        (self.inverse, self.lead) = (zeros, [zeros; 2]);
+        (self.power[0], self.root[0]) = ([zeros; 2], [zeros; 2]);
+        self.set_penetration(0, zeros);
         self.set_penetration(1, zeros);
     }
 
-    /// Adds a pair from its penetration and its rate per unit of x, both m; returns its lane.
-    pub fn add(&mut self, force: &Force, scale: f64, penetration: f64, step_rate: f64) -> usize {
-        let lane = self.count;
-        self.count += 1;
+    /// Adds a pair in a lane from its penetration and its rate per unit of x, both m.
+    pub fn add(&mut self, lane: usize, force: &Force, scale: f64, penetration: f64, step_rate: f64) {
+        self.count = self.count.max(lane + 1);
         (self.stiffness[lane], self.exponent[lane], self.damping[lane]) = force.in_units_of(scale);
         let inverse = 1.0 / penetration;
         self.inverse[lane] = inverse;
@@ -174,41 +173,65 @@ impl PairBlock {
             self.backwards[LAST - n][lane] = value;
             self.slope[LAST - n][lane] = COUNT[n] * value;
         }
-        lane
     }
 
-    /// Whether there is room for another pair of a kind.
-    pub fn takes(&self, kind: Kind) -> bool {
-        self.kind == kind && self.count < PAIRS
+    /// Whether its forces may have a damping part.
+    pub fn is_damped(&self) -> bool {
+        !matches!(self.kind, Kind::None | Kind::Spring)
+    }
+
+    /// Which terms its forces have.
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// Whether its pairs are of a kind.
+    pub fn is_of(&self, kind: Kind) -> bool {
+        self.kind == kind
     }
 
     /// Enters power n of the penetrations.
     #[inline(always)]
     pub fn set_penetration(&mut self, n: usize, values: Each) {
+        self.set_penetration_of(self.kind, n, values);
+    }
+
+    /// The same for a block that is known to be of a kind.
+    #[inline(always)]
+    pub fn set_penetration_of(&mut self, kind: Kind, n: usize, values: Each) {
         if n < ROOM {
             self.penetration[n] = values;
             self.backwards[LAST - n] = values;
-            if self.kind == Kind::Power {
+            if kind == Kind::Power {
                 self.slope[LAST - n] = each(|i| COUNT[n] * values[i]);
             }
         }
     }
 
-    /// Fills power n of the forces from the powers 0..=n + 1 of the penetrations, for n = 0, 1, 2, ... in turn.
+    /// Fills power n of the forces from the powers 0..=n + 1 of the penetrations, for n = 0, 1, 2, ... in turn, and
+    /// returns it.
     #[inline(always)]
-    pub fn extend_force(&mut self, n: usize) {
+    pub fn extend_force(&mut self, n: usize) -> Each {
+        self.extend_force_of(self.kind, n)
+    }
+
+    /// The same for a block that is known to be of a kind.
+    #[inline(always)]
+    pub fn extend_force_of(&mut self, kind: Kind, n: usize) -> Each {
         // Says once that no index below leaves its table.
         if n + 2 >= ROOM {
-            return;
+            return [0.0; PAIRS];
         }
         self.order = n;
-        self.force[n] = match self.kind {
+        let force = match kind {
             Kind::None => [0.0; PAIRS],
             Kind::Linear => self.linear_force(n, &self.penetration[n], &self.penetration[n + 1]),
             Kind::Spring => self.spring_force(n),
             Kind::Power => self.damped_power_force(n),
             Kind::Root => self.root_force(n),
         };
+        self.force[n] = force;
+        force
     }
 
     /// Power n of linear forces, from the powers n and n + 1 of the penetrations.
@@ -235,9 +258,7 @@ impl PairBlock {
     fn spring_force(&mut self, n: usize) -> Each {
         let mut sums = [[0.0; PAIRS]; 2];
         if n >= 2 {
-            for (d, p) in self.backwards[LAST - (n - 1)..LAST - 1].iter().zip(&self.power[1..n - 1]) {
-                add_products(&mut sums, d, p);
-            }
+            add_all_products(&mut sums, &self.backwards[LAST - (n - 1)..LAST - 1], &self.power[1..n - 1]);
         }
         let power = self.extend_power(n, &sums);
         each(|i| self.stiffness[i] * power[i])
@@ -458,6 +479,19 @@ fn add_products(sums: &mut [Each; 2], d: &Each, term: &[Each; 2]) {
     }
 }
 
+/// The same for as many terms as there are, two in a row.
+#[inline(always)]
+fn add_all_products(sums: &mut [Each; 2], d: &[Each], terms: &[[Each; 2]]) {
+    let ((d, last), (terms, last_term)) = (d.as_chunks::<2>(), terms.as_chunks::<2>());
+    for (d, terms) in d.iter().zip(terms) {
+        add_products(sums, &d[0], &terms[0]);
+        add_products(sums, &d[1], &terms[1]);
+    }
+    if let ([d], [term]) = (last, last_term) {
+        add_products(sums, d, term);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -466,7 +500,7 @@ mod tests {
     fn compare(force: Force, powers: &[(f64, f64)]) {
         let mut block = PairBlock::default();
         block.start(Kind::of(&force));
-        block.add(&force, 1.0, 1.0, 2.0);
+        block.add(0, &force, 1.0, 1.0, 2.0);
         for n in 0..12 {
             block.set_penetration(n + 2, [if n == 0 { 1.0 } else { 0.0 }; PAIRS]);
             block.extend_force(n);
@@ -493,9 +527,9 @@ mod tests {
         let series = |which: &[usize]| {
             let mut block = PairBlock::default();
             block.start(Kind::Root);
-            for &i in which {
+            for (lane, &i) in which.iter().enumerate() {
                 let (stiffness, damping) = forces[i];
-                block.add(&Force::Root { stiffness, damping }, 1.0, 0.5 + i as f64, -0.1);
+                block.add(lane, &Force::Root { stiffness, damping }, 1.0, 0.5 + i as f64, -0.1);
             }
             for n in 0..8 {
                 block.set_penetration(n + 2, [0.01 / (n + 1) as f64; PAIRS]);

@@ -185,24 +185,25 @@ impl Model {
             return;
         }
         base.watch.move_on(1);
+        base.watch.set_all_known();
+        let (coordinates, q, v) = (base.coordinates, &base.q, &base.v);
         for (p, contact) in base.contacts.iter_mut().enumerate() {
-            base.watch.set_known(p);
             contact.at_surface = false;
             contact.let_go = false;
             contact.undecided = false;
             if contact.is_held() {
                 continue;
             }
+            contact.carried = false;
             if let Some((penetration, rate)) = step.carried[p] {
                 (contact.penetration, contact.rate) = (penetration, rate);
-                contact.carried = self.is_close(p, penetration, base.coordinates, &base.q);
+                contact.carried = self.is_close(p, penetration, coordinates, q);
                 continue;
             }
-            contact.carried = false;
             if !contact.in_contact() {
-                contact.penetration = self.relative(p, base.coordinates, &base.q) - self.pairs[p].gap;
+                contact.penetration = self.relative(p, coordinates, q) - self.pairs[p].gap;
             }
-            contact.rate = self.relative(p, base.coordinates, &base.v);
+            contact.rate = self.relative(p, coordinates, v);
         }
     }
 

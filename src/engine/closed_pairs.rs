@@ -7,6 +7,7 @@ use crate::contact::Force;
 use crate::contact::series::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock, each};
 use crate::polynomial::{Coefficients, Powers, Reading};
 use crate::structure::{FEW_BLOCKS, LANES, Lane, PairForces, difference};
+use std::marker::PhantomData;
 
 /// The pairs in contact, in blocks of one kind of law each.
 #[derive(Clone, Debug)]
@@ -19,6 +20,9 @@ pub(super) struct ClosedPairs {
     at_surface: Vec<bool>,
     /// Of each pair the earlier ones with which it shares a floor, so that each feels the other's force at once.
     neighbours: Vec<Vec<usize>>,
+    /// The closed pairs that have been given a block and a lane, with their kinds, and in which coordinates.
+    assigned: Vec<(usize, Kind)>,
+    coordinates: Coordinates,
     /// Whether the penetrations have to wait for all forces.
     waits: bool,
     used: usize,
@@ -26,15 +30,47 @@ pub(super) struct ClosedPairs {
     places: Vec<(usize, usize)>,
 }
 
+/// Which block of a kind a pair belongs to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Place {
+    /// Any that has a free lane.
+    #[default]
+    Any,
+    /// That of the pairs between two blocks of floors, in the lane of its floors: what happens to a block of pairs is then
+    /// the same for whole blocks of floors.
+    Between {
+        /// The blocks of the left and of the right floors.
+        blocks: [usize; 2],
+        lane: usize,
+    },
+}
+
+impl Place {
+    /// Of a pair.
+    pub fn of(pair: &Pair, coordinates: Coordinates) -> Place {
+        let [left, right] = pair.lanes;
+        match coordinates {
+            Coordinates::Floors if left % LANES == right % LANES => {
+                Place::Between { blocks: [left / LANES, right / LANES], lane: left % LANES }
+            }
+            _ => Place::Any,
+        }
+    }
+}
+
 /// The pairs of a block, lane by lane; lanes without a pair hold what was there before.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Members {
     /// Their numbers.
-    pub pairs: [usize; PAIRS],
+    pairs: [usize; PAIRS],
+    /// Which lanes hold a pair.
+    taken: [bool; PAIRS],
+    /// The blocks of floors between which they are, where each pair stands in the lane of its floors.
+    between: Option<[usize; 2]>,
     /// Lanes of the two floors.
     floors: [[usize; 2]; PAIRS],
     /// What a force does to each floor, 1/kg: minus and plus its inverse mass.
-    inverse_masses: [[f64; 2]; PAIRS],
+    inverse_masses: [Each; 2],
     /// 1/kg, relative acceleration of the pair by its own force.
     pub softness: Each,
     /// What the pair is to the first modes.
@@ -42,38 +78,73 @@ pub(super) struct Members {
 }
 
 impl Members {
+    /// Starts without a pair; returns the lane of the first, which belongs to a place.
+    pub fn start(&mut self, place: Place) -> usize {
+        self.taken = [false; PAIRS];
+        let (between, lane) = match place {
+            Place::Any => (None, 0),
+            Place::Between { blocks, lane } => (Some(blocks), lane),
+        };
+        self.between = between;
+        lane
+    }
+
+    /// The lane for another pair, if there is room.
+    pub fn free_lane(&self, place: Place) -> Option<usize> {
+        match place {
+            Place::Any if self.between.is_none() => self.taken.iter().position(|taken| !taken),
+            Place::Between { blocks, lane } if self.between == Some(blocks) && !self.taken[lane] => Some(lane),
+            _ => None,
+        }
+    }
+
     /// Enters a pair by its number.
     pub fn set(&mut self, lane: usize, pair: usize, data: &Pair, coordinates: Coordinates) {
         let Pair { lanes: floors, inverse_masses: [left, right], .. } = *data;
         self.pairs[lane] = pair;
+        self.taken[lane] = true;
         self.floors[lane] = floors;
-        self.inverse_masses[lane] = [-left, right];
+        (self.inverse_masses[0][lane], self.inverse_masses[1][lane]) = (-left, right);
         self.softness[lane] = left + right;
         if coordinates == Coordinates::Modes {
             self.rows[lane] = data.first_blocks;
         }
     }
+
+    /// The lanes that hold a pair, with its number.
+    pub fn lanes(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.pairs.iter().copied().enumerate().zip(&self.taken).filter(|(_, taken)| **taken).map(|(pair, _)| pair)
+    }
+}
+
+/// Most blocks that so many pairs of some kinds fill.
+pub(super) fn most_blocks(pairs: usize, kinds: usize, on_floors: bool) -> usize {
+    // Every block has at least one pair; on floors their places may keep them apart.
+    if on_floors || pairs == 0 { pairs } else { pairs.min(pairs.div_ceil(PAIRS) + kinds - 1) }
 }
 
 /// What a block comes to at the end of a step.
 pub(super) struct BlockEnd {
     motion: BlockReading,
     force: ForceReading,
+    /// Whether a force, or a penetration, may be largest in between.
+    turns: [[bool; PAIRS]; 2],
 }
 
 impl ClosedPairs {
     /// Room for these pairs.
-    pub fn new(all: &[Pair]) -> ClosedPairs {
-        const KINDS: usize = 5;
+    pub fn new(all: &[Pair], on_floors: bool) -> ClosedPairs {
         let pairs = all.len();
         let shares = |a: &Pair, b: &Pair| a.floors[0] == b.floors[0] || a.floors[1] == b.floors[1];
-        let most = if pairs == 0 { 0 } else { pairs.div_ceil(PAIRS) + KINDS.min(pairs) - 1 };
+        let most = most_blocks(pairs, 5, on_floors);
         ClosedPairs {
             blocks: vec![PairBlock::default(); most],
             members: vec![Members::default(); most],
             readings: vec![BlockReading::default(); most],
             at_surface: vec![false; most],
             neighbours: (0..pairs).map(|p| (0..p).filter(|&q| shares(&all[p], &all[q])).collect()).collect(),
+            assigned: Vec::with_capacity(pairs),
+            coordinates: Coordinates::default(),
             waits: false,
             used: 0,
             places: vec![(0, 0); pairs],
@@ -82,28 +153,70 @@ impl ClosedPairs {
 
     /// Starts the series of all pairs in contact that are not held together; `scale` is the unit of time.
     pub fn start(&mut self, base: &Base, pairs: &[Pair], scale: f64) {
-        self.used = 0;
+        self.at_surface.fill(false);
         self.waits = false;
-        let is_closed = |contact: &Contact| contact.in_contact() && !contact.is_held();
-        for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| is_closed(contact)) {
-            let force = contact.starting_force();
-            let b = self.block_for(Kind::of(&force));
-            let lane = self.blocks[b].add(&force, scale, contact.penetration, contact.rate * scale);
-            self.places[p] = (b, lane);
-            self.members[b].set(lane, p, &pairs[p], base.coordinates);
-            self.at_surface[b] |= contact.at_surface;
-            self.waits |= contact.at_surface || self.neighbours[p].iter().any(|&q| is_closed(&base.contacts[q]));
+        if !self.start_again(base, scale) {
+            self.assign(base, pairs);
+            self.start_again(base, scale);
         }
     }
 
-    fn block_for(&mut self, kind: Kind) -> usize {
-        if let Some(b) = (0..self.used).find(|&b| self.blocks[b].takes(kind)) {
-            return b;
+    /// Gives each closed pair its block and lane.
+    fn assign(&mut self, base: &Base, pairs: &[Pair]) {
+        self.used = 0;
+        self.assigned.clear();
+        self.coordinates = base.coordinates;
+        for (p, contact) in closed(base) {
+            let kind = Kind::of(&contact.starting_force());
+            let (b, lane) = self.room_for(kind, Place::of(&pairs[p], base.coordinates));
+            self.members[b].set(lane, p, &pairs[p], base.coordinates);
+            self.blocks[b].count = self.blocks[b].count.max(lane + 1);
+            self.places[p] = (b, lane);
+            self.assigned.push((p, kind));
         }
-        self.blocks[self.used].start(kind);
-        self.at_surface[self.used] = false;
+    }
+
+    /// Enters the closed pairs where they have been assigned; whether they are the same as then.
+    fn start_again(&mut self, base: &Base, scale: f64) -> bool {
+        let mut assigned = self.assigned.iter();
+        for (p, contact) in closed(base) {
+            let force = contact.starting_force();
+            if assigned.next() != Some(&(p, Kind::of(&force))) {
+                return false;
+            }
+            let (b, lane) = self.places[p];
+            self.blocks[b].add(lane, &force, scale, contact.penetration, contact.rate * scale);
+            self.at_surface[b] |= contact.at_surface;
+            self.waits |= contact.at_surface || self.neighbours[p].iter().any(|&q| is_closed(&base.contacts[q]));
+        }
+        assigned.next().is_none() && self.coordinates == base.coordinates
+    }
+
+    /// Block and lane for a pair of a kind: mostly in the newest block.
+    fn room_for(&mut self, kind: Kind, place: Place) -> (usize, usize) {
+        for b in (0..self.used).rev() {
+            if self.blocks[b].is_of(kind)
+                && let Some(lane) = self.members[b].free_lane(place)
+            {
+                return (b, lane);
+            }
+        }
+        let b = self.used;
+        self.blocks[b].start(kind);
         self.used += 1;
-        self.used - 1
+        (b, self.members[b].start(place))
+    }
+
+    /// The kind of all closed pairs, where there is one and nothing has to wait.
+    pub fn only_kind(&self) -> Option<Kind> {
+        let mut kinds = self.blocks[..self.used].iter().map(PairBlock::kind);
+        let first = kinds.next().filter(|_| !self.waits)?;
+        kinds.all(|kind| kind == first).then_some(first)
+    }
+
+    /// How many pairs have a force.
+    pub fn count_forces(&self) -> u64 {
+        self.assigned.iter().filter(|(_, kind)| *kind != Kind::None).count() as u64
     }
 
     /// The block of all pairs where they fit into one and are under linear laws: its members, whether one of them has just
@@ -118,8 +231,8 @@ impl ClosedPairs {
     /// Whether any pair is released by x, as far as the first powers tell.
     pub fn are_some_nearly_released(&self, x: f64) -> bool {
         let parabola = |d: &[Each], lane: usize| d[0][lane] + x * (d[1][lane] + x * d[2][lane]);
-        let blocks = &self.blocks[..self.used];
-        blocks.iter().any(|block| (0..block.count).any(|lane| parabola(&block.penetration, lane) < 0.0))
+        let mut blocks = self.blocks[..self.used].iter().zip(&self.members);
+        blocks.any(|(block, members)| members.lanes().any(|(lane, _)| parabola(&block.penetration, lane) < 0.0))
     }
 
     /// Number of blocks in use.
@@ -135,7 +248,7 @@ impl ClosedPairs {
 
     /// The pairs of a block, lane by lane.
     pub fn pairs_of(&self, block: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.members[block].pairs.iter().copied().enumerate().take(self.blocks[block].count)
+        self.members[block].lanes()
     }
 
     /// Reads the penetrations at the end of the step.
@@ -150,6 +263,22 @@ impl ClosedPairs {
         &self.readings[block]
     }
 
+    /// Which pairs of a block certainly stay in contact up to x, the end of the step.
+    pub fn stays_closed(&self, block: usize, x: f64) -> [bool; PAIRS] {
+        if self.at_surface[block] {
+            return [false; PAIRS];
+        }
+        let (PairBlock { penetration: terms, .. }, end) = (&self.blocks[block], &self.readings[block]);
+        let bound = (x * x) * (x * x) / 384.0;
+        let smaller = |a: f64, b: f64| if a < b { a } else { b };
+        // As `roots::ceiling` has it.
+        let least = each(|i| {
+            let (start, end, slope) = (terms[0][i], end.penetration[i], end.slope[i]);
+            smaller(smaller(start, end), smaller(start + x * terms[1][i] / 3.0, end - x * slope / 3.0))
+        });
+        std::array::from_fn(|i| least[i] > 0.0 && least[i] >= bound * end.fourth[i])
+    }
+
     /// Power n of the forces, from the powers of the penetrations so far.
     pub fn extend_forces(&mut self, n: usize) {
         for block in &mut self.blocks[..self.used] {
@@ -160,8 +289,8 @@ impl ClosedPairs {
     /// Calls for each pair with its number and power n of its force.
     pub fn each_force(&self, n: usize, mut visit: impl FnMut(usize, f64)) {
         for (block, members) in self.blocks.iter().zip(&self.members).take(self.used) {
-            for (pair, force) in members.pairs.iter().zip(&block.force[n]).take(block.count) {
-                visit(*pair, *force);
+            for (lane, pair) in members.lanes() {
+                visit(pair, block.force[n][lane]);
             }
         }
     }
@@ -171,8 +300,8 @@ impl ClosedPairs {
         let blocks = self.blocks.iter_mut().zip(&self.members).zip(&self.at_surface);
         for ((block, members), at_surface) in blocks.take(self.used) {
             let mut values = [0.0; PAIRS];
-            for (value, pair) in values.iter_mut().zip(&members.pairs).take(block.count) {
-                *value = term(*pair, *at_surface);
+            for (lane, pair) in members.lanes() {
+                values[lane] = term(pair, *at_surface);
             }
             block.set_penetration(n, values);
         }
@@ -196,6 +325,15 @@ impl ClosedPairs {
     }
 }
 
+/// The pairs that have a force, with their numbers.
+fn closed(base: &Base) -> impl Iterator<Item = (usize, &Contact)> {
+    base.contacts.iter().enumerate().filter(|(_, contact)| is_closed(contact))
+}
+
+fn is_closed(contact: &Contact) -> bool {
+    contact.in_contact() && !contact.is_held()
+}
+
 /// How contact forces and the motion meet in its coordinates. `count` lanes of the members hold pairs.
 pub(super) trait Meeting {
     /// Relative motions of the pairs.
@@ -204,6 +342,13 @@ pub(super) trait Meeting {
     fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each;
     /// Adds what the forces do.
     fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]);
+    /// Adds what the forces do; returns the relative motions without that.
+    #[inline(always)]
+    fn meet(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) -> Each {
+        let relative = self.relative(members, count, term);
+        self.push(members, count, forces, term);
+        relative
+    }
 }
 
 /// The motion is that of the floors.
@@ -212,22 +357,49 @@ pub(super) struct OnFloors;
 impl Meeting for OnFloors {
     #[inline(always)]
     fn relative(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
+        if let Some([left, right]) = members.between {
+            let (left, right) = (&term[left], &term[right]);
+            return each(|lane| left[lane] - right[lane]);
+        }
         let term = term.as_flattened();
         lane_by_lane(count, |lane| term[members.floors[lane][0]] - term[members.floors[lane][1]])
     }
 
     fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
+        if let Some([left, right]) = members.between {
+            return each(|lane| apart(term[left][lane], term[right][lane]));
+        }
         let term = term.as_flattened();
         lane_by_lane(count, |lane| apart(term[members.floors[lane][0]], term[members.floors[lane][1]]))
     }
 
     #[inline(always)]
     fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) {
+        self.meet(members, count, forces, term);
+    }
+
+    #[inline(always)]
+    fn meet(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) -> Each {
+        let Some(blocks) = members.between else {
+            let relative = self.relative(members, count, term);
+            OnFloors::push_floors(members, count, forces, term);
+            return relative;
+        };
+        let Ok([left, right]) = term.get_disjoint_mut(blocks) else { return [0.0; PAIRS] };
+        let (was_left, was_right, [pushed_left, pushed_right]) = (*left, *right, &members.inverse_masses);
+        *left = each(|lane| was_left[lane] + pushed_left[lane] * forces[lane]);
+        *right = each(|lane| was_right[lane] + pushed_right[lane] * forces[lane]);
+        each(|lane| was_left[lane] - was_right[lane])
+    }
+}
+
+impl OnFloors {
+    #[inline(always)]
+    fn push_floors(members: &Members, count: usize, forces: &Each, term: &mut [Lane]) {
         let term = term.as_flattened_mut();
-        let places = members.floors.iter().zip(&members.inverse_masses);
-        for ((floors, inverse_masses), force) in places.zip(forces).take(count) {
-            for (floor, inverse_mass) in floors.iter().zip(inverse_masses) {
-                term[*floor] += inverse_mass * force;
+        for (lane, (floors, force)) in members.floors.iter().zip(forces).enumerate().take(count) {
+            for (floor, inverse_masses) in floors.iter().zip(&members.inverse_masses) {
+                term[*floor] += inverse_masses[lane] * force;
             }
         }
     }
@@ -292,33 +464,70 @@ fn lane_by_lane(count: usize, of: impl Fn(usize) -> f64) -> Each {
     all
 }
 
-/// The closed pairs in some coordinates.
-pub(super) struct Acting<'a, M> {
-    pub closed: &'a mut ClosedPairs,
-    pub meeting: M,
+/// What is known of all closed pairs together when a series is expanded: work for each kind by itself is less.
+pub(super) trait Kinds {
+    /// The kind of all of them.
+    const ONE: Option<Kind>;
 }
 
-impl<M: Meeting> PairForces for Acting<'_, M> {
+/// Some are of one kind, some of another.
+pub(super) struct AnyKinds;
+
+impl Kinds for AnyKinds {
+    const ONE: Option<Kind> = None;
+}
+
+/// All are [`Kind::Spring`].
+pub(super) struct Springs;
+
+impl Kinds for Springs {
+    const ONE: Option<Kind> = Some(Kind::Spring);
+}
+
+/// All are [`Kind::Power`].
+pub(super) struct DampedPowers;
+
+impl Kinds for DampedPowers {
+    const ONE: Option<Kind> = Some(Kind::Power);
+}
+
+/// The closed pairs in some coordinates.
+pub(super) struct Acting<'a, M, K> {
+    closed: &'a mut ClosedPairs,
+    meeting: M,
+    kinds: PhantomData<K>,
+}
+
+impl<'a, M, K> Acting<'a, M, K> {
+    pub fn new(closed: &'a mut ClosedPairs, meeting: M) -> Self {
+        Acting { closed, meeting, kinds: PhantomData }
+    }
+}
+
+impl<M: Meeting, K: Kinds> PairForces for Acting<'_, M, K> {
     #[inline(always)]
     fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
         let closed = &mut *self.closed;
         let used = closed.used;
         let blocks = closed.blocks[..used].iter_mut().zip(&closed.members[..used]);
-        if closed.waits {
-            blocks.for_each(|(block, _)| block.extend_force(n));
+        if K::ONE.is_none() && closed.waits {
+            for (block, _) in blocks {
+                block.extend_force(n);
+            }
             return self.act_in_turn(n, factor, term);
         }
         for (block, members) in blocks {
-            block.extend_force(n);
+            let kind = K::ONE.unwrap_or(block.kind());
+            let force = block.extend_force_of(kind, n);
+            let relative = self.meeting.meet(members, block.count, &each(|i| factor * force[i]), term);
             // What a force does to its own pair needs no detour by the motion: the next powers of the force wait for it.
-            let (force, relative) = (block.force[n], self.meeting.relative(members, block.count, term));
-            block.set_penetration(n + 2, each(|i| relative[i] - factor * members.softness[i] * force[i]));
-            self.meeting.push(members, block.count, &force.map(|force| factor * force), term);
+            let relative = each(|i| relative[i] - factor * members.softness[i] * force[i]);
+            block.set_penetration_of(kind, n + 2, relative);
         }
     }
 }
 
-impl<M: Meeting> Acting<'_, M> {
+impl<M: Meeting, K> Acting<'_, M, K> {
     /// One after the other: pairs that share a floor, or have just entered.
     fn act_in_turn(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
         self.push(n, factor, term);
@@ -372,8 +581,40 @@ pub(super) fn apart(left: f64, right: f64) -> f64 {
 
 impl BlockEnd {
     fn of(block: &PairBlock, motion: BlockReading, powers: &Powers) -> BlockEnd {
-        BlockEnd { motion, force: block.read_force(powers) }
+        let force = block.read_force(powers);
+        let of_force = may_turn(&block.force, (&force.value, &force.slope), &force.fourth, powers.x);
+        let of_motion = may_turn(&block.penetration, (&motion.penetration, &motion.slope), &motion.fourth, powers.x);
+        BlockEnd { motion, force, turns: [of_force, of_motion] }
     }
+}
+
+/// Whether the slope of each series may pass 0 within 0..=x, by bounds as [`roots`] has them.
+#[inline(always)]
+fn may_turn(terms: &[Each], (end, slope): (&Each, &Each), fourth: &Each, x: f64) -> [bool; PAIRS] {
+    let (smaller, larger) = (|a: f64, b: f64| if a < b { a } else { b }, |a: f64, b: f64| if a > b { a } else { b });
+    let (start, first) = (&terms[0], &terms[1]);
+    let middle = each(|i| 3.0 * (end[i] - start[i]) / x - (first[i] + slope[i]));
+    let least = each(|i| smaller(middle[i], smaller(first[i], slope[i])));
+    let most = each(|i| larger(middle[i], larger(first[i], slope[i])));
+    let error = each(|i| 0.008_02 * x * x * x * fourth[i]);
+    std::array::from_fn(|i| !(least[i] > error[i] || most[i] < -error[i]))
+}
+
+/// See [`roots::maximum_above`]; only of what `turns` more than the ends has to be looked at.
+#[inline(always)]
+fn highest(
+    turns: bool,
+    first: (f64, f64),
+    x: f64,
+    end: &Reading,
+    known: f64,
+    terms: impl FnOnce(&mut Coefficients) -> usize,
+) -> Option<(f64, f64)> {
+    if turns {
+        return roots::maximum_above(first, x, end, known, terms);
+    }
+    let (at, value) = if end.value > first.0 { (x, end.value) } else { (0.0, first.0) };
+    (value > known).then_some((at, value))
 }
 
 impl Contact {
@@ -382,7 +623,10 @@ impl Contact {
         let impulse = scale * end.force.impulse[lane];
         self.impulse += impulse;
         self.episode.impulse += impulse;
-        self.work += block.damping_work(lane, &self.branch(), scale, x, end.motion.penetration[lane]);
+        if block.is_damped() {
+            self.work += block.damping_work(lane, &self.branch(), scale, x, end.motion.penetration[lane]);
+        }
+        let [force_turns, motion_turns] = end.turns.map(|turns| turns[lane]);
         let depth = Reading {
             value: end.motion.penetration[lane],
             slope: end.motion.slope[lane],
@@ -390,7 +634,7 @@ impl Contact {
         };
         let terms = |out: &mut Coefficients| block.copy_penetration(lane, out);
         let first = (block.penetration[0][lane], block.penetration[1][lane]);
-        let deepest = roots::maximum_above(first, x, &depth, self.episode.peak_penetration, terms);
+        let deepest = highest(motion_turns, first, x, &depth, self.episode.peak_penetration, terms);
         if let Some((_, peak)) = deepest {
             self.episode.peak_penetration = peak;
         }
@@ -400,7 +644,7 @@ impl Contact {
             _ => {
                 let terms = |out: &mut Coefficients| block.copy_force(lane, out);
                 let first = (block.force[0][lane], block.force[1][lane]);
-                roots::maximum_above(first, x, &end.force.of(lane), self.episode.peak_force, terms)
+                highest(force_turns, first, x, &end.force.of(lane), self.episode.peak_force, terms)
             }
         };
         if let Some((at, peak)) = strongest.filter(|(_, peak)| *peak > self.episode.peak_force) {
@@ -415,6 +659,7 @@ impl Contact {
 
 impl Model {
     /// The rate or other motion of a pair: that of its left floor less that of its right floor.
+    #[inline(always)]
     pub(super) fn relative(&self, p: usize, coordinates: Coordinates, motion: &[f64]) -> f64 {
         let Pair { row, lanes: [left, right], .. } = &self.pairs[p];
         match coordinates {

@@ -14,9 +14,12 @@ impl Model {
     pub(super) fn first_event(&self, base: &Base, step: &Step, work: &mut Workspace) -> Option<(f64, Event)> {
         let mut first = None;
         for block in 0..step.closed.len() {
-            let reading = step.closed.reading(block);
+            let stays = step.closed.stays_closed(block, step.end.x);
             for (lane, p) in step.closed.pairs_of(block) {
-                first = self.leaving(base, step, work, (p, lane), reading, until(first, step)).or(first);
+                if !stays[lane] || base.contacts[p].force.guard.is_some() {
+                    let reading = step.closed.reading(block);
+                    first = self.leaving(base, step, work, (p, lane), reading, until(first, step)).or(first);
+                }
             }
         }
         for &p in self.rigid.pairs.iter().filter(|&&p| base.contacts[p].is_held() && !base.contacts[p].undecided) {
@@ -89,14 +92,13 @@ impl Model {
         work: &mut Workspace,
         mut first: Option<(f64, Event)>,
     ) -> Option<(f64, Event)> {
-        let is_apart = |contact: &Contact| !contact.in_contact();
-        if !base.contacts.iter().any(is_apart) {
+        if base.contacts.iter().all(Contact::in_contact) {
             return first;
         }
         let series = &step.series;
         series.fourth_derivatives(&step.end, &mut work.node_q);
-        for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| is_apart(contact)) {
-            if self.stays_apart(p, contact, base.coordinates, step, &work.node_q) {
+        for (p, contact) in base.contacts.iter().enumerate() {
+            if contact.in_contact() || self.stays_apart(p, contact, base.coordinates, step, &work.node_q) {
                 continue;
             }
             let terms = &mut work.scalar[..=series.order];
@@ -109,22 +111,22 @@ impl Model {
 
     /// Whether a pair certainly stays apart over the whole step: its penetration is as near to its cubic interpolant as
     /// the `fourth` derivatives of the motion say.
+    #[inline(always)]
     fn stays_apart(&self, p: usize, contact: &Contact, coordinates: Coordinates, step: &Step, fourth: &[f64]) -> bool {
         let pair = &self.pairs[p];
-        let start = contact.flight_start();
-        let end = self.relative(p, coordinates, &step.q) - pair.gap;
-        if start.max(end) >= 0.0 {
+        let (start, end) = (contact.flight_start(), self.relative(p, coordinates, &step.q) - pair.gap);
+        if start >= 0.0 || end >= 0.0 {
             return false;
         }
         let third = step.end.x * step.series.scale / 3.0;
-        let ceiling =
-            start.max(start + third * contact.rate).max(end - third * self.relative(p, coordinates, &step.v)).max(end);
+        let control = [start + third * contact.rate, end - third * self.relative(p, coordinates, &step.v)];
         let fourth = match coordinates {
             Coordinates::Floors => fourth[pair.lanes[0]] + fourth[pair.lanes[1]],
             Coordinates::Modes => pair.row.iter().zip(fourth).map(|(row, fourth)| row.abs() * fourth).sum(),
         };
         let x2 = step.end.x * step.end.x;
-        ceiling + x2 * x2 / 384.0 * fourth < 0.0
+        let room = -(x2 * x2 / 384.0 * fourth);
+        start < room && end < room && control[0] < room && control[1] < room
     }
 
     /// The scalar series of a pair's relative motion, written to `out[n]`. Returns the sum of the sizes of all that is

@@ -4,12 +4,13 @@
 //! of series. The step is as long as the last terms allow. The motion is that of the floors where they are many and feel
 //! their neighbours only, else that of the modes, as always near rigid contacts.
 
-use super::closed_pairs::{Acting, OnFewModes, OnFloors, OnModes};
+use super::closed_pairs::{Acting, AnyKinds, DampedPowers, OnFewModes, OnFloors, OnModes, Springs};
 use super::complementarity::Complementarity;
 use super::linear_pairs::LinearPairs;
 use super::model::Model;
 use super::state::*;
 use crate::contact::Force;
+use crate::contact::series::Kind;
 use crate::polynomial::{MAX_ORDER, ROOM, rough_root};
 use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, difference, dot};
 
@@ -75,15 +76,15 @@ impl Model {
         }
         let State { base, step, inputs, counters, work, .. } = state;
         counters.contact_steps += 1;
-        counters.law_evaluations += base.count_forces(Contact::starting_force);
         step.ends.clear();
         step.kind = StepKind::Contact;
         self.load(base, inputs, &mut work.load, &mut work.slope);
         let scale = self.series_scale(base, remaining);
         self.expand(base, step, work, scale);
-        let mut reach = self.accurate_reach(base, step, remaining / scale);
+        counters.law_evaluations += step.closed.count_forces();
+        let mut reach = self.accurate_reach(base, step, is_singular, remaining / scale);
         if reach < remaining / scale && self.expand_further(base, step, work, reach) {
-            reach = self.accurate_reach(base, step, remaining / scale);
+            reach = self.accurate_reach(base, step, is_singular, remaining / scale);
         }
         let whole = remaining / scale <= reach;
         let end = if whole { remaining / scale } else { reach };
@@ -167,18 +168,31 @@ impl Model {
         let loads = (&work.load[..], &work.slope[..]);
         match base.coordinates {
             Coordinates::Floors => {
-                let mut forces = Acting { closed, meeting: OnFloors };
-                series.expand_floors(&self.structure.floors, self.order + 1, loads, &mut forces);
+                let (floors, order, meeting) = (&self.structure.floors, self.order + 1, OnFloors);
+                match closed.only_kind() {
+                    Some(Kind::Spring) => {
+                        series.expand_floors(floors, order, loads, &mut Acting::<_, Springs>::new(closed, meeting));
+                    }
+                    Some(Kind::Power) => {
+                        series.expand_floors(
+                            floors,
+                            order,
+                            loads,
+                            &mut Acting::<_, DampedPowers>::new(closed, meeting),
+                        );
+                    }
+                    _ => series.expand_floors(floors, order, loads, &mut Acting::<_, AnyKinds>::new(closed, meeting)),
+                }
             }
             Coordinates::Modes if self.structure.is_classical() && work.rigid.pairs.is_empty() => {
                 let order = self.order + 1;
                 if base.q.len() > FEW_BLOCKS * LANES {
-                    let mut forces = Acting { closed, meeting: OnModes(&self.pairs) };
+                    let mut forces = Acting::<_, AnyKinds>::new(closed, OnModes(&self.pairs));
                     series.expand_modes(&self.structure, order, loads, &mut forces);
                 } else if let Some(mut forces) = LinearPairs::of(closed, &self.pairs, 0) {
                     series.expand_few_modes(&self.structure, order, loads, &mut forces);
                 } else {
-                    let mut forces = Acting { closed, meeting: OnFewModes };
+                    let mut forces = Acting::<_, AnyKinds>::new(closed, OnFewModes);
                     series.expand_few_modes(&self.structure, order, loads, &mut forces);
                 }
             }
@@ -236,7 +250,7 @@ impl Model {
     ///
     /// It is the velocity that is controlled: over a contact of a millisecond a displacement error is a velocity error
     /// a thousand times larger.
-    fn accurate_reach(&self, base: &Base, step: &Step, whole: f64) -> f64 {
+    fn accurate_reach(&self, base: &Base, step: &Step, is_singular: bool, whole: f64) -> f64 {
         let (series, coordinates) = (&step.series, base.coordinates);
         let allowed = self.step_tolerance * base.velocity_scale * series.scale;
         let mut reach = f64::INFINITY;
@@ -250,6 +264,9 @@ impl Model {
             }
         }
         reach *= 0.9;
+        if !is_singular {
+            return reach.min(FURTHEST);
+        }
         for (p, contact) in touching(base).filter(|(_, contact)| contact.is_singular()) {
             let law = contact.branch();
             let mut terms = [0.0; ROOM];
@@ -294,25 +311,13 @@ impl Model {
 
     /// Largest floor displacement, velocity ... of a vector of motion; of modes, that any one of them stands for.
     pub(super) fn worst_floor(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
-        let mut largest = [0.0_f64; LANES];
-        let (motion, _) = motion.as_chunks::<LANES>();
         match coordinates {
-            Coordinates::Floors => {
-                for motion in motion {
-                    for i in 0..LANES {
-                        largest[i] = largest[i].max(motion[i].abs());
-                    }
-                }
-            }
+            Coordinates::Floors => largest_of(motion, |_, size| size),
             Coordinates::Modes => {
-                for (motion, weight) in motion.iter().zip(self.structure.weight.as_chunks::<LANES>().0) {
-                    for i in 0..LANES {
-                        largest[i] = largest[i].max(motion[i].abs() * weight[i]);
-                    }
-                }
+                let weights = self.structure.weight.as_chunks::<LANES>().0;
+                largest_of(motion, |(c, i), size| size * weights[c][i])
             }
         }
-        largest.iter().fold(0.0, |a, b| a.max(*b))
     }
 
     /// The velocity that contact errors are measured against: of the floors, or what the springs can give them.
@@ -327,6 +332,20 @@ impl Model {
         });
         springs.fold(floors, f64::max)
     }
+}
+
+/// The largest of the sizes of a motion, each as `weighed` by its block and lane.
+#[inline(always)]
+fn largest_of(motion: &[f64], weighed: impl Fn((usize, usize), f64) -> f64) -> f64 {
+    let mut largest = [0.0_f64; LANES];
+    for (c, motion) in motion.as_chunks::<LANES>().0.iter().enumerate() {
+        for i in 0..LANES {
+            // Not `max`, which has to look for a NaN in both.
+            let size = weighed((c, i), motion[i].abs());
+            largest[i] = if size > largest[i] { size } else { largest[i] };
+        }
+    }
+    largest.iter().fold(0.0, |a, b| a.max(*b))
 }
 
 /// The power of two at or below x > 0: a scale that costs no rounding.

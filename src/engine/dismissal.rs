@@ -135,6 +135,11 @@ impl Watch {
         self.known[p] = self.moves;
     }
 
+    /// Those of all contacts are.
+    pub fn set_all_known(&mut self) {
+        self.known.fill(self.moves);
+    }
+
     fn is_known(&self, p: usize) -> bool {
         self.known[p] == self.moves
     }

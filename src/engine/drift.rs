@@ -177,11 +177,26 @@ fn add_modes<'q>(drift: &mut [f64; LANES], shapes: &[[f64; LANES]], q: impl Into
 fn raise_to(peak: &mut [f64; LANES], drift: &[f64; LANES]) -> bool {
     let before = *peak;
     for i in 0..LANES {
-        // Not `max`, which has to look for a NaN among the peaks.
-        let size = drift[i].abs();
-        peak[i] = if size > peak[i] { size } else { peak[i] };
+        peak[i] = larger(peak[i], drift[i]);
     }
     *peak != before
+}
+
+/// Raises the peaks of a building's storeys to the drifts of its floors. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn raise_to_floors(floors: &[f64], peaks: &mut [f64]) {
+    let Some((lowest, above)) = floors.split_first() else { return };
+    let Some((first, peaks)) = peaks.split_first_mut() else { return };
+    *first = larger(*first, *lowest);
+    for ((peak, floor), below) in peaks.iter_mut().zip(above).zip(floors) {
+        *peak = larger(*peak, floor - below);
+    }
+}
+
+/// The peak, or the size of a drift that exceeds it: not `max`, which has to look for a NaN among the peaks.
+#[inline(always)]
+fn larger(peak: f64, drift: f64) -> f64 {
+    if drift.abs() > peak { drift.abs() } else { peak }
 }
 
 fn blocks_of_storeys(shape: &DMatrix<f64>) -> Vec<[f64; LANES]> {
@@ -237,13 +252,9 @@ impl Model {
     }
 
     fn update_peak_drift_of_floors(&self, base: &mut Base) {
-        let (left, right) = base.peak_drift.peaks.split_at_mut(self.drift.buildings[0].all.len() * LANES);
+        let (left, right) = base.peak_drift.peaks.split_at_mut(self.drift.buildings[0].storeys());
         for (side, peaks) in [left, right].into_iter().enumerate() {
-            let floors = self.structure.floors.of_building(side, &base.q);
-            let below = std::iter::once(&0.0).chain(floors);
-            for ((peak, floor), below) in peaks.iter_mut().zip(floors).zip(below) {
-                *peak = peak.max((floor - below).abs());
-            }
+            raise_to_floors(self.structure.floors.of_building(side, &base.q), peaks);
         }
     }
 

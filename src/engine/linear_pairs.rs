@@ -27,8 +27,8 @@ impl<'a> LinearPairs<'a> {
     pub fn of(closed: &'a mut ClosedPairs, all: &'a [Pair], n: usize) -> Option<LinearPairs<'a>> {
         let (block, members, at_surface, waits) = closed.only_linear_block()?;
         let mut rows = [&NO_ROW; PAIRS];
-        for (row, pair) in rows.iter_mut().zip(&members.pairs).take(block.count) {
-            *row = &all[*pair].first_blocks;
+        for (lane, pair) in members.lanes() {
+            rows[lane] = &all[pair].first_blocks;
         }
         let last = [block.penetration[n], block.penetration[n + 1]];
         Some(LinearPairs { block, rows, softness: members.softness, waits, at_surface, last })

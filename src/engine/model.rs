@@ -136,6 +136,7 @@ impl Model {
     pub fn start(&self, time: f64) -> State {
         let lanes = self.structure.lanes;
         let highest = MAX_ORDER + 2;
+        let on_floors = self.contact_coordinates == Coordinates::Floors;
         let [q, v] = self.initial.clone();
         let segment = match &self.ground {
             Some(ground) => ground.segment_at(time),
@@ -168,10 +169,10 @@ impl Model {
                 v: vec![0.0; lanes],
                 series: MotionSeries::new(lanes, highest),
                 end: Powers::default(),
-                closed: ClosedPairs::new(&self.pairs),
+                closed: ClosedPairs::new(&self.pairs, on_floors),
                 reactions: vec![[0.0; ROOM]; self.rigid.pairs.len()],
                 reaction_order: 0,
-                onset: OnsetSeries::new(lanes, self.pairs.len(), has_singular_law(&self.pairs)),
+                onset: OnsetSeries::new(lanes, self.pairs.len(), has_singular_law(&self.pairs), on_floors),
                 window: Box::default(),
                 carried: vec![None; self.pairs.len()],
                 ends: Vec::with_capacity(self.pairs.len()),

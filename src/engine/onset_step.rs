@@ -3,7 +3,7 @@
 //! The step ends before anything else can happen - a turn, a release, an entry elsewhere -, shown by bounds on the sums
 //! of its terms, so it has no event of its own.
 
-use super::closed_pairs::{Meeting, Members, OnFloors, OnModes};
+use super::closed_pairs::{Meeting, Members, OnFloors, OnModes, Place, most_blocks};
 use super::contact_step::touching;
 use super::model::{Model, Pair};
 use super::state::*;
@@ -11,7 +11,7 @@ use crate::contact::Force;
 use crate::contact::onset::{
     Grid, GridPowers, MOST_TERMS, OnsetBlock, OnsetReading, value_and_slope, values_and_slopes,
 };
-use crate::contact::series::{Kind, PAIRS};
+use crate::contact::series::Kind;
 use crate::quadrature::{TWELVE, graded};
 use crate::structure::{LANES, Structure, sum_sizes, sum_terms};
 
@@ -39,12 +39,12 @@ pub(super) struct OnsetSeries {
 
 impl OnsetSeries {
     /// Room for the largest grid; none where no law needs one.
-    pub fn new(lanes: usize, pairs: usize, needed: bool) -> OnsetSeries {
+    pub fn new(lanes: usize, pairs: usize, needed: bool, on_floors: bool) -> OnsetSeries {
         if !needed {
             return OnsetSeries::default();
         }
         // Each of five kinds has one block that is not full, of pairs that enter and of pairs that touch.
-        let most = pairs.div_ceil(PAIRS) + 10.min(pairs) - 1;
+        let most = most_blocks(pairs, 10, on_floors);
         OnsetSeries {
             grid: None,
             lanes,
@@ -74,25 +74,32 @@ impl OnsetSeries {
         }
         for (p, contact) in touching(base) {
             let force = contact.branch();
-            let b = self.block_for(&grid, Kind::of(&force), contact.is_singular());
-            let lane = self.blocks[b].add(&force, scale, contact.penetration, contact.rate * scale);
+            let place = Place::of(&pairs[p], base.coordinates);
+            let (b, lane) = self.room_for(&grid, Kind::of(&force), contact.is_singular(), place);
+            self.blocks[b].add(lane, &force, scale, contact.penetration, contact.rate * scale);
             self.members[b].set(lane, p, &pairs[p], base.coordinates);
             self.places[p] = (b, lane);
         }
     }
 
-    fn block_for(&mut self, grid: &Grid, kind: Kind, enters: bool) -> usize {
-        if let Some(b) = (0..self.used).find(|&b| self.blocks[b].takes(kind, enters)) {
-            return b;
+    /// Block and lane for a pair of a kind.
+    fn room_for(&mut self, grid: &Grid, kind: Kind, enters: bool, place: Place) -> (usize, usize) {
+        for b in (0..self.used).rev() {
+            if self.blocks[b].is_of(kind, enters)
+                && let Some(lane) = self.members[b].free_lane(place)
+            {
+                return (b, lane);
+            }
         }
-        self.blocks[self.used].start(grid, kind, enters);
+        let b = self.used;
+        self.blocks[b].start(grid, kind, enters);
         self.used += 1;
-        self.used - 1
+        (b, self.members[b].start(place))
     }
 
     /// The pairs of a block, lane by lane.
     fn pairs_of(&self, block: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.members[block].pairs.iter().copied().enumerate().take(self.blocks[block].count)
+        self.members[block].lanes()
     }
 
     /// Takes the readings of all blocks at x.

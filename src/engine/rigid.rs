@@ -271,7 +271,9 @@ impl Model {
 
     /// Where the pairs that are carried get to at x of a series.
     pub(super) fn carry(&self, base: &Base, series: &MotionSeries, x: f64, scalar: &mut [f64], carried: &mut Carried) {
-        for (p, (contact, pair)) in base.contacts.iter().zip(&self.pairs).enumerate() {
+        carried.fill(None);
+        for &p in &self.rigid.pairs {
+            let (contact, pair) = (&base.contacts[p], &self.pairs[p]);
             carried[p] = contact.carried.then(|| {
                 let terms = &mut scalar[..=series.order];
                 let noise = pair.noise(self.project(p, base.coordinates, series, x, terms));

@@ -84,7 +84,8 @@ pub(super) struct Base {
 impl Base {
     /// How many contacts have a force.
     pub fn count_forces(&self, of: impl Fn(&Contact) -> Force) -> u64 {
-        self.contacts.iter().map(|contact| u64::from(of(contact) != Force::None)).sum()
+        let is_pressed = |contact: &&Contact| contact.in_contact() && of(contact) != Force::None;
+        self.contacts.iter().filter(is_pressed).count() as u64
     }
 }
 

@@ -2,14 +2,15 @@
 //! building, a floor knows nothing but its neighbours.
 //!
 //! Both buildings' floors stand in one vector, the left building's first, with a lane that rests above each building
-//! and the first lane below:
+//! and the first lane below. Where they are many each building begins with a block of lanes, so that floors of one level
+//! stand in the same place of a block.
 //!
 //! ```text
 //! M u'' + C u' + K u = -M 1 ground acceleration + floor forces - contact forces
 //! ```
 
 use super::modes::{Modes, rayleigh_factors};
-use super::{LANES, Lane, ModalDamping};
+use super::{FEW_BLOCKS, LANES, Lane, ModalDamping};
 use crate::scene::{Building, Damping, Stiffness};
 
 /// Both buildings floor by floor, of use where [`Floors::is_sparse`]. 0 in lanes that are no floors.
@@ -62,17 +63,26 @@ impl Block {
 }
 
 impl Floors {
+    /// Lane of the right building's lowest floor, and the lanes that a vector of all floors needs.
+    fn layout(left: usize, right: usize) -> (usize, usize) {
+        let lanes = |second: usize| (second + right + 1).next_multiple_of(LANES);
+        let shared = left + 1;
+        let second = if lanes(shared) <= FEW_BLOCKS * LANES { shared } else { shared.next_multiple_of(LANES) };
+        (second, lanes(second))
+    }
+
     /// Lanes that a vector of all floors needs.
     pub fn lanes(left: usize, right: usize) -> usize {
-        (left + right + 2).next_multiple_of(LANES)
+        Floors::layout(left, right).1
     }
 
     /// For two buildings and their modes.
     pub fn new(buildings: [&Building; 2], modes: &[Modes; 2]) -> Floors {
         let count = buildings.map(|building| building.mass.len());
-        let zeros = vec![0.0; Floors::lanes(count[0], count[1])];
+        let (second, lanes) = Floors::layout(count[0], count[1]);
+        let zeros = vec![0.0; lanes];
         let mut floors = Floors {
-            first: [0, count[0] + 1],
+            first: [0, second],
             count,
             mass: zeros.clone(),
             blocks: vec![Block::default(); zeros.len() / LANES],
@@ -160,17 +170,17 @@ impl Floors {
         let (blocks, count) = (&self.blocks[..], self.blocks.len());
         let (u, v, out) = (&u[..count], &v[..count], &mut out[..count]);
         let moved = |c: usize| each(|i| u[c][i] + (rate * blocks[c].on_stiffness[i]) * v[c][i]);
-        let shear = |c: usize, below: f64, own: &Lane| {
-            let below = [below, own[0], own[1], own[2]];
+        let shear = |c: usize, before: &Lane, own: &Lane| {
+            let below = [before[LANES - 1], own[0], own[1], own[2]];
             each(|i| blocks[c].storey[i] * (own[i] - below[i]))
         };
-        let lowest = moved(0);
-        let (mut own, mut highest) = (shear(0, 0.0, &lowest), lowest[LANES - 1]);
+        let mut before = moved(0);
+        let mut own = shear(0, &[0.0; LANES], &before);
         for c in 1..count {
             let floors = moved(c);
-            let next = shear(c, highest, &floors);
+            let next = shear(c, &before, &floors);
             blocks[c - 1].enter((&own, next[0]), &v[c - 1], rate, &mut out[c - 1], &entry);
-            (own, highest) = (next, floors[LANES - 1]);
+            (own, before) = (next, floors);
         }
         if let (Some(block), Some(v), Some(out)) = (blocks.last(), v.last(), out.last_mut()) {
             block.enter((&own, 0.0), v, rate, out, &entry);

@@ -233,31 +233,46 @@ impl MotionSeries {
     }
 }
 
-/// Blocks of lanes whose sums stand in registers side by side.
-const ABREAST: usize = 4;
-
 /// Adds up terms, one vector each, times their powers and times the slopes of these: q and, times `rate`, v. From the last
 /// terms to the first, which are the largest. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn sum_terms(terms: &[f64], powers: (&[f64], &[f64]), rate: f64, q: &mut [f64], v: &mut [f64]) {
     let (terms, _) = terms.as_chunks::<LANES>();
     let (q, v) = (q.as_chunks_mut::<LANES>().0, v.as_chunks_mut::<LANES>().0);
-    let width = q.len();
-    match width {
+    match q.len() {
         1 => return sum_few::<1>(terms, powers, rate, q, v),
         2 => return sum_few::<2>(terms, powers, rate, q, v),
         3 => return sum_few::<3>(terms, powers, rate, q, v),
         _ => {}
     }
-    let (wide_q, q) = q.as_chunks_mut::<ABREAST>();
-    let (wide_v, v) = v.as_chunks_mut::<ABREAST>();
-    for (k, (q, v)) in wide_q.iter_mut().zip(wide_v).enumerate() {
-        (*q, *v) = sum_blocks((terms, width), k * ABREAST, powers, rate);
+    let terms = (terms, q.len());
+    // As many blocks at a time as have their sums in registers side by side.
+    let mut first = 0;
+    while first < q.len() {
+        first += match q.len() - first {
+            1 => sum_next::<1>(terms, first, powers, rate, (q, v)),
+            2 => sum_next::<2>(terms, first, powers, rate, (q, v)),
+            3 => sum_next::<3>(terms, first, powers, rate, (q, v)),
+            5 => sum_next::<5>(terms, first, powers, rate, (q, v)),
+            6 => sum_next::<6>(terms, first, powers, rate, (q, v)),
+            _ => sum_next::<4>(terms, first, powers, rate, (q, v)),
+        };
     }
-    let first = width - width % ABREAST;
-    for (k, (q, v)) in q.iter_mut().zip(v).enumerate() {
-        ([*q], [*v]) = sum_blocks((terms, width), first + k, powers, rate);
-    }
+}
+
+/// Enters `N` blocks of q and v, from the `first` on; returns how many that are.
+#[inline(always)]
+fn sum_next<const N: usize>(
+    terms: (&[Lane], usize),
+    first: usize,
+    powers: (&[f64], &[f64]),
+    rate: f64,
+    (q, v): (&mut [Lane], &mut [Lane]),
+) -> usize {
+    let (sums, rates) = sum_blocks::<N>(terms, first, powers, rate);
+    q[first..first + N].copy_from_slice(&sums);
+    v[first..first + N].copy_from_slice(&rates);
+    N
 }
 
 /// The same for vectors of `N` blocks.
@@ -308,13 +323,27 @@ fn sum_blocks<const N: usize>(
 pub fn sum_sizes(terms: &[f64], factors: &[f64], out: &mut [f64]) {
     let (out, _) = out.as_chunks_mut::<LANES>();
     let (terms, width) = (terms.as_chunks::<LANES>().0, out.len());
-    let (wide, rest) = out.as_chunks_mut::<ABREAST>();
-    for (k, out) in wide.iter_mut().enumerate() {
-        *out = sizes_of_blocks((terms, width), k * ABREAST, factors);
+    let terms = (terms, width);
+    let mut first = 0;
+    while first < width {
+        first += match width - first {
+            1 => sum_next_sizes::<1>(terms, first, factors, out),
+            2 => sum_next_sizes::<2>(terms, first, factors, out),
+            3 => sum_next_sizes::<3>(terms, first, factors, out),
+            4 => sum_next_sizes::<4>(terms, first, factors, out),
+            5 => sum_next_sizes::<5>(terms, first, factors, out),
+            6 => sum_next_sizes::<6>(terms, first, factors, out),
+            7 => sum_next_sizes::<7>(terms, first, factors, out),
+            _ => sum_next_sizes::<8>(terms, first, factors, out),
+        };
     }
-    for (k, out) in rest.iter_mut().enumerate() {
-        [*out] = sizes_of_blocks((terms, width), width - width % ABREAST + k, factors);
-    }
+}
+
+/// Enters `N` blocks, from the `first` on; returns how many that are.
+#[inline(always)]
+fn sum_next_sizes<const N: usize>(terms: (&[Lane], usize), first: usize, factors: &[f64], out: &mut [Lane]) -> usize {
+    out[first..first + N].copy_from_slice(&sizes_of_blocks::<N>(terms, first, factors));
+    N
 }
 
 #[inline(always)]
@@ -418,16 +447,17 @@ fn expand_floors<F: PairForces>(
 ) {
     let lanes = series.lanes;
     let scale2 = series.scale * series.scale;
-    for n in 0..order - 1 {
+    series.coefficients[2 * lanes..3 * lanes].copy_from_slice(&load[..lanes]);
+    series.coefficients[3 * lanes..4 * lanes].copy_from_slice(&slope[..lanes]);
+    for n in 0..(order - 1).min(ROOM - 3) {
         let (known, rest) = series.coefficients.split_at_mut((n + 2) * lanes);
         let (u, v) = known[n * lanes..].split_at(lanes);
         let (next, _) = rest[..lanes].as_chunks_mut::<LANES>();
         let rate = (n + 1) as f64 / series.scale;
         let factor = scale2 * RECIPROCAL[n];
         if n < 2 {
-            let (load, unit) = if n == 0 { (load, 1.0) } else { (slope, series.scale) };
-            next.as_flattened_mut().iter_mut().zip(load).for_each(|(next, load)| *next = load * unit);
-            floors.enter_resistance(u, v, rate, next, |load, resistance| (load - resistance) * factor);
+            let unit = if n == 0 { 1.0 } else { series.scale };
+            floors.enter_resistance(u, v, rate, next, |load, resistance| (load * unit - resistance) * factor);
         } else {
             floors.enter_resistance(u, v, rate, next, |_, resistance| (0.0 - resistance) * factor);
         }
