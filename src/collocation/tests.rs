@@ -67,7 +67,7 @@ fn windows_of_fewer_nodes_take_a_hertz_impact_in_more_steps() {
             window = solved_by(rule, &equation, Map::Plain, (to - from) * unit, Ending::Given, 1e-16);
         }
         let last = free_mass(m, force, window.end[0].0, window.end[0].1, 1.0 / unit, 2.0 * unit);
-        let rest = exact - ends.last().unwrap();
+        let rest = exact - ends[ends.len() - 1];
         let last = solved_by(rule, &last, Map::SquareEnd, 0.95 * rest * unit, Ending::Release(0), 1e-16);
         let late = last.length / (rest * unit) - 1.0;
         assert!(late.abs() * rest < 1e-11, "{rule:?}: released too late by {late}");

@@ -193,16 +193,10 @@ impl PairBlock {
     /// Enters power n of the penetrations.
     #[inline(always)]
     pub fn set_penetration(&mut self, n: usize, values: Each) {
-        self.set_penetration_of(self.kind, n, values);
-    }
-
-    /// The same for a block that is known to be of a kind.
-    #[inline(always)]
-    pub fn set_penetration_of(&mut self, kind: Kind, n: usize, values: Each) {
         if n < ROOM {
             self.penetration[n] = values;
             self.backwards[LAST - n] = values;
-            if kind == Kind::Power {
+            if self.kind == Kind::Power {
                 self.slope[LAST - n] = each(|i| COUNT[n] * values[i]);
             }
         }
@@ -212,18 +206,12 @@ impl PairBlock {
     /// returns it.
     #[inline(always)]
     pub fn extend_force(&mut self, n: usize) -> Each {
-        self.extend_force_of(self.kind, n)
-    }
-
-    /// The same for a block that is known to be of a kind.
-    #[inline(always)]
-    pub fn extend_force_of(&mut self, kind: Kind, n: usize) -> Each {
         // Says once that no index below leaves its table.
         if n + 2 >= ROOM {
             return [0.0; PAIRS];
         }
         self.order = n;
-        let force = match kind {
+        let force = match self.kind {
             Kind::None => [0.0; PAIRS],
             Kind::Linear => self.linear_force(n, &self.penetration[n], &self.penetration[n + 1]),
             Kind::Spring => self.spring_force(n),

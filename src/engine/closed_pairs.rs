@@ -1,13 +1,14 @@
 //! The series of all pairs in contact while a step is expanded and followed.
 
-use super::model::{Model, Pair};
+use super::meeting::Meeting;
+use super::members::{Members, Place, most_blocks};
+use super::model::Pair;
 use super::roots;
 use super::state::*;
 use crate::contact::Force;
 use crate::contact::series::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock, each};
 use crate::polynomial::{Coefficients, Powers, Reading};
-use crate::structure::{FEW_BLOCKS, LANES, Lane, PairForces, difference};
-use std::marker::PhantomData;
+use crate::structure::{Lane, PairForces};
 
 /// The pairs in contact, in blocks of one kind of law each.
 #[derive(Clone, Debug)]
@@ -28,99 +29,6 @@ pub(super) struct ClosedPairs {
     used: usize,
     /// Block and lane of each contact.
     places: Vec<(usize, usize)>,
-}
-
-/// Which block of a kind a pair belongs to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Place {
-    /// Any that has a free lane.
-    #[default]
-    Any,
-    /// That of the pairs between two blocks of floors, in the lane of its floors: what happens to a block of pairs is then
-    /// the same for whole blocks of floors.
-    Between {
-        /// The blocks of the left and of the right floors.
-        blocks: [usize; 2],
-        lane: usize,
-    },
-}
-
-impl Place {
-    /// Of a pair.
-    pub fn of(pair: &Pair, coordinates: Coordinates) -> Place {
-        let [left, right] = pair.lanes;
-        match coordinates {
-            Coordinates::Floors if left % LANES == right % LANES => {
-                Place::Between { blocks: [left / LANES, right / LANES], lane: left % LANES }
-            }
-            _ => Place::Any,
-        }
-    }
-}
-
-/// The pairs of a block, lane by lane; lanes without a pair hold what was there before.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Members {
-    /// Their numbers.
-    pairs: [usize; PAIRS],
-    /// Which lanes hold a pair.
-    taken: [bool; PAIRS],
-    /// The blocks of floors between which they are, where each pair stands in the lane of its floors.
-    between: Option<[usize; 2]>,
-    /// Lanes of the two floors.
-    floors: [[usize; 2]; PAIRS],
-    /// What a force does to each floor, 1/kg: minus and plus its inverse mass.
-    inverse_masses: [Each; 2],
-    /// 1/kg, relative acceleration of the pair by its own force.
-    pub softness: Each,
-    /// What the pair is to the first modes.
-    rows: [[Lane; FEW_BLOCKS]; PAIRS],
-}
-
-impl Members {
-    /// Starts without a pair; returns the lane of the first, which belongs to a place.
-    pub fn start(&mut self, place: Place) -> usize {
-        self.taken = [false; PAIRS];
-        let (between, lane) = match place {
-            Place::Any => (None, 0),
-            Place::Between { blocks, lane } => (Some(blocks), lane),
-        };
-        self.between = between;
-        lane
-    }
-
-    /// The lane for another pair, if there is room.
-    pub fn free_lane(&self, place: Place) -> Option<usize> {
-        match place {
-            Place::Any if self.between.is_none() => self.taken.iter().position(|taken| !taken),
-            Place::Between { blocks, lane } if self.between == Some(blocks) && !self.taken[lane] => Some(lane),
-            _ => None,
-        }
-    }
-
-    /// Enters a pair by its number.
-    pub fn set(&mut self, lane: usize, pair: usize, data: &Pair, coordinates: Coordinates) {
-        let Pair { lanes: floors, inverse_masses: [left, right], .. } = *data;
-        self.pairs[lane] = pair;
-        self.taken[lane] = true;
-        self.floors[lane] = floors;
-        (self.inverse_masses[0][lane], self.inverse_masses[1][lane]) = (-left, right);
-        self.softness[lane] = left + right;
-        if coordinates == Coordinates::Modes {
-            self.rows[lane] = data.first_blocks;
-        }
-    }
-
-    /// The lanes that hold a pair, with its number.
-    pub fn lanes(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.pairs.iter().copied().enumerate().zip(&self.taken).filter(|(_, taken)| **taken).map(|(pair, _)| pair)
-    }
-}
-
-/// Most blocks that so many pairs of some kinds fill.
-pub(super) fn most_blocks(pairs: usize, kinds: usize, on_floors: bool) -> usize {
-    // Every block has at least one pair; on floors their places may keep them apart.
-    if on_floors || pairs == 0 { pairs } else { pairs.min(pairs.div_ceil(PAIRS) + kinds - 1) }
 }
 
 /// What a block comes to at the end of a step.
@@ -205,13 +113,6 @@ impl ClosedPairs {
         self.blocks[b].start(kind);
         self.used += 1;
         (b, self.members[b].start(place))
-    }
-
-    /// The kind of all closed pairs, where there is one and nothing has to wait.
-    pub fn only_kind(&self) -> Option<Kind> {
-        let mut kinds = self.blocks[..self.used].iter().map(PairBlock::kind);
-        let first = kinds.next().filter(|_| !self.waits)?;
-        kinds.all(|kind| kind == first).then_some(first)
     }
 
     /// How many pairs have a force.
@@ -334,200 +235,35 @@ fn is_closed(contact: &Contact) -> bool {
     contact.in_contact() && !contact.is_held()
 }
 
-/// How contact forces and the motion meet in its coordinates. `count` lanes of the members hold pairs.
-pub(super) trait Meeting {
-    /// Relative motions of the pairs.
-    fn relative(&self, members: &Members, count: usize, term: &[Lane]) -> Each;
-    /// The same, 0 where the floors move alike but for rounding.
-    fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each;
-    /// Adds what the forces do.
-    fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]);
-    /// Adds what the forces do; returns the relative motions without that.
-    #[inline(always)]
-    fn meet(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) -> Each {
-        let relative = self.relative(members, count, term);
-        self.push(members, count, forces, term);
-        relative
-    }
-}
-
-/// The motion is that of the floors.
-pub(super) struct OnFloors;
-
-impl Meeting for OnFloors {
-    #[inline(always)]
-    fn relative(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
-        if let Some([left, right]) = members.between {
-            let (left, right) = (&term[left], &term[right]);
-            return each(|lane| left[lane] - right[lane]);
-        }
-        let term = term.as_flattened();
-        lane_by_lane(count, |lane| term[members.floors[lane][0]] - term[members.floors[lane][1]])
-    }
-
-    fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
-        if let Some([left, right]) = members.between {
-            return each(|lane| apart(term[left][lane], term[right][lane]));
-        }
-        let term = term.as_flattened();
-        lane_by_lane(count, |lane| apart(term[members.floors[lane][0]], term[members.floors[lane][1]]))
-    }
-
-    #[inline(always)]
-    fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) {
-        self.meet(members, count, forces, term);
-    }
-
-    #[inline(always)]
-    fn meet(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) -> Each {
-        let Some(blocks) = members.between else {
-            let relative = self.relative(members, count, term);
-            OnFloors::push_floors(members, count, forces, term);
-            return relative;
-        };
-        let Ok([left, right]) = term.get_disjoint_mut(blocks) else { return [0.0; PAIRS] };
-        let (was_left, was_right, [pushed_left, pushed_right]) = (*left, *right, &members.inverse_masses);
-        *left = each(|lane| was_left[lane] + pushed_left[lane] * forces[lane]);
-        *right = each(|lane| was_right[lane] + pushed_right[lane] * forces[lane]);
-        each(|lane| was_left[lane] - was_right[lane])
-    }
-}
-
-impl OnFloors {
-    #[inline(always)]
-    fn push_floors(members: &Members, count: usize, forces: &Each, term: &mut [Lane]) {
-        let term = term.as_flattened_mut();
-        for (lane, (floors, force)) in members.floors.iter().zip(forces).enumerate().take(count) {
-            for (floor, inverse_masses) in floors.iter().zip(&members.inverse_masses) {
-                term[*floor] += inverse_masses[lane] * force;
-            }
-        }
-    }
-}
-
-/// The motion is that of modes that are few enough for the members to know all of them.
-pub(super) struct OnFewModes;
-
-impl Meeting for OnFewModes {
-    #[inline(always)]
-    fn relative(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
-        lane_by_lane(count, |lane| dot_blocks(&members.rows[lane], term))
-    }
-
-    fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
-        lane_by_lane(count, |lane| difference(members.rows[lane].as_flattened(), term.as_flattened()).0)
-    }
-
-    #[inline(always)]
-    fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) {
-        for (row, force) in members.rows.iter().zip(forces).take(count) {
-            push_blocks(row, *force, term);
-        }
-    }
-}
-
-/// The motion is that of the modes.
-pub(super) struct OnModes<'a>(pub &'a [Pair]);
-
-impl OnModes<'_> {
-    #[inline(always)]
-    fn row(&self, pair: usize) -> &[Lane] {
-        self.0[pair].row.as_chunks::<LANES>().0
-    }
-}
-
-impl Meeting for OnModes<'_> {
-    #[inline(always)]
-    fn relative(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
-        lane_by_lane(count, |lane| dot_blocks(self.row(members.pairs[lane]), term))
-    }
-
-    fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
-        lane_by_lane(count, |lane| difference(&self.0[members.pairs[lane]].row, term.as_flattened()).0)
-    }
-
-    #[inline(always)]
-    fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) {
-        for (pair, force) in members.pairs.iter().zip(forces).take(count) {
-            push_blocks(self.row(*pair), *force, term);
-        }
-    }
-}
-
-/// A number for each lane that holds a pair, 0 for others.
-#[inline(always)]
-fn lane_by_lane(count: usize, of: impl Fn(usize) -> f64) -> Each {
-    let mut all = [0.0; PAIRS];
-    for (lane, one) in all.iter_mut().enumerate().take(count) {
-        *one = of(lane);
-    }
-    all
-}
-
-/// What is known of all closed pairs together when a series is expanded: work for each kind by itself is less.
-pub(super) trait Kinds {
-    /// The kind of all of them.
-    const ONE: Option<Kind>;
-}
-
-/// Some are of one kind, some of another.
-pub(super) struct AnyKinds;
-
-impl Kinds for AnyKinds {
-    const ONE: Option<Kind> = None;
-}
-
-/// All are [`Kind::Spring`].
-pub(super) struct Springs;
-
-impl Kinds for Springs {
-    const ONE: Option<Kind> = Some(Kind::Spring);
-}
-
-/// All are [`Kind::Power`].
-pub(super) struct DampedPowers;
-
-impl Kinds for DampedPowers {
-    const ONE: Option<Kind> = Some(Kind::Power);
-}
-
 /// The closed pairs in some coordinates.
-pub(super) struct Acting<'a, M, K> {
-    closed: &'a mut ClosedPairs,
-    meeting: M,
-    kinds: PhantomData<K>,
+pub(super) struct Acting<'a, M> {
+    pub closed: &'a mut ClosedPairs,
+    pub meeting: M,
 }
 
-impl<'a, M, K> Acting<'a, M, K> {
-    pub fn new(closed: &'a mut ClosedPairs, meeting: M) -> Self {
-        Acting { closed, meeting, kinds: PhantomData }
-    }
-}
-
-impl<M: Meeting, K: Kinds> PairForces for Acting<'_, M, K> {
+impl<M: Meeting> PairForces for Acting<'_, M> {
     #[inline(always)]
     fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
         let closed = &mut *self.closed;
         let used = closed.used;
         let blocks = closed.blocks[..used].iter_mut().zip(&closed.members[..used]);
-        if K::ONE.is_none() && closed.waits {
+        if closed.waits {
             for (block, _) in blocks {
                 block.extend_force(n);
             }
             return self.act_in_turn(n, factor, term);
         }
         for (block, members) in blocks {
-            let kind = K::ONE.unwrap_or(block.kind());
-            let force = block.extend_force_of(kind, n);
+            let force = block.extend_force(n);
             let relative = self.meeting.meet(members, block.count, &each(|i| factor * force[i]), term);
             // What a force does to its own pair needs no detour by the motion: the next powers of the force wait for it.
             let relative = each(|i| relative[i] - factor * members.softness[i] * force[i]);
-            block.set_penetration_of(kind, n + 2, relative);
+            block.set_penetration(n + 2, relative);
         }
     }
 }
 
-impl<M: Meeting, K> Acting<'_, M, K> {
+impl<M: Meeting> Acting<'_, M> {
     /// One after the other: pairs that share a floor, or have just entered.
     fn act_in_turn(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
         self.push(n, factor, term);
@@ -549,34 +285,6 @@ impl<M: Meeting, K> Acting<'_, M, K> {
             self.meeting.push(members, block.count, &block.force[n].map(|force| factor * force), term);
         }
     }
-}
-
-/// Sum of products of a row and a term.
-#[inline(always)]
-fn dot_blocks(row: &[Lane], term: &[Lane]) -> f64 {
-    let mut sum = [0.0; LANES];
-    for (row, term) in row.iter().zip(term) {
-        for i in 0..LANES {
-            sum[i] += row[i] * term[i];
-        }
-    }
-    (sum[0] + sum[2]) + (sum[1] + sum[3])
-}
-
-/// Subtracts what a force does to the modes.
-#[inline(always)]
-fn push_blocks(row: &[Lane], force: f64, term: &mut [Lane]) {
-    for (term, row) in term.iter_mut().zip(row) {
-        for i in 0..LANES {
-            term[i] -= row[i] * force;
-        }
-    }
-}
-
-/// The difference of two floors' motion, 0 where they move alike but for rounding.
-pub(super) fn apart(left: f64, right: f64) -> f64 {
-    let difference = left - right;
-    if difference.abs() <= 4.0 * f64::EPSILON * (left.abs() + right.abs()) { 0.0 } else { difference }
 }
 
 impl BlockEnd {
@@ -654,29 +362,5 @@ impl Contact {
         }
         self.penetration = depth.value;
         self.rate = depth.slope / scale;
-    }
-}
-
-impl Model {
-    /// The rate or other motion of a pair: that of its left floor less that of its right floor.
-    #[inline(always)]
-    pub(super) fn relative(&self, p: usize, coordinates: Coordinates, motion: &[f64]) -> f64 {
-        let Pair { row, lanes: [left, right], .. } = &self.pairs[p];
-        match coordinates {
-            Coordinates::Modes => crate::structure::dot(row, motion),
-            Coordinates::Floors => motion[*left] - motion[*right],
-        }
-    }
-
-    /// The same, 0 where the floors move alike but for rounding, and the size of what it is the difference of.
-    pub(super) fn difference(&self, p: usize, coordinates: Coordinates, motion: &[f64]) -> (f64, f64) {
-        let Pair { row, lanes: [left, right], .. } = &self.pairs[p];
-        match coordinates {
-            Coordinates::Modes => crate::structure::difference(row, motion),
-            Coordinates::Floors => {
-                let (left, right) = (motion[*left], motion[*right]);
-                (apart(left, right), left.abs() + right.abs())
-            }
-        }
     }
 }

@@ -4,13 +4,13 @@
 //! of series. The step is as long as the last terms allow. The motion is that of the floors where they are many and feel
 //! their neighbours only, else that of the modes, as always near rigid contacts.
 
-use super::closed_pairs::{Acting, AnyKinds, DampedPowers, OnFewModes, OnFloors, OnModes, Springs};
+use super::closed_pairs::Acting;
 use super::complementarity::Complementarity;
 use super::linear_pairs::LinearPairs;
+use super::meeting::{OnFewModes, OnFloors, OnModes};
 use super::model::Model;
 use super::state::*;
 use crate::contact::Force;
-use crate::contact::series::Kind;
 use crate::polynomial::{MAX_ORDER, ROOM, rough_root};
 use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, difference, dot};
 
@@ -169,30 +169,17 @@ impl Model {
         match base.coordinates {
             Coordinates::Floors => {
                 let (floors, order, meeting) = (&self.structure.floors, self.order + 1, OnFloors);
-                match closed.only_kind() {
-                    Some(Kind::Spring) => {
-                        series.expand_floors(floors, order, loads, &mut Acting::<_, Springs>::new(closed, meeting));
-                    }
-                    Some(Kind::Power) => {
-                        series.expand_floors(
-                            floors,
-                            order,
-                            loads,
-                            &mut Acting::<_, DampedPowers>::new(closed, meeting),
-                        );
-                    }
-                    _ => series.expand_floors(floors, order, loads, &mut Acting::<_, AnyKinds>::new(closed, meeting)),
-                }
+                series.expand_floors(floors, order, loads, &mut Acting { closed, meeting });
             }
             Coordinates::Modes if self.structure.is_classical() && work.rigid.pairs.is_empty() => {
                 let order = self.order + 1;
                 if base.q.len() > FEW_BLOCKS * LANES {
-                    let mut forces = Acting::<_, AnyKinds>::new(closed, OnModes(&self.pairs));
+                    let mut forces = Acting { closed, meeting: OnModes(&self.pairs) };
                     series.expand_modes(&self.structure, order, loads, &mut forces);
                 } else if let Some(mut forces) = LinearPairs::of(closed, &self.pairs, 0) {
                     series.expand_few_modes(&self.structure, order, loads, &mut forces);
                 } else {
-                    let mut forces = Acting::<_, AnyKinds>::new(closed, OnFewModes);
+                    let mut forces = Acting { closed, meeting: OnFewModes };
                     series.expand_few_modes(&self.structure, order, loads, &mut forces);
                 }
             }

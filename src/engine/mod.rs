@@ -59,6 +59,8 @@ mod ground;
 mod input;
 mod linear_pairs;
 mod look;
+mod meeting;
+mod members;
 mod model;
 mod observe;
 mod onset_step;

@@ -3,8 +3,9 @@
 //! The step ends before anything else can happen - a turn, a release, an entry elsewhere -, shown by bounds on the sums
 //! of its terms, so it has no event of its own.
 
-use super::closed_pairs::{Meeting, Members, OnFloors, OnModes, Place, most_blocks};
 use super::contact_step::touching;
+use super::meeting::{Meeting, OnFloors, OnModes};
+use super::members::{Members, Place, most_blocks};
 use super::model::{Model, Pair};
 use super::state::*;
 use crate::contact::Force;
