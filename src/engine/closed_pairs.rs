@@ -61,8 +61,6 @@ impl ClosedPairs {
 
     /// Starts the series of all pairs in contact that are not held together; `scale` is the unit of time.
     pub fn start(&mut self, base: &Base, pairs: &[Pair], scale: f64) {
-        self.at_surface.fill(false);
-        self.waits = false;
         if !self.start_again(base, scale) {
             self.assign(base, pairs);
             self.start_again(base, scale);
@@ -86,6 +84,8 @@ impl ClosedPairs {
 
     /// Enters the closed pairs where they have been assigned; whether they are the same as then.
     fn start_again(&mut self, base: &Base, scale: f64) -> bool {
+        self.at_surface.fill(false);
+        self.waits = false;
         let mut assigned = self.assigned.iter();
         for (p, contact) in closed(base) {
             let force = contact.starting_force();
