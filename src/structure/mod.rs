@@ -341,15 +341,22 @@ fn products<const N: usize>(shape: &[f64], vectors: [&[f64]; N]) -> ([Lane; N], 
     let (shape, shape_rest) = shape.as_chunks::<LANES>();
     let vectors = vectors.map(<[f64]>::as_chunks::<LANES>);
     let blocks = vectors.map(|(blocks, _)| &blocks[..shape.len()]);
+    // Indices of arrays whose length is known leave the sums in registers.
     let mut sums = [[0.0; LANES]; N];
-    for (k, shape) in shape.iter().enumerate() {
-        for (sum, blocks) in sums.iter_mut().zip(&blocks) {
+    for k in 0..shape.len() {
+        for n in 0..N {
             for i in 0..LANES {
-                sum[i] += shape[i] * blocks[k][i];
+                sums[n][i] += shape[k][i] * blocks[n][k][i];
             }
         }
     }
-    (sums, vectors.map(|(_, rest)| shape_rest.iter().zip(rest).map(|(shape, q)| shape * q).sum()))
+    let mut rests = [0.0; N];
+    for (n, (_, rest)) in vectors.iter().enumerate() {
+        for (shape, q) in shape_rest.iter().zip(*rest) {
+            rests[n] += shape * q;
+        }
+    }
+    (sums, rests)
 }
 
 /// Modal vectors for intermediate results.
