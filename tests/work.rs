@@ -77,6 +77,17 @@ fn an_episode_takes_a_bounded_number_of_steps() {
     assert_eq!(counters.events, 2 * run.point.impacts, "hertz has no event but entry and release");
 }
 
+/// One impact of two masses takes that many steps at most.
+fn check_free_impact(law: &str, most: u64) {
+    let mut scene = common::free_impact((3e4, 5e4), law, 0.5);
+    scene.ground.record = Some("r.csv".into());
+    scene.solver.relative_tolerance = 1e-8;
+    let mut run = Run::new(&scene, Some(&record(1.0, &[0.0; 2])));
+    let counters = run.to(0.9).state.counters();
+    assert_eq!(run.episodes.len(), 1, "{law}");
+    assert!(counters.contact_steps <= most, "{law}: {counters:?}");
+}
+
 #[test]
 fn a_free_impact_takes_a_few_windows() {
     // Power series in time take about twenty steps.
@@ -87,13 +98,7 @@ fn a_free_impact_takes_a_few_windows() {
         ("law = \"hertz_damped\"\nstiffness = 3.0e10\nrestitution = 0.6\ndamping_formula = \"exact\"", 4),
     ];
     for (law, most) in laws {
-        let mut scene = common::free_impact((3e4, 5e4), law, 0.5);
-        scene.ground.record = Some("r.csv".into());
-        scene.solver.relative_tolerance = 1e-8;
-        let mut run = Run::new(&scene, Some(&record(1.0, &[0.0; 2])));
-        let counters = run.to(0.9).state.counters();
-        assert_eq!(run.episodes.len(), 1, "{law}");
-        assert!(counters.contact_steps <= most, "{law}: {counters:?}");
+        check_free_impact(law, most);
     }
 }
 
@@ -102,13 +107,7 @@ fn a_free_impact_on_a_spring_takes_one_series() {
     // From entry to release; an order for power laws takes three.
     for (law, most) in [("linear", 1), ("kelvin_voigt", 2)] {
         let keys = if law == "linear" { "" } else { "restitution = 0.6" };
-        let mut scene = common::free_impact((3e4, 5e4), &format!("law = \"{law}\"\nstiffness = 3.0e10\n{keys}"), 0.5);
-        scene.ground.record = Some("r.csv".into());
-        scene.solver.relative_tolerance = 1e-8;
-        let mut run = Run::new(&scene, Some(&record(1.0, &[0.0; 2])));
-        let counters = run.to(0.9).state.counters();
-        assert_eq!(run.episodes.len(), 1, "{law}");
-        assert!(counters.contact_steps <= most, "{law}: {counters:?}");
+        check_free_impact(&format!("law = \"{law}\"\nstiffness = 3.0e10\n{keys}"), most);
     }
 }
 

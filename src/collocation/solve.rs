@@ -60,11 +60,7 @@ impl Solution {
         (self.map, self.rule, self.length) = (frame.map, frame.rule, frame.length);
         let rows = self.depth.iter_mut().chain(&mut self.rate).chain(&mut self.force);
         rows.for_each(|row| row[frame.rule.count()..].fill(0.0));
-        match frame.rule {
-            Rule::Eight => iterate_eight(self, equation, room, frame.ending, tolerance),
-            Rule::Twelve => iterate_twelve(self, equation, room, frame.ending, tolerance),
-            Rule::Sixteen => iterate_sixteen(self, equation, room, frame.ending, tolerance),
-        }
+        iterate_by_rule(self, equation, room, frame.ending, tolerance)
     }
 
     /// Takes the solution to another length of the window: the same motion at the times of the new nodes.
@@ -208,38 +204,18 @@ impl Solution {
 
 /// See [`Solution::solve`]. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn iterate_eight(
+fn iterate_by_rule(
     solution: &mut Solution,
     equation: &Equation,
     room: &mut Room,
     ending: Ending,
     tolerance: f64,
 ) -> bool {
-    iterate::<{ Rule::Eight.count() }>(solution, equation, room, ending, tolerance)
-}
-
-/// See [`iterate_eight`].
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn iterate_twelve(
-    solution: &mut Solution,
-    equation: &Equation,
-    room: &mut Room,
-    ending: Ending,
-    tolerance: f64,
-) -> bool {
-    iterate::<{ Rule::Twelve.count() }>(solution, equation, room, ending, tolerance)
-}
-
-/// See [`iterate_eight`].
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn iterate_sixteen(
-    solution: &mut Solution,
-    equation: &Equation,
-    room: &mut Room,
-    ending: Ending,
-    tolerance: f64,
-) -> bool {
-    iterate::<{ Rule::Sixteen.count() }>(solution, equation, room, ending, tolerance)
+    match solution.rule {
+        Rule::Eight => iterate::<{ Rule::Eight.count() }>(solution, equation, room, ending, tolerance),
+        Rule::Twelve => iterate::<{ Rule::Twelve.count() }>(solution, equation, room, ending, tolerance),
+        Rule::Sixteen => iterate::<{ Rule::Sixteen.count() }>(solution, equation, room, ending, tolerance),
+    }
 }
 
 /// With N nodes.

@@ -180,11 +180,6 @@ impl PairBlock {
         !matches!(self.kind, Kind::None | Kind::Spring)
     }
 
-    /// Which terms its forces have.
-    pub fn kind(&self) -> Kind {
-        self.kind
-    }
-
     /// Whether its pairs are of a kind.
     pub fn is_of(&self, kind: Kind) -> bool {
         self.kind == kind

@@ -4,9 +4,10 @@
 //! of the penetrations stay in registers.
 
 use super::closed_pairs::ClosedPairs;
+use super::meeting::dot_blocks;
 use super::model::Pair;
 use crate::contact::series::{Each, PAIRS, PairBlock, each};
-use crate::structure::{FEW_BLOCKS, LANES, Lane, PairForces};
+use crate::structure::{FEW_BLOCKS, LANES, Lane, PairForces, difference};
 
 /// The pairs while a series is expanded.
 pub(super) struct LinearPairs<'a> {
@@ -46,7 +47,7 @@ impl PairForces for LinearPairs<'_> {
         if !self.waits {
             let mut relative = [0.0; PAIRS];
             for (relative, row) in relative.iter_mut().zip(&self.rows).take(self.block.count) {
-                *relative = dot(row, term);
+                *relative = dot_blocks(*row, term);
             }
             // What a force does to its own pair needs no detour by the motion.
             next = each(|i| relative[i] - factor * self.softness[i] * force[i]);
@@ -61,37 +62,13 @@ impl PairForces for LinearPairs<'_> {
         }
         if self.waits {
             for (next, row) in next.iter_mut().zip(&self.rows).take(self.block.count) {
-                *next = if self.at_surface { difference(row, term) } else { dot(row, term) };
+                *next = match self.at_surface {
+                    true => difference(row.as_flattened(), term.as_flattened()).0,
+                    false => dot_blocks(*row, term),
+                };
             }
         }
         self.block.enter_linear(n, force, next);
         self.last = [last, next];
     }
-}
-
-/// Sum of products of a row and a term.
-#[inline(always)]
-fn dot(row: &[Lane; FEW_BLOCKS], term: &[Lane]) -> f64 {
-    let mut sum = [0.0; LANES];
-    for (row, term) in row.iter().zip(term) {
-        for i in 0..LANES {
-            sum[i] += row[i] * term[i];
-        }
-    }
-    (sum[0] + sum[2]) + (sum[1] + sum[3])
-}
-
-/// The same, 0 where its terms cancel but for rounding.
-#[inline(always)]
-fn difference(row: &[Lane; FEW_BLOCKS], term: &[Lane]) -> f64 {
-    let (mut sum, mut size) = ([0.0; LANES], [0.0; LANES]);
-    for (row, term) in row.iter().zip(term) {
-        for i in 0..LANES {
-            let product = row[i] * term[i];
-            sum[i] += product;
-            size[i] += product.abs();
-        }
-    }
-    let [value, size] = [sum, size].map(|lanes| ((lanes[0] + lanes[1]) + lanes[2]) + lanes[3]);
-    if value.abs() <= 4.0 * f64::EPSILON * size { 0.0 } else { value }
 }

@@ -138,7 +138,7 @@ fn lane_by_lane(count: usize, of: impl Fn(usize) -> f64) -> Each {
 
 /// Sum of products of a row and a term.
 #[inline(always)]
-fn dot_blocks(row: &[Lane], term: &[Lane]) -> f64 {
+pub(super) fn dot_blocks(row: &[Lane], term: &[Lane]) -> f64 {
     let mut sum = [0.0; LANES];
     for (row, term) in row.iter().zip(term) {
         for i in 0..LANES {
