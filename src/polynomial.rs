@@ -24,6 +24,17 @@ pub const COUNT: Coefficients = {
     table
 };
 
+/// n (n-1).
+pub const SECOND: Coefficients = {
+    let mut table = [0.0; ROOM];
+    let mut n = 1;
+    while n < ROOM {
+        table[n] = (n * (n - 1)) as f64;
+        n += 1;
+    }
+    table
+};
+
 /// n (n-1) (n-2) (n-3).
 pub const FOURTH: Coefficients = {
     let mut table = [0.0; ROOM];

@@ -1,10 +1,11 @@
 //! The integral equation of a window: what is known of it, and its matrices for a length.
 
+use super::economy::economize;
 use super::nodes::{Matrix, NODES, Row};
-use super::rows::{combine, combined, values};
+use super::rows::{combine, combined, value, values};
 use super::tables::{POWERS, Tables};
 use crate::contact::Force;
-use crate::polynomial::{COUNT, Coefficients, ROOM};
+use crate::polynomial::{COUNT, Coefficients, ROOM, value_and_slope};
 
 /// Pairs that a window is solved for at once: those in contact, and those that may come into contact.
 pub const MOST_PAIRS: usize = 4;
@@ -51,14 +52,13 @@ impl Default for Equation {
     }
 }
 
-/// What the force of one pair does to the penetration of another.
+/// What the force of one pair does to the penetration of another, and as much the other way round.
 #[derive(Clone, Copy, Debug)]
 pub struct Response {
-    /// m/N, from node to node.
-    pub depth: Matrix,
-    /// m/(N s), on the rate; only where a force is damped.
-    pub rate: Matrix,
-    /// The same at the end.
+    /// From node to node, of pairs in contact: on the penetration, m/N, or on its rate, m/(N s), see
+    /// [`Equation::by_rates`].
+    pub between: Matrix,
+    /// On the penetration and on its rate at the end.
     pub depth_end: Row,
     pub rate_end: Row,
 }
@@ -74,9 +74,14 @@ pub struct Free {
 /// Room to solve in.
 #[derive(Clone, Debug)]
 pub struct Room {
-    /// Pair by pair, for a window of length `assembled`.
-    pub responses: Vec<Response>,
+    /// Pair by pair, see [`Room::response`], for a window of length `assembled`.
+    responses: Vec<Response>,
     pub assembled: f64,
+    /// How far they may be off, relative to G_pp.
+    pub accuracy: f64,
+    /// See [`Equation::ways`].
+    way: f64,
+    bent: f64,
     pub free: [Free; MOST_PAIRS],
 }
 
@@ -84,10 +89,28 @@ impl Room {
     /// For scenes with that many pairs.
     pub fn new(pairs: usize) -> Room {
         let (row, matrix) = ([0.0; NODES], [[0.0; NODES]; NODES]);
-        let response = Response { depth: matrix, rate: matrix, depth_end: row, rate_end: row };
+        let response = Response { between: matrix, depth_end: row, rate_end: row };
         let free = Free { depth: row, rate: row, end: (0.0, 0.0) };
         let most = pairs.min(MOST_PAIRS);
-        Room { responses: vec![response; most * most], assembled: 0.0, free: [free; MOST_PAIRS] }
+        let responses = vec![response; most * (most + 1) / 2];
+        Room { responses, assembled: 0.0, accuracy: 0.0, way: 0.0, bent: 0.0, free: [free; MOST_PAIRS] }
+    }
+
+    /// m, roughly: how far off penetrations are by responses that were made for another length of the window, which follow
+    /// its change in their first power only, and by responses that are rough.
+    pub fn errors(&self, length: f64) -> (f64, f64) {
+        (self.bent * (length - self.assembled).abs(), self.way * self.accuracy)
+    }
+
+    /// Where the response of two pairs is: in the rows of a triangle.
+    fn place(p: usize, q: usize) -> usize {
+        let (later, earlier) = (p.max(q), p.min(q));
+        later * (later + 1) / 2 + earlier
+    }
+
+    /// What two pairs do to each other.
+    pub fn response(&self, p: usize, q: usize) -> &Response {
+        &self.responses[Room::place(p, q)]
     }
 }
 
@@ -95,13 +118,14 @@ impl Equation {
     /// What the powers of a kernel come to over a window of that length, for penetrations and for rates.
     #[inline(always)]
     pub fn factors(&self, p: usize, q: usize, length: f64) -> ([f64; POWERS], [f64; POWERS]) {
-        let kernel = &self.kernels[p][q];
         let (mut depth, mut rate) = ([0.0; POWERS], [0.0; POWERS]);
+        let kernel = &self.kernels[p][q][..self.powers.min(POWERS)];
         let mut power = length;
-        for k in 1..self.powers.min(POWERS) {
-            rate[k - 1] = kernel[k] * (k as f64 * power);
+        for (k, g) in kernel.iter().enumerate().skip(1) {
+            let reach = g * power;
+            rate[k - 1] = COUNT[k] * reach;
+            depth[k] = reach * length;
             power *= length;
-            depth[k] = kernel[k] * power;
         }
         (depth, rate)
     }
@@ -114,55 +138,68 @@ impl Equation {
         last.unwrap_or(1) + 1
     }
 
-    /// The responses over a window of that length.
+    /// Whether penetrations are integrals of rates, which then come first: one matrix does for both. Where no force needs
+    /// the rates penetrations come from forces at once.
     #[inline(always)]
-    pub fn assemble<const N: usize>(&self, tables: &Tables, length: f64, room: &mut Room) {
-        room.assembled = length;
+    pub fn by_rates(&self) -> bool {
+        self.forces[..self.closed].iter().any(Force::is_damped)
+    }
+
+    /// The responses over a window of that length, within an accuracy relative to G_pp.
+    #[inline(always)]
+    pub fn assemble<const N: usize>(&self, tables: &Tables, length: f64, accuracy: f64, room: &mut Room) {
+        (room.assembled, room.accuracy) = (length, accuracy);
+        (room.way, room.bent) = self.ways(length);
         for p in 0..self.pairs {
-            for q in 0..self.closed {
-                let (depth, rate) = self.factors(p, q, length);
+            for q in 0..self.closed.min(p + 1) {
+                let (mut depth, mut rate) = self.factors(p, q, length);
                 let powers = self.powers_over(p, &depth, length);
-                let response = &mut room.responses[p * self.closed + q];
-                let (depth, rate) = (&depth[1..powers], &rate[..powers - 1]);
+                let response = &mut room.responses[Room::place(p, q)];
+                response.depth_end = combined::<N>(&tables.whole[1..], &depth[1..powers]);
+                response.rate_end = combined::<N>(&tables.whole, &rate[..powers - 1]);
                 if p < self.closed {
-                    combine::<N>(&tables.inner[1..], depth, &mut response.depth);
-                    if self.forces[p].is_damped() {
-                        combine::<N>(&tables.inner, rate, &mut response.rate);
-                    }
+                    let first = self.kernels[p][p][1].min(self.kernels[q][q][1]) * length;
+                    let (factors, bound, tables) = match self.by_rates() {
+                        true => (&mut rate[..powers - 1], accuracy * first, &tables.inner[..]),
+                        false => (&mut depth[1..powers], accuracy * first * length, &tables.inner[1..]),
+                    };
+                    let count = economize(factors, bound);
+                    combine::<N>(tables, &factors[..count], &mut response.between);
                 }
-                response.depth_end = combined::<N>(&tables.whole[1..], depth);
-                response.rate_end = combined::<N>(&tables.whole, rate);
             }
         }
     }
 
-    /// The motion without contact forces over a window of that length.
+    /// The motion without contact forces over a window of that length: rates where they are asked for, and the end.
     #[inline(always)]
     pub fn fly<const N: usize>(&self, tables: &Tables, length: f64, room: &mut Room) {
         let x = length / self.scale;
         let at: [f64; N] = std::array::from_fn(|i| tables.theta[i] * x);
-        for p in 0..self.pairs {
-            let terms = &self.free[p][..self.terms.min(ROOM)];
-            let free = &mut room.free[p];
-            let (depth, rate) = values(terms, &at, self.scale);
-            free.depth[..N].copy_from_slice(&depth);
-            free.rate[..N].copy_from_slice(&rate);
-            let ([d], [v]) = values(terms, &[x], self.scale);
-            free.end = (d, v);
+        let by_rates = self.by_rates();
+        for (free, terms) in room.free.iter_mut().zip(&self.free).take(self.pairs) {
+            let terms = &terms[..self.terms.min(ROOM)];
+            match by_rates {
+                true => (free.depth, free.rate) = values::<N>(terms, &at, self.scale),
+                false => free.depth = value::<N>(terms, &at),
+            }
+            let (d, v) = value_and_slope(terms, x);
+            free.end = (d, v / self.scale);
         }
     }
 
-    /// m, roughly: responses that were made for another length of the window follow its change in their first power only.
-    pub fn error_of_responses(&self, length: f64, room: &Room) -> f64 {
-        let of_pair = |p: usize| {
-            let kernel = &self.kernels[p][p];
-            let (mut power, mut sum) = (1.0, 0.0);
-            for (k, g) in kernel.iter().enumerate().take(self.powers).skip(2) {
-                sum += (k - 1) as f64 * g.abs() * power;
-                power *= length;
-            }
-            sum / kernel[1] * (self.free[p][0].abs() + self.free[p][1].abs())
-        };
-        (length - room.assembled).abs() * (0..self.closed).map(of_pair).sum::<f64>()
+    /// What pairs would move without contact forces over the longest window, m, roughly: all of them, and each with how its
+    /// responses over that length go with the length but for their first power, 1/s.
+    #[inline(always)]
+    fn ways(&self, length: f64) -> (f64, f64) {
+        let (mut way, mut bent) = (0.0, 0.0);
+        for p in 0..self.closed {
+            let (free, kernel) = (&self.free[p], &self.kernels[p][p]);
+            let of_pair = free[0].abs() + free[1].abs();
+            let last = self.powers.min(POWERS);
+            let later = (2..last).rev().fold(0.0, |sum, k| sum * length + COUNT[k - 1] * kernel[k].abs());
+            way += of_pair;
+            bent += of_pair * later / kernel[1];
+        }
+        (way, bent)
     }
 }

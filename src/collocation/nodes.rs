@@ -81,6 +81,7 @@ pub struct Nodes {
 }
 
 /// Sum of products in a fixed order.
+#[inline(always)]
 pub fn dot(a: &Row, b: &Row) -> f64 {
     let mut sum = [0.0; 4];
     for (a, b) in a.as_chunks::<4>().0.iter().zip(b.as_chunks::<4>().0) {
@@ -124,11 +125,13 @@ impl Nodes {
     }
 
     /// Coefficient n of the Legendre series through values at the nodes.
+    #[inline(always)]
     pub fn coefficient(&self, values: &Row, n: usize) -> f64 {
         dot(values, &self.legendre[n])
     }
 
     /// The polynomial through values at the nodes.
+    #[inline(always)]
     pub fn interpolant(&self, values: &Row) -> Interpolant {
         let mut legendre = [0.0; NODES];
         for (n, c) in legendre.iter_mut().enumerate().take(self.count) {
@@ -137,6 +140,17 @@ impl Nodes {
         Interpolant { legendre, count: self.count }
     }
 }
+
+/// (2 n + 1) / (n + 1) and n / (n + 1): P_(n+1) = rising z P_n - falling P_(n-1).
+const RECURRENCE: [(f64, f64); NODES] = {
+    let (mut all, mut n) = ([(0.0, 0.0); NODES], 0);
+    while n < NODES {
+        let k = n as f64;
+        all[n] = ((2.0 * k + 1.0) / (k + 1.0), k / (k + 1.0));
+        n += 1;
+    }
+    all
+};
 
 /// A polynomial through values at nodes.
 #[derive(Clone, Copy, Debug)]
@@ -147,12 +161,11 @@ pub struct Interpolant {
 
 impl Interpolant {
     /// Its values at points x of 0..=1.
+    #[inline(always)]
     pub fn at<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
         let z = x.map(|x| 2.0 * x - 1.0);
         let (mut last, mut before, mut sum) = ([1.0; N], [0.0; N], [0.0; N]);
-        for (n, c) in self.legendre[..self.count].iter().enumerate() {
-            let n = n as f64;
-            let (rising, falling) = ((2.0 * n + 1.0) / (n + 1.0), n / (n + 1.0));
+        for (c, (rising, falling)) in self.legendre[..self.count].iter().zip(&RECURRENCE) {
             for i in 0..N {
                 sum[i] += c * last[i];
                 let next = rising * (z[i] * last[i]) - falling * before[i];
@@ -163,12 +176,11 @@ impl Interpolant {
     }
 
     /// Value and first and second derivative by x.
+    #[inline(always)]
     pub fn derivatives(&self, x: f64) -> [f64; 3] {
         let z = 2.0 * x - 1.0;
         let (mut last, mut before, mut sum) = ([1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]);
-        for (n, c) in self.legendre[..self.count].iter().enumerate() {
-            let n = n as f64;
-            let (rising, falling) = ((2.0 * n + 1.0) / (n + 1.0), n / (n + 1.0));
+        for (c, (rising, falling)) in self.legendre[..self.count].iter().zip(&RECURRENCE) {
             let products = [z * last[0], z * last[1] + 2.0 * last[0], z * last[2] + 4.0 * last[1]];
             for i in 0..3 {
                 sum[i] += c * last[i];

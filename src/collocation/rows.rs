@@ -2,19 +2,27 @@
 
 use super::nodes::{Matrix, NODES, Row};
 use crate::contact::Force;
+use crate::polynomial::SECOND;
+
+/// Columns that are added up side by side.
+const ABREAST: usize = 2;
 
 /// The sum of tables times factors.
 #[inline(always)]
 pub fn combine<const N: usize>(tables: &[Matrix], factors: &[f64], out: &mut Matrix) {
-    for (j, out) in out.iter_mut().enumerate().take(N) {
-        let mut sum = [0.0; N];
-        for (table, factor) in tables.iter().zip(factors) {
-            let column = &table[j];
-            for i in 0..N {
-                sum[i] += column[i] * factor;
+    let tables = &tables[..factors.len()];
+    for j in (0..N).step_by(ABREAST) {
+        let mut sums = [[0.0; N]; ABREAST];
+        for k in 0..factors.len() {
+            for (sum, column) in sums.iter_mut().zip(&tables[k][j..j + ABREAST]) {
+                for i in 0..N {
+                    sum[i] += column[i] * factors[k];
+                }
             }
         }
-        out[..N].copy_from_slice(&sum);
+        for (out, sum) in out[j..j + ABREAST].iter_mut().zip(&sums) {
+            out[..N].copy_from_slice(sum);
+        }
     }
 }
 
@@ -80,21 +88,42 @@ pub fn forces<const N: usize>(force: &Force, depth: &Row, rate: &Row, out: &mut 
     }
 }
 
+/// Values of a polynomial at N points.
+#[inline(always)]
+pub fn value<const N: usize>(terms: &[f64], x: &[f64; N]) -> Row {
+    let mut value = [0.0; N];
+    for term in terms.iter().rev() {
+        for i in 0..N {
+            value[i] = value[i] * x[i] + term;
+        }
+    }
+    row(&value)
+}
+
 /// Values and derivatives by t of a polynomial in x = t / scale.
 #[inline(always)]
-pub fn values<const M: usize>(terms: &[f64], x: &[f64; M], scale: f64) -> ([f64; M], [f64; M]) {
-    let (mut value, mut slope) = ([0.0; M], [0.0; M]);
+pub fn values<const N: usize>(terms: &[f64], x: &[f64; N], scale: f64) -> (Row, Row) {
+    let (mut value, mut slope) = ([0.0; N], [0.0; N]);
     for term in terms.iter().rev() {
-        for i in 0..M {
+        for i in 0..N {
             slope[i] = slope[i] * x[i] + value[i];
             value[i] = value[i] * x[i] + term;
         }
     }
     let rate = 1.0 / scale;
-    (value, slope.map(|slope| slope * rate))
+    (row(&value), row(&slope.map(|slope| slope * rate)))
+}
+
+/// N values, and none beyond them.
+#[inline(always)]
+fn row<const N: usize>(values: &[f64; N]) -> Row {
+    let mut row = [0.0; NODES];
+    row[..N].copy_from_slice(values);
+    row
 }
 
 /// Of a polynomial.
 pub fn second_derivative(terms: &[f64], x: f64) -> f64 {
-    terms.iter().enumerate().skip(2).rev().fold(0.0, |sum, (n, c)| sum * x + (n * (n - 1)) as f64 * c)
+    let terms = terms.iter().zip(&SECOND).skip(2).rev();
+    terms.fold(0.0, |sum, (c, count)| sum * x + count * c)
 }

@@ -11,6 +11,9 @@ use super::tables::{Map, Tables};
 /// Sweeps after which a window is given up: it is too long for this, or its damping too stiff.
 const MOST_SWEEPS: usize = 24;
 
+/// Accuracy of the responses while the length of a window is not known.
+const ROUGH: f64 = 1e-5;
+
 /// What a window ends with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
@@ -22,6 +25,16 @@ pub enum Ending {
     Turn(usize),
     /// A watched pair comes into contact.
     Touch(usize),
+}
+
+impl Ending {
+    /// Whose event it is.
+    fn place(self) -> Option<usize> {
+        match self {
+            Ending::Given => None,
+            Ending::Release(p) | Ending::Turn(p) | Ending::Touch(p) => Some(p),
+        }
+    }
 }
 
 /// What a window is to be.
@@ -123,47 +136,48 @@ impl Solution {
 
     /// Penetrations from forces, pair by pair, and forces from these; the largest change of a penetration, m.
     #[inline(always)]
-    fn sweep<const N: usize>(&mut self, equation: &Equation, room: &Room) -> f64 {
+    fn sweep<const N: usize>(&mut self, equation: &Equation, tables: &Tables, room: &Room) -> f64 {
         // A little longer or shorter than when the responses were made: they go as t^2 and t.
         let ratio = self.length / room.assembled;
         let mut change = 0.0_f64;
         for p in 0..equation.closed {
-            let law = equation.forces[p];
-            let responses = &room.responses[p * equation.closed..][..equation.closed];
-            let mut depth = [0.0; NODES];
-            for (response, force) in responses.iter().zip(&self.force) {
-                add_product::<N>(&mut depth, &response.depth, force);
+            let (free, law) = (&room.free[p], equation.forces[p]);
+            let mut taken = [0.0; NODES];
+            for (q, force) in self.force.iter().enumerate().take(equation.closed) {
+                add_product::<N>(&mut taken, &room.response(p, q).between, force);
             }
-            let (known, square) = (&mut self.depth[p], ratio * ratio);
+            let scale = match equation.by_rates() {
+                true => {
+                    for i in 0..N {
+                        self.rate[p][i] = free.rate[i] - ratio * taken[i];
+                    }
+                    let slowed = std::mem::replace(&mut taken, [0.0; NODES]);
+                    add_product::<N>(&mut taken, &tables.inner[0], &slowed);
+                    ratio * self.length
+                }
+                false => ratio * ratio,
+            };
+            let known = &mut self.depth[p];
             let mut changes = [0.0; 4];
             for i in 0..N {
-                let new = room.free[p].depth[i] - square * depth[i];
+                let new = free.depth[i] - scale * taken[i];
                 changes[i % 4] = larger((new - known[i]).abs(), changes[i % 4]);
                 known[i] = new;
             }
             change = changes.into_iter().fold(change, larger);
-            if law.is_damped() {
-                let mut rate = [0.0; NODES];
-                for (response, force) in responses.iter().zip(&self.force) {
-                    add_product::<N>(&mut rate, &response.rate, force);
-                }
-                for (i, slowed) in rate.iter().enumerate().take(N) {
-                    self.rate[p][i] = room.free[p].rate[i] - ratio * slowed;
-                }
-            }
-            forces::<N>(&law, &self.depth[p], &self.rate[p], &mut self.force[p]);
+            forces::<N>(&law, known, &self.rate[p], &mut self.force[p]);
         }
         change
     }
 
-    /// Penetrations and rates at the end.
+    /// Penetrations and rates at the end, of all pairs or of one.
     #[inline(always)]
-    fn close(&mut self, equation: &Equation, room: &Room) {
+    fn close(&mut self, equation: &Equation, room: &Room, only: Option<usize>) {
         let ratio = self.length / room.assembled;
-        for p in 0..equation.pairs {
-            let responses = &room.responses[p * equation.closed..][..equation.closed];
+        for p in only.map_or(0..equation.pairs, |p| p..p + 1) {
             let (mut d, mut v) = (0.0, 0.0);
-            for (response, force) in responses.iter().zip(&self.force) {
+            for (q, force) in self.force.iter().enumerate().take(equation.closed) {
+                let response = room.response(p, q);
                 d += dot(&response.depth_end, force);
                 v += dot(&response.rate_end, force);
             }
@@ -229,11 +243,12 @@ fn iterate<const N: usize>(
 ) -> bool {
     let tables = Tables::of(solution.map, solution.rule);
     solution.guess::<N>(equation, tables);
-    equation.assemble::<N>(tables, solution.length, room);
+    let (fine, is_given) = (equation.remainder, ending == Ending::Given);
+    equation.assemble::<N>(tables, solution.length, if is_given { fine } else { ROUGH.max(fine) }, room);
     equation.fly::<N>(tables, solution.length, room);
     let mut last_change = f64::INFINITY;
     for sweep in 1..=MOST_SWEEPS {
-        let change = solution.sweep::<N>(equation, room);
+        let change = solution.sweep::<N>(equation, tables, room);
         // Each sweep takes off more than the one before.
         let left = if last_change.is_finite() { change * (change / last_change).min(1.0) } else { change };
         last_change = change;
@@ -241,8 +256,8 @@ fn iterate<const N: usize>(
             continue;
         }
         let mut missed = 0.0;
-        if ending != Ending::Given {
-            solution.close(equation, room);
+        if !is_given {
+            solution.close(equation, room, ending.place());
             let (late, speed) = solution.lateness(equation, ending);
             missed = late.abs() * speed;
             if missed > tolerance && left <= (0.1 * missed).max(tolerance) {
@@ -256,10 +271,13 @@ fn iterate<const N: usize>(
         }
         let is_found = left.max(missed) <= tolerance;
         let negligible = if is_found { tolerance } else { 0.1 * change.max(tolerance) };
-        if equation.error_of_responses(solution.length, room) > negligible {
-            equation.assemble::<N>(tables, solution.length, room);
+        let (by_length, by_accuracy) = room.errors(solution.length);
+        let is_rough = room.accuracy > fine && by_accuracy > negligible;
+        if is_rough || by_length > negligible {
+            let accuracy = if is_rough { fine } else { room.accuracy };
+            equation.assemble::<N>(tables, solution.length, accuracy, room);
         } else if is_found {
-            solution.close(equation, room);
+            solution.close(equation, room, None);
             solution.watch::<N>(equation, tables, room);
             return solution.end[..equation.pairs].iter().all(|(d, v)| (d + v).is_finite());
         }

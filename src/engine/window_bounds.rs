@@ -9,6 +9,7 @@ use super::state::*;
 use super::window::{Moments, Window};
 use crate::collocation::{Ending, MOST_PAIRS, POWERS, Tables};
 use crate::contact::Guard;
+use crate::polynomial::SECOND;
 use crate::structure::dot;
 
 /// Pieces of a window are halved so many times to show that a pair stays apart: down to a distance of rounding.
@@ -75,12 +76,13 @@ impl Window {
     fn bend<'a>(&self, free: &[f64], kernels: impl Fn(usize) -> (f64, &'a [f64; POWERS])) -> f64 {
         let Window { equation, solution, .. } = self;
         let (x, h) = (solution.length / equation.scale, solution.length);
-        let later = free.iter().enumerate().skip(3).rev();
-        let later = later.fold(0.0, |sum, (n, c)| sum * x + (n * (n - 1)) as f64 * c.abs());
+        let later = free.iter().zip(&SECOND).skip(3).rev();
+        let later = later.fold(0.0, |sum, (c, count)| sum * x + count * c.abs());
         let mut bend = (2.0 * free[2] + later * x) / (equation.scale * equation.scale);
         for q in 0..equation.closed {
             let (at_once, kernel) = kernels(q);
-            let later = (2..equation.powers).rev().fold(0.0, |sum, k| sum * h + (k * (k - 1)) as f64 * kernel[k].abs());
+            let terms = kernel[..equation.powers].iter().zip(&SECOND).skip(2).rev();
+            let later = terms.fold(0.0, |sum, (g, count)| sum * h + count * g.abs());
             bend += greatest(&solution.force[q][..solution.rule.count()]) * (at_once + later * h);
         }
         bend.max(0.0)

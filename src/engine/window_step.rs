@@ -17,6 +17,10 @@ use crate::structure::{EXACT, ImpulseResponse, Structure, dot, flight_order};
 /// How far a kernel may be off, relative to what one step may.
 const KERNEL_SHARE: f64 = 0.03;
 
+/// How far the series of the motion without contact forces may be off, relative to what one step may: it is of the whole
+/// motion, of which a contact is a small part.
+const FREE_SHARE: f64 = 1e-3;
+
 /// How far the iteration may be off, relative to what one step may.
 const SWEEP_SHARE: f64 = 0.3;
 
@@ -162,7 +166,8 @@ impl Model {
         let equation = &mut window.equation;
         let remainder = (KERNEL_SHARE * self.step_tolerance).max(1e-17);
         let powers = windows.response.powers(longest, remainder);
-        let (Some(powers), Some(order)) = (powers, flight_order(self.structure.fastest * longest, EXACT)) else {
+        let exact = (FREE_SHARE * self.step_tolerance).max(EXACT);
+        let (Some(powers), Some(order)) = (powers, flight_order(self.structure.fastest * longest, exact)) else {
             return false;
         };
         series.expand_flight(&self.structure, (&base.q, &base.v), (&work.load, &work.slope), (longest, order));
