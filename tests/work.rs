@@ -10,10 +10,14 @@ use pounding::scene::Scene;
 use pounding::variables::{Instant, Output};
 
 fn frames(contacts: &str) -> (Scene, Record) {
+    frames_of([2, 3], contacts)
+}
+
+fn frames_of([left, right]: [usize; 2], contacts: &str) -> (Scene, Record) {
     let frame = |floors: usize| {
         format!("mass = {:?}\nstiffness = {:?}\ndamping = {{ ratio = 0.01 }}", vec![3.65; floors], vec![2910.0; floors])
     };
-    let mut scene = scene(&format!("name = \"W\"\n[left]\n{}\n[right]\n{}\n{contacts}", frame(2), frame(3)));
+    let mut scene = scene(&format!("name = \"W\"\n[left]\n{}\n[right]\n{}\n{contacts}", frame(left), frame(right)));
     scene.ground.record = Some("r.csv".into());
     (scene, record(0.02, &(0..1000).map(|k| 2.0 * (f64::from(k) * 0.17).sin()).collect::<Vec<_>>()))
 }
@@ -191,7 +195,7 @@ fn the_energy_account_is_kept_where_it_is_asked_for_only() {
 
 #[test]
 fn floors_that_nobody_reads_are_not_worked_out() {
-    let (scene, record) = frames(&contact(0.01));
+    let (scene, record) = frames_of([8, 12], &contact(0.01));
     let mut run = Run::new(&scene, Some(&record));
     let read = |run: &Run, outputs: &[Output]| {
         let before = run.point.rows_read();
@@ -204,18 +208,19 @@ fn floors_that_nobody_reads_are_not_worked_out() {
         let of_floor = [Output::Displacement, Output::Velocity, Output::Acceleration, Output::PeakDrift];
         (0..floors).flat_map(move |floor| of_floor.map(|output| output(side, floor)))
     };
-    let floors: Vec<Output> = all(Side::Left, 2).chain(all(Side::Right, 3)).collect();
+    let floors: Vec<Output> = all(Side::Left, 8).chain(all(Side::Right, 12)).collect();
     run.in_steps(0.003, 0.3);
     assert_eq!(run.point.rows_read(), 0, "no floor was asked for");
     assert_eq!(read(&run, &[Output::Impacts, Output::BaseShear(Side::Left), Output::PeakDrift(Side::Right, 1)]), 0);
-    assert_eq!(read(&run, &[Output::Displacement(Side::Right, 1)]), 1);
+    assert_eq!(read(&run, &[Output::Displacement(Side::Right, 1)]), 4, "of its block of four");
+    assert_eq!(read(&run, &[Output::Velocity(Side::Right, 3)]), 0, "of the same block");
     assert_eq!(
         read(&run, &[Output::Displacement(Side::Right, 1), Output::Acceleration(Side::Right, 1)]),
-        1,
-        "its acceleration"
+        4,
+        "accelerations of its block"
     );
-    assert_eq!(read(&run, &floors), 8, "the others");
+    assert_eq!(read(&run, &floors), 32, "the others");
     run.to(0.35);
-    assert_eq!(read(&run, &floors), 10, "at another time");
+    assert_eq!(read(&run, &floors), 40, "at another time");
     assert_eq!(read(&run, &floors), 0, "again");
 }

@@ -148,8 +148,8 @@ impl Solution {
             }
             let scale = match equation.by_rates() {
                 true => {
-                    for i in 0..N {
-                        self.rate[p][i] = free.rate[i] - ratio * taken[i];
+                    for (i, taken) in taken.iter().enumerate().take(N) {
+                        self.rate[p][i] = free.rate[i] - ratio * taken;
                     }
                     let slowed = std::mem::replace(&mut taken, [0.0; NODES]);
                     add_product::<N>(&mut taken, &tables.inner[0], &slowed);

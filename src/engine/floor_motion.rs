@@ -3,6 +3,7 @@
 use super::model::Model;
 use super::state::Coordinates;
 use super::{Point, Side};
+use crate::structure::{LANES, Lane};
 use std::cell::{Cell, OnceCell, RefCell};
 
 /// Some numbers of one floor, and the observation that they are of.
@@ -64,9 +65,9 @@ impl FloorMotions {
 }
 
 impl Point {
-    /// Rows of the modal matrix that have been summed up for floors, since this point was made: for each floor and
-    /// observation one if its displacement or velocity is asked for, one if its acceleration is; none where the solution
-    /// is that of the floors.
+    /// Rows of the modal matrix that have been summed up, since this point was made: of the floor that is asked for and of
+    /// those that share its block of four, which come with it at no cost; once for an observation where a displacement or
+    /// velocity is asked for, once for accelerations. None where the solution is that of the floors.
     pub fn rows_read(&self) -> u64 {
         self.floors.rows_read.get()
     }
@@ -94,9 +95,8 @@ impl Model {
         if observation == floors.observation {
             return numbers;
         }
-        let [numbers] = self.at_floor(point, side, floor, [&self.accelerations(point).absolute]);
-        known.set(Known { observation: floors.observation, numbers });
-        numbers
+        let accelerations = [&self.accelerations(point).absolute[..]];
+        self.note_floors(point, side, floor, accelerations, &floors.acceleration, |[acceleration]| acceleration)
     }
 
     /// N, force of the building on the ground.
@@ -117,9 +117,30 @@ impl Model {
         if observation == floors.observation {
             return numbers;
         }
-        let numbers = self.at_floor(point, side, floor, [&point.q, &point.v]);
-        known.set(Known { observation: floors.observation, numbers });
-        numbers
+        self.note_floors(point, side, floor, [&point.q, &point.v], &floors.motion, |motion| motion)
+    }
+
+    /// Works out some motions of a floor and of those that share its block, and notes what they make up.
+    #[inline(never)]
+    fn note_floors<const N: usize, T: Copy>(
+        &self,
+        point: &Point,
+        side: Side,
+        floor: usize,
+        motion: [&[f64]; N],
+        known: &[Cell<Known<T>>],
+        of: impl Fn([f64; N]) -> T,
+    ) -> T {
+        let floors = &self.structure.floors;
+        let (lane, building) = (floors.lane(side as usize, floor), floors.lanes_of(side as usize));
+        let observation = point.floors.observation;
+        let first = lane / LANES * LANES;
+        let blocks = self.floor_block(point, side, lane / LANES, motion);
+        for i in first.max(building.start)..(first + LANES).min(building.end) {
+            let numbers = of(blocks.map(|block| block[i - first]));
+            known[i].set(Known { observation, numbers });
+        }
+        of(blocks.map(|block| block[lane - first]))
     }
 
     /// The accelerations of an observed solution.
@@ -147,15 +168,20 @@ impl Model {
         floor: usize,
         motion: [&[f64]; N],
     ) -> [f64; N] {
+        let lane = self.structure.floors.lane(side as usize, floor);
+        self.floor_block(point, side, lane / LANES, motion).map(|block| block[lane % LANES])
+    }
+
+    /// A block of floors of one building.
+    fn floor_block<const N: usize>(&self, point: &Point, side: Side, block: usize, motion: [&[f64]; N]) -> [Lane; N] {
         match point.coordinates {
             Coordinates::Modes => {
-                point.floors.rows_read.set(point.floors.rows_read.get() + 1);
-                self.structure.at_floor(side, floor, motion)
+                let floors = self.structure.floors.lanes_of(side as usize);
+                let rows = (block * LANES).max(floors.start)..((block + 1) * LANES).min(floors.end);
+                point.floors.rows_read.set(point.floors.rows_read.get() + rows.len() as u64);
+                self.structure.at_floors(side, block, motion)
             }
-            Coordinates::Floors => {
-                let lane = self.structure.floors.lane(side as usize, floor);
-                motion.map(|motion| motion[lane])
-            }
+            Coordinates::Floors => motion.map(|motion| motion.as_chunks::<LANES>().0[block]),
         }
     }
 }

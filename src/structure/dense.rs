@@ -30,6 +30,12 @@ impl Dense {
         Dense { source, columns: size, target: blocks.start, entries }
     }
 
+    /// The rows of one block times some vectors.
+    pub fn block<const N: usize>(&self, block: usize, vectors: [&[f64]; N]) -> [Lane; N] {
+        let rows = &self.entries[(block - self.target) * self.columns..][..self.columns];
+        products(rows, vectors.map(|vector| &vector[self.source..][..self.columns]))
+    }
+
     /// `out` += factor * matrix * `vector`.
     #[inline]
     pub fn add(&self, factor: f64, vector: &[f64], out: &mut [Lane]) {
@@ -46,4 +52,34 @@ impl Dense {
             }
         }
     }
+}
+
+/// Sums of rows times the numbers of some vectors, two by two: neither has to wait for the other. Wide instructions give the
+/// same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn products<const N: usize>(rows: &[Lane], vectors: [&[f64]; N]) -> [Lane; N] {
+    let (pairs, last) = rows.as_chunks::<2>();
+    let vectors = vectors.map(|vector| vector[..rows.len()].as_chunks::<2>());
+    let (mut even, mut odd) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
+    // Indices of arrays whose length is known leave the sums in registers.
+    for (k, [row, next]) in pairs.iter().enumerate() {
+        for n in 0..N {
+            let [value, other] = vectors[n].0[k];
+            for i in 0..LANES {
+                even[n][i] += row[i] * value;
+                odd[n][i] += next[i] * other;
+            }
+        }
+    }
+    for n in 0..N {
+        for i in 0..LANES {
+            even[n][i] += odd[n][i];
+        }
+        for (row, value) in last.iter().zip(vectors[n].1) {
+            for i in 0..LANES {
+                even[n][i] += row[i] * value;
+            }
+        }
+    }
+    even
 }

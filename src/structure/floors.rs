@@ -12,6 +12,7 @@
 use super::modes::{Modes, rayleigh_factors};
 use super::{FEW_BLOCKS, LANES, Lane, ModalDamping};
 use crate::scene::{Building, Damping, Stiffness};
+use std::ops::Range;
 
 /// Both buildings floor by floor, of use where [`Floors::is_sparse`]. 0 in lanes that are no floors.
 #[derive(Clone, Debug)]
@@ -136,6 +137,11 @@ impl Floors {
     /// Lane of a floor, counted from 0.
     pub fn lane(&self, side: usize, floor: usize) -> usize {
         self.first[side] + floor
+    }
+
+    /// Lanes of the floors of one building.
+    pub fn lanes_of(&self, side: usize) -> Range<usize> {
+        self.first[side]..self.first[side] + self.count[side]
     }
 
     /// The floors of one building in a vector of all.

@@ -65,8 +65,6 @@ pub struct Structure {
     /// Largest w or c of all modes, 1/s: the fastest thing that the structure does.
     pub fastest: f64,
     coupling: Vec<Coupling>,
-    /// The shapes of each building floor by floor.
-    floor_shapes: [Vec<f64>; 2],
     /// The buildings floor by floor.
     pub floors: Floors,
     /// From modes to floors and back, for each building.
@@ -108,7 +106,6 @@ impl Structure {
             weight: vec![0.0; lanes],
             fastest: 0.0,
             coupling: Vec::new(),
-            floor_shapes: [0, 1].map(|side| shape(side).transpose().as_slice().to_vec()),
             floors,
             to_floors,
             to_modes,
@@ -179,21 +176,10 @@ impl Structure {
         self.coupling.is_empty()
     }
 
-    /// One floor's motions from as many modal vectors of displacements, velocities ...
-    pub fn at_floor<const N: usize>(&self, side: Side, floor: usize, modal: [&[f64]; N]) -> [f64; N] {
-        let (modes, range) = (self.floors(side), self.range(side));
-        let shape = &self.floor_shapes[side as usize][floor * modes..][..modes];
-        if modes < LANES {
-            let mut sums = [0.0; N];
-            for (sum, modal) in sums.iter_mut().zip(modal) {
-                for (shape, q) in shape.iter().zip(&modal[range.start..]) {
-                    *sum += shape * q;
-                }
-            }
-            return sums;
-        }
-        let (lanes, rest) = products(shape, modal.map(|modal| &modal[range.clone()]));
-        std::array::from_fn(|k| lanes[k].iter().sum::<f64>() + rest[k])
+    /// The motions of a block of floors of one building from as many modal vectors of displacements, velocities ...: lane
+    /// by lane as in a vector of all floors, 0 for those of the other building.
+    pub fn at_floors<const N: usize>(&self, side: Side, block: usize, modal: [&[f64]; N]) -> [Lane; N] {
+        self.to_floors[side as usize].block(block, modal)
     }
 
     /// The modal vector of floor displacements or velocities: shape' M u.
@@ -333,30 +319,6 @@ impl Structure {
         let energy: f64 = (0..self.lanes).map(|m| jerk[m] * jerk[m] + self.omega2[m] * y[m] * y[m]).sum();
         2.0 * self.fastest * energy.sqrt() * weights.iter().sum::<f64>()
     }
-}
-
-/// Sums of products with vectors as long as the first: lane by lane over all blocks, and over what is left.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn products<const N: usize>(shape: &[f64], vectors: [&[f64]; N]) -> ([Lane; N], [f64; N]) {
-    let (shape, shape_rest) = shape.as_chunks::<LANES>();
-    let vectors = vectors.map(<[f64]>::as_chunks::<LANES>);
-    let blocks = vectors.map(|(blocks, _)| &blocks[..shape.len()]);
-    // Indices of arrays whose length is known leave the sums in registers.
-    let mut sums = [[0.0; LANES]; N];
-    for k in 0..shape.len() {
-        for n in 0..N {
-            for i in 0..LANES {
-                sums[n][i] += shape[k][i] * blocks[n][k][i];
-            }
-        }
-    }
-    let mut rests = [0.0; N];
-    for (n, (_, rest)) in vectors.iter().enumerate() {
-        for (shape, q) in shape_rest.iter().zip(*rest) {
-            rests[n] += shape * q;
-        }
-    }
-    (sums, rests)
 }
 
 /// Modal vectors for intermediate results.
