@@ -76,6 +76,8 @@ pub struct Nodes {
     pub weight: Row,
     /// Row n: what the values add to the coefficient of the Legendre polynomial P_n(2 x - 1).
     pub legendre: [Row; NODES],
+    /// The same, column by column.
+    to_legendre: Matrix,
     /// Derivatives by x at the nodes of the polynomial through values at them.
     pub derivative: Matrix,
 }
@@ -105,12 +107,14 @@ impl Nodes {
             x: [0.0; NODES],
             weight: [0.0; NODES],
             legendre: [[0.0; NODES]; NODES],
+            to_legendre: [[0.0; NODES]; NODES],
             derivative: [[0.0; NODES]; NODES],
         };
         for (i, (x, weight)) in rule(count).into_iter().enumerate() {
             (all.x[i], all.weight[i]) = (x, weight);
             for n in 0..count {
                 all.legendre[n][i] = (2 * n + 1) as f64 * weight * legendre(n, 2.0 * x - 1.0).0;
+                all.to_legendre[i][n] = all.legendre[n][i];
             }
         }
         for j in 0..count {
@@ -134,8 +138,10 @@ impl Nodes {
     #[inline(always)]
     pub fn interpolant(&self, values: &Row) -> Interpolant {
         let mut legendre = [0.0; NODES];
-        for (n, c) in legendre.iter_mut().enumerate().take(self.count) {
-            *c = self.coefficient(values, n);
+        for (column, value) in self.to_legendre.iter().zip(values).take(self.count) {
+            for (c, share) in legendre.iter_mut().zip(column) {
+                *c += share * value;
+            }
         }
         Interpolant { legendre, count: self.count }
     }

@@ -71,8 +71,9 @@ impl Solution {
     /// found.
     pub fn solve(&mut self, equation: &Equation, room: &mut Room, frame: Frame, tolerance: f64) -> bool {
         (self.map, self.rule, self.length) = (frame.map, frame.rule, frame.length);
-        let rows = self.depth.iter_mut().chain(&mut self.rate).chain(&mut self.force);
-        rows.for_each(|row| row[frame.rule.count()..].fill(0.0));
+        let (all, count) = (equation.pairs, frame.rule.count());
+        let rows = self.depth[..all].iter_mut().chain(&mut self.rate[..all]).chain(&mut self.force[..all]);
+        rows.for_each(|row| row[count..].fill(0.0));
         iterate_by_rule(self, equation, room, frame.ending, tolerance)
     }
 

@@ -2,7 +2,7 @@
 
 use super::floors::Floors;
 use super::{LANES, Lane, Structure};
-use crate::polynomial::{Powers, ROOM};
+use crate::polynomial::{COUNT, Powers, ROOM};
 
 /// Powers that a series may have.
 const MOST_POWERS: usize = 40;
@@ -384,16 +384,12 @@ fn expand_single_modes(
         let mut last = v[c].map(|v| v * scale);
         terms[c] = before;
         terms[width + c] = last;
+        let mut loads = [load[c].map(|load| load * scale2), slope[c].map(|slope| slope * (scale2 * scale))].into_iter();
         let rows = terms[2 * width + c..].iter_mut().step_by(width).take(series.order - 1);
-        for ((n, factor), term) in RECIPROCAL.iter().enumerate().zip(rows) {
-            let mut next = match n {
-                0 => load[c].map(|load| load * scale2),
-                1 => slope[c].map(|slope| slope * (scale2 * scale)),
-                _ => [0.0; LANES],
-            };
-            let k1 = (n + 1) as f64;
+        for ((k, factor), term) in COUNT[1..].iter().zip(&RECIPROCAL).zip(rows) {
+            let mut next = loads.next().unwrap_or_default();
             for i in 0..LANES {
-                next[i] = (next[i] - (k1 * a[i] * last[i] + b[i] * before[i])) * factor;
+                next[i] = (next[i] - (k * a[i] * last[i] + b[i] * before[i])) * factor;
             }
             *term = next;
             (before, last) = (last, next);
