@@ -117,21 +117,23 @@ impl Solution {
         }
     }
 
-    /// Forces of an oscillation as quick as the contact.
+    /// Forces of an oscillation as quick as the contact, about the depth from which it begins with the right acceleration.
     #[inline(always)]
     fn guess<const N: usize>(&mut self, equation: &Equation, tables: &Tables) {
         let theta = &tables.theta;
         for p in 0..equation.closed {
-            let (d, v, omega) = (equation.free[p][0], equation.free[p][1] / equation.scale, equation.omega[p]);
+            let (free, omega, law) = (&equation.free[p], equation.omega[p], equation.forces[p]);
+            let (d, v, rate) = (free[0], free[1] / equation.scale, 1.0 / equation.scale);
+            let acceleration = 2.0 * free[2] * (rate * rate) - equation.kernels[p][p][1] * law.value(d, v);
             for (i, theta) in theta.iter().enumerate().take(N) {
                 let t = theta * self.length;
                 let s = (omega * t) * (omega * t);
-                let cosine = 1.0 - s * (0.5 - s * (1.0 / 24.0));
                 let sine = t * (1.0 - s * ((1.0 / 6.0) - s * (1.0 / 120.0)));
-                self.depth[p][i] = d * cosine + v * sine;
-                self.rate[p][i] = v * cosine - d * (omega * omega) * sine;
+                let turned = t * t * (0.5 - s * (1.0 / 24.0));
+                self.depth[p][i] = d + v * sine + acceleration * turned;
+                self.rate[p][i] = v * (1.0 - omega * omega * turned) + acceleration * sine;
             }
-            forces::<N>(&equation.forces[p], &self.depth[p], &self.rate[p], &mut self.force[p]);
+            forces::<N>(&law, &self.depth[p], &self.rate[p], &mut self.force[p]);
         }
     }
 
