@@ -53,9 +53,10 @@ fn pairs_that_cannot_close_fast_enough_are_not_looked_at() {
     let mut run = Run::new(&scene, Some(&record));
     let counters = run.to(19.98).state.counters();
     assert!(run.point.impacts > 10);
-    // Measured: 498 of 1015 flights, and 999 evaluations; contacts at every second swing of a light frame.
-    assert!(counters.flights_dismissed > 400, "{counters:?}");
-    assert!(counters.pairs_evaluated < 1100, "{counters:?}");
+    // Measured: 119 of 1015 flights, and 956 evaluations; contacts at every second swing of a light frame. A pair that is
+    // near is shown to stay apart by both ends of each flight, which costs less than looking for a few flights at a time.
+    assert!(counters.flights_dismissed > 100, "{counters:?}");
+    assert!(counters.pairs_evaluated < 1000, "{counters:?}");
 }
 
 #[test]

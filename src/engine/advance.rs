@@ -1,6 +1,5 @@
 //! Advancing: plan a step, take it, handle its event, until the communication time is reached.
 
-use super::glide::Glide;
 use super::ground::Segment;
 use super::model::Model;
 use super::state::*;
@@ -32,26 +31,26 @@ impl Model {
         self.check_segments(state, until)?;
         let glide = self.glide(state, until, self.most_flights as u64);
         if !glide.has_arrived {
-            self.go_on(state, until, glide, on_episode)?;
+            self.go_on(state, until, glide.flown, on_episode)?;
         }
         state.time = until;
         Ok(())
     }
 
-    /// Advances from where gliding has ended.
+    /// Advances from where gliding has ended, over so many segments.
     fn go_on(
         &self,
         state: &mut State,
         until: f64,
-        mut glide: Glide,
+        flown: u64,
         on_episode: &mut dyn FnMut(&Episode),
     ) -> Result<(), EngineError> {
-        let mut progress = self.progress(state, glide.flown);
+        let mut progress = self.progress(state, flown);
         loop {
             let segment = &state.base.segment;
             let limit = self.limit(segment, until);
             if limit > state.base.elapsed || !self.is_driven() {
-                self.plan(state, limit, glide.is_refused);
+                self.plan(state, limit);
                 let segment = &state.base.segment;
                 let end = state.step_end(limit);
                 if until - segment.start < end {
@@ -69,7 +68,7 @@ impl Model {
             } else if self.is_driven() && state.base.elapsed >= limit {
                 break;
             }
-            glide = self.glide(state, until, progress.flights_left(&state.counters));
+            let glide = self.glide(state, until, progress.flights_left(&state.counters));
             if glide.flown > 0 {
                 progress.note(true);
             }
@@ -85,9 +84,8 @@ impl Model {
         if self.is_driven() { segment.length.min(until - segment.start) } else { segment.length }
     }
 
-    /// Works out the next step, unless that has been done already; `is_refused` where no flight need ask again whether all
-    /// pairs can be dismissed for its segment.
-    pub(super) fn plan(&self, state: &mut State, limit: f64, is_refused: bool) {
+    /// Works out the next step, unless that has been done already.
+    pub(super) fn plan(&self, state: &mut State, limit: f64) {
         match state.step.kind {
             StepKind::Unknown => {}
             StepKind::Glide => self.forget_glide(state),
@@ -98,7 +96,7 @@ impl Model {
         if state.base.contacts.iter().any(Contact::in_contact) {
             self.plan_contact(state, limit);
         } else {
-            self.plan_flight(state, limit, is_refused);
+            self.plan_flight(state, limit);
         }
     }
 

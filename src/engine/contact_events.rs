@@ -10,8 +10,8 @@ use crate::polynomial::Coefficients;
 use crate::structure::MotionSeries;
 
 impl Model {
-    /// The first event up to the end of the step's series, where its motion is in `step.q` and `step.v`.
-    pub(super) fn first_event(&self, base: &Base, step: &Step, work: &mut Workspace) -> Option<(f64, Event)> {
+    /// The first event of a pair in contact up to the end of the step's series.
+    pub(super) fn first_leaving(&self, base: &Base, step: &Step, work: &mut Workspace) -> Option<(f64, Event)> {
         let mut first = None;
         for block in 0..step.closed.len() {
             let stays = step.closed.stays_closed(block, step.end.x);
@@ -25,7 +25,7 @@ impl Model {
         for &p in self.rigid.pairs.iter().filter(|&&p| base.contacts[p].is_held() && !base.contacts[p].undecided) {
             first = self.letting_go(p, step, work, until(first, step)).or(first);
         }
-        self.first_entry(base, step, work, first)
+        first
     }
 
     /// Release or change of branch of a pair in contact.
@@ -84,17 +84,12 @@ impl Model {
         self.pairs[p].noise(size)
     }
 
-    /// The first entry of a pair that is apart, if it comes before `first`.
-    fn first_entry(
-        &self,
-        base: &Base,
-        step: &Step,
-        work: &mut Workspace,
-        mut first: Option<(f64, Event)>,
-    ) -> Option<(f64, Event)> {
+    /// The first entry of a pair that is apart up to the end of the step, where its motion is in `step.q` and `step.v`.
+    pub(super) fn first_entry(&self, base: &Base, step: &Step, work: &mut Workspace) -> Option<(f64, Event)> {
         if base.contacts.iter().all(Contact::in_contact) {
-            return first;
+            return None;
         }
+        let mut first = None;
         let series = &step.series;
         series.fourth_derivatives(&step.end, &mut work.node_q);
         for (p, contact) in base.contacts.iter().enumerate() {
@@ -139,6 +134,9 @@ impl Model {
         x: f64,
         out: &mut [f64],
     ) -> f64 {
+        if coordinates == Coordinates::Modes {
+            return series.project(&self.pairs[p].row, x, out);
+        }
         let (mut sum, mut power) = (0.0, 1.0);
         for (n, out) in out.iter_mut().enumerate().take(series.order + 1) {
             let (value, size) = self.difference(p, coordinates, series.term(n));

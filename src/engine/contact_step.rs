@@ -90,19 +90,20 @@ impl Model {
         let end = if whole { remaining / scale } else { reach };
         step.end.set(end, step.series.order);
         step.closed.read(&step.end);
-        // Only an entry is looked for in the motion.
-        let may_enter = !base.contacts.iter().all(Contact::in_contact);
-        if may_enter {
-            step.series.evaluate(&step.end, &mut step.q, &mut step.v);
-        }
-        let event = self.first_event(base, step, work);
-        if let Some((x, _)) = event {
+        let leaving = self.first_leaving(base, step, work);
+        if let Some((x, _)) = leaving {
             step.end.set(x, step.series.order);
             step.closed.read(&step.end);
         }
-        if event.is_some() || !may_enter {
+        // Only an entry is looked for in the motion, and no further than to what ends the step anyway.
+        step.series.evaluate(&step.end, &mut step.q, &mut step.v);
+        let entry = self.first_entry(base, step, work);
+        if let Some((x, _)) = entry {
+            step.end.set(x, step.series.order);
+            step.closed.read(&step.end);
             step.series.evaluate(&step.end, &mut step.q, &mut step.v);
         }
+        let event = entry.or(leaving);
         step.event = event.map(|(_, event)| event);
         step.reaches_limit = whole && !cut && event.is_none();
         step.length = if step.reaches_limit { remaining } else { step.end.x * scale };

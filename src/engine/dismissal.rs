@@ -36,6 +36,9 @@ const MOST: u64 = 64;
 /// As many as are tried first.
 const USUAL: u64 = 8;
 
+/// Segments for which it costs less to show by both ends of each that no pair meets than to look again and again.
+const NEAR: u64 = 16;
+
 /// Margin for rounding, relative to the numbers that a penetration or a closing speed is added up from.
 const MARGIN: f64 = 1e-10;
 
@@ -90,6 +93,8 @@ struct Sums {
 pub(super) struct Watch {
     /// Number of the first segment in which any pair may meet, as far as is known.
     due: u64,
+    /// The first segment for which it is worth while to look again.
+    next_look: u64,
     /// The same for each pair.
     pairs: Vec<u64>,
     /// How often the base has moved.
@@ -101,12 +106,12 @@ pub(super) struct Watch {
 impl Watch {
     /// Nothing is known of the time to come, but every contact as it is now.
     pub fn new(pairs: usize) -> Watch {
-        Watch { due: 0, pairs: vec![0; pairs], moves: 0, known: vec![0; pairs] }
+        Watch { due: 0, next_look: 0, pairs: vec![0; pairs], moves: 0, known: vec![0; pairs] }
     }
 
     /// Forgets the time to come: a contact force or an impulse acts.
     pub fn restart(&mut self) {
-        self.due = 0;
+        (self.due, self.next_look) = (0, 0);
         self.pairs.fill(0);
     }
 
@@ -118,6 +123,22 @@ impl Watch {
     /// The first segment for which any pair has not been.
     pub fn due(&self) -> u64 {
         self.due
+    }
+
+    /// The first segment for which it is worth while to look again.
+    pub fn next_look(&self) -> u64 {
+        self.next_look
+    }
+
+    /// Evaluations of a pair for flights over segments that begin at the base: at its start where it is not known, and at
+    /// the end of each for which the pair has not been dismissed.
+    pub fn evaluations(&self, p: usize, segments: &Range<u64>) -> u64 {
+        let first = self.pairs[p].max(segments.start);
+        if first >= segments.end {
+            return 0;
+        }
+        let is_known = first == segments.start && self.is_known(p);
+        segments.end - first + u64::from(!is_known)
     }
 
     /// Whether all pairs have been.
@@ -140,18 +161,19 @@ impl Watch {
         self.known.fill(self.moves);
     }
 
-    fn is_known(&self, p: usize) -> bool {
+    pub fn is_known(&self, p: usize) -> bool {
         self.known[p] == self.moves
     }
 
     /// Whether it can be what is known of so many pairs in a segment of that number.
     pub fn fits(&self, pairs: usize, segment: u64, most_moves: u64) -> bool {
-        let Watch { due, pairs: free, moves, known } = self;
+        let Watch { due, next_look, pairs: free, moves, known } = self;
         // A pair may have been dismissed in an earlier segment, and none is dismissed for longer than from here.
         let furthest = segment.saturating_add(2 * MOST);
         let is_first = |due: u64| free.iter().min().is_none_or(|first| due == *first);
         free.len() == pairs
             && known.len() == pairs
+            && *next_look <= furthest
             && *moves <= most_moves
             && known.iter().all(|move_| move_ <= moves)
             && free.iter().all(|first| *first <= furthest)
@@ -215,11 +237,15 @@ impl Model {
         counters: &mut Counters,
         amplitude: &mut [f64],
     ) -> bool {
-        if base.watch.are_all_free(segment) {
-            return true;
+        let is_free = base.watch.are_all_free(segment);
+        if is_free || segment < base.watch.next_look {
+            return is_free;
         }
         look_at_all(self, ground, base, segment, counters, amplitude);
-        base.watch.due = base.watch.pairs.iter().copied().min().unwrap_or(u64::MAX);
+        let due = base.watch.pairs.iter().copied().min().unwrap_or(u64::MAX);
+        let patience = if self.near.is_some() { NEAR } else { 1 };
+        base.watch.due = due;
+        base.watch.next_look = if due >= segment + USUAL { due } else { due.max(segment + patience) };
         base.watch.are_all_free(segment)
     }
 
@@ -386,8 +412,13 @@ mod tests {
 
     #[test]
     fn a_watch_that_a_run_cannot_come_to_does_not_fit() {
-        let watch =
-            |due, pairs: &[u64], moves, known: &[u64]| Watch { due, pairs: pairs.into(), moves, known: known.into() };
+        let watch = |due, pairs: &[u64], moves, known: &[u64]| Watch {
+            due,
+            next_look: 101,
+            pairs: pairs.into(),
+            moves,
+            known: known.into(),
+        };
         let fits = |watch: Watch| watch.fits(2, 100, 1000);
         assert!(fits(Watch::new(2)));
         assert!(fits(watch(90, &[90, 164], 1000, &[0, 1000])));

@@ -7,9 +7,8 @@ use super::state::*;
 use crate::structure::{EXACT, Scratch, flight_order, fly_in_one_series};
 
 impl Model {
-    /// Works out the flight from the base until `limit` (s since the segment's start) or the first entry; `is_refused` where
-    /// not all pairs can be dismissed for its segment, as has been found out already.
-    pub(super) fn plan_flight(&self, state: &mut State, limit: f64, is_refused: bool) {
+    /// Works out the flight from the base until `limit` (s since the segment's start) or the first entry.
+    pub(super) fn plan_flight(&self, state: &mut State, limit: f64) {
         self.convert(&mut state.base, Coordinates::Modes, &mut state.work.q);
         let State { base, step, inputs, counters, work, .. } = state;
         counters.flight_steps += 1;
@@ -29,7 +28,6 @@ impl Model {
         let watched = self.watched_segment(base);
         let segment = watched.map(|(_, segment)| segment);
         if let Some((ground, segment)) = watched
-            && !is_refused
             && self.dismiss(ground, base, segment, counters, &mut work.node_v)
         {
             counters.flights_dismissed += 1;
@@ -38,7 +36,7 @@ impl Model {
             step.ends.clear();
             let loads = (&work.load[..], &work.slope[..]);
             if !self.swings_stay_apart((&base.q, &base.v), loads, remaining) {
-                self.look_closer(base, step, counters, work, segment);
+                self.look_closer(base, step, counters, work);
             }
         }
     }
@@ -54,7 +52,7 @@ impl Model {
     /// does not.
     fn certify(
         &self,
-        base: &Base,
+        base: &mut Base,
         step: &mut Step,
         counters: &mut Counters,
         work: &mut Workspace,
@@ -63,16 +61,24 @@ impl Model {
         let h = step.length;
         let loads = (&work.load[..], &work.slope[..]);
         let deviation = self.deviation_from_cubic((&base.q, &base.v), loads, h, &mut work.scratch);
-        self.pairs.iter().zip(&base.contacts).enumerate().all(|(p, (pair, contact))| {
+        for (p, (pair, contact)) in self.pairs.iter().zip(&mut base.contacts).enumerate() {
             if segment.is_some_and(|segment| base.watch.is_free(p, segment)) {
                 step.ends.push(None);
-                return true;
+                work.look.stay_apart[p] = true;
+                continue;
+            }
+            if !base.watch.is_known(p) {
+                counters.pairs_evaluated += 1;
+                (contact.penetration, contact.rate) = pair.penetration(&base.q, &base.v);
+                base.watch.set_known(p);
             }
             counters.pairs_evaluated += 1;
             let (end, end_rate) = pair.penetration(&step.q, &step.v);
             step.ends.push(Some((end, end_rate)));
-            highest_of_cubic((contact.flight_start(), contact.rate), (end, end_rate), h) + deviation < 0.0
-        })
+            let highest = highest_of_cubic((contact.flight_start(), contact.rate), (end, end_rate), h);
+            work.look.stay_apart[p] = highest + deviation < 0.0;
+        }
+        work.look.stay_apart.iter().all(|stays_apart| *stays_apart)
     }
 
     /// How far any penetration can be from its cubic interpolant over the `h` seconds that follow a modal motion: by the

@@ -1,9 +1,10 @@
-//! The common case of a run at the price of its arithmetic: whole segments of a record in which no two floors can meet.
+//! The common case of a run at the price of its arithmetic: whole segments of a record in which no two floors meet.
 //!
 //! Nothing here is needed for the result: `plan` and `take` do the same segment by segment, bit for bit.
 
 use super::ground::{GroundMotion, Segment};
 use super::model::Model;
+use super::near_pairs::NearPairs;
 use super::state::*;
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
@@ -18,8 +19,33 @@ pub(super) struct Glide {
     pub flown: u64,
     /// Whether the state is there, on its way through the next segment: nothing is left to do.
     pub has_arrived: bool,
-    /// Whether some pair has just been looked at for the segment at the base and may meet in it.
-    pub is_refused: bool,
+}
+
+/// What is seen of the pairs on the way from segment to segment.
+pub(super) trait Sight<const WIDTH: usize> {
+    /// Whether no pair meets in the next segment, from the motion at its start and at its end and from the ground's
+    /// acceleration and its slope.
+    fn stays_apart(
+        &mut self,
+        start: (&[Lane; WIDTH], &[Lane; WIDTH]),
+        end: (&[Lane; WIDTH], &[Lane; WIDTH]),
+        load: (f64, f64),
+    ) -> bool;
+}
+
+/// All pairs have been dismissed.
+struct NothingNear;
+
+impl<const WIDTH: usize> Sight<WIDTH> for NothingNear {
+    #[inline(always)]
+    fn stays_apart(
+        &mut self,
+        _: (&[Lane; WIDTH], &[Lane; WIDTH]),
+        _: (&[Lane; WIDTH], &[Lane; WIDTH]),
+        _: (f64, f64),
+    ) -> bool {
+        true
+    }
 }
 
 impl Model {
@@ -27,35 +53,70 @@ impl Model {
     /// closely.
     pub(super) fn glide(&self, state: &mut State, until: f64, most: u64) -> Glide {
         let Some((ground, first)) = self.gliding(state) else { return Glide::default() };
-        let (mut next, mut is_refused) = (first, false);
+        let mut next = first;
         let has_arrived = loop {
             let State { base, step, counters, work, .. } = &mut *state;
             let is_planned = step.kind != StepKind::Unknown;
             let is_free = base.watch.are_all_free(next)
                 || !is_planned && self.dismiss(ground, base, next, counters, &mut work.node_v);
-            if !is_free || next - first >= most {
-                is_refused = !is_free && !is_planned;
+            if next - first >= most || !is_free && is_planned {
                 break false;
             }
             if ends_after(&base.segment, until) {
-                if !is_planned {
+                if is_free && !is_planned {
                     step.kind = StepKind::Glide;
                     step.planned_from = base.last_length;
                     self.count_glide(counters, 1);
                 }
-                break true;
+                break is_free;
             }
-            let end = (next + MOST_AT_ONCE).min(base.watch.due()).min(first.saturating_add(most));
-            let flown = fly_over(self, ground, base, step, next..end, until);
+            let end = if is_free { base.watch.due().min(next + MOST_AT_ONCE) } else { base.watch.next_look() };
+            let segments = next..end.min(first.saturating_add(most));
+            let wanted = segments.end - next;
+            let flown = if is_free {
+                fly_over(self, ground, base, step, segments, until)
+            } else {
+                self.fly_over_near_pairs(ground, base, counters, segments, until)
+            };
             if flown == 0 {
                 break false;
             }
-            self.count_glide(counters, flown - u64::from(is_planned));
+            if is_free {
+                // No contact has a flag to clear: none was at the surface at the start, and one that is carried is not
+                // dismissed.
+                base.watch.move_on(flown);
+                self.count_glide(counters, flown - u64::from(is_planned));
+            }
             step.kind = StepKind::Unknown;
             next += flown;
             base.segment = ground.segment(next);
+            if !is_free && flown < wanted {
+                break false;
+            }
         };
-        Glide { flown: next - first, has_arrived, is_refused }
+        Glide { flown: next - first, has_arrived }
+    }
+
+    /// Flies over segments for which not all pairs have been dismissed, as long as both ends of each show that none meets;
+    /// returns how many.
+    fn fly_over_near_pairs(
+        &self,
+        ground: &GroundMotion,
+        base: &mut Base,
+        counters: &mut Counters,
+        segments: Range<u64>,
+        until: f64,
+    ) -> u64 {
+        let Some(near) = &self.near else { return 0 };
+        if !ground.is_in_record(segments.start) || base.contacts.iter().any(|contact| contact.carried) {
+            return 0;
+        }
+        let flown = fly_near(self, near, ground, base, segments.clone(), until);
+        if flown > 0 {
+            counters.flight_steps += flown;
+            self.know_near_pairs(base, segments.start..segments.start + flown, counters);
+        }
+        flown
     }
 
     /// The record and the number of the base's segment, where the motion can glide.
@@ -87,8 +148,6 @@ impl Model {
     fn move_base(&self, base: &mut Base, step: &mut Step) {
         std::mem::swap(&mut base.q, &mut step.q);
         std::mem::swap(&mut base.v, &mut step.v);
-        // No contact has a flag to clear: none was at the surface at the start, and one that is carried is not dismissed.
-        base.watch.move_on(1);
         self.update_peak_drift(base);
     }
 }
@@ -111,9 +170,9 @@ fn fly_over(
 ) -> u64 {
     let is_simple = model.drift.are_few() && ground.is_in_record(segments.start);
     match model.structure.lanes / LANES {
-        1 if is_simple => fly_few::<1>(model, ground, base, segments, until),
-        2 if is_simple => fly_few::<2>(model, ground, base, segments, until),
-        3 if is_simple => fly_few::<3>(model, ground, base, segments, until),
+        1 if is_simple => fly_few::<1>(model, ground, base, NothingNear, segments, until),
+        2 if is_simple => fly_few::<2>(model, ground, base, NothingNear, segments, until),
+        3 if is_simple => fly_few::<3>(model, ground, base, NothingNear, segments, until),
         _ => {
             let mut flown = 0;
             while segments.start + flown < segments.end {
@@ -127,6 +186,37 @@ fn fly_over(
             flown
         }
     }
+}
+
+/// The same where some pairs are near, as long as their sight allows.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn fly_near(
+    model: &Model,
+    near: &NearPairs,
+    ground: &GroundMotion,
+    base: &mut Base,
+    segments: Range<u64>,
+    until: f64,
+) -> u64 {
+    match model.structure.lanes / LANES {
+        1 => fly_in_sight::<1>(model, near, ground, base, segments, until),
+        2 => fly_in_sight::<2>(model, near, ground, base, segments, until),
+        3 => fly_in_sight::<3>(model, near, ground, base, segments, until),
+        _ => 0,
+    }
+}
+
+#[inline(always)]
+fn fly_in_sight<const WIDTH: usize>(
+    model: &Model,
+    near: &NearPairs,
+    ground: &GroundMotion,
+    base: &mut Base,
+    segments: Range<u64>,
+    until: f64,
+) -> u64 {
+    let sight = near.from((&few::<WIDTH>(&base.q), &few::<WIDTH>(&base.v)), base.segment.length);
+    fly_few(model, ground, base, sight, segments, until)
 }
 
 #[inline(always)]
@@ -146,6 +236,7 @@ fn fly_few<const WIDTH: usize>(
     model: &Model,
     ground: &GroundMotion,
     base: &mut Base,
+    mut sight: impl Sight<WIDTH>,
     segments: Range<u64>,
     until: f64,
 ) -> u64 {
@@ -158,9 +249,14 @@ fn fly_few<const WIDTH: usize>(
         if until - start < length || length != interval.length {
             break;
         }
+        let (mut end_q, mut end_v) = (q, v);
         for c in 0..WIDTH {
-            (q[c], v[c]) = modes[c].end_on_ground((&q[c], &v[c]), &participation[c], load);
+            (end_q[c], end_v[c]) = modes[c].end_on_ground((&q[c], &v[c]), &participation[c], load);
         }
+        if !sight.stays_apart((&q, &v), (&end_q, &end_v), load) {
+            break;
+        }
+        (q, v) = (end_q, end_v);
         model.drift.raise_few(q.as_flattened(), &mut raised);
         flown += 1;
     }
@@ -176,7 +272,6 @@ fn fly_few<const WIDTH: usize>(
     *peaks = raised;
     base.q.copy_from_slice(q.as_flattened());
     base.v.copy_from_slice(v.as_flattened());
-    base.watch.move_on(flown);
     flown
 }
 

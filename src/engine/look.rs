@@ -18,16 +18,8 @@ const MOST_PIECES: u32 = 10_000;
 const LONGER: u32 = 4;
 
 impl Model {
-    /// Finds the first entry in the planned flight and shortens the step to it. `segment` is the one in which pairs may
-    /// have been dismissed.
-    pub(super) fn look_closer(
-        &self,
-        base: &Base,
-        step: &mut Step,
-        counters: &mut Counters,
-        work: &mut Workspace,
-        segment: Option<u64>,
-    ) {
+    /// Finds the first entry in the planned flight and shortens the step to it.
+    pub(super) fn look_closer(&self, base: &Base, step: &mut Step, counters: &mut Counters, work: &mut Workspace) {
         let remaining = step.length;
         let mut unit =
             if self.structure.fastest * remaining > REACH { REACH / self.structure.fastest } else { remaining };
@@ -46,7 +38,7 @@ impl Model {
                 if self.swings_stay_apart((&work.look.q, &work.look.v), (&work.look.load, &work.slope), left) {
                     return;
                 }
-                if !self.piece_stays_apart(base, work, length, segment) {
+                if !self.piece_stays_apart(base, work, length) {
                     (series_left, longer) = (LONGER, f64::from(LONGER) * unit);
                     continue;
                 }
@@ -54,7 +46,7 @@ impl Model {
             } else {
                 series_left -= u32::from(series_left > 0);
                 let length = left.min(unit);
-                let entry = self.first_rise_in(base, work, length, segment);
+                let entry = self.first_rise_in(base, work, length);
                 if entry.is_some() || is_carried {
                     return self.cut_flight(base, step, work, length, entry);
                 }
@@ -83,19 +75,13 @@ impl Model {
     }
 
     /// The first entry in a piece, from its power series: where, as a share of the piece, and which pair.
-    fn first_rise_in(
-        &self,
-        base: &Base,
-        work: &mut Workspace,
-        length: f64,
-        segment: Option<u64>,
-    ) -> Option<(f64, usize)> {
+    fn first_rise_in(&self, base: &Base, work: &mut Workspace, length: f64) -> Option<(f64, usize)> {
         let order = flight_order(self.structure.fastest * length, EXACT).unwrap_or(crate::polynomial::MAX_ORDER);
-        let Look { from, q, v, load, .. } = &work.look;
+        let Look { from, q, v, load, stay_apart, .. } = &work.look;
         work.series.expand_flight(&self.structure, (q, v), (load, &work.slope), (length, order));
         let mut first: Option<(f64, usize)> = None;
         for (p, (pair, contact)) in self.pairs.iter().zip(&base.contacts).enumerate() {
-            if segment.is_some_and(|segment| base.watch.is_free(p, segment)) {
+            if stay_apart[p] {
                 continue;
             }
             let terms = &mut work.scalar[..=work.series.order];
@@ -114,15 +100,14 @@ impl Model {
     }
 
     /// Whether no pair meets in a piece, shown by both ends as for a whole flight; if so, the look has moved on.
-    fn piece_stays_apart(&self, base: &Base, work: &mut Workspace, length: f64, segment: Option<u64>) -> bool {
+    fn piece_stays_apart(&self, base: &Base, work: &mut Workspace, length: f64) -> bool {
         let Look { q, v, load, .. } = &work.look;
         let deviation = self.deviation_from_cubic((q, v), (load, &work.slope), length, &mut work.scratch);
-        let is_free = |p: usize| segment.is_some_and(|segment| base.watch.is_free(p, segment));
         self.fly_look(base, work, length);
-        let Look { q, v, end_q, end_v, .. } = &work.look;
+        let Look { q, v, end_q, end_v, stay_apart, .. } = &work.look;
         let stays_apart = self.pairs.iter().enumerate().all(|(p, pair)| {
             let (start, end) = (pair.penetration(q, v), pair.penetration(end_q, end_v));
-            is_free(p) || highest_of_cubic(start, end, length) + deviation < 0.0
+            stay_apart[p] || highest_of_cubic(start, end, length) + deviation < 0.0
         });
         if stays_apart {
             work.look.move_on(length, &work.slope);
@@ -161,12 +146,15 @@ pub(super) struct Look {
     /// The motion at the end of the present piece.
     end_q: Vec<f64>,
     end_v: Vec<f64>,
+    /// Pairs that certainly do not meet in the whole flight.
+    pub stay_apart: Vec<bool>,
 }
 
 impl Look {
-    pub fn new(lanes: usize) -> Look {
+    pub fn new(lanes: usize, pairs: usize) -> Look {
         let vector = || vec![0.0; lanes];
-        Look { from: 0.0, q: vector(), v: vector(), load: vector(), end_q: vector(), end_v: vector() }
+        let stay_apart = vec![false; pairs];
+        Look { from: 0.0, q: vector(), v: vector(), load: vector(), end_q: vector(), end_v: vector(), stay_apart }
     }
 
     fn start(&mut self, base: &Base, load: &[f64]) {

@@ -62,6 +62,7 @@ mod look;
 mod meeting;
 mod members;
 mod model;
+mod near_pairs;
 mod observe;
 mod onset_step;
 mod rates;

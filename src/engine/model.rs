@@ -5,6 +5,7 @@ use super::dismissal::{ClosingSpeeds, Watch};
 use super::drift::DriftShapes;
 use super::ground::{GroundMotion, Segment};
 use super::input::LinearInput;
+use super::near_pairs::NearPairs;
 use super::onset_step::OnsetSeries;
 use super::rigid::RigidPairs;
 use super::state::*;
@@ -44,6 +45,7 @@ pub struct Model {
     pub(super) linear_order: usize,
     pub(super) drift: DriftShapes,
     pub(super) closing: ClosingSpeeds,
+    pub(super) near: Option<NearPairs>,
     pub(super) windows: Option<Windows>,
     pub(super) frequencies: [Vec<f64>; 2],
     initial: [Vec<f64>; 2],
@@ -93,8 +95,10 @@ impl Model {
             None => None,
         };
         let (step_tolerance, order) = contact_step::accuracy(scene.solver.relative_tolerance);
+        let drift = DriftShapes::of(&structure);
         Ok(Model {
-            drift: DriftShapes::of(&structure),
+            near: NearPairs::of(&structure, &pairs, &drift),
+            drift,
             closing: ClosingSpeeds::of(&structure, &pairs, &pair_weight),
             frequencies: [Side::Left, Side::Right]
                 .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
@@ -129,7 +133,8 @@ impl Model {
 
     /// Room to work in.
     pub(super) fn workspace(&self) -> Workspace {
-        Workspace::new(&self.structure, self.rigid.pairs.len(), self.windows.as_ref().map_or(0, |_| self.pairs.len()))
+        let pairs = self.pairs.len();
+        Workspace::new(&self.structure, [pairs, self.rigid.pairs.len(), self.windows.as_ref().map_or(0, |_| pairs)])
     }
 
     /// The initial state at a time, s.

@@ -73,7 +73,7 @@ impl Model {
         state.step.kind = StepKind::Unknown;
         if *is_planned {
             let limit = self.limit(&state.base.segment, state.time);
-            self.plan(state, limit, false);
+            self.plan(state, limit);
         }
         // What has been worked out again is not counted again.
         state.counters = *counters;

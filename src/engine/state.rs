@@ -294,8 +294,8 @@ pub(super) struct Workspace {
 }
 
 impl Workspace {
-    /// For a structure with that many rigid pairs, and pairs that windows are for.
-    pub fn new(structure: &Structure, rigid: usize, windowed: usize) -> Workspace {
+    /// For a structure with so many pairs, rigid pairs, and pairs that windows are for.
+    pub fn new(structure: &Structure, [pairs, rigid, windowed]: [usize; 3]) -> Workspace {
         let lanes = structure.lanes;
         let vector = || vec![0.0; lanes];
         Workspace {
@@ -312,7 +312,7 @@ impl Workspace {
             scalar: [0.0; ROOM],
             powers: Powers::default(),
             rigid: Complementarity::new(rigid),
-            look: Look::new(lanes),
+            look: Look::new(lanes, pairs),
             windows: Room::new(windowed),
         }
     }

@@ -2,6 +2,7 @@
 
 use super::floors::Floors;
 use super::{LANES, Lane, Structure};
+use crate::contact::series::each;
 use crate::polynomial::{COUNT, Powers, ROOM};
 
 /// Powers that a series may have.
@@ -201,6 +202,12 @@ impl MotionSeries {
         sum_sizes(terms, &fourth[4..], &mut out[..self.lanes]);
     }
 
+    /// The scalar series of what `row` makes of the modes, 0 where its terms cancel but for rounding, written to `out[n]`.
+    /// Returns the sum of the sizes of all that is added up at x.
+    pub fn project(&self, row: &[f64], x: f64, out: &mut [f64]) -> f64 {
+        project(&self.coefficients[..], row, x, &mut out[..=self.order])
+    }
+
     /// v alone at x.
     pub fn velocity(&self, x: f64, v: &mut [f64]) {
         let width = self.lanes / LANES;
@@ -380,19 +387,21 @@ fn expand_single_modes(
     for c in 0..width {
         let a = damping[c].map(|damping| damping * scale);
         let b = omega2[c].map(|omega2| omega2 * scale2);
+        let next_of = |count: f64, factor: f64, load: &Lane, before: &Lane, last: &Lane| -> Lane {
+            each(|i| (load[i] - (count * a[i] * last[i] + b[i] * before[i])) * factor)
+        };
         let mut before = q[c];
         let mut last = v[c].map(|v| v * scale);
         terms[c] = before;
         terms[width + c] = last;
-        let mut loads = [load[c].map(|load| load * scale2), slope[c].map(|slope| slope * (scale2 * scale))].into_iter();
-        let rows = terms[2 * width + c..].iter_mut().step_by(width).take(series.order - 1);
-        for ((k, factor), term) in COUNT[1..].iter().zip(&RECIPROCAL).zip(rows) {
-            let mut next = loads.next().unwrap_or_default();
-            for i in 0..LANES {
-                next[i] = (next[i] - (k * a[i] * last[i] + b[i] * before[i])) * factor;
-            }
-            *term = next;
-            (before, last) = (last, next);
+        for (n, load) in [load[c].map(|l| l * scale2), slope[c].map(|l| l * (scale2 * scale))].iter().enumerate() {
+            (before, last) = (last, next_of(COUNT[n + 1], RECIPROCAL[n], load, &before, &last));
+            terms[(n + 2) * width + c] = last;
+        }
+        let rows = terms[4 * width..(series.order + 1) * width].chunks_exact_mut(width);
+        for ((row, count), factor) in rows.zip(&COUNT[3..]).zip(&RECIPROCAL[2..]) {
+            (before, last) = (last, next_of(*count, *factor, &[0.0; LANES], &before, &last));
+            row[c] = last;
         }
     }
 }
@@ -460,6 +469,31 @@ fn expand_floors<F: PairForces>(
         forces.act(n, factor, next);
     }
     series.order = order;
+}
+
+/// See [`MotionSeries::project`]: as [`difference`] has it, [`LANES`] powers abreast. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn project(terms: &[f64], row: &[f64], x: f64, out: &mut [f64]) -> f64 {
+    let row = row.as_chunks::<LANES>().0;
+    let (mut whole, mut power) = (0.0, 1.0);
+    for (out, terms) in out.chunks_mut(LANES).zip(terms.chunks(LANES * LANES * row.len())) {
+        let (mut sums, mut sizes) = ([[0.0; LANES]; LANES], [[0.0; LANES]; LANES]);
+        let powers = terms.as_chunks::<LANES>().0.chunks_exact(row.len());
+        for ((term, sum), size) in powers.zip(&mut sums).zip(&mut sizes) {
+            for (row, q) in row.iter().zip(term) {
+                let product = each(|i| row[i] * q[i]);
+                *sum = each(|i| sum[i] + product[i]);
+                *size = each(|i| size[i] + product[i].abs());
+            }
+        }
+        let [values, sizes] = [sums, sizes].map(|of| each(|k| ((of[k][0] + of[k][1]) + of[k][2]) + of[k][3]));
+        for ((out, value), size) in out.iter_mut().zip(&values).zip(&sizes) {
+            *out = if value.abs() <= 4.0 * f64::EPSILON * size { 0.0 } else { *value };
+            whole += size * power;
+            power *= x;
+        }
+    }
+    whole
 }
 
 /// The first blocks of a vector that has as many.
