@@ -123,15 +123,17 @@ impl Solution {
         let theta = &tables.theta;
         for p in 0..equation.closed {
             let (free, omega, law) = (&equation.free[p], equation.omega[p], equation.forces[p]);
-            let (d, v, rate) = (free[0], free[1] / equation.scale, 1.0 / equation.scale);
-            let acceleration = 2.0 * free[2] * (rate * rate) - equation.kernels[p][p][1] * law.value(d, v);
-            for (i, theta) in theta.iter().enumerate().take(N) {
-                let t = theta * self.length;
-                let s = (omega * t) * (omega * t);
+            let (d, v, scale) = (free[0], free[1] / equation.scale, equation.scale);
+            let acceleration = 2.0 * free[2] / (scale * scale) - equation.kernels[p][p][1] * law.value(d, v);
+            let (length, omega2) = (self.length, omega * omega);
+            let (depth, rate) = (&mut self.depth[p], &mut self.rate[p]);
+            for i in 0..N {
+                let t = theta[i] * length;
+                let s = omega2 * (t * t);
                 let sine = t * (1.0 - s * ((1.0 / 6.0) - s * (1.0 / 120.0)));
                 let turned = t * t * (0.5 - s * (1.0 / 24.0));
-                self.depth[p][i] = d + v * sine + acceleration * turned;
-                self.rate[p][i] = v * (1.0 - omega * omega * turned) + acceleration * sine;
+                depth[i] = d + v * sine + acceleration * turned;
+                rate[i] = v * (1.0 - omega2 * turned) + acceleration * sine;
             }
             forces::<N>(&law, &self.depth[p], &self.rate[p], &mut self.force[p]);
         }

@@ -221,12 +221,12 @@ impl Passage<'_> {
         self.pieces().all(|piece| {
             // Up to a turn the depth only grows.
             let depth = if turns { piece.from } else { self.least(&piece) };
-            let falls = self.brake(depth) > self.bend;
+            let falls = || self.brake(depth) > self.bend;
             if turns && piece.is_last {
-                return falls;
+                return falls();
             }
-            let least = if falls { piece.rate } else { piece.rate - self.bend * piece.gone };
-            guard.value(piece.to, least) > 0.0
+            let is_positive = |rate: f64| guard.value(piece.to, rate) > 0.0;
+            is_positive(piece.rate - self.bend * piece.gone) || is_positive(piece.rate) && falls()
         })
     }
 
@@ -234,8 +234,8 @@ impl Passage<'_> {
     fn recedes(&self) -> bool {
         let mut rate = self.contact.rate;
         self.pieces().all(|piece| {
-            let falls = self.brake(self.least(&piece)) > self.bend;
-            let recedes = falls || rate + self.bend * piece.gone < 0.0;
+            let falls = || self.brake(self.least(&piece)) > self.bend;
+            let recedes = rate + self.bend * piece.gone < 0.0 || falls();
             rate = rate.min((piece.to - piece.from) / piece.gone) + self.bend * piece.gone;
             recedes
         })
