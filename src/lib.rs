@@ -17,6 +17,7 @@
 //! | contact force F(d, v): one file per law, with its source, range and defect | `contact/laws/` | in each file |
 //! | a(e) of `hertz_damped` | `contact/damping_formula.rs` | at each formula |
 //! | motion in contact as a power series in time | `engine/contact_step.rs`, `structure/series.rs`, `contact/series.rs` | |
+//! | a variable in which the motion near entries and releases is smooth | `clock.rs` | |
 //! | contact forces over a whole window from an integral equation, at Gauss nodes | `collocation/`, `engine/window_step.rs`, `structure/impulse_response.rs` | \[Brunner2004\] |
 //! | motion just after an entry, powers i + beta j of time | `engine/onset_step.rs`, `contact/onset.rs` | |
 //! | bounds of a curve by its cubic Hermite interpolant: no contact, first root, largest value | `engine/flight.rs`, `engine/roots.rs` | \[BirkhoffPriver1967\] |
@@ -27,6 +28,7 @@
 //! Sources are cited as [Key, place]; the keys are those of `REFERENCES.bib`. "Seed paper" is \[BarrosKhatami2013\].
 #![deny(unsafe_code)]
 
+mod clock;
 mod collocation;
 pub mod contact;
 pub mod description;

@@ -1,6 +1,8 @@
 //! Polynomials of a step, c0 + c1 x + c2 x^2 + ..., evaluated by tables of powers: sums of products in a fixed order,
 //! which vectorise, where Horner's rule waits for one result after the other.
 
+use crate::clock::Clock;
+
 /// Highest power of any series.
 pub const MAX_ORDER: usize = 30;
 
@@ -46,11 +48,11 @@ pub const FOURTH: Coefficients = {
     table
 };
 
-/// 1/(n + 1).
-pub const RECIPROCAL: [f64; ROOM] = {
-    let mut table = [0.0; ROOM];
+/// 1/(n + 1), for one power more.
+pub const RECIPROCAL: [f64; ROOM + 1] = {
+    let mut table = [0.0; ROOM + 1];
     let mut n = 0;
-    while n < ROOM {
+    while n < ROOM + 1 {
         table[n] = 1.0 / (n + 1) as f64;
         n += 1;
     }
@@ -70,11 +72,13 @@ pub struct Powers {
     slope: Coefficients,
     /// n (n-1) (n-2) (n-3) x^(n-4).
     fourth: Coefficients,
+    /// How much faster time passes at the x than at 0.
+    stretch: f64,
 }
 
 impl Default for Powers {
     fn default() -> Powers {
-        Powers { x: 0.0, blocks: 1, value: [0.0; ROOM], slope: [0.0; ROOM], fourth: [0.0; ROOM] }
+        Powers { x: 0.0, blocks: 1, value: [0.0; ROOM], slope: [0.0; ROOM], fourth: [0.0; ROOM], stretch: 0.0 }
     }
 }
 
@@ -93,7 +97,7 @@ impl Powers {
     /// Tables for x >= 0 and polynomials with powers up to `highest`.
     pub fn set(&mut self, x: f64, highest: usize) {
         let highest = highest.min(ROOM - 1);
-        self.x = x;
+        (self.x, self.stretch) = (x, 0.0);
         self.blocks = highest / BLOCK + 1;
         let square = x * x;
         let mut last = [1.0, x];
@@ -112,6 +116,17 @@ impl Powers {
         for table in [&mut self.slope, &mut self.fourth] {
             table[highest + 1..end].fill(0.0);
         }
+    }
+
+    /// The same for polynomials in the x of a clock, of use for integrals over time.
+    pub fn set_by(&mut self, clock: &Clock, x: f64, highest: usize) {
+        self.set(x, highest);
+        self.stretch = 2.0 * clock.bend * x;
+    }
+
+    /// How much faster time passes at the x than at 0, by the clock.
+    pub fn stretch(&self) -> f64 {
+        self.stretch
     }
 
     /// x^n, n x^(n-1) and n (n-1) (n-2) (n-3) x^(n-4) for n from 0 on.

@@ -2,6 +2,7 @@
 //! pairs of one kind of law side by side.
 
 use super::force::{Force, power};
+use crate::clock::{Bend, Clock};
 use crate::polynomial::{COUNT, Coefficients, Powers, RECIPROCAL, ROOM, Reading};
 use crate::quadrature::TWELVE_POINTS;
 
@@ -55,7 +56,7 @@ impl Kind {
     }
 }
 
-/// The scalar series of up to [`PAIRS`] contacts over a step, in powers of x = t / scale.
+/// The scalar series of up to [`PAIRS`] contacts over a step, in powers of x = t / scale or as a clock has it.
 #[derive(Clone, Debug)]
 pub struct PairBlock {
     kind: Kind,
@@ -316,24 +317,52 @@ impl PairBlock {
         })
     }
 
+    /// Whether its forces have a root at d = 0.
+    pub fn has_roots(&self) -> bool {
+        matches!(self.kind, Kind::Spring | Kind::Power | Kind::Root)
+    }
+
+    /// About where a pair is released, if that is before `limit`.
+    pub fn release(&self, lane: usize, limit: f64) -> Option<f64> {
+        let terms = &self.penetration[..self.order + 3];
+        let [start, slope, half] = [0, 1, 2].map(|n| terms[n][lane]);
+        // By the parabola first.
+        let square = slope * slope - 4.0 * start * half;
+        let mut x = 2.0 * start / (square.max(0.0).sqrt() - slope);
+        if square < 0.0 || !(x > 0.0 && x < 1.5 * limit) {
+            return None;
+        }
+        for _ in 0..3 {
+            let (value, slope) =
+                terms.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * x + c[lane], slope * x + value));
+            x -= value / slope;
+        }
+        (x > 0.0 && x < limit).then_some(x)
+    }
+
+    /// Makes the series of penetrations and forces such in the x of a clock.
+    pub fn bend(&mut self, bend: &Bend) {
+        bend.apply_to_both([&mut self.penetration, &mut self.force], self.order + 3);
+    }
+
     /// Penetrations and their bounds at the x of the powers.
     pub fn read(&self, powers: &Powers) -> BlockReading {
         read(&self.penetration[..self.order + 3], powers)
     }
 
-    /// Forces at the x of the powers, and their integral over 0..=x, N s per unit of x.
+    /// Forces at the x of the powers, and their integral over 0..=x, N s per unit of the scale.
     pub fn read_force(&self, powers: &Powers) -> ForceReading {
         read_force(&self.force[..=self.order], powers)
     }
 
     /// J, work of the damping part of a pair's force over 0..=x, where the penetration is `end`.
-    pub fn damping_work(&self, lane: usize, force: &Force, scale: f64, x: f64, end: f64) -> f64 {
+    pub fn damping_work(&self, lane: usize, force: &Force, (clock, scale): (&Clock, f64), x: f64, end: f64) -> f64 {
         if !force.is_damped() {
             return 0.0;
         }
         let terms = &self.penetration[..self.order + 3];
         if let Force::Linear { damping, .. } = *force {
-            return damping / scale * squared_slope(terms, lane, x);
+            return damping / scale * squared_slope(terms, lane, clock, x);
         }
         // A power law's damping force ends with a root of the time left: even in the square root of that time.
         let released = !force.is_regular() && end < NEARLY_RELEASED * terms[0][lane];
@@ -344,6 +373,10 @@ impl PairBlock {
                 true => (x * (1.0 - left * left), x * 2.0 * left * weight),
                 false => (x * node, x * weight),
             };
+        }
+        // All go with the square of the rate, whose time passes at the clock's rate, as that of the integral does.
+        if clock.is_bent() {
+            weights.iter_mut().zip(&at).for_each(|(weight, at)| *weight /= clock.rate(*at));
         }
         let powers = damping_powers(terms, lane, force, scale, &at);
         scale * (0..12).map(|i| weights[i] * powers[i]).sum::<f64>()
@@ -402,10 +435,11 @@ fn read(terms: &[Each], powers: &Powers) -> BlockReading {
 /// See [`PairBlock::read_force`]. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn read_force(terms: &[Each], powers: &Powers) -> ForceReading {
-    let (value, slope, fourth) = powers.all();
+    let ((value, slope, fourth), stretch) = (powers.all(), powers.stretch());
     let [mut values, mut slopes, mut fourths, mut integrals] = [[0.0; PAIRS]; 4];
     for (n, term) in terms.iter().enumerate() {
-        let weight = RECIPROCAL[n] * value[n];
+        // Of the integral over time: dt = (1 + stretch for the whole x) dx.
+        let weight = (RECIPROCAL[n] + stretch * RECIPROCAL[n + 1]) * value[n];
         for i in 0..PAIRS {
             values[i] += term[i] * value[n];
             slopes[i] += term[i] * slope[n];
@@ -416,9 +450,10 @@ fn read_force(terms: &[Each], powers: &Powers) -> ForceReading {
     ForceReading { value: values, slope: slopes, fourth: fourths, impulse: each(|i| powers.x * integrals[i]) }
 }
 
-/// Integral over 0..=x of the square of the slope of one pair's series. Wide instructions give the same bits.
+/// Integral over 0..=x of the square of the slope of one pair's series, by the time of a clock. Wide instructions give the
+/// same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn squared_slope(terms: &[Each], lane: usize, x: f64) -> f64 {
+fn squared_slope(terms: &[Each], lane: usize, clock: &Clock, x: f64) -> f64 {
     let (at, weights) = (TWELVE_POINTS.map(|(node, _)| x * node), TWELVE_POINTS.map(|(_, weight)| weight));
     let mut slope = [0.0; 12];
     for (term, count) in terms.iter().zip(&COUNT).skip(1).rev() {
@@ -426,6 +461,9 @@ fn squared_slope(terms: &[Each], lane: usize, x: f64) -> f64 {
         for i in 0..12 {
             slope[i] = slope[i] * at[i] + own;
         }
+    }
+    if clock.is_bent() {
+        slope.iter_mut().zip(&at).for_each(|(slope, at)| *slope /= clock.rate(*at).sqrt());
     }
     let mut sum = [0.0; 4];
     for k in 0..3 {

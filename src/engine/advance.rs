@@ -134,7 +134,7 @@ impl Model {
                     .for_each(|c| c.follow_window(&step.window, step.length, start));
             }
             StepKind::Contact if step.length > 0.0 => {
-                step.closed.follow(contacts, step.series.scale, start, &step.end);
+                step.closed.follow(contacts, &step.series, start, &step.end);
                 for (terms, &p) in step.reactions.iter().zip(&self.rigid.pairs) {
                     if contacts[p].is_held() {
                         contacts[p].follow_reaction(terms, step.reaction_order, step.series.scale, start, &step.end);
@@ -158,7 +158,7 @@ impl Model {
                     contact.follow_reaction(terms, step.reaction_order, step.series.scale, start, powers);
                 }
             }
-            StepKind::Contact if elapsed > 0.0 => step.closed.follow_one(contact, step.series.scale, start, powers),
+            StepKind::Contact if elapsed > 0.0 => step.closed.follow_one(contact, &step.series, start, powers),
             _ => {}
         }
     }

@@ -5,10 +5,11 @@ use super::members::{Members, Place, most_blocks};
 use super::model::Pair;
 use super::roots;
 use super::state::*;
+use crate::clock::Bend;
 use crate::contact::Force;
 use crate::contact::series::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock, each};
 use crate::polynomial::{Coefficients, Powers, Reading};
-use crate::structure::{Lane, PairForces};
+use crate::structure::{Lane, MotionSeries, PairForces};
 
 /// The pairs in contact, in blocks of one kind of law each.
 #[derive(Clone, Debug)]
@@ -129,11 +130,29 @@ impl ClosedPairs {
         Some((&mut self.blocks[0], &self.members[0], self.at_surface[0], self.waits))
     }
 
+    /// About where the first pair under a power law is released, if that is before `limit`; else infinite.
+    pub fn first_release(&self, limit: f64) -> f64 {
+        let mut first = limit;
+        for (block, members) in
+            self.blocks[..self.used].iter().zip(&self.members).filter(|(block, _)| block.has_roots())
+        {
+            for (lane, _) in members.lanes() {
+                first = block.release(lane, first).unwrap_or(first);
+            }
+        }
+        if first < limit { first } else { f64::INFINITY }
+    }
+
     /// Whether any pair is released by x, as far as the first powers tell.
     pub fn are_some_nearly_released(&self, x: f64) -> bool {
         let parabola = |d: &[Each], lane: usize| d[0][lane] + x * (d[1][lane] + x * d[2][lane]);
         let mut blocks = self.blocks[..self.used].iter().zip(&self.members);
         blocks.any(|(block, members)| members.lanes().any(|(lane, _)| parabola(&block.penetration, lane) < 0.0))
+    }
+
+    /// Makes all series such in the x of a clock.
+    pub fn bend(&mut self, bend: &Bend) {
+        self.blocks[..self.used].iter_mut().for_each(|block| block.bend(bend));
     }
 
     /// Number of blocks in use.
@@ -209,20 +228,20 @@ impl ClosedPairs {
     }
 
     /// Follows the contacts to the end of the step, which has begun at `start` [s].
-    pub fn follow(&self, contacts: &mut [Contact], scale: f64, start: f64, powers: &Powers) {
+    pub fn follow(&self, contacts: &mut [Contact], series: &MotionSeries, start: f64, powers: &Powers) {
         for (b, block) in self.blocks[..self.used].iter().enumerate() {
             let end = BlockEnd::of(block, self.readings[b], powers);
             for (lane, pair) in self.pairs_of(b) {
-                contacts[pair].follow_lane((block, lane), &end, scale, start, powers.x);
+                contacts[pair].follow_lane((block, lane), &end, series, start, powers.x);
             }
         }
     }
 
     /// The same for one contact.
-    pub fn follow_one(&self, contact: &mut Contact, scale: f64, start: f64, powers: &Powers) {
+    pub fn follow_one(&self, contact: &mut Contact, series: &MotionSeries, start: f64, powers: &Powers) {
         let (block, lane) = self.of(contact.episode.contact);
         let end = BlockEnd::of(block, block.read(powers), powers);
-        contact.follow_lane((block, lane), &end, scale, start, powers.x);
+        contact.follow_lane((block, lane), &end, series, start, powers.x);
     }
 }
 
@@ -327,12 +346,25 @@ fn highest(
 
 impl Contact {
     /// Penetration, impulse, peaks and work over a series up to x.
-    fn follow_lane(&mut self, (block, lane): (&PairBlock, usize), end: &BlockEnd, scale: f64, start: f64, x: f64) {
-        let impulse = scale * end.force.impulse[lane];
+    fn follow_lane(
+        &mut self,
+        (block, lane): (&PairBlock, usize),
+        end: &BlockEnd,
+        series: &MotionSeries,
+        start: f64,
+        x: f64,
+    ) {
+        let impulse = series.scale * end.force.impulse[lane];
         self.impulse += impulse;
         self.episode.impulse += impulse;
         if block.is_damped() {
-            self.work += block.damping_work(lane, &self.branch(), scale, x, end.motion.penetration[lane]);
+            self.work += block.damping_work(
+                lane,
+                &self.branch(),
+                (&series.clock, series.scale),
+                x,
+                end.motion.penetration[lane],
+            );
         }
         let [force_turns, motion_turns] = end.turns.map(|turns| turns[lane]);
         let depth = Reading {
@@ -357,10 +389,10 @@ impl Contact {
         };
         if let Some((at, peak)) = strongest.filter(|(_, peak)| *peak > self.episode.peak_force) {
             self.episode.peak_force = peak;
-            self.episode.peak_time = start + at * scale;
+            self.episode.peak_time = start + series.time(at);
             self.peak_force = self.peak_force.max(peak);
         }
         self.penetration = depth.value;
-        self.rate = depth.slope / scale;
+        self.rate = depth.slope / series.time_rate(x);
     }
 }

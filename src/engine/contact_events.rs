@@ -61,20 +61,27 @@ impl Model {
         until: f64,
         scalar: &mut Coefficients,
     ) -> Option<f64> {
-        let (scale, end) = (step.series.scale, step.end.x);
+        let (MotionSeries { scale, clock, .. }, end) = (&step.series, step.end.x);
         let sense = if contact.phase == Phase::Engaged { -1.0 } else { 1.0 };
-        let moved = end * (contact.rate.abs() * scale + reading.turn[lane]);
-        let change = guard.stiffness.abs() * moved + guard.damping.abs() * reading.turn[lane] / scale;
+        let (moved, stretch) = (end * (contact.rate.abs() * scale + reading.turn[lane]), clock.rate(end));
+        // Of the guard times dt/dx, which changes no sign.
+        let at_rest = guard.value(contact.penetration, 0.0).abs() * (stretch - 1.0).abs();
+        let change = at_rest
+            + guard.stiffness.abs() * moved * stretch.max(1.0)
+            + guard.damping.abs() * reading.turn[lane] / scale;
         if sense * guard.value(contact.penetration, contact.rate) + change < 0.0 {
             return None;
         }
         let (block, lane) = step.closed.of(contact.episode.contact);
         let terms = block.copy_penetration(lane, scalar) - 2;
         let (stiffness, rate) = (sense * guard.stiffness, sense * guard.damping / scale);
+        let mut previous = 0.0;
         for n in 0..terms {
-            scalar[n] = stiffness * scalar[n] + rate * (n + 1) as f64 * scalar[n + 1];
+            let spring = stiffness * scalar[n];
+            let constant = if n == 0 { sense * guard.constant } else { 0.0 };
+            scalar[n] = (spring + rate * (n + 1) as f64 * scalar[n + 1]) + (constant + 2.0 * clock.bend * previous);
+            previous = spring + constant;
         }
-        scalar[0] += sense * guard.constant;
         roots::first_rise(&mut scalar[..terms], until, 0.0)
     }
 
@@ -113,8 +120,9 @@ impl Model {
         if start >= 0.0 || end >= 0.0 {
             return false;
         }
-        let third = step.end.x * step.series.scale / 3.0;
-        let control = [start + third * contact.rate, end - third * self.relative(p, coordinates, &step.v)];
+        let (first, last) = (step.series.scale, step.series.time_rate(step.end.x));
+        let third = |rate: f64| step.end.x * rate / 3.0;
+        let control = [start + third(first) * contact.rate, end - third(last) * self.relative(p, coordinates, &step.v)];
         let fourth = match coordinates {
             Coordinates::Floors => fourth[pair.lanes[0]] + fourth[pair.lanes[1]],
             Coordinates::Modes => pair.row.iter().zip(fourth).map(|(row, fourth)| row.abs() * fourth).sum(),

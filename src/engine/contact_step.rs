@@ -3,6 +3,9 @@
 //! Each power follows from the ones before at the cost of a few vector operations; only the contact forces need products
 //! of series. The step is as long as the last terms allow. The motion is that of the floors where they are many and feel
 //! their neighbours only, else that of the modes, as always near rigid contacts.
+//!
+//! Under a power law the last terms tell of the root of the time since the entry, or until the release: there the terms in
+//! time are turned into those by a [`Clock`] that knows no such root and goes several times as far.
 
 use super::closed_pairs::Acting;
 use super::complementarity::Complementarity;
@@ -10,6 +13,7 @@ use super::linear_pairs::LinearPairs;
 use super::meeting::{OnFewModes, OnFloors, OnModes};
 use super::model::Model;
 use super::state::*;
+use crate::clock::{Bend, Clock};
 use crate::contact::Force;
 use crate::polynomial::{MAX_ORDER, ROOM, rough_root};
 use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, difference, dot};
@@ -53,6 +57,18 @@ const SHORT_WHILE: f64 = 1e-3;
 /// missed, and the powers of the step overflow. The next series has a better scale.
 const FURTHEST: f64 = 1e9;
 
+/// Share of the time to a singularity that a series reaches in time where the singularity is what limits it.
+const NEAR: f64 = 0.35;
+
+/// x up to which a series is used by the clock of an entry, in times since the entry: 25 times as long after it.
+const FURTHEST_FROM_ENTRY: f64 = 8.0;
+
+/// What a step by a clock may add to the errors, in shares of other steps: fewer of them make an episode.
+const CLOCK_SHARE: f64 = 4.0;
+
+/// Share of the clock up to a release that a step may take: at its end the clock stands still.
+const LAST_SHARE: f64 = 0.9;
+
 impl Model {
     /// Works out the step in contact from the base until `limit` (s since the segment's start) or the next event.
     pub(super) fn plan_contact(&self, state: &mut State, limit: f64) {
@@ -86,34 +102,37 @@ impl Model {
         if reach < remaining / scale && self.expand_further(base, step, work, reach) {
             reach = self.accurate_reach(base, step, is_singular, remaining / scale);
         }
-        let whole = remaining / scale <= reach;
-        let end = if whole { remaining / scale } else { reach };
-        step.end.set(end, step.series.order);
+        if reach < remaining / scale && !is_near_rigid && !is_singular {
+            reach = self.reach_by_clock(base, step, &mut work.bend, reach);
+        }
+        let whole = step.series.place(remaining) <= reach;
+        let end = if whole { step.series.place(remaining) } else { reach };
+        step.end.set_by(&step.series.clock, end, step.series.order);
         step.closed.read(&step.end);
         let leaving = self.first_leaving(base, step, work);
         if let Some((x, _)) = leaving {
-            step.end.set(x, step.series.order);
+            step.end.set_by(&step.series.clock, x, step.series.order);
             step.closed.read(&step.end);
         }
         // Only an entry is looked for in the motion, and no further than to what ends the step anyway.
         step.series.evaluate(&step.end, &mut step.q, &mut step.v);
         let entry = self.first_entry(base, step, work);
         if let Some((x, _)) = entry {
-            step.end.set(x, step.series.order);
+            step.end.set_by(&step.series.clock, x, step.series.order);
             step.closed.read(&step.end);
             step.series.evaluate(&step.end, &mut step.q, &mut step.v);
         }
         let event = entry.or(leaving);
         step.event = event.map(|(_, event)| event);
         step.reaches_limit = whole && !cut && event.is_none();
-        step.length = if step.reaches_limit { remaining } else { step.end.x * scale };
+        step.length = if step.reaches_limit { remaining } else { step.series.time(step.end.x) };
         self.carry(base, &step.series, step.end.x, &mut work.scalar, &mut step.carried);
         for (reaction, &p) in step.reactions.iter().zip(&self.rigid.pairs) {
             if base.contacts[p].is_held() {
                 base.contacts[p].reaction = reaction[0];
             }
         }
-        base.last_length = reach * scale;
+        base.last_length = step.series.time(reach);
     }
 
     /// How long a step may be near rigid contacts, of the `remaining` time, s, and whether it is cut; or the release that
@@ -234,24 +253,40 @@ impl Model {
         });
     }
 
+    /// How far the series reach by a clock in which the nearest entry behind, or release before, is no singularity, from
+    /// how far they do in time.
+    fn reach_by_clock(&self, base: &Base, step: &mut Step, room: &mut Bend, reach: f64) -> f64 {
+        let is_behind = |(_, contact): &(usize, &Contact)| {
+            contact.phase == Phase::Engaged && !contact.branch().is_regular() && contact.episode.start < base.time()
+        };
+        let entries = touching(base).filter(is_behind).map(|(_, contact)| contact.episode.start);
+        let since = (base.time() - entries.fold(f64::NEG_INFINITY, f64::max)) / step.series.scale;
+        let release = step.closed.first_release(reach / NEAR);
+        let (bend, furthest) = match () {
+            // Reached or passed as it is, or in a scale far too long.
+            _ if release < reach || reach > FURTHEST_FROM_ENTRY * since || reach < 1.0 / FURTHEST => return reach,
+            _ if reach > NEAR * since => (0.25 / since, FURTHEST_FROM_ENTRY * since),
+            _ if release.is_finite() => (-0.25 / release, 2.0 * LAST_SHARE * release),
+            _ => return reach,
+        };
+        step.bend(Clock { bend }, room);
+        // A root of the root is left of a root law's force, which the impulse shows before the motion does.
+        let has_roots = touching(base).any(|(_, contact)| matches!(contact.branch(), Force::Root { .. }));
+        let share = if has_roots { 1.0 } else { CLOCK_SHARE };
+        let allowed = share * self.step_tolerance * base.velocity_scale * step.series.scale;
+        // What moves within x gives the velocity by the clock's rate there.
+        let reach = self.reach_of_terms(base, &step.series, allowed).min(furthest);
+        let rate = step.series.clock.rate(reach).min(1.0);
+        self.reach_of_terms(base, &step.series, rate * allowed).min(furthest)
+    }
+
     /// How far, in units of the series' scale, its last two terms stay below the tolerance.
     ///
     /// It is the velocity that is controlled: over a contact of a millisecond a displacement error is a velocity error
     /// a thousand times larger.
     fn accurate_reach(&self, base: &Base, step: &Step, is_singular: bool, whole: f64) -> f64 {
-        let (series, coordinates) = (&step.series, base.coordinates);
-        let allowed = self.step_tolerance * base.velocity_scale * series.scale;
-        let mut reach = f64::INFINITY;
-        for n in [series.order - 1, series.order] {
-            let term = n as f64 * self.worst_floor(coordinates, series.term(n));
-            if term > 0.0 {
-                reach = reach.min(match allowed {
-                    0.0 => self.reach_from_rest(coordinates, series, n, term),
-                    _ => rough_root(allowed / term, n - 1),
-                });
-            }
-        }
-        reach *= 0.9;
+        let series = &step.series;
+        let mut reach = self.reach_of_terms(base, series, self.step_tolerance * base.velocity_scale * series.scale);
         if !is_singular {
             return reach.min(FURTHEST);
         }
@@ -268,6 +303,21 @@ impl Model {
             reach = reach.min(self.forceless_reach(left_out, base, series, whole));
         }
         reach.min(FURTHEST)
+    }
+
+    /// How far the last two terms stay below what is `allowed`, m.
+    fn reach_of_terms(&self, base: &Base, series: &MotionSeries, allowed: f64) -> f64 {
+        let mut reach = f64::INFINITY;
+        for n in [series.order - 1, series.order] {
+            let term = n as f64 * self.worst_floor(base.coordinates, series.term(n));
+            if term > 0.0 {
+                reach = reach.min(match allowed {
+                    0.0 => self.reach_from_rest(base.coordinates, series, n, term),
+                    _ => rough_root(allowed / term, n - 1),
+                });
+            }
+        }
+        0.9 * reach
     }
 
     /// How far a last term stays below the tolerance where nothing has moved yet: relative to the velocity that any of

@@ -74,7 +74,7 @@ impl Model {
             StepKind::Contact => {
                 let series = &step.series;
                 self.integrate_series::<12>(base, series, TWELVE, (0.0, length), work, &mut done);
-                work.powers.set(length / series.scale, series.order);
+                work.powers.set(series.place(length), series.order);
                 series.evaluate(&work.powers, &mut work.q, &mut work.v);
             }
             StepKind::Onset => {
@@ -212,14 +212,14 @@ impl Model {
     ) {
         let is_plain = base.coordinates == Coordinates::Modes && work.force_slope.is_empty();
         if !is_plain || !self.structure.is_classical() {
-            let motion = |t: f64, _: &mut [f64], v: &mut [f64]| series.velocity(t / series.scale, v);
+            let motion = |t: f64, _: &mut [f64], v: &mut [f64]| series.velocity(series.place(t), v);
             return self.integrate(base, motion, gauss(rule, length), from, work, done);
         }
         let (mut times, mut weights) = ([0.0; N], [0.0; N]);
         for (i, (t, weight)) in gauss(rule, length).enumerate().take(N) {
             (times[i], weights[i]) = (t, weight);
         }
-        let x = times.map(|t| t / series.scale);
+        let x = times.map(|t| series.place(t));
         let (mut push, mut power) = ([0.0; N], [0.0; N]);
         for (m, (participation, c)) in self.structure.participation.iter().zip(&self.structure.damping).enumerate() {
             let v = series.velocities(m, &x);

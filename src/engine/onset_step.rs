@@ -17,7 +17,7 @@ use crate::quadrature::{TWELVE, graded};
 use crate::structure::{LANES, Structure, sum_sizes, sum_terms};
 
 /// Highest power of x of the double series: its cost grows with the square, its reach hardly.
-const HIGHEST: f64 = 10.0;
+const HIGHEST: f64 = 8.0;
 
 /// The double series of the motion and of all contacts.
 #[derive(Clone, Debug, Default)]

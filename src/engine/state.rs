@@ -10,6 +10,7 @@ use super::look::Look;
 use super::onset_step::OnsetSeries;
 use super::window::Window;
 use super::{Episode, Side};
+use crate::clock::{Bend, Clock};
 use crate::collocation::Room;
 use crate::contact::{EpisodeForce, Force};
 use crate::polynomial::{Coefficients, MAX_ORDER, Powers, ROOM};
@@ -208,7 +209,7 @@ pub(super) struct Step {
     /// N, reactions of the rigid pairs that are held together, one per rigid pair, and their highest power.
     pub reactions: Vec<Coefficients>,
     pub reaction_order: usize,
-    /// Of the end of a contact step, in units of the series' scale.
+    /// Of the end of a contact step.
     pub end: Powers,
     /// For the first step after an entry.
     pub onset: OnsetSeries,
@@ -219,6 +220,20 @@ pub(super) struct Step {
     /// Penetration and rate at the end of each contact of a flight that met nothing, none where they were not needed;
     /// empty otherwise.
     pub ends: Carried,
+}
+
+impl Step {
+    /// Makes all series in time such in the x of a clock; `bend` is room to work in.
+    pub fn bend(&mut self, clock: Clock, bend: &mut Bend) {
+        bend.set(&clock, self.series.order + 1);
+        self.series.bend(clock, bend);
+        self.closed.bend(bend);
+    }
+
+    /// The powers of a time, s, since the base, for a series in time.
+    pub fn set_powers(&self, elapsed: f64, powers: &mut Powers) {
+        powers.set_by(&self.series.clock, self.series.place(elapsed), self.series.order);
+    }
 }
 
 /// Penetration, m, and its rate, m/s, one per contact.
@@ -288,6 +303,7 @@ pub(super) struct Workspace {
     pub node_v: Vec<f64>,
     pub scalar: Coefficients,
     pub powers: Powers,
+    pub bend: Box<Bend>,
     pub rigid: Complementarity,
     pub look: Look,
     pub windows: Room,
@@ -311,6 +327,7 @@ impl Workspace {
             node_v: vector(),
             scalar: [0.0; ROOM],
             powers: Powers::default(),
+            bend: Box::default(),
             rigid: Complementarity::new(rigid),
             look: Look::new(lanes, pairs),
             windows: Room::new(windowed),

@@ -2,6 +2,7 @@
 
 use super::floors::Floors;
 use super::{LANES, Lane, Structure};
+use crate::clock::{Bend, Clock};
 use crate::contact::series::each;
 use crate::polynomial::{COUNT, Powers, ROOM};
 
@@ -46,12 +47,14 @@ pub trait PairForces {
     fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]);
 }
 
-/// q(x) = sum of term n times x^n with x = t / scale, of all modes or floors.
+/// q(x) = sum of term n times x^n, of all modes or floors, with x = t / scale or as a clock has it.
 #[derive(Clone, Debug, Default)]
 pub struct MotionSeries {
     lanes: usize,
     /// s, unit of x: near the length of the step, so that the terms tell the error and never overflow.
     pub scale: f64,
+    /// What x is the time by, in units of the scale.
+    pub clock: Clock,
     /// Highest power.
     pub order: usize,
     coefficients: Vec<f64>,
@@ -60,18 +63,46 @@ pub struct MotionSeries {
 impl MotionSeries {
     /// Room for powers up to `highest`.
     pub fn new(lanes: usize, highest: usize) -> MotionSeries {
-        MotionSeries { lanes, scale: 1.0, order: 0, coefficients: vec![0.0; lanes * (highest + 1)] }
+        MotionSeries {
+            lanes,
+            scale: 1.0,
+            clock: Clock::default(),
+            order: 0,
+            coefficients: vec![0.0; lanes * (highest + 1)],
+        }
     }
 
     /// Starts a series from a state.
     pub fn start(&mut self, scale: f64, q: &[f64], v: &[f64]) {
         self.scale = scale;
+        self.clock = Clock::default();
         self.order = 1;
         let (first, rest) = self.coefficients.split_at_mut(self.lanes);
         first.copy_from_slice(q);
         for (c, v) in rest.iter_mut().zip(v) {
             *c = v * scale;
         }
+    }
+
+    /// Makes a series in time one in the x of a clock.
+    pub fn bend(&mut self, clock: Clock, bend: &Bend) {
+        self.clock = clock;
+        bend.apply(&mut self.coefficients[..(self.order + 1) * self.lanes], self.lanes);
+    }
+
+    /// s at x.
+    pub fn time(&self, x: f64) -> f64 {
+        self.clock.time(x) * self.scale
+    }
+
+    /// dt/dx at x, s.
+    pub fn time_rate(&self, x: f64) -> f64 {
+        self.clock.rate(x) * self.scale
+    }
+
+    /// x at a time, s.
+    pub fn place(&self, time: f64) -> f64 {
+        self.clock.place(time / self.scale)
     }
 
     /// The coefficients of power `n`.
@@ -190,7 +221,7 @@ impl MotionSeries {
         let terms = (self.order + 1).min(ROOM);
         let (power, slope, _) = powers.all();
         let (q, v) = (&mut q[..self.lanes], &mut v[..self.lanes]);
-        let rate = 1.0 / self.scale;
+        let rate = 1.0 / self.time_rate(powers.x);
         sum_terms(&self.coefficients[..terms * self.lanes], (&power[..terms], &slope[..terms]), rate, q, v);
     }
 
@@ -211,7 +242,7 @@ impl MotionSeries {
     /// v alone at x.
     pub fn velocity(&self, x: f64, v: &mut [f64]) {
         let width = self.lanes / LANES;
-        let rate = 1.0 / self.scale;
+        let rate = 1.0 / self.time_rate(x);
         let (terms, _) = self.coefficients.as_chunks::<LANES>();
         let (v, _) = v.as_chunks_mut::<LANES>();
         for c in 0..width {
@@ -235,8 +266,7 @@ impl MotionSeries {
                 slope[i] = slope[i] * x[i] + term;
             }
         }
-        let rate = 1.0 / self.scale;
-        slope.map(|slope| slope * rate)
+        std::array::from_fn(|i| slope[i] * (1.0 / self.time_rate(x[i])))
     }
 }
 
@@ -378,6 +408,7 @@ fn expand_single_modes(
     (scale, order): (f64, usize),
 ) {
     series.scale = scale;
+    series.clock = Clock::default();
     series.order = order.max(3);
     let width = series.lanes / LANES;
     let scale2 = scale * scale;
