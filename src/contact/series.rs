@@ -220,15 +220,21 @@ impl PairBlock {
 
     /// Power n of linear forces, from the powers n and n + 1 of the penetrations.
     #[inline(always)]
-    pub fn linear_force(&self, n: usize, d: &Each, next: &Each) -> Each {
+    fn linear_force(&self, n: usize, d: &Each, next: &Each) -> Each {
         each(|i| self.stiffness[i] * d[i] + self.damping[i] * (COUNT[n + 1] * next[i]))
     }
 
-    /// Enters power n of linear forces and the power n + 2 of the penetrations that follows from it.
+    /// Stiffness and damping of linear forces.
+    pub fn linear_factors(&self) -> [&Each; 2] {
+        [&self.stiffness, &self.damping]
+    }
+
+    /// Enters power n of the first linear forces and the power n + 2 of the penetrations that follows from it.
     #[inline(always)]
-    pub fn enter_linear(&mut self, n: usize, force: Each, penetration: Each) {
+    pub fn enter_linear(&mut self, n: usize, force: &[f64], penetration: &[f64]) {
         if n + 2 < ROOM {
-            (self.force[n], self.penetration[n + 2]) = (force, penetration);
+            self.force[n][..force.len()].copy_from_slice(force);
+            self.penetration[n + 2][..penetration.len()].copy_from_slice(penetration);
             self.order = n;
         }
     }

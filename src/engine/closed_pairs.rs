@@ -18,7 +18,8 @@ pub(super) struct ClosedPairs {
     blocks: Vec<PairBlock>,
     members: Vec<Members>,
     readings: Vec<BlockReading>,
-    /// Whether a pair of the block has just entered: where its floors move alike, its penetration is rounding.
+    /// Whether a pair of the block has just entered without any speed: where its floors move alike, its penetration is
+    /// rounding.
     at_surface: Vec<bool>,
     /// Of each pair the earlier ones with which it shares a floor, so that each feels the other's force at once.
     neighbours: Vec<Vec<usize>>,
@@ -95,8 +96,9 @@ impl ClosedPairs {
             }
             let (b, lane) = self.places[p];
             self.blocks[b].add(lane, &force, scale, contact.penetration, contact.rate * scale);
-            self.at_surface[b] |= contact.at_surface;
-            self.waits |= contact.at_surface || self.neighbours[p].iter().any(|&q| is_closed(&base.contacts[q]));
+            let at_surface = contact.at_surface && contact.rate == 0.0;
+            self.at_surface[b] |= at_surface;
+            self.waits |= at_surface || self.neighbours[p].iter().any(|&q| is_closed(&base.contacts[q]));
         }
         assigned.next().is_none() && self.coordinates == base.coordinates
     }
@@ -121,12 +123,15 @@ impl ClosedPairs {
         self.assigned.iter().filter(|(_, kind)| *kind != Kind::None).count() as u64
     }
 
+    /// How many pairs there are, where they fit into one block and are under linear laws.
+    pub fn count_linear(&self) -> Option<usize> {
+        (self.used == 1 && self.blocks[0].is_linear()).then(|| self.blocks[0].count)
+    }
+
     /// The block of all pairs where they fit into one and are under linear laws: its members, whether one of them has just
-    /// entered, and whether the penetrations have to wait for all forces.
+    /// entered without any speed, and whether the penetrations have to wait for all forces.
     pub fn only_linear_block(&mut self) -> Option<(&mut PairBlock, &Members, bool, bool)> {
-        if self.used != 1 || !self.blocks[0].is_linear() {
-            return None;
-        }
+        self.count_linear()?;
         Some((&mut self.blocks[0], &self.members[0], self.at_surface[0], self.waits))
     }
 
@@ -283,7 +288,7 @@ impl<M: Meeting> PairForces for Acting<'_, M> {
 }
 
 impl<M: Meeting> Acting<'_, M> {
-    /// One after the other: pairs that share a floor, or have just entered.
+    /// One after the other: pairs that share a floor, or have just entered without any speed.
     fn act_in_turn(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
         self.push(n, factor, term);
         let closed = &mut *self.closed;

@@ -7,7 +7,7 @@
 //! Under a power law the last terms tell of the root of the time since the entry, or until the release: there the terms in
 //! time are turned into those by a [`Clock`] that knows no such root and goes several times as far.
 
-use super::closed_pairs::Acting;
+use super::closed_pairs::{Acting, ClosedPairs};
 use super::complementarity::Complementarity;
 use super::linear_pairs::LinearPairs;
 use super::meeting::{OnFewModes, OnFloors, OnModes};
@@ -15,6 +15,7 @@ use super::model::Model;
 use super::state::*;
 use crate::clock::{Bend, Clock};
 use crate::contact::Force;
+use crate::contact::series::PAIRS;
 use crate::polynomial::{MAX_ORDER, ROOM, rough_root};
 use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, difference, dot};
 
@@ -196,9 +197,7 @@ impl Model {
                 if base.q.len() > FEW_BLOCKS * LANES {
                     let mut forces = Acting { closed, meeting: OnModes(&self.pairs) };
                     series.expand_modes(&self.structure, order, loads, &mut forces);
-                } else if let Some(mut forces) = LinearPairs::of(closed, &self.pairs, 0) {
-                    series.expand_few_modes(&self.structure, order, loads, &mut forces);
-                } else {
+                } else if !self.expand_linear(series, closed, order, loads) {
                     let mut forces = Acting { closed, meeting: OnFewModes };
                     series.expand_few_modes(&self.structure, order, loads, &mut forces);
                 }
@@ -222,10 +221,35 @@ impl Model {
         if !is_on_few_modes || self.linear_order <= self.order || closed.are_some_nearly_released(reach) {
             return false;
         }
-        let Some(mut forces) = LinearPairs::of(closed, &self.pairs, series.order - 1) else { return false };
-        let loads = (&work.load[..], &work.slope[..]);
-        series.expand_few_modes(&self.structure, self.linear_order + 1, loads, &mut forces);
-        true
+        self.expand_linear(series, closed, self.linear_order + 1, (&work.load, &work.slope))
+    }
+
+    /// Expands a started series of few modes to `order`, or goes on with it, where all pairs are under linear laws;
+    /// whether they are.
+    fn expand_linear(
+        &self,
+        series: &mut MotionSeries,
+        closed: &mut ClosedPairs,
+        order: usize,
+        loads: (&[f64], &[f64]),
+    ) -> bool {
+        match closed.count_linear() {
+            None => false,
+            Some(1) => self.expand_linear_pairs::<1>(series, closed, order, loads),
+            Some(2) => self.expand_linear_pairs::<2>(series, closed, order, loads),
+            Some(_) => self.expand_linear_pairs::<PAIRS>(series, closed, order, loads),
+        }
+    }
+
+    fn expand_linear_pairs<const COUNT: usize>(
+        &self,
+        series: &mut MotionSeries,
+        closed: &mut ClosedPairs,
+        order: usize,
+        loads: (&[f64], &[f64]),
+    ) -> bool {
+        let forces = LinearPairs::<COUNT>::of(closed, &self.pairs, series.order - 1);
+        forces.map(|mut forces| series.expand_few_modes(&self.structure, order, loads, &mut forces)).is_some()
     }
 
     /// One power of the modes, where floors are held together.

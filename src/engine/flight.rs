@@ -33,9 +33,10 @@ impl Model {
             counters.flights_dismissed += 1;
             step.ends.resize(self.pairs.len(), None);
         } else if !self.certify(base, step, counters, work, segment) {
+            let is_over = step.ends.iter().flatten().any(|(penetration, _)| *penetration >= 0.0);
             step.ends.clear();
             let loads = (&work.load[..], &work.slope[..]);
-            if !self.swings_stay_apart((&base.q, &base.v), loads, remaining) {
+            if is_over || !self.swings_stay_apart((&base.q, &base.v), loads, remaining) {
                 self.look_closer(base, step, counters, work);
             }
         }

@@ -5,6 +5,7 @@
 //! control points and the bound stay on one side of 0 holds no root; a piece on which the slope keeps its sign holds
 //! at most one; any other piece is halved. So the first root is found, or there is none: nothing is sampled.
 
+use crate::contact::series::each;
 use crate::polynomial::{Coefficients, FOURTH, ROOM, Reading};
 use std::cell::Cell;
 
@@ -28,11 +29,43 @@ const MOST_DOUBLINGS: u32 = 12;
 const BLOCK: usize = 4;
 
 /// The terms of a polynomial, filled up with zeros to whole blocks.
+///
+/// With y = x^[`BLOCK`] it is P0(y) + x P1(y) + x^2 P2(y) + ..., which are evaluated abreast, each by Horner's rule.
 struct Terms {
-    /// The coefficients and, from the fourth power on, what they may add to the fourth derivative.
     all: Coefficients,
-    fourth: Coefficients,
     blocks: usize,
+}
+
+/// What a block of terms comes to.
+type Block = [f64; BLOCK];
+
+/// The powers of x up to y = x^[`BLOCK`].
+#[derive(Clone, Copy)]
+struct Place {
+    x: f64,
+    x2: f64,
+    x3: f64,
+    y: f64,
+}
+
+impl Place {
+    #[inline(always)]
+    fn at(x: f64) -> Place {
+        let x2 = x * x;
+        Place { x, x2, x3: x * x2, y: x2 * x2 }
+    }
+
+    /// P0 + x P1 + ...
+    #[inline(always)]
+    fn total(self, [a, b, c, d]: Block) -> f64 {
+        (a + c * self.x2) + (b * self.x + d * self.x3)
+    }
+
+    /// P1 + 2 x P2 + ...: the slope as far as y stays as it is.
+    #[inline(always)]
+    fn slope(self, [_, b, c, d]: Block) -> f64 {
+        (b + 3.0 * d * self.x2) + 2.0 * c * self.x
+    }
 }
 
 impl Terms {
@@ -44,67 +77,90 @@ impl Terms {
     }
 
     fn empty() -> Terms {
-        Terms { all: [0.0; ROOM], fourth: [0.0; ROOM], blocks: 0 }
+        Terms { all: [0.0; ROOM], blocks: 0 }
     }
 
-    /// Fills in what follows from the coefficients, of which there are `count`.
+    /// Fills up what follows on the coefficients, of which there are `count`.
     fn complete(&mut self, count: usize) {
         self.blocks = count.div_ceil(BLOCK).min(ROOM / BLOCK);
         self.all[count..self.blocks * BLOCK].fill(0.0);
-        let end = self.blocks * BLOCK;
-        for ((fourth, c), factor) in self.fourth[..end].iter_mut().zip(&self.all).zip(&FOURTH) {
-            *fourth = c.abs() * factor;
-        }
     }
 
-    fn blocks(&self) -> &[[f64; BLOCK]] {
+    #[inline(always)]
+    fn blocks(&self) -> &[Block] {
         &self.all.as_chunks::<BLOCK>().0[..self.blocks]
     }
 
-    /// A point of the curve, by Horner's rule.
+    /// A point of the curve.
     fn at(&self, x: f64) -> End {
-        let (value, slope) = self.value_and_slope(x);
-        let mut fourth = 0.0;
-        for block in self.fourth.as_chunks::<BLOCK>().0[..self.blocks].iter().skip(1).rev() {
-            for term in block.iter().rev() {
-                fourth = fourth * x + term;
-            }
-        }
-        End { x, value, slope, fourth }
+        point(self.blocks(), x)
     }
 
+    #[inline(always)]
     fn value(&self, x: f64) -> f64 {
-        self.blocks().as_flattened().iter().rev().fold(0.0, |sum, c| sum * x + c)
+        let at = Place::at(x);
+        let mut value = [0.0; BLOCK];
+        for block in self.blocks().iter().rev() {
+            value = each(|i| value[i] * at.y + block[i]);
+        }
+        at.total(value)
     }
 
+    #[inline(always)]
     fn value_and_slope(&self, x: f64) -> (f64, f64) {
-        let (mut value, mut slope) = (0.0, 0.0);
-        for block in self.blocks().iter().rev() {
-            for c in block.iter().rev() {
-                slope = slope * x + value;
-                value = value * x + c;
-            }
-        }
-        (value, slope)
+        value_and_slope(self.blocks(), Place::at(x))
     }
 
     /// Value, slope and curvature.
+    #[inline(always)]
     fn bend(&self, x: f64) -> (f64, f64, f64) {
-        let (mut value, mut slope, mut half) = (0.0, 0.0, 0.0);
+        let at = Place::at(x);
+        let (mut value, mut by_y, mut half) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
         for block in self.blocks().iter().rev() {
-            for c in block.iter().rev() {
-                half = half * x + slope;
-                slope = slope * x + value;
-                value = value * x + c;
-            }
+            half = each(|i| half[i] * at.y + by_y[i]);
+            by_y = each(|i| by_y[i] * at.y + value[i]);
+            value = each(|i| value[i] * at.y + block[i]);
         }
-        (value, slope, 2.0 * half)
+        // dy/dx = 4 x^3.
+        let rate = 4.0 * at.x3;
+        let bend_of_y = 12.0 * at.x2 * at.total(by_y) + 2.0 * (rate * rate) * at.total(half);
+        let own = 2.0 * value[2] + 6.0 * (value[3] * at.x);
+        let slope = at.slope(value) + rate * at.total(by_y);
+        (at.total(value), slope, own + 2.0 * rate * at.slope(by_y) + bend_of_y)
     }
 
     /// Sum of the sizes of all terms at x.
     fn size(&self, x: f64) -> f64 {
-        self.blocks().as_flattened().iter().rev().fold(0.0, |sum, c| sum * x + c.abs())
+        let at = Place::at(x);
+        let mut size = [0.0; BLOCK];
+        for block in self.blocks().iter().rev() {
+            size = each(|i| size[i] * at.y + block[i].abs());
+        }
+        at.total(size)
     }
+}
+
+#[inline(always)]
+fn value_and_slope(blocks: &[Block], at: Place) -> (f64, f64) {
+    let (mut value, mut by_y) = ([0.0; BLOCK], [0.0; BLOCK]);
+    for block in blocks.iter().rev() {
+        by_y = each(|i| by_y[i] * at.y + value[i]);
+        value = each(|i| value[i] * at.y + block[i]);
+    }
+    (at.total(value), at.slope(value) + 4.0 * at.x3 * at.total(by_y))
+}
+
+/// See [`Terms::at`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn point(blocks: &[Block], x: f64) -> End {
+    let at = Place::at(x);
+    let (value, slope) = value_and_slope(blocks, at);
+    let mut fourth = [0.0; BLOCK];
+    let factors = FOURTH.as_chunks::<BLOCK>().0;
+    for (block, factor) in blocks.iter().zip(factors).skip(1).rev() {
+        fourth = each(|i| fourth[i] * at.y + block[i].abs() * factor[i]);
+    }
+    End { x, value, slope, fourth: at.total(fourth) }
 }
 
 /// A polynomial with what is left out of account.
@@ -142,7 +198,7 @@ impl Curve<'_> {
     }
 
     fn start(&self) -> End {
-        End { x: 0.0, value: self.terms.all[0], slope: self.terms.all[1], fourth: self.terms.fourth[4] }
+        End { x: 0.0, value: self.terms.all[0], slope: self.terms.all[1], fourth: FOURTH[4] * self.terms.all[4].abs() }
     }
 
     /// Whether a piece may be halved once more.
@@ -178,7 +234,7 @@ impl Curve<'_> {
     /// The root between a point below 0 and one above, or the number just behind it: the curve is not below 0 there, so
     /// that two curves that are the same to the last bit have both passed at the root of either.
     fn root(&self, a: End, b: End) -> f64 {
-        let root = self.newton(a, b);
+        let root = newton(self.terms, a, b);
         let (mut x, mut further) = (root, f64::EPSILON * root);
         for _ in 0..MOST_DOUBLINGS {
             if self.terms.value(x) >= 0.0 {
@@ -188,40 +244,6 @@ impl Curve<'_> {
             further *= 2.0;
         }
         root
-    }
-
-    /// Newton, kept inside a shrinking bracket. The last step starts from a round number: so the root of a curve that is
-    /// steep there hardly depends on the way to it.
-    fn newton(&self, a: End, b: End) -> f64 {
-        let (mut low, mut high) = (a.x, b.x);
-        let mut x = root_of_cubic(a, b);
-        let mut is_round = false;
-        for _ in 0..100 {
-            let (f, slope) = self.terms.value_and_slope(x);
-            if f > 0.0 {
-                high = x;
-            } else {
-                low = x;
-            }
-            let step = f / slope;
-            if is_round && step.abs() <= NEXT_TO * x {
-                return (x - step).clamp(a.x, b.x);
-            }
-            let newton = x - step;
-            let mut next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if next == x || next <= low && low == x || high - low <= f64::EPSILON * high {
-                return next;
-            }
-            if is_round && (next - x).abs() <= 0.25 * f64::EPSILON * x {
-                return next;
-            }
-            if !is_round && step.abs() <= NEAR * x {
-                is_round = true;
-                next = round(next).clamp(a.x, b.x);
-            }
-            x = next;
-        }
-        x
     }
 
     /// Raises `best` = (x, value) to the largest value over a piece.
@@ -242,7 +264,7 @@ impl Curve<'_> {
         }
         if b.is_concave_from(a) {
             if a.slope > 0.0 && b.slope < 0.0 {
-                let (x, value) = self.top(a, b);
+                let (x, value) = top(self.terms, a, b);
                 if value > best.1 {
                     *best = (x, value);
                 }
@@ -253,31 +275,68 @@ impl Curve<'_> {
         self.maximum(a, middle, best);
         self.maximum(middle, b, best);
     }
+}
 
-    /// Where the slope of a concave piece passes 0, and the value there: Newton, kept inside a shrinking bracket.
-    fn top(&self, a: End, b: End) -> (f64, f64) {
-        let (mut low, mut high) = (a.x, b.x);
-        let mut x = top_of_cubic(a, b);
-        let mut top = (x, f64::NEG_INFINITY);
-        for _ in 0..60 {
-            let (value, slope, curvature) = self.terms.bend(x);
-            if slope > 0.0 {
-                low = x;
-            } else {
-                high = x;
-            }
-            let step = slope / curvature;
-            let newton = x - step;
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            top = (next, value - 0.5 * slope * step);
-            // The next step would be its square, and the value at the top is flat.
-            if step.abs() <= 1e-7 * (b.x - a.x) {
-                return if newton >= a.x && newton <= b.x { (newton, top.1) } else { (x, value) };
-            }
-            x = next;
+/// Newton, kept inside a shrinking bracket. The last step starts from a round number: so the root of a curve that is
+/// steep there hardly depends on the way to it. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn newton(terms: &Terms, a: End, b: End) -> f64 {
+    let (mut low, mut high) = (a.x, b.x);
+    let mut x = root_of_cubic(a, b);
+    let mut is_round = false;
+    for _ in 0..100 {
+        let (f, slope) = terms.value_and_slope(x);
+        if f > 0.0 {
+            high = x;
+        } else {
+            low = x;
         }
-        top
+        let step = f / slope;
+        if is_round && step.abs() <= NEXT_TO * x {
+            return (x - step).clamp(a.x, b.x);
+        }
+        let newton = x - step;
+        let mut next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        if next == x || next <= low && low == x || high - low <= f64::EPSILON * high {
+            return next;
+        }
+        if is_round && (next - x).abs() <= 0.25 * f64::EPSILON * x {
+            return next;
+        }
+        if !is_round && step.abs() <= NEAR * x {
+            is_round = true;
+            next = round(next).clamp(a.x, b.x);
+        }
+        x = next;
     }
+    x
+}
+
+/// Where the slope of a concave piece passes 0, and the value there: Newton, kept inside a shrinking bracket. Wide
+/// instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn top(terms: &Terms, a: End, b: End) -> (f64, f64) {
+    let (mut low, mut high) = (a.x, b.x);
+    let mut x = top_of_cubic(a, b);
+    let mut top = (x, f64::NEG_INFINITY);
+    for _ in 0..60 {
+        let (value, slope, curvature) = terms.bend(x);
+        if slope > 0.0 {
+            low = x;
+        } else {
+            high = x;
+        }
+        let step = slope / curvature;
+        let newton = x - step;
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        top = (next, value - 0.5 * slope * step);
+        // The next step would be its square, and the value at the top is flat.
+        if step.abs() <= 1e-7 * (b.x - a.x) {
+            return if newton >= a.x && newton <= b.x { (newton, top.1) } else { (x, value) };
+        }
+        x = next;
+    }
+    top
 }
 
 impl End {
@@ -465,7 +524,7 @@ mod tests {
         for k in 1..1000 {
             let mut curve = polynomial(1.0, &[1e-3 * f64::from(k), 1.1 + 1e-4 * f64::from(k), 1.7, -0.3]);
             let root = first_rise(&mut curve, 1.0, 0.0).unwrap();
-            let value = curve.iter().rev().fold(0.0, |sum, c| sum * root + c);
+            let value = Terms::of(&curve).value(root);
             assert!(value >= 0.0 && (root - 1e-3 * f64::from(k)).abs() < 1e-14, "{value} at {root}");
         }
     }

@@ -505,14 +505,26 @@ fn expand_floors<F: PairForces>(
 /// See [`MotionSeries::project`]: as [`difference`] has it, [`LANES`] powers abreast. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn project(terms: &[f64], row: &[f64], x: f64, out: &mut [f64]) -> f64 {
-    let row = row.as_chunks::<LANES>().0;
+    let (terms, row) = (terms.as_chunks::<LANES>().0, row.as_chunks::<LANES>().0);
+    match row.len() {
+        1 => project_blocks::<1>(terms, row, x, out),
+        2 => project_blocks::<2>(terms, row, x, out),
+        3 => project_blocks::<3>(terms, row, x, out),
+        _ => project_blocks::<0>(terms, row, x, out),
+    }
+}
+
+/// The same for `N` blocks of modes, or any number of them where that is 0.
+#[inline(always)]
+fn project_blocks<const N: usize>(terms: &[Lane], row: &[Lane], x: f64, out: &mut [f64]) -> f64 {
+    let width = if N > 0 { N } else { row.len() };
+    let row = &row[..width];
     let (mut whole, mut power) = (0.0, 1.0);
-    for (out, terms) in out.chunks_mut(LANES).zip(terms.chunks(LANES * LANES * row.len())) {
+    for (out, terms) in out.chunks_mut(LANES).zip(terms.chunks(LANES * width)) {
         let (mut sums, mut sizes) = ([[0.0; LANES]; LANES], [[0.0; LANES]; LANES]);
-        let powers = terms.as_chunks::<LANES>().0.chunks_exact(row.len());
-        for ((term, sum), size) in powers.zip(&mut sums).zip(&mut sizes) {
-            for (row, q) in row.iter().zip(term) {
-                let product = each(|i| row[i] * q[i]);
+        for ((term, sum), size) in terms.chunks_exact(width).zip(&mut sums).zip(&mut sizes) {
+            for c in 0..width {
+                let product = each(|i| row[c][i] * term[c][i]);
                 *sum = each(|i| sum[i] + product[i]);
                 *size = each(|i| size[i] + product[i].abs());
             }
