@@ -67,13 +67,13 @@ fn whole_runs_have_the_bits_of_every_other_machine() {
         (case("law = \"linear\"\nstiffness = 2.0e8", RATIO), 0xa946_684d_7b14_279b),
         (case("law = \"kelvin_voigt\"\nstiffness = 2.0e8\nrestitution = 0.6", RAYLEIGH), 0x240c_578c_c404_9a92),
         (case("law = \"kelvin_voigt_no_tension\"\nstiffness = 2.0e8\nrestitution = 0.6", RATIO), 0xa02d_2311_9a67_0198),
-        (case("law = \"hertz\"\nstiffness = 2.0e9", RATIO), 0x2035_7a4b_cc54_72f7),
-        (case("law = \"hertz\"\nstiffness = 2.0e9\nexponent = 1.7", RATIO), 0x4b1a_70ff_7400_f968),
-        (case(JANKOWSKI, RATIO), 0xa08a_c864_00c2_6623),
-        (case(DAMPED, MATRIX), 0x72c9_28ae_a2fc_7a98),
-        (Case { storeys: 9, energy: false, ..case(JANKOWSKI, RAYLEIGH) }, 0x2c1a_131a_873a_c026),
-        (Case { storeys: 9, ..case(DAMPED, RAYLEIGH) }, 0xd8df_e0b2_3fd2_90bc),
-        (Case { energy: false, ..case(DAMPED, RATIO) }, 0x134a_ffa0_2809_9855),
+        (case("law = \"hertz\"\nstiffness = 2.0e9", RATIO), 0xdecf_aefb_35cf_786f),
+        (case("law = \"hertz\"\nstiffness = 2.0e9\nexponent = 1.7", RATIO), 0xcbb7_c699_304b_bd09),
+        (case(JANKOWSKI, RATIO), 0xd68f_fd27_7823_65cd),
+        (case(DAMPED, MATRIX), 0xc0e8_8fac_cc65_5d8f),
+        (Case { storeys: 9, energy: false, ..case(JANKOWSKI, RAYLEIGH) }, 0xfc62_e3b7_abf8_7719),
+        (Case { storeys: 9, ..case(DAMPED, RAYLEIGH) }, 0x5107_dac0_5f3e_9750),
+        (Case { energy: false, ..case(DAMPED, RATIO) }, 0xec42_51c2_7f78_ced8),
     ];
     let got = cases.each_ref().map(|(case, _)| fingerprint(case));
     let expected = cases.map(|(_, expected)| expected);

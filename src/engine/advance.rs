@@ -106,6 +106,7 @@ impl Model {
         let State { base, step, counters, work, .. } = state;
         let start = base.time();
         self.follow(&mut base.contacts, step, start);
+        base.contacts.iter_mut().filter(|contact| contact.in_contact()).for_each(|contact| contact.age += step.length);
         std::mem::swap(&mut base.q, &mut step.q);
         std::mem::swap(&mut base.v, &mut step.v);
         base.elapsed = end;

@@ -281,10 +281,10 @@ impl Model {
     /// how far they do in time.
     fn reach_by_clock(&self, base: &Base, step: &mut Step, room: &mut Bend, reach: f64) -> f64 {
         let is_behind = |(_, contact): &(usize, &Contact)| {
-            contact.phase == Phase::Engaged && !contact.branch().is_regular() && contact.episode.start < base.time()
+            contact.phase == Phase::Engaged && !contact.branch().is_regular() && contact.age > 0.0
         };
-        let entries = touching(base).filter(is_behind).map(|(_, contact)| contact.episode.start);
-        let since = (base.time() - entries.fold(f64::NEG_INFINITY, f64::max)) / step.series.scale;
+        let ages = touching(base).filter(is_behind).map(|(_, contact)| contact.age);
+        let since = ages.fold(f64::INFINITY, f64::min) / step.series.scale;
         let release = step.closed.first_release(reach / NEAR);
         let (bend, furthest) = match () {
             // Reached or passed as it is, or in a scale far too long.

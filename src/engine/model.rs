@@ -343,6 +343,7 @@ impl Pair {
             peak_force: 0.0,
             episode: Episode { contact: index, ..Episode::default() },
             work_before: 0.0,
+            age: 0.0,
         };
         if self.law.is_rigid() {
             // Overlaps by rounding at most: the scene is refused otherwise.
@@ -362,7 +363,7 @@ impl Contact {
         self.impacts += 1;
         self.phase = if self.force.is_engaged(self.penetration, self.rate) { Phase::Engaged } else { Phase::Slack };
         self.stored_reference = self.branch().stored_energy(self.penetration);
-        self.work_before = self.work;
+        (self.work_before, self.age) = (self.work, 0.0);
         let force = self.present_force();
         self.peak_force = self.peak_force.max(force);
         self.episode = Episode {

@@ -133,7 +133,7 @@ impl Model {
                 Phase::Held => pair.law.is_rigid(),
                 Phase::Engaged | Phase::Slack => !pair.law.is_rigid(),
             };
-            let is_known = contact.episode.contact == p && contact.impacts <= MOST_COUNTED;
+            let is_known = contact.episode.contact == p && contact.impacts <= MOST_COUNTED && contact.age >= 0.0;
             if !(fits && is_known && (is_law(None) || is_law(Some(approach)))) {
                 return Err(impossible(&format!("contact[{}] is in no state that its law has", p + 1)));
             }
@@ -219,8 +219,9 @@ impl Contact {
             peak_force,
             episode,
             work_before,
+            age,
         } = self;
-        let so_far = [penetration, rate, reaction, impulse, work, stored_reference, peak_force, work_before];
+        let so_far = [penetration, rate, reaction, impulse, work, stored_reference, peak_force, work_before, age];
         so_far.into_iter().chain(episode.numbers())
     }
 }

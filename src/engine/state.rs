@@ -146,6 +146,8 @@ pub(super) struct Contact {
     pub episode: Episode,
     /// J, `work` when the latest episode began.
     pub work_before: f64,
+    /// s that the latest episode has lasted: added up step by step, whereas times lose digits far from 0.
+    pub age: f64,
 }
 
 impl Contact {

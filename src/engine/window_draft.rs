@@ -86,7 +86,7 @@ impl Model {
             let prospect = windows.springs[p]?.prospect(d, contact.rate, stored)?;
             window.equation.omega[place] = 1.0 / prospect.unit;
             let is_root = matches!(force, Force::Root { .. });
-            let since = if contact.penetration > 0.0 { base.time() - contact.episode.start } else { 0.0 };
+            let since = if contact.penetration > 0.0 { contact.age } else { 0.0 };
             let is_fresh = since < FRESH * prospect.unit;
             longest = longest.min(windows.patience * longest_window(&force, is_fresh) * prospect.unit);
             if is_fresh && is_root && since > 0.0 {
