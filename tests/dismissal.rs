@@ -178,6 +178,26 @@ fn a_body_that_turns_round_just_beyond_the_gap_is_not_dismissed() {
     }
 }
 
+/// A body that swings once from each sample to the next stands still at all of them: their motion tells nothing of what is
+/// in between, where it meets one that comes slowly nearer.
+#[test]
+fn a_swing_between_two_samples_is_seen() {
+    let (swing, gap, speed, quickness) = (0.01, 0.05, 0.1, 2.0 * PI / STEP);
+    let mut scene = oscillator([quickness * quickness, 1e-20], 0.0, gap);
+    scene.left.initial_displacement = vec![-swing];
+    scene.right.initial_velocity = vec![-speed];
+    let overlap = |time: f64| -swing * (quickness * time).cos() - gap + speed * time;
+    let top = (0..).map(|k| (f64::from(k) + 0.5) * STEP).find(|top| overlap(*top) > 0.0).unwrap();
+    let (mut apart, mut together) = (top - 0.5 * STEP, top);
+    for _ in 0..60 {
+        let middle = 0.5 * (apart + together);
+        if overlap(middle) > 0.0 { together = middle } else { apart = middle }
+    }
+    assert!(top > 20.0 * STEP);
+    let (start, _) = entry(&scene, &record(STEP, &[0.0; 200]), 1.0);
+    assert_close(start, apart, 1e-11, "entry");
+}
+
 #[test]
 fn a_graze_is_not_dismissed() {
     // 0.5 m/s and 7 rad/s: it reaches 1/14 m, at many places of the segment.
