@@ -170,6 +170,17 @@ fn total(block: [f64; BLOCK]) -> f64 {
     (block[0] + block[2]) + (block[1] + block[3])
 }
 
+/// As many numbers side by side as wide instructions take: unlike `std::array::from_fn` it always becomes one of these after
+/// the other.
+#[inline(always)]
+pub fn each(of: impl Fn(usize) -> f64) -> [f64; BLOCK] {
+    let mut all = [0.0; BLOCK];
+    for (i, one) in all.iter_mut().enumerate() {
+        *one = of(i);
+    }
+    all
+}
+
 /// Value and slope of a polynomial at x.
 pub fn value_and_slope(coefficients: &[f64], x: f64) -> (f64, f64) {
     coefficients.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * x + c, slope * x + value))

@@ -13,7 +13,8 @@
 //! ```
 
 use super::force::{Force, power};
-use super::series::{Each, Kind, PAIRS, ROOT, each};
+use super::series::{Each, Kind, PAIRS, ROOT};
+use crate::polynomial::each;
 
 /// Most terms of a double series.
 pub const MOST_TERMS: usize = 64;

@@ -3,7 +3,7 @@
 
 use super::force::{Force, power};
 use crate::clock::{Bend, Clock};
-use crate::polynomial::{COUNT, Coefficients, Powers, RECIPROCAL, ROOM, Reading};
+use crate::polynomial::{COUNT, Coefficients, Powers, RECIPROCAL, ROOM, Reading, each};
 use crate::quadrature::TWELVE_POINTS;
 
 /// Pairs that are worked on together: as many as today's machines take in one instruction.
@@ -478,16 +478,6 @@ fn squared_slope(terms: &[Each], lane: usize, clock: &Clock, x: f64) -> f64 {
         }
     }
     x * ((sum[0] + sum[2]) + (sum[1] + sum[3]))
-}
-
-/// A number for each pair: unlike `std::array::from_fn` it always becomes one wide instruction after the other.
-#[inline(always)]
-pub fn each(of: impl Fn(usize) -> f64) -> Each {
-    let mut all = [0.0; PAIRS];
-    for (i, one) in all.iter_mut().enumerate() {
-        *one = of(i);
-    }
-    all
 }
 
 /// sum += a b.

@@ -7,8 +7,8 @@ use super::roots;
 use super::state::*;
 use crate::clock::Bend;
 use crate::contact::Force;
-use crate::contact::series::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock, each};
-use crate::polynomial::{Coefficients, Powers, Reading};
+use crate::contact::series::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
+use crate::polynomial::{Coefficients, Powers, Reading, each};
 use crate::structure::{Lane, MotionSeries, PairForces};
 
 /// The pairs in contact, in blocks of one kind of law each.

@@ -25,7 +25,7 @@
 use super::ground::GroundMotion;
 use super::model::{Model, Pair};
 use super::state::*;
-use crate::contact::series::each;
+use crate::polynomial::each;
 use crate::structure::{LANES, Lane, ModalDamping, Side, Structure};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;

@@ -7,7 +7,7 @@ use super::drift::DriftShapes;
 use super::glide::Sight;
 use super::model::{Model, Pair};
 use super::state::{Base, Counters};
-use crate::contact::series::each;
+use crate::polynomial::each;
 use crate::structure::{LANES, Lane, Side, Structure};
 use std::ops::Range;
 

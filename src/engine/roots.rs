@@ -5,8 +5,7 @@
 //! control points and the bound stay on one side of 0 holds no root; a piece on which the slope keeps its sign holds
 //! at most one; any other piece is halved. So the first root is found, or there is none: nothing is sampled.
 
-use crate::contact::series::each;
-use crate::polynomial::{Coefficients, FOURTH, ROOM, Reading};
+use crate::polynomial::{Coefficients, FOURTH, ROOM, Reading, each};
 use std::cell::Cell;
 
 /// Pieces are not halved below this fraction of the step: two roots closer than this are one touch without duration.

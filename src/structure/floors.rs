@@ -11,6 +11,7 @@
 
 use super::modes::{Modes, rayleigh_factors};
 use super::{FEW_BLOCKS, LANES, Lane, ModalDamping};
+use crate::polynomial::each;
 use crate::scene::{Building, Damping, Stiffness};
 use std::ops::Range;
 
@@ -226,16 +227,6 @@ impl Floors {
     pub fn mass(&self) -> &[f64] {
         &self.mass
     }
-}
-
-/// A number for each lane: unlike `std::array::from_fn` it always becomes one wide instruction after the other.
-#[inline(always)]
-fn each(of: impl Fn(usize) -> f64) -> Lane {
-    let mut all = [0.0; LANES];
-    for (i, one) in all.iter_mut().enumerate() {
-        *one = of(i);
-    }
-    all
 }
 
 #[cfg(test)]

@@ -3,8 +3,7 @@
 use super::floors::Floors;
 use super::{LANES, Lane, Structure};
 use crate::clock::{Bend, Clock};
-use crate::contact::series::each;
-use crate::polynomial::{COUNT, Powers, ROOM};
+use crate::polynomial::{COUNT, Powers, ROOM, each};
 
 /// Powers that a series may have.
 const MOST_POWERS: usize = 40;
