@@ -10,7 +10,7 @@
 //! the entry a time a ago is no singularity in x, nor, with a < 0, is the release after a time of -a. The terms of a
 //! series in x follow from those in t without any more of the motion: the first n in x from the first n in t.
 
-use crate::polynomial::ROOM;
+use crate::polynomial::{COUNT, Coefficients, RECIPROCAL, ROOM};
 
 /// Lanes that are worked on together.
 const LANES: usize = 4;
@@ -41,6 +41,22 @@ const BINOMIAL: [Weights; ROOM] = {
     table
 };
 
+/// n-th of these: (n over j).
+const CHOOSE: [Weights; ROOM] = {
+    let mut table = [[0.0; ROOM / 2 + 1]; ROOM];
+    let mut n = 0;
+    while n < ROOM {
+        table[n][0] = 1.0;
+        let mut j = 1;
+        while j <= n && j <= ROOM / 2 {
+            table[n][j] = table[n - 1][j - 1] + table[n - 1][j];
+            j += 1;
+        }
+        n += 1;
+    }
+    table
+};
+
 impl Clock {
     /// Whether x is not the time.
     pub fn is_bent(&self) -> bool {
@@ -60,6 +76,39 @@ impl Clock {
     /// x at a time; where the clock does not reach it, one beyond all that it reaches.
     pub fn place(&self, time: f64) -> f64 {
         2.0 * time / (1.0 + (1.0 + 4.0 * self.bend * time).max(0.0).sqrt())
+    }
+
+    /// What the terms of a series in time, up to a `highest`, are multiplied by to make the value at x of its series in x with
+    /// as many terms, what to make the value there of the series of its rate, and what those of a series with two terms less
+    /// to make its integral over time. The rate needs no division by that of the clock, which may stand still there.
+    pub fn weigh(&self, x: f64, highest: usize, [value, rate, integral]: [&mut Coefficients; 3]) {
+        let (y, stretch) = (self.bend * x, 1.0 + self.bend * x);
+        (value[0], rate[0]) = (1.0, 0.0);
+        // The power of x, and what of (1 + y)^n is left where the series in x ends: all of it or its first terms.
+        let (mut power, mut whole) = (1.0, 1.0);
+        for n in 1..=highest {
+            let left = highest - n;
+            let mut sums = [whole * stretch, whole, whole * stretch];
+            if n >= left {
+                sums = truncated([&CHOOSE[n], &CHOOSE[n - 1]], y, left);
+            }
+            rate[n] = COUNT[n] * (power * sums[1]);
+            power *= x;
+            whole *= stretch;
+            value[n] = power * sums[0];
+            integral[n - 1] = RECIPROCAL[n - 1] * (power * sums[2]);
+        }
+    }
+
+    /// What the terms of a series in time are multiplied by to make one term in x of its rate.
+    pub fn weigh_rate_term(&self, power: usize, factors: &mut Coefficients) {
+        let mut bend = 1.0;
+        factors[..=power + 1].fill(0.0);
+        for (j, binomial) in BINOMIAL[power].iter().enumerate().take(power / 2 + 1) {
+            let n = power - j + 1;
+            factors[n] = n as f64 * (binomial * bend);
+            bend *= self.bend;
+        }
     }
 }
 
@@ -88,9 +137,16 @@ impl Bend {
         }
     }
 
-    /// Changes the terms of some series, `lanes` of them side by side.
-    pub fn apply(&self, terms: &mut [f64], lanes: usize) {
-        bend_terms(terms.as_chunks_mut::<LANES>().0, lanes / LANES, &self.weights);
+    /// Changes the terms of series that stand side by side, `width` blocks of [`LANES`] of them.
+    pub fn apply(&self, terms: &mut [[f64; LANES]], width: usize) {
+        bend_terms(terms, width, &self.weights);
+    }
+
+    /// Changes the terms of one series.
+    pub fn apply_to_one(&self, terms: &mut [f64]) {
+        for m in (2..terms.len()).rev() {
+            terms[m] += (1..=m / 2).map(|j| self.weights[m][j] * terms[m - j]).sum::<f64>();
+        }
     }
 
     /// The same for two series of [`LANES`] lanes each, with no more than so many terms.
@@ -99,20 +155,32 @@ impl Bend {
     }
 }
 
+/// Two polynomials in y up to the power `last`, and the first of them without that power.
+#[inline(always)]
+fn truncated([first, second]: [&Weights; 2], y: f64, last: usize) -> [f64; 3] {
+    let mut sums = [first[last], second[last], 0.0];
+    for (first, second) in first[..last].iter().zip(&second[..last]).rev() {
+        sums = [sums[0] * y + first, sums[1] * y + second, sums[2] * y + first];
+    }
+    sums
+}
+
 /// See [`Bend::apply_to_both`]. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn bend_both(terms: [&mut [[f64; LANES]; ROOM]; 2], weights: &[Weights; ROOM], count: usize) {
     let [first, second] = terms;
-    for m in (2..count.min(ROOM)).rev() {
-        let (mut sum, mut other) = (first[m], second[m]);
-        for j in 1..=m / 2 {
-            let weight = weights[m][j];
+    for (m, weights) in weights[..count.min(ROOM)].iter().enumerate().skip(2).rev() {
+        let ((known, own), (others, other)) = (first.split_at_mut(m), second.split_at_mut(m));
+        let (mut sum, mut other_sum) = (own[0], other[0]);
+        // From the newest term back.
+        let rows = known[m - m / 2..].iter().zip(&others[m - m / 2..]).rev();
+        for ((term, other), weight) in rows.zip(&weights[1..=m / 2]) {
             for i in 0..LANES {
-                sum[i] += weight * first[m - j][i];
-                other[i] += weight * second[m - j][i];
+                sum[i] += weight * term[i];
+                other_sum[i] += weight * other[i];
             }
         }
-        (first[m], second[m]) = (sum, other);
+        (own[0], other[0]) = (sum, other_sum);
     }
 }
 
@@ -122,16 +190,30 @@ fn bend_terms(terms: &mut [[f64; LANES]], width: usize, weights: &[Weights]) {
     let mut first = 0;
     while first < width {
         first += match width - first {
+            1 if width == 1 => bend_block(terms, weights),
             1 => bend_blocks::<1>(terms, (first, width), weights),
             2 => bend_blocks::<2>(terms, (first, width), weights),
             3 => bend_blocks::<3>(terms, (first, width), weights),
-            5 => bend_blocks::<5>(terms, (first, width), weights),
             4 => bend_blocks::<4>(terms, (first, width), weights),
-            6 => bend_blocks::<6>(terms, (first, width), weights),
-            7 => bend_blocks::<7>(terms, (first, width), weights),
-            _ => bend_blocks::<8>(terms, (first, width), weights),
+            _ => bend_blocks::<5>(terms, (first, width), weights),
         };
     }
+}
+
+/// The same for a block alone: returns 1.
+#[inline(always)]
+fn bend_block(terms: &mut [[f64; LANES]], weights: &[Weights]) -> usize {
+    for (m, weights) in weights[..terms.len()].iter().enumerate().skip(2).rev() {
+        let (known, own) = terms.split_at_mut(m);
+        let mut sum = own[0];
+        for (row, weight) in known[m - m / 2..].iter().rev().zip(&weights[1..=m / 2]) {
+            for i in 0..LANES {
+                sum[i] += weight * row[i];
+            }
+        }
+        own[0] = sum;
+    }
+    1
 }
 
 /// The same for `N` blocks of lanes, from the `first` of each row on; returns how many that are.
@@ -195,7 +277,7 @@ mod tests {
         let clock = Clock { bend: 0.25 };
         let mut bend = Bend::default();
         bend.set(&clock, LENGTH);
-        bend.apply(&mut terms, LANES);
+        bend.apply(terms.as_chunks_mut::<LANES>().0, 1);
         for i in 0..LANES {
             let terms: Vec<f64> = terms.chunks_exact(LANES).map(|row| row[i]).collect();
             for x in [0.5, 2.0, 4.0] {
@@ -204,6 +286,52 @@ mod tests {
                 assert!((value - exact).abs() < 1e-12 * exact.abs(), "{value} instead of {exact} at {x}");
             }
             assert!(terms[8..].iter().all(|term| term.abs() < 1e-11), "{terms:?}");
+        }
+    }
+
+    /// Terms of (1 + sign t)^3.5 + t, whose series in the x of a clock that ends, or begins, where that is 0 is short.
+    fn root_terms(sign: f64) -> Coefficients {
+        let (mut terms, mut term) = ([0.0; ROOM], 1.0);
+        for (n, slot) in terms.iter_mut().enumerate() {
+            *slot = term + f64::from(n == 1);
+            term *= sign * (3.5 - n as f64) / (n + 1) as f64;
+        }
+        terms
+    }
+
+    #[test]
+    fn terms_in_time_tell_value_rate_and_integral_by_a_clock_even_where_it_stands_still() {
+        const HIGHEST: usize = 17;
+        for (sign, places) in [(1.0, [0.5, 2.0, 4.0]), (-1.0, [0.5, 1.7, 2.0])] {
+            let (clock, terms) = (Clock { bend: 0.25 * sign }, root_terms(sign));
+            for x in places {
+                let mut factors = [[0.0; ROOM]; 3];
+                clock.weigh(x, HIGHEST, factors.each_mut());
+                let sum = |k: usize, last: usize| (0..=last).map(|n| terms[n] * factors[k][n]).sum::<f64>();
+                let t = clock.time(x);
+                let root = (1.0 + sign * t).max(0.0);
+                let value = libm::pow(root, 3.5) + t;
+                let rate = sign * 3.5 * libm::pow(root, 2.5) + 1.0;
+                let integral = sign * (libm::pow(root, 4.5) - 1.0) / 4.5 + 0.5 * t * t;
+                for (got, exact) in [(sum(0, HIGHEST), value), (sum(1, HIGHEST), rate), (sum(2, HIGHEST - 2), integral)]
+                {
+                    assert!((got - exact).abs() < 1e-11 * exact.abs().max(1.0), "{sign} at {x}: {got}, not {exact}");
+                }
+            }
+        }
+    }
+
+    /// 3.5 (1 + t)^2.5 is 3.5 (1 + x/2)^5.
+    #[test]
+    fn a_term_of_a_rate_follows_from_terms_in_time() {
+        let (clock, terms) = (Clock { bend: 0.25 }, root_terms(1.0));
+        for (power, exact) in
+            [(0, 3.5 + 1.0), (1, 3.5 * 2.5), (4, 3.5 * 5.0 / 16.0), (5, 3.5 / 32.0), (6, 0.0), (15, 0.0)]
+        {
+            let mut factors = [0.0; ROOM];
+            clock.weigh_rate_term(power, &mut factors);
+            let term: f64 = terms.iter().zip(&factors).map(|(term, factor)| term * factor).sum();
+            assert!((term - exact).abs() < 1e-12, "{power}: {term}, not {exact}");
         }
     }
 }

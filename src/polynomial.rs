@@ -15,6 +15,9 @@ const BLOCK: usize = 4;
 /// The coefficients of a polynomial; 0 or at least finite beyond its highest power.
 pub type Coefficients = [f64; ROOM];
 
+/// The powers of 1.
+pub const ALL: Coefficients = [1.0; ROOM];
+
 /// 0, 1, 2, ...
 pub const COUNT: Coefficients = {
     let mut table = [0.0; ROOM];
@@ -64,6 +67,8 @@ pub const RECIPROCAL: [f64; ROOM + 1] = {
 pub struct Powers {
     /// x.
     pub x: f64,
+    /// The highest.
+    highest: usize,
     /// Blocks that hold powers up to the highest.
     blocks: usize,
     /// x^n, 0 beyond the highest.
@@ -74,11 +79,25 @@ pub struct Powers {
     fourth: Coefficients,
     /// How much faster time passes at the x than at 0.
     stretch: f64,
+    /// Of the terms of a series in time, where x is that of a clock that is bent: see [`Clock::weigh`].
+    by_clock: [Coefficients; 3],
+    /// Whether it is.
+    is_bent: bool,
 }
 
 impl Default for Powers {
     fn default() -> Powers {
-        Powers { x: 0.0, blocks: 1, value: [0.0; ROOM], slope: [0.0; ROOM], fourth: [0.0; ROOM], stretch: 0.0 }
+        Powers {
+            x: 0.0,
+            highest: 0,
+            blocks: 1,
+            value: [0.0; ROOM],
+            slope: [0.0; ROOM],
+            fourth: [0.0; ROOM],
+            stretch: 0.0,
+            by_clock: [[0.0; ROOM]; 3],
+            is_bent: false,
+        }
     }
 }
 
@@ -97,7 +116,8 @@ impl Powers {
     /// Tables for x >= 0 and polynomials with powers up to `highest`.
     pub fn set(&mut self, x: f64, highest: usize) {
         let highest = highest.min(ROOM - 1);
-        (self.x, self.stretch) = (x, 0.0);
+        self.highest = highest;
+        (self.x, self.stretch, self.is_bent) = (x, 0.0, false);
         self.blocks = highest / BLOCK + 1;
         let square = x * x;
         let mut last = [1.0, x];
@@ -118,15 +138,37 @@ impl Powers {
         }
     }
 
-    /// The same for polynomials in the x of a clock, of use for integrals over time.
+    /// The same for polynomials in the x of a clock.
     pub fn set_by(&mut self, clock: &Clock, x: f64, highest: usize) {
         self.set(x, highest);
         self.stretch = 2.0 * clock.bend * x;
+        self.is_bent = clock.is_bent();
+    }
+
+    /// Goes on to what polynomials in time need.
+    pub fn set_in_time(&mut self, clock: &Clock) {
+        if self.is_bent {
+            return clock.weigh(self.x, self.highest, self.by_clock.each_mut());
+        }
+        let [.., integral] = &mut self.by_clock;
+        let factors = integral.iter_mut().zip(&self.value).zip(&RECIPROCAL).take(self.highest);
+        factors.for_each(|((factor, value), reciprocal)| *factor = reciprocal * (self.x * value));
+    }
+
+    /// What the terms of a polynomial in time are multiplied by for its value and for its rate, once set.
+    pub fn in_time(&self) -> (&Coefficients, &Coefficients) {
+        let [value, rate, _] = &self.by_clock;
+        if self.is_bent { (value, rate) } else { (&self.value, &self.slope) }
     }
 
     /// How much faster time passes at the x than at 0, by the clock.
     pub fn stretch(&self) -> f64 {
         self.stretch
+    }
+
+    /// What the terms of a polynomial in time, of two powers less than the highest, are multiplied by for its integral, once set.
+    pub fn integral_in_time(&self) -> &Coefficients {
+        &self.by_clock[2]
     }
 
     /// x^n, n x^(n-1) and n (n-1) (n-2) (n-3) x^(n-4) for n from 0 on.

@@ -118,12 +118,13 @@ fn a_free_impact_on_a_spring_takes_one_series() {
 
 #[test]
 fn an_entry_beside_another_contact_takes_no_more_steps() {
-    // Measured: 5.6, 4.0 and 5.7 for each event; 6.0, 4.3 and 5.9 where a window that has passed an event is not tried
-    // again up to it. An entry that cannot use its own series takes some forty steps more.
+    // Measured: 5.5, 5.0 and 7.3 for each event; 5.7, 5.3 and 7.5 where a window that has passed an event is not tried
+    // again up to it. Two pairs with dashpots are followed by series, in more steps that cost less. An entry that cannot
+    // use its own series takes some forty steps more.
     let laws = [
-        ("hertz", "", 5.8),
-        ("jankowski", "restitution = 0.65", 4.1),
-        ("hertz_damped", "restitution = 0.65\ndamping_formula = \"ye\"", 5.8),
+        ("hertz", "", 5.6),
+        ("jankowski", "restitution = 0.65", 5.1),
+        ("hertz_damped", "restitution = 0.65\ndamping_formula = \"ye\"", 7.45),
     ];
     for (law, keys, most) in laws {
         let contact = |floor: u32| {

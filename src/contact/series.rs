@@ -176,6 +176,15 @@ impl PairBlock {
         }
     }
 
+    /// Whether its forces follow from the penetrations alone.
+    pub fn is_elastic(&self) -> bool {
+        match self.kind {
+            Kind::None | Kind::Spring => true,
+            Kind::Linear => self.damping == [0.0; PAIRS],
+            Kind::Power | Kind::Root => false,
+        }
+    }
+
     /// Whether its forces may have a damping part.
     pub fn is_damped(&self) -> bool {
         !matches!(self.kind, Kind::None | Kind::Spring)
@@ -328,27 +337,23 @@ impl PairBlock {
         matches!(self.kind, Kind::Spring | Kind::Power | Kind::Root)
     }
 
-    /// About where a pair is released, if that is before `limit`.
-    pub fn release(&self, lane: usize, limit: f64) -> Option<f64> {
-        let terms = &self.penetration[..self.order + 3];
-        let [start, slope, half] = [0, 1, 2].map(|n| terms[n][lane]);
-        // By the parabola first.
-        let square = slope * slope - 4.0 * start * half;
-        let mut x = 2.0 * start / (square.max(0.0).sqrt() - slope);
-        if square < 0.0 || !(x > 0.0 && x < 1.5 * limit) {
-            return None;
-        }
-        for _ in 0..3 {
-            let (value, slope) =
-                terms.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * x + c[lane], slope * x + value));
-            x -= value / slope;
-        }
-        (x > 0.0 && x < limit).then_some(x)
+    /// About where each pair is released, if that is before `limit`; else infinite.
+    pub fn releases(&self, limit: f64) -> Each {
+        releases(&self.penetration[..self.order + 3], limit)
     }
 
-    /// Makes the series of penetrations and forces such in the x of a clock.
+    /// Makes the series of penetrations such in the x of a clock, and those of forces, unless they are elastic.
     pub fn bend(&mut self, bend: &Bend) {
-        bend.apply_to_both([&mut self.penetration, &mut self.force], self.order + 3);
+        let terms = self.order + 3;
+        match self.is_elastic() {
+            true => bend.apply(&mut self.penetration[..terms], 1),
+            false => bend.apply_to_both([&mut self.penetration, &mut self.force], terms),
+        }
+    }
+
+    /// The same for two blocks of elastic forces.
+    pub fn bend_with(&mut self, other: &mut PairBlock, bend: &Bend) {
+        bend.apply_to_both([&mut self.penetration, &mut other.penetration], self.order + 3);
     }
 
     /// Penetrations and their bounds at the x of the powers.
@@ -359,6 +364,11 @@ impl PairBlock {
     /// Forces at the x of the powers, and their integral over 0..=x, N s per unit of the scale.
     pub fn read_force(&self, powers: &Powers) -> ForceReading {
         read_force(&self.force[..=self.order], powers)
+    }
+
+    /// Integrals of elastic forces over time up to that of the powers, N s per unit of the scale.
+    pub fn elastic_impulses(&self, powers: &Powers) -> Each {
+        elastic_impulses(&self.force[..=self.order], powers.integral_in_time())
     }
 
     /// J, work of the damping part of a pair's force over 0..=x, where the penetration is `end`.
@@ -438,6 +448,25 @@ fn read(terms: &[Each], powers: &Powers) -> BlockReading {
     BlockReading { penetration, slope: each(|i| second[i] + slopes[i]), fourth: fourths, turn: turns }
 }
 
+/// See [`PairBlock::releases`]: from where the parabola of the first terms has its root. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn releases(terms: &[Each], limit: f64) -> Each {
+    let [start, first, half] = [0, 1, 2].map(|n| terms[n]);
+    let square = each(|i| first[i] * first[i] - 4.0 * start[i] * half[i]);
+    let guess = each(|i| 2.0 * start[i] / (square[i].sqrt() - first[i]));
+    let mut x = guess;
+    for _ in 0..3 {
+        let (mut value, mut slope) = ([0.0; PAIRS], [0.0; PAIRS]);
+        for term in terms.iter().rev() {
+            slope = each(|i| slope[i] * x[i] + value[i]);
+            value = each(|i| value[i] * x[i] + term[i]);
+        }
+        x = each(|i| x[i] - value[i] / slope[i]);
+    }
+    let is_one = |i: usize| guess[i] > 0.0 && guess[i] < 1.5 * limit && x[i] > 0.0 && x[i] < limit;
+    each(|i| if is_one(i) { x[i] } else { f64::INFINITY })
+}
+
 /// See [`PairBlock::read_force`]. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn read_force(terms: &[Each], powers: &Powers) -> ForceReading {
@@ -454,6 +483,18 @@ fn read_force(terms: &[Each], powers: &Powers) -> ForceReading {
         }
     }
     ForceReading { value: values, slope: slopes, fourth: fourths, impulse: each(|i| powers.x * integrals[i]) }
+}
+
+/// See [`PairBlock::elastic_impulses`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn elastic_impulses(terms: &[Each], factors: &Coefficients) -> Each {
+    let mut impulses = [0.0; PAIRS];
+    for (term, factor) in terms.iter().zip(factors) {
+        for i in 0..PAIRS {
+            impulses[i] += term[i] * factor;
+        }
+    }
+    impulses
 }
 
 /// Integral over 0..=x of the square of the slope of one pair's series, by the time of a clock. Wide instructions give the

@@ -6,7 +6,6 @@ use super::model::Pair;
 use super::roots;
 use super::state::*;
 use crate::clock::Bend;
-use crate::contact::Force;
 use crate::contact::series::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
 use crate::polynomial::{Coefficients, Powers, Reading, each};
 use crate::structure::{Lane, MotionSeries, PairForces};
@@ -137,15 +136,13 @@ impl ClosedPairs {
 
     /// About where the first pair under a power law is released, if that is before `limit`; else infinite.
     pub fn first_release(&self, limit: f64) -> f64 {
-        let mut first = limit;
-        for (block, members) in
-            self.blocks[..self.used].iter().zip(&self.members).filter(|(block, _)| block.has_roots())
-        {
-            for (lane, _) in members.lanes() {
-                first = block.release(lane, first).unwrap_or(first);
-            }
+        let mut first = f64::INFINITY;
+        let blocks = self.blocks[..self.used].iter().zip(&self.members);
+        for (block, members) in blocks.filter(|(block, _)| block.has_roots()) {
+            let releases = block.releases(limit);
+            first = members.lanes().fold(first, |first, (lane, _)| first.min(releases[lane]));
         }
-        if first < limit { first } else { f64::INFINITY }
+        first
     }
 
     /// Whether any pair is released by x, as far as the first powers tell.
@@ -155,9 +152,21 @@ impl ClosedPairs {
         blocks.any(|(block, members)| members.lanes().any(|(lane, _)| parabola(&block.penetration, lane) < 0.0))
     }
 
-    /// Makes all series such in the x of a clock.
+    /// Makes all series such in the x of a clock: of two blocks at a time where there is one series in each.
     pub fn bend(&mut self, bend: &Bend) {
-        self.blocks[..self.used].iter_mut().for_each(|block| block.bend(bend));
+        let mut waiting: Option<&mut PairBlock> = None;
+        for block in &mut self.blocks[..self.used] {
+            if !block.is_elastic() {
+                block.bend(bend);
+            } else if let Some(other) = waiting.take() {
+                other.bend_with(block, bend);
+            } else {
+                waiting = Some(block);
+            }
+        }
+        if let Some(block) = waiting {
+            block.bend(bend);
+        }
     }
 
     /// Number of blocks in use.
@@ -313,8 +322,14 @@ impl<M: Meeting> Acting<'_, M> {
 
 impl BlockEnd {
     fn of(block: &PairBlock, motion: BlockReading, powers: &Powers) -> BlockEnd {
-        let force = block.read_force(powers);
-        let of_force = may_turn(&block.force, (&force.value, &force.slope), &force.fourth, powers.x);
+        let (force, of_force) = match block.is_elastic() {
+            // Strongest where they are deepest.
+            true => (ForceReading { impulse: block.elastic_impulses(powers), ..Default::default() }, [false; PAIRS]),
+            false => {
+                let force = block.read_force(powers);
+                (force, may_turn(&block.force, (&force.value, &force.slope), &force.fourth, powers.x))
+            }
+        };
         let of_motion = may_turn(&block.penetration, (&motion.penetration, &motion.slope), &motion.fourth, powers.x);
         BlockEnd { motion, force, turns: [of_force, of_motion] }
     }
@@ -384,8 +399,7 @@ impl Contact {
             self.episode.peak_penetration = peak;
         }
         let strongest = match self.branch() {
-            // A spring alone is strongest where it is deepest.
-            Force::Linear { stiffness, damping: 0.0 } => deepest.map(|(at, peak)| (at, stiffness * peak)),
+            force if block.is_elastic() => deepest.map(|(at, peak)| (at, force.value(peak, 0.0))),
             _ => {
                 let terms = |out: &mut Coefficients| block.copy_force(lane, out);
                 let first = (block.force[0][lane], block.force[1][lane]);

@@ -87,70 +87,31 @@ impl Model {
 
     /// m, rounding error of a penetration within the step.
     fn noise_of(&self, p: usize, base: &Base, step: &Step, work: &mut Workspace) -> f64 {
-        let size = self.project(p, base.coordinates, &step.series, step.end.x, &mut work.scalar);
+        let series = &step.series;
+        work.powers.set_by(&series.clock, step.end.x, series.order);
+        work.powers.set_in_time(&series.clock);
+        let size = self.project(p, base.coordinates, series, work.powers.in_time().0, &mut work.scalar);
         self.pairs[p].noise(size)
     }
 
-    /// The first entry of a pair that is apart up to the end of the step, where its motion is in `step.q` and `step.v`.
-    pub(super) fn first_entry(&self, base: &Base, step: &Step, work: &mut Workspace) -> Option<(f64, Event)> {
-        if base.contacts.iter().all(Contact::in_contact) {
-            return None;
-        }
-        let mut first = None;
-        let series = &step.series;
-        series.fourth_derivatives(&step.end, &mut work.node_q);
-        for (p, contact) in base.contacts.iter().enumerate() {
-            if contact.in_contact() || self.stays_apart(p, contact, base.coordinates, step, &work.node_q) {
-                continue;
-            }
-            let terms = &mut work.scalar[..=series.order];
-            let noise = self.pairs[p].noise(self.project(p, base.coordinates, series, step.end.x, terms));
-            let noise = contact.begin_flight(terms, series.scale, noise);
-            first = roots::first_rise(terms, until(first, step), noise).map(|x| (x, Event::Entry(p))).or(first);
-        }
-        first
-    }
-
-    /// Whether a pair certainly stays apart over the whole step: its penetration is as near to its cubic interpolant as
-    /// the `fourth` derivatives of the motion say.
-    #[inline(always)]
-    fn stays_apart(&self, p: usize, contact: &Contact, coordinates: Coordinates, step: &Step, fourth: &[f64]) -> bool {
-        let pair = &self.pairs[p];
-        let (start, end) = (contact.flight_start(), self.relative(p, coordinates, &step.q) - pair.gap);
-        if start >= 0.0 || end >= 0.0 {
-            return false;
-        }
-        let (first, last) = (step.series.scale, step.series.time_rate(step.end.x));
-        let third = |rate: f64| step.end.x * rate / 3.0;
-        let control = [start + third(first) * contact.rate, end - third(last) * self.relative(p, coordinates, &step.v)];
-        let fourth = match coordinates {
-            Coordinates::Floors => fourth[pair.lanes[0]] + fourth[pair.lanes[1]],
-            Coordinates::Modes => pair.row.iter().zip(fourth).map(|(row, fourth)| row.abs() * fourth).sum(),
-        };
-        let x2 = step.end.x * step.end.x;
-        let room = -(x2 * x2 / 384.0 * fourth);
-        start < room && end < room && control[0] < room && control[1] < room
-    }
-
-    /// The scalar series of a pair's relative motion, written to `out[n]`. Returns the sum of the sizes of all that is
-    /// added up at x.
+    /// The scalar series in time of a pair's relative motion, written to `out[n]`. Returns the sum of the sizes of all that
+    /// is added up, each term times its `factor`.
     pub(super) fn project(
         &self,
         p: usize,
         coordinates: Coordinates,
         series: &MotionSeries,
-        x: f64,
+        factors: &[f64],
         out: &mut [f64],
     ) -> f64 {
         if coordinates == Coordinates::Modes {
-            return series.project(&self.pairs[p].row, x, out);
+            return series.project(&self.pairs[p].row, factors, out);
         }
-        let (mut sum, mut power) = (0.0, 1.0);
-        for (n, out) in out.iter_mut().enumerate().take(series.order + 1) {
+        let mut sum = 0.0;
+        for (n, (out, factor)) in out.iter_mut().zip(factors).enumerate().take(series.order + 1) {
             let (value, size) = self.difference(p, coordinates, series.term(n));
             *out = value;
-            sum += size * power;
-            power *= x;
+            sum += size * factor.abs();
         }
         sum
     }

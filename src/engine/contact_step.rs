@@ -13,7 +13,7 @@ use super::linear_pairs::LinearPairs;
 use super::meeting::{OnFewModes, OnFloors, OnModes};
 use super::model::Model;
 use super::state::*;
-use crate::clock::{Bend, Clock};
+use crate::clock::Clock;
 use crate::contact::Force;
 use crate::contact::series::PAIRS;
 use crate::polynomial::{MAX_ORDER, ROOM, rough_root};
@@ -64,11 +64,16 @@ const NEAR: f64 = 0.35;
 /// x up to which a series is used by the clock of an entry, in times since the entry: 25 times as long after it.
 const FURTHEST_FROM_ENTRY: f64 = 8.0;
 
-/// What a step by a clock may add to the errors, in shares of other steps: fewer of them make an episode.
-const CLOCK_SHARE: f64 = 4.0;
+/// By how much longer than until a release its clock goes, which stands still at its end: about what the terms in time leave
+/// open of when that is.
+const LATE: f64 = 1e-3;
 
-/// Share of the clock up to a release that a step may take: at its end the clock stands still.
-const LAST_SHARE: f64 = 0.9;
+/// Tolerance of a step below which it keeps away from the end of a clock and of its reach: there the rounding of terms in
+/// time weighs a thousand times as much in series of as high an order.
+const NEAR_ROUNDING: f64 = 1e-13;
+
+/// Share of the clock up to a release that a step takes then.
+const KEEPING_AWAY: f64 = 0.9;
 
 impl Model {
     /// Works out the step in contact from the base until `limit` (s since the segment's start) or the next event.
@@ -104,7 +109,7 @@ impl Model {
             reach = self.accurate_reach(base, step, is_singular, remaining / scale);
         }
         if reach < remaining / scale && !is_near_rigid && !is_singular {
-            reach = self.reach_by_clock(base, step, &mut work.bend, reach);
+            reach = self.reach_by_clock(base, step, work, (reach, remaining));
         }
         let whole = step.series.place(remaining) <= reach;
         let end = if whole { step.series.place(remaining) } else { reach };
@@ -116,18 +121,18 @@ impl Model {
             step.closed.read(&step.end);
         }
         // Only an entry is looked for in the motion, and no further than to what ends the step anyway.
-        step.series.evaluate(&step.end, &mut step.q, &mut step.v);
         let entry = self.first_entry(base, step, work);
         if let Some((x, _)) = entry {
             step.end.set_by(&step.series.clock, x, step.series.order);
             step.closed.read(&step.end);
-            step.series.evaluate(&step.end, &mut step.q, &mut step.v);
         }
+        step.end.set_in_time(&step.series.clock);
+        step.series.evaluate(&step.end, &mut step.q, &mut step.v);
         let event = entry.or(leaving);
         step.event = event.map(|(_, event)| event);
         step.reaches_limit = whole && !cut && event.is_none();
         step.length = if step.reaches_limit { remaining } else { step.series.time(step.end.x) };
-        self.carry(base, &step.series, step.end.x, &mut work.scalar, &mut step.carried);
+        self.carry(base, &step.series, &step.end, &mut work.scalar, &mut step.carried);
         for (reaction, &p) in step.reactions.iter().zip(&self.rigid.pairs) {
             if base.contacts[p].is_held() {
                 base.contacts[p].reaction = reaction[0];
@@ -279,29 +284,46 @@ impl Model {
 
     /// How far the series reach by a clock in which the nearest entry behind, or release before, is no singularity, from
     /// how far they do in time.
-    fn reach_by_clock(&self, base: &Base, step: &mut Step, room: &mut Bend, reach: f64) -> f64 {
+    fn reach_by_clock(
+        &self,
+        base: &Base,
+        step: &mut Step,
+        work: &mut Workspace,
+        (reach, remaining): (f64, f64),
+    ) -> f64 {
         let is_behind = |(_, contact): &(usize, &Contact)| {
             contact.phase == Phase::Engaged && !contact.branch().is_regular() && contact.age > 0.0
         };
         let ages = touching(base).filter(is_behind).map(|(_, contact)| contact.age);
         let since = ages.fold(f64::INFINITY, f64::min) / step.series.scale;
-        let release = step.closed.first_release(reach / NEAR);
+        let release = (1.0 + LATE) * step.closed.first_release(reach / NEAR);
         let (bend, furthest) = match () {
             // Reached or passed as it is, or in a scale far too long.
             _ if release < reach || reach > FURTHEST_FROM_ENTRY * since || reach < 1.0 / FURTHEST => return reach,
             _ if reach > NEAR * since => (0.25 / since, FURTHEST_FROM_ENTRY * since),
-            _ if release.is_finite() => (-0.25 / release, 2.0 * LAST_SHARE * release),
+            _ if release.is_finite() => (-0.25 / release, 2.0 * release * self.boldness()),
             _ => return reach,
         };
-        step.bend(Clock { bend }, room);
-        // A root of the root is left of a root law's force, which the impulse shows before the motion does.
-        let has_roots = touching(base).any(|(_, contact)| matches!(contact.branch(), Force::Root { .. }));
-        let share = if has_roots { 1.0 } else { CLOCK_SHARE };
-        let allowed = share * self.step_tolerance * base.velocity_scale * step.series.scale;
-        // What moves within x gives the velocity by the clock's rate there.
-        let reach = self.reach_of_terms(base, &step.series, allowed).min(furthest);
-        let rate = step.series.clock.rate(reach).min(1.0);
-        self.reach_of_terms(base, &step.series, rate * allowed).min(furthest)
+        let clock = Clock { bend };
+        step.bend(clock, &mut work.bend);
+        let allowed = self.step_tolerance * base.velocity_scale * step.series.scale;
+        let (last, before) = (&mut work.node_q, &mut work.node_v);
+        let powers = step.series.last_rates(&clock, last, before);
+        let sizes = [last, before].map(|term| self.worst_floor(base.coordinates, term));
+        let reaches = powers.iter().zip(sizes).filter(|(_, size)| *size > 0.0);
+        let reach = reaches.map(|(power, size)| rough_root(allowed / size, *power)).fold(f64::INFINITY, f64::min);
+        self.cautious(reach, furthest.min(clock.place(remaining / step.series.scale)))
+    }
+
+    /// Share of the way to the end of a clock that a step may take.
+    fn boldness(&self) -> f64 {
+        if self.step_tolerance < NEAR_ROUNDING { KEEPING_AWAY } else { 1.0 }
+    }
+
+    /// How far to go where terms show that something is accurate up to about `reach`: not quite as far, unless the rest of
+    /// the way is within reach too.
+    fn cautious(&self, reach: f64, whole: f64) -> f64 {
+        if self.boldness() * reach >= whole { whole } else { 0.9 * reach }
     }
 
     /// How far, in units of the series' scale, its last two terms stay below the tolerance.
@@ -311,6 +333,7 @@ impl Model {
     fn accurate_reach(&self, base: &Base, step: &Step, is_singular: bool, whole: f64) -> f64 {
         let series = &step.series;
         let mut reach = self.reach_of_terms(base, series, self.step_tolerance * base.velocity_scale * series.scale);
+        reach = self.cautious(reach, whole);
         if !is_singular {
             return reach.min(FURTHEST);
         }
@@ -341,7 +364,7 @@ impl Model {
                 });
             }
         }
-        0.9 * reach
+        reach
     }
 
     /// How far a last term stays below the tolerance where nothing has moved yet: relative to the velocity that any of

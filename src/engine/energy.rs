@@ -6,6 +6,7 @@ use super::input::LinearInput;
 use super::model::Model;
 use super::state::*;
 use super::{EnergyPoint, Point};
+use crate::polynomial::ROOM;
 use crate::quadrature::{EIGHT, Rule, TWELVE, gauss, graded};
 use crate::structure::{MotionSeries, dot, flight_order};
 
@@ -74,7 +75,7 @@ impl Model {
             StepKind::Contact => {
                 let series = &step.series;
                 self.integrate_series::<12>(base, series, TWELVE, (0.0, length), work, &mut done);
-                work.powers.set(series.place(length), series.order);
+                series.set_powers(length, &mut work.powers);
                 series.evaluate(&work.powers, &mut work.q, &mut work.v);
             }
             StepKind::Onset => {
@@ -212,17 +213,21 @@ impl Model {
     ) {
         let is_plain = base.coordinates == Coordinates::Modes && work.force_slope.is_empty();
         if !is_plain || !self.structure.is_classical() {
-            let motion = |t: f64, _: &mut [f64], v: &mut [f64]| series.velocity(series.place(t), v);
+            let motion = |t: f64, q: &mut [f64], v: &mut [f64]| series.evaluate(&series.powers_at(t), q, v);
             return self.integrate(base, motion, gauss(rule, length), from, work, done);
         }
         let (mut times, mut weights) = ([0.0; N], [0.0; N]);
         for (i, (t, weight)) in gauss(rule, length).enumerate().take(N) {
             (times[i], weights[i]) = (t, weight);
         }
-        let x = times.map(|t| series.place(t));
+        let mut rates = [[0.0; N]; ROOM];
+        for (i, t) in times.iter().enumerate() {
+            let powers = series.powers_at(*t);
+            rates.iter_mut().zip(powers.in_time().1).for_each(|(rates, rate)| rates[i] = *rate);
+        }
         let (mut push, mut power) = ([0.0; N], [0.0; N]);
         for (m, (participation, c)) in self.structure.participation.iter().zip(&self.structure.damping).enumerate() {
-            let v = series.velocities(m, &x);
+            let v = series.velocities(m, &rates);
             for i in 0..N {
                 push[i] += participation * v[i];
                 power[i] += c * v[i] * v[i];

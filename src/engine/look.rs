@@ -6,6 +6,7 @@
 use super::model::Model;
 use super::roots;
 use super::state::*;
+use crate::polynomial::ALL;
 use crate::structure::{EXACT, flight_order};
 
 /// (Fastest rate) x (time) that one series reaches.
@@ -64,14 +65,14 @@ impl Model {
     /// Ends the step at the entry that has been found in the series of a piece, or with that piece.
     fn cut_flight(&self, base: &Base, step: &mut Step, work: &mut Workspace, length: f64, entry: Option<(f64, usize)>) {
         let x = entry.map_or(1.0, |(x, _)| x);
+        work.powers.set(x, work.series.order);
         if entry.is_some() || length < step.length {
-            work.powers.set(x, work.series.order);
             work.series.evaluate(&work.powers, &mut step.q, &mut step.v);
             step.length = work.look.from + x * length;
             step.reaches_limit = false;
             step.event = entry.map(|(_, p)| Event::Entry(p));
         }
-        self.carry(base, &work.series, x, &mut work.scalar, &mut step.carried);
+        self.carry(base, &work.series, &work.powers, &mut work.scalar, &mut step.carried);
     }
 
     /// The first entry in a piece, from its power series: where, as a share of the piece, and which pair.
@@ -85,7 +86,7 @@ impl Model {
                 continue;
             }
             let terms = &mut work.scalar[..=work.series.order];
-            let mut noise = pair.noise(self.project(p, Coordinates::Modes, &work.series, 1.0, terms));
+            let mut noise = pair.noise(self.project(p, Coordinates::Modes, &work.series, &ALL, terms));
             if *from == 0.0 {
                 noise = contact.begin_flight(terms, length, noise);
             } else {

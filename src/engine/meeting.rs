@@ -84,7 +84,18 @@ pub(super) struct OnFewModes;
 impl Meeting for OnFewModes {
     #[inline(always)]
     fn relative(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
-        lane_by_lane(count, |lane| dot_blocks(&members.rows[lane], term))
+        if count < 2 {
+            return lane_by_lane(count, |lane| dot_blocks(&members.rows[lane], term));
+        }
+        // All pairs together need no sum across lanes.
+        let mut sums = [[0.0; PAIRS]; 2];
+        let (modes, _) = members.by_mode.as_chunks::<LANES>();
+        for (pairs, term) in modes.iter().zip(term) {
+            for (m, (pairs, term)) in pairs.iter().zip(term).enumerate() {
+                sums[m % 2] = each(|i| sums[m % 2][i] + pairs[i] * term);
+            }
+        }
+        each(|i| sums[0][i] + sums[1][i])
     }
 
     fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each {

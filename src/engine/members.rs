@@ -50,6 +50,8 @@ pub(super) struct Members {
     pub softness: Each,
     /// What the pair is to the first modes.
     pub rows: [[Lane; FEW_BLOCKS]; PAIRS],
+    /// The same mode by mode, for all pairs side by side.
+    pub by_mode: [Each; FEW_BLOCKS * LANES],
 }
 
 impl Members {
@@ -83,7 +85,14 @@ impl Members {
         self.softness[lane] = left + right;
         if coordinates == Coordinates::Modes {
             self.rows[lane] = data.first_blocks;
+            let modes = data.first_blocks.as_flattened();
+            self.by_mode.iter_mut().zip(modes).for_each(|(pairs, of_mode)| pairs[lane] = *of_mode);
         }
+    }
+
+    /// Lanes up to the last one that holds a pair.
+    pub fn count(&self) -> usize {
+        self.taken.iter().rposition(|taken| *taken).map_or(0, |lane| lane + 1)
     }
 
     /// The lanes that hold a pair, with its number.

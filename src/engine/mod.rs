@@ -65,6 +65,7 @@ mod model;
 mod near_pairs;
 mod observe;
 mod onset_step;
+mod open_pairs;
 mod rates;
 mod rigid;
 mod roots;

@@ -7,6 +7,7 @@ use super::ground::{GroundMotion, Segment};
 use super::input::LinearInput;
 use super::near_pairs::NearPairs;
 use super::onset_step::OnsetSeries;
+use super::open_pairs::OpenPairs;
 use super::rigid::RigidPairs;
 use super::state::*;
 use super::window_step::Windows;
@@ -175,6 +176,7 @@ impl Model {
                 series: MotionSeries::new(lanes, highest),
                 end: Powers::default(),
                 closed: ClosedPairs::new(&self.pairs, on_floors),
+                open: OpenPairs::new(self.pairs.len(), on_floors),
                 reactions: vec![[0.0; ROOM]; self.rigid.pairs.len()],
                 reaction_order: 0,
                 onset: OnsetSeries::new(lanes, self.pairs.len(), has_singular_law(&self.pairs), on_floors),

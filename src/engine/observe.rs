@@ -60,7 +60,7 @@ impl Model {
                 point.v.copy_from_slice(&base.v);
             }
             StepKind::Contact => {
-                step.set_powers(elapsed, &mut work.powers);
+                step.series.set_powers(elapsed, &mut work.powers);
                 step.series.evaluate(&work.powers, &mut point.q, &mut point.v);
             }
             StepKind::Onset => step.onset.evaluate(elapsed / step.onset.scale, &mut point.q, &mut point.v),
@@ -133,7 +133,7 @@ impl Model {
     pub fn open_episode(&self, state: &State, contact: usize) -> Option<Episode> {
         let elapsed = state.since_base();
         let mut powers = Powers::default();
-        state.step.set_powers(elapsed, &mut powers);
+        state.step.series.set_powers(elapsed, &mut powers);
         let contact = self.contact_at(&state.base, &state.step, contact, elapsed, &powers);
         contact.in_contact().then(|| contact.present_episode())
     }

@@ -99,7 +99,7 @@ impl Model {
         work: &mut Workspace,
     ) -> bool {
         let elapsed = state.since_base();
-        state.step.set_powers(elapsed, &mut work.powers);
+        state.step.series.set_powers(elapsed, &mut work.powers);
         let mut is_beginning = false;
         for p in 0..self.pairs.len() {
             let contact = self.contact_at(&state.base, &state.step, p, elapsed, &work.powers);

@@ -11,6 +11,7 @@ use super::contact_step::touching;
 use super::model::{Model, Pair};
 use super::state::*;
 use super::{Episode, roots};
+use crate::polynomial::Powers;
 use crate::structure::{MotionSeries, difference, dot};
 use nalgebra::DMatrix;
 
@@ -269,16 +270,23 @@ impl Model {
         apart.map(bounce).fold(f64::INFINITY, f64::min)
     }
 
-    /// Where the pairs that are carried get to at x of a series.
-    pub(super) fn carry(&self, base: &Base, series: &MotionSeries, x: f64, scalar: &mut [f64], carried: &mut Carried) {
+    /// Where the pairs that are carried get to at the x of the powers of a series in time.
+    pub(super) fn carry(
+        &self,
+        base: &Base,
+        series: &MotionSeries,
+        powers: &Powers,
+        scalar: &mut [f64],
+        carried: &mut Carried,
+    ) {
         carried.fill(None);
         for &p in &self.rigid.pairs {
             let (contact, pair) = (&base.contacts[p], &self.pairs[p]);
             carried[p] = contact.carried.then(|| {
                 let terms = &mut scalar[..=series.order];
-                let noise = pair.noise(self.project(p, base.coordinates, series, x, terms));
+                let noise = pair.noise(self.project(p, base.coordinates, series, powers.in_time().0, terms));
                 contact.begin_flight(terms, series.scale, noise);
-                let (penetration, slope) = crate::polynomial::value_and_slope(terms, x);
+                let (penetration, slope) = crate::polynomial::value_and_slope(terms, powers.x);
                 (penetration, slope / series.scale)
             });
         }

@@ -8,6 +8,7 @@ use super::ground::Segment;
 use super::input::LinearInput;
 use super::look::Look;
 use super::onset_step::OnsetSeries;
+use super::open_pairs::OpenPairs;
 use super::window::Window;
 use super::{Episode, Side};
 use crate::clock::{Bend, Clock};
@@ -208,6 +209,8 @@ pub(super) struct Step {
     pub series: MotionSeries,
     /// Of the pairs in contact.
     pub closed: ClosedPairs,
+    /// Of the pairs that are apart meanwhile.
+    pub open: OpenPairs,
     /// N, reactions of the rigid pairs that are held together, one per rigid pair, and their highest power.
     pub reactions: Vec<Coefficients>,
     pub reaction_order: usize,
@@ -225,16 +228,11 @@ pub(super) struct Step {
 }
 
 impl Step {
-    /// Makes all series in time such in the x of a clock; `bend` is room to work in.
+    /// Has the series read by a clock, in whose x those of pairs in contact are from now on; `bend` is what has made them so.
     pub fn bend(&mut self, clock: Clock, bend: &mut Bend) {
         bend.set(&clock, self.series.order + 1);
-        self.series.bend(clock, bend);
+        self.series.clock = clock;
         self.closed.bend(bend);
-    }
-
-    /// The powers of a time, s, since the base, for a series in time.
-    pub fn set_powers(&self, elapsed: f64, powers: &mut Powers) {
-        powers.set_by(&self.series.clock, self.series.place(elapsed), self.series.order);
     }
 }
 

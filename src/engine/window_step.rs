@@ -32,7 +32,7 @@ const BETWEEN_NODES: f64 = 10.0;
 const AT_REST: f64 = 0.1;
 
 /// Pairs with dashpots that a window is for: of more, series are the cheaper. Sweeps take two matrices for each two pairs.
-const MOST_DAMPED: usize = 2;
+const MOST_DAMPED: usize = 1;
 
 /// Pairs of which all kernels are kept: 64 kB.
 const MOST_KNOWN: usize = 20;

@@ -2,7 +2,7 @@
 
 use super::floors::Floors;
 use super::{LANES, Lane, Structure};
-use crate::clock::{Bend, Clock};
+use crate::clock::Clock;
 use crate::polynomial::{COUNT, Powers, ROOM, each};
 
 /// Powers that a series may have.
@@ -46,13 +46,13 @@ pub trait PairForces {
     fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]);
 }
 
-/// q(x) = sum of term n times x^n, of all modes or floors, with x = t / scale or as a clock has it.
+/// q(t) = sum of term n times (t / scale)^n, of all modes or floors, read at t / scale or at the x of a clock.
 #[derive(Clone, Debug, Default)]
 pub struct MotionSeries {
     lanes: usize,
     /// s, unit of x: near the length of the step, so that the terms tell the error and never overflow.
     pub scale: f64,
-    /// What x is the time by, in units of the scale.
+    /// What the x is that the series is read at; its terms stay those in time, in units of the scale.
     pub clock: Clock,
     /// Highest power.
     pub order: usize,
@@ -83,12 +83,6 @@ impl MotionSeries {
         }
     }
 
-    /// Makes a series in time one in the x of a clock.
-    pub fn bend(&mut self, clock: Clock, bend: &Bend) {
-        self.clock = clock;
-        bend.apply(&mut self.coefficients[..(self.order + 1) * self.lanes], self.lanes);
-    }
-
     /// s at x.
     pub fn time(&self, x: f64) -> f64 {
         self.clock.time(x) * self.scale
@@ -104,9 +98,29 @@ impl MotionSeries {
         self.clock.place(time / self.scale)
     }
 
+    /// The powers of the x at a time, s.
+    pub fn set_powers(&self, time: f64, powers: &mut Powers) {
+        powers.set_by(&self.clock, self.place(time), self.order);
+        powers.set_in_time(&self.clock);
+    }
+
+    /// The same in a table of its own.
+    pub fn powers_at(&self, time: f64) -> Powers {
+        let mut powers = Powers::default();
+        self.set_powers(time, &mut powers);
+        powers
+    }
+
     /// The coefficients of power `n`.
     pub fn term(&self, n: usize) -> &[f64] {
         &self.coefficients[n * self.lanes..(n + 1) * self.lanes]
+    }
+
+    /// The coefficients of all powers, block by block.
+    #[inline(always)]
+    pub fn rows(&self) -> impl Iterator<Item = &[Lane]> {
+        let (terms, _) = self.coefficients.as_chunks::<LANES>();
+        terms.chunks_exact(self.lanes / LANES).take(self.order + 1)
     }
 
     /// Appends power n + 2 from the load's power n (in 1/scale^n), by (n+1)(n+2) q_{n+2} = load_n - c (n+1) q_{n+1} - w^2 q_n.
@@ -218,54 +232,41 @@ impl MotionSeries {
     /// q and v at the x of the powers.
     pub fn evaluate(&self, powers: &Powers, q: &mut [f64], v: &mut [f64]) {
         let terms = (self.order + 1).min(ROOM);
-        let (power, slope, _) = powers.all();
+        let (value, rate) = powers.in_time();
         let (q, v) = (&mut q[..self.lanes], &mut v[..self.lanes]);
-        let rate = 1.0 / self.time_rate(powers.x);
-        sum_terms(&self.coefficients[..terms * self.lanes], (&power[..terms], &slope[..terms]), rate, q, v);
+        let terms = (&self.coefficients[..terms * self.lanes], (&value[..terms], &rate[..terms]));
+        sum_terms(terms.0, terms.1, 1.0 / self.scale, q, v);
     }
 
-    /// Bounds on the fourth derivatives by x up to the x of the powers.
-    pub fn fourth_derivatives(&self, powers: &Powers, out: &mut [f64]) {
-        let (.., fourth) = powers.all();
-        let end = (self.order + 1) * self.lanes;
-        let terms = &self.coefficients[(4 * self.lanes).min(end)..end];
-        sum_sizes(terms, &fourth[4..], &mut out[..self.lanes]);
+    /// The last two terms of the velocities by a clock, m, which tell how far its x reaches; returns their powers.
+    pub fn last_rates(&self, clock: &Clock, last: &mut [f64], before: &mut [f64]) -> [usize; 2] {
+        let powers = [self.order - 1, self.order - 2];
+        let [mut of_last, mut of_before] = [[0.0; ROOM]; 2];
+        clock.weigh_rate_term(powers[0], &mut of_last);
+        clock.weigh_rate_term(powers[1], &mut of_before);
+        let first = powers[1] / 2;
+        let terms = &self.coefficients[first * self.lanes..(self.order + 1) * self.lanes];
+        let factors = (&of_last[first..=self.order], &of_before[first..=self.order]);
+        sum_terms(terms, factors, 1.0, &mut last[..self.lanes], &mut before[..self.lanes]);
+        powers
     }
 
     /// The scalar series of what `row` makes of the modes, 0 where its terms cancel but for rounding, written to `out[n]`.
-    /// Returns the sum of the sizes of all that is added up at x.
-    pub fn project(&self, row: &[f64], x: f64, out: &mut [f64]) -> f64 {
-        project(&self.coefficients[..], row, x, &mut out[..=self.order])
+    /// Returns the sum of the sizes of all that is added up, each times its `factor`.
+    pub fn project(&self, row: &[f64], factors: &[f64], out: &mut [f64]) -> f64 {
+        project(&self.coefficients[..], row, factors, &mut out[..=self.order])
     }
 
-    /// v alone at x.
-    pub fn velocity(&self, x: f64, v: &mut [f64]) {
-        let width = self.lanes / LANES;
-        let rate = 1.0 / self.time_rate(x);
-        let (terms, _) = self.coefficients.as_chunks::<LANES>();
-        let (v, _) = v.as_chunks_mut::<LANES>();
-        for c in 0..width {
-            let mut slope = [0.0; LANES];
-            for n in (1..=self.order).rev() {
-                let (power, term) = (n as f64, &terms[n * width + c]);
-                for i in 0..LANES {
-                    slope[i] = slope[i] * x + power * term[i];
-                }
-            }
-            v[c] = slope.map(|slope| slope * rate);
-        }
-    }
-
-    /// v of one mode at many x at once.
-    pub fn velocities<const N: usize>(&self, mode: usize, x: &[f64; N]) -> [f64; N] {
-        let mut slope = [0.0; N];
-        for n in (1..=self.order).rev() {
-            let term = n as f64 * self.coefficients[n * self.lanes + mode];
+    /// v of one mode at many places, which are told by what the terms in time are multiplied by there.
+    pub fn velocities<const N: usize>(&self, mode: usize, rates: &[[f64; N]; ROOM]) -> [f64; N] {
+        let mut rate = [0.0; N];
+        for (n, rates) in rates.iter().enumerate().take(self.order + 1) {
+            let term = self.coefficients[n * self.lanes + mode];
             for i in 0..N {
-                slope[i] = slope[i] * x[i] + term;
+                rate[i] += term * rates[i];
             }
         }
-        std::array::from_fn(|i| slope[i] * (1.0 / self.time_rate(x[i])))
+        rate.map(|rate| rate / self.scale)
     }
 }
 
@@ -503,23 +504,24 @@ fn expand_floors<F: PairForces>(
 
 /// See [`MotionSeries::project`]: as [`difference`] has it, [`LANES`] powers abreast. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn project(terms: &[f64], row: &[f64], x: f64, out: &mut [f64]) -> f64 {
+fn project(terms: &[f64], row: &[f64], factors: &[f64], out: &mut [f64]) -> f64 {
     let (terms, row) = (terms.as_chunks::<LANES>().0, row.as_chunks::<LANES>().0);
     match row.len() {
-        1 => project_blocks::<1>(terms, row, x, out),
-        2 => project_blocks::<2>(terms, row, x, out),
-        3 => project_blocks::<3>(terms, row, x, out),
-        _ => project_blocks::<0>(terms, row, x, out),
+        1 => project_blocks::<1>(terms, row, factors, out),
+        2 => project_blocks::<2>(terms, row, factors, out),
+        3 => project_blocks::<3>(terms, row, factors, out),
+        _ => project_blocks::<0>(terms, row, factors, out),
     }
 }
 
 /// The same for `N` blocks of modes, or any number of them where that is 0.
 #[inline(always)]
-fn project_blocks<const N: usize>(terms: &[Lane], row: &[Lane], x: f64, out: &mut [f64]) -> f64 {
+fn project_blocks<const N: usize>(terms: &[Lane], row: &[Lane], factors: &[f64], out: &mut [f64]) -> f64 {
     let width = if N > 0 { N } else { row.len() };
     let row = &row[..width];
-    let (mut whole, mut power) = (0.0, 1.0);
-    for (out, terms) in out.chunks_mut(LANES).zip(terms.chunks(LANES * width)) {
+    let mut whole = 0.0;
+    let factors = factors.chunks(LANES);
+    for ((out, terms), factors) in out.chunks_mut(LANES).zip(terms.chunks(LANES * width)).zip(factors) {
         let (mut sums, mut sizes) = ([[0.0; LANES]; LANES], [[0.0; LANES]; LANES]);
         for ((term, sum), size) in terms.chunks_exact(width).zip(&mut sums).zip(&mut sizes) {
             for c in 0..width {
@@ -529,10 +531,9 @@ fn project_blocks<const N: usize>(terms: &[Lane], row: &[Lane], x: f64, out: &mu
             }
         }
         let [values, sizes] = [sums, sizes].map(|of| each(|k| ((of[k][0] + of[k][1]) + of[k][2]) + of[k][3]));
-        for ((out, value), size) in out.iter_mut().zip(&values).zip(&sizes) {
+        for (((out, value), size), factor) in out.iter_mut().zip(&values).zip(&sizes).zip(factors) {
             *out = if value.abs() <= 4.0 * f64::EPSILON * size { 0.0 } else { *value };
-            whole += size * power;
-            power *= x;
+            whole += size * factor.abs();
         }
     }
     whole
