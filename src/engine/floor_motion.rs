@@ -6,18 +6,18 @@ use super::{Point, Side};
 use crate::structure::{LANES, Lane};
 use std::cell::{Cell, OnceCell, RefCell};
 
-/// Some numbers of one floor, and the observation that they are of.
+/// Some numbers of one floor or contact, and the observation that they are of.
 #[derive(Clone, Copy, Debug, Default)]
-struct Known<T> {
-    observation: u64,
-    numbers: T,
+pub(super) struct Known<T> {
+    pub observation: u64,
+    pub numbers: T,
 }
 
 /// What is known of the floors at one time.
 #[derive(Clone, Debug, Default)]
 pub(super) struct FloorMotions {
     /// Number of this observation, from 1 on.
-    observation: u64,
+    pub observation: u64,
     /// Displacement, m, and velocity, m/s, relative to the ground; one per lane of a vector of all floors.
     motion: Vec<Cell<Known<[f64; 2]>>>,
     /// m/s2, absolute.

@@ -77,6 +77,8 @@ mod window_draft;
 mod window_step;
 mod work_limit;
 
+use std::cell::Cell;
+
 pub use crate::structure::Side;
 pub use energy_rates::EnergyRates;
 pub use feedthrough::Response;
@@ -86,15 +88,13 @@ pub use rates::{ContactRates, PointRates, Rates};
 pub use saved::SavedState;
 pub use state::{Counters, State};
 
-/// The solution at one time, as floors and contacts show it.
+/// The solution at one time, as floors and contacts show it, each worked out when it is first read.
 #[derive(Clone, Debug, Default)]
 pub struct Point {
     /// s.
     pub time: f64,
     /// m/s2.
     pub ground_acceleration: f64,
-    /// One per contact.
-    pub contacts: Vec<ContactPoint>,
     /// Contact episodes begun so far, all contacts.
     pub impacts: u64,
     /// Present where the scene asks for it.
@@ -105,8 +105,12 @@ pub struct Point {
     q: Vec<f64>,
     v: Vec<f64>,
     floors: floor_motion::FloorMotions,
+    contacts: ContactPoints,
     work: Option<Box<state::Workspace>>,
 }
+
+/// What is known of each contact at one time.
+type ContactPoints = Vec<Cell<floor_motion::Known<ContactPoint>>>;
 
 /// One contact at one time. Names and meaning as in the FMU variables `contact[p].*`.
 #[derive(Clone, Copy, Debug, Default)]
