@@ -105,12 +105,10 @@ pub struct Point {
     q: Vec<f64>,
     v: Vec<f64>,
     floors: floor_motion::FloorMotions,
-    contacts: ContactPoints,
+    /// What is known of each contact.
+    contacts: Vec<Cell<observe::Known>>,
     work: Option<Box<state::Workspace>>,
 }
-
-/// What is known of each contact at one time.
-type ContactPoints = Vec<Cell<floor_motion::Known<ContactPoint>>>;
 
 /// One contact at one time. Names and meaning as in the FMU variables `contact[p].*`.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,6 +1,5 @@
 //! Reading the solution at the communication time, out of the dense solution of the step under way.
 
-use super::floor_motion::Known;
 use super::input::LinearInput;
 use super::model::Model;
 use super::state::*;
@@ -8,6 +7,13 @@ use super::{ContactPoint, Episode, Point, Side};
 use crate::polynomial::Powers;
 use crate::structure::{EXACT, flight_order, fly_in_one_series};
 use std::cell::Cell;
+
+/// What a contact shows, and the observation that it is of.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Known {
+    observation: u64,
+    shown: ContactPoint,
+}
 
 impl Model {
     /// Reads the state at its present time; the buffers of `point` are reused.
@@ -109,7 +115,7 @@ impl Model {
         let Point { floors, contacts, coordinates, .. } = point;
         let forces = || {
             let closed = state.base.contacts.iter().zip(&*contacts).enumerate().filter(|(_, (c, _))| c.in_contact());
-            closed.map(|(p, (_, shown))| (p, shown.get().numbers.force)).filter(|(_, force)| *force != 0.0)
+            closed.map(|(p, (_, known))| (p, known.get().shown.force)).filter(|(_, force)| *force != 0.0)
         };
         if self.floor_forces || forces().next().is_some() {
             let load = floors.start_load();
@@ -127,8 +133,8 @@ impl Model {
     /// The same from the state's base.
     #[inline]
     pub(super) fn contact_in(&self, base: &Base, point: &Point, p: usize) -> ContactPoint {
-        let Known { observation, numbers } = point.contacts[p].get();
-        if observation == point.floors.observation { numbers } else { self.note_contact_apart(base, point, p) }
+        let Known { observation, shown } = point.contacts[p].get();
+        if observation == point.floors.observation { shown } else { self.note_contact_apart(base, point, p) }
     }
 
     #[inline(never)]
@@ -177,8 +183,8 @@ impl Model {
 }
 
 impl Point {
-    fn note_contact(&self, p: usize, numbers: ContactPoint) {
-        self.contacts[p].set(Known { observation: self.floors.observation, numbers });
+    fn note_contact(&self, p: usize, shown: ContactPoint) {
+        self.contacts[p].set(Known { observation: self.floors.observation, shown });
     }
 }
 
