@@ -54,9 +54,8 @@ impl ModeBlock {
         participation: &Lane,
         (acceleration, slope): (f64, f64),
     ) -> (Lane, Lane) {
-        let l0 = participation.map(|p| -p * acceleration);
-        let l1 = participation.map(|p| -p * slope);
-        self.end(q, v, &l0, &l1)
+        let (pull, rate) = (-acceleration, -slope);
+        self.end(q, v, &participation.map(|p| p * pull), &participation.map(|p| p * rate))
     }
 }
 
