@@ -36,8 +36,7 @@ struct BuildingShapes {
     /// Weight of each mode: a power of its frequency over the lowest, as high modes move the less the stiffer they are.
     weight: Vec<f64>,
     /// Largest drift of each storey for a weighted size of 1 of all modes but the first, and of all modes, kg^-1/2.
-    rest: Vec<[f64; LANES]>,
-    all: Vec<[f64; LANES]>,
+    limits: Vec<[[f64; LANES]; 2]>,
     /// 1 over the latter, kg^1/2; infinite for the padding.
     inverse: Vec<[f64; LANES]>,
 }
@@ -87,15 +86,15 @@ impl BuildingShapes {
                 terms.map(|term| term * term).sum::<f64>().sqrt()
             })
         };
-        let sizes = |from: usize| shapes.chunks_exact(weight.len()).map(|block| largest(block, from)).collect();
-        let all: Vec<[f64; LANES]> = sizes(0);
-        let inverse = all.iter().map(|all| all.map(|all| 1.0 / all)).collect();
-        BuildingShapes { rest: sizes(FIRST), all, inverse, weight, shapes }
+        let blocks = shapes.chunks_exact(weight.len());
+        let limits: Vec<_> = blocks.map(|block| [largest(block, FIRST), largest(block, 0)]).collect();
+        let inverse = limits.iter().map(|[_, all]| all.map(|all| 1.0 / all)).collect();
+        BuildingShapes { limits, inverse, weight, shapes }
     }
 
     /// Storeys, padded to a multiple of [`LANES`].
     fn storeys(&self) -> usize {
-        self.all.len() * LANES
+        self.limits.len() * LANES
     }
 
     /// Raises the peaks to the drifts of these modal displacements.
@@ -125,8 +124,7 @@ impl BuildingShapes {
         let (size, rounding) = (rest.sqrt(), MARGIN * (first + rest).sqrt());
         let is_sure = first + rest > TINY;
         let mut raised = false;
-        for (b, (block, peak)) in self.shapes.chunks_exact(q.len()).zip(peaks).enumerate() {
-            let (rest, all) = (&self.rest[b], &self.all[b]);
+        for ((block, peak), [rest, all]) in self.shapes.chunks_exact(q.len()).zip(peaks).zip(&self.limits) {
             let mut drift = [0.0; LANES];
             add_modes(&mut drift, &block[..FIRST], &q[..FIRST]);
             let mut is_below = is_sure;
@@ -271,7 +269,7 @@ impl Model {
         let [left, right] = &self.drift.buildings;
         let PeakDrifts { peaks, below } = &mut base.peak_drift;
         let (left_q, right_q) = base.q.split_at(left.weight.len());
-        let (left_peaks, right_peaks) = peaks.as_chunks_mut::<LANES>().0.split_at_mut(left.all.len());
+        let (left_peaks, right_peaks) = peaks.as_chunks_mut::<LANES>().0.split_at_mut(left.limits.len());
         left.raise(left_q, left_peaks, &mut below[0]);
         right.raise(&right_q[..right.weight.len()], right_peaks, &mut below[1]);
     }
