@@ -92,8 +92,8 @@ fn assert_ripple_touches(scene_of: impl Fn(f64, f64, f64) -> Scene) {
         let begin = |share: f64| {
             let mut run = Run::new(&scene_of(rate, amplitude, share * amplitude), None);
             run.to(0.1);
-            assert!(run.point.contacts[0].active, "the other contact goes on");
-            (run.point.contacts[1].impacts > 0).then(|| run.episodes.iter().find(|e| e.contact == 1).unwrap().start)
+            assert!(run.contact(0).active, "the other contact goes on");
+            (run.contact(1).impacts > 0).then(|| run.episodes.iter().find(|e| e.contact == 1).unwrap().start)
         };
         let (found, expected) = (begin(0.99), (-0.99_f64).acos() / rate);
         let what = format!("{speed:e} m/s, {rate}/s: {found:?} instead of {expected}");
@@ -154,8 +154,8 @@ fn floors_that_move_alike_do_not_meet_beside_another_contact() {
         let motion: Vec<f64> = (0..50).map(|k| (f64::from(k) * 0.31).sin()).collect();
         let mut run = Run::new(&scene, Some(&record(0.02, &motion)));
         run.in_steps(0.02, 0.2);
-        assert!(run.point.contacts[0].active, "the top floors are still pressed");
+        assert!(run.contact(0).active, "the top floors are still pressed");
         assert!(run.displacement(Side::Left, 0).abs() > 1e-3, "they move");
-        assert_eq!(run.point.contacts[1].impacts, 0, "{storeys} storeys");
+        assert_eq!(run.contact(1).impacts, 0, "{storeys} storeys");
     }
 }

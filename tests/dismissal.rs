@@ -290,7 +290,7 @@ fn what_an_impact_sets_in_motion_is_looked_at_again() {
         scene.floor_forces = true;
         let mut looked = Run::new(&scene, Some(&record(STEP, &[0.0; 200])));
         looked.to(1.0);
-        let counts = [&run, &looked].map(|run| run.point.contacts.iter().map(|c| c.impacts).collect::<Vec<_>>());
+        let counts = [&run, &looked].map(|run| run.contacts().iter().map(|c| c.impacts).collect::<Vec<_>>());
         assert_eq!(counts[0], counts[1], "gap {top}");
         assert!(counts[0][1] > 0 || k > 5, "gap {top}");
         assert_eq!(run.episodes.len(), looked.episodes.len());

@@ -154,14 +154,14 @@ fn entry_and_release_within_one_interval_are_both_seen() {
     let mut run = Run::new(&scene, None);
     run.to(0.24);
     let episode = run.episodes[0];
-    assert!(episode.end.unwrap() - episode.start < 4e-3 && run.point.contacts[0].impacts == 1);
+    assert!(episode.end.unwrap() - episode.start < 4e-3 && run.contact(0).impacts == 1);
     assert_eq!(episode.dissipated_energy, 0.0);
     let mut long = Run::new(&scene, None);
     long.to(20.0);
     let mut short = Run::new(&scene, None);
     short.in_steps(0.001, 20.0);
-    assert_eq!(long.point.contacts[0].impacts, short.point.contacts[0].impacts);
-    assert!(long.point.contacts[0].impacts >= 20);
+    assert_eq!(long.contact(0).impacts, short.contact(0).impacts);
+    assert!(long.contact(0).impacts >= 20);
     let difference = (long.displacement(Side::Left, 0) - short.displacement(Side::Left, 0)).abs();
     // Elastic impacts for ever: rounding grows, but slowly.
     assert!(difference < 1e-11, "{difference:e}");
@@ -192,7 +192,7 @@ fn an_entry_at_the_end_of_a_step_belongs_to_one_episode() {
         let t = f64::from_bits((entry(0.004).to_bits() as i64 + ulps) as u64);
         let mut run = Run::new(&pendulum(&format!("initial_velocity = [{speed:?}]"), &wall(0.004)), None);
         run.to(t).to(0.24);
-        assert_eq!(run.point.contacts[0].impacts, 1, "{ulps} ulps off");
+        assert_eq!(run.contact(0).impacts, 1, "{ulps} ulps off");
         assert!((run.episodes[0].start - entry(0.004)).abs() < 1e-16 * 3.0);
     }
 }
@@ -220,8 +220,8 @@ fn a_pair_pressed_together_at_the_start_is_an_episode_from_then_on() {
     let mut run = Run::new(&scene, None);
     let w = 1000.0;
     run.to(0.0005);
-    assert!(run.point.contacts[0].active && run.point.contacts[0].impacts == 1);
-    assert_close(run.point.contacts[0].force, 1000.0 * f64::cos(w * 0.0005), 1e-12, "force");
+    assert!(run.contact(0).active && run.contact(0).impacts == 1);
+    assert_close(run.contact(0).force, 1000.0 * f64::cos(w * 0.0005), 1e-12, "force");
     run.to(0.01);
     let episode = run.episodes[0];
     assert_eq!((episode.start, episode.approach_velocity), (0.0, 0.0));
@@ -231,7 +231,7 @@ fn a_pair_pressed_together_at_the_start_is_an_episode_from_then_on() {
     assert_eq!(episode.peak_time, 0.0);
     // The spring has given back what it held: half a joule came out of the contact.
     assert_close(episode.dissipated_energy, -0.5, 1e-12, "work on the contact");
-    assert!(!run.point.contacts[0].active);
+    assert!(!run.contact(0).active);
 }
 
 #[test]
@@ -300,7 +300,7 @@ fn a_state_saved_in_mid_contact_goes_on_with_the_same_bits() {
         let record = record(0.05, &[0.0, 0.1, -0.1, 0.05, 0.0, 0.1, 0.0]);
         let mut run = Run::new(&scene, Some(&record));
         run.to(entry(0.004) + 1.5e-3);
-        assert!(run.point.contacts[0].active, "{law}");
+        assert!(run.contact(0).active, "{law}");
         let saved = run.state.clone();
         run.to(0.9);
         let first = run.bits();
@@ -361,7 +361,7 @@ fn floors_that_touch_at_rest_are_pressed_by_the_motion_alone() {
                 let motion: Vec<f64> = (0..50).map(|k| sign * (f64::from(k) * 0.31).sin()).collect();
                 let mut run = Run::new(&scene, Some(&record(0.02, &motion)));
                 run.to(1e-6).to(1e-3);
-                let early = run.point.contacts[0];
+                let early = run.contact(0);
                 // Damping tells first: the building with more damping per mass lags behind.
                 assert!(early.penetration.abs() < 1e-9 && early.force.abs() < 1.0, "{law}: {early:?}");
                 run.to(1.0);

@@ -192,12 +192,7 @@ fn compare_run(scene: &Scene, mut run: Run, case: &str, allowed: f64, advance: i
     let mut impacts = 0.0_f64;
     for (p, contact) in scene.contacts.iter().enumerate() {
         let count = episodes.iter().filter(|episode| episode.contact == p).count();
-        assert_eq!(
-            run.point.contacts[p].impacts,
-            count as u64,
-            "{name}: impacts of contact {} are its episodes",
-            p + 1
-        );
+        assert_eq!(run.contact(p).impacts, count as u64, "{name}: impacts of contact {} are its episodes", p + 1);
         impacts = impacts.max(worst_episode(&golden, name, contact.law.is_rigid(), p, &episodes));
     }
     println!("{case}: {motion:.1e}, episodes {impacts:.1e} per unit of sensitivity");

@@ -189,7 +189,7 @@ fn kelvin_voigt_force_from_the_jump_at_entry_to_the_pull_before_release() {
             let decay = (-xi * omega * t).exp();
             let d = speed / damped * decay * (damped * t).sin();
             let v = speed * decay * ((damped * t).cos() - xi * omega / damped * (damped * t).sin());
-            let force = run.point.contacts[0].force;
+            let force = run.contact(0).force;
             let error = (force - (stiffness * d + c * v)) / (c * speed);
             // The time of entry, 2 ms, is rounded; the force changes by about its size in a tenth of the contact.
             assert!(error.abs() < 1e-12, "e = {e}, {part} of the contact: {force}, off by {error:e}");

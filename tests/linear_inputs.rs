@@ -113,7 +113,7 @@ fn a_ramp_in_contact_is_exact() {
             let swing = (-b * t).exp() * (-p * (wd * t).cos() - (s + b * p) / wd * (wd * t).sin());
             let d = p + s * t + swing;
             let centre = (0.5 * f * t * t + r * t * t * t / 6.0) / (m1 + m2);
-            let contact = run.point.contacts[0];
+            let contact = run.contact(0);
             assert!(contact.active && contact.impacts == 1, "{law}: {contact:?}");
             assert_close(contact.penetration, d, 2e-12, law);
             assert_close(run.displacement(Side::Left, 0), centre + m / m1 * d, 1e-12, law);
@@ -133,9 +133,9 @@ fn rigid_floors_part_when_a_falling_force_says() {
         let mut run = Run::new(&bodies((m1, 1e-20), (m2, 1e-20), &text), None);
         ramp(&mut run, Side::Left, f, r);
         run.to(0.5);
-        assert_close(run.point.contacts[0].force, m2 / (m1 + m2) * (f + r * 0.5), 1e-13, "reaction");
+        assert_close(run.contact(0).force, m2 / (m1 + m2) * (f + r * 0.5), 1e-13, "reaction");
         run.in_steps(step, 3.0);
-        assert!(!run.point.contacts[0].active && run.episodes.len() == 1, "{:?}", run.episodes);
+        assert!(!run.contact(0).active && run.episodes.len() == 1, "{:?}", run.episodes);
         assert_close(run.episodes[0].end.unwrap(), 2.0, 1e-14, "release");
         assert_close(run.episodes[0].impulse, m2 / (m1 + m2) * 4.0, 1e-13, "impulse");
         // Together until 2 s; then the left one goes on under its force alone.
@@ -156,7 +156,7 @@ fn floors_that_are_let_go_at_a_jump_are_pressed_together_again() {
     run.state.set_floor_force(Side::Left, 0, 8.0);
     for k in 1..=10 {
         run.to(2.0 + 0.1 * f64::from(k));
-        let contact = run.point.contacts[0];
+        let contact = run.contact(0);
         assert!(contact.active && contact.penetration.abs() < 1e-15, "{contact:?}");
         assert_close(contact.force, 5.0, 1e-13, "reaction");
     }

@@ -37,14 +37,13 @@ fn penetrations_are_those_of_the_floors_where_pairs_share_one() {
         let mut both = 0;
         for k in 1..=6000 {
             run.to(f64::from(k) * 1e-3);
-            for (contact, pair) in run.point.contacts.iter().zip(&scene.contacts).filter(|(contact, _)| contact.active)
-            {
+            for (contact, pair) in run.contacts().iter().zip(&scene.contacts).filter(|(contact, _)| contact.active) {
                 let at = |side, floor: usize| run.displacement(side, floor - 1);
                 let gap = at(Side::Left, pair.left_floor) - at(Side::Right, pair.right_floor) - pair.gap;
                 let error = (contact.penetration - gap).abs();
                 assert!(error < 1e-14, "t = {} s: {:e} m, floors {gap:e} m", 1e-3 * f64::from(k), contact.penetration);
             }
-            both += i32::from(run.point.contacts[1..].iter().all(|contact| contact.active));
+            both += i32::from(run.contacts()[1..].iter().all(|contact| contact.active));
         }
         assert!(both > 20, "both pairs of a floor closed at {both} times");
     }
@@ -64,7 +63,7 @@ fn forces_on_floors_do_their_work_in_contact() {
         let energy = run.point.energy.unwrap();
         assert!(energy.residual.abs() < 1e-13, "t = {} s: residual {:e}", 0.01 * f64::from(k), energy.residual);
         work = work.max(energy.external.abs());
-        closed += i32::from(run.point.contacts.iter().any(|contact| contact.active));
+        closed += i32::from(run.contacts().iter().any(|contact| contact.active));
     }
     assert!(work > 1e3 && closed > 50, "{work} J, closed at {closed} of 600 times");
 }
@@ -77,7 +76,7 @@ fn peak_drifts_see_what_happens_in_contact() {
     let mut largest = [(0.0_f64, false); 9];
     for k in 1..=30_000 {
         run.to(f64::from(k) * 2e-4);
-        let active = run.point.contacts.iter().any(|contact| contact.active);
+        let active = run.contacts().iter().any(|contact| contact.active);
         for (floor, largest) in largest.iter_mut().enumerate() {
             let below = if floor == 0 { 0.0 } else { run.displacement(Side::Left, floor - 1) };
             let drift = (run.displacement(Side::Left, floor) - below).abs();
@@ -134,7 +133,7 @@ fn floors_go_where_their_modes_go() {
                     assert!((u - expected).abs() < 1e-8 * largest, "t = {time} s, floor {floor}: {u} not {expected}");
                 }
             }
-            closed += i32::from(floors.point.contacts.iter().any(|contact| contact.active));
+            closed += i32::from(floors.contacts().iter().any(|contact| contact.active));
         }
         assert!(closed > 20, "closed at {closed} of 300 times");
     }

@@ -91,7 +91,7 @@ fn check(text: &str) -> Result<(), TestCaseError> {
     let mut run = Run::new(&scene, Some(&motion()));
     for k in 1..=100 {
         run.to(0.02 * f64::from(k));
-        for (contact, pair) in run.point.contacts.iter().zip(&scene.contacts) {
+        for (contact, pair) in run.contacts().iter().zip(&scene.contacts) {
             prop_assert!(contact.force >= 0.0, "{:?} pulls: {contact:?}\n{text}", pair.law.kind);
             let at = |side, floor: usize| run.displacement(side, floor - 1);
             let depth = at(Side::Left, pair.left_floor) - at(Side::Right, pair.right_floor) - pair.gap;

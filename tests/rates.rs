@@ -23,7 +23,7 @@ fn shown(run: &mut Run, rates: &mut PointRates) -> Vec<(String, f64, Rates)> {
             add("acceleration", model.acceleration(point, side, i), model.acceleration_rates(point, rates, side, i));
         }
     }
-    for (p, (contact, rates)) in point.contacts.iter().zip(&rates.contacts).enumerate() {
+    for (p, (contact, rates)) in run.contacts().iter().zip(&rates.contacts).enumerate() {
         for (name, value, rates) in [
             ("force", contact.force, rates.force),
             ("penetration", contact.penetration, rates.penetration),
@@ -50,7 +50,7 @@ fn shown(run: &mut Run, rates: &mut PointRates) -> Vec<(String, f64, Rates)> {
 
 /// What the contacts do at present: nothing of it may change where differences are taken.
 fn phase(run: &Run) -> (u64, u64, Vec<bool>) {
-    (run.state.counters().events, run.point.impacts, run.point.contacts.iter().map(|contact| contact.active).collect())
+    (run.state.counters().events, run.point.impacts, run.contacts().iter().map(|contact| contact.active).collect())
 }
 
 /// Largest errors of first and second derivatives in a run, relative to the largest derivative of that quantity.
@@ -77,7 +77,7 @@ fn errors(run: &mut Run, stop: f64, h: f64) -> (f64, f64, usize) {
         }
         // Near d = 0 the higher derivatives of a power law have no bound, and differences no meaning.
         let is_shallow = |(p, rates): (usize, &ContactRates)| {
-            run.point.contacts[p].active && run.point.contacts[p].penetration < 300.0 * h * rates.penetration[0].abs()
+            run.contact(p).active && run.contact(p).penetration < 300.0 * h * rates.penetration[0].abs()
         };
         if state != phase(run) || rates_after.contacts.iter().enumerate().any(is_shallow) {
             continue;

@@ -127,7 +127,7 @@ fn seen(run: &mut Run) -> (Vec<u64>, String) {
         let terms = [energy.input, energy.viscous, energy.impact, energy.external, energy.kinetic, energy.residual];
         bits.extend(terms.map(f64::to_bits));
     }
-    let opens: Vec<_> = (0..run.point.contacts.len()).map(|p| run.model.open_episode(&run.state, p)).collect();
+    let opens: Vec<_> = (0..run.model.contacts()).map(|p| run.model.open_episode(&run.state, p)).collect();
     (bits, format!("{:?} {opens:?} {:?}", run.state.counters(), std::mem::take(&mut run.episodes)))
 }
 
@@ -150,8 +150,8 @@ fn a_saved_state_goes_on_to_the_same_bits() {
         for (k, expected) in expected.iter().enumerate() {
             saved.push(run.state.save());
             assert!(to(&case, &mut run, k) == *expected, "{case:?}: saving has changed point {k}");
-            touching += usize::from(run.point.contacts.iter().any(|contact| contact.active));
-            held += usize::from(run.point.contacts.iter().any(|contact| contact.active && contact.force > 0.0));
+            touching += usize::from(run.contacts().iter().any(|contact| contact.active));
+            held += usize::from(run.contacts().iter().any(|contact| contact.active && contact.force > 0.0));
         }
         assert!(touching > 20, "{case:?}: {touching} points in contact");
         assert!(held > 10, "{case:?}: {held} points under force");

@@ -30,11 +30,11 @@ fn one_floor_meets_two_at_once() {
             let expected = DVector::from_vec(vec![after, after + e1 * v, after + e2 * v]);
             assert_same(&got, &expected, 1e-14, &what);
             assert_same(&expected, &bodies.after_impact(), 1e-14, "the enumeration agrees with the closed form");
-            let impulse = |p: usize| run.point.contacts[p].impulse;
+            let impulse = |p: usize| run.contact(p).impulse;
             assert_close(impulse(0), r1 * expected[1], 1e-14, &format!("impulse 1, {what}"));
             assert_close(impulse(1), r2 * expected[2], 1e-14, &format!("impulse 2, {what}"));
             let lost = bodies.energy(&bodies.velocities()) - bodies.energy(&expected);
-            let account = run.point.contacts.iter().map(|contact| contact.dissipated_energy).sum::<f64>();
+            let account = run.contacts().iter().map(|contact| contact.dissipated_energy).sum::<f64>();
             assert!((account - lost).abs() < 1e-14 * l * v * v, "loss, {what}: {account} and {lost}");
             assert!(run.point.energy.unwrap().residual.abs() < 1e-14, "{what}: {:?}", run.point.energy);
         }
@@ -74,7 +74,7 @@ fn impacts_on_shared_floors_are_the_complementary_ones() {
             let momentum = bodies.momentum(&got) - bodies.momentum(&before);
             assert!(momentum.abs() < 1e-14 * bodies.masses().iter().sum::<f64>(), "momentum of {what}: {momentum:e}");
             assert!(bodies.energy(&got) < bodies.energy(&before) * (1.0 + 1e-14), "energy of {what}");
-            for contact in &run.point.contacts {
+            for contact in run.contacts() {
                 assert!(contact.impulse >= 0.0 && contact.dissipated_energy.is_finite(), "{what}: {contact:?}");
             }
         }
@@ -103,13 +103,13 @@ fn reactions_on_shared_floors_are_the_complementary_ones() {
             let what = format!("{load:?}, {:?}", bodies.pairs);
             assert_same(&velocities(&run), &(0.5 * &acceleration), 1e-13, &what);
             let rates = bodies.rows(&all) * &acceleration;
-            for (p, contact) in run.point.contacts.iter().enumerate() {
+            for (p, contact) in run.contacts().into_iter().enumerate() {
                 assert!(contact.force >= 0.0 && contact.penetration < 1e-15, "{what}: {contact:?}");
                 // Complementary: a pair that parts has no reaction.
                 assert!(rates[p] > -1e-13 || contact.force == 0.0, "{what}: {contact:?} parts at {}", rates[p]);
             }
             // Reactions may be shared in several ways where pairs form a ring; what floors feel is one.
-            let forces = DVector::from_iterator(all.len(), run.point.contacts.iter().map(|contact| contact.force));
+            let forces = DVector::from_iterator(all.len(), run.contacts().iter().map(|contact| contact.force));
             let felt = bodies.rows(&all).transpose() * forces;
             for k in 0..4 {
                 let error = load[k] - felt[k] - masses[k] * acceleration[k];
@@ -131,14 +131,14 @@ fn a_reaction_on_a_shared_floor_is_let_go_by_itself() {
     run.state.set_floor_force(Side::Left, 0, 10.0);
     run.to(1.0);
     // All three together: each right floor gets its mass times 10 / 10 m/s2.
-    assert_close(run.point.contacts[0].force, r1, 1e-14, "reaction 1");
-    assert_close(run.point.contacts[1].force, r2, 1e-14, "reaction 2");
+    assert_close(run.contact(0).force, r1, 1e-14, "reaction 1");
+    assert_close(run.contact(1).force, r2, 1e-14, "reaction 2");
     // R2 is drawn away at 2 m/s2; L pushes R1 alone.
     run.state.set_floor_force(Side::Right, 1, 2.0 * r2);
     run.to(1.5);
-    assert_close(run.point.contacts[0].force, 10.0 * r1 / (l + r1), 1e-14, "reaction 1");
-    assert_eq!(run.point.contacts[1].force, 0.0);
-    assert_close(run.point.contacts[1].penetration, 0.125 * (10.0 / 7.0 - 2.0), 1e-13, "apart");
+    assert_close(run.contact(0).force, 10.0 * r1 / (l + r1), 1e-14, "reaction 1");
+    assert_eq!(run.contact(1).force, 0.0);
+    assert_close(run.contact(1).penetration, 0.125 * (10.0 / 7.0 - 2.0), 1e-13, "apart");
     let [episode] = run.episodes[..] else { panic!("{:?}", run.episodes) };
     assert_eq!((episode.contact, episode.start, episode.end), (1, 0.0, Some(1.0)));
     assert_close(episode.impulse, r2, 1e-14, "impulse");
@@ -181,12 +181,12 @@ fn an_impact_on_a_floor_that_is_held_lets_its_other_pair_go() {
     contacts.sort_unstable();
     assert_eq!(contacts, [0, 1], "{all:?}");
     assert!(all.iter().all(|(_, end)| (end - meet).abs() < 1e-16), "{all:?}, {meet}");
-    assert_close(run.point.contacts[0].impulse, r1 * a * meet, 1e-13, "impulse of the reaction");
-    assert_close(run.point.contacts[1].impulse, impulse, 1e-14, "impulse of the impact");
+    assert_close(run.contact(0).impulse, r1 * a * meet, 1e-13, "impulse of the reaction");
+    assert_close(run.contact(1).impulse, impulse, 1e-14, "impulse of the impact");
     assert_close(run.velocity(Side::Left, 0), a * meet - impulse / l + force / l * later, 1e-13, "thrown back");
     assert_close(run.velocity(Side::Right, 0), a * meet, 1e-13, "let go");
     assert_close(run.velocity(Side::Right, 1), impulse / r2 - 1.0, 1e-13, "thrown forward");
-    assert!(!run.point.contacts[0].active && run.point.contacts[0].penetration < 0.0);
+    assert!(!run.contact(0).active && run.contact(0).penetration < 0.0);
 }
 
 /// L meets R2 with a Kelvin contact without tension and, while that lasts, R1 with an impulse. The Kelvin pair swings by
@@ -226,7 +226,7 @@ fn an_impulse_changes_the_rate_of_a_soft_contact_of_the_same_floor() {
         assert!(after < 0.0, "the impulse turns the rate round");
         let mut run = Run::new(&scene, None);
         run.to(0.999 * time);
-        assert!(run.point.contacts[1].active && run.point.contacts[0].impacts == 0);
+        assert!(run.contact(1).active && run.contact(0).impacts == 0);
         run.to(1.001 * time);
         assert_close(run.episodes[0].start, time, 1e-13, "time of the impulse");
         assert_close(run.episodes[0].impulse, impulse, 1e-13, "impulse");
@@ -234,7 +234,7 @@ fn an_impulse_changes_the_rate_of_a_soft_contact_of_the_same_floor() {
         let pull = k * r + c * after < 0.0;
         assert_eq!(pull, restitution < 0.5, "the case that is meant");
         if pull {
-            assert_eq!(run.point.contacts[1].force, 0.0, "the law would pull");
+            assert_eq!(run.contact(1).force, 0.0, "the law would pull");
             run.to(3.0 * time);
             let episode = run.episodes.iter().find(|episode| episode.contact == 1).unwrap();
             assert_close(episode.end.unwrap(), time - r / after, 1e-12, "release");
@@ -243,7 +243,7 @@ fn an_impulse_changes_the_rate_of_a_soft_contact_of_the_same_floor() {
             // r goes on from r, after.
             let swing = (-s * tau).exp() * (r * (wd * tau).cos() + (after + s * r) / wd * (wd * tau).sin());
             let slope = (-s * tau).exp() * (after * (wd * tau).cos() - (s * after + w * w * r) / wd * (wd * tau).sin());
-            assert_close(run.point.contacts[1].force, k * swing + c * slope, 1e-12, "force after the impulse");
+            assert_close(run.contact(1).force, k * swing + c * slope, 1e-12, "force after the impulse");
         }
         assert!(run.point.energy.unwrap().residual.abs() < 1e-13, "{:?}", run.point.energy);
     }

@@ -46,7 +46,7 @@ fn a_symmetric_situation_stays_symmetric() {
     run.state.set_floor_force(Side::Left, 0, 6.0);
     for k in 1..=150 {
         run.to(0.01 * f64::from(k));
-        let [a, b] = run.point.contacts[..] else { panic!() };
+        let [a, b] = run.contacts()[..] else { panic!() };
         let difference = run.velocity(Side::Right, 0) - run.velocity(Side::Right, 1);
         assert!(difference.abs() < 1e-14 && (a.force - b.force).abs() < 1e-13, "{a:?}, {b:?}");
         assert!((a.impulse - b.impulse).abs() < 1e-13 && a.impacts == b.impacts, "{a:?}, {b:?}");
@@ -58,7 +58,7 @@ fn a_symmetric_situation_stays_symmetric() {
     // Rebounds below the rounding of the floors' velocities are not followed up: some hundred eps V / a are missing.
     assert_close(open[0].start, end, 1e-12, "end of the rebounds");
     assert_close(open[1].start, end, 1e-12, "end of the rebounds");
-    assert_close(run.point.contacts[0].force, 6.0 * 2.0 / 9.0, 1e-14, "reaction");
+    assert_close(run.contact(0).force, 6.0 * 2.0 / 9.0, 1e-14, "reaction");
 }
 
 /// The scene of the golden run of rebounds and sustained contacts, and its record.
@@ -134,7 +134,7 @@ fn twenty_storeys_lean_on_thirty() {
         let mut lost = 0.0;
         for k in 1..=2000 {
             run.to(0.01 * f64::from(k));
-            for (p, contact) in run.point.contacts.iter().enumerate() {
+            for (p, contact) in run.contacts().into_iter().enumerate() {
                 assert!(contact.penetration < 1e-9, "gap {gap}, contact {}: {contact:?}", p + 1);
                 assert!(contact.force >= 0.0 && contact.impulse >= 0.0, "contact {}: {contact:?}", p + 1);
             }

@@ -91,8 +91,8 @@ fn velocities_after_an_impact_are_those_of_equations_1_and_2() {
                 assert!((account.impact - lost).abs() < 1e-15 * energy, "loss in the account, {what}");
                 assert!(account.residual.abs() < 4e-15, "{what}: {account:?}");
                 // Two floors that go on together touch; whether they count as in contact is a matter of rounding.
-                assert!(run.point.contacts[0].impacts == 1 || e == 0.0, "{what}: {:?}", run.point.contacts[0]);
-                assert!(run.point.contacts[0].penetration < 1e-16, "{what}");
+                assert!(run.contact(0).impacts == 1 || e == 0.0, "{what}: {:?}", run.contact(0));
+                assert!(run.contact(0).penetration < 1e-16, "{what}");
             }
         }
     }
@@ -140,7 +140,7 @@ fn rebounds_of_a_pressed_pair_end_when_the_geometric_series_says() {
                 &format!("end of the rebounds, e = {e}"),
             );
             assert_eq!((contact.end, contact.dissipated_energy), (None, 0.0));
-            let point = run.point.contacts[0];
+            let point = run.contact(0);
             assert!(point.active && point.penetration.abs() < 1e-15, "{point:?}");
             assert_eq!(point.impacts as usize, impulses.len() + 1);
             let reaction = force * right / (left + right);
@@ -180,7 +180,7 @@ fn rebounds_of_two_equal_oscillators_are_arcs_of_a_circle() {
         let end: f64 = (1..300).map(|n| arc(speed * f64::powi(e, n))).sum();
         let [contact] = sustained(&run)[..] else { panic!("one sustained contact: {:?}", sustained(&run)) };
         assert_close(contact.start, end, 1e-12, &format!("end of the rebounds, e = {e}"));
-        assert_close(run.point.contacts[0].force, m * w * w * g, 1e-13, "reaction");
+        assert_close(run.contact(0).force, m * w * w * g, 1e-13, "reaction");
         assert_close(contact.impulse, m * w * w * g * (5.0 - end), 1e-12, "impulse of the reaction");
         // The centre of mass swings as if nothing had happened.
         let centre = left / (left + right) * (speed / w * (w * 5.0).sin() - g * (w * 5.0).cos());
@@ -210,16 +210,16 @@ fn a_reaction_follows_the_force_and_lets_go_when_it_would_pull() {
         run.state.set_floor_force(Side::Left, 0, force);
         run.to(f64::from(k as u32) + 0.5);
         let reaction = force * right / (left + right);
-        assert_close(run.point.contacts[0].force, reaction, 1e-14, "reaction");
+        assert_close(run.contact(0).force, reaction, 1e-14, "reaction");
         run.to(f64::from(k as u32) + 1.0);
         pushed += reaction;
-        assert_close(run.point.contacts[0].impulse, pushed, 1e-14, "impulse");
+        assert_close(run.contact(0).impulse, pushed, 1e-14, "impulse");
     }
     // A push on the right floor to the left presses as well: m (F_left / m_left - F_right / m_right).
     run.state.set_floor_force(Side::Left, 0, 0.0);
     run.state.set_floor_force(Side::Right, 0, -1.5);
     run.to(5.0);
-    assert_close(run.point.contacts[0].force, 1.5 * left / (left + right), 1e-14, "reaction");
+    assert_close(run.contact(0).force, 1.5 * left / (left + right), 1e-14, "reaction");
     run.state.set_floor_force(Side::Right, 0, 1.5);
     run.to(6.0);
     assert_eq!(run.episodes.len(), 1, "{:?}", run.episodes);
@@ -228,7 +228,7 @@ fn a_reaction_follows_the_force_and_lets_go_when_it_would_pull() {
     assert_close(episode.peak_force, 7.0 * right / (left + right), 1e-14, "peak force");
     assert_close(episode.impulse, pushed + 1.5 * left / (left + right), 1e-14, "impulse");
     assert!(episode.separation_velocity.abs() < 1e-15);
-    let point = run.point.contacts[0];
+    let point = run.contact(0);
     assert!(!point.active && point.impacts == 1 && point.force == 0.0, "{point:?}");
     assert_close(point.penetration, -0.5 * 1.5 / right, 1e-14, "apart");
 }
@@ -262,7 +262,7 @@ fn two_oscillators_swing_as_one_until_the_reaction_is_0() {
                 let (u, v) = motion(part * release);
                 assert_close(run.displacement(Side::Left, 0), u, 1e-13, "displacement");
                 assert_close(run.displacement(Side::Right, 0), u, 1e-13, "displacement");
-                let error = run.point.contacts[0].force - (by_u * u + by_v * v);
+                let error = run.contact(0).force - (by_u * u + by_v * v);
                 assert!(error.abs() < 1e-13 * by_u * u0, "reaction at {part} of the contact, off by {error:e}");
             }
             run.to(1.05 * release);
@@ -277,7 +277,7 @@ fn two_oscillators_swing_as_one_until_the_reaction_is_0() {
             let (u, v) = motion(release);
             let integral = -(v + 2.0 * s * (u - u0)) / w2;
             assert_close(episode.impulse, by_u * integral + by_v * (u - u0), 1e-12, "impulse");
-            assert!(episode.separation_velocity.abs() < 1e-15 && run.point.contacts[0].penetration < 0.0);
+            assert!(episode.separation_velocity.abs() < 1e-15 && run.contact(0).penetration < 0.0);
             assert!(run.point.energy.unwrap().residual.abs() < 1e-13, "{:?}", run.point.energy);
         }
     }
@@ -302,8 +302,8 @@ fn pressure_that_grows_from_nothing_under_a_record() {
             let n = f64::from(2 * k + 3);
             (1.0 - sum * x * x) / (n * (n - 1.0))
         });
-        let error = run.point.contacts[0].force / (by_u * a / t1 * t * t * t * terms) - 1.0;
-        assert!(run.point.contacts[0].active && error.abs() < 1e-10, "reaction at {t} s: off by {error:e}");
+        let error = run.contact(0).force / (by_u * a / t1 * t * t * t * terms) - 1.0;
+        assert!(run.contact(0).active && error.abs() < 1e-10, "reaction at {t} s: off by {error:e}");
     }
     run.to(0.3);
     let scale = 2.0 * a / (t1 * w.powi(3)) * (1.0 - (w * t1).cos());
@@ -317,12 +317,12 @@ fn pressure_that_grows_from_nothing_under_a_record() {
     assert_close(episode.peak_time, t1 + 0.5 * PI / w, 1e-6, "time of the peak");
     // W^2 times the integral of u is that of -a(t), a t1, less the velocity -scale W at the release.
     assert_close(episode.impulse, by_u * (a * t1 + scale * w) / (w * w), 1e-13, "impulse");
-    let apart = run.point.contacts[0];
+    let apart = run.contact(0);
     assert!(!apart.active && apart.penetration < 0.0 && apart.impacts == 1, "{apart:?}");
     // The other direction parts them at once.
     let mut run = Run::new(&scene, Some(&record(t1, &[0.0, a, 0.0])));
     run.to(0.25);
-    assert_eq!(run.point.contacts[0].impacts, 0);
+    assert_eq!(run.contact(0).impacts, 0);
 }
 
 #[test]

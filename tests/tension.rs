@@ -120,7 +120,7 @@ fn pull_and_press(kind: LawKind, formula: DampingFormula) -> Seen {
         while run.state.time() < until - 1e-9 {
             let next = f64::min(run.state.time() + 1e-5, until);
             run.to(next);
-            let contact = run.point.contacts[0];
+            let contact = run.contact(0);
             let rate = run.velocity(Side::Left, 0) - run.velocity(Side::Right, 0);
             seen.least = seen.least.min(contact.force);
             if kind != LawKind::KelvinVoigt {

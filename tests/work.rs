@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Run, record, scene};
-use pounding::engine::{Counters, Side};
+use pounding::engine::{Counters, Point, Side};
 use pounding::record::Record;
 use pounding::scene::Scene;
 use pounding::variables::{Instant, Output};
@@ -225,4 +225,28 @@ fn floors_that_nobody_reads_are_not_worked_out() {
     run.to(0.35);
     assert_eq!(read(&run, &floors), 40, "at another time");
     assert_eq!(read(&run, &floors), 0, "again");
+}
+
+#[test]
+fn a_contact_shows_the_same_whatever_has_been_read_before() {
+    let contacts: String = [1, 2].map(|floor| contact(0.01).replace("floor = 2", &format!("floor = {floor}"))).concat();
+    let (scene, record) = frames_of([8, 12], &contacts);
+    let mut run = Run::new(&scene, Some(&record));
+    let show = |run: &Run, p: usize| format!("{:?}", run.contact(p));
+    let (mut apart, mut closed) = (0, 0);
+    for k in 1..=2000 {
+        run.to(f64::from(k) * 0.01);
+        // Either is left unread at times, while it is apart and while it is closed.
+        let read = [k % 3 != 0, k % 2 != 0];
+        let first: Vec<String> = (0..2).filter(|p| read[*p]).map(|p| show(&run, p)).collect();
+        let mut anew = Point::default();
+        run.model.observe(&run.state, &mut anew);
+        std::mem::swap(&mut run.point, &mut anew);
+        let later: Vec<String> = (0..2).rev().filter(|p| read[*p]).map(|p| show(&run, p)).collect();
+        assert!(first.iter().eq(later.iter().rev()), "{first:?} and {later:?} at {k}");
+        let open = run.contacts().iter().filter(|contact| contact.active).count();
+        (apart, closed) = (apart + usize::from(open < 2), closed + usize::from(open > 0));
+        run.point = anew;
+    }
+    assert!(apart > 100 && closed > 10, "{apart} and {closed}");
 }

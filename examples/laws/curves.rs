@@ -45,7 +45,7 @@ fn curve(case: Case) -> Result<Vec<[f64; 2]>, Failure> {
     let mut curve = vec![[0.0, 0.0]];
     for i in 1..POINTS {
         impact.to(episode.start + (end - episode.start) * f64::from(i) / f64::from(POINTS))?;
-        let contact = impact.point.contacts[0];
+        let contact = impact.contact();
         curve.push([contact.penetration / deepest, contact.force / spring.peak_force()]);
     }
     curve.push([0.0, 0.0]);

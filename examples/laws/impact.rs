@@ -1,7 +1,7 @@
 //! One free impact under each law, run by the engine.
 
 use pounding::contact::{DampingFormula, LawKey, LawKind, StiffnessUnit};
-use pounding::engine::{Episode, Model, Point, Side, State};
+use pounding::engine::{ContactPoint, Episode, Model, Point, Side, State};
 use pounding::scene::{Scene, law_key};
 use std::error::Error;
 
@@ -121,6 +121,11 @@ impl Impact {
         Ok(())
     }
 
+    /// The contact now.
+    pub fn contact(&self) -> ContactPoint {
+        self.model.contact(&self.state, &self.point, 0)
+    }
+
     /// Speed now, when the floors part, relative to that before the impact.
     pub fn restitution(&self) -> f64 {
         let velocity = |side| self.model.velocity(&self.point, side, 0);
@@ -129,11 +134,11 @@ impl Impact {
 
     /// Energy lost so far, relative to the kinetic energy of the relative motion before the impact.
     pub fn loss(&self) -> f64 {
-        self.point.contacts[0].dissipated_energy / (0.5 * REDUCED_MASS * SPEED * SPEED)
+        self.contact().dissipated_energy / (0.5 * REDUCED_MASS * SPEED * SPEED)
     }
 
     /// N, so far.
     pub fn peak_force(&self) -> f64 {
-        self.point.contacts[0].peak_force
+        self.contact().peak_force
     }
 }

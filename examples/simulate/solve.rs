@@ -50,6 +50,6 @@ pub fn episodes(model: &Model, stop: f64) -> Result<Vec<Episode>, EngineError> {
 fn add_open(model: &Model, state: &State, episodes: &mut Vec<Episode>) {
     let mut point = Point::default();
     model.observe(state, &mut point);
-    episodes.extend((0..point.contacts.len()).filter_map(|contact| model.open_episode(state, contact)));
+    episodes.extend((0..model.contacts()).filter_map(|contact| model.open_episode(state, contact)));
     episodes.sort_by(|one, other| one.start.total_cmp(&other.start));
 }

@@ -13,7 +13,7 @@ use crate::structure::{Lane, MotionSeries, PairForces};
 /// The pairs in contact, in blocks of one kind of law each.
 #[derive(Clone, Debug)]
 pub(super) struct ClosedPairs {
-    /// Room for all; the first `used` are filled.
+    /// The first `used` are filled. There is room for all, but memory that no contact has needed yet is not touched.
     blocks: Vec<PairBlock>,
     members: Vec<Members>,
     readings: Vec<BlockReading>,
@@ -47,7 +47,7 @@ impl ClosedPairs {
         let shares = |a: &Pair, b: &Pair| a.floors[0] == b.floors[0] || a.floors[1] == b.floors[1];
         let most = most_blocks(pairs, 5, on_floors);
         ClosedPairs {
-            blocks: vec![PairBlock::default(); most],
+            blocks: Vec::with_capacity(most),
             members: vec![Members::default(); most],
             readings: vec![BlockReading::default(); most],
             at_surface: vec![false; most],
@@ -112,6 +112,9 @@ impl ClosedPairs {
             }
         }
         let b = self.used;
+        if b == self.blocks.len() {
+            self.blocks.push(PairBlock::default());
+        }
         self.blocks[b].start(kind);
         self.used += 1;
         (b, self.members[b].start(place))

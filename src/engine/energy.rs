@@ -280,7 +280,8 @@ impl Model {
                 account.external += done.external;
             }
             let (kinetic, strain) = self.structure_energies(point.coordinates, &point.q, &point.v);
-            let impact = point.contacts.iter().map(|contact| contact.dissipated_energy).sum();
+            let contacts = 0..self.pairs.len();
+            let impact = contacts.map(|p| self.contact_in(&state.base, point, p).dissipated_energy).sum();
             account.update_largest([kinetic, strain, impact]);
             let Account { initial, input, external, viscous, largest } = account;
             let imbalance = initial + input + external - kinetic - strain - viscous - impact;

@@ -6,22 +6,22 @@ use super::{Point, Side};
 use crate::structure::{LANES, Lane};
 use std::cell::{Cell, OnceCell, RefCell};
 
-/// Some numbers of one floor, and the observation that they are of.
-#[derive(Clone, Copy, Debug, Default)]
-struct Known<T> {
-    observation: u64,
-    numbers: T,
+/// Quantities of all floors, each building's in lanes of its own, and the observation that each block of them is of.
+#[derive(Clone, Debug)]
+struct KnownFloors<const N: usize> {
+    observations: Vec<Cell<u64>>,
+    numbers: [Vec<Cell<f64>>; N],
 }
 
 /// What is known of the floors at one time.
 #[derive(Clone, Debug, Default)]
 pub(super) struct FloorMotions {
     /// Number of this observation, from 1 on.
-    observation: u64,
-    /// Displacement, m, and velocity, m/s, relative to the ground; one per lane of a vector of all floors.
-    motion: Vec<Cell<Known<[f64; 2]>>>,
+    pub observation: u64,
+    /// Displacement, m, and velocity, m/s, relative to the ground.
+    motion: KnownFloors<2>,
     /// m/s2, absolute.
-    acceleration: Vec<Cell<Known<f64>>>,
+    acceleration: KnownFloors<1>,
     rows_read: Cell<u64>,
     /// Of the floor and contact forces, per unit of mass and in the coordinates of the point; of use where `is_loaded`.
     load: Vec<f64>,
@@ -40,6 +40,38 @@ pub(super) struct Accelerations {
     pub resisted: Vec<f64>,
 }
 
+impl<const N: usize> Default for KnownFloors<N> {
+    fn default() -> KnownFloors<N> {
+        KnownFloors::new(0)
+    }
+}
+
+impl<const N: usize> KnownFloors<N> {
+    /// For vectors of all floors of that length.
+    fn new(lanes: usize) -> KnownFloors<N> {
+        let numbers = std::array::from_fn(|_| vec![Cell::new(0.0); 2 * lanes]);
+        KnownFloors { observations: vec![Cell::new(0); 2 * lanes / LANES], numbers }
+    }
+
+    /// A quantity at a place, if it is known in this observation.
+    #[inline]
+    fn get(&self, quantity: usize, place: usize, observation: u64) -> Option<f64> {
+        (self.observations[place / LANES].get() == observation).then(|| self.numbers[quantity][place].get())
+    }
+
+    /// Notes what the floors about a place have.
+    #[inline]
+    fn set(&self, place: usize, observation: u64, blocks: &[Lane; N]) {
+        self.observations[place / LANES].set(observation);
+        for (numbers, block) in self.numbers.iter().zip(blocks) {
+            let cells = &numbers.as_chunks::<LANES>().0[place / LANES];
+            for i in 0..LANES {
+                cells[i].set(block[i]);
+            }
+        }
+    }
+}
+
 impl FloorMotions {
     /// Nothing is known of any floor.
     pub fn forget(&mut self, lanes: usize) {
@@ -48,9 +80,9 @@ impl FloorMotions {
         if let Some(accelerations) = self.accelerations.take() {
             *self.room.get_mut() = accelerations;
         }
-        if self.motion.len() != lanes {
-            self.motion = vec![Cell::default(); lanes];
-            self.acceleration = vec![Cell::default(); lanes];
+        if self.load.len() != lanes {
+            self.motion = KnownFloors::new(lanes);
+            self.acceleration = KnownFloors::new(lanes);
             self.load = vec![0.0; lanes];
             *self.room.get_mut() = Accelerations { absolute: vec![0.0; lanes], resisted: vec![0.0; lanes] };
         }
@@ -77,26 +109,33 @@ impl Model {
     /// m, relative to the ground; floors counted from 0.
     #[inline]
     pub fn displacement(&self, point: &Point, side: Side, floor: usize) -> f64 {
-        self.floor_motion(point, side, floor)[0]
+        self.floor_motion(point, side, floor, 0)
     }
 
     /// m/s, relative to the ground.
     #[inline]
     pub fn velocity(&self, point: &Point, side: Side, floor: usize) -> f64 {
-        self.floor_motion(point, side, floor)[1]
+        self.floor_motion(point, side, floor, 1)
     }
 
     /// m/s2, absolute.
     #[inline]
     pub fn acceleration(&self, point: &Point, side: Side, floor: usize) -> f64 {
-        let floors = &point.floors;
-        let known = &floors.acceleration[self.structure.floors.lane(side as usize, floor)];
-        let Known { observation, numbers } = known.get();
-        if observation == floors.observation {
-            return numbers;
+        let FloorMotions { acceleration, observation, .. } = &point.floors;
+        acceleration.get(0, self.place(side, floor), *observation).unwrap_or_else(|| {
+            let accelerations = [&self.accelerations(point).absolute[..]];
+            self.note_floors(point, side, floor, accelerations, acceleration)[0]
+        })
+    }
+
+    /// Where the quantities of a floor are noted.
+    #[inline]
+    fn place(&self, side: Side, floor: usize) -> usize {
+        let lane = self.structure.floors.lane(side as usize, floor);
+        match side {
+            Side::Left => lane,
+            Side::Right => self.structure.lanes + lane,
         }
-        let accelerations = [&self.accelerations(point).absolute[..]];
-        self.note_floors(point, side, floor, accelerations, &floors.acceleration, |[acceleration]| acceleration)
     }
 
     /// N, force of the building on the ground.
@@ -108,39 +147,29 @@ impl Model {
         }
     }
 
-    /// Displacement and velocity at once: it takes one pass over the floor's row.
+    /// Displacement or velocity; both are worked out at once: it takes one pass over the floor's row.
     #[inline]
-    fn floor_motion(&self, point: &Point, side: Side, floor: usize) -> [f64; 2] {
-        let floors = &point.floors;
-        let known = &floors.motion[self.structure.floors.lane(side as usize, floor)];
-        let Known { observation, numbers } = known.get();
-        if observation == floors.observation {
-            return numbers;
-        }
-        self.note_floors(point, side, floor, [&point.q, &point.v], &floors.motion, |motion| motion)
+    fn floor_motion(&self, point: &Point, side: Side, floor: usize, quantity: usize) -> f64 {
+        let FloorMotions { motion, observation, .. } = &point.floors;
+        motion
+            .get(quantity, self.place(side, floor), *observation)
+            .unwrap_or_else(|| self.note_floors(point, side, floor, [&point.q, &point.v], motion)[quantity])
     }
 
-    /// Works out some motions of a floor and of those that share its block, and notes what they make up.
+    /// Works out some motions of a floor and of those that share its block, and notes them.
     #[inline(never)]
-    fn note_floors<const N: usize, T: Copy>(
+    fn note_floors<const N: usize>(
         &self,
         point: &Point,
         side: Side,
         floor: usize,
         motion: [&[f64]; N],
-        known: &[Cell<Known<T>>],
-        of: impl Fn([f64; N]) -> T,
-    ) -> T {
-        let floors = &self.structure.floors;
-        let (lane, building) = (floors.lane(side as usize, floor), floors.lanes_of(side as usize));
-        let observation = point.floors.observation;
-        let first = lane / LANES * LANES;
+        known: &KnownFloors<N>,
+    ) -> [f64; N] {
+        let lane = self.structure.floors.lane(side as usize, floor);
         let blocks = self.floor_block(point, side, lane / LANES, motion);
-        for i in first.max(building.start)..(first + LANES).min(building.end) {
-            let numbers = of(blocks.map(|block| block[i - first]));
-            known[i].set(Known { observation, numbers });
-        }
-        of(blocks.map(|block| block[lane - first]))
+        known.set(self.place(side, floor), point.floors.observation, &blocks);
+        blocks.map(|block| block[lane % LANES])
     }
 
     /// The accelerations of an observed solution.
@@ -173,6 +202,7 @@ impl Model {
     }
 
     /// A block of floors of one building.
+    #[inline]
     fn floor_block<const N: usize>(&self, point: &Point, side: Side, block: usize, motion: [&[f64]; N]) -> [Lane; N] {
         match point.coordinates {
             Coordinates::Modes => {

@@ -243,7 +243,8 @@ fn fly_few<const WIDTH: usize>(
     let Some(interval) = ground.prepared(&ground.segment(segments.start)) else { return 0 };
     let Some(modes) = interval.blocks::<WIDTH>() else { return 0 };
     let Some(peaks) = base.peak_drift.few() else { return 0 };
-    let [participation, mut q, mut v] = [&model.structure.participation, &base.q, &base.v].map(|all| few::<WIDTH>(all));
+    let participation = few::<WIDTH>(&model.structure.participation);
+    let (mut q, mut v) = (few::<WIDTH>(&base.q), few::<WIDTH>(&base.v));
     let (mut raised, mut flown) = (*peaks, 0);
     for (start, length, load) in ground.of_record(segments) {
         if until - start < length || length != interval.length {
@@ -275,6 +276,7 @@ fn fly_few<const WIDTH: usize>(
     flown
 }
 
+#[inline(always)]
 fn few<const WIDTH: usize>(all: &[f64]) -> [Lane; WIDTH] {
     let mut blocks = [[0.0; LANES]; WIDTH];
     blocks.as_flattened_mut().copy_from_slice(&all[..WIDTH * LANES]);

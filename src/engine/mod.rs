@@ -78,6 +78,8 @@ mod window_draft;
 mod window_step;
 mod work_limit;
 
+use std::cell::Cell;
+
 pub use crate::structure::Side;
 pub use energy_rates::EnergyRates;
 pub use feedthrough::Response;
@@ -87,15 +89,13 @@ pub use rates::{ContactRates, PointRates, Rates};
 pub use saved::SavedState;
 pub use state::{Counters, State};
 
-/// The solution at one time, as floors and contacts show it.
+/// The solution at one time, as floors and contacts show it, each worked out when it is first read.
 #[derive(Clone, Debug, Default)]
 pub struct Point {
     /// s.
     pub time: f64,
     /// m/s2.
     pub ground_acceleration: f64,
-    /// One per contact.
-    pub contacts: Vec<ContactPoint>,
     /// Contact episodes begun so far, all contacts.
     pub impacts: u64,
     /// Present where the scene asks for it.
@@ -106,6 +106,8 @@ pub struct Point {
     q: Vec<f64>,
     v: Vec<f64>,
     floors: floor_motion::FloorMotions,
+    /// What is known of each contact.
+    contacts: Vec<Cell<observe::Known>>,
     work: Option<Box<state::Workspace>>,
 }
 

@@ -127,6 +127,11 @@ impl Model {
         self.structure.floors(side)
     }
 
+    /// Number of contacts.
+    pub fn contacts(&self) -> usize {
+        self.pairs.len()
+    }
+
     /// Whether the engine's steps are cut at communication points: where a master's inputs act.
     pub(super) fn is_driven(&self) -> bool {
         self.ground.is_none() || self.floor_forces

@@ -6,11 +6,19 @@ use super::state::*;
 use super::{ContactPoint, Episode, Point, Side};
 use crate::polynomial::Powers;
 use crate::structure::{EXACT, flight_order, fly_in_one_series};
+use std::cell::Cell;
+
+/// What a contact shows, and the observation that it is of.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Known {
+    observation: u64,
+    shown: ContactPoint,
+}
 
 impl Model {
     /// Reads the state at its present time; the buffers of `point` are reused.
     ///
-    /// Floors and accelerations are not computed here but when one is asked for.
+    /// Floors, accelerations and contacts apart are not computed here but when one is asked for.
     pub fn observe(&self, state: &State, point: &mut Point) {
         let lanes = self.structure.lanes;
         point.floors.forget(lanes);
@@ -28,25 +36,21 @@ impl Model {
             Some(_) => base.segment.acceleration_at(state.time - base.segment.start),
             None => inputs.ground_acceleration.at(state.time),
         };
-        point.contacts.resize(self.pairs.len(), ContactPoint::default());
-        for p in 0..self.pairs.len() {
-            point.contacts[p] = self.read_contact(base, step, p, elapsed, point, &work.powers);
+        point.contacts.resize_with(self.pairs.len(), Cell::default);
+        for (p, _) in base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact()) {
+            let now = self.contact_at(base, step, p, elapsed, &work.powers);
+            point.note_contact(p, self.show(&now, now.penetration));
         }
         if step.kind == StepKind::Unknown && base.contacts.iter().any(Contact::is_held) {
             // An input that has just been set changes reactions at once.
             self.balance(base, inputs, &mut work);
-            for (&k, force) in work.rigid.pairs.iter().zip(&work.rigid.found) {
-                point.contacts[self.rigid.pairs[k]].force = *force;
+            for (&k, &force) in work.rigid.pairs.iter().zip(&work.rigid.found) {
+                let p = self.rigid.pairs[k];
+                point.note_contact(p, ContactPoint { force, ..self.contact_in(base, point, p) });
             }
         }
         point.impacts = base.impacts;
-        if self.floor_forces || point.contacts.iter().any(|contact| contact.force != 0.0) {
-            let load = point.floors.start_load();
-            self.add_floor_forces(inputs, point.coordinates, |force| force.at(state.time), load);
-            for (p, contact) in point.contacts.iter().enumerate().filter(|(_, contact)| contact.force != 0.0) {
-                self.push_apart_by(p, point.coordinates, contact.force, load);
-            }
-        }
+        self.read_load(state, point);
         self.read_energy(state, elapsed, &mut work, point);
         point.work = Some(work);
     }
@@ -106,23 +110,53 @@ impl Model {
         true
     }
 
-    fn read_contact(
-        &self,
-        base: &Base,
-        step: &Step,
-        p: usize,
-        elapsed: f64,
-        point: &Point,
-        powers: &Powers,
-    ) -> ContactPoint {
-        let contact = &base.contacts[p];
-        let mut shown = if contact.in_contact() {
-            let contact = self.contact_at(base, step, p, elapsed, powers);
-            show(&contact, contact.penetration)
-        } else {
-            show(contact, self.relative(p, point.coordinates, &point.q) - self.pairs[p].gap)
+    /// The floor and contact forces as accelerations answer to them; contacts apart have none.
+    fn read_load(&self, state: &State, point: &mut Point) {
+        let Point { floors, contacts, coordinates, .. } = point;
+        let forces = || {
+            let closed = state.base.contacts.iter().zip(&*contacts).enumerate().filter(|(_, (c, _))| c.in_contact());
+            closed.map(|(p, (_, known))| (p, known.get().shown.force)).filter(|(_, force)| *force != 0.0)
         };
-        if !self.pairs[p].law.kind.info().pulls {
+        if self.floor_forces || forces().next().is_some() {
+            let load = floors.start_load();
+            self.add_floor_forces(&state.inputs, *coordinates, |force| force.at(state.time), load);
+            forces().for_each(|(p, force)| self.push_apart_by(p, *coordinates, force, load));
+        }
+    }
+
+    /// A contact at the observed time, counted from 0; `state` is what `point` has been observed in.
+    #[inline]
+    pub fn contact(&self, state: &State, point: &Point, p: usize) -> ContactPoint {
+        self.contact_in(&state.base, point, p)
+    }
+
+    /// The same from the state's base.
+    #[inline]
+    pub(super) fn contact_in(&self, base: &Base, point: &Point, p: usize) -> ContactPoint {
+        let Known { observation, shown } = point.contacts[p].get();
+        if observation == point.floors.observation { shown } else { self.note_contact_apart(base, point, p) }
+    }
+
+    #[inline(never)]
+    fn note_contact_apart(&self, base: &Base, point: &Point, p: usize) -> ContactPoint {
+        let penetration = self.relative(p, point.coordinates, &point.q) - self.pairs[p].gap;
+        let shown = self.show(&base.contacts[p], penetration);
+        point.note_contact(p, shown);
+        shown
+    }
+
+    fn show(&self, contact: &Contact, penetration: f64) -> ContactPoint {
+        let mut shown = ContactPoint {
+            force: contact.present_force(),
+            penetration,
+            active: contact.in_contact(),
+            impacts: contact.impacts,
+            peak_force: contact.peak_force,
+            impulse: contact.impulse,
+            dissipated_energy: contact.dissipated_energy(),
+            approach_velocity: contact.episode.approach_velocity.max(0.0), // a touch may have none but its rounding
+        };
+        if !self.pairs[contact.episode.contact].law.kind.info().pulls {
             // All but 0 where a contact begins or ends, rounding decides on the sign.
             (shown.force, shown.impulse) = (shown.force.max(0.0), shown.impulse.max(0.0));
         }
@@ -145,6 +179,12 @@ impl Model {
             self.follow_one(&mut contact, step, elapsed, base.time(), powers);
         }
         contact
+    }
+}
+
+impl Point {
+    fn note_contact(&self, p: usize, shown: ContactPoint) {
+        self.contacts[p].set(Known { observation: self.floors.observation, shown });
     }
 }
 
@@ -185,18 +225,5 @@ impl State {
         if let Some(input) = self.inputs.floor_forces.get_mut(place) {
             change(input);
         }
-    }
-}
-
-fn show(contact: &Contact, penetration: f64) -> ContactPoint {
-    ContactPoint {
-        force: contact.present_force(),
-        penetration,
-        active: contact.in_contact(),
-        impacts: contact.impacts,
-        peak_force: contact.peak_force,
-        impulse: contact.impulse,
-        dissipated_energy: contact.dissipated_energy(),
-        approach_velocity: contact.episode.approach_velocity.max(0.0), // a touch may have none but its rounding
     }
 }

@@ -25,7 +25,8 @@ pub(super) struct OnsetSeries {
     grid: Option<Grid>,
     lanes: usize,
     terms: Vec<f64>,
-    /// The pairs in contact, in blocks of one kind each; the first `used` are filled.
+    /// The pairs in contact, in blocks of one kind each; the first `used` are filled. There is room for all, but memory
+    /// that no contact has needed yet is not touched.
     blocks: Vec<OnsetBlock>,
     members: Vec<Members>,
     used: usize,
@@ -50,7 +51,7 @@ impl OnsetSeries {
             grid: None,
             lanes,
             terms: vec![0.0; MOST_TERMS * lanes],
-            blocks: vec![OnsetBlock::default(); most],
+            blocks: Vec::with_capacity(most),
             members: vec![Members::default(); most],
             used: 0,
             places: vec![(0, 0); pairs],
@@ -93,6 +94,9 @@ impl OnsetSeries {
             }
         }
         let b = self.used;
+        if b == self.blocks.len() {
+            self.blocks.push(OnsetBlock::default());
+        }
         self.blocks[b].start(grid, kind, enters);
         self.used += 1;
         (b, self.members[b].start(place))

@@ -79,7 +79,8 @@ impl Model {
         if !rates.is_beginning {
             self.differentiate_again(1, state, point, rates, &mut work);
         }
-        for (contact, shown) in rates.contacts.iter_mut().zip(&point.contacts) {
+        for (p, contact) in rates.contacts.iter_mut().enumerate() {
+            let shown = self.contact(state, point, p);
             let ([v, a], force) = (contact.penetration, contact.force);
             contact.impulse = [shown.force, force[0]];
             contact.dissipated_energy = [shown.force * v, force[0] * v + shown.force * a];
@@ -105,7 +106,7 @@ impl Model {
             let contact = self.contact_at(&state.base, &state.step, p, elapsed, &work.powers);
             let relative = |motion: &[f64]| self.relative(p, point.coordinates, motion);
             let penetration = match contact.phase {
-                Phase::Held if point.contacts[p].force > 0.0 => [0.0; 2],
+                Phase::Held if self.contact(state, point, p).force > 0.0 => [0.0; 2],
                 Phase::Held => [0.0, relative(&rates.acceleration)],
                 Phase::Apart => [relative(&point.v), relative(&rates.acceleration)],
                 Phase::Engaged | Phase::Slack => [contact.rate, relative(&rates.acceleration)],
@@ -121,7 +122,7 @@ impl Model {
     /// Lists the rigid pairs that press at this instant and makes them all active.
     pub(super) fn list_pressing(&self, base: &Base, point: &Point, work: &mut Workspace) {
         work.rigid.clear();
-        let pressing = |p: usize| base.contacts[p].is_held() && point.contacts[p].force > 0.0;
+        let pressing = |p: usize| base.contacts[p].is_held() && self.contact_in(base, point, p).force > 0.0;
         for (k, _) in self.rigid.pairs.iter().enumerate().filter(|&(_, &p)| pressing(p)) {
             work.rigid.add(k, 0.0, 0.0);
         }

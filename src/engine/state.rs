@@ -322,7 +322,7 @@ impl Workspace {
             v: vector(),
             scratch: Scratch::new(lanes),
             series: MotionSeries::new(lanes, MAX_ORDER + 2),
-            interval: Interval::new(structure, 0.0),
+            interval: Interval::room(structure),
             node_q: vector(),
             node_v: vector(),
             scalar: [0.0; ROOM],

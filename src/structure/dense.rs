@@ -60,11 +60,17 @@ impl Dense {
 fn products<const N: usize>(rows: &[Lane], vectors: [&[f64]; N]) -> [Lane; N] {
     let (pairs, last) = rows.as_chunks::<2>();
     let vectors = vectors.map(|vector| vector[..rows.len()].as_chunks::<2>());
+    // Says once that no index below leaves its vector; a closure would have no wide instructions.
+    let (count, mut firsts) = (pairs.len(), [&[][..]; N]);
+    for n in 0..N {
+        firsts[n] = &vectors[n].0[..count];
+    }
     let (mut even, mut odd) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
     // Indices of arrays whose length is known leave the sums in registers.
-    for (k, [row, next]) in pairs.iter().enumerate() {
+    for k in 0..count {
+        let [row, next] = pairs[k];
         for n in 0..N {
-            let [value, other] = vectors[n].0[k];
+            let [value, other] = firsts[n][k];
             for i in 0..LANES {
                 even[n][i] += row[i] * value;
                 odd[n][i] += next[i] * other;

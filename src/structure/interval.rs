@@ -54,9 +54,8 @@ impl ModeBlock {
         participation: &Lane,
         (acceleration, slope): (f64, f64),
     ) -> (Lane, Lane) {
-        let l0 = participation.map(|p| -p * acceleration);
-        let l1 = participation.map(|p| -p * slope);
-        self.end(q, v, &l0, &l1)
+        let (pull, rate) = (-acceleration, -slope);
+        self.end(q, v, &participation.map(|p| p * pull), &participation.map(|p| p * rate))
     }
 }
 
@@ -72,10 +71,15 @@ pub struct Interval {
 impl Interval {
     /// Prepares the flight over `length` seconds.
     pub fn new(structure: &Structure, length: f64) -> Interval {
-        let modes = vec![ModeBlock::default(); structure.lanes / LANES];
-        let mut interval = Interval { length, modes, coupled: Vec::new() };
+        let mut interval = Interval::room(structure);
         interval.prepare(structure, length);
         interval
+    }
+
+    /// Room to prepare a flight in.
+    pub fn room(structure: &Structure) -> Interval {
+        let modes = vec![ModeBlock::default(); structure.lanes / LANES];
+        Interval { length: f64::NAN, modes, coupled: Vec::new() }
     }
 
     /// Prepares the flight over another length. Allocates only where damping couples modes.
@@ -146,11 +150,12 @@ impl Interval {
         let [(q0, _), (v0, _), (participation, _)] = [q, v, participation].map(<[f64]>::as_chunks::<LANES>);
         let [(q1, _), (v1, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
         let width = self.modes.len();
-        let (q0, v0, participation) = (&q0[..width], &v0[..width], &participation[..width]);
-        let (q1, v1) = (&mut q1[..width], &mut v1[..width]);
+        // Says once that no index below leaves its table.
+        let (modes, participation) = (&self.modes[..width], &participation[..width]);
+        let (q0, v0, q1, v1) = (&q0[..width], &v0[..width], &mut q1[..width], &mut v1[..width]);
         let mut sum = [0.0; LANES];
-        for (c, m) in self.modes.iter().enumerate() {
-            let (q, v) = m.end_on_ground((&q0[c], &v0[c]), &participation[c], (acceleration, slope));
+        for c in 0..width {
+            let (q, v) = modes[c].end_on_ground((&q0[c], &v0[c]), &participation[c], (acceleration, slope));
             for i in 0..LANES {
                 // Finite only if all of its terms are.
                 sum[i] += q[i] + v[i];

@@ -307,7 +307,7 @@ impl Instant<'_> {
             Output::Acceleration(side, floor) => model.acceleration(point, side, floor),
             Output::BaseShear(side) => model.base_shear(point, side),
             Output::PeakDrift(side, storey) => model.peak_drift(state, side, storey),
-            Output::Contact(p, output) => return read_contact(&point.contacts[p], output),
+            Output::Contact(p, output) => return read_contact(&model.contact(state, point, p), output),
             Output::Impacts => return count(point.impacts),
             Output::Energy(term) => read_energy(&point.energy.unwrap_or_default(), term),
         })

@@ -22,9 +22,10 @@ fn expected(model: &Model, state: &State) -> HashMap<String, f64> {
             add("frequency", model.natural_frequencies(side)[floor]);
         }
     }
-    for (p, contact) in (1..).zip(&point.contacts) {
-        let ContactPoint { force, penetration, active, impacts, peak_force, impulse, .. } = *contact;
-        let ContactPoint { dissipated_energy, approach_velocity, .. } = *contact;
+    for p in 1..=model.contacts() {
+        let contact = model.contact(state, &point, p - 1);
+        let ContactPoint { force, penetration, active, impacts, peak_force, impulse, .. } = contact;
+        let ContactPoint { dissipated_energy, approach_velocity, .. } = contact;
         for (name, value) in [
             ("force", force),
             ("penetration", penetration),

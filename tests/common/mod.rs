@@ -3,7 +3,7 @@
 
 pub mod bodies;
 
-use pounding::engine::{Episode, Model, Point, Side, State};
+use pounding::engine::{ContactPoint, Episode, Model, Point, Side, State};
 use pounding::record::Record;
 use pounding::scene::Scene;
 
@@ -85,8 +85,21 @@ impl Run {
         self.model.velocity(&self.point, side, floor)
     }
 
+    pub fn contact(&self, p: usize) -> ContactPoint {
+        self.model.contact(&self.state, &self.point, p)
+    }
+
+    pub fn contacts(&self) -> Vec<ContactPoint> {
+        (0..self.model.contacts()).map(|p| self.contact(p)).collect()
+    }
+
     /// Everything that a floor or contact shows, as bits.
     pub fn bits(&self) -> Vec<u64> {
+        self.bits_with(&self.contacts())
+    }
+
+    /// The same with these contacts.
+    pub fn bits_with(&self, contacts: &[ContactPoint]) -> Vec<u64> {
         let mut values = Vec::new();
         for side in [Side::Left, Side::Right] {
             for floor in 0..self.model.floors(side) {
@@ -96,7 +109,7 @@ impl Run {
                 values.push(self.model.peak_drift(&self.state, side, floor));
             }
         }
-        for contact in &self.point.contacts {
+        for contact in contacts {
             values.extend([contact.force, contact.penetration, contact.peak_force, contact.impulse]);
             values.extend([contact.dissipated_energy, contact.approach_velocity, contact.impacts as f64]);
         }

@@ -51,7 +51,7 @@ fn a_linear_contact_swings_about_its_equilibrium_for_ever() {
         run.to(t);
         let exact = 2e-3 - 1e-3 * (1000.0 * t).cos();
         // A phase of 2e4 rad has its rounding, and each of 1e5 steps may add a share of the tolerance.
-        let error = (run.point.contacts[0].penetration - exact).abs();
+        let error = (run.contact(0).penetration - exact).abs();
         assert!(error < 1e-3 * 1e-10, "t = {t}: {error:e}");
     }
     assert_eq!(run.point.impacts, 1);
@@ -113,7 +113,7 @@ fn a_graze_that_is_pressed_on_comes_to_the_equilibrium_of_the_spring() {
             press(&mut run, force);
             run.to(2.0);
             let what = format!("{law}, {speed:e} m/s");
-            let contact = run.point.contacts[0];
+            let contact = run.contact(0);
             assert!(contact.active, "{what}: {contact:?}");
             assert_close(contact.force, force, 1e-9, &format!("{what}: force"));
             assert_close(contact.penetration, depth, 1e-8, &format!("{what}: penetration"));
@@ -136,7 +136,7 @@ fn jankowski_pressed_from_rest_settles() {
         let mut run = Run::new(&free_masses(0.0, 0.0, &law), None);
         press(&mut run, force);
         run.to(1.0);
-        let contact = run.point.contacts[0];
+        let contact = run.contact(0);
         assert_close(contact.force, force, 1e-6, &law);
         assert_close(contact.impulse, force, 1e-6, &law);
     }
@@ -170,7 +170,7 @@ fn leaning_frames_stay_where_the_springs_balance() {
         );
         for k in 1..=100 {
             run.to(10.0 * f64::from(k));
-            let contact = run.point.contacts[0];
+            let contact = run.contact(0);
             assert!(contact.active && contact.impacts == 1, "{law}: {contact:?}");
             assert!((contact.force / force - 1.0).abs() < 1e-12, "{law}: {} N instead of {force}", contact.force);
             let error = (run.displacement(Side::Left, 0) / u_left - 1.0).abs();

@@ -64,7 +64,7 @@ fn an_entry_on_a_knot_is_one_contact() {
                 assert!((start - 2.0 * gap).abs() <= 8.0 * f64::EPSILON * start, "{what}: {start}");
                 assert_close(run.episodes[0].approach_velocity, 0.5, 1e-15, &what);
                 // Momentum: what the contact has passed on is what the right mass has.
-                assert_close(run.velocity(Side::Right, 0) * 7.5e4, run.point.contacts[0].impulse, 1e-13, &what);
+                assert_close(run.velocity(Side::Right, 0) * 7.5e4, run.contact(0).impulse, 1e-13, &what);
             }
         }
     }
