@@ -5,7 +5,7 @@
 //! their neighbours only, else that of the modes, as always near rigid contacts.
 //!
 //! Under a power law the last terms tell of the root of the time since the entry, or until the release: there the terms in
-//! time are turned into those by a [`Clock`] that knows no such root and goes several times as far.
+//! time are weighed as those by a [`Clock`] have them, which knows no such root and goes several times as far.
 
 use super::closed_pairs::{Acting, ClosedPairs};
 use super::complementarity::Complementarity;
@@ -300,6 +300,8 @@ impl Model {
         let (bend, furthest) = match () {
             // Reached or passed as it is, or in a scale far too long.
             _ if release < reach || reach > FURTHEST_FROM_ENTRY * since || reach < 1.0 / FURTHEST => return reach,
+            // Nothing to measure an error against.
+            _ if base.velocity_scale == 0.0 => return reach,
             _ if reach > NEAR * since => (0.25 / since, FURTHEST_FROM_ENTRY * since),
             _ if release.is_finite() => (-0.25 / release, 2.0 * release * self.boldness()),
             _ => return reach,
