@@ -5,6 +5,7 @@ Optional: its licence forbids commercial use without agreement, and the project 
 """
 
 import ctypes
+import importlib.util
 import os
 import time
 from pathlib import Path
@@ -12,7 +13,6 @@ from pathlib import Path
 import numpy as np
 
 from . import OUTPUT_STEP, Outcome
-from .compiled import debian_package
 
 WITHOUT = {
     "kelvin_voigt_no_tension": "no material that is just this law",
@@ -21,13 +21,17 @@ WITHOUT = {
 
 
 def load():
-    """The module; its wheel expects the system's BLAS and LAPACK."""
+    """The module; where it does not find the libraries that its own wheel brings, they are loaded first."""
     try:
         import openseespy.opensees as ops
     except (ImportError, RuntimeError):
-        for package, library in [("libblas3", "libblas.so.3"), ("liblapack3", "liblapack.so.3")]:
-            found = next(Path(debian_package(package)).glob(f"usr/lib/**/{library}"))
-            ctypes.CDLL(str(found), mode=ctypes.RTLD_GLOBAL)
+        wheel = importlib.util.find_spec("openseespylinux")
+        if wheel is None:
+            raise
+        # The module's search path ($ORIGIN/lib) holds for what it needs itself, not for what its libraries need in
+        # their turn: these two. Those of a system could want another libgfortran than the wheel's.
+        for library in ["libquadmath.so.0", "libblas.so.3"]:
+            ctypes.CDLL(str(Path(wheel.origin).parent / "lib" / library))
         import openseespy.opensees as ops
     return ops
 
