@@ -10,7 +10,7 @@
 //! the entry a time a ago is no singularity in x, nor, with a < 0, is the release after a time of -a. The terms of a
 //! series in x follow from those in t without any more of the motion: the first n in x from the first n in t.
 
-use crate::polynomial::{COUNT, Coefficients, RECIPROCAL, ROOM};
+use crate::polynomial::{COUNT, Coefficients, RECIPROCAL, ROOM, each};
 
 /// Lanes that are worked on together.
 const LANES: usize = 4;
@@ -22,12 +22,12 @@ pub struct Clock {
     pub bend: f64,
 }
 
-/// Of term m - j of a series in time, for its term m in x.
-type Weights = [f64; ROOM / 2 + 1];
+/// Of term m - j of a series in time, for its term m in x; as many as whole blocks of lanes hold.
+type Weights = [f64; (ROOM / 2 + 1).next_multiple_of(LANES)];
 
 /// (m - j) over j.
 const BINOMIAL: [Weights; ROOM] = {
-    let mut table = [[0.0; ROOM / 2 + 1]; ROOM];
+    let mut table = [[0.0; (ROOM / 2 + 1).next_multiple_of(LANES)]; ROOM];
     let mut m = 0;
     while m < ROOM {
         table[m][0] = 1.0;
@@ -43,7 +43,7 @@ const BINOMIAL: [Weights; ROOM] = {
 
 /// n-th of these: (n over j).
 const CHOOSE: [Weights; ROOM] = {
-    let mut table = [[0.0; ROOM / 2 + 1]; ROOM];
+    let mut table = [[0.0; (ROOM / 2 + 1).next_multiple_of(LANES)]; ROOM];
     let mut n = 0;
     while n < ROOM {
         table[n][0] = 1.0;
@@ -120,20 +120,22 @@ pub struct Bend {
 
 impl Default for Bend {
     fn default() -> Bend {
-        Bend { weights: [[0.0; ROOM / 2 + 1]; ROOM] }
+        Bend { weights: [[0.0; (ROOM / 2 + 1).next_multiple_of(LANES)]; ROOM] }
     }
 }
 
 impl Bend {
     /// For a clock and series of so many terms or less.
     pub fn set(&mut self, clock: &Clock, terms: usize) {
-        let mut powers = [1.0; ROOM / 2 + 1];
-        for j in 1..powers.len() {
+        let mut powers: Weights = [1.0; _];
+        for j in 1..=terms / 2 {
             powers[j] = powers[j - 1] * clock.bend;
         }
+        let powers = powers.as_chunks::<LANES>().0;
         for (m, (weights, binomials)) in self.weights.iter_mut().zip(&BINOMIAL).enumerate().take(terms) {
-            let entries = weights.iter_mut().zip(binomials).zip(&powers).take(m / 2 + 1);
-            entries.for_each(|((weight, binomial), power)| *weight = binomial * power);
+            let (weights, binomials) = (weights.as_chunks_mut::<LANES>().0, binomials.as_chunks::<LANES>().0);
+            let blocks = weights.iter_mut().zip(binomials).zip(powers).take(m / (2 * LANES) + 1);
+            blocks.for_each(|((weights, binomials), powers)| *weights = each(|i| binomials[i] * powers[i]));
         }
     }
 

@@ -73,6 +73,11 @@ impl Force {
         }
     }
 
+    /// Whether it is what [`Force::Root`] is but for damping.
+    pub fn is_like_root(&self) -> bool {
+        matches!(*self, Force::Root { .. } | Force::Power { exponent: 1.5, damping: 0.0, .. })
+    }
+
     /// Whether the force has a damping part.
     pub fn is_damped(&self) -> bool {
         match *self {

@@ -56,6 +56,62 @@ impl Kind {
     }
 }
 
+/// What the forces of a kind are made of, for code that is made for one kind only.
+pub trait PairLaw {
+    /// Whether its forces are made of the slopes of the penetrations.
+    const NEEDS_SLOPES: bool;
+    /// Power n of the forces.
+    fn force(block: &mut PairBlock, n: usize) -> Each;
+}
+
+/// [`Kind::Linear`].
+pub struct Linear;
+
+/// [`Kind::Spring`].
+pub struct Spring;
+
+/// [`Kind::Power`].
+pub struct Damped;
+
+/// [`Kind::Root`].
+pub struct Root;
+
+impl PairLaw for Linear {
+    const NEEDS_SLOPES: bool = false;
+
+    #[inline(always)]
+    fn force(block: &mut PairBlock, n: usize) -> Each {
+        block.linear_force(n, &block.penetration[n], &block.penetration[n + 1])
+    }
+}
+
+impl PairLaw for Spring {
+    const NEEDS_SLOPES: bool = false;
+
+    #[inline(always)]
+    fn force(block: &mut PairBlock, n: usize) -> Each {
+        block.spring_force(n)
+    }
+}
+
+impl PairLaw for Damped {
+    const NEEDS_SLOPES: bool = true;
+
+    #[inline(always)]
+    fn force(block: &mut PairBlock, n: usize) -> Each {
+        block.damped_power_force(n)
+    }
+}
+
+impl PairLaw for Root {
+    const NEEDS_SLOPES: bool = false;
+
+    #[inline(always)]
+    fn force(block: &mut PairBlock, n: usize) -> Each {
+        block.root_force(n)
+    }
+}
+
 /// The scalar series of up to [`PAIRS`] contacts over a step, in powers of x = t / scale or as a clock has it.
 #[derive(Clone, Debug)]
 pub struct PairBlock {
@@ -169,6 +225,11 @@ impl PairBlock {
             let value = power(penetration, ROOT);
             (self.root[0][0][lane], self.lead[1][lane]) = (value, ROOT * value * inverse);
         }
+        self.ride(lane, penetration, step_rate);
+    }
+
+    /// Adds a pair that has no force, whose penetration is followed along with the others'.
+    pub fn ride(&mut self, lane: usize, penetration: f64, step_rate: f64) {
         for (n, value) in [penetration, step_rate].into_iter().enumerate() {
             self.penetration[n][lane] = value;
             self.backwards[LAST - n][lane] = value;
@@ -190,18 +251,27 @@ impl PairBlock {
         !matches!(self.kind, Kind::None | Kind::Spring)
     }
 
-    /// Whether its pairs are of a kind.
-    pub fn is_of(&self, kind: Kind) -> bool {
-        self.kind == kind
+    /// What its pairs are of.
+    pub fn kind(&self) -> Kind {
+        self.kind
     }
 
     /// Enters power n of the penetrations.
     #[inline(always)]
     pub fn set_penetration(&mut self, n: usize, values: Each) {
+        match self.kind {
+            Kind::Power => self.enter_penetration::<Damped>(n, values),
+            _ => self.enter_penetration::<Spring>(n, values),
+        }
+    }
+
+    /// The same where all pairs are known to be under a law.
+    #[inline(always)]
+    pub fn enter_penetration<L: PairLaw>(&mut self, n: usize, values: Each) {
         if n < ROOM {
             self.penetration[n] = values;
             self.backwards[LAST - n] = values;
-            if self.kind == Kind::Power {
+            if L::NEEDS_SLOPES {
                 self.slope[LAST - n] = each(|i| COUNT[n] * values[i]);
             }
         }
@@ -218,13 +288,24 @@ impl PairBlock {
         self.order = n;
         let force = match self.kind {
             Kind::None => [0.0; PAIRS],
-            Kind::Linear => self.linear_force(n, &self.penetration[n], &self.penetration[n + 1]),
-            Kind::Spring => self.spring_force(n),
-            Kind::Power => self.damped_power_force(n),
-            Kind::Root => self.root_force(n),
+            Kind::Linear => Linear::force(self, n),
+            Kind::Spring => Spring::force(self, n),
+            Kind::Power => Damped::force(self, n),
+            Kind::Root => Root::force(self, n),
         };
         self.force[n] = force;
         force
+    }
+
+    /// The same where all pairs are known to be under a law.
+    #[inline(always)]
+    pub fn extend_force_under<L: PairLaw>(&mut self, n: usize) -> Each {
+        if n + 2 >= ROOM {
+            return [0.0; PAIRS];
+        }
+        self.order = n;
+        self.force[n] = L::force(self, n);
+        self.force[n]
     }
 
     /// Power n of linear forces, from the powers n and n + 1 of the penetrations.
@@ -274,10 +355,11 @@ impl PairBlock {
                 add_products(&mut sums, d, p);
                 add_product(&mut product, &p[0], slope);
             }
+            add_product(&mut product, &self.power[n - 1][0], &self.slope[LAST - 2]);
         }
         let power = self.extend_power(n, &sums);
-        for j in n.saturating_sub(1).max(1)..=n {
-            add_product(&mut product, &self.power[j][0], &self.slope[LAST - (n + 1 - j)]);
+        if n > 0 {
+            add_product(&mut product, &power, &self.slope[LAST - 1]);
         }
         add_product(&mut product, &self.power[0][0], &self.slope[LAST - (n + 1)]);
         each(|i| self.stiffness[i] * (power[i] + self.damping[i] * product[i]))

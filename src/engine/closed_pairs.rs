@@ -1,8 +1,10 @@
 //! The series of all pairs in contact while a step is expanded and followed.
 
+use super::alike_pairs::Blocks;
 use super::meeting::Meeting;
 use super::members::{Members, Place, most_blocks};
 use super::model::Pair;
+use super::open_pairs::Course;
 use super::roots;
 use super::state::*;
 use crate::clock::Bend;
@@ -25,6 +27,10 @@ pub(super) struct ClosedPairs {
     /// The closed pairs that have been given a block and a lane, with their kinds, and in which coordinates.
     assigned: Vec<(usize, Kind)>,
     coordinates: Coordinates,
+    /// Lanes of the only block in which pairs that are apart ride along, all of them or none: so their penetrations come
+    /// with the others' at no cost.
+    riders: Vec<(usize, usize)>,
+    may_ride: bool,
     /// Whether the penetrations have to wait for all forces.
     waits: bool,
     used: usize,
@@ -54,15 +60,19 @@ impl ClosedPairs {
             neighbours: (0..pairs).map(|p| (0..p).filter(|&q| shares(&all[p], &all[q])).collect()).collect(),
             assigned: Vec::with_capacity(pairs),
             coordinates: Coordinates::default(),
+            riders: Vec::with_capacity(PAIRS),
+            may_ride: false,
             waits: false,
             used: 0,
             places: vec![(0, 0); pairs],
         }
     }
 
-    /// Starts the series of all pairs in contact that are not held together; `scale` is the unit of time.
-    pub fn start(&mut self, base: &Base, pairs: &[Pair], scale: f64) {
-        if !self.start_again(base, scale) {
+    /// Starts the series of all pairs in contact that are not held together; `scale` is the unit of time. Pairs that are
+    /// apart `may_ride` along where the motion is that of few modes.
+    pub fn start(&mut self, base: &Base, pairs: &[Pair], scale: f64, may_ride: bool) {
+        if self.may_ride != may_ride || !self.start_again(base, scale) {
+            self.may_ride = may_ride;
             self.assign(base, pairs);
             self.start_again(base, scale);
         }
@@ -73,13 +83,36 @@ impl ClosedPairs {
         self.used = 0;
         self.assigned.clear();
         self.coordinates = base.coordinates;
+        let has_roots = closed(base).any(|(_, contact)| Kind::of(&contact.starting_force()) == Kind::Root);
         for (p, contact) in closed(base) {
-            let kind = Kind::of(&contact.starting_force());
-            let (b, lane) = self.room_for(kind, Place::of(&pairs[p], base.coordinates));
+            let force = contact.starting_force();
+            let kind = Kind::of(&force);
+            // A spring of that law's exponent is a root law without damping: better than a block of its own beside it.
+            let joint = if has_roots && force.is_like_root() { Kind::Root } else { kind };
+            let (b, lane) = self.room_for(joint, Place::of(&pairs[p], base.coordinates));
             self.members[b].set(lane, p, &pairs[p], base.coordinates);
             self.blocks[b].count = self.blocks[b].count.max(lane + 1);
             self.places[p] = (b, lane);
             self.assigned.push((p, kind));
+        }
+        self.riders.clear();
+        if self.may_ride && self.used == 1 && pairs.len() <= PAIRS && self.blocks[0].has_roots() {
+            self.assign_riders(base, pairs);
+        }
+    }
+
+    /// How they go up to the end of the step.
+    pub fn course_of_riders(&self) -> Course {
+        let (PairBlock { penetration: terms, .. }, end) = (&self.blocks[0], &self.readings[0]);
+        Course { start: [terms[0], terms[1]], end: [end.penetration, end.slope], fourth: end.fourth }
+    }
+
+    /// Gives the pairs that are apart the lanes that are left.
+    fn assign_riders(&mut self, base: &Base, pairs: &[Pair]) {
+        let apart = (0..pairs.len()).filter(|&p| !base.contacts[p].in_contact());
+        for (lane, p) in (self.blocks[0].count..PAIRS).zip(apart) {
+            self.members[0].set_beside(lane, &pairs[p], base.coordinates);
+            self.riders.push((lane, p));
         }
     }
 
@@ -99,13 +132,22 @@ impl ClosedPairs {
             self.at_surface[b] |= at_surface;
             self.waits |= at_surface || self.neighbours[p].iter().any(|&q| is_closed(&base.contacts[q]));
         }
+        for &(lane, p) in &self.riders {
+            let Contact { penetration, rate, .. } = base.contacts[p];
+            self.blocks[0].ride(lane, penetration, rate * scale);
+        }
         assigned.next().is_none() && self.coordinates == base.coordinates
+    }
+
+    /// The pairs that are apart and ride along in the first block, with their lanes: all of them, or none.
+    pub fn riders(&self) -> &[(usize, usize)] {
+        &self.riders
     }
 
     /// Block and lane for a pair of a kind: mostly in the newest block.
     fn room_for(&mut self, kind: Kind, place: Place) -> (usize, usize) {
         for b in (0..self.used).rev() {
-            if self.blocks[b].is_of(kind)
+            if self.blocks[b].kind() == kind
                 && let Some(lane) = self.members[b].free_lane(place)
             {
                 return (b, lane);
@@ -135,6 +177,14 @@ impl ClosedPairs {
     pub fn only_linear_block(&mut self) -> Option<(&mut PairBlock, &Members, bool, bool)> {
         self.count_linear()?;
         Some((&mut self.blocks[0], &self.members[0], self.at_surface[0], self.waits))
+    }
+
+    /// The blocks of all pairs with what they are of, where that is the same and no penetration has to wait for all forces.
+    pub fn alike(&mut self) -> Option<(Kind, Blocks<'_>)> {
+        let (blocks, members) = (&mut self.blocks[..self.used], &self.members[..self.used]);
+        let kind = blocks.first()?.kind();
+        let are_alike = !self.waits && blocks.iter().all(|block| block.kind() == kind);
+        are_alike.then_some((kind, (blocks, members)))
     }
 
     /// About where the first pair under a power law is released, if that is before `limit`; else infinite.

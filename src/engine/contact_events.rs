@@ -18,7 +18,8 @@ impl Model {
             for (lane, p) in step.closed.pairs_of(block) {
                 if !stays[lane] || base.contacts[p].force.guard.is_some() {
                     let reading = step.closed.reading(block);
-                    first = self.leaving(base, step, work, (p, lane), reading, until(first, step)).or(first);
+                    let place = (p, lane, stays[lane]);
+                    first = self.leaving(base, step, work, place, reading, until(first, step)).or(first);
                 }
             }
         }
@@ -28,20 +29,23 @@ impl Model {
         first
     }
 
-    /// Release or change of branch of a pair in contact.
+    /// Release or change of branch of a pair in contact; of one that certainly stays closed, of its branch only.
     fn leaving(
         &self,
         base: &Base,
         step: &Step,
         work: &mut Workspace,
-        (p, lane): (usize, usize),
+        (p, lane, stays): (usize, usize, bool),
         reading: &BlockReading,
         until: f64,
     ) -> Option<(f64, Event)> {
         let contact = &base.contacts[p];
         // One that has entered without any speed, whose first terms may be rounding, leaves at that depth.
         let depth = if contact.at_surface && contact.rate == 0.0 { self.noise_of(p, base, step, work) } else { 0.0 };
-        let released = released(&step.closed, (p, lane), reading, (step.end.x, until), depth, &mut work.scalar);
+        let released = match stays {
+            true => None,
+            false => released(&step.closed, (p, lane), reading, (step.end.x, until), depth, &mut work.scalar),
+        };
         let first = released.map(|x| (x, Event::Release(p)));
         let Some(guard) = contact.force.guard else { return first };
         let until = released.unwrap_or(until);

@@ -7,6 +7,7 @@
 //! Under a power law the last terms tell of the root of the time since the entry, or until the release: there the terms in
 //! time are weighed as those by a [`Clock`] have them, which knows no such root and goes several times as far.
 
+use super::alike_pairs::with_forces;
 use super::closed_pairs::{Acting, ClosedPairs};
 use super::complementarity::Complementarity;
 use super::linear_pairs::LinearPairs;
@@ -190,12 +191,14 @@ impl Model {
     fn expand(&self, base: &Base, step: &mut Step, work: &mut Workspace, scale: f64) {
         let Step { series, closed, .. } = step;
         series.start(scale, &base.q, &base.v);
-        closed.start(base, &self.pairs, scale);
+        let are_few = base.coordinates == Coordinates::Modes && base.q.len() <= FEW_BLOCKS * LANES;
+        let may_ride = are_few && self.structure.is_classical() && self.rigid.pairs.is_empty();
+        closed.start(base, &self.pairs, scale, may_ride);
         let loads = (&work.load[..], &work.slope[..]);
         match base.coordinates {
             Coordinates::Floors => {
-                let (floors, order, meeting) = (&self.structure.floors, self.order + 1, OnFloors);
-                series.expand_floors(floors, order, loads, &mut Acting { closed, meeting });
+                let (floors, order) = (&self.structure.floors, self.order + 1);
+                with_forces!(closed, false, OnFloors, |forces| series.expand_floors(floors, order, loads, forces));
             }
             Coordinates::Modes if self.structure.is_classical() && work.rigid.pairs.is_empty() => {
                 let order = self.order + 1;
@@ -203,8 +206,9 @@ impl Model {
                     let mut forces = Acting { closed, meeting: OnModes(&self.pairs) };
                     series.expand_modes(&self.structure, order, loads, &mut forces);
                 } else if !self.expand_linear(series, closed, order, loads) {
-                    let mut forces = Acting { closed, meeting: OnFewModes };
-                    series.expand_few_modes(&self.structure, order, loads, &mut forces);
+                    let structure = &self.structure;
+                    with_forces!(closed, true, OnFewModes, |forces| series
+                        .expand_few_modes(structure, order, loads, forces));
                 }
             }
             Coordinates::Modes => {

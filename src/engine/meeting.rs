@@ -15,6 +15,17 @@ pub(super) trait Meeting {
     fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each;
     /// Adds what the forces do.
     fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]);
+    /// Enters the relative motions of many terms.
+    #[inline(always)]
+    fn relate<'a>(
+        &self,
+        members: &Members,
+        count: usize,
+        terms: impl Iterator<Item = &'a [Lane]>,
+        out: impl Iterator<Item = &'a mut Each>,
+    ) {
+        terms.zip(out).for_each(|(term, out)| *out = self.relative(members, count, term));
+    }
     /// Adds what the forces do; returns the relative motions without that.
     #[inline(always)]
     fn meet(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) -> Each {
@@ -36,6 +47,23 @@ impl Meeting for OnFloors {
         }
         let term = term.as_flattened();
         lane_by_lane(count, |lane| term[members.floors[lane][0]] - term[members.floors[lane][1]])
+    }
+
+    #[inline(always)]
+    fn relate<'a>(
+        &self,
+        members: &Members,
+        count: usize,
+        terms: impl Iterator<Item = &'a [Lane]>,
+        out: impl Iterator<Item = &'a mut Each>,
+    ) {
+        match members.between {
+            // Told once for all terms.
+            Some([left, right]) => {
+                terms.zip(out).for_each(|(term, out)| *out = each(|lane| term[left][lane] - term[right][lane]));
+            }
+            None => terms.zip(out).for_each(|(term, out)| *out = self.relative(members, count, term)),
+        }
     }
 
     fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
@@ -78,16 +106,14 @@ impl OnFloors {
     }
 }
 
-/// The motion is that of modes that are few enough for the members to know all of them.
+/// The motion is that of modes that are few enough for the members to know all of them; of use for all lanes, those of
+/// riders too.
 pub(super) struct OnFewModes;
 
 impl Meeting for OnFewModes {
     #[inline(always)]
-    fn relative(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
-        if count < 2 {
-            return lane_by_lane(count, |lane| dot_blocks(&members.rows[lane], term));
-        }
-        // All pairs together need no sum across lanes.
+    fn relative(&self, members: &Members, _: usize, term: &[Lane]) -> Each {
+        // All pairs together, which needs no sum across lanes.
         let mut sums = [[0.0; PAIRS]; 2];
         let (modes, _) = members.by_mode.as_chunks::<LANES>();
         for (pairs, term) in modes.iter().zip(term) {
@@ -98,8 +124,8 @@ impl Meeting for OnFewModes {
         each(|i| sums[0][i] + sums[1][i])
     }
 
-    fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
-        lane_by_lane(count, |lane| difference(members.rows[lane].as_flattened(), term.as_flattened()).0)
+    fn difference(&self, members: &Members, _: usize, term: &[Lane]) -> Each {
+        lane_by_lane(PAIRS, |lane| difference(members.rows[lane].as_flattened(), term.as_flattened()).0)
     }
 
     #[inline(always)]

@@ -46,6 +46,8 @@ pub(super) struct Members {
     pub floors: [[usize; 2]; PAIRS],
     /// What a force does to each floor, 1/kg: minus and plus its inverse mass.
     pub inverse_masses: [Each; 2],
+    /// m.
+    pub gap: Each,
     /// 1/kg, relative acceleration of the pair by its own force.
     pub softness: Each,
     /// What the pair is to the first modes.
@@ -77,10 +79,16 @@ impl Members {
 
     /// Enters a pair by its number.
     pub fn set(&mut self, lane: usize, pair: usize, data: &Pair, coordinates: Coordinates) {
-        let Pair { lanes: floors, inverse_masses: [left, right], .. } = *data;
         self.pairs[lane] = pair;
         self.taken[lane] = true;
+        self.set_beside(lane, data, coordinates);
+    }
+
+    /// Enters what belongs to a pair in a lane that does not hold it.
+    pub fn set_beside(&mut self, lane: usize, data: &Pair, coordinates: Coordinates) {
+        let Pair { lanes: floors, inverse_masses: [left, right], .. } = *data;
         self.floors[lane] = floors;
+        self.gap[lane] = data.gap;
         (self.inverse_masses[0][lane], self.inverse_masses[1][lane]) = (-left, right);
         self.softness[lane] = left + right;
         if coordinates == Coordinates::Modes {
@@ -96,7 +104,7 @@ impl Members {
     }
 
     /// The lanes that hold a pair, with its number.
-    pub fn lanes(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+    pub fn lanes(&self) -> impl Iterator<Item = (usize, usize)> + Clone + '_ {
         self.pairs.iter().copied().enumerate().zip(&self.taken).filter(|(_, taken)| **taken).map(|(pair, _)| pair)
     }
 }

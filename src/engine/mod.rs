@@ -42,6 +42,7 @@
 //! ```
 
 mod advance;
+mod alike_pairs;
 mod closed_pairs;
 mod complementarity;
 mod contact_events;

@@ -10,21 +10,48 @@ use crate::contact::series::{Each, PAIRS};
 use crate::polynomial::{Powers, ROOM, each};
 use crate::structure::{FEW_BLOCKS, LANES, MotionSeries};
 
-/// Relative displacements at the end of a step, m, their derivatives by x, and bounds on their fourth.
-#[derive(Default)]
-struct End {
-    value: Each,
-    slope: Each,
-    fourth: Each,
+/// A block of pairs over a step, by the x of its powers.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Course {
+    /// Penetrations at the start, m, and their derivatives.
+    pub start: [Each; 2],
+    /// The same at the end.
+    pub end: [Each; 2],
+    /// Bounds on their fourth derivatives.
+    pub fourth: Each,
 }
 
-impl End {
-    /// Adds a term by what it is multiplied with in each.
+impl Course {
+    /// Of block `i` of `width`, from so many powers of their relative displacements: all of one power, then those of the
+    /// next.
     #[inline(always)]
-    fn add(&mut self, term: &Each, [value, slope, fourth]: [f64; 3]) {
-        self.value = each(|i| self.value[i] + term[i] * value);
-        self.slope = each(|i| self.slope[i] + term[i] * slope);
-        self.fourth = each(|i| self.fourth[i] + term[i].abs() * fourth);
+    fn of(terms: &[Each], (i, width): (usize, usize), count: usize, powers: &Powers, gap: &Each) -> Course {
+        let ((values, slopes, fourths), term) = (powers.all(), |n: usize| &terms[n * width + i]);
+        let (first, rate) = (term(0), *term(1));
+        let (mut later, mut slope, mut fourth) = ([0.0; PAIRS], [0.0; PAIRS], [0.0; PAIRS]);
+        for n in 2..count.min(ROOM) {
+            let term = term(n);
+            later = each(|i| later[i] + term[i] * values[n]);
+            slope = each(|i| slope[i] + term[i] * slopes[n]);
+            fourth = each(|i| fourth[i] + term[i].abs() * fourths[n]);
+        }
+        let start = each(|i| first[i] - gap[i]);
+        let end = each(|i| start[i] + (rate[i] * powers.x + later[i]));
+        Course { start: [start, rate], end: [end, each(|i| rate[i] + slope[i])], fourth }
+    }
+
+    /// Which pairs certainly stay apart up to x: the penetration is as near to its cubic interpolant as its fourth
+    /// derivative says, and that lies between its control points (as [`roots::ceiling`] has it).
+    fn stays_apart(&self, x: f64) -> [bool; PAIRS] {
+        let ([start, rate], [end, slope]) = (&self.start, &self.end);
+        let larger = |a: f64, b: f64| if a > b { a } else { b };
+        let (third, bound) = (x / 3.0, (x * x) * (x * x) / 384.0);
+        let highest = each(|i| {
+            let control = larger(start[i] + third * rate[i], end[i] - third * slope[i]);
+            larger(larger(start[i], end[i]), control) + bound * self.fourth[i]
+        });
+        // Written so that a NaN never stays apart.
+        highest.map(|highest| highest < 0.0)
     }
 }
 
@@ -40,6 +67,8 @@ pub(super) struct OpenPairs {
     apart: Vec<usize>,
     /// m, relative displacements of these: all of one power, then those of the next.
     terms: Vec<Each>,
+    /// How these go over the step.
+    courses: Vec<Course>,
 }
 
 impl OpenPairs {
@@ -52,6 +81,7 @@ impl OpenPairs {
             coordinates: None,
             apart: Vec::with_capacity(most),
             terms: vec![[0.0; PAIRS]; most * ROOM],
+            courses: vec![Course::default(); most],
         }
     }
 
@@ -72,50 +102,25 @@ impl OpenPairs {
         }
     }
 
-    /// Notes the blocks that have a pair that is apart, and where the motion is read by a clock their series in its x.
-    fn project(&mut self, base: &Base, pairs: &[Pair], series: &MotionSeries, bend: &Bend) {
-        self.apart.clear();
-        for (b, members) in self.members[..self.used].iter().enumerate() {
-            if members.lanes().any(|(_, p)| !base.contacts[p].in_contact()) {
-                self.apart.push(b);
+    /// Works out the courses of the blocks that have a pair that is apart, up to the x of the powers.
+    fn follow(&mut self, base: &Base, pairs: &[Pair], series: &MotionSeries, bend: &Bend, powers: &Powers) {
+        let OpenPairs { members, apart, terms, courses, .. } = self;
+        let members = &members[..self.used];
+        apart.clear();
+        let has_one_apart = |members: &Members| members.lanes().any(|(_, p)| !base.contacts[p].in_contact());
+        apart.extend(members.iter().enumerate().filter(|(_, members)| has_one_apart(members)).map(|(b, _)| b));
+        let terms = &mut terms[..(series.order + 1) * apart.len()];
+        match base.coordinates {
+            Coordinates::Floors => relate(&OnFloors, series, (members, apart), terms),
+            Coordinates::Modes if base.q.len() <= FEW_BLOCKS * LANES => {
+                relate(&OnFewModes, series, (members, apart), terms)
             }
+            Coordinates::Modes => relate(&OnModes(pairs), series, (members, apart), terms),
         }
-        if !series.clock.is_bent() {
-            return;
+        if series.clock.is_bent() {
+            bend.apply(terms, apart.len());
         }
-        let (members, apart, terms) = (&self.members, &self.apart, &mut self.terms);
-        match on(base.coordinates, series) {
-            On::Floors => relate(&OnFloors, series, (members, apart), terms),
-            On::FewModes => relate(&OnFewModes, series, (members, apart), terms),
-            On::Modes => relate(&OnModes(pairs), series, (members, apart), terms),
-        }
-        bend.apply(&mut self.terms[..(series.order + 1) * self.apart.len()], self.apart.len());
-    }
-
-    /// The i-th of these blocks at the x of the powers.
-    fn read(&self, i: usize, base: &Base, pairs: &[Pair], series: &MotionSeries, powers: &Powers) -> End {
-        let (members, width) = (&self.members[self.apart[i]], self.apart.len());
-        match on(base.coordinates, series) {
-            _ if series.clock.is_bent() => read_terms(&self.terms[..(series.order + 1) * width], (width, i), powers),
-            On::Floors => read_motion(&OnFloors, series, members, powers),
-            On::FewModes => read_motion(&OnFewModes, series, members, powers),
-            On::Modes => read_motion(&OnModes(pairs), series, members, powers),
-        }
-    }
-}
-
-/// What the motion is that of.
-enum On {
-    Floors,
-    FewModes,
-    Modes,
-}
-
-fn on(coordinates: Coordinates, series: &MotionSeries) -> On {
-    match coordinates {
-        Coordinates::Floors => On::Floors,
-        Coordinates::Modes if series.term(0).len() <= FEW_BLOCKS * LANES => On::FewModes,
-        Coordinates::Modes => On::Modes,
+        read(terms, (members, apart), series.order + 1, powers, courses);
     }
 }
 
@@ -128,34 +133,24 @@ fn relate<M: Meeting>(
     terms: &mut [Each],
 ) {
     for (i, b) in apart.iter().enumerate() {
-        let (members, lanes) = (&members[*b], members[*b].count());
-        for (terms, motion) in terms.chunks_exact_mut(apart.len()).zip(series.rows()) {
-            terms[i] = meeting.relative(members, lanes, motion);
-        }
+        let members = &members[*b];
+        let out = terms.chunks_exact_mut(apart.len()).map(|terms| &mut terms[i]);
+        meeting.relate(members, members.count(), series.rows(), out);
     }
 }
 
-/// The relative displacements of one of `width` blocks. Wide instructions give the same bits.
+/// The courses of some blocks from so many powers. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn read_terms(terms: &[Each], (width, block): (usize, usize), powers: &Powers) -> End {
-    let (values, slopes, fourths) = powers.all();
-    let mut end = End::default();
-    for (((row, value), slope), fourth) in terms.chunks_exact(width).zip(values).zip(slopes).zip(fourths) {
-        end.add(&row[block], [*value, *slope, *fourth]);
+fn read(
+    terms: &[Each],
+    (members, apart): (&[Members], &[usize]),
+    count: usize,
+    powers: &Powers,
+    courses: &mut [Course],
+) {
+    for (i, (b, course)) in apart.iter().zip(courses).enumerate() {
+        *course = Course::of(terms, (i, apart.len()), count, powers, &members[*b].gap);
     }
-    end
-}
-
-/// The same straight from the motion. Wide instructions give the same bits.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn read_motion<M: Meeting>(meeting: &M, series: &MotionSeries, members: &Members, powers: &Powers) -> End {
-    let (values, slopes, fourths) = powers.all();
-    let lanes = members.count();
-    let mut end = End::default();
-    for (((motion, value), slope), fourth) in series.rows().zip(values).zip(slopes).zip(fourths) {
-        end.add(&meeting.relative(members, lanes, motion), [*value, *slope, *fourth]);
-    }
-    end
 }
 
 impl Model {
@@ -164,49 +159,49 @@ impl Model {
         if base.contacts.iter().all(Contact::in_contact) {
             return None;
         }
-        let Step { open, series, end, .. } = step;
+        let Step { open, closed, series, end, .. } = step;
+        if !closed.riders().is_empty() {
+            let course = closed.course_of_riders();
+            return self.first_of(base, closed.riders().iter().copied(), &course, (series, end, work), None);
+        }
         open.assign(&self.pairs, base.coordinates);
-        open.project(base, &self.pairs, series, &work.bend);
-        let mut first: Option<(f64, Event)> = None;
-        for (i, block) in open.apart.iter().enumerate() {
-            let reading = open.read(i, base, &self.pairs, series, end);
-            let members = &open.members[*block];
-            let stays_apart = self.stay_apart(base, members, &reading, (series.scale, end.x));
-            for (lane, p) in members.lanes().filter(|(_, p)| !base.contacts[*p].in_contact()) {
-                if stays_apart[lane] {
-                    continue;
-                }
-                let terms = &mut work.scalar[..=series.order];
-                end.set_in_time(&series.clock);
-                let size = self.project(p, base.coordinates, series, end.in_time().0, terms);
-                let contact = &base.contacts[p];
-                let noise = contact.begin_flight(terms, series.scale, self.pairs[p].noise(size));
-                if series.clock.is_bent() {
-                    work.bend.apply_to_one(terms);
-                }
-                let until = first.map_or(end.x, |(x, _)| x);
-                first = roots::first_rise(terms, until, noise).map(|x| (x, Event::Entry(p))).or(first);
-            }
+        open.follow(base, &self.pairs, series, &work.bend, end);
+        let mut first = None;
+        for (block, course) in open.apart.iter().zip(&open.courses) {
+            first = self.first_of(base, open.members[*block].lanes(), course, (series, end, work), first);
         }
         first
     }
 
-    /// Which pairs of a block certainly stay apart up to x: the penetration is as near to its cubic interpolant as its fourth
-    /// derivative says, and that lies between its control points (as [`roots::ceiling`] has it).
-    fn stay_apart(&self, base: &Base, members: &Members, end: &End, (scale, x): (f64, f64)) -> [bool; PAIRS] {
-        let (mut start, mut slope, mut gap) = ([0.0; PAIRS], [0.0; PAIRS], [0.0; PAIRS]);
-        for (lane, p) in members.lanes() {
+    /// The first entry among some lanes that hold a pair, of those that are apart, or the one that is known.
+    #[inline]
+    fn first_of(
+        &self,
+        base: &Base,
+        lanes: impl Iterator<Item = (usize, usize)>,
+        course: &Course,
+        (series, end, work): (&MotionSeries, &mut Powers, &mut Workspace),
+        mut first: Option<(f64, Event)>,
+    ) -> Option<(f64, Event)> {
+        let stays_apart = course.stays_apart(end.x);
+        // Of a pair at the surface, or next to it, more digits are known than the motion tells.
+        let is_sure = |lane: usize, contact: &Contact| stays_apart[lane] && !contact.at_surface && !contact.carried;
+        let may_meet = |&(lane, p): &(usize, usize)| {
             let contact = &base.contacts[p];
-            (start[lane], slope[lane]) = (contact.flight_start(), contact.rate * scale);
-            gap[lane] = self.pairs[p].gap;
+            !contact.in_contact() && !is_sure(lane, contact)
+        };
+        for (_, p) in lanes.filter(may_meet) {
+            let terms = &mut work.scalar[..=series.order];
+            end.set_in_time(&series.clock);
+            let size = self.project(p, base.coordinates, series, end.in_time().0, terms);
+            let contact = &base.contacts[p];
+            let noise = contact.begin_flight(terms, series.scale, self.pairs[p].noise(size));
+            if series.clock.is_bent() {
+                work.bend.apply_to_one(terms);
+            }
+            let until = first.map_or(end.x, |(x, _)| x);
+            first = roots::first_rise(terms, until, noise).map(|x| (x, Event::Entry(p))).or(first);
         }
-        let larger = |a: f64, b: f64| if a > b { a } else { b };
-        let bound = (x * x) * (x * x) / 384.0;
-        let highest = each(|i| {
-            let last = end.value[i] - gap[i];
-            let control = larger(start[i] + x * slope[i] / 3.0, last - x * end.slope[i] / 3.0);
-            larger(larger(start[i], last), control) + bound * end.fourth[i]
-        });
-        highest.map(|highest| highest < 0.0)
+        first
     }
 }
