@@ -5,7 +5,7 @@ use super::model::Model;
 use super::state::*;
 use super::{ContactPoint, Episode, Point, Side};
 use crate::polynomial::Powers;
-use crate::structure::{EXACT, flight_order, fly_in_one_series};
+use crate::structure::{exact_order, fly_in_one_series};
 use std::cell::Cell;
 
 /// What a contact shows, and the observation that it is of.
@@ -94,7 +94,7 @@ impl Model {
         if !(self.structure.is_classical() && left > 0.0 && reach <= NEAR) {
             return false;
         }
-        let Some(order) = flight_order(reach, EXACT) else { return false };
+        let Some(order) = exact_order(reach) else { return false };
         let end = if step.kind == StepKind::Glide {
             let (mut end_q, mut end_v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
             self.fly(base, length, work, (&mut end_q, &mut end_v));

@@ -23,7 +23,7 @@ pub use interval::{Interval, ModeBlock};
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
 pub use propagator::{CoupledIncrement, ModeIncrement};
 pub use series::{EXACT, FEW_BLOCKS, MotionSeries, PairForces, difference, dot, flight_order, sum_sizes, sum_terms};
-pub use short_flight::fly_in_one_series;
+pub use short_flight::{exact_order, fly_in_one_series};
 
 use dense::Dense;
 
