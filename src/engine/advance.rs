@@ -38,6 +38,7 @@ impl Model {
     }
 
     /// Advances from where gliding has ended, over so many segments.
+    #[inline(never)]
     fn go_on(
         &self,
         state: &mut State,

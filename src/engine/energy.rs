@@ -270,24 +270,30 @@ impl Model {
         }
     }
 
-    /// Reads the account at a time since the base; `point` holds the motion and the contacts there.
-    pub(super) fn read_energy(&self, state: &State, elapsed: f64, work: &mut Workspace, point: &mut Point) {
-        point.energy = state.base.energy.map(|mut account| {
-            if elapsed > 0.0 {
-                let done = self.work_over(&state.base, &state.step, &state.inputs, work, elapsed);
-                account.input += done.input;
-                account.viscous += done.viscous;
-                account.external += done.external;
-            }
-            let (kinetic, strain) = self.structure_energies(point.coordinates, &point.q, &point.v);
-            let contacts = 0..self.pairs.len();
-            let impact = contacts.map(|p| self.contact_in(&state.base, point, p).dissipated_energy).sum();
-            account.update_largest([kinetic, strain, impact]);
-            let Account { initial, input, external, viscous, largest } = account;
-            let imbalance = initial + input + external - kinetic - strain - viscous - impact;
-            let residual = if largest > 0.0 { imbalance / largest } else { 0.0 };
-            EnergyPoint { input, kinetic, strain, viscous, impact, external, residual }
-        });
+    /// What the account of the base has come to at a time since it; `point` holds the motion and the contacts there.
+    #[inline(never)]
+    pub(super) fn read_energy(
+        &self,
+        mut account: Account,
+        state: &State,
+        elapsed: f64,
+        work: &mut Workspace,
+        point: &Point,
+    ) -> EnergyPoint {
+        if elapsed > 0.0 {
+            let done = self.work_over(&state.base, &state.step, &state.inputs, work, elapsed);
+            account.input += done.input;
+            account.viscous += done.viscous;
+            account.external += done.external;
+        }
+        let (kinetic, strain) = self.structure_energies(point.coordinates, &point.q, &point.v);
+        let contacts = 0..self.pairs.len();
+        let impact = contacts.map(|p| self.contact_in(&state.base, point, p).dissipated_energy).sum();
+        account.update_largest([kinetic, strain, impact]);
+        let Account { initial, input, external, viscous, largest } = account;
+        let imbalance = initial + input + external - kinetic - strain - viscous - impact;
+        let residual = if largest > 0.0 { imbalance / largest } else { 0.0 };
+        EnergyPoint { input, kinetic, strain, viscous, impact, external, residual }
     }
 }
 

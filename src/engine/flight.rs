@@ -4,7 +4,7 @@ use super::ground::GroundMotion;
 use super::look::highest_of_cubic;
 use super::model::Model;
 use super::state::*;
-use crate::structure::{EXACT, Scratch, flight_order, fly_in_one_series};
+use crate::structure::{Scratch, exact_order, fly_in_one_series};
 
 impl Model {
     /// Works out the flight from the base until `limit` (s since the segment's start) or the first entry.
@@ -100,7 +100,7 @@ impl Model {
         let whole = base.elapsed == 0.0 && h == base.segment.length;
         let prepared = self.ground.as_ref().filter(|_| whole).and_then(|ground| ground.prepared(&base.segment));
         if prepared.is_none()
-            && let Some(order) = flight_order(self.structure.fastest * h, EXACT)
+            && let Some(order) = exact_order(self.structure.fastest * h)
         {
             if self.structure.is_classical() {
                 return fly_in_one_series(&self.structure, (&base.q, &base.v), (load, slope), (h, order), (q, v));

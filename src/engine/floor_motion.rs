@@ -6,11 +6,11 @@ use super::{Point, Side};
 use crate::structure::{LANES, Lane};
 use std::cell::{Cell, OnceCell, RefCell};
 
-/// Quantities of all floors, each building's in lanes of its own, and the observation that each block of them is of.
+/// Some quantities of a block of floors, and the observation that they are of.
 #[derive(Clone, Debug)]
-struct KnownFloors<const N: usize> {
-    observations: Vec<Cell<u64>>,
-    numbers: [Vec<Cell<f64>>; N],
+struct KnownBlock<const N: usize> {
+    observation: Cell<u64>,
+    numbers: [[Cell<f64>; LANES]; N],
 }
 
 /// What is known of the floors at one time.
@@ -19,9 +19,9 @@ pub(super) struct FloorMotions {
     /// Number of this observation, from 1 on.
     pub observation: u64,
     /// Displacement, m, and velocity, m/s, relative to the ground.
-    motion: KnownFloors<2>,
+    motion: Vec<KnownBlock<2>>,
     /// m/s2, absolute.
-    acceleration: KnownFloors<1>,
+    acceleration: Vec<KnownBlock<1>>,
     rows_read: Cell<u64>,
     /// Of the floor and contact forces, per unit of mass and in the coordinates of the point; of use where `is_loaded`.
     load: Vec<f64>,
@@ -40,51 +40,40 @@ pub(super) struct Accelerations {
     pub resisted: Vec<f64>,
 }
 
-impl<const N: usize> Default for KnownFloors<N> {
-    fn default() -> KnownFloors<N> {
-        KnownFloors::new(0)
-    }
-}
-
-impl<const N: usize> KnownFloors<N> {
-    /// For vectors of all floors of that length.
-    fn new(lanes: usize) -> KnownFloors<N> {
-        let numbers = std::array::from_fn(|_| vec![Cell::new(0.0); 2 * lanes]);
-        KnownFloors { observations: vec![Cell::new(0); 2 * lanes / LANES], numbers }
+impl<const N: usize> KnownBlock<N> {
+    /// Nothing is known of so many lanes.
+    fn unknown(lanes: usize) -> Vec<KnownBlock<N>> {
+        let numbers = || std::array::from_fn(|_| std::array::from_fn(|_| Cell::new(0.0)));
+        (0..lanes / LANES).map(|_| KnownBlock { observation: Cell::new(0), numbers: numbers() }).collect()
     }
 
-    /// A quantity at a place, if it is known in this observation.
     #[inline]
-    fn get(&self, quantity: usize, place: usize, observation: u64) -> Option<f64> {
-        (self.observations[place / LANES].get() == observation).then(|| self.numbers[quantity][place].get())
-    }
-
-    /// Notes what the floors about a place have.
-    #[inline]
-    fn set(&self, place: usize, observation: u64, blocks: &[Lane; N]) {
-        self.observations[place / LANES].set(observation);
+    fn set(&self, observation: u64, blocks: &[Lane; N]) {
+        self.observation.set(observation);
         for (numbers, block) in self.numbers.iter().zip(blocks) {
-            let cells = &numbers.as_chunks::<LANES>().0[place / LANES];
             for i in 0..LANES {
-                cells[i].set(block[i]);
+                numbers[i].set(block[i]);
             }
         }
     }
 }
 
 impl FloorMotions {
+    /// Makes room for vectors of all floors of that length.
+    pub fn make_room(&mut self, lanes: usize) {
+        self.motion = KnownBlock::unknown(lanes);
+        self.acceleration = KnownBlock::unknown(lanes);
+        self.load = vec![0.0; lanes];
+        self.accelerations.take();
+        *self.room.get_mut() = Accelerations { absolute: vec![0.0; lanes], resisted: vec![0.0; lanes] };
+    }
+
     /// Nothing is known of any floor.
-    pub fn forget(&mut self, lanes: usize) {
+    pub fn forget(&mut self) {
         self.observation += 1;
         self.is_loaded = false;
         if let Some(accelerations) = self.accelerations.take() {
             *self.room.get_mut() = accelerations;
-        }
-        if self.load.len() != lanes {
-            self.motion = KnownFloors::new(lanes);
-            self.acceleration = KnownFloors::new(lanes);
-            self.load = vec![0.0; lanes];
-            *self.room.get_mut() = Accelerations { absolute: vec![0.0; lanes], resisted: vec![0.0; lanes] };
         }
     }
 
@@ -97,9 +86,9 @@ impl FloorMotions {
 }
 
 impl Point {
-    /// Rows of the modal matrix that have been summed up, since this point was made: of the floor that is asked for and of
-    /// those that share its block of four, which come with it at no cost; once for an observation where a displacement or
-    /// velocity is asked for, once for accelerations. None where the solution is that of the floors.
+    /// Rows of the modal matrix that have been summed up, since this point was made: four at a time, that of the floor that
+    /// is asked for and those that share its block, which come with it at no cost; once for an observation where a
+    /// displacement or velocity is asked for, once for accelerations. None where the solution is that of the floors.
     pub fn rows_read(&self) -> u64 {
         self.floors.rows_read.get()
     }
@@ -122,20 +111,12 @@ impl Model {
     #[inline]
     pub fn acceleration(&self, point: &Point, side: Side, floor: usize) -> f64 {
         let FloorMotions { acceleration, observation, .. } = &point.floors;
-        acceleration.get(0, self.place(side, floor), *observation).unwrap_or_else(|| {
-            let accelerations = [&self.accelerations(point).absolute[..]];
-            self.note_floors(point, side, floor, accelerations, acceleration)[0]
-        })
-    }
-
-    /// Where the quantities of a floor are noted.
-    #[inline]
-    fn place(&self, side: Side, floor: usize) -> usize {
         let lane = self.structure.floors.lane(side as usize, floor);
-        match side {
-            Side::Left => lane,
-            Side::Right => self.structure.lanes + lane,
+        let known = &acceleration[lane / LANES];
+        if known.observation.get() != *observation {
+            self.note_floors(point, lane / LANES, [&self.accelerations(point).absolute], known);
         }
+        known.numbers[0][lane % LANES].get()
     }
 
     /// N, force of the building on the ground.
@@ -151,25 +132,18 @@ impl Model {
     #[inline]
     fn floor_motion(&self, point: &Point, side: Side, floor: usize, quantity: usize) -> f64 {
         let FloorMotions { motion, observation, .. } = &point.floors;
-        motion
-            .get(quantity, self.place(side, floor), *observation)
-            .unwrap_or_else(|| self.note_floors(point, side, floor, [&point.q, &point.v], motion)[quantity])
+        let lane = self.structure.floors.lane(side as usize, floor);
+        let known = &motion[lane / LANES];
+        if known.observation.get() != *observation {
+            self.note_floors(point, lane / LANES, [&point.q, &point.v], known);
+        }
+        known.numbers[quantity][lane % LANES].get()
     }
 
-    /// Works out some motions of a floor and of those that share its block, and notes them.
+    /// Works out some motions of a block of floors, and notes them.
     #[inline(never)]
-    fn note_floors<const N: usize>(
-        &self,
-        point: &Point,
-        side: Side,
-        floor: usize,
-        motion: [&[f64]; N],
-        known: &KnownFloors<N>,
-    ) -> [f64; N] {
-        let lane = self.structure.floors.lane(side as usize, floor);
-        let blocks = self.floor_block(point, side, lane / LANES, motion);
-        known.set(self.place(side, floor), point.floors.observation, &blocks);
-        blocks.map(|block| block[lane % LANES])
+    fn note_floors<const N: usize>(&self, point: &Point, block: usize, motion: [&[f64]; N], known: &KnownBlock<N>) {
+        known.set(point.floors.observation, &self.floor_block(point, block, motion));
     }
 
     /// The accelerations of an observed solution.
@@ -198,18 +172,16 @@ impl Model {
         motion: [&[f64]; N],
     ) -> [f64; N] {
         let lane = self.structure.floors.lane(side as usize, floor);
-        self.floor_block(point, side, lane / LANES, motion).map(|block| block[lane % LANES])
+        self.floor_block(point, lane / LANES, motion).map(|block| block[lane % LANES])
     }
 
-    /// A block of floors of one building.
-    #[inline]
-    fn floor_block<const N: usize>(&self, point: &Point, side: Side, block: usize, motion: [&[f64]; N]) -> [Lane; N] {
+    /// A block of floors.
+    #[inline(always)]
+    fn floor_block<const N: usize>(&self, point: &Point, block: usize, motion: [&[f64]; N]) -> [Lane; N] {
         match point.coordinates {
             Coordinates::Modes => {
-                let floors = self.structure.floors.lanes_of(side as usize);
-                let rows = (block * LANES).max(floors.start)..((block + 1) * LANES).min(floors.end);
-                point.floors.rows_read.set(point.floors.rows_read.get() + rows.len() as u64);
-                self.structure.at_floors(side, block, motion)
+                point.floors.rows_read.set(point.floors.rows_read.get() + LANES as u64);
+                self.structure.at_floors(block, motion)
             }
             Coordinates::Floors => motion.map(|motion| motion.as_chunks::<LANES>().0[block]),
         }

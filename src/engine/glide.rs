@@ -55,10 +55,9 @@ impl Model {
         let Some((ground, first)) = self.gliding(state) else { return Glide::default() };
         let mut next = first;
         let has_arrived = loop {
-            let State { base, step, counters, work, .. } = &mut *state;
-            let is_planned = step.kind != StepKind::Unknown;
-            let is_free = base.watch.are_all_free(next)
-                || !is_planned && self.dismiss(ground, base, next, counters, &mut work.node_v);
+            let is_planned = state.step.kind != StepKind::Unknown;
+            let is_free = state.base.watch.are_all_free(next) || !is_planned && self.look_ahead(ground, state, next);
+            let State { base, step, counters, .. } = &mut *state;
             if next - first >= most || !is_free && is_planned {
                 break false;
             }
@@ -97,8 +96,17 @@ impl Model {
         Glide { flown: next - first, has_arrived }
     }
 
+    /// Looks at the pairs that have not been dismissed for the base's segment, of that number; whether all are now. Seldom
+    /// needed: the loop above has no room for it.
+    #[inline(never)]
+    fn look_ahead(&self, ground: &GroundMotion, state: &mut State, segment: u64) -> bool {
+        let State { base, counters, work, .. } = state;
+        self.dismiss(ground, base, segment, counters, &mut work.node_v)
+    }
+
     /// Flies over segments for which not all pairs have been dismissed, as long as both ends of each show that none meets;
     /// returns how many.
+    #[inline(never)]
     fn fly_over_near_pairs(
         &self,
         ground: &GroundMotion,

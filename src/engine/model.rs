@@ -205,14 +205,20 @@ impl Model {
 
     /// The load at the base, in its coordinates and per unit of mass, and its rate until the segment's end.
     pub(super) fn load(&self, base: &Base, inputs: &Inputs, load: &mut [f64], slope: &mut [f64]) {
-        let acceleration = base.segment.acceleration_at(base.elapsed);
-        for ((load, slope), share) in load.iter_mut().zip(slope.iter_mut()).zip(self.participation(base.coordinates)) {
-            *load = -share * acceleration;
-            *slope = -share * base.segment.slope;
-        }
         let Base { segment, elapsed, coordinates, .. } = base;
-        self.add_floor_forces(inputs, *coordinates, |force| force.after(segment.start, *elapsed), load);
-        self.add_floor_forces(inputs, *coordinates, LinearInput::slope, slope);
+        let (acceleration, rate) = (segment.acceleration_at(*elapsed), segment.slope);
+        let (shares, _) = self.participation(*coordinates).as_chunks::<LANES>();
+        let blocks = load.as_chunks_mut::<LANES>().0.iter_mut().zip(slope.as_chunks_mut::<LANES>().0).zip(shares);
+        for ((load, slope), share) in blocks {
+            for i in 0..LANES {
+                load[i] = -share[i] * acceleration;
+                slope[i] = -share[i] * rate;
+            }
+        }
+        if self.floor_forces {
+            self.add_floor_forces(inputs, *coordinates, |force| force.after(segment.start, *elapsed), load);
+            self.add_floor_forces(inputs, *coordinates, LinearInput::slope, slope);
+        }
     }
 
     /// What a ground acceleration of -1 m/s^2 pushes.

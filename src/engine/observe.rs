@@ -5,7 +5,7 @@ use super::model::Model;
 use super::state::*;
 use super::{ContactPoint, Episode, Point, Side};
 use crate::polynomial::Powers;
-use crate::structure::{EXACT, flight_order, fly_in_one_series};
+use crate::structure::{exact_order, fly_in_one_series};
 use std::cell::Cell;
 
 /// What a contact shows, and the observation that it is of.
@@ -20,39 +20,58 @@ impl Model {
     ///
     /// Floors, accelerations and contacts apart are not computed here but when one is asked for.
     pub fn observe(&self, state: &State, point: &mut Point) {
-        let lanes = self.structure.lanes;
-        point.floors.forget(lanes);
-        if point.q.len() != lanes {
-            point.q.resize(lanes, 0.0);
-            point.v.resize(lanes, 0.0);
+        if point.q.len() != self.structure.lanes || point.contacts.len() != self.pairs.len() {
+            self.make_room(point);
         }
+        point.floors.forget();
         point.time = state.time;
         point.coordinates = state.base.coordinates;
-        let elapsed = state.since_base();
-        let mut work = point.work.take().unwrap_or_else(|| Box::new(self.workspace()));
-        self.read_modes(state, elapsed, &mut work, point);
+        point.impacts = state.base.impacts;
         let State { base, step, inputs, .. } = state;
         point.ground_acceleration = match &self.ground {
             Some(_) => base.segment.acceleration_at(state.time - base.segment.start),
             None => inputs.ground_acceleration.at(state.time),
         };
-        point.contacts.resize_with(self.pairs.len(), Cell::default);
+        let elapsed = state.since_base();
+        let mut work = point.work.take().unwrap_or_else(|| Box::new(self.workspace()));
+        self.read_modes(state, elapsed, &mut work, point);
+        // In a flight no contact has a force.
+        let is_flight = matches!(step.kind, StepKind::Flight | StepKind::Glide);
+        if !is_flight {
+            self.note_contacts(state, elapsed, &mut work, point);
+        }
+        if !is_flight || self.floor_forces {
+            self.read_load(state, point);
+        }
+        point.energy = base.energy.map(|account| self.read_energy(account, state, elapsed, &mut work, point));
+        point.work = Some(work);
+    }
+
+    #[cold]
+    fn make_room(&self, point: &mut Point) {
+        let lanes = self.structure.lanes;
+        (point.q, point.v) = (vec![0.0; lanes], vec![0.0; lanes]);
+        point.contacts = vec![Cell::default(); self.pairs.len()];
+        point.floors.make_room(lanes);
+        point.work = None;
+    }
+
+    /// What the pairs that are in contact show.
+    #[inline(never)]
+    fn note_contacts(&self, state: &State, elapsed: f64, work: &mut Workspace, point: &Point) {
+        let State { base, step, inputs, .. } = state;
         for (p, _) in base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact()) {
             let now = self.contact_at(base, step, p, elapsed, &work.powers);
             point.note_contact(p, self.show(&now, now.penetration));
         }
         if step.kind == StepKind::Unknown && base.contacts.iter().any(Contact::is_held) {
             // An input that has just been set changes reactions at once.
-            self.balance(base, inputs, &mut work);
+            self.balance(base, inputs, work);
             for (&k, &force) in work.rigid.pairs.iter().zip(&work.rigid.found) {
                 let p = self.rigid.pairs[k];
                 point.note_contact(p, ContactPoint { force, ..self.contact_in(base, point, p) });
             }
         }
-        point.impacts = base.impacts;
-        self.read_load(state, point);
-        self.read_energy(state, elapsed, &mut work, point);
-        point.work = Some(work);
     }
 
     /// q and v at a time since the base.
@@ -94,7 +113,7 @@ impl Model {
         if !(self.structure.is_classical() && left > 0.0 && reach <= NEAR) {
             return false;
         }
-        let Some(order) = flight_order(reach, EXACT) else { return false };
+        let Some(order) = exact_order(reach) else { return false };
         let end = if step.kind == StepKind::Glide {
             let (mut end_q, mut end_v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
             self.fly(base, length, work, (&mut end_q, &mut end_v));

@@ -30,10 +30,11 @@ impl Dense {
         Dense { source, columns: size, target: blocks.start, entries }
     }
 
-    /// The rows of one block times some vectors.
-    pub fn block<const N: usize>(&self, block: usize, vectors: [&[f64]; N]) -> [Lane; N] {
-        let rows = &self.entries[(block - self.target) * self.columns..][..self.columns];
-        products(rows, vectors.map(|vector| &vector[self.source..][..self.columns]))
+    /// The rows of one block of the target, where any of them is of this matrix.
+    #[inline(always)]
+    fn rows(&self, block: usize) -> Option<&[Lane]> {
+        let start = block.checked_sub(self.target)? * self.columns;
+        self.entries.get(start..start + self.columns)
     }
 
     /// `out` += factor * matrix * `vector`.
@@ -54,16 +55,27 @@ impl Dense {
     }
 }
 
-/// Sums of rows times the numbers of some vectors, two by two: neither has to wait for the other. Wide instructions give the
-/// same bits.
+/// One block of the target of two matrices: what both together make of some vectors. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn products<const N: usize>(rows: &[Lane], vectors: [&[f64]; N]) -> [Lane; N] {
+pub fn block_of_both<const N: usize>(matrices: &[Dense; 2], block: usize, vectors: [&[f64]; N]) -> [Lane; N] {
+    let mut sums = [[0.0; LANES]; N];
+    for matrix in matrices {
+        if let Some(rows) = matrix.rows(block) {
+            add_products(rows, &vectors, matrix.source, &mut sums);
+        }
+    }
+    sums
+}
+
+/// Adds rows times the numbers of some vectors from a lane on, summed two by two: neither has to wait for the other.
+#[inline(always)]
+fn add_products<const N: usize>(rows: &[Lane], vectors: &[&[f64]; N], from: usize, sums: &mut [Lane; N]) {
     let (pairs, last) = rows.as_chunks::<2>();
-    let vectors = vectors.map(|vector| vector[..rows.len()].as_chunks::<2>());
     // Says once that no index below leaves its vector; a closure would have no wide instructions.
-    let (count, mut firsts) = (pairs.len(), [&[][..]; N]);
+    let (count, mut firsts, mut lasts) = (pairs.len(), [&[][..]; N], [&[][..]; N]);
     for n in 0..N {
-        firsts[n] = &vectors[n].0[..count];
+        let (first, last) = vectors[n][from..][..rows.len()].as_chunks::<2>();
+        (firsts[n], lasts[n]) = (&first[..count], last);
     }
     let (mut even, mut odd) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
     // Indices of arrays whose length is known leave the sums in registers.
@@ -81,11 +93,26 @@ fn products<const N: usize>(rows: &[Lane], vectors: [&[f64]; N]) -> [Lane; N] {
         for i in 0..LANES {
             even[n][i] += odd[n][i];
         }
-        for (row, value) in last.iter().zip(vectors[n].1) {
+        if let ([row], [value]) = (last, lasts[n]) {
             for i in 0..LANES {
                 even[n][i] += row[i] * value;
             }
         }
+        for i in 0..LANES {
+            sums[n][i] += even[n][i];
+        }
     }
-    even
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn matrices_that_share_a_block_keep_their_own_rows() {
+        let matrices = [Dense::new(1, 0, 0, |_, _| 2.0), Dense::new(2, 1, 2, |i, j| [[3.0, 4.0], [5.0, 6.0]][i][j])];
+        let vectors = [[1.0, 10.0, 100.0, 0.0], [-1.0, 0.0, 1.0, 0.0]];
+        let got = block_of_both(&matrices, 0, vectors.each_ref().map(|vector| &vector[..]));
+        assert_eq!(got, [[2.0, 0.0, 430.0, 650.0], [-2.0, 0.0, 4.0, 6.0]]);
+    }
 }

@@ -116,11 +116,7 @@ impl Interval {
         (end_q, end_v): (&mut [f64], &mut [f64]),
         scratch: &mut Scratch,
     ) {
-        let [(q0, _), (v0, _), (l0, _), (l1, _)] = [q, v, load, slope].map(<[f64]>::as_chunks::<LANES>);
-        let [(q1, _), (v1, _)] = [&mut *end_q, &mut *end_v].map(<[f64]>::as_chunks_mut::<LANES>);
-        for (c, m) in self.modes.iter().enumerate() {
-            (q1[c], v1[c]) = m.end(&q0[c], &v0[c], &l0[c], &l1[c]);
-        }
+        fly_modes(&self.modes, (q, v), (load, slope), (end_q, end_v));
         let mut ahead = &mut scratch.ahead[..];
         for (offset, increment) in &self.coupled {
             let (own, rest) = ahead.split_at_mut(increment.matrix.nrows());
@@ -163,5 +159,24 @@ impl Interval {
             (q1[c], v1[c]) = (q, v);
         }
         sum.iter().sum::<f64>().is_finite()
+    }
+}
+
+/// The end of all modes from q, v, load and slope, as if damping coupled none. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn fly_modes(
+    modes: &[ModeBlock],
+    (q, v): (&[f64], &[f64]),
+    (load, slope): (&[f64], &[f64]),
+    (end_q, end_v): (&mut [f64], &mut [f64]),
+) {
+    let [(q, _), (v, _), (load, _), (slope, _)] = [q, v, load, slope].map(<[f64]>::as_chunks::<LANES>);
+    let [(end_q, _), (end_v, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
+    // Says once that no index below leaves its vector.
+    let width = modes.len();
+    let (q, v, load, slope) = (&q[..width], &v[..width], &load[..width], &slope[..width]);
+    let (end_q, end_v) = (&mut end_q[..width], &mut end_v[..width]);
+    for c in 0..width {
+        (end_q[c], end_v[c]) = modes[c].end(&q[c], &v[c], &load[c], &slope[c]);
     }
 }

@@ -23,9 +23,9 @@ pub use interval::{Interval, ModeBlock};
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
 pub use propagator::{CoupledIncrement, ModeIncrement};
 pub use series::{EXACT, FEW_BLOCKS, MotionSeries, PairForces, difference, dot, flight_order, sum_sizes, sum_terms};
-pub use short_flight::fly_in_one_series;
+pub use short_flight::{exact_order, fly_in_one_series};
 
-use dense::Dense;
+use dense::{Dense, block_of_both};
 
 use crate::scene::Building;
 use nalgebra::DMatrix;
@@ -176,10 +176,11 @@ impl Structure {
         self.coupling.is_empty()
     }
 
-    /// The motions of a block of floors of one building from as many modal vectors of displacements, velocities ...: lane
-    /// by lane as in a vector of all floors, 0 for those of the other building.
-    pub fn at_floors<const N: usize>(&self, side: Side, block: usize, modal: [&[f64]; N]) -> [Lane; N] {
-        self.to_floors[side as usize].block(block, modal)
+    /// The motions of a block of floors from as many modal vectors of displacements, velocities ...: lane by lane as in a
+    /// vector of all floors.
+    #[inline]
+    pub fn at_floors<const N: usize>(&self, block: usize, modal: [&[f64]; N]) -> [Lane; N] {
+        block_of_both(&self.to_floors, block, modal)
     }
 
     /// The modal vector of floor displacements or velocities: shape' M u.

@@ -1,11 +1,19 @@
 //! A flight that one power series reaches over, straight to its end.
 
 use super::series::RECIPROCAL;
-use super::{LANES, Lane, Structure};
+use super::{EXACT, LANES, Lane, Structure, flight_order};
 use crate::polynomial::{COUNT, ROOM};
 
-/// Room for the terms of a flight that is hardly one.
-const FEW_TERMS: usize = 8;
+/// (Fastest rate) x (time) of a flight that is hardly one, and the order at which its series is exact to rounding.
+const HARDLY: f64 = 1e-6;
+const HARDLY_ORDER: usize = 4;
+
+/// Order at which the series of a flight over `reach` = (fastest rate) x (time) is exact to rounding; `None` where it is too
+/// long for one.
+#[inline]
+pub fn exact_order(reach: f64) -> Option<usize> {
+    if reach <= HARDLY { Some(HARDLY_ORDER) } else { flight_order(reach, EXACT) }
+}
 
 /// Flies `q`, `v` over `h`, s, under a modal load and its slope, where damping couples no modes, by a series of at least
 /// `order`, into `end_q`, `end_v`: what [`super::MotionSeries::expand_flight`] evaluates to there, bit for bit, without
@@ -18,9 +26,9 @@ pub fn fly_in_one_series(
     (h, order): (f64, usize),
     end: (&mut [f64], &mut [f64]),
 ) {
-    let order = order.max(3);
-    if order < FEW_TERMS {
-        fly::<FEW_TERMS>(structure, motion, loads, (h, order), end);
+    if order <= HARDLY_ORDER {
+        // Terms whose number is known stay in registers.
+        fly::<{ HARDLY_ORDER + 1 }>(structure, motion, loads, (h, HARDLY_ORDER), end);
     } else {
         fly::<ROOM>(structure, motion, loads, (h, order), end);
     }
@@ -39,8 +47,13 @@ fn fly<const TERMS: usize>(
     let [(q, _), (v, _), (load, _), (slope, _), (damping, _), (omega2, _)] =
         [q, v, load, slope, &structure.damping, &structure.omega2].map(<[f64]>::as_chunks::<LANES>);
     let [(end_q, _), (end_v, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
+    // Says once that no index below leaves its vector.
+    let width = structure.lanes / LANES;
+    let (q, v, load, slope) = (&q[..width], &v[..width], &load[..width], &slope[..width]);
+    let (damping, omega2) = (&damping[..width], &omega2[..width]);
+    let (end_q, end_v) = (&mut end_q[..width], &mut end_v[..width]);
     let mut terms = [[0.0; LANES]; TERMS];
-    for c in 0..structure.lanes / LANES {
+    for c in 0..width {
         terms[0] = q[c];
         terms[1] = v[c].map(|v| v * h);
         let loads = [load[c].map(|load| load * h2), slope[c].map(|slope| slope * (h2 * h))];
@@ -87,7 +100,14 @@ mod tests {
     use super::*;
     use crate::polynomial::Powers;
     use crate::scene::Scene;
-    use crate::structure::{EXACT, MotionSeries, flight_order};
+    use crate::structure::MotionSeries;
+
+    #[test]
+    fn the_order_of_what_is_hardly_a_flight_is_that_of_any_other() {
+        for reach in [0.0, 1e-300, 1e-17, 1e-9, 0.999 * HARDLY, HARDLY, 1.001 * HARDLY, 1e-3, 0.7, 2.0, 2.1] {
+            assert_eq!(exact_order(reach), flight_order(reach, EXACT), "{reach}");
+        }
+    }
 
     #[test]
     fn it_ends_where_the_series_does_to_the_last_bit() {
@@ -104,7 +124,7 @@ mod tests {
         let [mut q0, mut v0, mut q1, mut v1] = [(); 4].map(|()| vec![f64::NAN; structure.lanes]);
         for reach in [1e-17, 1e-9, 1e-4, 0.01, 0.1, 0.3, 0.5, 0.9, 1.3, 2.0] {
             let h = reach / structure.fastest;
-            let order = flight_order(structure.fastest * h, EXACT).unwrap();
+            let order = exact_order(structure.fastest * h).unwrap();
             series.expand_flight(&structure, (&q, &v), (&load, &slope), (h, order));
             powers.set(1.0, series.order);
             series.evaluate(&powers, &mut q0, &mut v0);
