@@ -94,6 +94,55 @@ impl Grid {
     }
 }
 
+/// Most products of all terms of a power: up to x^8 they are some 270 for the smallest beta, 5/4.
+const MOST_PRODUCTS: usize = 320;
+
+/// Which products of a term of e or d and one of its power make up each term of that power, but those with b_0.
+#[derive(Clone, Debug, Default)]
+pub struct Products {
+    /// Places of both, for one term after the other.
+    places: Vec<[u8; 2]>,
+    /// Where each term's begin, and the end of the last.
+    starts: Vec<usize>,
+}
+
+impl Products {
+    /// Room for any grid.
+    pub fn room() -> Products {
+        Products { places: vec![[0; 2]; MOST_PRODUCTS], starts: vec![0; MOST_TERMS + 1] }
+    }
+
+    /// Those of a grid, for pairs that enter or that touch already.
+    pub fn set(&mut self, grid: &Grid, enters: bool) {
+        let mut count = 0;
+        for j in 0..grid.rows {
+            let last = if enters { grid.last(j) } else { grid.last(j) + 1 };
+            for i in 0..last {
+                self.starts[grid.index(i, j)] = count;
+                for row in 0..=j {
+                    // Only e and its powers have terms in x^(beta row) alone.
+                    let first = usize::from(row == 0 || !enters);
+                    let end = if enters || row == j { i + 1 } else { i };
+                    for a in first..end {
+                        let factor = grid.index(a, row) + usize::from(enters);
+                        self.places[count] = [factor as u8, grid.index(i - a, j - row) as u8];
+                        count += 1;
+                    }
+                }
+            }
+            self.starts[grid.index(last, j)] = count;
+        }
+    }
+
+    /// Places of the factors of the products for a term.
+    #[inline(always)]
+    fn of(&self, place: usize) -> impl Iterator<Item = (usize, usize)> {
+        let places = &self.places[self.starts[place]..self.starts[place + 1]];
+        // Says that no place leaves its table.
+        places.iter().map(|[factor, other]| (usize::from(*factor) % MOST_TERMS, usize::from(*other) % MOST_TERMS))
+    }
+}
+
 /// A scalar double series.
 pub type Terms = [f64; MOST_TERMS];
 
@@ -204,22 +253,22 @@ impl OnsetBlock {
 
     /// The force terms of a row for pairs that enter; they follow from the rows before.
     #[inline(always)]
-    pub fn extend_entering_row(&mut self, grid: &Grid, j: usize) {
+    pub fn extend_entering_row(&mut self, grid: &Grid, products: &Products, j: usize) {
         if j == 0 {
             return;
         }
         if self.kind == Kind::Root {
-            self.extend_entering_root(grid, j);
+            self.extend_entering_root(grid, products, j);
             return;
         }
         for i in 0..grid.last(j - 1) {
-            self.extend_power(grid, i, j - 1);
+            self.extend_power(grid, products, (i, j - 1));
         }
         // x^n e^n (1 + b d') lands one row on, one power of x down: the same i in `force`, which is times x.
         for i in 0..=grid.last(j) {
             let mut term = self.power[grid.index(i, j - 1)];
             if self.kind == Kind::Power {
-                let product = self.times_rate(grid, i, j - 1);
+                let product = self.times_rate(grid, products, (i, j - 1));
                 term = each(|k| term[k] + self.damping[k] * product[k]);
             }
             self.force[grid.index(i, j)] = each(|k| self.stiffness[k] * term[k]);
@@ -227,13 +276,13 @@ impl OnsetBlock {
     }
 
     #[inline(always)]
-    fn extend_entering_root(&mut self, grid: &Grid, j: usize) {
+    fn extend_entering_root(&mut self, grid: &Grid, products: &Products, j: usize) {
         for i in 0..grid.last(j - 1) {
-            self.extend_root(grid, i, j - 1);
+            self.extend_root(grid, products, (i, j - 1));
         }
         if j >= 2 {
             for i in 0..grid.last(j - 2) {
-                self.extend_power(grid, i, j - 2);
+                self.extend_power(grid, products, (i, j - 2));
             }
         }
         for i in 0..=grid.last(j) {
@@ -246,7 +295,7 @@ impl OnsetBlock {
 
     /// One force term, x^(i + beta j), of pairs that are in contact already.
     #[inline(always)]
-    pub fn extend_touching(&mut self, grid: &Grid, i: usize, j: usize) {
+    pub fn extend_touching(&mut self, grid: &Grid, products: &Products, (i, j): (usize, usize)) {
         let here = grid.index(i, j);
         let (d, slope) = (self.penetration[here], self.slopes[here + 1]);
         self.force[here + 1] = match self.kind {
@@ -254,20 +303,20 @@ impl OnsetBlock {
             // The rate's terms: one power of x down from the penetration's.
             Kind::Linear => each(|k| self.stiffness[k] * d[k] + self.damping[k] * slope[k]),
             Kind::Spring => {
-                let power = self.extend_power(grid, i, j);
+                let power = self.extend_power(grid, products, (i, j));
                 each(|k| self.stiffness[k] * power[k])
             }
             Kind::Power => {
-                let power = self.extend_power(grid, i, j);
-                let product = self.times_rate(grid, i, j);
+                let power = self.extend_power(grid, products, (i, j));
+                let product = self.times_rate(grid, products, (i, j));
                 each(|k| self.stiffness[k] * (power[k] + self.damping[k] * product[k]))
             }
             Kind::Root => {
                 if i == 0 {
-                    self.extend_root(grid, 0, j);
+                    self.extend_root(grid, products, (0, j));
                 }
-                let power = self.extend_power(grid, i, j);
-                let root = self.extend_root(grid, i + 1, j);
+                let power = self.extend_power(grid, products, (i, j));
+                let root = self.extend_root(grid, products, (i + 1, j));
                 let rate = grid.exponent(i + 1, j);
                 each(|k| self.stiffness[k] * power[k] + self.damping[k] * (rate * root[k]))
             }
@@ -275,72 +324,60 @@ impl OnsetBlock {
     }
 
     #[inline(always)]
-    fn extend_power(&mut self, grid: &Grid, i: usize, j: usize) -> Each {
+    fn extend_power(&mut self, grid: &Grid, products: &Products, (i, j): (usize, usize)) -> Each {
         let here = grid.index(i, j);
         if here > 0 {
-            self.power[here] = self.next_power(&self.power, self.exponent, grid, i, j);
+            self.power[here] = self.next_power(&self.power, self.exponent, grid, products, (i, j));
         }
         self.power[here]
     }
 
     #[inline(always)]
-    fn extend_root(&mut self, grid: &Grid, i: usize, j: usize) -> Each {
+    fn extend_root(&mut self, grid: &Grid, products: &Products, (i, j): (usize, usize)) -> Each {
         let here = grid.index(i, j);
         if here > 0 {
-            self.root[here] = self.next_power(&self.root, [ROOT; PAIRS], grid, i, j);
+            self.root[here] = self.next_power(&self.root, [ROOT; PAIRS], grid, products, (i, j));
         }
         self.root[here]
-    }
-
-    /// Places of the terms of e or d in row `row` that take part in term i of a product, and the first one's power of x.
-    /// Only e has terms in x^(beta row) alone.
-    #[inline(always)]
-    fn factors(&self, grid: &Grid, i: usize, row: usize) -> (std::ops::Range<usize>, usize) {
-        let from = grid.index(usize::from(self.enters), row);
-        let first = usize::from(row == 0 || !self.enters);
-        (from + first..from + i + 1, first)
     }
 
     /// Term (i, j) of base^exponent (Miller's recurrence for x d/dx): with s the exponent of x in a term,
     /// s p_c b_0 = sum over a > 0 of (exponent s_a - s_(c-a)) b_a p_(c-a), where s_(c-a) = s - s_a.
     #[inline(always)]
-    fn next_power(&self, power: &Rows, exponent: Each, grid: &Grid, i: usize, j: usize) -> Each {
+    fn next_power(
+        &self,
+        power: &Rows,
+        exponent: Each,
+        grid: &Grid,
+        products: &Products,
+        (i, j): (usize, usize),
+    ) -> Each {
         let (mut whole, mut weighted) = ([0.0; PAIRS], [0.0; PAIRS]);
-        for row in 0..=j {
-            let (factors, first) = self.factors(grid, i, row);
-            if factors.is_empty() {
-                continue;
-            }
-            let against = grid.index(0, j - row);
-            let powers = &power[against..=against + i - first];
-            let factors = self.penetration[factors.clone()].iter().zip(&self.slopes[factors]);
-            for ((term, slope), power) in factors.zip(powers.iter().rev()) {
-                for k in 0..PAIRS {
-                    whole[k] += term[k] * power[k];
-                    weighted[k] += slope[k] * power[k];
-                }
+        for (factor, other) in products.of(grid.index(i, j)) {
+            let (term, slope, power) = (&self.penetration[factor], &self.slopes[factor], &power[other]);
+            for k in 0..PAIRS {
+                whole[k] += term[k] * power[k];
+                weighted[k] += slope[k] * power[k];
             }
         }
         let reciprocal = 1.0 / grid.exponent(i, j);
         each(|k| ((exponent[k] + 1.0) * reciprocal * weighted[k] - whole[k]) * self.inverse[k])
     }
 
-    /// Term (i, j) of power times d' (in units of the scale).
+    /// Term (i, j) of power times d' (in units of the scale). d' has (exponent) times the penetration's term one power of x
+    /// up: of e, whose terms stand one place further, these are those of a power and the first; of d those of the next term.
     #[inline(always)]
-    fn times_rate(&self, grid: &Grid, i: usize, j: usize) -> Each {
-        let mut sum = [0.0; PAIRS];
-        // d' has (exponent) times the penetration's term one power of x up.
-        let missing = f64::from(u8::from(self.enters));
-        for row in 0..=j {
-            let (from, against) = (grid.index(1, row), grid.index(0, j - row));
-            let terms = self.penetration[from..=from + i].iter().zip(&self.slopes[from..=from + i]);
-            for ((term, slope), power) in terms.zip(self.power[against..=against + i].iter().rev()) {
-                for k in 0..PAIRS {
-                    sum[k] += (slope[k] + missing * term[k]) * power[k];
-                }
+    fn times_rate(&self, grid: &Grid, products: &Products, (i, j): (usize, usize)) -> Each {
+        let (mut sum, here) = ([0.0; PAIRS], grid.index(i, j));
+        let (missing, place) = if self.enters { (1.0, here) } else { (0.0, here + 1) };
+        for (factor, other) in products.of(place) {
+            let (term, slope, power) = (&self.penetration[factor], &self.slopes[factor], &self.power[other]);
+            for k in 0..PAIRS {
+                sum[k] += (slope[k] + missing * term[k]) * power[k];
             }
         }
-        sum
+        let (first, power) = (&self.penetration[1], &self.power[here]);
+        each(|k| sum[k] + missing * first[k] * power[k])
     }
 
     /// Penetrations, forces and their integrals at the x of the powers.
@@ -354,13 +391,13 @@ impl OnsetBlock {
     }
 
     /// The penetration of one pair, copied.
-    pub fn copy_penetration(&self, lane: usize) -> Terms {
-        self.penetration.map(|row| row[lane])
+    pub fn copy_penetration(&self, grid: &Grid, lane: usize) -> Terms {
+        copy(&self.penetration[..grid.terms()], lane)
     }
 
     /// The force of one pair times x, copied.
-    pub fn copy_force(&self, lane: usize) -> Terms {
-        self.force.map(|row| row[lane])
+    pub fn copy_force(&self, grid: &Grid, lane: usize) -> Terms {
+        copy(&self.force[..grid.terms()], lane)
     }
 }
 
@@ -417,6 +454,12 @@ impl GridPowers {
     pub fn all(&self) -> (&[f64], &[f64]) {
         (&self.value[..self.terms], &self.slope[..self.terms])
     }
+}
+
+fn copy(rows: &[Each], lane: usize) -> Terms {
+    let mut terms = [0.0; MOST_TERMS];
+    terms.iter_mut().zip(rows).for_each(|(term, row)| *term = row[lane]);
+    terms
 }
 
 /// See [`OnsetBlock::read`]: from the smallest terms of each row to the largest. Wide instructions give the same bits.

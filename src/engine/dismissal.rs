@@ -22,7 +22,7 @@
 //!
 //! a cubic, which lies below its Bernstein coefficients.
 
-use super::ground::GroundMotion;
+use super::ground::{Ahead, GroundMotion};
 use super::model::{Model, Pair};
 use super::state::*;
 use crate::polynomial::each;
@@ -33,7 +33,10 @@ use std::ops::Range;
 /// Most segments that one look is good for.
 const MOST: u64 = 64;
 
-/// As many as are tried first.
+/// Numbers of segments for which it is tried whether a pair stays apart, some at a time.
+const TRIED: [[u64; LANES]; 3] = [[1, 2, 3, 4], [6, 8, 12, 16], [24, 32, 48, MOST]];
+
+/// As many as a look is mostly good for where nothing is near.
 const USUAL: u64 = 8;
 
 /// Segments for which it costs less to show by both ends of each that no pair meets than to look again and again.
@@ -289,7 +292,10 @@ fn look_at_all(
     amplitude: &mut [f64],
 ) {
     let size = model.amplitudes(base, amplitude);
-    let ahead = ground.ahead_of(segment);
+    let (ahead, mut ends) = (ground.ahead_of(segment), [Ends::default(); TRIED.len()]);
+    for (ends, segments) in ends.iter_mut().zip(&TRIED) {
+        ends.set(&ahead, base.elapsed, segments);
+    }
     for (p, pair) in model.pairs.iter().enumerate() {
         if base.watch.is_free(p, segment) {
             continue;
@@ -304,63 +310,102 @@ fn look_at_all(
         if contact.carried {
             continue;
         }
-        let Growth { sums: growth, dragged } = &model.closing.pairs[p];
-        let start = contact.flight_start() + MARGIN * (pair.gap.abs() + size);
-        let pull = pull + MARGIN * sums.change;
-        let stays_apart = |segments: u64| {
-            let (time, shaking) = ahead.over(segments);
-            let time = (1.0 + MARGIN) * (time - base.elapsed);
-            let speed = sums.speed + growth.speed * shaking;
-            let change = sums.change + growth.change * shaking;
-            let bend = sums.bend + growth.bend * shaking;
-            let rate = contact.rate + MARGIN * speed;
-            // Written so that a NaN never stays apart.
-            if start + time * speed < 0.0 || start + time * (rate + 0.5 * time * change) < 0.0 {
-                return true;
-            }
-            let (first, second) = (time * rate, 0.5 * time * time * (pull + shaking * dragged));
-            let end = start + (first + second + time * time * time * (bend * (1.0 / 6.0)));
-            let inner = [3.0 * start + first, 3.0 * start + 2.0 * first + second];
-            start < 0.0 && inner[0] < 0.0 && inner[1] < 0.0 && end < 0.0
+        let closing = Closing {
+            start: contact.flight_start() + MARGIN * (pair.gap.abs() + size),
+            rate: contact.rate,
+            pull: pull + MARGIN * sums.change,
+            sums,
+            growth: &model.closing.pairs[p],
         };
-        base.watch.pairs[p] = segment + longest(stays_apart);
+        base.watch.pairs[p] = segment + closing.longest(&ends);
     }
 }
 
-/// The largest of 0, 1, 2, 3, 4, 6, 8, 12 ... segments, up to MOST, for which a pair stays apart: doubled or halved first,
-/// then half as much again.
-#[inline(always)]
-fn longest(stays_apart: impl Fn(u64) -> bool) -> u64 {
-    let (mut free, mut tried, mut has_failed, mut is_last) = (0, USUAL, false, false);
-    loop {
-        if stays_apart(tried) {
-            free = tried;
-        } else {
-            has_failed = true;
+/// Times, s, and integrals of |ground acceleration|, m/s, up to the ends of some numbers of segments.
+#[derive(Clone, Copy, Default)]
+struct Ends {
+    time: Lane,
+    shaking: Lane,
+}
+
+impl Ends {
+    /// The ends of some numbers of segments, from the base on.
+    #[inline(always)]
+    fn set(&mut self, ahead: &Ahead, elapsed: f64, segments: &[u64; LANES]) {
+        for (i, segments) in segments.iter().enumerate() {
+            let (time, shaking) = ahead.over(*segments);
+            self.time[i] = (1.0 + MARGIN) * (time - elapsed);
+            self.shaking[i] = shaking;
         }
-        if is_last || free == MOST {
-            return free;
-        }
-        tried = match free {
-            0 => tried / 2,
-            _ if has_failed => free + free / 2,
-            _ => 2 * free,
-        };
-        if tried == free {
-            return free;
-        }
-        is_last = has_failed && free > 0;
     }
+}
+
+/// What tells for how long a pair stays apart.
+struct Closing<'a> {
+    /// m and m/s.
+    start: f64,
+    rate: f64,
+    /// m/s2, by springs and dashpots.
+    pull: f64,
+    sums: Sums,
+    growth: &'a Growth,
+}
+
+impl Closing<'_> {
+    /// The most of the segments tried for which the pair stays apart, 0 if it does for none.
+    #[inline(always)]
+    fn longest(&self, ends: &[Ends; TRIED.len()]) -> u64 {
+        let mut free = 0;
+        for (segments, ends) in TRIED.iter().zip(ends) {
+            let nearest = nearest(self, ends);
+            for i in 0..LANES {
+                free = if nearest[i] < 0.0 { segments[i] } else { free };
+            }
+            if free < segments[LANES - 1] {
+                break;
+            }
+        }
+        free
+    }
+}
+
+/// The least of what the bounds say of a penetration up to some ends, m. Where it is below 0 the pair stays apart; a NaN of
+/// the cubic is passed over, any other comes out. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn nearest(closing: &Closing, Ends { time, shaking }: &Ends) -> Lane {
+    let &Closing { start, rate, pull, ref sums, growth: &Growth { sums: ref growth, dragged } } = closing;
+    let (smaller, larger) = (|a: f64, b: f64| if a < b { a } else { b }, |a: f64, b: f64| if a > b { a } else { b });
+    let mut nearest = [0.0; LANES];
+    for i in 0..LANES {
+        let (time, shaking) = (time[i], shaking[i]);
+        let speed = sums.speed + growth.speed * shaking;
+        let change = sums.change + growth.change * shaking;
+        let bend = sums.bend + growth.bend * shaking;
+        let rate = rate + MARGIN * speed;
+        let (line, parabola) = (start + time * speed, start + time * (rate + 0.5 * time * change));
+        let (first, second) = (time * rate, 0.5 * time * time * (pull + shaking * dragged));
+        let end = start + (first + second + time * time * time * (bend * (1.0 / 6.0)));
+        let inner = [3.0 * start + first, 3.0 * start + 2.0 * first + second];
+        // The end last, a NaN where anything before it is one.
+        let last = end + 0.0 * (inner[0] + inner[1]);
+        let cubic = larger(larger(larger(start, inner[0]), inner[1]), last);
+        nearest[i] = smaller(cubic, smaller(line, parabola));
+    }
+    nearest
 }
 
 /// The sums over modes of one pair: of bounds, and of what its motion is at the base.
 #[inline(always)]
 fn look(model: &Model, base: &Base, row: &[f64], amplitude: &[f64]) -> Seen {
     let [row, amplitude, q, v] = [row, amplitude, &base.q, &base.v].map(|all| all.as_chunks::<LANES>().0);
+    // Says once that no index below leaves its table.
+    let (modes, count) = (&model.closing.modes[..], model.closing.modes.len());
+    let (row, amplitude, q, v) = (&row[..count], &amplitude[..count], &q[..count], &v[..count]);
     let (mut speed, mut change, mut bend) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
     let (mut pull, mut moved, mut rate) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-    for ((((row, mode), amplitude), q), v) in row.iter().zip(&model.closing.modes).zip(amplitude).zip(q).zip(v) {
-        let part = each(|i| row[i].abs() * amplitude[i]);
+    for c in 0..count {
+        let (mode, row, q, v) = (&modes[c], &row[c], &q[c], &v[c]);
+        let part = each(|i| row[i].abs() * amplitude[c][i]);
         speed = each(|i| speed[i] + part[i]);
         change = each(|i| change[i] + mode.quickness[i] * part[i]);
         bend = each(|i| bend[i] + mode.bend[i] * part[i]);

@@ -10,19 +10,25 @@ use super::model::{Model, Pair};
 use super::state::*;
 use crate::contact::Force;
 use crate::contact::onset::{
-    Grid, GridPowers, MOST_TERMS, OnsetBlock, OnsetReading, value_and_slope, values_and_slopes,
+    Grid, GridPowers, MOST_TERMS, OnsetBlock, OnsetReading, Products, value_and_slope, values_and_slopes,
 };
 use crate::contact::series::Kind;
 use crate::quadrature::{TWELVE, graded};
-use crate::structure::{LANES, Structure, sum_sizes, sum_terms};
+use crate::structure::{LANES, Lane, Structure, sum_sizes, sum_terms};
 
 /// Highest power of x of the double series: its cost grows with the square, its reach hardly.
 const HIGHEST: f64 = 8.0;
+
+/// Most places at which a slope is looked at for where it passes 0: it takes some ten.
+const MOST_TURNS: usize = 60;
 
 /// The double series of the motion and of all contacts.
 #[derive(Clone, Debug, Default)]
 pub(super) struct OnsetSeries {
     grid: Option<Grid>,
+    /// Those of its terms, for pairs that touch and that enter, once they are known for its beta.
+    products: [Products; 2],
+    beta: f64,
     lanes: usize,
     terms: Vec<f64>,
     /// The pairs in contact, in blocks of one kind each; the first `used` are filled. There is room for all, but memory
@@ -49,6 +55,8 @@ impl OnsetSeries {
         let most = most_blocks(pairs, 10, on_floors);
         OnsetSeries {
             grid: None,
+            products: [Products::room(), Products::room()],
+            beta: 0.0,
             lanes,
             terms: vec![0.0; MOST_TERMS * lanes],
             blocks: Vec::with_capacity(most),
@@ -68,6 +76,11 @@ impl OnsetSeries {
     /// Starts from the state of the base; `scale` is the unit of time, s.
     fn start(&mut self, base: &Base, pairs: &[Pair], grid: Grid, scale: f64) {
         (self.grid, self.scale, self.used) = (Some(grid), scale, 0);
+        if grid.beta != self.beta {
+            self.beta = grid.beta;
+            self.products[0].set(&grid, false);
+            self.products[1].set(&grid, true);
+        }
         let (first, rest) = self.terms.split_at_mut(self.lanes);
         first.copy_from_slice(&base.q);
         rest.iter_mut().zip(&base.v).for_each(|(term, v)| *term = v * scale);
@@ -144,7 +157,7 @@ fn expand<M: Meeting>(
     let Some(grid) = onset.grid else { return };
     for j in 0..grid.rows {
         for block in onset.blocks[..onset.used].iter_mut().filter(|block| block.enters) {
-            block.extend_entering_row(&grid, j);
+            block.extend_entering_row(&grid, &onset.products[1], j);
         }
         let first = if j == 0 { 2 } else { 1 };
         for i in first..=grid.last(j) {
@@ -170,40 +183,63 @@ fn extend<M: Meeting>(
     let blocks = &mut onset.blocks[..onset.used];
     let (known, rest) = onset.terms.split_at_mut(here * lanes);
     let next = &mut rest[..lanes];
-    let mut moved = &structure.floors.rest[..];
     if i >= 2 {
         // A loop: what an iterator's `for_each` calls would not have the wide instructions.
         for block in blocks.iter_mut().filter(|block| !block.enters) {
-            block.extend_touching(grid, i - 2, j);
+            block.extend_touching(grid, &onset.products[0], (i - 2, j));
         }
-        moved = &known[(here - 2) * lanes..][..lanes];
     }
-    match (i, j) {
-        (2, 0) => next.copy_from_slice(load),
-        (3, 0) => next.iter_mut().zip(slope).for_each(|(next, slope)| *next = slope * scale),
-        _ => next.fill(0.0),
-    }
-    let moving = &known[(here - 1) * lanes..];
-    let rate = (exponent - 1.0) / scale;
     let factor = scale * scale / (exponent * (exponent - 1.0));
-    let (next, _) = match coordinates {
-        Coordinates::Modes => {
-            structure.resist(moved, moving, rate, next);
-            next.iter_mut().for_each(|next| *next *= factor);
-            next.as_chunks_mut::<LANES>()
-        }
-        Coordinates::Floors => {
-            let (next, rest) = next.as_chunks_mut::<LANES>();
-            structure.floors.enter_resistance(moved, moving, rate, next, |load, own| (load - own) * factor);
-            (next, rest)
-        }
-    };
+    let (next, _) = next.as_chunks_mut::<LANES>();
+    if i >= 2 {
+        let load = match (i, j) {
+            (2, 0) => Some((load, 1.0)),
+            (3, 0) => Some((slope, scale)),
+            _ => None,
+        };
+        let (moved, moving) = known[(here - 2) * lanes..].split_at(lanes);
+        resist(structure, coordinates, (moved, moving), ((exponent - 1.0) / scale, factor), load, next);
+    } else {
+        // Nothing moves as x^(beta j) alone.
+        next.fill([0.0; LANES]);
+    }
     for (block, members) in blocks.iter().zip(&onset.members) {
         meeting.push(members, block.count, &block.force[here - 1].map(|force| factor * force), next);
     }
     for (block, members) in blocks.iter_mut().zip(&onset.members) {
         let values = meeting.relative(members, block.count, next);
         block.set_penetration(grid, i, j, values);
+    }
+}
+
+/// A term of the motion from two before it and some load, each times a factor, without the forces of contacts.
+#[inline(always)]
+fn resist(
+    structure: &Structure,
+    coordinates: Coordinates,
+    (moved, moving): (&[f64], &[f64]),
+    (rate, factor): (f64, f64),
+    load: Option<(&[f64], f64)>,
+    next: &mut [Lane],
+) {
+    let term = next.as_flattened_mut();
+    match load {
+        Some((load, unit)) => term.iter_mut().zip(load).for_each(|(term, load)| *term = load * unit),
+        None if coordinates == Coordinates::Modes => term.fill(0.0),
+        None => {}
+    }
+    match (coordinates, load) {
+        (Coordinates::Modes, _) => {
+            structure.resist(moved, moving, rate, term);
+            term.iter_mut().for_each(|term| *term *= factor);
+        }
+        (Coordinates::Floors, Some(_)) => {
+            structure.floors.enter_resistance(moved, moving, rate, next, |load, own| (load - own) * factor);
+        }
+        (Coordinates::Floors, None) => {
+            let pull = -factor;
+            structure.floors.enter_resistance(moved, moving, rate, next, |_, own| pull * own);
+        }
     }
 }
 
@@ -394,13 +430,13 @@ impl Contact {
             for ((at, weight), node) in at.iter_mut().zip(&mut weights).zip(graded(TWELVE, x)) {
                 (*at, *weight) = node;
             }
-            let (depths, rates) = values_and_slopes(grid, &block.copy_penetration(lane), &at);
+            let (depths, rates) = values_and_slopes(grid, &block.copy_penetration(grid, lane), &at);
             let powers = law.damping_powers(&depths, &rates.map(|rate| rate / scale));
             self.work += scale * weights.iter().zip(&powers).map(|(weight, power)| weight * power).sum::<f64>();
         }
         // The stored force terms are those of F x.
         let force = || {
-            let terms = block.copy_force(lane);
+            let terms = block.copy_force(grid, lane);
             move |x: f64| {
                 let (product, slope) = value_and_slope(grid, &terms, x);
                 (product / x, (slope - product / x) / x)
@@ -413,7 +449,7 @@ impl Contact {
             self.peak_force = self.peak_force.max(peak);
         }
         let penetration = || {
-            let terms = block.copy_penetration(lane);
+            let terms = block.copy_penetration(grid, lane);
             move |x: f64| value_and_slope(grid, &terms, x)
         };
         let last = (end.penetration[lane], end.slope[lane]);
@@ -433,25 +469,34 @@ fn highest<C: Fn(f64) -> (f64, f64)>(
 ) -> Option<(f64, f64)> {
     let (mut at, (mut value, slope)) = (end, last);
     if slope < 0.0 {
-        let curve = curve();
-        if curve(1e-3 * end).1 > 0.0 {
-            at = turning_point(&curve, end);
+        let (curve, start) = (curve(), 1e-3 * end);
+        let first = curve(start).1;
+        if first > 0.0 {
+            at = turning_point(|x| curve(x).1, (start, first), (end, slope));
             value = curve(at).0;
         }
     }
     (value > known).then_some((at, value))
 }
 
-/// Where the slope of a curve passes 0 downwards in 0..=end.
-fn turning_point(curve: impl Fn(f64) -> (f64, f64), end: f64) -> f64 {
-    let (mut low, mut high) = (0.0, end);
-    while high - low > 1e-9 * end {
-        let middle = 0.5 * (low + high);
-        if curve(middle).1 > 0.0 {
-            low = middle;
-        } else {
-            high = middle;
+/// Where a slope passes 0 downwards between two places with their slopes, by false position; a slope that stays is halved,
+/// so that both ends close in (Illinois).
+fn turning_point(slope: impl Fn(f64) -> f64, mut low: (f64, f64), mut high: (f64, f64)) -> f64 {
+    let (close, mut last) = (1e-9 * high.0, f64::INFINITY);
+    for _ in 0..MOST_TURNS {
+        let at = low.0 + (high.0 - low.0) * (low.1 / (low.1 - high.1));
+        if (at - last).abs() <= close {
+            return at;
         }
+        let here = slope(at);
+        if here > 0.0 {
+            high.1 *= if last == low.0 { 0.5 } else { 1.0 };
+            low = (at, here);
+        } else {
+            low.1 *= if last == high.0 { 0.5 } else { 1.0 };
+            high = (at, here);
+        }
+        last = at;
     }
-    0.5 * (low + high)
+    last
 }

@@ -1,6 +1,7 @@
 //! A full matrix between two vectors of lanes, laid out so that the sums of [`LANES`] rows stay in registers.
 
 use super::{LANES, Lane};
+use crate::polynomial::each;
 
 /// A matrix whose columns and rows stand at given lanes of a source and a target vector.
 #[derive(Clone, Debug)]
@@ -37,20 +38,12 @@ impl Dense {
         self.entries.get(start..start + self.columns)
     }
 
-    /// `out` += factor * matrix * `vector`.
-    #[inline]
-    pub fn add(&self, factor: f64, vector: &[f64], out: &mut [Lane]) {
+    /// `out` += matrix * `vector`.
+    pub fn add(&self, vector: &[f64], out: &mut [Lane]) {
         let vector = &vector[self.source..][..self.columns];
         for (rows, out) in self.entries.chunks_exact(self.columns).zip(&mut out[self.target..]) {
-            let mut sum = [0.0; LANES];
-            for (entry, value) in rows.iter().zip(vector) {
-                for i in 0..LANES {
-                    sum[i] += entry[i] * value;
-                }
-            }
-            for i in 0..LANES {
-                out[i] += factor * sum[i];
-            }
+            let [sum] = products(rows, [vector]);
+            *out = each(|i| out[i] + sum[i]);
         }
     }
 }

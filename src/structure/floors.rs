@@ -1,9 +1,8 @@
 //! The two buildings floor by floor: the coordinates of contact, where a force acts on two floors only and, in a shear
 //! building, a floor knows nothing but its neighbours.
 //!
-//! Both buildings' floors stand in one vector, the left building's first, with a lane that rests above each building
-//! and the first lane below. Where they are many each building begins with a block of lanes, so that floors of one level
-//! stand in the same place of a block.
+//! Both buildings' floors stand in one vector, the left building's first. Where they are many each building begins with a
+//! block of lanes, so that floors of one level stand in the same place of a block, and a building is whole blocks of its own.
 //!
 //! ```text
 //! M u'' + C u' + K u = -M 1 ground acceleration + floor forces - contact forces
@@ -24,52 +23,60 @@ pub struct Floors {
     count: [usize; 2],
     /// kg.
     mass: Vec<f64>,
-    /// All else that a floor has.
+    /// 1/kg.
+    inverse_mass: Vec<f64>,
+    /// N/m, of the storey below each floor of a shear building.
+    storey: Vec<f64>,
     blocks: Vec<Block>,
+    buildings: [Blocks; 2],
     /// Floors that rest: zeros.
     pub rest: Vec<f64>,
-    /// Whether both are shear buildings with no more than Rayleigh damping, so that a floor feels its neighbours only.
+    /// Whether both stand in blocks of their own and are shear buildings with no more than Rayleigh damping, so that a floor
+    /// feels its neighbours only.
     is_sparse: bool,
 }
 
-/// What some floors in a row resist with.
+/// What pulls some floors in a row towards their neighbours.
 #[derive(Clone, Copy, Debug, Default)]
 struct Block {
-    /// 1/kg.
-    inverse_mass: Lane,
-    /// N/m, of the storey below each floor of a shear building.
-    storey: Lane,
-    /// Rayleigh damping, factor of the mass, 1/s.
-    on_mass: Lane,
-    /// Rayleigh damping, factor of the storey stiffness, s.
-    on_stiffness: Lane,
+    /// Stiffness of the storey below each floor over the floor's mass, 1/s2.
+    below: Lane,
+    /// The same of the storey above.
+    above: Lane,
+}
+
+/// The blocks of a building and its Rayleigh damping.
+#[derive(Clone, Copy, Debug, Default)]
+struct Blocks {
+    first: usize,
+    /// Beyond the last.
+    end: usize,
+    /// Factor of the mass, 1/s.
+    on_mass: f64,
+    /// Factor of the storey stiffness, s.
+    on_stiffness: f64,
 }
 
 impl Block {
-    /// Enters the resistance of floors, from the shear forces below each and above the last.
+    /// Enters the resistance of floors, from how far each storey below is strained and the one above the last.
     #[inline(always)]
     fn enter(
         &self,
         (below, above): (&Lane, f64),
-        v: &Lane,
-        rate: f64,
+        (on_mass, v): (f64, &Lane),
         out: &mut Lane,
         entry: impl Fn(f64, f64) -> f64,
     ) {
         let above = [below[1], below[2], below[3], above];
-        for i in 0..LANES {
-            let resistance = self.inverse_mass[i] * (below[i] - above[i]) + (rate * self.on_mass[i]) * v[i];
-            out[i] = entry(out[i], resistance);
-        }
+        *out = each(|i| entry(out[i], (self.below[i] * below[i] - self.above[i] * above[i]) + on_mass * v[i]));
     }
 }
 
 impl Floors {
     /// Lane of the right building's lowest floor, and the lanes that a vector of all floors needs.
     fn layout(left: usize, right: usize) -> (usize, usize) {
-        let lanes = |second: usize| (second + right + 1).next_multiple_of(LANES);
-        let shared = left + 1;
-        let second = if lanes(shared) <= FEW_BLOCKS * LANES { shared } else { shared.next_multiple_of(LANES) };
+        let lanes = |second: usize| (second + right).next_multiple_of(LANES);
+        let second = if lanes(left) <= FEW_BLOCKS * LANES { left } else { left.next_multiple_of(LANES) };
         (second, lanes(second))
     }
 
@@ -87,9 +94,12 @@ impl Floors {
             first: [0, second],
             count,
             mass: zeros.clone(),
+            inverse_mass: zeros.clone(),
+            storey: zeros.clone(),
             blocks: vec![Block::default(); zeros.len() / LANES],
+            buildings: [Blocks::default(); 2],
             rest: zeros,
-            is_sparse: true,
+            is_sparse: second.is_multiple_of(LANES),
         };
         for side in 0..2 {
             floors.lay_out(side, buildings[side], &modes[side]);
@@ -101,33 +111,30 @@ impl Floors {
         let (first, n) = (self.first[side], self.count[side]);
         for (i, &mass) in building.mass.iter().enumerate() {
             self.mass[first + i] = mass;
-            self.enter(first + i, |block| &mut block.inverse_mass, 1.0 / mass);
+            self.inverse_mass[first + i] = 1.0 / mass;
         }
         match &building.stiffness {
             Stiffness::Shear(stiffness) => {
-                for (i, &stiffness) in stiffness.iter().enumerate() {
-                    self.enter(first + i, |block| &mut block.storey, stiffness);
+                self.storey[first..first + n].copy_from_slice(stiffness);
+                let storeys = stiffness.iter().zip(stiffness.iter().skip(1).chain(&[0.0]));
+                for (lane, ((below, above), mass)) in (first..).zip(storeys.zip(&building.mass)) {
+                    let block = &mut self.blocks[lane / LANES];
+                    (block.below[lane % LANES], block.above[lane % LANES]) = (below / mass, above / mass);
                 }
             }
             Stiffness::Matrix(_) => self.is_sparse = false,
         }
+        let blocks = &mut self.buildings[side];
+        (blocks.first, blocks.end) = (first / LANES, (first + n).div_ceil(LANES));
         match (&building.damping, &modes.damping) {
-            (_, ModalDamping::Diagonal(c)) if n == 1 => self.enter(first, |block| &mut block.on_mass, c[0]),
+            (_, ModalDamping::Diagonal(c)) if n == 1 => blocks.on_mass = c[0],
             (Damping::Rayleigh { ratio, modes: numbers }, _) => {
                 let (on_mass, on_stiffness) = rayleigh_factors(*ratio, *numbers, &modes.omega);
-                for lane in first..first + n {
-                    self.enter(lane, |block| &mut block.on_mass, on_mass);
-                    self.enter(lane, |block| &mut block.on_stiffness, on_stiffness);
-                }
+                (blocks.on_mass, blocks.on_stiffness) = (on_mass, on_stiffness);
             }
             (_, ModalDamping::Diagonal(c)) if c.iter().all(|c| *c == 0.0) => {}
             _ => self.is_sparse = false,
         }
-    }
-
-    /// Enters what the floor of a lane has.
-    fn enter(&mut self, lane: usize, what: impl FnOnce(&mut Block) -> &mut Lane, value: f64) {
-        what(&mut self.blocks[lane / LANES])[lane % LANES] = value;
     }
 
     /// Whether a floor feels its neighbours only.
@@ -152,7 +159,7 @@ impl Floors {
 
     /// 1/kg of a lane.
     pub fn inverse_mass(&self, lane: usize) -> f64 {
-        self.blocks[lane / LANES].inverse_mass[lane % LANES]
+        self.inverse_mass[lane]
     }
 
     /// 1 at every floor.
@@ -167,45 +174,22 @@ impl Floors {
     }
 
     /// Makes of each lane of `out` what `entry` says of its value and of its M^-1 (K u + rate C v), m/s^2 for `rate` 1.
-    ///
-    /// A floor feels the shear force of the storey below less that of the one above. Both come from neighbouring lanes,
-    /// which stay in registers: what has just been stored cannot be read back from other places without waiting for it.
     #[inline(always)]
     pub fn enter_resistance(&self, u: &[f64], v: &[f64], rate: f64, out: &mut [Lane], entry: impl Fn(f64, f64) -> f64) {
-        let [u, v] = [u, v].map(|vector| vector.as_chunks::<LANES>().0);
         // Says once that no index below leaves its table.
         let (blocks, count) = (&self.blocks[..], self.blocks.len());
-        let (u, v, out) = (&u[..count], &v[..count], &mut out[..count]);
-        let moved = |c: usize| each(|i| u[c][i] + (rate * blocks[c].on_stiffness[i]) * v[c][i]);
-        let shear = |c: usize, before: &Lane, own: &Lane| {
-            let below = [before[LANES - 1], own[0], own[1], own[2]];
-            each(|i| blocks[c].storey[i] * (own[i] - below[i]))
-        };
-        let mut before = moved(0);
-        let mut own = shear(0, &[0.0; LANES], &before);
-        for c in 1..count {
-            let floors = moved(c);
-            let next = shear(c, &before, &floors);
-            blocks[c - 1].enter((&own, next[0]), &v[c - 1], rate, &mut out[c - 1], &entry);
-            (own, before) = (next, floors);
-        }
-        if let (Some(block), Some(v), Some(out)) = (blocks.last(), v.last(), out.last_mut()) {
-            block.enter((&own, 0.0), v, rate, out, &entry);
+        let [u, v] = [u, v].map(|vector| &vector.as_chunks::<LANES>().0[..count]);
+        for building in &self.buildings {
+            building.enter_resistance(blocks, (u, v), rate, &mut out[..count], &entry);
         }
     }
 
     /// Kinetic and strain energy, J.
     pub fn energies(&self, u: &[f64], v: &[f64]) -> (f64, f64) {
         let kinetic: f64 = self.mass.iter().zip(v).map(|(m, v)| m * v * v).sum();
-        let below = std::iter::once(&0.0).chain(u);
-        let strain: f64 = self
-            .blocks
-            .iter()
-            .flat_map(|block| &block.storey)
-            .zip(u)
-            .zip(below)
-            .map(|((k, u), below)| k * (u - below) * (u - below))
-            .sum();
+        let below = |lane: usize| if self.first.contains(&lane) { 0.0 } else { u[lane - 1] };
+        let strain: f64 =
+            self.storey.iter().zip(u).enumerate().map(|(lane, (k, u))| k * (u - below(lane)) * (u - below(lane))).sum();
         (0.5 * kinetic, 0.5 * strain)
     }
 
@@ -229,6 +213,79 @@ impl Floors {
     }
 }
 
+impl Blocks {
+    /// See [`Floors::enter_resistance`].
+    #[inline(always)]
+    fn enter_resistance(
+        &self,
+        blocks: &[Block],
+        (u, v): (&[Lane], &[Lane]),
+        rate: f64,
+        out: &mut [Lane],
+        entry: impl Fn(f64, f64) -> f64,
+    ) {
+        let (on_mass, on_stiffness) = (rate * self.on_mass, rate * self.on_stiffness);
+        let mut shear = Shear { on_mass, on_stiffness, ..Shear::default() };
+        shear.rise(&u[self.first], &v[self.first]);
+        // As many blocks at a time as make the loop's own cost small.
+        let mut c = self.first;
+        while c + 1 < self.end {
+            c += match self.end - 1 - c {
+                1 => shear.enter_next::<1>(blocks, (u, v), c, out, &entry),
+                2 => shear.enter_next::<2>(blocks, (u, v), c, out, &entry),
+                3 => shear.enter_next::<3>(blocks, (u, v), c, out, &entry),
+                _ => shear.enter_next::<4>(blocks, (u, v), c, out, &entry),
+            };
+        }
+        blocks[c].enter((&shear.strain, 0.0), (on_mass, &v[c]), &mut out[c], &entry);
+    }
+}
+
+/// What is known of a block of floors on the way up a building.
+#[derive(Default)]
+struct Shear {
+    on_mass: f64,
+    on_stiffness: f64,
+    /// m, how far the floors have moved, with what damping adds to it.
+    moved: Lane,
+    /// m, how much further than the floors below them.
+    strain: Lane,
+}
+
+impl Shear {
+    /// Goes on to the block above, or to the first one.
+    #[inline(always)]
+    fn rise(&mut self, u: &Lane, v: &Lane) {
+        let moved = each(|i| u[i] + self.on_stiffness * v[i]);
+        let below = [self.moved[LANES - 1], moved[0], moved[1], moved[2]];
+        self.strain = each(|i| moved[i] - below[i]);
+        self.moved = moved;
+    }
+
+    /// Enters `N` blocks, from block `c` on, and goes on to the block above; returns how many that are.
+    ///
+    /// A floor feels the storey below and the one above. Its neighbours stand in neighbouring lanes, which stay in registers:
+    /// what has just been stored cannot be read back from other places without waiting for it.
+    #[inline(always)]
+    fn enter_next<const N: usize>(
+        &mut self,
+        blocks: &[Block],
+        (u, v): (&[Lane], &[Lane]),
+        c: usize,
+        out: &mut [Lane],
+        entry: impl Fn(f64, f64) -> f64,
+    ) -> usize {
+        // Says once that no index below leaves its table.
+        let (blocks, u, v, out) = (&blocks[c..][..N], &u[c..][..N + 1], &v[c..][..N + 1], &mut out[c..][..N]);
+        for k in 0..N {
+            let strain = self.strain;
+            self.rise(&u[k + 1], &v[k + 1]);
+            blocks[k].enter((&strain, self.strain[0]), (self.on_mass, &v[k]), &mut out[k], &entry);
+        }
+        N
+    }
+}
+
 #[cfg(test)]
 #[allow(clippy::unwrap_used, clippy::panic)]
 mod tests {
@@ -239,12 +296,12 @@ mod tests {
 
     const SHEAR: &str = r#"
         [left]
-        mass = [3.0, 2.0, 2.5, 1.0, 1.5]
-        stiffness = [900.0, 800.0, 850.0, 400.0, 300.0]
+        mass = [3.0, 2.0, 2.5, 1.0, 1.5, 2.0, 1.0, 1.2, 0.8, 0.9]
+        stiffness = [900.0, 800.0, 850.0, 400.0, 300.0, 500.0, 450.0, 350.0, 250.0, 200.0]
         damping = { rayleigh = { ratio = 0.05, modes = [1, 3] } }
         [right]
-        mass = [1.0, 2.0, 3.0]
-        stiffness = [500.0, 700.0, 200.0]
+        mass = [1.0, 2.0, 3.0, 1.5, 0.5, 1.0, 2.0, 1.0]
+        stiffness = [500.0, 700.0, 200.0, 600.0, 100.0, 300.0, 400.0, 250.0]
         damping = { rayleigh = { ratio = 0.02, modes = [1, 2] } }"#;
     const RATIOS: &str = r#"
         [left]

@@ -203,7 +203,7 @@ impl Structure {
     pub fn to_floors(&self, modal: &[f64], floors: &mut [f64]) {
         floors.fill(0.0);
         for matrix in &self.to_floors {
-            matrix.add(1.0, modal, floors.as_chunks_mut::<LANES>().0);
+            matrix.add(modal, floors.as_chunks_mut::<LANES>().0);
         }
     }
 
@@ -211,7 +211,7 @@ impl Structure {
     pub fn to_modes(&self, floors: &[f64], modal: &mut [f64]) {
         modal.fill(0.0);
         for matrix in &self.to_modes {
-            matrix.add(1.0, floors, modal.as_chunks_mut::<LANES>().0);
+            matrix.add(floors, modal.as_chunks_mut::<LANES>().0);
         }
     }
 

@@ -276,12 +276,6 @@ impl MotionSeries {
 pub fn sum_terms(terms: &[f64], powers: (&[f64], &[f64]), rate: f64, q: &mut [f64], v: &mut [f64]) {
     let (terms, _) = terms.as_chunks::<LANES>();
     let (q, v) = (q.as_chunks_mut::<LANES>().0, v.as_chunks_mut::<LANES>().0);
-    match q.len() {
-        1 => return sum_few::<1>(terms, powers, rate, q, v),
-        2 => return sum_few::<2>(terms, powers, rate, q, v),
-        3 => return sum_few::<3>(terms, powers, rate, q, v),
-        _ => {}
-    }
     let terms = (terms, q.len());
     // As many blocks at a time as have their sums in registers side by side.
     let mut first = 0;
@@ -310,28 +304,6 @@ fn sum_next<const N: usize>(
     q[first..first + N].copy_from_slice(&sums);
     v[first..first + N].copy_from_slice(&rates);
     N
-}
-
-/// The same for vectors of `N` blocks.
-#[inline(always)]
-fn sum_few<const N: usize>(
-    terms: &[Lane],
-    (powers, slopes): (&[f64], &[f64]),
-    rate: f64,
-    q: &mut [Lane],
-    v: &mut [Lane],
-) {
-    let (mut value, mut change) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
-    for (row, (power, slope)) in terms.as_chunks::<N>().0.iter().zip(powers.iter().zip(slopes)).rev() {
-        for c in 0..N {
-            for i in 0..LANES {
-                value[c][i] += row[c][i] * power;
-                change[c][i] += row[c][i] * slope;
-            }
-        }
-    }
-    q.copy_from_slice(&value);
-    v.copy_from_slice(&change.map(|change| change.map(|change| change * rate)));
 }
 
 /// q and v of `N` blocks of lanes.
@@ -482,20 +454,21 @@ fn expand_floors<F: PairForces>(
     forces: &mut F,
 ) {
     let lanes = series.lanes;
-    let scale2 = series.scale * series.scale;
+    let (scale2, inverse) = (series.scale * series.scale, 1.0 / series.scale);
     series.coefficients[2 * lanes..3 * lanes].copy_from_slice(&load[..lanes]);
     series.coefficients[3 * lanes..4 * lanes].copy_from_slice(&slope[..lanes]);
     for n in 0..(order - 1).min(ROOM - 3) {
         let (known, rest) = series.coefficients.split_at_mut((n + 2) * lanes);
         let (u, v) = known[n * lanes..].split_at(lanes);
         let (next, _) = rest[..lanes].as_chunks_mut::<LANES>();
-        let rate = (n + 1) as f64 / series.scale;
+        let rate = COUNT[n + 1] * inverse;
         let factor = scale2 * RECIPROCAL[n];
         if n < 2 {
             let unit = if n == 0 { 1.0 } else { series.scale };
             floors.enter_resistance(u, v, rate, next, |load, resistance| (load * unit - resistance) * factor);
         } else {
-            floors.enter_resistance(u, v, rate, next, |_, resistance| (0.0 - resistance) * factor);
+            let pull = -factor;
+            floors.enter_resistance(u, v, rate, next, |_, resistance| pull * resistance);
         }
         forces.act(n, factor, next);
     }
