@@ -1,7 +1,6 @@
 //! A full matrix between two vectors of lanes, laid out so that the sums of [`LANES`] rows stay in registers.
 
 use super::{LANES, Lane};
-use crate::polynomial::each;
 
 /// A matrix whose columns and rows stand at given lanes of a source and a target vector.
 #[derive(Clone, Debug)]
@@ -40,11 +39,15 @@ impl Dense {
 
     /// `out` += matrix * `vector`.
     pub fn add(&self, vector: &[f64], out: &mut [Lane]) {
-        let vector = &vector[self.source..][..self.columns];
-        for (rows, out) in self.entries.chunks_exact(self.columns).zip(&mut out[self.target..]) {
-            let [sum] = products(rows, [vector]);
-            *out = each(|i| out[i] + sum[i]);
-        }
+        add_all(self, vector, out);
+    }
+}
+
+/// See [`Dense::add`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn add_all(matrix: &Dense, vector: &[f64], out: &mut [Lane]) {
+    for (rows, out) in matrix.entries.chunks_exact(matrix.columns).zip(&mut out[matrix.target..]) {
+        add_products(rows, &[vector], matrix.source, std::array::from_mut(out));
     }
 }
 
