@@ -2,10 +2,10 @@
 
 use super::economy::economize;
 use super::nodes::{Matrix, NODES, Row};
-use super::rows::{combine, combined, value, values};
+use super::rows::{NOTHING, combine, combined, fours, value, values};
 use super::tables::{POWERS, Tables};
 use crate::contact::Force;
-use crate::polynomial::{COUNT, Coefficients, ROOM, value_and_slope};
+use crate::polynomial::{COUNT, Coefficients, ROOM, each, value_and_slope};
 
 /// Pairs that a window is solved for at once: those in contact, and those that may come into contact.
 pub const MOST_PAIRS: usize = 4;
@@ -115,27 +115,30 @@ impl Room {
 }
 
 impl Equation {
-    /// What the powers of a kernel come to over a window of that length, for penetrations and for rates.
+    /// What the powers of a kernel, from the first on, come to over a window of that length, for penetrations and for rates.
     #[inline(always)]
     pub fn factors(&self, p: usize, q: usize, length: f64) -> ([f64; POWERS], [f64; POWERS]) {
-        let (mut depth, mut rate) = ([0.0; POWERS], [0.0; POWERS]);
+        let mut reach = [0.0; POWERS];
         let kernel = &self.kernels[p][q][..self.powers.min(POWERS)];
         let mut power = length;
-        for (k, g) in kernel.iter().enumerate().skip(1) {
-            let reach = g * power;
-            rate[k - 1] = COUNT[k] * reach;
-            depth[k] = reach * length;
+        for (reach, g) in reach.iter_mut().zip(&kernel[1..]) {
+            *reach = g * power;
             power *= length;
+        }
+        let (mut depth, mut rate) = (reach, reach);
+        for (k, (depth, rate)) in depth.iter_mut().zip(&mut rate).enumerate() {
+            *depth *= length;
+            *rate *= COUNT[k + 1];
         }
         (depth, rate)
     }
 
-    /// How many of these factors for penetrations matter.
+    /// How many of these factors for penetrations matter where responses are to be right within an accuracy.
     #[inline(always)]
-    pub fn powers_over(&self, p: usize, depth: &[f64; POWERS], length: f64) -> usize {
-        let negligible = self.remainder * self.kernels[p][p][1] * (length * length);
-        let last = (2..self.powers.min(POWERS)).rev().find(|k| (COUNT[*k] * depth[*k]).abs() > negligible);
-        last.unwrap_or(1) + 1
+    pub fn count_over(&self, p: usize, depth: &[f64; POWERS], length: f64, accuracy: f64) -> usize {
+        let negligible = accuracy * self.kernels[p][p][1] * (length * length);
+        let last = (2..self.powers.min(POWERS)).rev().find(|k| (COUNT[*k] * depth[*k - 1]).abs() > negligible);
+        last.unwrap_or(1)
     }
 
     /// Whether penetrations are integrals of rates, which then come first: one matrix does for both. Where no force needs
@@ -150,20 +153,21 @@ impl Equation {
     pub fn assemble<const N: usize>(&self, tables: &Tables, length: f64, accuracy: f64, room: &mut Room) {
         (room.assembled, room.accuracy) = (length, accuracy);
         (room.way, room.bent) = self.ways(length);
+        let by_rates = self.by_rates();
         for p in 0..self.pairs {
             for q in 0..self.closed.min(p + 1) {
                 let (mut depth, mut rate) = self.factors(p, q, length);
-                let powers = self.powers_over(p, &depth, length);
+                let count = self.count_over(p, &depth, length, self.remainder);
                 let response = &mut room.responses[Room::place(p, q)];
-                response.depth_end = combined::<N>(&tables.whole[1..], &depth[1..powers]);
-                response.rate_end = combined::<N>(&tables.whole, &rate[..powers - 1]);
+                response.depth_end = combined::<N>(&tables.whole[1..], &depth[..count]);
+                response.rate_end = combined::<N>(&tables.whole, &rate[..count]);
                 if p < self.closed {
                     let first = self.kernels[p][p][1].min(self.kernels[q][q][1]) * length;
-                    let (factors, bound, tables) = match self.by_rates() {
-                        true => (&mut rate[..powers - 1], accuracy * first, &tables.inner[..]),
-                        false => (&mut depth[1..powers], accuracy * first * length, &tables.inner[1..]),
+                    let (factors, bound, tables) = match by_rates {
+                        true => (&mut rate, accuracy * first, &tables.inner[..]),
+                        false => (&mut depth, accuracy * first * length, &tables.inner[1..]),
                     };
-                    let count = economize(factors, bound);
+                    let count = economize(factors, count, bound);
                     combine::<N>(tables, &factors[..count], &mut response.between);
                 }
             }
@@ -174,7 +178,10 @@ impl Equation {
     #[inline(always)]
     pub fn fly<const N: usize>(&self, tables: &Tables, length: f64, room: &mut Room) {
         let x = length / self.scale;
-        let at: [f64; N] = std::array::from_fn(|i| tables.theta[i] * x);
+        let mut at = NOTHING;
+        for (at, theta) in at.iter_mut().zip(fours(&tables.theta)).take(N / 4) {
+            *at = each(|i| theta[i] * x);
+        }
         let by_rates = self.by_rates();
         for (free, terms) in room.free.iter_mut().zip(&self.free).take(self.pairs) {
             let terms = &terms[..self.terms.min(ROOM)];

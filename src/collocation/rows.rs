@@ -2,53 +2,74 @@
 
 use super::nodes::{Matrix, NODES, Row};
 use crate::contact::Force;
-use crate::polynomial::SECOND;
+use crate::polynomial::{SECOND, each};
 
 /// Columns that are added up side by side.
 const ABREAST: usize = 2;
+
+/// A row by fours, as many numbers as wide instructions take: the first N / 4 of these are the first N numbers. Left to
+/// itself the compiler makes other bundles of sixteen sums, and scalars of what is left over.
+pub type Fours = [[f64; 4]; NODES / 4];
+
+/// No sums yet.
+pub const NOTHING: Fours = [[0.0; 4]; NODES / 4];
+
+#[inline(always)]
+pub fn fours(row: &Row) -> &[[f64; 4]] {
+    row.as_chunks::<4>().0
+}
+
+#[inline(always)]
+pub fn fours_mut(row: &mut Row) -> &mut [[f64; 4]] {
+    row.as_chunks_mut::<4>().0
+}
 
 /// The sum of tables times factors.
 #[inline(always)]
 pub fn combine<const N: usize>(tables: &[Matrix], factors: &[f64], out: &mut Matrix) {
     let tables = &tables[..factors.len()];
-    for j in (0..N).step_by(ABREAST) {
-        let mut sums = [[0.0; N]; ABREAST];
-        for k in 0..factors.len() {
-            for (sum, column) in sums.iter_mut().zip(&tables[k][j..j + ABREAST]) {
-                for i in 0..N {
-                    sum[i] += column[i] * factors[k];
+    for (j, out) in out[..N].as_chunks_mut::<ABREAST>().0.iter_mut().enumerate() {
+        let mut sums = [NOTHING; ABREAST];
+        for (table, factor) in tables.iter().zip(factors) {
+            for (sum, column) in sums.iter_mut().zip(&table.as_chunks::<ABREAST>().0[j]) {
+                for (sum, column) in sum.iter_mut().zip(fours(column)).take(N / 4) {
+                    *sum = each(|i| sum[i] + column[i] * factor);
                 }
             }
         }
-        for (out, sum) in out[j..j + ABREAST].iter_mut().zip(&sums) {
-            out[..N].copy_from_slice(sum);
+        for (out, sum) in out.iter_mut().zip(&sums) {
+            fours_mut(out)[..N / 4].copy_from_slice(&sum[..N / 4]);
         }
     }
 }
 
 #[inline(always)]
 pub fn combined<const N: usize>(rows: &[Row], factors: &[f64]) -> Row {
-    let mut sum = [0.0; NODES];
+    let mut sum = NOTHING;
     for (row, factor) in rows.iter().zip(factors) {
-        for i in 0..N {
-            sum[i] += row[i] * factor;
+        for (sum, row) in sum.iter_mut().zip(fours(row)).take(N / 4) {
+            *sum = each(|i| sum[i] + row[i] * factor);
         }
     }
-    sum
+    row(&sum)
 }
 
-/// Adds a matrix times values.
+/// Adds a matrix times values; every other column by itself, so that no sum waits for the one before.
 #[inline(always)]
-pub fn add_product<const N: usize>(to: &mut Row, matrix: &Matrix, values: &Row) {
-    let mut sum = [0.0; N];
-    sum.copy_from_slice(&to[..N]);
-    for j in 0..N {
-        let (column, value) = (&matrix[j], values[j]);
-        for i in 0..N {
-            sum[i] += column[i] * value;
+pub fn add_product<const N: usize>(to: &mut Fours, matrix: &Matrix, values: &Row) {
+    let mut sums = [*to, NOTHING];
+    let columns = matrix[..N].as_chunks::<2>().0.iter().zip(values[..N].as_chunks::<2>().0);
+    for (columns, values) in columns {
+        for ((sum, column), value) in sums.iter_mut().zip(columns).zip(values) {
+            for (sum, column) in sum.iter_mut().zip(fours(column)).take(N / 4) {
+                *sum = each(|i| sum[i] + column[i] * value);
+            }
         }
     }
-    to[..N].copy_from_slice(&sum);
+    let [even, odd] = &sums;
+    for ((to, even), odd) in to.iter_mut().zip(even).zip(odd).take(N / 4) {
+        *to = each(|i| even[i] + odd[i]);
+    }
 }
 
 /// The larger of two numbers, in one instruction; the second where they are none.
@@ -60,41 +81,52 @@ pub fn larger(a: f64, b: f64) -> f64 {
 /// Forces of penetrations and rates; none where floors are apart.
 #[inline(always)]
 pub fn forces<const N: usize>(force: &Force, depth: &Row, rate: &Row, out: &mut Row) {
+    let all = fours_mut(out).iter_mut().zip(fours(depth)).zip(fours(rate)).take(N / 4);
     match *force {
         Force::Power { stiffness, exponent: 1.5, damping: 0.0 } => {
-            for i in 0..N {
-                let d = larger(depth[i], 0.0);
-                out[i] = stiffness * (d * d.sqrt());
+            for ((out, depth), _) in all {
+                let d = inside(depth);
+                *out = each(|i| stiffness * (d[i] * d[i].sqrt()));
             }
         }
         Force::Power { stiffness, exponent: 1.5, damping } => {
-            for i in 0..N {
-                let d = larger(depth[i], 0.0);
-                out[i] = stiffness * (d * d.sqrt()) * (1.0 + damping * rate[i]);
+            for ((out, depth), v) in all {
+                let d = inside(depth);
+                let elastic = each(|i| stiffness * (d[i] * d[i].sqrt()));
+                *out = each(|i| elastic[i] * (1.0 + damping * v[i]));
             }
         }
         Force::Root { stiffness, damping } => {
-            for i in 0..N {
-                let d = larger(depth[i], 0.0);
-                let root = d.sqrt();
-                out[i] = stiffness * (d * root) + damping * root.sqrt() * rate[i];
+            for ((out, depth), v) in all {
+                let d = inside(depth);
+                let root = each(|i| d[i].sqrt());
+                let slow = each(|i| root[i].sqrt());
+                let elastic = each(|i| stiffness * (d[i] * root[i]));
+                *out = each(|i| elastic[i] + damping * slow[i] * v[i]);
             }
         }
         _ => {
-            for i in 0..N {
-                out[i] = force.value(larger(depth[i], 0.0), rate[i]);
+            for ((out, depth), v) in all {
+                let d = inside(depth);
+                *out = each(|i| force.value(d[i], v[i]));
             }
         }
     }
 }
 
+/// Penetrations, 0 where floors are apart.
+#[inline(always)]
+fn inside(depth: &[f64; 4]) -> [f64; 4] {
+    each(|i| larger(depth[i], 0.0))
+}
+
 /// Values of a polynomial at N points.
 #[inline(always)]
-pub fn value<const N: usize>(terms: &[f64], x: &[f64; N]) -> Row {
-    let mut value = [0.0; N];
+pub fn value<const N: usize>(terms: &[f64], x: &Fours) -> Row {
+    let mut value = NOTHING;
     for term in terms.iter().rev() {
-        for i in 0..N {
-            value[i] = value[i] * x[i] + term;
+        for (value, x) in value.iter_mut().zip(x).take(N / 4) {
+            *value = each(|i| value[i] * x[i] + term);
         }
     }
     row(&value)
@@ -102,23 +134,22 @@ pub fn value<const N: usize>(terms: &[f64], x: &[f64; N]) -> Row {
 
 /// Values and derivatives by t of a polynomial in x = t / scale.
 #[inline(always)]
-pub fn values<const N: usize>(terms: &[f64], x: &[f64; N], scale: f64) -> (Row, Row) {
-    let (mut value, mut slope) = ([0.0; N], [0.0; N]);
+pub fn values<const N: usize>(terms: &[f64], x: &Fours, scale: f64) -> (Row, Row) {
+    let (mut value, mut slope) = (NOTHING, NOTHING);
     for term in terms.iter().rev() {
-        for i in 0..N {
-            slope[i] = slope[i] * x[i] + value[i];
-            value[i] = value[i] * x[i] + term;
+        for ((value, slope), x) in value.iter_mut().zip(&mut slope).zip(x).take(N / 4) {
+            *slope = each(|i| slope[i] * x[i] + value[i]);
+            *value = each(|i| value[i] * x[i] + term);
         }
     }
     let rate = 1.0 / scale;
-    (row(&value), row(&slope.map(|slope| slope * rate)))
+    (row(&value), row(&slope.map(|slope| each(|i| slope[i] * rate))))
 }
 
-/// N values, and none beyond them.
 #[inline(always)]
-fn row<const N: usize>(values: &[f64; N]) -> Row {
+pub fn row(fours: &Fours) -> Row {
     let mut row = [0.0; NODES];
-    row[..N].copy_from_slice(values);
+    fours_mut(&mut row).copy_from_slice(fours);
     row
 }
 

@@ -5,8 +5,9 @@
 
 use super::equation::{Equation, MOST_PAIRS, Room};
 use super::nodes::{NODES, Row, Rule, dot, nodes};
-use super::rows::{add_product, combine, forces, larger, second_derivative};
+use super::rows::{NOTHING, add_product, combine, forces, fours, fours_mut, larger, row, second_derivative};
 use super::tables::{Map, Tables};
+use crate::polynomial::each;
 
 /// Sweeps after which a window is given up: it is too long for this, or its damping too stiff.
 const MOST_SWEEPS: usize = 24;
@@ -90,11 +91,10 @@ impl Solution {
                 &mut [&mut self.depth[p]]
             };
             for row in rows {
-                let mut slope = [0.0; NODES];
+                let mut slope = NOTHING;
                 add_product::<N>(&mut slope, &nodes.derivative, row);
-                for i in 0..N {
-                    row[i] += share * tables.lag[i] * slope[i];
-                }
+                let rows = fours_mut(row).iter_mut().zip(fours(&tables.lag)).zip(&slope).take(N / 4);
+                rows.for_each(|((row, lag), slope)| *row = each(|i| row[i] + share * lag[i] * slope[i]));
             }
             forces::<N>(&law, &self.depth[p], &self.rate[p], &mut self.force[p]);
         }
@@ -126,14 +126,14 @@ impl Solution {
             let (d, v, scale) = (free[0], free[1] / equation.scale, equation.scale);
             let acceleration = 2.0 * free[2] / (scale * scale) - equation.kernels[p][p][1] * law.value(d, v);
             let (length, omega2) = (self.length, omega * omega);
-            let (depth, rate) = (&mut self.depth[p], &mut self.rate[p]);
-            for i in 0..N {
-                let t = theta[i] * length;
-                let s = omega2 * (t * t);
-                let sine = t * (1.0 - s * ((1.0 / 6.0) - s * (1.0 / 120.0)));
-                let turned = t * t * (0.5 - s * (1.0 / 24.0));
-                depth[i] = d + v * sine + acceleration * turned;
-                rate[i] = v * (1.0 - omega2 * turned) + acceleration * sine;
+            let (depth, rate) = (fours_mut(&mut self.depth[p]), fours_mut(&mut self.rate[p]));
+            for ((depth, rate), theta) in depth.iter_mut().zip(rate).zip(fours(theta)).take(N / 4) {
+                let t = each(|i| theta[i] * length);
+                let s = each(|i| omega2 * (t[i] * t[i]));
+                let sine = each(|i| t[i] * (1.0 - s[i] * ((1.0 / 6.0) - s[i] * (1.0 / 120.0))));
+                let turned = each(|i| t[i] * t[i] * (0.5 - s[i] * (1.0 / 24.0)));
+                *depth = each(|i| d + v * sine[i] + acceleration * turned[i]);
+                *rate = each(|i| v * (1.0 - omega2 * turned[i]) + acceleration * sine[i]);
             }
             forces::<N>(&law, &self.depth[p], &self.rate[p], &mut self.force[p]);
         }
@@ -144,35 +144,34 @@ impl Solution {
     fn sweep<const N: usize>(&mut self, equation: &Equation, tables: &Tables, room: &Room) -> f64 {
         // A little longer or shorter than when the responses were made: they go as t^2 and t.
         let ratio = self.length / room.assembled;
-        let mut change = 0.0_f64;
+        let mut changes = [0.0; 4];
         for p in 0..equation.closed {
             let (free, law) = (&room.free[p], equation.forces[p]);
-            let mut taken = [0.0; NODES];
+            let mut taken = NOTHING;
             for (q, force) in self.force.iter().enumerate().take(equation.closed) {
                 add_product::<N>(&mut taken, &room.response(p, q).between, force);
             }
             let scale = match equation.by_rates() {
                 true => {
-                    for (i, taken) in taken.iter().enumerate().take(N) {
-                        self.rate[p][i] = free.rate[i] - ratio * taken;
+                    let rates = fours_mut(&mut self.rate[p]).iter_mut().zip(fours(&free.rate));
+                    for ((rate, free), taken) in rates.zip(&taken).take(N / 4) {
+                        *rate = each(|i| free[i] - ratio * taken[i]);
                     }
-                    let slowed = std::mem::replace(&mut taken, [0.0; NODES]);
+                    let slowed = row(&std::mem::replace(&mut taken, NOTHING));
                     add_product::<N>(&mut taken, &tables.inner[0], &slowed);
                     ratio * self.length
                 }
                 false => ratio * ratio,
             };
-            let known = &mut self.depth[p];
-            let mut changes = [0.0; 4];
-            for i in 0..N {
-                let new = free.depth[i] - scale * taken[i];
-                changes[i % 4] = larger((new - known[i]).abs(), changes[i % 4]);
-                known[i] = new;
+            let depths = fours_mut(&mut self.depth[p]).iter_mut().zip(fours(&free.depth));
+            for ((known, free), taken) in depths.zip(&taken).take(N / 4) {
+                let new = each(|i| free[i] - scale * taken[i]);
+                changes = each(|i| larger((new[i] - known[i]).abs(), changes[i]));
+                *known = new;
             }
-            change = changes.into_iter().fold(change, larger);
-            forces::<N>(&law, known, &self.rate[p], &mut self.force[p]);
+            forces::<N>(&law, &self.depth[p], &self.rate[p], &mut self.force[p]);
         }
-        change
+        changes.into_iter().fold(0.0, larger)
     }
 
     /// Penetrations and rates at the end, of all pairs or of one.
@@ -195,17 +194,16 @@ impl Solution {
     #[inline(always)]
     fn watch<const N: usize>(&mut self, equation: &Equation, tables: &Tables, room: &Room) {
         for p in equation.closed..equation.pairs {
-            let mut taken = [0.0; NODES];
+            let mut taken = NOTHING;
             for q in 0..equation.closed {
                 let (factors, _) = equation.factors(p, q, self.length);
                 let mut response = [[0.0; NODES]; NODES];
-                let powers = equation.powers_over(p, &factors, self.length);
-                combine::<N>(&tables.inner[1..], &factors[1..powers], &mut response);
+                let count = equation.count_over(p, &factors, self.length, equation.remainder);
+                combine::<N>(&tables.inner[1..], &factors[..count], &mut response);
                 add_product::<N>(&mut taken, &response, &self.force[q]);
             }
-            for (i, taken) in taken.iter().enumerate().take(N) {
-                self.depth[p][i] = room.free[p].depth[i] - taken;
-            }
+            let depths = fours_mut(&mut self.depth[p]).iter_mut().zip(fours(&room.free[p].depth)).zip(&taken);
+            depths.take(N / 4).for_each(|((depth, free), taken)| *depth = each(|i| free[i] - taken[i]));
         }
     }
 

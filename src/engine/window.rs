@@ -67,11 +67,7 @@ impl Window {
         let Solution { map, rule, length, ref force, .. } = self.solution;
         let whole = &Tables::of(map, rule).whole;
         for (moments, force) in self.whole.iter_mut().zip(force).take(closed) {
-            let mut power = length;
-            for (moment, whole) in moments.iter_mut().zip(whole).take(powers) {
-                *moment = power * dot(whole, force);
-                power *= length;
-            }
+            weigh_whole(&whole[..powers], force, length, moments);
         }
     }
 
@@ -82,18 +78,9 @@ impl Window {
         if elapsed == length {
             return &self.whole;
         }
-        let (nodes, part) = (nodes(rule), self.part(elapsed));
+        let part = self.part(elapsed);
         for (moments, force) in room.iter_mut().zip(force).take(closed) {
-            let mut pushed = nodes.interpolant(force).at(&part.x);
-            for (pushed, weight) in pushed.iter_mut().zip(&part.weights) {
-                *pushed *= weight;
-            }
-            for moment in moments.iter_mut().take(powers) {
-                *moment = pushed.iter().sum();
-                for (pushed, time) in pushed.iter_mut().zip(&part.times) {
-                    *pushed *= elapsed - time;
-                }
-            }
+            weigh(nodes(rule), force, &part, elapsed, &mut moments[..powers]);
         }
         room
     }
@@ -121,6 +108,31 @@ impl Window {
             }
         }
         (d - taken, v / scale - slowed)
+    }
+}
+
+/// The moments of one force over its window. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn weigh_whole(whole: &[Row], force: &Row, length: f64, moments: &mut [f64; POWERS]) {
+    let mut power = length;
+    for (moment, whole) in moments.iter_mut().zip(whole) {
+        *moment = power * dot(whole, force);
+        power *= length;
+    }
+}
+
+/// The moments of one force over a part of its window. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn weigh(nodes: &Nodes, force: &Row, part: &Part, elapsed: f64, moments: &mut [f64]) {
+    let (mut pushed, left) = (nodes.interpolant(force).at(&part.x), part.times.map(|time| elapsed - time));
+    for (pushed, weight) in pushed.iter_mut().zip(&part.weights) {
+        *pushed *= weight;
+    }
+    for moment in moments {
+        *moment = dot(&pushed, &[1.0; NODES]);
+        for (pushed, left) in pushed.iter_mut().zip(&left) {
+            *pushed *= left;
+        }
     }
 }
 
@@ -171,9 +183,9 @@ impl Contact {
             let elapsed = solution.length * solution.map.at(x).0;
             window.depth(place, elapsed, window.moments(elapsed, &mut Moments::default()))
         };
-        let deepest = way.highest(depth, end.0, self.episode.peak_penetration);
-        if let Some(x) = deepest {
-            let peak = if x == last { end.0 } else { read(x).0 };
+        let at = |x: f64| (x, if x == last { end } else { read(x) });
+        let deepest = way.highest(depth, end.0, self.episode.peak_penetration).map(at);
+        if let Some((_, (peak, _))) = deepest {
             self.episode.peak_penetration = self.episode.peak_penetration.max(peak);
         }
         let strongest = match law.is_damped() {
@@ -181,15 +193,12 @@ impl Contact {
             false => deepest,
             true => {
                 let force = law.value(end.0, end.1);
-                Way { rates: (f64::NAN, f64::NAN), ..way }.highest(
-                    &solution.force[place],
-                    force,
-                    self.episode.peak_force,
-                )
+                Way { rates: (f64::NAN, f64::NAN), ..way }
+                    .highest(&solution.force[place], force, self.episode.peak_force)
+                    .map(at)
             }
         };
-        if let Some(x) = strongest {
-            let (d, v) = if x == last { end } else { read(x) };
+        if let Some((x, (d, v))) = strongest {
             let peak = law.value(d, v);
             if peak > self.episode.peak_force {
                 self.episode.peak_force = peak;
@@ -230,30 +239,33 @@ impl Way {
         let mut top = (x_of(at), best);
         if at < before || self.rates.1 < 0.0 || self.rates.1.is_nan() {
             let low = if at == 0 { 0.0 } else { nodes[at - 1] };
-            if let Some(found) = self.summit(values, (low, x_of(at), x_of(at + 1))).filter(|found| found.1 > best) {
+            let found = summit(self.nodes, values, (low, x_of(at), x_of(at + 1)));
+            if let Some(found) = found.filter(|found| found.1 > best) {
                 top = found;
             }
         }
         (top.1 > known * (1.0 - INTERPOLATED)).then_some(top.0)
     }
+}
 
-    /// Where the polynomial through values at the nodes has its summit in low..high, by Newton's method from a point on.
-    fn summit(&self, values: &Row, (low, from, high): (f64, f64, f64)) -> Option<(f64, f64)> {
-        let interpolant = self.nodes.interpolant(values);
-        let mut x = from;
-        for _ in 0..8 {
-            let [value, slope, curvature] = interpolant.derivatives(x);
-            let step = slope / curvature;
-            // The value at the summit is flat: half of the digits of x give all of its digits.
-            if curvature < 0.0 && step.abs() < 1e-9 {
-                return Some((x, value));
-            }
-            let next = if curvature < 0.0 { (x - step).clamp(low, high) } else { return None };
-            if next == x {
-                return None;
-            }
-            x = next;
+/// Where the polynomial through values at the nodes has its summit in low..high, by Newton's method from a point on. Wide
+/// instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn summit(nodes: &Nodes, values: &Row, (low, from, high): (f64, f64, f64)) -> Option<(f64, f64)> {
+    let interpolant = nodes.interpolant(values);
+    let mut x = from;
+    for _ in 0..8 {
+        let [value, slope, curvature] = interpolant.derivatives(x);
+        let step = slope / curvature;
+        // The value at the summit is flat: half of the digits of x give all of its digits.
+        if curvature < 0.0 && step.abs() < 1e-9 {
+            return Some((x, value));
         }
-        None
+        let next = if curvature < 0.0 { (x - step).clamp(low, high) } else { return None };
+        if next == x {
+            return None;
+        }
+        x = next;
     }
+    None
 }
