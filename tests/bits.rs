@@ -67,13 +67,13 @@ fn whole_runs_have_the_bits_of_every_other_machine() {
         (case("law = \"linear\"\nstiffness = 2.0e8", RATIO), 0xee27_50fe_2171_ffa3),
         (case("law = \"kelvin_voigt\"\nstiffness = 2.0e8\nrestitution = 0.6", RAYLEIGH), 0x81ae_fdd7_6f16_1d53),
         (case("law = \"kelvin_voigt_no_tension\"\nstiffness = 2.0e8\nrestitution = 0.6", RATIO), 0x82aa_5bad_b117_afda),
-        (case("law = \"hertz\"\nstiffness = 2.0e9", RATIO), 0xdd5d_991b_510b_e8c8),
-        (case("law = \"hertz\"\nstiffness = 2.0e9\nexponent = 1.7", RATIO), 0xa714_fa57_0688_ce63),
-        (case(JANKOWSKI, RATIO), 0x73c1_59de_c84c_2920),
+        (case("law = \"hertz\"\nstiffness = 2.0e9", RATIO), 0x6fc4_bbec_43dd_b2fc),
+        (case("law = \"hertz\"\nstiffness = 2.0e9\nexponent = 1.7", RATIO), 0xa0d8_06e3_46b2_eba9),
+        (case(JANKOWSKI, RATIO), 0x00f8_fe26_366f_173e),
         (case(DAMPED, MATRIX), 0x516f_b19d_d832_5cf9),
-        (Case { storeys: 9, energy: false, ..case(JANKOWSKI, RAYLEIGH) }, 0x1d69_a9d1_aaf3_0f6e),
-        (Case { storeys: 9, ..case(DAMPED, RAYLEIGH) }, 0xbb02_66c2_6481_a08e),
-        (Case { energy: false, ..case(DAMPED, RATIO) }, 0x8641_5c22_859b_165e),
+        (Case { storeys: 9, energy: false, ..case(JANKOWSKI, RAYLEIGH) }, 0x1b56_b76a_4e4b_279a),
+        (Case { storeys: 9, ..case(DAMPED, RAYLEIGH) }, 0x0412_0b5b_f723_b898),
+        (Case { energy: false, ..case(DAMPED, RATIO) }, 0x0dac_e7e9_f1a3_ae66),
     ];
     let got = cases.each_ref().map(|(case, _)| fingerprint(case));
     let expected = cases.map(|(_, expected)| expected);
