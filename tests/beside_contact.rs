@@ -159,3 +159,50 @@ fn floors_that_move_alike_do_not_meet_beside_another_contact() {
         assert_eq!(run.contact(1).impacts, 0, "{storeys} storeys");
     }
 }
+
+/// Floor 2 swings by 10 mm at 100 rad/s while floor 1 is in contact for 30 ms: it rises and falls again beyond a gap of
+/// 9.5 mm, above the chord between any two points at which it is apart.
+#[test]
+fn a_swing_beyond_the_gap_is_found_beside_a_contact() {
+    let far = "[[contact]]\nleft_floor = 1\nright_floor = 2\ngap = 1.0\nlaw = \"stereomechanical\"\nrestitution = 0.5";
+    let swing = |law: &str, before: &str| {
+        let mut run = Run::new(
+            &scene(&format!(
+                "name = \"Swing\"
+                [left]
+                mass = [1000.0, 1000.0]
+                stiffness_matrix = [[1.0, 0.0], [0.0, 1.0e7]]
+                damping = {{ ratio = 0.0 }}
+                initial_velocity = [0.5, 1.0]
+                [right]
+                mass = [1.0e6, 1.0e6]
+                stiffness_matrix = [[1.0, 0.0], [0.0, 1.0]]
+                damping = {{ ratio = 0.0 }}
+                [[contact]]
+                left_floor = 1
+                right_floor = 1
+                gap = 0.0
+                law = \"hertz\"
+                stiffness = 1.0e8
+                {before}
+                [[contact]]
+                left_floor = 2
+                right_floor = 2
+                gap = 0.0095
+                {law}"
+            )),
+            None,
+        );
+        run.to(0.02);
+        let last = run.model.contacts() - 1;
+        assert!(run.contact(0).active, "the other contact goes on");
+        run.episodes.iter().find(|e| e.contact == last).copied().or_else(|| run.model.open_episode(&run.state, last))
+    };
+    for law in ["law = \"stereomechanical\"\nrestitution = 0.5", "law = \"hertz\"\nstiffness = 1.0e10"] {
+        for before in ["", far] {
+            let found = swing(law, before).map(|episode| episode.start);
+            let expected = libm::asin(0.95) / 100.0;
+            assert!(found.is_some_and(|found| (found - expected).abs() < 1e-12), "{law} {before}: {found:?}");
+        }
+    }
+}

@@ -1,8 +1,9 @@
 //! Bounds that show that nothing happens within a window but the event that it ends with.
 //!
 //! Between two nodes a penetration is known at both and bends by no more than all that acts on it: what the buildings would
-//! do without contact forces, of which the power series is there; and the forces, whose size is known. A force in contact
-//! pushes apart, so it never bends its own pair's penetration upwards.
+//! do without contact forces, of which the power series is there; and the forces, whose size is known. One in contact must
+//! not sag below 0, so what bends it upwards counts; a force in contact pushes apart, so it never bends its own pair's
+//! penetration upwards. One apart must not swell above 0, so what bends it downwards counts: it may rise and fall again.
 
 use super::model::Model;
 use super::state::*;
@@ -23,12 +24,14 @@ impl Model {
         let pairs_hold = (0..equation.pairs).all(|place| {
             let kernels = &equation.kernels[place];
             let at_once = |other: usize| if other == place { 0.0 } else { kernels[other][1].abs() };
-            let bend = window.bend(&equation.free[place][..equation.terms], |other| (at_once(other), &kernels[other]));
+            let way = if place < equation.closed { Way::Up } else { Way::Down };
+            let free = &equation.free[place][..equation.terms];
+            let bend = window.bend(way, free, |other| (at_once(other), &kernels[other]));
             let passage = Passage { window, place, contact: &base.contacts[window.contacts[place]], bend, ending };
             if place < equation.closed {
                 return passage.stays_in_contact();
             }
-            passage.stays_apart(&Approach { window, free: &equation.free[place][..equation.terms], kernels, bend })
+            passage.stays_apart(&Approach { window, free, kernels, bend })
         });
         pairs_hold && self.others_stay_apart(base, step, work)
     }
@@ -50,10 +53,11 @@ impl Model {
                 true => windows.kernel(&self.pairs, p, contacts[q]),
                 false => [0.0; POWERS],
             });
-            let bend = window.bend(terms, |q| (kernels[q][1].abs(), &kernels[q]));
-            if keeps_off(contact, bend, solution.length) {
+            let bend = |way: Way| window.bend(way, terms, |q| (kernels[q][1].abs(), &kernels[q]));
+            if keeps_off(contact, bend(Way::Up), solution.length) {
                 return true;
             }
+            let bend = bend(Way::Down);
             (terms[0], terms[1]) = (contact.flight_start(), contact.rate * series.scale);
             let approach = Approach { window, free: terms, kernels: &kernels, bend };
             let end = (solution.length, approach.depth(solution.length));
@@ -62,7 +66,14 @@ impl Model {
     }
 }
 
-/// Whether a pair apart, whose penetration bends by `bend` at most, stays so over `h` seconds.
+/// Which way a penetration bends.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    Up,
+    Down,
+}
+
+/// Whether a pair apart, whose penetration bends upwards by `bend` at most, stays so over `h` seconds.
 pub(super) fn keeps_off(contact: &Contact, bend: f64, h: f64) -> bool {
     let (start, rate) = (contact.flight_start(), contact.rate);
     // Below a parabola that only falls, or one that may rise.
@@ -71,14 +82,15 @@ pub(super) fn keeps_off(contact: &Contact, bend: f64, h: f64) -> bool {
 }
 
 impl Window {
-    /// m/s^2, bound on what bends the penetration of a pair upwards over the window: its motion without contact forces, of
+    /// m/s^2, bound on what bends the penetration of a pair that way over the window: its motion without contact forces, of
     /// which the terms are given, and what the forces do, of which the kernels are and what they do at once.
-    fn bend<'a>(&self, free: &[f64], kernels: impl Fn(usize) -> (f64, &'a [f64; POWERS])) -> f64 {
+    fn bend<'a>(&self, way: Way, free: &[f64], kernels: impl Fn(usize) -> (f64, &'a [f64; POWERS])) -> f64 {
         let Window { equation, solution, .. } = self;
         let (x, h) = (solution.length / equation.scale, solution.length);
         let later = free.iter().zip(&SECOND).skip(3).rev();
         let later = later.fold(0.0, |sum, (c, count)| sum * x + count * c.abs());
-        let mut bend = (2.0 * free[2] + later * x) / (equation.scale * equation.scale);
+        let at_start = if way == Way::Up { 2.0 * free[2] } else { -2.0 * free[2] };
+        let mut bend = (at_start + later * x) / (equation.scale * equation.scale);
         for q in 0..equation.closed {
             let (at_once, kernel) = kernels(q);
             let terms = kernel[..equation.powers].iter().zip(&SECOND).skip(2).rev();
