@@ -104,10 +104,10 @@ pub struct Tables {
 }
 
 impl Tables {
-    /// Those of a map and a rule, computed once.
+    /// Those of a map and a rule, computed once: in memory of the library itself, which goes with it when it is unloaded.
     pub fn of(map: Map, rule: Rule) -> &'static Tables {
-        static ALL: [[OnceLock<Box<Tables>>; 6]; 3] = [const { [const { OnceLock::new() }; 6] }; 3];
-        ALL[rule as usize][map as usize].get_or_init(|| Box::new(Tables::compute(map, nodes(rule))))
+        static ALL: [[OnceLock<Tables>; 6]; 3] = [const { [const { OnceLock::new() }; 6] }; 3];
+        ALL[rule as usize][map as usize].get_or_init(|| Tables::compute(map, nodes(rule)))
     }
 
     /// Computes them all, if that has not been done: not in the middle of a run.
