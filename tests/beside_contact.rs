@@ -206,3 +206,42 @@ fn a_swing_beyond_the_gap_is_found_beside_a_contact() {
         }
     }
 }
+
+/// A mode that is not in the contact, so fast and so damped that it dies out within a window of it: each part of the
+/// account is integrated to rounding.
+#[test]
+fn the_account_closes_beside_a_fast_damped_mode() {
+    let laws = [
+        "law = \"hertz\"\nstiffness = 1.0e7",
+        "law = \"hertz_damped\"\nstiffness = 1.0e7\nrestitution = 0.6\ndamping_formula = \"exact\"",
+        "law = \"jankowski\"\nstiffness = 1.0e7\nrestitution = 0.6",
+    ];
+    for law in laws {
+        for (stiffness, ratio) in [1e9, 1e10, 1e11].into_iter().flat_map(|k| [0.05, 0.2].map(|ratio| (k, ratio))) {
+            let scene = scene(&format!(
+                "name = \"Fast\"
+                [left]
+                mass = [1000.0, 1000.0]
+                stiffness_matrix = [[{stiffness:?}, 0.0], [0.0, 1.0]]
+                damping = {{ ratio = {ratio:?} }}
+                initial_velocity = [10.0, 0.5]
+                [right]
+                mass = [1.0e4]
+                stiffness = [1.0e3]
+                damping = {{ ratio = 0.05 }}
+                [[contact]]
+                left_floor = 2
+                right_floor = 1
+                gap = 1.0e-5
+                {law}
+                [outputs]
+                energy = true"
+            ));
+            let mut run = Run::new(&scene, None);
+            run.to(0.1);
+            assert_eq!(run.contact(0).impacts, 1);
+            let account = run.point.energy.unwrap();
+            assert!(account.residual.abs() < 1e-14, "{law}, {stiffness:e} N/m, {ratio}: {account:?}");
+        }
+    }
+}

@@ -160,7 +160,7 @@ impl Model {
         (work.q, work.v) = (q, v);
     }
 
-    /// At the nodes of the window's own rule; leaves the end in `work.q`, `work.v`.
+    /// Along the window's own clock; leaves the end in `work.q`, `work.v`.
     fn integrate_window(&self, base: &Base, step: &Step, length: f64, work: &mut Workspace, done: &mut Work) {
         let nodes = step.window.nodes(length);
         let mut powers = std::mem::take(&mut work.powers);

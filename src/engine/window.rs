@@ -2,7 +2,7 @@
 
 use super::model::Model;
 use super::state::*;
-use crate::collocation::{Equation, MOST_PAIRS, NODES, Nodes, POWERS, Row, Solution, Tables, dot, nodes};
+use crate::collocation::{Equation, MOST_PAIRS, NODES, Nodes, POWERS, Row, Rule, Solution, Tables, dot, nodes};
 use crate::polynomial::{Powers, value_and_slope};
 
 /// Share of a peak that the node next to it has at least.
@@ -41,8 +41,9 @@ impl Window {
         self.contacts[..self.equation.pairs].iter().position(|&p| p == contact)
     }
 
-    fn part(&self, elapsed: f64) -> Part {
-        let Solution { map, rule, length, .. } = self.solution;
+    /// The part until `elapsed`, with the nodes of a rule.
+    fn part(&self, elapsed: f64, rule: Rule) -> Part {
+        let Solution { map, length, .. } = self.solution;
         let end = map.inverse((elapsed / length).min(1.0));
         let nodes = nodes(rule);
         let x = nodes.x.map(|x| x * end);
@@ -55,10 +56,11 @@ impl Window {
         part
     }
 
-    /// Times, s, and weights for integrals until `elapsed`.
+    /// Times, s, and weights for integrals until `elapsed` of what the whole motion does, which may be faster than that of
+    /// the contact: the window's own nodes, as few as the contact needs, would be too few.
     pub fn nodes(&self, elapsed: f64) -> impl Iterator<Item = (f64, f64)> {
-        let part = self.part(elapsed);
-        part.times.into_iter().zip(part.weights).take(self.solution.rule.count())
+        let part = self.part(elapsed, Rule::Sixteen);
+        part.times.into_iter().zip(part.weights)
     }
 
     /// Works out the moments until the end of a solution that has been found.
@@ -78,7 +80,7 @@ impl Window {
         if elapsed == length {
             return &self.whole;
         }
-        let part = self.part(elapsed);
+        let part = self.part(elapsed, rule);
         for (moments, force) in room.iter_mut().zip(force).take(closed) {
             weigh(nodes(rule), force, &part, elapsed, &mut moments[..powers]);
         }
@@ -170,7 +172,7 @@ impl Contact {
             self.work += if is_whole {
                 solution.length * sum(&Tables::of(solution.map, solution.rule).weight, depth, rate)
             } else {
-                let part = window.part(elapsed);
+                let part = window.part(elapsed, solution.rule);
                 let [d, v] = [depth, rate].map(|row| nodes.interpolant(row).at(&part.x));
                 sum(&part.weights, &d, &v)
             };
