@@ -50,9 +50,9 @@ fn an_entry_is_seen_however_soon_after_another() {
 /// as a swing of the ripple, which is at the bottom at the ends of the step and touches in between. Its amplitude is what
 /// the tolerance leaves to a step of that length.
 ///
-/// `left`, `right`: masses and stiffnesses of the buildings, whose floor `upper` is in contact from the start, and whose
-/// floor 1 swings with the stiffness `ripple`.
-fn ripple(left: &str, right: &str, upper: usize, amplitude: f64, gap: f64) -> Scene {
+/// `left`, `right`: masses and stiffnesses of the buildings, whose floor `upper` is in the contact `closed` from the start,
+/// and whose floor 1 swings.
+fn ripple((left, right): (&str, &str), (upper, closed): (usize, &str), amplitude: f64, gap: f64) -> Scene {
     let at_rest = vec!["0.0"; upper - 1].join(", ");
     let above = vec!["0.0"; upper - 2].join(", ");
     scene(&format!(
@@ -68,9 +68,7 @@ fn ripple(left: &str, right: &str, upper: usize, amplitude: f64, gap: f64) -> Sc
         [[contact]]
         left_floor = {upper}
         right_floor = {upper}
-        gap = -0.01
-        law = \"linear\"
-        stiffness = 200.0
+        {closed}
         [[contact]]
         left_floor = 1
         right_floor = 1
@@ -81,6 +79,11 @@ fn ripple(left: &str, right: &str, upper: usize, amplitude: f64, gap: f64) -> Sc
         if upper > 2 { "," } else { "" }
     ))
 }
+
+const SPRING: &str = "gap = -0.01\nlaw = \"linear\"\nstiffness = 200.0";
+
+/// So deep that its series reaches far.
+const POWER_LAW: &str = "gap = -10.0\nlaw = \"hertz\"\nexponent = 1.7\nstiffness = 1.0";
 
 /// The touch of -amplitude cos(rate t) is found whatever the length of the step relative to the swing, from 0.8 of it to
 /// the whole, and a miss is none.
@@ -104,10 +107,14 @@ fn assert_ripple_touches(scene_of: impl Fn(f64, f64, f64) -> Scene) {
 
 #[test]
 fn a_touch_in_the_middle_of_another_contacts_step_is_found() {
-    assert_ripple_touches(|rate, amplitude, gap| {
-        let left = format!("mass = [1.0, 1.0]\nstiffness_matrix = [[{:?}, 0.0], [0.0, 1.0]]", rate * rate);
-        ripple(&left, "mass = [1.0, 1.0]\nstiffness_matrix = [[1.0, 0.0], [0.0, 1.0]]", 2, amplitude, gap)
-    });
+    // Beside a power law the pair that is apart shares the block of the other.
+    for closed in [SPRING, POWER_LAW] {
+        assert_ripple_touches(|rate, amplitude, gap| {
+            let left = format!("mass = [1.0, 1.0]\nstiffness_matrix = [[{:?}, 0.0], [0.0, 1.0]]", rate * rate);
+            let right = "mass = [1.0, 1.0]\nstiffness_matrix = [[1.0, 0.0], [0.0, 1.0]]";
+            ripple((&left, right), (2, closed), amplitude, gap)
+        });
+    }
 }
 
 #[test]
@@ -118,7 +125,8 @@ fn a_touch_in_the_middle_of_another_contacts_step_is_found_floor_by_floor() {
     let mass = vec!["1.0"; storeys].join(", ");
     assert_ripple_touches(|rate, amplitude, gap| {
         let left = format!("mass = [{mass}]\nstiffness = [{:?}, {soft}]", rate * rate);
-        ripple(&left, &format!("mass = [{mass}]\nstiffness = [1.0, {soft}]"), storeys, amplitude, gap)
+        let right = format!("mass = [{mass}]\nstiffness = [1.0, {soft}]");
+        ripple((&left, &right), (storeys, SPRING), amplitude, gap)
     });
 }
 
