@@ -83,6 +83,8 @@ pub struct Powers {
     by_clock: [Coefficients; 3],
     /// Whether it is.
     is_bent: bool,
+    /// Whether what polynomials in time need has been worked out.
+    is_in_time: bool,
 }
 
 impl Default for Powers {
@@ -97,6 +99,7 @@ impl Default for Powers {
             stretch: 0.0,
             by_clock: [[0.0; ROOM]; 3],
             is_bent: false,
+            is_in_time: false,
         }
     }
 }
@@ -117,7 +120,7 @@ impl Powers {
     pub fn set(&mut self, x: f64, highest: usize) {
         let highest = highest.min(ROOM - 1);
         self.highest = highest;
-        (self.x, self.stretch, self.is_bent) = (x, 0.0, false);
+        (self.x, self.stretch, self.is_bent, self.is_in_time) = (x, 0.0, false, false);
         self.blocks = highest / BLOCK + 1;
         let square = x * x;
         let mut last = [1.0, x];
@@ -145,8 +148,11 @@ impl Powers {
         self.is_bent = clock.is_bent();
     }
 
-    /// Goes on to what polynomials in time need.
+    /// Goes on to what polynomials in time need, unless that has been done.
     pub fn set_in_time(&mut self, clock: &Clock) {
+        if std::mem::replace(&mut self.is_in_time, true) {
+            return;
+        }
         if self.is_bent {
             return clock.weigh(self.x, self.highest, self.by_clock.each_mut());
         }

@@ -536,6 +536,10 @@ fn releases(terms: &[Each], limit: f64) -> Each {
     let [start, first, half] = [0, 1, 2].map(|n| terms[n]);
     let square = each(|i| first[i] * first[i] - 4.0 * start[i] * half[i]);
     let guess = each(|i| 2.0 * start[i] / (square[i].sqrt() - first[i]));
+    let is_near = |i: usize| guess[i] > 0.0 && guess[i] < 1.5 * limit;
+    if !(0..PAIRS).any(is_near) {
+        return [f64::INFINITY; PAIRS];
+    }
     let mut x = guess;
     for _ in 0..3 {
         let (mut value, mut slope) = ([0.0; PAIRS], [0.0; PAIRS]);
@@ -545,7 +549,7 @@ fn releases(terms: &[Each], limit: f64) -> Each {
         }
         x = each(|i| x[i] - value[i] / slope[i]);
     }
-    let is_one = |i: usize| guess[i] > 0.0 && guess[i] < 1.5 * limit && x[i] > 0.0 && x[i] < limit;
+    let is_one = |i: usize| is_near(i) && x[i] > 0.0 && x[i] < limit;
     each(|i| if is_one(i) { x[i] } else { f64::INFINITY })
 }
 

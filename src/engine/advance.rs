@@ -187,7 +187,9 @@ impl Model {
         base.watch.move_on(1);
         base.watch.set_all_known();
         let (coordinates, q, v) = (base.coordinates, &base.q, &base.v);
-        for (p, contact) in base.contacts.iter_mut().enumerate() {
+        for ((p, contact), (pair, carried)) in
+            base.contacts.iter_mut().enumerate().zip(self.pairs.iter().zip(&step.carried))
+        {
             contact.at_surface = false;
             contact.let_go = false;
             contact.undecided = false;
@@ -195,15 +197,15 @@ impl Model {
                 continue;
             }
             contact.carried = false;
-            if let Some((penetration, rate)) = step.carried[p] {
+            if let Some((penetration, rate)) = *carried {
                 (contact.penetration, contact.rate) = (penetration, rate);
                 contact.carried = self.is_close(p, penetration, coordinates, q);
                 continue;
             }
             if !contact.in_contact() {
-                contact.penetration = self.relative(p, coordinates, q) - self.pairs[p].gap;
+                contact.penetration = pair.relative(coordinates, q) - pair.gap;
             }
-            contact.rate = self.relative(p, coordinates, v);
+            contact.rate = pair.relative(coordinates, v);
         }
     }
 
@@ -217,7 +219,7 @@ impl Model {
             Event::Entry(p) => {
                 let contact = &mut base.contacts[p];
                 contact.penetration = 0.0;
-                contact.rate = self.difference(p, base.coordinates, &base.v).0;
+                contact.rate = self.pairs[p].difference(base.coordinates, &base.v).0;
                 contact.at_surface = true;
                 let (pair, approach) = (&self.pairs[p], contact.rate.max(self.least_approach));
                 contact.force = EpisodeForce::new(&pair.law, pair.mass, Some(approach));

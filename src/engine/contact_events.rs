@@ -113,7 +113,7 @@ impl Model {
         }
         let mut sum = 0.0;
         for (n, (out, factor)) in out.iter_mut().zip(factors).enumerate().take(series.order + 1) {
-            let (value, size) = self.difference(p, coordinates, series.term(n));
+            let (value, size) = self.pairs[p].difference(coordinates, series.term(n));
             *out = value;
             sum += size * factor.abs();
         }

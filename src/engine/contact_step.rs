@@ -182,7 +182,7 @@ impl Model {
         let at_surface = |contact: &Contact| contact.at_surface || contact.penetration >= 0.0;
         let meets = |(p, contact): (usize, &Contact)| {
             let stands = !contact.in_contact() && at_surface(contact) && contact.rate > 0.0;
-            stands && self.difference(p, base.coordinates, &base.v).0 > 0.0
+            stands && self.pairs[p].difference(base.coordinates, &base.v).0 > 0.0
         };
         base.contacts.iter().enumerate().position(meets)
     }

@@ -1,7 +1,7 @@
 //! How contact forces and the motion meet: on floors, or on modes.
 
 use super::members::Members;
-use super::model::{Model, Pair};
+use super::model::Pair;
 use super::state::Coordinates;
 use crate::contact::series::{Each, PAIRS};
 use crate::polynomial::each;
@@ -202,11 +202,11 @@ fn apart(left: f64, right: f64) -> f64 {
     if difference.abs() <= 4.0 * f64::EPSILON * (left.abs() + right.abs()) { 0.0 } else { difference }
 }
 
-impl Model {
-    /// The rate or other motion of a pair: that of its left floor less that of its right floor.
+impl Pair {
+    /// The rate or other motion of the pair: that of its left floor less that of its right floor.
     #[inline(always)]
-    pub(super) fn relative(&self, p: usize, coordinates: Coordinates, motion: &[f64]) -> f64 {
-        let Pair { row, lanes: [left, right], .. } = &self.pairs[p];
+    pub(super) fn relative(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
+        let Pair { row, lanes: [left, right], .. } = self;
         match coordinates {
             Coordinates::Modes => crate::structure::dot(row, motion),
             Coordinates::Floors => motion[*left] - motion[*right],
@@ -214,8 +214,8 @@ impl Model {
     }
 
     /// The same, 0 where the floors move alike but for rounding, and the size of what it is the difference of.
-    pub(super) fn difference(&self, p: usize, coordinates: Coordinates, motion: &[f64]) -> (f64, f64) {
-        let Pair { row, lanes: [left, right], .. } = &self.pairs[p];
+    pub(super) fn difference(&self, coordinates: Coordinates, motion: &[f64]) -> (f64, f64) {
+        let Pair { row, lanes: [left, right], .. } = self;
         match coordinates {
             Coordinates::Modes => crate::structure::difference(row, motion),
             Coordinates::Floors => {

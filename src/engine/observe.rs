@@ -158,7 +158,7 @@ impl Model {
 
     #[inline(never)]
     fn note_contact_apart(&self, base: &Base, point: &Point, p: usize) -> ContactPoint {
-        let penetration = self.relative(p, point.coordinates, &point.q) - self.pairs[p].gap;
+        let penetration = self.pairs[p].relative(point.coordinates, &point.q) - self.pairs[p].gap;
         let shown = self.show(&base.contacts[p], penetration);
         point.note_contact(p, shown);
         shown

@@ -293,7 +293,7 @@ impl Model {
             let pair = &self.pairs[p];
             scale = scale.min(turning_time(&force, pair.mass, contact.rate));
             // Where acceleration overtakes the entry speed before the force amounts to anything, that speed is noise.
-            let overtaken = contact.rate / self.relative(p, base.coordinates, &work.q).abs();
+            let overtaken = contact.rate / self.pairs[p].relative(base.coordinates, &work.q).abs();
             let gained = force.value(1.5 * contact.rate * overtaken, contact.rate) * overtaken / pair.mass;
             if gained < allowed {
                 return None;
@@ -366,7 +366,7 @@ impl Model {
                 Coordinates::Modes => row.iter().zip(&*sizes).map(|(row, size)| row.abs() * size).sum(),
             };
             let stays = |moved| Room { x: onset.powers.x, scale: onset.scale, moved, turned: 0.0 }.holds(contact);
-            let own = |(power, n)| self.relative(p, base.coordinates, onset.term(n)).abs() * power;
+            let own = |(power, n)| self.pairs[p].relative(base.coordinates, onset.term(n)).abs() * power;
             stays(most) || stays(beyond.iter().zip(2..).map(own).sum())
         })
     }

@@ -102,13 +102,27 @@ impl OpenPairs {
         }
     }
 
-    /// Works out the courses of the blocks that have a pair that is apart, up to the x of the powers.
-    fn follow(&mut self, base: &Base, pairs: &[Pair], series: &MotionSeries, bend: &Bend, powers: &Powers) {
+    /// Works out the courses of the blocks that have a pair that is apart and not too far to meet, up to the x of the
+    /// powers; `room` is for a number of each floor.
+    fn follow(
+        &mut self,
+        base: &Base,
+        pairs: &[Pair],
+        (series, bend): (&MotionSeries, &Bend),
+        powers: &Powers,
+        room: &mut [f64],
+    ) {
         let OpenPairs { members, apart, terms, courses, .. } = self;
         let members = &members[..self.used];
         apart.clear();
-        let has_one_apart = |members: &Members| members.lanes().any(|(_, p)| !base.contacts[p].in_contact());
-        apart.extend(members.iter().enumerate().filter(|(_, members)| has_one_apart(members)).map(|(b, _)| b));
+        let horizon = (base.coordinates == Coordinates::Floors).then(|| Horizon::of(series, powers.x, room));
+        let may_meet = |(lane, p): (usize, usize), members: &Members| {
+            let contact = &base.contacts[p];
+            let is_far = |horizon: &Horizon| horizon.is_beyond(contact, members.floors[lane], members.gap[lane]);
+            !contact.in_contact() && !horizon.as_ref().is_some_and(is_far)
+        };
+        let has_to_be_followed = |members: &Members| members.lanes().any(|of_lane| may_meet(of_lane, members));
+        apart.extend(members.iter().enumerate().filter(|(_, members)| has_to_be_followed(members)).map(|(b, _)| b));
         let terms = &mut terms[..(series.order + 1) * apart.len()];
         match base.coordinates {
             Coordinates::Floors => relate(&OnFloors, series, (members, apart), terms),
@@ -121,6 +135,36 @@ impl OpenPairs {
             bend.apply(terms, apart.len());
         }
         read(terms, (members, apart), series.order + 1, powers, courses);
+    }
+}
+
+/// How near floors have to be at the start of a step to meet in it.
+struct Horizon<'a> {
+    /// The displacements of all floors at the start, m, and what their velocities then make of them until x or the time
+    /// there, whichever is more.
+    start: &'a [f64],
+    carried: &'a [f64],
+    reach: f64,
+    /// m, the most that all other terms of the motion of each floor add up to.
+    wandered: &'a [f64],
+}
+
+impl<'a> Horizon<'a> {
+    /// For a step up to x. With t = x + b x^2 no term of a series in time, made one in x and cut off after its last power, is
+    /// larger than its size in time is at x + |b| x^2.
+    fn of(series: &'a MotionSeries, x: f64, wandered: &'a mut [f64]) -> Horizon<'a> {
+        let reach = x + series.clock.bend.abs() * (x * x);
+        series.sum_sizes(2, reach, wandered);
+        Horizon { start: series.term(0), carried: series.term(1), reach, wandered }
+    }
+
+    /// Whether two floors are too far from each other.
+    fn is_beyond(&self, contact: &Contact, [left, right]: [usize; 2], gap: f64) -> bool {
+        let relative = |motion: &[f64]| motion[left] - motion[right];
+        let carried = self.reach * relative(self.carried).max(0.0);
+        let nearest = relative(self.start) - gap + carried + (self.wandered[left] + self.wandered[right]);
+        // Of a pair at the surface, or next to it, more digits are known than the motion tells.
+        nearest < 0.0 && !contact.at_surface && !contact.carried
     }
 }
 
@@ -165,7 +209,7 @@ impl Model {
             return self.first_of(base, closed.riders().iter().copied(), &course, (series, end, work), None);
         }
         open.assign(&self.pairs, base.coordinates);
-        open.follow(base, &self.pairs, series, &work.bend, end);
+        open.follow(base, &self.pairs, (series, &work.bend), end, &mut work.node_q);
         let mut first = None;
         for (block, course) in open.apart.iter().zip(&open.courses) {
             first = self.first_of(base, open.members[*block].lanes(), course, (series, end, work), first);

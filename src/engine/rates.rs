@@ -104,7 +104,7 @@ impl Model {
         let mut is_beginning = false;
         for p in 0..self.pairs.len() {
             let contact = self.contact_at(&state.base, &state.step, p, elapsed, &work.powers);
-            let relative = |motion: &[f64]| self.relative(p, point.coordinates, motion);
+            let relative = |motion: &[f64]| self.pairs[p].relative(point.coordinates, motion);
             let penetration = match contact.phase {
                 Phase::Held if self.contact(state, point, p).force > 0.0 => [0.0; 2],
                 Phase::Held => [0.0, relative(&rates.acceleration)],
@@ -157,7 +157,7 @@ impl Model {
         }
         for (p, (contact, (force, d))) in contacts.iter_mut().zip(forces.iter()).enumerate() {
             let [v, a] = contact.penetration;
-            let third = if order == 0 { 0.0 } else { self.relative(p, coordinates, jerk) };
+            let third = if order == 0 { 0.0 } else { self.pairs[p].relative(coordinates, jerk) };
             contact.force[order] = force.rates([*d, v, a, third]).map_or(0.0, |rates| rates[order]);
             self.push_apart_by(p, coordinates, contact.force[order], load);
         }

@@ -68,7 +68,7 @@ impl Model {
     /// m/s, the rate of a rigid pair, and what is none but for rounding.
     fn approach(&self, base: &Base, p: usize) -> (f64, f64) {
         let contact = &base.contacts[p];
-        let (rate, size) = self.difference(p, base.coordinates, &base.v);
+        let (rate, size) = self.pairs[p].difference(base.coordinates, &base.v);
         let rate = if contact.carried || contact.is_held() { contact.rate } else { rate };
         (rate, STILL * size)
     }
@@ -111,7 +111,7 @@ impl Model {
     /// Whether a rigid pair stands at the surface now.
     fn is_closed(&self, base: &Base, p: usize) -> bool {
         let (contact, pair) = (&base.contacts[p], &self.pairs[p]);
-        let noise = if contact.carried { 0.0 } else { pair.noise(self.difference(p, base.coordinates, &base.q).1) };
+        let noise = if contact.carried { 0.0 } else { pair.noise(pair.difference(base.coordinates, &base.q).1) };
         contact.is_held() || contact.at_surface || contact.penetration >= -noise
     }
 
@@ -160,7 +160,7 @@ impl Model {
     /// An impulse changes the rate of other pairs of the same floors at once, and with it their force.
     fn update_soft_rates(&self, base: &mut Base) {
         for (p, contact) in base.contacts.iter_mut().enumerate().filter(|&(p, _)| !self.pairs[p].law.is_rigid()) {
-            contact.rate = self.difference(p, base.coordinates, &base.v).0;
+            contact.rate = self.pairs[p].difference(base.coordinates, &base.v).0;
             let engaged = contact.force.is_engaged(contact.penetration, contact.rate);
             if contact.in_contact() && engaged != (contact.phase == Phase::Engaged) {
                 contact.change_branch();
@@ -294,7 +294,7 @@ impl Model {
 
     /// Whether a pair at this penetration, m, is still to be carried.
     pub(super) fn is_close(&self, p: usize, penetration: f64, coordinates: Coordinates, q: &[f64]) -> bool {
-        penetration > -CLOSE * self.pairs[p].noise(self.difference(p, coordinates, q).1)
+        penetration > -CLOSE * self.pairs[p].noise(self.pairs[p].difference(coordinates, q).1)
     }
 
     /// m/s2, rounding error of a pair's relative acceleration in 0..=x of a series.

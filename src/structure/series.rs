@@ -238,6 +238,16 @@ impl MotionSeries {
         sum_terms(terms.0, terms.1, 1.0 / self.scale, q, v);
     }
 
+    /// What the sizes of all terms from the power `first` on add up to at x, for each mode or floor, m.
+    pub fn sum_sizes(&self, first: usize, x: f64, sizes: &mut [f64]) {
+        let mut powers = [1.0; ROOM];
+        for n in 1..=self.order.min(ROOM - 1) {
+            powers[n] = powers[n - 1] * x;
+        }
+        let terms = &self.coefficients[first * self.lanes..(self.order + 1) * self.lanes];
+        sum_sizes(terms, &powers[first..], &mut sizes[..self.lanes]);
+    }
+
     /// The last two terms of the velocities by a clock, m, which tell how far its x reaches; returns their powers.
     pub fn last_rates(&self, clock: &Clock, last: &mut [f64], before: &mut [f64]) -> [usize; 2] {
         let powers = [self.order - 1, self.order - 2];
