@@ -267,7 +267,7 @@ impl OnsetBlock {
         // x^n e^n (1 + b d') lands one row on, one power of x down: the same i in `force`, which is times x.
         for i in 0..=grid.last(j) {
             let mut term = self.power[grid.index(i, j - 1)];
-            if self.kind == Kind::Power {
+            if self.kind == Kind::Damped {
                 let product = self.times_rate(grid, products, (i, j - 1));
                 term = each(|k| term[k] + self.damping[k] * product[k]);
             }
@@ -306,7 +306,7 @@ impl OnsetBlock {
                 let power = self.extend_power(grid, products, (i, j));
                 each(|k| self.stiffness[k] * power[k])
             }
-            Kind::Power => {
+            Kind::Damped => {
                 let power = self.extend_power(grid, products, (i, j));
                 let product = self.times_rate(grid, products, (i, j));
                 each(|k| self.stiffness[k] * (power[k] + self.damping[k] * product[k]))

@@ -1,16 +1,15 @@
 //! The series of all pairs in contact while a step is expanded and followed.
 
-use super::alike_pairs::Blocks;
-use super::meeting::Meeting;
 use super::members::{Members, Place, most_blocks};
 use super::model::Pair;
 use super::open_pairs::Course;
+use super::pair_forces::Blocks;
 use super::roots;
 use super::state::*;
 use crate::clock::Bend;
-use crate::contact::series::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
+use crate::contact::series::{Any, BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
 use crate::polynomial::{Coefficients, Powers, Reading, each};
-use crate::structure::{Lane, MotionSeries, PairForces};
+use crate::structure::MotionSeries;
 
 /// The pairs in contact, in blocks of one kind of law each.
 #[derive(Clone, Debug)]
@@ -179,12 +178,17 @@ impl ClosedPairs {
         Some((&mut self.blocks[0], &self.members[0], self.at_surface[0], self.waits))
     }
 
-    /// The blocks of all pairs with what they are of, where that is the same and no penetration has to wait for all forces.
-    pub fn alike(&mut self) -> Option<(Kind, Blocks<'_>)> {
+    /// All blocks with their pairs, and the kind of law where that is the same for all.
+    pub fn blocks(&mut self) -> (Blocks<'_>, Option<Kind>) {
         let (blocks, members) = (&mut self.blocks[..self.used], &self.members[..self.used]);
-        let kind = blocks.first()?.kind();
-        let are_alike = !self.waits && blocks.iter().all(|block| block.kind() == kind);
-        are_alike.then_some((kind, (blocks, members)))
+        let kind = blocks.first().map(PairBlock::kind);
+        let kind = kind.filter(|kind| blocks.iter().all(|block| block.kind() == *kind));
+        ((blocks, members), kind)
+    }
+
+    /// Whether the penetrations have to wait for all forces: pairs share a floor, or have just entered without any speed.
+    pub fn waits(&self) -> bool {
+        self.waits
     }
 
     /// About where the first pair under a power law is released, if that is before `limit`; else infinite.
@@ -269,7 +273,7 @@ impl ClosedPairs {
     /// Power n of the forces, from the powers of the penetrations so far.
     pub fn extend_forces(&mut self, n: usize) {
         for block in &mut self.blocks[..self.used] {
-            block.extend_force(n);
+            block.extend_force::<Any>(n);
         }
     }
 
@@ -282,16 +286,25 @@ impl ClosedPairs {
         }
     }
 
-    /// Enters power n of the penetrations, from the number of a pair and whether it may have just entered.
-    pub fn set_penetrations(&mut self, n: usize, mut term: impl FnMut(usize, bool) -> f64) {
+    /// Enters power n of the penetrations, from the members of a block, its lanes that hold pairs, and whether one of them may
+    /// have just entered without any speed.
+    pub fn set_blocks(&mut self, n: usize, mut values: impl FnMut(&Members, usize, bool) -> Each) {
         let blocks = self.blocks.iter_mut().zip(&self.members).zip(&self.at_surface);
         for ((block, members), at_surface) in blocks.take(self.used) {
+            let values = values(members, block.count, *at_surface);
+            block.set_penetration::<Any>(n, values);
+        }
+    }
+
+    /// The same from the number of a pair.
+    pub fn set_penetrations(&mut self, n: usize, mut term: impl FnMut(usize, bool) -> f64) {
+        self.set_blocks(n, |members, _, at_surface| {
             let mut values = [0.0; PAIRS];
             for (lane, pair) in members.lanes() {
-                values[lane] = term(pair, *at_surface);
+                values[lane] = term(pair, at_surface);
             }
-            block.set_penetration(n, values);
-        }
+            values
+        });
     }
 
     /// Follows the contacts to the end of the step, which has begun at `start` [s].
@@ -319,58 +332,6 @@ fn closed(base: &Base) -> impl Iterator<Item = (usize, &Contact)> {
 
 fn is_closed(contact: &Contact) -> bool {
     contact.in_contact() && !contact.is_held()
-}
-
-/// The closed pairs in some coordinates.
-pub(super) struct Acting<'a, M> {
-    pub closed: &'a mut ClosedPairs,
-    pub meeting: M,
-}
-
-impl<M: Meeting> PairForces for Acting<'_, M> {
-    #[inline(always)]
-    fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
-        let closed = &mut *self.closed;
-        let used = closed.used;
-        let blocks = closed.blocks[..used].iter_mut().zip(&closed.members[..used]);
-        if closed.waits {
-            for (block, _) in blocks {
-                block.extend_force(n);
-            }
-            return self.act_in_turn(n, factor, term);
-        }
-        for (block, members) in blocks {
-            let force = block.extend_force(n);
-            let relative = self.meeting.meet(members, block.count, &each(|i| factor * force[i]), term);
-            // What a force does to its own pair needs no detour by the motion: the next powers of the force wait for it.
-            let relative = each(|i| relative[i] - factor * members.softness[i] * force[i]);
-            block.set_penetration(n + 2, relative);
-        }
-    }
-}
-
-impl<M: Meeting> Acting<'_, M> {
-    /// One after the other: pairs that share a floor, or have just entered without any speed.
-    fn act_in_turn(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
-        self.push(n, factor, term);
-        let closed = &mut *self.closed;
-        let blocks = closed.blocks.iter_mut().zip(&closed.members).zip(&closed.at_surface);
-        for ((block, members), at_surface) in blocks.take(closed.used) {
-            let values = match at_surface {
-                true => self.meeting.difference(members, block.count, term),
-                false => self.meeting.relative(members, block.count, term),
-            };
-            block.set_penetration(n + 2, values);
-        }
-    }
-
-    #[inline(always)]
-    fn push(&self, n: usize, factor: f64, term: &mut [Lane]) {
-        let closed = &*self.closed;
-        for (block, members) in closed.blocks.iter().zip(&closed.members).take(closed.used) {
-            self.meeting.push(members, block.count, &block.force[n].map(|force| factor * force), term);
-        }
-    }
 }
 
 impl BlockEnd {

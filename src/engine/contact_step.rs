@@ -7,12 +7,12 @@
 //! Under a power law the last terms tell of the root of the time since the entry, or until the release: there the terms in
 //! time are weighed as those by a [`Clock`] have them, which knows no such root and goes several times as far.
 
-use super::alike_pairs::with_forces;
-use super::closed_pairs::{Acting, ClosedPairs};
+use super::closed_pairs::ClosedPairs;
 use super::complementarity::Complementarity;
 use super::linear_pairs::LinearPairs;
 use super::meeting::{OnFewModes, OnFloors, OnModes};
 use super::model::Model;
+use super::pair_forces::with_forces;
 use super::state::*;
 use crate::clock::Clock;
 use crate::contact::Force;
@@ -198,16 +198,16 @@ impl Model {
         match base.coordinates {
             Coordinates::Floors => {
                 let (floors, order) = (&self.structure.floors, self.order + 1);
-                with_forces!(closed, false, OnFloors, |forces| series.expand_floors(floors, order, loads, forces));
+                with_forces!(closed, [Linear, Spring, Damped, Root], false, OnFloors, |forces| series
+                    .expand_floors(floors, order, loads, forces));
             }
             Coordinates::Modes if self.structure.is_classical() && work.rigid.pairs.is_empty() => {
-                let order = self.order + 1;
+                let (structure, order) = (&self.structure, self.order + 1);
                 if base.q.len() > FEW_BLOCKS * LANES {
-                    let mut forces = Acting { closed, meeting: OnModes(&self.pairs) };
-                    series.expand_modes(&self.structure, order, loads, &mut forces);
+                    with_forces!(closed, [], false, OnModes(&self.pairs), |forces| series
+                        .expand_modes(structure, order, loads, forces));
                 } else if !self.expand_linear(series, closed, order, loads) {
-                    let structure = &self.structure;
-                    with_forces!(closed, true, OnFewModes, |forces| series
+                    with_forces!(closed, [Spring, Damped, Root], true, OnFewModes, |forces| series
                         .expand_few_modes(structure, order, loads, forces));
                 }
             }

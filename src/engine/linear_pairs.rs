@@ -1,6 +1,6 @@
 //! The usual contact at the price of its arithmetic: up to [`PAIRS`] pairs, all under linear laws, on few modes.
 //!
-//! What [`super::closed_pairs::Acting`] does for any pairs, with the same operations in the same order, but the last powers
+//! What [`super::pair_forces`] does for any pairs, with the same operations in the same order, but the last powers
 //! of the penetrations stay in registers.
 
 use super::closed_pairs::ClosedPairs;

@@ -15,16 +15,10 @@ pub(super) trait Meeting {
     fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each;
     /// Adds what the forces do.
     fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]);
-    /// Enters the relative motions of many terms.
+    /// The relative motions of many terms, each with where they are entered.
     #[inline(always)]
-    fn relate<'a>(
-        &self,
-        members: &Members,
-        count: usize,
-        terms: impl Iterator<Item = &'a [Lane]>,
-        out: impl Iterator<Item = &'a mut Each>,
-    ) {
-        terms.zip(out).for_each(|(term, out)| *out = self.relative(members, count, term));
+    fn relate<'a>(&self, members: &Members, count: usize, terms: impl Iterator<Item = (&'a [Lane], &'a mut Each)>) {
+        terms.for_each(|(term, out)| *out = self.relative(members, count, term));
     }
     /// Adds what the forces do; returns the relative motions without that.
     #[inline(always)]
@@ -50,19 +44,13 @@ impl Meeting for OnFloors {
     }
 
     #[inline(always)]
-    fn relate<'a>(
-        &self,
-        members: &Members,
-        count: usize,
-        terms: impl Iterator<Item = &'a [Lane]>,
-        out: impl Iterator<Item = &'a mut Each>,
-    ) {
+    fn relate<'a>(&self, members: &Members, count: usize, terms: impl Iterator<Item = (&'a [Lane], &'a mut Each)>) {
         match members.between {
             // Told once for all terms.
             Some([left, right]) => {
-                terms.zip(out).for_each(|(term, out)| *out = each(|lane| term[left][lane] - term[right][lane]));
+                terms.for_each(|(term, out)| *out = each(|lane| term[left][lane] - term[right][lane]));
             }
-            None => terms.zip(out).for_each(|(term, out)| *out = self.relative(members, count, term)),
+            None => terms.for_each(|(term, out)| *out = self.relative(members, count, term)),
         }
     }
 

@@ -104,7 +104,7 @@ impl Members {
     }
 
     /// The lanes that hold a pair, with its number.
-    pub fn lanes(&self) -> impl Iterator<Item = (usize, usize)> + Clone + '_ {
+    pub fn lanes(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.pairs.iter().copied().enumerate().zip(&self.taken).filter(|(_, taken)| **taken).map(|(pair, _)| pair)
     }
 }

@@ -42,7 +42,6 @@
 //! ```
 
 mod advance;
-mod alike_pairs;
 mod closed_pairs;
 mod complementarity;
 mod contact_events;
@@ -67,6 +66,7 @@ mod near_pairs;
 mod observe;
 mod onset_step;
 mod open_pairs;
+mod pair_forces;
 mod rates;
 mod rigid;
 mod roots;

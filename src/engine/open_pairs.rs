@@ -179,7 +179,7 @@ fn relate<M: Meeting>(
     for (i, b) in apart.iter().enumerate() {
         let members = &members[*b];
         let out = terms.chunks_exact_mut(apart.len()).map(|terms| &mut terms[i]);
-        meeting.relate(members, members.count(), series.rows(), out);
+        meeting.relate(members, members.count(), series.rows().zip(out));
     }
 }
 

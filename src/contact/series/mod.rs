@@ -6,6 +6,10 @@ use crate::clock::{Bend, Clock};
 use crate::polynomial::{COUNT, Coefficients, Powers, RECIPROCAL, ROOM, Reading, each};
 use crate::quadrature::TWELVE_POINTS;
 
+mod laws;
+
+pub use laws::{Any, Damped, Kind, Linear, PairLaw, Root, Spring};
+
 /// Pairs that are worked on together: as many as today's machines take in one instruction.
 pub const PAIRS: usize = 4;
 
@@ -27,91 +31,6 @@ const LAST: usize = ROOM - 1;
 /// Share of its penetration that a pair has kept at the end of a step, below which the step is taken to end at a release.
 const NEARLY_RELEASED: f64 = 0.1;
 
-/// Which terms a force has.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Kind {
-    /// No force.
-    #[default]
-    None,
-    /// [`Force::Linear`].
-    Linear,
-    /// [`Force::Power`] without damping.
-    Spring,
-    /// [`Force::Power`] with damping.
-    Power,
-    /// [`Force::Root`].
-    Root,
-}
-
-impl Kind {
-    /// Of a force.
-    pub fn of(force: &Force) -> Kind {
-        match *force {
-            Force::None => Kind::None,
-            Force::Linear { .. } => Kind::Linear,
-            Force::Power { damping: 0.0, .. } => Kind::Spring,
-            Force::Power { .. } => Kind::Power,
-            Force::Root { .. } => Kind::Root,
-        }
-    }
-}
-
-/// What the forces of a kind are made of, for code that is made for one kind only.
-pub trait PairLaw {
-    /// Whether its forces are made of the slopes of the penetrations.
-    const NEEDS_SLOPES: bool;
-    /// Power n of the forces.
-    fn force(block: &mut PairBlock, n: usize) -> Each;
-}
-
-/// [`Kind::Linear`].
-pub struct Linear;
-
-/// [`Kind::Spring`].
-pub struct Spring;
-
-/// [`Kind::Power`].
-pub struct Damped;
-
-/// [`Kind::Root`].
-pub struct Root;
-
-impl PairLaw for Linear {
-    const NEEDS_SLOPES: bool = false;
-
-    #[inline(always)]
-    fn force(block: &mut PairBlock, n: usize) -> Each {
-        block.linear_force(n, &block.penetration[n], &block.penetration[n + 1])
-    }
-}
-
-impl PairLaw for Spring {
-    const NEEDS_SLOPES: bool = false;
-
-    #[inline(always)]
-    fn force(block: &mut PairBlock, n: usize) -> Each {
-        block.spring_force(n)
-    }
-}
-
-impl PairLaw for Damped {
-    const NEEDS_SLOPES: bool = true;
-
-    #[inline(always)]
-    fn force(block: &mut PairBlock, n: usize) -> Each {
-        block.damped_power_force(n)
-    }
-}
-
-impl PairLaw for Root {
-    const NEEDS_SLOPES: bool = false;
-
-    #[inline(always)]
-    fn force(block: &mut PairBlock, n: usize) -> Each {
-        block.root_force(n)
-    }
-}
-
 /// The scalar series of up to [`PAIRS`] contacts over a step, in powers of x = t / scale or as a clock has it.
 #[derive(Clone, Debug)]
 pub struct PairBlock {
@@ -131,7 +50,7 @@ pub struct PairBlock {
     pub penetration: Rows,
     /// The same backwards, term 0 at [`LAST`]: a product of series then goes through memory in one direction.
     backwards: Rows,
-    /// n times term n of the penetration, backwards; of [`Kind::Power`] only.
+    /// n times term n of the penetration, backwards; of [`Kind::Damped`] only.
     slope: Rows,
     /// Force, N.
     pub force: Rows,
@@ -207,8 +126,8 @@ impl PairBlock {
         (self.stiffness, self.damping, self.exponent) = (zeros, zeros, zeros);
         (self.inverse, self.lead) = (zeros, [zeros; 2]);
         (self.power[0], self.root[0]) = ([zeros; 2], [zeros; 2]);
-        self.set_penetration(0, zeros);
-        self.set_penetration(1, zeros);
+        self.set_penetration::<Any>(0, zeros);
+        self.set_penetration::<Any>(1, zeros);
     }
 
     /// Adds a pair in a lane from its penetration and its rate per unit of x, both m.
@@ -242,7 +161,7 @@ impl PairBlock {
         match self.kind {
             Kind::None | Kind::Spring => true,
             Kind::Linear => self.damping == [0.0; PAIRS],
-            Kind::Power | Kind::Root => false,
+            Kind::Damped | Kind::Root => false,
         }
     }
 
@@ -256,62 +175,29 @@ impl PairBlock {
         self.kind
     }
 
-    /// Enters power n of the penetrations.
+    /// Enters power n of the penetrations, of pairs under a law.
     #[inline(always)]
-    pub fn set_penetration(&mut self, n: usize, values: Each) {
-        match self.kind {
-            Kind::Power => self.enter_penetration::<Damped>(n, values),
-            _ => self.enter_penetration::<Spring>(n, values),
-        }
-    }
-
-    /// The same where all pairs are known to be under a law.
-    #[inline(always)]
-    pub fn enter_penetration<L: PairLaw>(&mut self, n: usize, values: Each) {
+    pub fn set_penetration<L: PairLaw>(&mut self, n: usize, values: Each) {
         if n < ROOM {
             self.penetration[n] = values;
             self.backwards[LAST - n] = values;
-            if L::NEEDS_SLOPES {
+            if L::needs_slopes(self) {
                 self.slope[LAST - n] = each(|i| COUNT[n] * values[i]);
             }
         }
     }
 
-    /// Fills power n of the forces from the powers 0..=n + 1 of the penetrations, for n = 0, 1, 2, ... in turn, and
-    /// returns it.
+    /// Fills power n of the forces, of pairs under a law, from the powers 0..=n + 1 of the penetrations, for n = 0, 1, 2, ...
+    /// in turn, and returns it.
     #[inline(always)]
-    pub fn extend_force(&mut self, n: usize) -> Each {
+    pub fn extend_force<L: PairLaw>(&mut self, n: usize) -> Each {
         // Says once that no index below leaves its table.
-        if n + 2 >= ROOM {
-            return [0.0; PAIRS];
-        }
-        self.order = n;
-        let force = match self.kind {
-            Kind::None => [0.0; PAIRS],
-            Kind::Linear => Linear::force(self, n),
-            Kind::Spring => Spring::force(self, n),
-            Kind::Power => Damped::force(self, n),
-            Kind::Root => Root::force(self, n),
-        };
-        self.force[n] = force;
-        force
-    }
-
-    /// The same where all pairs are known to be under a law.
-    #[inline(always)]
-    pub fn extend_force_under<L: PairLaw>(&mut self, n: usize) -> Each {
         if n + 2 >= ROOM {
             return [0.0; PAIRS];
         }
         self.order = n;
         self.force[n] = L::force(self, n);
         self.force[n]
-    }
-
-    /// Power n of linear forces, from the powers n and n + 1 of the penetrations.
-    #[inline(always)]
-    fn linear_force(&self, n: usize, d: &Each, next: &Each) -> Each {
-        each(|i| self.stiffness[i] * d[i] + self.damping[i] * (COUNT[n + 1] * next[i]))
     }
 
     /// Stiffness and damping of linear forces.
@@ -334,89 +220,9 @@ impl PairBlock {
         self.kind == Kind::Linear
     }
 
-    #[inline(always)]
-    fn spring_force(&mut self, n: usize) -> Each {
-        let mut sums = [[0.0; PAIRS]; 2];
-        if n >= 2 {
-            add_all_products(&mut sums, &self.backwards[LAST - (n - 1)..LAST - 1], &self.power[1..n - 1]);
-        }
-        let power = self.extend_power(n, &sums);
-        each(|i| self.stiffness[i] * power[i])
-    }
-
-    /// d^n (1 + b d'), the product with the newest terms last.
-    #[inline(always)]
-    fn damped_power_force(&mut self, n: usize) -> Each {
-        let (mut sums, mut product) = ([[0.0; PAIRS]; 2], [0.0; PAIRS]);
-        if n >= 2 {
-            let depths = &self.backwards[LAST - (n - 1)..LAST - 1];
-            let slopes = &self.slope[LAST - n..LAST - 2];
-            for ((d, slope), p) in depths.iter().zip(slopes).zip(&self.power[1..n - 1]) {
-                add_products(&mut sums, d, p);
-                add_product(&mut product, &p[0], slope);
-            }
-            add_product(&mut product, &self.power[n - 1][0], &self.slope[LAST - 2]);
-        }
-        let power = self.extend_power(n, &sums);
-        if n > 0 {
-            add_product(&mut product, &power, &self.slope[LAST - 1]);
-        }
-        add_product(&mut product, &self.power[0][0], &self.slope[LAST - (n + 1)]);
-        each(|i| self.stiffness[i] * (power[i] + self.damping[i] * product[i]))
-    }
-
-    /// d^0.25 d' = (4/5) (d^1.25)': no product of series, but a root that is one power ahead.
-    #[inline(always)]
-    fn root_force(&mut self, n: usize) -> Each {
-        let (mut sums, mut roots) = ([[0.0; PAIRS]; 2], [[0.0; PAIRS]; 2]);
-        if n >= 2 {
-            add_products(&mut roots, &self.backwards[LAST - n], &self.root[1]);
-            let depths = &self.backwards[LAST - (n - 1)..LAST - 1];
-            for ((d, p), root) in depths.iter().zip(&self.power[1..n - 1]).zip(&self.root[2..n]) {
-                add_products(&mut sums, d, p);
-                add_products(&mut roots, d, root);
-            }
-        }
-        let power = self.extend_power(n, &sums);
-        let root = self.next_power(&self.root, [ROOT; PAIRS], self.lead[1], &roots, n + 1);
-        let slope = each(|i| COUNT[n + 1] * root[i]);
-        self.root[n + 1] = [root, slope];
-        each(|i| self.stiffness[i] * power[i] + self.damping[i] * slope[i])
-    }
-
-    /// Enters term n of d^exponent.
-    #[inline(always)]
-    fn extend_power(&mut self, n: usize, sums: &[Each; 2]) -> Each {
-        if n == 0 {
-            return self.power[0][0];
-        }
-        let next = self.next_power(&self.power, self.exponent, self.lead[0], sums, n);
-        self.power[n] = [next, each(|i| COUNT[n] * next[i])];
-        next
-    }
-
-    /// Term n >= 1 of p = d^exponent, from d p' = exponent p d' (Miller's recurrence): n d_0 p_n is the sum over j < n of
-    /// (exponent (n - j) - j) d_(n-j) p_j. `sums` are those of d_(n-j) p_j and of d_(n-j) j p_j over 0 < j < n - 1. What
-    /// the newest terms d_n and p_(n-1) add comes last and by one product each, so that a processor can work on all the
-    /// rest before these are known.
-    #[inline(always)]
-    fn next_power(&self, p: &Sloped, exponent: Each, lead: Each, [whole, weighted]: &[Each; 2], n: usize) -> Each {
-        let (second, newest) = (&self.penetration[1], &self.penetration[n]);
-        if n == 1 {
-            return each(|i| lead[i] * newest[i]);
-        }
-        let reciprocal = RECIPROCAL[n - 1];
-        each(|i| {
-            let older = exponent[i] * whole[i] - ((exponent[i] + 1.0) * reciprocal) * weighted[i];
-            let share = (exponent[i] + 1.0) * reciprocal - 1.0;
-            let last = (self.inverse[i] * second[i]) * share * p[n - 1][0][i];
-            (self.inverse[i] * older + last) + lead[i] * newest[i]
-        })
-    }
-
     /// Whether its forces have a root at d = 0.
     pub fn has_roots(&self) -> bool {
-        matches!(self.kind, Kind::Spring | Kind::Power | Kind::Root)
+        matches!(self.kind, Kind::Spring | Kind::Damped | Kind::Root)
     }
 
     /// About where each pair is released, if that is before `limit`; else infinite.
@@ -607,35 +413,6 @@ fn squared_slope(terms: &[Each], lane: usize, clock: &Clock, x: f64) -> f64 {
     x * ((sum[0] + sum[2]) + (sum[1] + sum[3]))
 }
 
-/// sum += a b.
-#[inline(always)]
-fn add_product(sum: &mut Each, a: &Each, b: &Each) {
-    for i in 0..PAIRS {
-        sum[i] += a[i] * b[i];
-    }
-}
-
-/// The same for a term and for n times it.
-#[inline(always)]
-fn add_products(sums: &mut [Each; 2], d: &Each, term: &[Each; 2]) {
-    for (sum, term) in sums.iter_mut().zip(term) {
-        add_product(sum, d, term);
-    }
-}
-
-/// The same for as many terms as there are, two in a row.
-#[inline(always)]
-fn add_all_products(sums: &mut [Each; 2], d: &[Each], terms: &[[Each; 2]]) {
-    let ((d, last), (terms, last_term)) = (d.as_chunks::<2>(), terms.as_chunks::<2>());
-    for (d, terms) in d.iter().zip(terms) {
-        add_products(sums, &d[0], &terms[0]);
-        add_products(sums, &d[1], &terms[1]);
-    }
-    if let ([d], [term]) = (last, last_term) {
-        add_products(sums, d, term);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -646,8 +423,8 @@ mod tests {
         block.start(Kind::of(&force));
         block.add(0, &force, 1.0, 1.0, 2.0);
         for n in 0..12 {
-            block.set_penetration(n + 2, [if n == 0 { 1.0 } else { 0.0 }; PAIRS]);
-            block.extend_force(n);
+            block.set_penetration::<Any>(n + 2, [if n == 0 { 1.0 } else { 0.0 }; PAIRS]);
+            block.extend_force::<Any>(n);
             let term = |(factor, exponent): &(f64, f64)| {
                 factor * (0..n).map(|k| (exponent - k as f64) / (k + 1) as f64).product::<f64>()
             };
@@ -676,8 +453,8 @@ mod tests {
                 block.add(lane, &Force::Root { stiffness, damping }, 1.0, 0.5 + i as f64, -0.1);
             }
             for n in 0..8 {
-                block.set_penetration(n + 2, [0.01 / (n + 1) as f64; PAIRS]);
-                block.extend_force(n);
+                block.set_penetration::<Any>(n + 2, [0.01 / (n + 1) as f64; PAIRS]);
+                block.extend_force::<Any>(n);
             }
             block.force.map(|row| row[which.len() - 1])
         };

@@ -1,0 +1,208 @@
+//! The powers of forces from those of the penetrations, for each kind of law.
+//!
+//! Code that is made for one kind costs less than code that asks at every power.
+
+use super::{Each, LAST, PAIRS, PairBlock, ROOT, Sloped};
+use crate::contact::force::Force;
+use crate::polynomial::{COUNT, RECIPROCAL, each};
+
+/// Which terms a force has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kind {
+    /// No force.
+    #[default]
+    None,
+    /// [`Force::Linear`].
+    Linear,
+    /// [`Force::Power`] without damping.
+    Spring,
+    /// [`Force::Power`] with damping.
+    Damped,
+    /// [`Force::Root`].
+    Root,
+}
+
+impl Kind {
+    /// Of a force.
+    pub fn of(force: &Force) -> Kind {
+        match *force {
+            Force::None => Kind::None,
+            Force::Linear { .. } => Kind::Linear,
+            Force::Power { damping: 0.0, .. } => Kind::Spring,
+            Force::Power { .. } => Kind::Damped,
+            Force::Root { .. } => Kind::Root,
+        }
+    }
+}
+
+/// What all pairs of a block are known to be under.
+pub trait PairLaw {
+    /// Whether the forces are made of the slopes of the penetrations.
+    #[inline(always)]
+    fn needs_slopes(_: &PairBlock) -> bool {
+        false
+    }
+    /// Power n of the forces.
+    fn force(block: &mut PairBlock, n: usize) -> Each;
+}
+
+/// Any one kind: the block says which.
+pub struct Any;
+
+impl PairLaw for Any {
+    #[inline(always)]
+    fn needs_slopes(block: &PairBlock) -> bool {
+        block.kind == Kind::Damped
+    }
+
+    #[inline(always)]
+    fn force(block: &mut PairBlock, n: usize) -> Each {
+        match block.kind {
+            Kind::None => [0.0; PAIRS],
+            Kind::Linear => Linear::force(block, n),
+            Kind::Spring => Spring::force(block, n),
+            Kind::Damped => Damped::force(block, n),
+            Kind::Root => Root::force(block, n),
+        }
+    }
+}
+
+/// [`Kind::Linear`].
+pub struct Linear;
+
+impl PairLaw for Linear {
+    #[inline(always)]
+    fn force(block: &mut PairBlock, n: usize) -> Each {
+        let (d, next) = (&block.penetration[n], &block.penetration[n + 1]);
+        each(|i| block.stiffness[i] * d[i] + block.damping[i] * (COUNT[n + 1] * next[i]))
+    }
+}
+
+/// [`Kind::Spring`].
+pub struct Spring;
+
+impl PairLaw for Spring {
+    #[inline(always)]
+    fn force(block: &mut PairBlock, n: usize) -> Each {
+        let mut sums = [[0.0; PAIRS]; 2];
+        if n >= 2 {
+            add_all_products(&mut sums, &block.backwards[LAST - (n - 1)..LAST - 1], &block.power[1..n - 1]);
+        }
+        let power = block.extend_power(n, &sums);
+        each(|i| block.stiffness[i] * power[i])
+    }
+}
+
+/// [`Kind::Damped`]: d^n (1 + b d'), the product with the newest terms last.
+pub struct Damped;
+
+impl PairLaw for Damped {
+    #[inline(always)]
+    fn needs_slopes(_: &PairBlock) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn force(block: &mut PairBlock, n: usize) -> Each {
+        let (mut sums, mut product) = ([[0.0; PAIRS]; 2], [0.0; PAIRS]);
+        if n >= 2 {
+            let depths = &block.backwards[LAST - (n - 1)..LAST - 1];
+            let slopes = &block.slope[LAST - n..LAST - 2];
+            for ((d, slope), p) in depths.iter().zip(slopes).zip(&block.power[1..n - 1]) {
+                add_products(&mut sums, d, p);
+                add_product(&mut product, &p[0], slope);
+            }
+            add_product(&mut product, &block.power[n - 1][0], &block.slope[LAST - 2]);
+        }
+        let power = block.extend_power(n, &sums);
+        if n > 0 {
+            add_product(&mut product, &power, &block.slope[LAST - 1]);
+        }
+        add_product(&mut product, &block.power[0][0], &block.slope[LAST - (n + 1)]);
+        each(|i| block.stiffness[i] * (power[i] + block.damping[i] * product[i]))
+    }
+}
+
+/// [`Kind::Root`]: d^0.25 d' = (4/5) (d^1.25)', no product of series, but a root that is one power ahead.
+pub struct Root;
+
+impl PairLaw for Root {
+    #[inline(always)]
+    fn force(block: &mut PairBlock, n: usize) -> Each {
+        let (mut sums, mut roots) = ([[0.0; PAIRS]; 2], [[0.0; PAIRS]; 2]);
+        if n >= 2 {
+            add_products(&mut roots, &block.backwards[LAST - n], &block.root[1]);
+            let depths = &block.backwards[LAST - (n - 1)..LAST - 1];
+            for ((d, p), root) in depths.iter().zip(&block.power[1..n - 1]).zip(&block.root[2..n]) {
+                add_products(&mut sums, d, p);
+                add_products(&mut roots, d, root);
+            }
+        }
+        let power = block.extend_power(n, &sums);
+        let root = block.next_power(&block.root, [ROOT; PAIRS], block.lead[1], &roots, n + 1);
+        let slope = each(|i| COUNT[n + 1] * root[i]);
+        block.root[n + 1] = [root, slope];
+        each(|i| block.stiffness[i] * power[i] + block.damping[i] * slope[i])
+    }
+}
+
+impl PairBlock {
+    /// Enters term n of d^exponent.
+    #[inline(always)]
+    fn extend_power(&mut self, n: usize, sums: &[Each; 2]) -> Each {
+        if n == 0 {
+            return self.power[0][0];
+        }
+        let next = self.next_power(&self.power, self.exponent, self.lead[0], sums, n);
+        self.power[n] = [next, each(|i| COUNT[n] * next[i])];
+        next
+    }
+
+    /// Term n >= 1 of p = d^exponent, from d p' = exponent p d' (Miller's recurrence): n d_0 p_n is the sum over j < n of
+    /// (exponent (n - j) - j) d_(n-j) p_j. `sums` are those of d_(n-j) p_j and of d_(n-j) j p_j over 0 < j < n - 1. What
+    /// the newest terms d_n and p_(n-1) add comes last and by one product each, so that a processor can work on all the
+    /// rest before these are known.
+    #[inline(always)]
+    fn next_power(&self, p: &Sloped, exponent: Each, lead: Each, [whole, weighted]: &[Each; 2], n: usize) -> Each {
+        let (second, newest) = (&self.penetration[1], &self.penetration[n]);
+        if n == 1 {
+            return each(|i| lead[i] * newest[i]);
+        }
+        let reciprocal = RECIPROCAL[n - 1];
+        each(|i| {
+            let older = exponent[i] * whole[i] - ((exponent[i] + 1.0) * reciprocal) * weighted[i];
+            let share = (exponent[i] + 1.0) * reciprocal - 1.0;
+            let last = (self.inverse[i] * second[i]) * share * p[n - 1][0][i];
+            (self.inverse[i] * older + last) + lead[i] * newest[i]
+        })
+    }
+}
+
+/// sum += a b.
+#[inline(always)]
+fn add_product(sum: &mut Each, a: &Each, b: &Each) {
+    for i in 0..PAIRS {
+        sum[i] += a[i] * b[i];
+    }
+}
+
+/// The same for a term and for n times it.
+#[inline(always)]
+fn add_products(sums: &mut [Each; 2], d: &Each, term: &[Each; 2]) {
+    for (sum, term) in sums.iter_mut().zip(term) {
+        add_product(sum, d, term);
+    }
+}
+
+/// The same for as many terms as there are, two in a row.
+#[inline(always)]
+fn add_all_products(sums: &mut [Each; 2], d: &[Each], terms: &[[Each; 2]]) {
+    let ((d, last), (terms, last_term)) = (d.as_chunks::<2>(), terms.as_chunks::<2>());
+    for (d, terms) in d.iter().zip(terms) {
+        add_products(sums, &d[0], &terms[0]);
+        add_products(sums, &d[1], &terms[1]);
+    }
+    if let ([d], [term]) = (last, last_term) {
+        add_products(sums, d, term);
+    }
+}
