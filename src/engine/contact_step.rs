@@ -189,20 +189,27 @@ impl Model {
 
     /// The series of the motion, of penetrations and forces from the base on.
     fn expand(&self, base: &Base, step: &mut Step, work: &mut Workspace, scale: f64) {
-        let Step { series, closed, .. } = step;
-        series.start(scale, &base.q, &base.v);
+        step.series.start(scale, &base.q, &base.v);
         let are_few = base.coordinates == Coordinates::Modes && base.q.len() <= FEW_BLOCKS * LANES;
         let may_ride = are_few && self.structure.is_classical() && self.rigid.pairs.is_empty();
-        closed.start(base, &self.pairs, scale, may_ride);
-        let loads = (&work.load[..], &work.slope[..]);
+        step.closed.start(base, &self.pairs, scale, may_ride);
+        self.expand_to(base, step, work, self.order + 1);
+    }
+
+    /// Expands the started series to `order`, or goes on with it.
+    fn expand_to(&self, base: &Base, step: &mut Step, work: &mut Workspace, order: usize) {
+        let (structure, loads) = (&self.structure, (&work.load[..], &work.slope[..]));
+        let Step { series, closed, .. } = step;
         match base.coordinates {
             Coordinates::Floors => {
-                let (floors, order) = (&self.structure.floors, self.order + 1);
-                with_forces!(closed, [Linear, Spring, Damped, Root], false, OnFloors, |forces| series
-                    .expand_floors(floors, order, loads, forces));
+                with_forces!(closed, [Linear, Spring, Damped, Root], false, OnFloors, |forces| series.expand_floors(
+                    &structure.floors,
+                    order,
+                    loads,
+                    forces
+                ));
             }
-            Coordinates::Modes if self.structure.is_classical() && work.rigid.pairs.is_empty() => {
-                let (structure, order) = (&self.structure, self.order + 1);
+            Coordinates::Modes if structure.is_classical() && work.rigid.pairs.is_empty() => {
                 if base.q.len() > FEW_BLOCKS * LANES {
                     with_forces!(closed, [], false, OnModes(&self.pairs), |forces| series
                         .expand_modes(structure, order, loads, forces));
@@ -212,8 +219,8 @@ impl Model {
                 }
             }
             Coordinates::Modes => {
-                for n in 0..self.order {
-                    self.extend_together(step, (&work.load, &work.slope), &mut work.rigid, n);
+                while step.series.order < order {
+                    self.extend_together(step, (&work.load, &work.slope), &mut work.rigid);
                 }
             }
         }
@@ -221,16 +228,17 @@ impl Model {
 
     /// More powers of the series where these are cheap and it does not reach the release of any pair yet, within
     /// `reach`; whether there are more now.
-    fn expand_further(&self, base: &Base, step: &mut Step, work: &Workspace, reach: f64) -> bool {
-        let Step { series, closed, .. } = step;
+    fn expand_further(&self, base: &Base, step: &mut Step, work: &mut Workspace, reach: f64) -> bool {
         let is_on_few_modes = base.coordinates == Coordinates::Modes
             && base.q.len() <= FEW_BLOCKS * LANES
             && self.structure.is_classical()
             && work.rigid.pairs.is_empty();
-        if !is_on_few_modes || self.linear_order <= self.order || closed.are_some_nearly_released(reach) {
+        let are_cheap = is_on_few_modes && self.linear_order > self.order && step.closed.count_linear().is_some();
+        if !are_cheap || step.closed.are_some_nearly_released(reach) {
             return false;
         }
-        self.expand_linear(series, closed, self.linear_order + 1, (&work.load, &work.slope))
+        self.expand_to(base, step, work, self.linear_order + 1);
+        true
     }
 
     /// Expands a started series of few modes to `order`, or goes on with it, where all pairs are under linear laws;
@@ -262,8 +270,9 @@ impl Model {
     }
 
     /// One power of the modes, where floors are held together.
-    fn extend_together(&self, step: &mut Step, (load, slope): (&[f64], &[f64]), rigid: &mut Complementarity, n: usize) {
+    fn extend_together(&self, step: &mut Step, (load, slope): (&[f64], &[f64]), rigid: &mut Complementarity) {
         let Step { series, closed, reactions, reaction_order, .. } = step;
+        let n = series.order - 1;
         let scale = series.scale;
         closed.extend_forces(n);
         let load_of_power = |out: &mut [f64]| {
@@ -295,6 +304,14 @@ impl Model {
         work: &mut Workspace,
         (reach, remaining): (f64, f64),
     ) -> f64 {
+        let Some((clock, furthest)) = self.clock(base, step, reach) else { return reach };
+        step.bend(clock, &mut work.bend);
+        let reach = self.reach_of_rates(base, &step.series, work);
+        self.cautious(reach, furthest.min(clock.place(remaining / step.series.scale)))
+    }
+
+    /// The clock for series that reach so far in time, if one takes them further, and how far that is good for.
+    fn clock(&self, base: &Base, step: &Step, reach: f64) -> Option<(Clock, f64)> {
         let is_behind = |(_, contact): &(usize, &Contact)| {
             contact.phase == Phase::Engaged && !contact.branch().is_regular() && contact.age > 0.0
         };
@@ -303,22 +320,24 @@ impl Model {
         let release = (1.0 + LATE) * step.closed.first_release(reach / NEAR);
         let (bend, furthest) = match () {
             // Reached or passed as it is, or in a scale far too long.
-            _ if release < reach || reach > FURTHEST_FROM_ENTRY * since || reach < 1.0 / FURTHEST => return reach,
+            _ if release < reach || reach > FURTHEST_FROM_ENTRY * since || reach < 1.0 / FURTHEST => return None,
             // Nothing to measure an error against.
-            _ if base.velocity_scale == 0.0 => return reach,
+            _ if base.velocity_scale == 0.0 => return None,
             _ if reach > NEAR * since => (0.25 / since, FURTHEST_FROM_ENTRY * since),
             _ if release.is_finite() => (-0.25 / release, 2.0 * release * self.boldness()),
-            _ => return reach,
+            _ => return None,
         };
-        let clock = Clock { bend };
-        step.bend(clock, &mut work.bend);
-        let allowed = self.step_tolerance * base.velocity_scale * step.series.scale;
+        Some((Clock { bend }, furthest))
+    }
+
+    /// How far, by its clock, the last two terms of the velocities of a series stay below the tolerance.
+    fn reach_of_rates(&self, base: &Base, series: &MotionSeries, work: &mut Workspace) -> f64 {
+        let allowed = self.step_tolerance * base.velocity_scale * series.scale;
         let (last, before) = (&mut work.node_q, &mut work.node_v);
-        let powers = step.series.last_rates(&clock, last, before);
+        let powers = series.last_rates(last, before);
         let sizes = [last, before].map(|term| self.worst_floor(base.coordinates, term));
         let reaches = powers.iter().zip(sizes).filter(|(_, size)| *size > 0.0);
-        let reach = reaches.map(|(power, size)| rough_root(allowed / size, *power)).fold(f64::INFINITY, f64::min);
-        self.cautious(reach, furthest.min(clock.place(remaining / step.series.scale)))
+        reaches.map(|(power, size)| rough_root(allowed / size, *power)).fold(f64::INFINITY, f64::min)
     }
 
     /// Share of the way to the end of a clock that a step may take.

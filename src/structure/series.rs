@@ -149,8 +149,8 @@ impl MotionSeries {
         self.order += 1;
     }
 
-    /// Expands from a started series of modes that damping does not couple to `order`, or goes on with an expanded one, under a load, its slope and the
-    /// forces of some pairs; the terms of up to [`FEW_BLOCKS`] blocks of modes stay in registers.
+    /// Expands from a started series of modes that damping does not couple to `order`, or goes on with an expanded one, under
+    /// a load, its slope and the forces of some pairs; the terms of up to [`FEW_BLOCKS`] blocks of modes stay in registers.
     pub fn expand_few_modes(
         &mut self,
         structure: &Structure,
@@ -175,7 +175,7 @@ impl MotionSeries {
         forces: &mut impl PairForces,
     ) {
         let lanes = self.lanes;
-        for n in 0..order - 1 {
+        for n in self.order - 1..order - 1 {
             let (known, rest) = self.coefficients.split_at_mut((n + 2) * lanes);
             let (before, last) = known[n * lanes..].split_at(lanes);
             let next = &mut rest[..lanes];
@@ -195,7 +195,8 @@ impl MotionSeries {
         self.order = order;
     }
 
-    /// Expands from a started series of all floors to `order` under a load, its slope and the forces of some pairs.
+    /// Expands from a started series of all floors to `order`, or goes on with an expanded one, under a load, its slope and
+    /// the forces of some pairs.
     pub fn expand_floors(
         &mut self,
         floors: &Floors,
@@ -248,12 +249,12 @@ impl MotionSeries {
         sum_sizes(terms, &powers[first..], &mut sizes[..self.lanes]);
     }
 
-    /// The last two terms of the velocities by a clock, m, which tell how far its x reaches; returns their powers.
-    pub fn last_rates(&self, clock: &Clock, last: &mut [f64], before: &mut [f64]) -> [usize; 2] {
+    /// The last two terms of the velocities by its clock, m, which tell how far its x reaches; returns their powers.
+    pub fn last_rates(&self, last: &mut [f64], before: &mut [f64]) -> [usize; 2] {
         let powers = [self.order - 1, self.order - 2];
         let [mut of_last, mut of_before] = [[0.0; ROOM]; 2];
-        clock.weigh_rate_term(powers[0], &mut of_last);
-        clock.weigh_rate_term(powers[1], &mut of_before);
+        self.clock.weigh_rate_term(powers[0], &mut of_last);
+        self.clock.weigh_rate_term(powers[1], &mut of_before);
         let first = powers[1] / 2;
         let terms = &self.coefficients[first * self.lanes..(self.order + 1) * self.lanes];
         let factors = (&of_last[first..=self.order], &of_before[first..=self.order]);
@@ -465,9 +466,12 @@ fn expand_floors<F: PairForces>(
 ) {
     let lanes = series.lanes;
     let (scale2, inverse) = (series.scale * series.scale, 1.0 / series.scale);
-    series.coefficients[2 * lanes..3 * lanes].copy_from_slice(&load[..lanes]);
-    series.coefficients[3 * lanes..4 * lanes].copy_from_slice(&slope[..lanes]);
-    for n in 0..(order - 1).min(ROOM - 3) {
+    let first = series.order - 1;
+    if first == 0 {
+        series.coefficients[2 * lanes..3 * lanes].copy_from_slice(&load[..lanes]);
+        series.coefficients[3 * lanes..4 * lanes].copy_from_slice(&slope[..lanes]);
+    }
+    for n in first..(order - 1).min(ROOM - 3) {
         let (known, rest) = series.coefficients.split_at_mut((n + 2) * lanes);
         let (u, v) = known[n * lanes..].split_at(lanes);
         let (next, _) = rest[..lanes].as_chunks_mut::<LANES>();
