@@ -219,11 +219,12 @@ impl Model {
             Event::Entry(p) => {
                 let contact = &mut base.contacts[p];
                 contact.penetration = 0.0;
-                contact.rate = self.pairs[p].difference(base.coordinates, &base.v).0;
+                // What enters does not move apart but for rounding.
+                contact.rate = self.pairs[p].difference(base.coordinates, &base.v).0.max(0.0);
                 contact.at_surface = true;
                 let (pair, approach) = (&self.pairs[p], contact.rate.max(self.least_approach));
                 contact.force = EpisodeForce::new(&pair.law, pair.mass, Some(approach));
-                contact.begin(time, contact.rate.max(0.0));
+                contact.begin(time, contact.rate);
                 base.impacts += 1;
                 // The first series of an episode finds its own scale.
                 base.last_length = 0.0;

@@ -6,8 +6,11 @@ use super::roots;
 use super::state::*;
 use crate::contact::Guard;
 use crate::contact::series::BlockReading;
-use crate::polynomial::Coefficients;
+use crate::polynomial::{Coefficients, Powers};
 use crate::structure::MotionSeries;
+
+/// Share of the velocities so far below which a rate may be rounding.
+const ALIKE: f64 = 1e-12;
 
 impl Model {
     /// The first event of a pair in contact up to the end of the step's series.
@@ -49,20 +52,33 @@ impl Model {
         let first = released.map(|x| (x, Event::Release(p)));
         let Some(guard) = contact.force.guard else { return first };
         let until = released.unwrap_or(until);
-        match self.passes_guard(contact, &guard, step, (lane, reading), until, &mut work.scalar) {
+        let noise = self.noise_of_guard(contact, &guard, base, step, work);
+        match self.passes_guard(contact, &guard, step, (lane, reading), (until, noise), &mut work.scalar) {
             Some(x) if x < until || first.is_none() => Some((x, Event::Branch(p))),
             _ => first,
         }
     }
 
-    /// Where a contact passes to the other side of its guard.
+    /// By how much a guard has to be passed, in its unit: by more than rounding where the floors move alike but for that, else
+    /// the contact would pass back and forth for ever.
+    fn noise_of_guard(&self, contact: &Contact, guard: &Guard, base: &Base, step: &Step, work: &mut Workspace) -> f64 {
+        let rate = contact.rate.abs();
+        if rate > ALIKE * base.velocity_scale {
+            return 0.0;
+        }
+        let size = self.size_of(contact.episode.contact, base, step, work, |powers| powers.in_time().1);
+        let noise = 2.0 * f64::EPSILON * size / step.series.scale;
+        if rate <= noise { guard.damping.abs() * noise } else { 0.0 }
+    }
+
+    /// Where a contact passes to the other side of its guard, by more than a `noise`.
     fn passes_guard(
         &self,
         contact: &Contact,
         guard: &Guard,
         step: &Step,
         (lane, reading): (usize, &BlockReading),
-        until: f64,
+        (until, noise): (f64, f64),
         scalar: &mut Coefficients,
     ) -> Option<f64> {
         let (MotionSeries { scale, clock, .. }, end) = (&step.series, step.end.x);
@@ -82,7 +98,7 @@ impl Model {
         let mut previous = 0.0;
         for n in 0..terms {
             let spring = stiffness * scalar[n];
-            let constant = if n == 0 { sense * guard.constant } else { 0.0 };
+            let constant = if n == 0 { sense * guard.constant - noise } else { 0.0 };
             scalar[n] = (spring + rate * (n + 1) as f64 * scalar[n + 1]) + (constant + 2.0 * clock.bend * previous);
             previous = spring + constant;
         }
@@ -91,11 +107,24 @@ impl Model {
 
     /// m, rounding error of a penetration within the step.
     fn noise_of(&self, p: usize, base: &Base, step: &Step, work: &mut Workspace) -> f64 {
+        let size = self.size_of(p, base, step, work, |powers| powers.in_time().0);
+        self.pairs[p].noise(size)
+    }
+
+    /// The sum of the sizes of all that a pair's relative motion is added up from, each term times its factor at the end of
+    /// the step.
+    fn size_of(
+        &self,
+        p: usize,
+        base: &Base,
+        step: &Step,
+        work: &mut Workspace,
+        factors: impl Fn(&Powers) -> &Coefficients,
+    ) -> f64 {
         let series = &step.series;
         work.powers.set_by(&series.clock, step.end.x, series.order);
         work.powers.set_in_time(&series.clock);
-        let size = self.project(p, base.coordinates, series, work.powers.in_time().0, &mut work.scalar);
-        self.pairs[p].noise(size)
+        self.project(p, base.coordinates, series, factors(&work.powers), &mut work.scalar)
     }
 
     /// The scalar series in time of a pair's relative motion, written to `out[n]`. Returns the sum of the sizes of all that

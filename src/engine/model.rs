@@ -358,13 +358,15 @@ impl Pair {
             work_before: 0.0,
             age: 0.0,
         };
+        let noise = self.noise(crate::structure::difference(&self.row, q).1);
         if self.law.is_rigid() {
             // Overlaps by rounding at most: the scene is refused otherwise.
-            let noise = self.noise(crate::structure::difference(&self.row, q).1);
             contact.at_surface = penetration >= -noise;
             contact.penetration = penetration.min(0.0);
-        } else if penetration > 0.0 {
+        } else if penetration > noise {
             contact.begin(time, 0.0);
+        } else if penetration > 0.0 {
+            (contact.penetration, contact.at_surface) = (0.0, true);
         }
         contact
     }

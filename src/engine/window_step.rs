@@ -234,6 +234,12 @@ impl Model {
         if let Some(next) = step.window.passed(draft) {
             return Verdict::Another(next);
         }
+        // What still approaches is not released: its depth is below what the iteration leaves open.
+        if let Ending::Release(place) = draft.ending
+            && solution.end[place].1 >= 0.0
+        {
+            return Verdict::Hopeless;
+        }
         let error = solution.velocity_error(equation) / tolerance;
         let allowed = windows.allowed;
         if error > allowed {

@@ -3,6 +3,7 @@
 //! docs/stability.md tells which test covers which hazard, those of other files included.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod alike;
 #[path = "../common/mod.rs"]
 mod common;
 mod elastic;
