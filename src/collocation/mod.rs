@@ -20,8 +20,9 @@ mod tables;
 
 pub use equation::{Equation, MOST_PAIRS, Room};
 pub use nodes::{NODES, Nodes, Row, Rule, dot, nodes};
+pub use rows::{fours, larger};
 pub use solve::{Ending, Frame, Solution};
-pub use tables::{Map, POWERS, Tables};
+pub use tables::{Kernel, Map, POWERS, Tables};
 
 #[cfg(test)]
 mod tests;

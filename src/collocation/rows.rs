@@ -54,20 +54,42 @@ pub fn combined<const N: usize>(rows: &[Row], factors: &[f64]) -> Row {
     row(&sum)
 }
 
-/// Adds a matrix times values; every other column by itself, so that no sum waits for the one before.
+/// A matrix times values.
 #[inline(always)]
-pub fn add_product<const N: usize>(to: &mut Fours, matrix: &Matrix, values: &Row) {
-    let mut sums = [*to, NOTHING];
-    let columns = matrix[..N].as_chunks::<2>().0.iter().zip(values[..N].as_chunks::<2>().0);
-    for (columns, values) in columns {
-        for ((sum, column), value) in sums.iter_mut().zip(columns).zip(values) {
-            for (sum, column) in sum.iter_mut().zip(fours(column)).take(N / 4) {
+pub fn product<const N: usize>(matrix: &Matrix, values: &Row) -> Fours {
+    add_product::<N>(&NOTHING, matrix, values)
+}
+
+/// Numbers and a matrix times values.
+#[inline(always)]
+pub fn add_product<const N: usize>(to: &Fours, matrix: &Matrix, values: &Row) -> Fours {
+    let mut sum = *to;
+    match N {
+        // Half of them at a time: the compiler keeps no more sums in wide registers.
+        16 => {
+            add_rows::<N, 2>(&mut sum, 0, matrix, values);
+            add_rows::<N, 2>(&mut sum, 2, matrix, values);
+        }
+        12 => add_rows::<N, 3>(&mut sum, 0, matrix, values),
+        _ => add_rows::<N, 2>(&mut sum, 0, matrix, values),
+    }
+    sum
+}
+
+/// Enters some fours of a product; every other column by itself, so that no sum waits for the one before.
+#[inline(always)]
+fn add_rows<const N: usize, const FOURS: usize>(to: &mut Fours, first: usize, matrix: &Matrix, values: &Row) {
+    let to = &mut to[first..first + FOURS];
+    let (mut even, mut odd) = ([[0.0; 4]; FOURS], [[0.0; 4]; FOURS]);
+    even.copy_from_slice(to);
+    for (columns, values) in matrix[..N].as_chunks::<2>().0.iter().zip(values[..N].as_chunks::<2>().0) {
+        for ((sum, column), value) in [&mut even, &mut odd].into_iter().zip(columns).zip(values) {
+            for (sum, column) in sum.iter_mut().zip(&fours(column)[first..first + FOURS]) {
                 *sum = each(|i| sum[i] + column[i] * value);
             }
         }
     }
-    let [even, odd] = &sums;
-    for ((to, even), odd) in to.iter_mut().zip(even).zip(odd).take(N / 4) {
+    for ((to, even), odd) in to.iter_mut().zip(&even).zip(&odd) {
         *to = each(|i| even[i] + odd[i]);
     }
 }
@@ -124,10 +146,8 @@ fn inside(depth: &[f64; 4]) -> [f64; 4] {
 #[inline(always)]
 pub fn value<const N: usize>(terms: &[f64], x: &Fours) -> Row {
     let mut value = NOTHING;
-    for term in terms.iter().rev() {
-        for (value, x) in value.iter_mut().zip(x).take(N / 4) {
-            *value = each(|i| value[i] * x[i] + term);
-        }
+    for (value, x) in value.iter_mut().zip(x).take(N / 4) {
+        *value = terms.iter().rev().fold([0.0; 4], |value, term| each(|i| value[i] * x[i] + term));
     }
     row(&value)
 }
@@ -135,15 +155,15 @@ pub fn value<const N: usize>(terms: &[f64], x: &Fours) -> Row {
 /// Values and derivatives by t of a polynomial in x = t / scale.
 #[inline(always)]
 pub fn values<const N: usize>(terms: &[f64], x: &Fours, scale: f64) -> (Row, Row) {
-    let (mut value, mut slope) = (NOTHING, NOTHING);
-    for term in terms.iter().rev() {
-        for ((value, slope), x) in value.iter_mut().zip(&mut slope).zip(x).take(N / 4) {
-            *slope = each(|i| slope[i] * x[i] + value[i]);
-            *value = each(|i| value[i] * x[i] + term);
-        }
+    let (mut value, mut rate) = (NOTHING, NOTHING);
+    let per_second = 1.0 / scale;
+    for ((value, rate), x) in value.iter_mut().zip(&mut rate).zip(x).take(N / 4) {
+        let (last, slope) = terms.iter().rev().fold(([0.0; 4], [0.0; 4]), |(value, slope), term| {
+            (each(|i| value[i] * x[i] + term), each(|i| slope[i] * x[i] + value[i]))
+        });
+        (*value, *rate) = (last, each(|i| slope[i] * per_second));
     }
-    let rate = 1.0 / scale;
-    (row(&value), row(&slope.map(|slope| each(|i| slope[i] * rate))))
+    (row(&value), row(&rate))
 }
 
 #[inline(always)]
@@ -155,6 +175,6 @@ pub fn row(fours: &Fours) -> Row {
 
 /// Of a polynomial.
 pub fn second_derivative(terms: &[f64], x: f64) -> f64 {
-    let terms = terms.iter().zip(&SECOND).skip(2).rev();
-    terms.fold(0.0, |sum, (c, count)| sum * x + count * c)
+    let last = terms.len().min(SECOND.len());
+    terms[2..last].iter().zip(&SECOND[2..last]).rev().fold(0.0, |sum, (c, count)| sum * x + count * c)
 }

@@ -5,7 +5,7 @@
 
 use super::equation::{Equation, MOST_PAIRS, Room};
 use super::nodes::{NODES, Row, Rule, dot, nodes};
-use super::rows::{NOTHING, add_product, combine, forces, fours, fours_mut, larger, row, second_derivative};
+use super::rows::{NOTHING, add_product, combine, forces, fours, fours_mut, larger, product, row, second_derivative};
 use super::tables::{Map, Tables};
 use crate::polynomial::each;
 
@@ -91,8 +91,7 @@ impl Solution {
                 &mut [&mut self.depth[p]]
             };
             for row in rows {
-                let mut slope = NOTHING;
-                add_product::<N>(&mut slope, &nodes.derivative, row);
+                let slope = product::<N>(&nodes.derivative, row);
                 let rows = fours_mut(row).iter_mut().zip(fours(&tables.lag)).zip(&slope).take(N / 4);
                 rows.for_each(|((row, lag), slope)| *row = each(|i| row[i] + share * lag[i] * slope[i]));
             }
@@ -147,9 +146,9 @@ impl Solution {
         let mut changes = [0.0; 4];
         for p in 0..equation.closed {
             let (free, law) = (&room.free[p], equation.forces[p]);
-            let mut taken = NOTHING;
-            for (q, force) in self.force.iter().enumerate().take(equation.closed) {
-                add_product::<N>(&mut taken, &room.response(p, q).between, force);
+            let mut taken = product::<N>(&room.response(p, 0).between, &self.force[0]);
+            for (q, force) in self.force.iter().enumerate().take(equation.closed).skip(1) {
+                taken = add_product::<N>(&taken, &room.response(p, q).between, force);
             }
             let scale = match equation.by_rates() {
                 true => {
@@ -157,8 +156,7 @@ impl Solution {
                     for ((rate, free), taken) in rates.zip(&taken).take(N / 4) {
                         *rate = each(|i| free[i] - ratio * taken[i]);
                     }
-                    let slowed = row(&std::mem::replace(&mut taken, NOTHING));
-                    add_product::<N>(&mut taken, &tables.inner[0], &slowed);
+                    taken = product::<N>(&tables.inner[0], &row(&taken));
                     ratio * self.length
                 }
                 false => ratio * ratio,
@@ -200,7 +198,7 @@ impl Solution {
                 let mut response = [[0.0; NODES]; NODES];
                 let count = equation.count_over(p, &factors, self.length, equation.remainder);
                 combine::<N>(&tables.inner[1..], &factors[..count], &mut response);
-                add_product::<N>(&mut taken, &response, &self.force[q]);
+                taken = add_product::<N>(&taken, &response, &self.force[q]);
             }
             let depths = fours_mut(&mut self.depth[p]).iter_mut().zip(fours(&room.free[p].depth)).zip(&taken);
             depths.take(N / 4).for_each(|((depth, free), taken)| *depth = each(|i| free[i] - taken[i]));

@@ -7,6 +7,9 @@ use std::sync::OnceLock;
 /// Powers of the time left that are tabulated.
 pub const POWERS: usize = RESPONSE_POWERS;
 
+/// G of one pair under the force of another, in powers of t.
+pub type Kernel = [f64; POWERS];
+
 /// How the time of a window goes with x, both from 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Map {

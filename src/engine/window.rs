@@ -2,8 +2,10 @@
 
 use super::model::Model;
 use super::state::*;
-use crate::collocation::{Equation, MOST_PAIRS, NODES, Nodes, POWERS, Row, Rule, Solution, Tables, dot, nodes};
-use crate::polynomial::{Powers, value_and_slope};
+use crate::collocation::{
+    Equation, Kernel, MOST_PAIRS, NODES, Nodes, POWERS, Row, Rule, Solution, Tables, dot, fours, larger, nodes,
+};
+use crate::polynomial::{Powers, each, value_and_slope};
 
 /// Share of a peak that the node next to it has at least.
 const NEARLY: f64 = 0.97;
@@ -21,6 +23,8 @@ pub(super) struct Window {
     pub contacts: [usize; MOST_PAIRS],
     pub equation: Equation,
     pub solution: Solution,
+    /// N, bounds on the size of the forces, between the nodes too.
+    pub greatest: [f64; MOST_PAIRS],
     /// Until its end.
     whole: Moments,
 }
@@ -63,40 +67,42 @@ impl Window {
         part.times.into_iter().zip(part.weights)
     }
 
-    /// Works out the moments until the end of a solution that has been found.
+    /// Works out the moments until the end of a solution that has been found, and how large its forces are.
     pub fn close(&mut self) {
         let Equation { closed, powers, .. } = self.equation;
         let Solution { map, rule, length, ref force, .. } = self.solution;
         let whole = &Tables::of(map, rule).whole;
-        for (moments, force) in self.whole.iter_mut().zip(force).take(closed) {
+        for ((moments, greatest), force) in self.whole.iter_mut().zip(&mut self.greatest).zip(force).take(closed) {
             weigh_whole(&whole[..powers], force, length, moments);
+            *greatest = 2.0 * largest(force);
         }
     }
 
-    /// The moments until `elapsed`, for which there is `room`.
-    pub fn moments<'a>(&'a self, elapsed: f64, room: &'a mut Moments) -> &'a Moments {
+    /// The moments until `elapsed`, for which there is `room` where they are not those until the end.
+    pub fn moments<'a>(&'a self, elapsed: f64, room: &'a mut Option<Moments>) -> &'a Moments {
         let Equation { closed, powers, .. } = self.equation;
         let Solution { rule, length, ref force, .. } = self.solution;
         if elapsed == length {
             return &self.whole;
         }
         let part = self.part(elapsed, rule);
-        for (moments, force) in room.iter_mut().zip(force).take(closed) {
+        let all = room.insert(Moments::default());
+        for (moments, force) in all.iter_mut().zip(force).take(closed) {
             weigh(nodes(rule), force, &part, elapsed, &mut moments[..powers]);
         }
-        room
+        all
     }
 
     /// Penetration, m, and rate, m/s, of a pair under these moments.
     fn depth(&self, place: usize, elapsed: f64, moments: &Moments) -> (f64, f64) {
         let Equation { terms, ref free, ref kernels, .. } = self.equation;
-        self.depth_of((&free[place][..terms], &kernels[place]), elapsed, moments)
+        self.depth_of((&free[place][..terms], &kernels[place].each_ref()), elapsed, moments)
     }
 
     /// The same from the terms of its motion without contact forces and its kernels.
     pub fn depth_of(
         &self,
-        (free, kernels): (&[f64], &[[f64; POWERS]; MOST_PAIRS]),
+        (free, kernels): (&[f64], &[&Kernel; MOST_PAIRS]),
         elapsed: f64,
         moments: &Moments,
     ) -> (f64, f64) {
@@ -111,6 +117,12 @@ impl Window {
         }
         (d - taken, v / scale - slowed)
     }
+}
+
+/// The largest size of a number at the nodes.
+fn largest(row: &Row) -> f64 {
+    let sizes = fours(row).iter().fold([0.0; 4], |most, row| each(|i| larger(row[i].abs(), most[i])));
+    sizes.into_iter().fold(0.0, larger)
 }
 
 /// The moments of one force over its window. Wide instructions give the same bits.
@@ -145,7 +157,7 @@ impl Model {
         powers.set(elapsed / step.series.scale, step.series.order);
         step.series.evaluate(powers, q, v);
         let window = &step.window;
-        let mut room = Moments::default();
+        let mut room = None;
         let moments = window.moments(elapsed, &mut room);
         for (p, moments) in window.contacts.iter().zip(moments).take(window.equation.closed) {
             windows.response.push(&self.pairs[*p].row, &moments[..window.equation.powers], (q, v));
@@ -162,7 +174,7 @@ impl Contact {
         let solution = &window.solution;
         let nodes = nodes(solution.rule);
         let is_whole = elapsed == solution.length;
-        let mut room = Moments::default();
+        let mut room = None;
         let moments = window.moments(elapsed, &mut room);
         self.impulse += moments[place][0];
         self.episode.impulse += moments[place][0];
@@ -183,7 +195,7 @@ impl Contact {
         // Between nodes forces are known to fewer digits than what they do: what is read there is worked out from that.
         let read = |x: f64| {
             let elapsed = solution.length * solution.map.at(x).0;
-            window.depth(place, elapsed, window.moments(elapsed, &mut Moments::default()))
+            window.depth(place, elapsed, window.moments(elapsed, &mut None))
         };
         let at = |x: f64| (x, if x == last { end } else { read(x) });
         let deepest = way.highest(depth, end.0, self.episode.peak_penetration).map(at);

@@ -7,11 +7,11 @@
 
 use super::model::Model;
 use super::state::*;
-use super::window::{Moments, Window};
-use crate::collocation::{Ending, MOST_PAIRS, POWERS, Tables};
+use super::window::Window;
+use super::window_step::relate;
+use crate::collocation::{Ending, Kernel, MOST_PAIRS, POWERS, Solution, Tables};
 use crate::contact::Guard;
 use crate::polynomial::SECOND;
-use crate::structure::dot;
 
 /// Pieces of a window are halved so many times to show that a pair stays apart: down to a distance of rounding.
 const MOST_HALVINGS: u32 = 16;
@@ -22,11 +22,10 @@ impl Model {
         let window = &*step.window;
         let equation = &window.equation;
         let pairs_hold = (0..equation.pairs).all(|place| {
-            let kernels = &equation.kernels[place];
-            let at_once = |other: usize| if other == place { 0.0 } else { kernels[other][1].abs() };
+            let kernels = &equation.kernels[place].each_ref();
             let way = if place < equation.closed { Way::Up } else { Way::Down };
             let free = &equation.free[place][..equation.terms];
-            let bend = window.bend(way, free, |other| (at_once(other), &kernels[other]));
+            let bend = window.bend(way, free, kernels, Some(place));
             let passage = Passage { window, place, contact: &base.contacts[window.contacts[place]], bend, ending };
             if place < equation.closed {
                 return passage.stays_in_contact();
@@ -46,14 +45,12 @@ impl Model {
         others.all(|(p, contact)| {
             let row = &self.pairs[p].row;
             let terms = &mut work.scalar[..=series.order];
-            for (n, term) in terms.iter_mut().enumerate().skip(2) {
-                *term = dot(row, series.term(n));
+            relate(row, series, terms);
+            let (mut kernels, mut room) = ([&[0.0; POWERS]; MOST_PAIRS], [None; MOST_PAIRS]);
+            for ((kernel, room), q) in kernels.iter_mut().zip(&mut room).zip(&contacts[..equation.closed]) {
+                *kernel = windows.kernel(&self.pairs, p, *q, room);
             }
-            let kernels: [[f64; POWERS]; MOST_PAIRS] = std::array::from_fn(|q| match q < equation.closed {
-                true => windows.kernel(&self.pairs, p, contacts[q]),
-                false => [0.0; POWERS],
-            });
-            let bend = |way: Way| window.bend(way, terms, |q| (kernels[q][1].abs(), &kernels[q]));
+            let bend = |way: Way| window.bend(way, terms, &kernels, None);
             if keeps_off(contact, bend(Way::Up), solution.length) {
                 return true;
             }
@@ -83,27 +80,28 @@ pub(super) fn keeps_off(contact: &Contact, bend: f64, h: f64) -> bool {
 
 impl Window {
     /// m/s^2, bound on what bends the penetration of a pair that way over the window: its motion without contact forces, of
-    /// which the terms are given, and what the forces do, of which the kernels are and what they do at once.
-    fn bend<'a>(&self, way: Way, free: &[f64], kernels: impl Fn(usize) -> (f64, &'a [f64; POWERS])) -> f64 {
-        let Window { equation, solution, .. } = self;
+    /// which the terms are given, and what the forces do, of which the kernels are: all but what that of the pair itself,
+    /// where it has one, does at once.
+    fn bend(&self, way: Way, free: &[f64], kernels: &[&Kernel; MOST_PAIRS], itself: Option<usize>) -> f64 {
+        let Window { equation, solution, greatest, .. } = self;
         let (x, h) = (solution.length / equation.scale, solution.length);
-        let later = free.iter().zip(&SECOND).skip(3).rev();
-        let later = later.fold(0.0, |sum, (c, count)| sum * x + count * c.abs());
+        let later = sum_of_sizes(free, 3, x);
         let at_start = if way == Way::Up { 2.0 * free[2] } else { -2.0 * free[2] };
         let mut bend = (at_start + later * x) / (equation.scale * equation.scale);
         for q in 0..equation.closed {
-            let (at_once, kernel) = kernels(q);
-            let terms = kernel[..equation.powers].iter().zip(&SECOND).skip(2).rev();
-            let later = terms.fold(0.0, |sum, (g, count)| sum * h + count * g.abs());
-            bend += greatest(&solution.force[q][..solution.rule.count()]) * (at_once + later * h);
+            let at_once = if itself == Some(q) { 0.0 } else { kernels[q][1].abs() };
+            let later = sum_of_sizes(&kernels[q][..equation.powers], 2, h);
+            bend += greatest[q] * (at_once + later * h);
         }
         bend.max(0.0)
     }
 }
 
-/// Bound on the size of a force between its nodes too.
-fn greatest(force: &[f64]) -> f64 {
-    2.0 * force.iter().fold(0.0_f64, |most, force| most.max(force.abs()))
+/// Sum of the sizes of the second derivatives of terms from one on, in powers of x from that one on.
+fn sum_of_sizes(terms: &[f64], first: usize, x: f64) -> f64 {
+    let last = terms.len().min(SECOND.len());
+    let terms = terms[first..last].iter().zip(&SECOND[first..last]);
+    terms.rev().fold(0.0, |sum, (c, count)| sum * x + count * c.abs())
 }
 
 /// A pair that is apart while a window is under way, whose distance can be read anywhere. However near it comes: where it
@@ -112,7 +110,7 @@ struct Approach<'a> {
     window: &'a Window,
     /// Terms of its motion without contact forces.
     free: &'a [f64],
-    kernels: &'a [[f64; POWERS]; MOST_PAIRS],
+    kernels: &'a [&'a Kernel; MOST_PAIRS],
     /// m/s^2, see [`Window::bend`].
     bend: f64,
 }
@@ -120,7 +118,7 @@ struct Approach<'a> {
 impl Approach<'_> {
     /// m, penetration after so many seconds.
     fn depth(&self, elapsed: f64) -> f64 {
-        let mut room = Moments::default();
+        let mut room = None;
         self.window.depth_of((self.free, self.kernels), elapsed, self.window.moments(elapsed, &mut room)).0
     }
 
@@ -160,39 +158,65 @@ struct Piece {
     is_last: bool,
 }
 
+/// Whether a penetration that is above 0 at the nodes is so between them: above the chord but for the bend. Wide
+/// instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn stays_above((theta, length): (&[f64], f64), depth: &[f64], bend: f64) -> bool {
+    let mut holds = true;
+    for ((from, to), (start, end)) in theta.iter().zip(&theta[1..]).zip(depth.iter().zip(&depth[1..])) {
+        let gone = to * length - from * length;
+        holds &= start.min(*end) > 0.25 * (0.5 * bend * gone) * gone;
+    }
+    holds
+}
+
 impl Passage<'_> {
-    /// From the start by all nodes to the end.
-    fn pieces(&self) -> impl Iterator<Item = Piece> {
+    /// Whether something holds for all pieces, from the start by all nodes to the end.
+    #[inline(always)]
+    fn all(&self, mut holds: impl FnMut(Piece) -> bool) -> bool {
         let Window { solution, .. } = self.window;
         let theta = &Tables::of(solution.map, solution.rule).theta[..solution.rule.count()];
         let (depth, rate) = (&solution.depth[self.place], &solution.rate[self.place]);
-        let nodes = theta.iter().zip(depth).zip(rate).map(|((theta, d), v)| (theta * solution.length, *d, *v));
-        let (d, v) = solution.end[self.place];
-        let start = match self.contact.in_contact() {
+        let (mut time, mut from) = (0.0, self.start());
+        for ((theta, to), rate) in theta.iter().zip(depth).zip(rate) {
+            let next = theta * solution.length;
+            if !holds(Piece { gone: next - time, from, to: *to, rate: *rate, is_last: false }) {
+                return false;
+            }
+            (time, from) = (next, *to);
+        }
+        let (to, rate) = solution.end[self.place];
+        holds(Piece { gone: solution.length - time, from, to, rate, is_last: true })
+    }
+
+    /// m, penetration at the start.
+    fn start(&self) -> f64 {
+        match self.contact.in_contact() {
             true => self.contact.penetration.max(0.0),
             false => self.contact.flight_start(),
-        };
-        let (mut time, mut from) = (0.0, start);
-        nodes.chain([(solution.length, d, v)]).map(move |(next, to, rate)| {
-            let piece = Piece { gone: next - time, from, to, rate, is_last: next == solution.length };
-            (time, from) = (next, to);
-            piece
-        })
+        }
     }
 
     /// Whether the pair stays in contact, and on its side of the guard.
     fn stays_in_contact(&self) -> bool {
         let is_released = self.ending == Ending::Release(self.place);
-        let holds = |piece: Piece| {
-            // Above the chord but for the bend.
-            let sag = 0.5 * self.bend * piece.gone;
-            match () {
-                _ if is_released && piece.is_last => piece.from / piece.gone > sag,
-                _ if piece.from == 0.0 => piece.to / piece.gone > sag,
-                _ => piece.from.min(piece.to) > 0.25 * sag * piece.gone,
-            }
+        let Solution { map, rule, length, ref depth, ref end, .. } = self.window.solution;
+        let theta = &Tables::of(map, rule).theta[..rule.count()];
+        let (depth, start, (end, _)) = (&depth[self.place][..rule.count()], self.start(), end[self.place]);
+        let (before, after) = (theta[0] * length, length - theta[theta.len() - 1] * length);
+        let sag = |gone: f64| 0.5 * self.bend * gone;
+        let begins = match start == 0.0 {
+            true => depth[0] / before > sag(before),
+            false => start.min(depth[0]) > 0.25 * sag(before) * before,
         };
-        self.pieces().all(holds)
+        let last = depth[depth.len() - 1];
+        let ends = match is_released {
+            true => last / after > sag(after),
+            false => last.min(end) > 0.25 * sag(after) * after,
+        };
+        begins
+            && ends
+            && stays_above((theta, length), depth, self.bend)
             && match self.contact.force.guard {
                 None => true,
                 Some(_) if self.contact.phase == Phase::Slack => self.recedes(),
@@ -204,7 +228,7 @@ impl Passage<'_> {
     fn stays_apart(&self, approach: &Approach) -> bool {
         let touches = self.ending == Ending::Touch(self.place);
         let mut time = 0.0;
-        self.pieces().all(|piece| {
+        self.all(|piece| {
             let (start, end) = ((time, piece.from), (time + piece.gone, piece.to));
             time = end.0;
             // Below the chord but for the bend.
@@ -230,7 +254,7 @@ impl Passage<'_> {
     /// Whether the guard of an engaged pair stays positive, which it does while the pair approaches fast enough.
     fn is_engaged(&self, guard: &Guard) -> bool {
         let turns = self.ending == Ending::Turn(self.place);
-        self.pieces().all(|piece| {
+        self.all(|piece| {
             // Up to a turn the depth only grows.
             let depth = if turns { piece.from } else { self.least(&piece) };
             let falls = || self.brake(depth) > self.bend;
@@ -245,7 +269,7 @@ impl Passage<'_> {
     /// Whether a pair goes apart all the time, of which only penetrations are known.
     fn recedes(&self) -> bool {
         let mut rate = self.contact.rate;
-        self.pieces().all(|piece| {
+        self.all(|piece| {
             let falls = || self.brake(self.least(&piece)) > self.bend;
             let recedes = rate + self.bend * piece.gone < 0.0 || falls();
             rate = rate.min((piece.to - piece.from) / piece.gone) + self.bend * piece.gone;

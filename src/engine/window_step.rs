@@ -10,9 +10,10 @@ use super::state::*;
 use super::window::Window;
 use super::window_bounds::keeps_off;
 use super::window_draft::{Draft, Spring, patience};
-use crate::collocation::{Ending, MOST_PAIRS, POWERS, Tables};
+use crate::collocation::{Ending, Kernel, MOST_PAIRS, Tables};
 use crate::contact::Force;
-use crate::structure::{EXACT, ImpulseResponse, Structure, dot, flight_order};
+use crate::polynomial::each;
+use crate::structure::{EXACT, ImpulseResponse, LANES, MotionSeries, Structure, dot, flight_order};
 
 /// How far a kernel may be off, relative to what one step may.
 const KERNEL_SHARE: f64 = 0.03;
@@ -45,7 +46,7 @@ const MOST_TRIES: usize = 5;
 pub(super) struct Windows {
     pub response: ImpulseResponse,
     /// G_pq of pairs p and q, one row after the other, where they are few.
-    kernels: Vec<[f64; POWERS]>,
+    kernels: Vec<Kernel>,
     /// Error between nodes that a window may have, relative to what one step may.
     allowed: f64,
     /// Length of windows relative to the usual.
@@ -71,10 +72,26 @@ impl Windows {
 }
 
 impl Windows {
-    /// G_pq of two pairs.
-    pub fn kernel(&self, pairs: &[Pair], p: usize, q: usize) -> [f64; POWERS] {
-        let known = self.kernels.get(p * pairs.len() + q);
-        known.copied().unwrap_or_else(|| self.response.kernel(&pairs[p].row, &pairs[q].row))
+    /// G_pq of two pairs, for which there is `room` where it is not kept.
+    pub fn kernel<'a>(&'a self, pairs: &[Pair], p: usize, q: usize, room: &'a mut Option<Kernel>) -> &'a Kernel {
+        match self.kernels.get(p * pairs.len() + q) {
+            Some(known) => known,
+            None => room.insert(self.response.kernel(&pairs[p].row, &pairs[q].row)),
+        }
+    }
+}
+
+/// The terms of the distance of a pair, from the second power on: as [`dot`] has it. Wide instructions give the same
+/// bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+pub(super) fn relate(row: &[f64], series: &MotionSeries, terms: &mut [f64]) {
+    let row = row.as_chunks::<LANES>().0;
+    for (n, out) in (2..=series.order).zip(&mut terms[2..]) {
+        let mut sum = [0.0; LANES];
+        for (row, term) in row.iter().zip(series.term(n).as_chunks::<LANES>().0) {
+            sum = each(|i| sum[i] + row[i] * term[i]);
+        }
+        *out = ((sum[0] + sum[1]) + sum[2]) + sum[3];
     }
 }
 
@@ -188,12 +205,10 @@ impl Model {
         let free = &mut equation.free[place];
         free[0] = if contact.in_contact() { contact.penetration.max(0.0) } else { contact.flight_start() };
         free[1] = contact.rate * equation.scale;
-        for (n, term) in free.iter_mut().enumerate().take(series.order + 1).skip(2) {
-            *term = dot(row, series.term(n));
-        }
-        equation.kernels[place][place] = windows.kernel(&self.pairs, p, p);
+        relate(row, series, free);
+        equation.kernels[place][place] = *windows.kernel(&self.pairs, p, p, &mut None);
         for (other, q) in contacts.iter().enumerate().take(equation.closed).filter(|(other, _)| *other != place) {
-            equation.kernels[place][other] = windows.kernel(&self.pairs, p, *q);
+            equation.kernels[place][other] = *windows.kernel(&self.pairs, p, *q, &mut None);
         }
     }
 
@@ -277,6 +292,19 @@ impl Model {
     }
 }
 
+/// Which of some numbers at nodes, by fours, and of that at the end is the first of a kind.
+#[inline(always)]
+fn first_of(at_nodes: &[f64], end: f64, is_it: impl Fn(f64) -> bool) -> Option<usize> {
+    let mut is_any = [false; 4];
+    for four in at_nodes.as_chunks::<4>().0 {
+        is_any = std::array::from_fn(|i| is_any[i] | is_it(four[i]));
+    }
+    match is_any.contains(&true) {
+        true => at_nodes.iter().position(|number| is_it(*number)),
+        false => is_it(end).then_some(at_nodes.len()),
+    }
+}
+
 impl Window {
     /// The window up to the first event that a solved one has passed.
     fn passed(&self, draft: Draft) -> Option<Draft> {
@@ -290,10 +318,10 @@ impl Window {
             let event = if is_closed { Ending::Release(place) } else { Ending::Touch(place) };
             let is_beyond = |d: f64| if is_closed { d <= 0.0 } else { d > 0.0 };
             // Right after a release or entry it is at the surface.
-            let beyond = depth[..count].iter().chain([&d]).position(|d| is_beyond(*d));
+            let beyond = first_of(&depth[..count], d, is_beyond);
             let beyond = beyond.filter(|i| *i < theta.len() || draft.ending != event).map(|i| (i, event));
             let turns = is_closed && matches!(equation.forces[place], Force::Root { .. });
-            let turned = rate[..count].iter().chain([&v]).position(|v| turns && *v <= 0.0);
+            let turned = if turns { first_of(&rate[..count], v, |v| v <= 0.0) } else { None };
             let turn = Ending::Turn(place);
             let turned = turned.filter(|i| *i < theta.len() || draft.ending != turn).map(|i| (i, turn));
             for (i, event) in [beyond, turned].into_iter().flatten() {

@@ -1,6 +1,7 @@
 //! What an impulse makes of each mode: h'' + c h' + w^2 h = 0 from h = 0, h' = 1, as a power series in time.
 
 use super::{LANES, Structure};
+use crate::polynomial::{COUNT, each};
 
 /// Powers of time of an impulse response.
 pub const RESPONSE_POWERS: usize = 20;
@@ -71,24 +72,28 @@ impl ImpulseResponse {
 
     /// Takes from a motion what a force has done by its moments, N s^(k+1): the integrals of (time left)^k F. Its terms are
     /// added up before they meet the larger motion, from the smallest on.
-    pub fn push(&self, row: &[f64], moments: &[f64], (q, v): (&mut [f64], &mut [f64])) {
-        let width = self.lanes / LANES;
-        let (terms, row) = (self.terms.as_chunks::<LANES>().0, row.as_chunks::<LANES>().0);
-        let motion = q.as_chunks_mut::<LANES>().0.iter_mut().zip(v.as_chunks_mut::<LANES>().0);
-        for (c, ((q, v), row)) in motion.zip(row).enumerate() {
-            let (mut moved, mut slowed) = ([0.0; LANES], [0.0; LANES]);
-            for k in (1..moments.len()).rev() {
-                let (term, now, before) = (&terms[k * width + c], moments[k], k as f64 * moments[k - 1]);
-                for i in 0..LANES {
-                    moved[i] += term[i] * now;
-                    slowed[i] += term[i] * before;
-                }
-            }
-            for i in 0..LANES {
-                q[i] -= row[i] * moved[i];
-                v[i] -= row[i] * slowed[i];
-            }
+    pub fn push(&self, row: &[f64], moments: &[f64], motion: (&mut [f64], &mut [f64])) {
+        push(self, row, moments, motion);
+    }
+}
+
+/// See [`ImpulseResponse::push`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn push(response: &ImpulseResponse, row: &[f64], moments: &[f64], (q, v): (&mut [f64], &mut [f64])) {
+    let width = response.lanes / LANES;
+    let (terms, row) = (response.terms.as_chunks::<LANES>().0, row.as_chunks::<LANES>().0);
+    let terms = &terms[width..moments.len() * width];
+    let motion = q.as_chunks_mut::<LANES>().0.iter_mut().zip(v.as_chunks_mut::<LANES>().0);
+    for (c, ((q, v), row)) in motion.zip(row).enumerate() {
+        let (mut moved, mut slowed) = ([0.0; LANES], [0.0; LANES]);
+        let moments = moments.iter().zip(&moments[1..]).zip(&COUNT[1..]);
+        for (term, ((before, now), k)) in terms.chunks_exact(width).zip(moments).rev() {
+            let (term, before) = (&term[c], k * before);
+            moved = each(|i| moved[i] + term[i] * now);
+            slowed = each(|i| slowed[i] + term[i] * before);
         }
+        *q = each(|i| q[i] - row[i] * moved[i]);
+        *v = each(|i| v[i] - row[i] * slowed[i]);
     }
 }
 
