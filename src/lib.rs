@@ -16,7 +16,7 @@
 //! | rigid contact (`stereomechanical`): impulse p = (1 + e) m V; floors held together by a reaction | `engine/rigid.rs`, `engine/complementarity.rs` | \[Goldsmith1960\], [BarrosKhatami2013, eqs. 1, 2], \[Moreau1988\], \[LawsonHanson1974\] |
 //! | contact force F(d, v): one file per law, with its source, range and defect | `contact/laws/` | in each file |
 //! | a(e) of `hertz_damped` | `contact/damping_formula.rs` | at each formula |
-//! | motion in contact as a power series in time | `engine/contact_step.rs`, `structure/series.rs`, `contact/series.rs` | |
+//! | motion in contact as a power series in time | `engine/contact_step.rs`, `structure/series.rs`, `contact/series/mod.rs` | |
 //! | a variable in which the motion near entries and releases is smooth | `clock.rs` | |
 //! | contact forces over a whole window from an integral equation, at Gauss nodes | `collocation/`, `engine/window_step.rs`, `structure/impulse_response.rs` | \[Brunner2004\] |
 //! | motion just after an entry, powers i + beta j of time | `engine/onset_step.rs`, `contact/onset.rs` | |
