@@ -206,20 +206,20 @@ impl Model {
         let Step { open, closed, series, end, .. } = step;
         if !closed.riders().is_empty() {
             let course = closed.course_of_riders();
-            return self.first_of(base, closed.riders().iter().copied(), &course, (series, end, work), None);
+            return self.first_of_lanes(base, closed.riders().iter().copied(), &course, (series, end, work), None);
         }
         open.assign(&self.pairs, base.coordinates);
         open.follow(base, &self.pairs, (series, &work.bend), end, &mut work.node_q);
         let mut first = None;
         for (block, course) in open.apart.iter().zip(&open.courses) {
-            first = self.first_of(base, open.members[*block].lanes(), course, (series, end, work), first);
+            first = self.first_of_lanes(base, open.members[*block].lanes(), course, (series, end, work), first);
         }
         first
     }
 
     /// The first entry among some lanes that hold a pair, of those that are apart, or the one that is known.
     #[inline]
-    fn first_of(
+    fn first_of_lanes(
         &self,
         base: &Base,
         lanes: impl Iterator<Item = (usize, usize)>,

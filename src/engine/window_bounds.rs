@@ -8,7 +8,6 @@
 use super::model::Model;
 use super::state::*;
 use super::window::Window;
-use super::window_step::relate;
 use crate::collocation::{Ending, Kernel, MOST_PAIRS, POWERS, Solution, Tables};
 use crate::contact::Guard;
 use crate::polynomial::SECOND;
@@ -45,7 +44,7 @@ impl Model {
         others.all(|(p, contact)| {
             let row = &self.pairs[p].row;
             let terms = &mut work.scalar[..=series.order];
-            relate(row, series, terms);
+            series.dot_each(row, 2, terms);
             let (mut kernels, mut room) = ([&[0.0; POWERS]; MOST_PAIRS], [None; MOST_PAIRS]);
             for ((kernel, room), q) in kernels.iter_mut().zip(&mut room).zip(&contacts[..equation.closed]) {
                 *kernel = windows.kernel(&self.pairs, p, *q, room);

@@ -12,8 +12,7 @@ use super::window_bounds::keeps_off;
 use super::window_draft::{Draft, Spring, patience};
 use crate::collocation::{Ending, Kernel, MOST_PAIRS, Tables};
 use crate::contact::Force;
-use crate::polynomial::each;
-use crate::structure::{EXACT, ImpulseResponse, LANES, MotionSeries, Structure, dot, flight_order};
+use crate::structure::{EXACT, ImpulseResponse, Structure, dot, flight_order};
 
 /// How far a kernel may be off, relative to what one step may.
 const KERNEL_SHARE: f64 = 0.03;
@@ -78,20 +77,6 @@ impl Windows {
             Some(known) => known,
             None => room.insert(self.response.kernel(&pairs[p].row, &pairs[q].row)),
         }
-    }
-}
-
-/// The terms of the distance of a pair, from the second power on: as [`dot`] has it. Wide instructions give the same
-/// bits.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-pub(super) fn relate(row: &[f64], series: &MotionSeries, terms: &mut [f64]) {
-    let row = row.as_chunks::<LANES>().0;
-    for (n, out) in (2..=series.order).zip(&mut terms[2..]) {
-        let mut sum = [0.0; LANES];
-        for (row, term) in row.iter().zip(series.term(n).as_chunks::<LANES>().0) {
-            sum = each(|i| sum[i] + row[i] * term[i]);
-        }
-        *out = ((sum[0] + sum[1]) + sum[2]) + sum[3];
     }
 }
 
@@ -205,7 +190,7 @@ impl Model {
         let free = &mut equation.free[place];
         free[0] = if contact.in_contact() { contact.penetration.max(0.0) } else { contact.flight_start() };
         free[1] = contact.rate * equation.scale;
-        relate(row, series, free);
+        series.dot_each(row, 2, free);
         equation.kernels[place][place] = *windows.kernel(&self.pairs, p, p, &mut None);
         for (other, q) in contacts.iter().enumerate().take(equation.closed).filter(|(other, _)| *other != place) {
             equation.kernels[place][other] = *windows.kernel(&self.pairs, p, *q, &mut None);
@@ -294,7 +279,7 @@ impl Model {
 
 /// Which of some numbers at nodes, by fours, and of that at the end is the first of a kind.
 #[inline(always)]
-fn first_of(at_nodes: &[f64], end: f64, is_it: impl Fn(f64) -> bool) -> Option<usize> {
+fn first_node(at_nodes: &[f64], end: f64, is_it: impl Fn(f64) -> bool) -> Option<usize> {
     let mut is_any = [false; 4];
     for four in at_nodes.as_chunks::<4>().0 {
         is_any = std::array::from_fn(|i| is_any[i] | is_it(four[i]));
@@ -318,10 +303,10 @@ impl Window {
             let event = if is_closed { Ending::Release(place) } else { Ending::Touch(place) };
             let is_beyond = |d: f64| if is_closed { d <= 0.0 } else { d > 0.0 };
             // Right after a release or entry it is at the surface.
-            let beyond = first_of(&depth[..count], d, is_beyond);
+            let beyond = first_node(&depth[..count], d, is_beyond);
             let beyond = beyond.filter(|i| *i < theta.len() || draft.ending != event).map(|i| (i, event));
             let turns = is_closed && matches!(equation.forces[place], Force::Root { .. });
-            let turned = if turns { first_of(&rate[..count], v, |v| v <= 0.0) } else { None };
+            let turned = if turns { first_node(&rate[..count], v, |v| v <= 0.0) } else { None };
             let turn = Ending::Turn(place);
             let turned = turned.filter(|i| *i < theta.len() || draft.ending != turn).map(|i| (i, turn));
             for (i, event) in [beyond, turned].into_iter().flatten() {

@@ -268,6 +268,12 @@ impl MotionSeries {
         project(&self.coefficients[..], row, factors, &mut out[..=self.order])
     }
 
+    /// The scalar series of what `row` makes of the modes, from the power `first` on: each term as [`dot`] has it, written to
+    /// `out[n]`.
+    pub fn dot_each(&self, row: &[f64], first: usize, out: &mut [f64]) {
+        dot_each(&self.coefficients[first * self.lanes..], row, &mut out[first..=self.order]);
+    }
+
     /// v of one mode at many places, which are told by what the terms in time are multiplied by there.
     pub fn velocities<const N: usize>(&self, mode: usize, rates: &[[f64; N]; ROOM]) -> [f64; N] {
         let mut rate = [0.0; N];
@@ -517,13 +523,26 @@ fn project_blocks<const N: usize>(terms: &[Lane], row: &[Lane], factors: &[f64],
                 *size = each(|i| size[i] + product[i].abs());
             }
         }
-        let [values, sizes] = [sums, sizes].map(|of| each(|k| ((of[k][0] + of[k][1]) + of[k][2]) + of[k][3]));
+        let [values, sizes] = [sums, sizes].map(|of| each(|k| from_left_to_right(of[k])));
         for (((out, value), size), factor) in out.iter_mut().zip(&values).zip(&sizes).zip(factors) {
             *out = if value.abs() <= 4.0 * f64::EPSILON * size { 0.0 } else { *value };
             whole += size * factor.abs();
         }
     }
     whole
+}
+
+/// See [`MotionSeries::dot_each`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn dot_each(terms: &[f64], row: &[f64], out: &mut [f64]) {
+    let (terms, row) = (terms.as_chunks::<LANES>().0, row.as_chunks::<LANES>().0);
+    for (out, term) in out.iter_mut().zip(terms.chunks_exact(row.len())) {
+        let mut sum = [0.0; LANES];
+        for (row, term) in row.iter().zip(term) {
+            sum = each(|i| sum[i] + row[i] * term[i]);
+        }
+        *out = from_left_to_right(sum);
+    }
 }
 
 /// The first blocks of a vector that has as many.
@@ -560,6 +579,7 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     from_left_to_right(lanes)
 }
 
+#[inline(always)]
 fn from_left_to_right([a, b, c, d]: Lane) -> f64 {
     ((a + b) + c) + d
 }
