@@ -20,6 +20,10 @@ const DASHPOT: f64 = 0.85;
 /// Share of the time until a release up to which a window that does not reach it may go: its root would be felt.
 const BEFORE_RELEASE: f64 = 0.8;
 
+/// (Rate of a dashpot) x (time) of a window that is not even tried: sweeps converge up to about 3, and as a window that has
+/// failed is halved four times at most, all tries would be in vain.
+const TOO_STIFF: f64 = 200.0;
+
 /// (Fastest rate) x (time) that the series of a window are for.
 const MODES_REACH: f64 = 1.0;
 
@@ -73,11 +77,13 @@ impl Draft {
 }
 
 impl Model {
-    /// What to try first within the `remaining` seconds; `None` where a contact is beyond all measure.
+    /// What to try first within the `remaining` seconds; `None` where a contact is beyond all measure or its damping too
+    /// stiff.
     pub(super) fn draft(&self, base: &Base, window: &mut Window, remaining: f64) -> Option<Draft> {
         let windows = self.windows.as_ref()?;
         let (mut longest, mut map) = (f64::INFINITY, Map::Plain);
         let (mut time, mut ending) = (f64::INFINITY, Ending::Given);
+        let mut dashpot = 0.0_f64;
         for place in 0..window.equation.closed {
             let p = window.contacts[place];
             let (contact, force) = (&base.contacts[p], window.equation.forces[place]);
@@ -85,6 +91,9 @@ impl Model {
             let stored = force.stored_energy(d) / self.pairs[p].mass;
             let prospect = windows.springs[p]?.prospect(d, contact.rate, stored)?;
             window.equation.omega[place] = 1.0 / prospect.unit;
+            if force.is_damped() {
+                dashpot = dashpot.max((force.value(d, 1.0) - force.value(d, 0.0)) / self.pairs[p].mass);
+            }
             let is_root = matches!(force, Force::Root { .. });
             let since = if contact.penetration > 0.0 { contact.age } else { 0.0 };
             let is_fresh = since < FRESH * prospect.unit;
@@ -108,6 +117,9 @@ impl Model {
         // With fewer nodes the length goes with a higher power of the accuracy.
         let (reach, least) = (windows.patience * longest, Rule::Eight);
         longest = longest.min(MODES_REACH / self.structure.fastest);
+        if dashpot * time.min(longest).min(remaining) > TOO_STIFF {
+            return None;
+        }
         let draft = Draft { map, least, length: time, ending, longest: longest.min(remaining), reach, halved: false };
         let draft = match ending {
             Ending::Turn(_) if time <= longest => draft,
@@ -214,4 +226,30 @@ fn swing(n: f64, from: f64) -> f64 {
 /// How long windows are for an accuracy of steps, relative to the usual.
 pub(super) fn patience(step_tolerance: f64) -> f64 {
     libm::pow(step_tolerance / USUAL.0, USUAL.1).clamp(0.4, 1.2)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    /// 1 mm deep in each other: the dashpot takes some 1e2/s for e = 0.5, and 1e14/s for 1e-12, which windows of 0.01 s cannot
+    /// be halved often enough for.
+    #[test]
+    fn no_window_is_tried_where_none_can_succeed() {
+        for (restitution, is_tried) in [(0.5, true), (1e-12, false)] {
+            let building = "mass = [1e3]\nstiffness = [1e5]\ndamping = { ratio = 0.05 }\n";
+            let scene = format!(
+                "name = \"Two\"\n[right]\n{building}[left]\n{building}initial_velocity = [0.1]\n[[contact]]\nleft_floor = 1\n\
+                 right_floor = 1\ngap = -1e-3\nlaw = \"jankowski\"\nstiffness = 1e8\nrestitution = {restitution:?}\n"
+            );
+            let model = Model::new(&Scene::from_toml(&scene).unwrap(), None).unwrap();
+            let State { base, mut step, .. } = model.start(0.0);
+            assert_eq!(base.contacts[0].phase, Phase::Engaged);
+            let equation = &mut step.window.equation;
+            (equation.closed, equation.forces[0]) = (1, base.contacts[0].branch());
+            assert_eq!(model.draft(&base, &mut step.window, 0.01).is_some(), is_tried, "{restitution}");
+        }
+    }
 }
