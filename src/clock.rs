@@ -25,22 +25,6 @@ pub struct Clock {
 /// Of term m - j of a series in time, for its term m in x; as many as whole blocks of lanes hold.
 type Weights = [f64; (ROOM / 2 + 1).next_multiple_of(LANES)];
 
-/// (m - j) over j.
-const BINOMIAL: [Weights; ROOM] = {
-    let mut table = [[0.0; (ROOM / 2 + 1).next_multiple_of(LANES)]; ROOM];
-    let mut m = 0;
-    while m < ROOM {
-        table[m][0] = 1.0;
-        let mut j = 1;
-        while 2 * j <= m {
-            table[m][j] = table[m][j - 1] * ((m - 2 * j + 2) * (m - 2 * j + 1)) as f64 / ((m - j + 1) * j) as f64;
-            j += 1;
-        }
-        m += 1;
-    }
-    table
-};
-
 /// n-th of these: (n over j).
 const CHOOSE: [Weights; ROOM] = {
     let mut table = [[0.0; (ROOM / 2 + 1).next_multiple_of(LANES)]; ROOM];
@@ -53,6 +37,21 @@ const CHOOSE: [Weights; ROOM] = {
             j += 1;
         }
         n += 1;
+    }
+    table
+};
+
+/// (m - j) over j.
+const BINOMIAL: [Weights; ROOM] = {
+    let mut table = [[0.0; (ROOM / 2 + 1).next_multiple_of(LANES)]; ROOM];
+    let mut m = 0;
+    while m < ROOM {
+        let mut j = 0;
+        while 2 * j <= m {
+            table[m][j] = CHOOSE[m - j][j];
+            j += 1;
+        }
+        m += 1;
     }
     table
 };
