@@ -289,3 +289,69 @@ fn rebounds_of_two_pairs_on_one_floor_are_parabolas() {
     }
     assert!(run.episodes.len() >= impacts.len());
 }
+
+/// A force F presses L against R1 and R2. Whenever one pair has come to rest the other one may knock it open, by less each
+/// time: rebounds of rebounds, which end as those of one pair do. Then all have one velocity, by the momentum, and each pair
+/// presses with its share of F.
+#[test]
+fn rebounds_of_rebounds_end() {
+    let (l, r1, r2, force, v, time) = (5.0, 2.0, 3.0, 6.0, 0.4, 20.0);
+    for e in [[0.8, 0.55], [0.5, 0.5], [0.1, 0.9], [0.0, 0.6], [0.0, 0.0]] {
+        let bodies = Bodies {
+            left: vec![(l, v)],
+            right: vec![(r1, 0.0), (r2, 0.0)],
+            pairs: vec![(0, 0, 0.01, e[0]), (0, 1, 0.013, e[1])],
+        };
+        let mut run = Run::new(&bodies.scene(false), None);
+        run.state.set_floor_force(Side::Left, 0, force);
+        run.to(time);
+        let whole = l + r1 + r2;
+        let expected = DVector::from_element(3, (l * v + time * force) / whole);
+        assert_same(&velocities(&run), &expected, 1e-13, &format!("{e:?}"));
+        for (p, mass) in [r1, r2].into_iter().enumerate() {
+            assert!(run.contact(p).active, "{e:?}, pair {p}");
+            assert_close(run.contact(p).force, force * mass / whole, 1e-12, &format!("{e:?}, pair {p}"));
+        }
+        assert!(run.point.impacts < 5000, "{e:?}: {} impacts", run.point.impacts);
+    }
+}
+
+/// Two floors of a frame press on one of the other, come to rest and part, again and again. What has died out may not be kept
+/// going, least of all by the rounding of a gap that has been closed: a restless pair meets a million times in no time.
+#[test]
+fn floors_that_are_pressed_together_come_to_rest() {
+    let shaking: Vec<f64> = (0..200).map(|k| (0.09 * f64::from(k)).sin() + 0.7 * (0.31 * f64::from(k)).sin()).collect();
+    let cases = [
+        ([(3e5, 9e8, 4), (2.8e5, 5.1e8, 1)], [3, 4], 1e-4, [0.0, 0.0]),
+        ([(4.5e5, 1.8e9, 3), (1e5, 9e8, 1)], [2, 3], 8e-6, [0.5, 0.7]),
+        ([(1e3, 7e5, 3), (1.4e3, 4.8e6, 1)], [1, 2], 7e-5, [0.2, 0.3]),
+        ([(9e3, 2.5e7, 2), (4e4, 3e8, 1)], [1, 2], 7e-5, [0.5, 0.5]),
+    ];
+    for (buildings, floors, gap, restitution) in cases {
+        let [left, right] = buildings.map(|(mass, stiffness, storeys)| {
+            let [mass, stiffness] = [mass, stiffness].map(|number: f64| vec![number; storeys]);
+            format!("mass = {mass:?}\nstiffness = {stiffness:?}\ndamping = {{ ratio = 0.0 }}\n")
+        });
+        let contact = |k: usize| {
+            format!(
+                "[[contact]]\nleft_floor = {}\nright_floor = 1\ngap = {gap:?}\nlaw = \"stereomechanical\"\n\
+                 restitution = {:?}\n",
+                floors[k], restitution[k]
+            )
+        };
+        let (first, second) = (contact(0), contact(1));
+        let scene = common::scene(&format!(
+            "name = \"Pressed\"\n[left]\n{left}[right]\n{right}[ground]\nrecord = \"record.csv\"\n\
+             [outputs]\nenergy = true\n{first}{second}"
+        ));
+        let mut run = Run::new(&scene, Some(&common::record(0.01, &shaking)));
+        for k in 1..=190 {
+            run.to(0.01 * f64::from(k));
+            let deepest = run.contacts().iter().map(|contact| contact.penetration).fold(0.0, f64::max);
+            assert!(deepest < 1e-15, "{floors:?}: {deepest} m deep");
+        }
+        let residual = run.point.energy.unwrap().residual;
+        assert!(residual.abs() < 1e-13, "{floors:?}: residual {residual}");
+        assert!(run.point.impacts < 20_000, "{floors:?}: {} impacts", run.point.impacts);
+    }
+}

@@ -135,11 +135,12 @@ impl Model {
         let law = &self.pairs[p].law;
         let restitution =
             law.kind.info().keys.iter().any(|key| matches!(key, LawKey::Restitution | LawKey::ImpulseRestitution));
-        let change = match restitution && law.restitution > 0.0 {
-            true => format!("lower {path}.restitution (now {:e})", law.restitution),
-            false => format!("choose a law for {path} that loses energy"),
+        let change = match restitution {
+            true if law.restitution > 0.0 => format!("lower {path}.restitution (now {:e}) or ", law.restitution),
+            true => String::new(),
+            false => format!("choose a law for {path} that loses energy or "),
         };
-        format!("{path} has had {} of {impacts} impacts: {change} or change {path}.gap", contact.impacts.min(impacts))
+        format!("{path} has had {} of {impacts} impacts: {change}change {path}.gap", contact.impacts.min(impacts))
     }
 
     /// The contact that makes the steps short.
