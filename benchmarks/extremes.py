@@ -9,6 +9,7 @@ import argparse
 import csv
 import json
 import subprocess
+import textwrap
 from pathlib import Path
 
 import extremes_map
@@ -43,6 +44,7 @@ def main():
     if not options.quick:
         renew("grid", summary(grid))
         renew("hour", hour(read(results / "hour.csv")))
+        renew("message", message(grid))
     print(f"results: {results.relative_to(ROOT)}, pictures: {images.relative_to(ROOT)}")
 
 
@@ -91,8 +93,14 @@ def hour(rows):
     return "\n".join(lines) + "\n"
 
 
+def message(grid):
+    """What is said of a run that was given up."""
+    given_up = next(row["message"] for row in grid if row["outcome"] == "stopped")
+    return f"```text\n{textwrap.fill(given_up, 120)}\n```\n"
+
+
 def renew(name, table):
-    """Puts a table between its marks in the page."""
+    """Puts a table, or other text, between its marks in the page."""
     before, rest = PAGE.read_text().split(f"<!-- {name} -->\n")
     after = rest.split(f"<!-- end of {name} -->\n")[1]
     PAGE.write_text(f"{before}<!-- {name} -->\n{table}<!-- end of {name} -->\n{after}")

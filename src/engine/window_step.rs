@@ -1,8 +1,8 @@
 //! A step in contact over a whole window (see [`crate::collocation`]), as long as few pairs are in contact.
 //!
-//! Two windows take a Hertz contact from its entry to its release, where power series need twenty steps. A window is taken
-//! only if bounds show that nothing else happens in it (see [`super::window_bounds`]). Where that cannot be shown power
-//! series in time go on.
+//! Two windows take a Hertz contact from its entry to its release, if no sample of the record comes between, where power
+//! series need twenty steps. A window is taken only if bounds show that nothing else happens in it (see
+//! [`super::window_bounds`]). Where that cannot be shown power series in time go on.
 
 use super::contact_step::touching;
 use super::model::{Model, Pair};

@@ -80,8 +80,8 @@ impl Model {
         let (segments, most) = (ground.segments_after(time, until), self.most_flights);
         EngineError {
             message: format!(
-                "a communication step from t = {time} s to {until} s is {segments:.1e} sample intervals of the record, \
-                 more than the {most:.1e} that one step may take: take smaller communication steps"
+                "a communication step from t = {time} s to {until} s is {segments:.1e} intervals after the record, as long \
+                 as between its samples, more than the {most:.1e} that one step may take: take smaller communication steps"
             ),
         }
     }
@@ -111,9 +111,13 @@ impl Model {
         let in_contact = counters.contact_steps - before.contact_steps;
         let steps = in_contact + counters.flight_steps - before.flight_steps;
         let (impacts, start) = (base.impacts - progress.impacts_before, progress.start);
+        let looked = counters.closer_looks - before.closer_looks;
         let remedy = match () {
             _ if counters.energy_steps - before.energy_steps > 16 * steps => {
                 format!("the energy account takes the most of it: leave outputs.energy out; {}", self.quick())
+            }
+            _ if self.ground.is_some() && in_contact + looked < steps / 16 => {
+                "run less far beyond the record, before and after which steps are as long as between its samples".into()
             }
             _ if impacts > steps / 16 => self.often(base, impacts),
             _ if in_contact > steps / 2 => self.stiff(base),

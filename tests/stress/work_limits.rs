@@ -88,6 +88,20 @@ fn a_building_that_is_too_stiff_or_damped_is_named() {
     assert_names(&damped, &["left.damping"]);
 }
 
+/// With a record time goes on in steps as long as between its samples: for a day that is too much, and no stiffness is to blame.
+#[test]
+fn a_run_far_beyond_its_record_is_named() {
+    let mut scene = masses(1e6, 0.02, 0.0, 0.01, "law = \"linear\"\nstiffness = 1.0e6");
+    scene.ground.record = Some("motion.csv".into());
+    for (start, until) in [(0.0, 1e4), (0.0, 1e6), (-1e6, 1e4)] {
+        let mut run = Run::from(&scene, Some(&crate::common::record(0.01, &[0.0, 0.1, 0.0])), start);
+        run.model.limit_work(0.1);
+        let given_up = run.model.advance(&mut run.state, until, &mut |_| ()).expect_err("a million steps");
+        assert_names(&given_up.message, &["the record", "smaller communication steps"]);
+        assert!(!given_up.message.contains("stiffness"), "{}", given_up.message);
+    }
+}
+
 /// The account of a motion under a load that changes is integrated at the pace of the fastest mode: for twelve days that
 /// is too much, and what costs it is said.
 #[test]
