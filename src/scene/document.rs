@@ -93,7 +93,9 @@ impl<'t> Document<'t> {
 impl<'t> Section<'t> {
     /// The value of a key, if it is there.
     pub(super) fn get(&mut self, key: &'static str) -> Option<Item<'t>> {
-        self.known.push(key);
+        if !self.known.contains(&key) {
+            self.known.push(key);
+        }
         let value = self.table?.get(key)?;
         Some(Item { document: self.document, path: join(&self.path, key), value })
     }

@@ -114,6 +114,10 @@ fn read_text(path: &Path) -> Result<String, Problem> {
 /// Reads a record file, named as `ground.record` names it, that this scaling fits.
 pub(crate) fn read_record(name: &str, path: &Path, scaling: Scaling) -> Result<PackagedRecord, SceneError> {
     let problem = |what: String| Problem::new("ground.record", quoted(name), format!("a record file, but {what}"));
+    // A device or a pipe may have no end.
+    if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
+        return Err(problem(format!("{}: it is no file", path.display())).into());
+    }
     let bytes = fs::read(path).map_err(|error| problem(format!("{}: {error}", path.display())))?;
     let packaged = PackagedRecord::parse(name, bytes)
         .map_err(|error| SceneError { problems: error.problems.into_iter().map(problem).collect() })?;

@@ -33,10 +33,14 @@ impl Rule {
 /// shakes beyond is a mistake in a unit, and much further beyond displacements leave no digit for a gap.
 pub const MOST_ACCELERATION: f64 = 1e6;
 
+/// s, of either sign: double precision tells times beyond from each other by a tenth of a millisecond and worse, which
+/// no impact can be followed with.
+pub const MOST_TIME: f64 = 1e12;
+
 /// Any finite number: entries of matrices.
 pub const ENTRY: Rule = Rule { expected: "a finite number", holds: |_| true };
 /// `stop_time`, s.
-pub const STOP_TIME: Rule = Rule { expected: "a finite time > 0 s", holds: |t| t > 0.0 };
+pub const STOP_TIME: Rule = Rule { expected: "a time > 0 s and at most 1e12 s", holds: |t| t > 0.0 && t <= MOST_TIME };
 /// `mass`, kg.
 pub const MASS: Rule = Rule { expected: "a finite mass > 0 kg", holds: |m| m > 0.0 };
 /// `stiffness` of a storey, N/m.

@@ -24,6 +24,7 @@ pub use status::{Refusal, Status, StatusKind};
 
 use crate::description::{Category, Package, guid};
 use crate::engine::Episode;
+use crate::scene::rule::MOST_TIME;
 use crate::variables::{Inputs, Settings, Table};
 use simulation::{Simulation, started};
 use snapshots::Snapshots;
@@ -32,10 +33,6 @@ use uuid::Uuid;
 
 /// Communication points may differ by the rounding of the master: s, relative to their magnitude above 1 s.
 const TIME_TOLERANCE: f64 = 1e-9;
-
-/// s, of either sign: double precision tells times beyond from each other by a tenth of a millisecond and worse, which
-/// no impact can be followed with.
-const MOST_TIME: f64 = 1e12;
 
 /// One instance.
 #[derive(Debug)]

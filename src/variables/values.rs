@@ -3,9 +3,8 @@
 use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, Row, Slot, Table, building};
 use crate::engine::{ContactPoint, EnergyPoint, LinearInput, Model, Point, SavedState, Side, State};
 use crate::record::Record;
-use crate::scene::{Building, Damping, Problem, Scaling, Scene, SceneError, Stiffness, read_record};
+use crate::scene::{Building, Damping, Scaling, Scene, SceneError, Stiffness, read_record};
 use serde::{Deserialize, Serialize};
-use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -159,11 +158,6 @@ impl Settings {
         if path.is_empty() {
             self.other_record = None;
             return Ok(());
-        }
-        // A device or a pipe may have no end.
-        if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
-            let expected = "a record file, but it is none";
-            return Err(Problem::new("ground.record", format!("{path:?}"), expected).into());
         }
         let packaged = read_record(path, Path::new(path), self.scene.ground.scaling).map_err(|mut error| {
             // No variable says which peak the scene scales a record to.

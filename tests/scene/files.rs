@@ -73,6 +73,17 @@ fn a_missing_record_is_named_with_the_place_where_it_was_looked_for() {
     assert!(message.starts_with(&expected), "{message}");
 }
 
+/// A folder stands for what is no file: a pipe or a device, which might never end.
+#[test]
+fn a_record_that_is_no_file_is_not_read() {
+    let (folder, path) = folder("record = \"records\"", &[("unused.csv", b"")]);
+    let said = said(scene::load(&path).unwrap_err());
+    let place = folder.path().join("records");
+    let expected =
+        format!("ground.record = \"records\": expected a record file, but {}: it is no file", place.display());
+    assert_eq!(said, [expected]);
+}
+
 #[test]
 fn a_bad_record_is_refused_with_its_line() {
     let bad = b"time_s,accel_m_s2\n0,1\n0,2\n";

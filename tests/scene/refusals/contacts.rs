@@ -136,6 +136,7 @@ fn laws_that_do_not_exist() {
     let [missing, lav, stiffness] = said.as_slice() else { panic!("{said:?}") };
     assert_eq!(*missing, format!("contact[2].law: expected a law ({names}) (missing)"));
     assert!(lav.starts_with("contact[2].lav = 1: expected a known key (left_floor, right_floor, gap, law,"), "{lav}");
+    assert_eq!(lav.matches("restitution").count(), 1, "{lav}");
     assert!(lav.ends_with("; did you mean law?"), "{lav}");
     assert_eq!(stiffness, "contact[2].stiffness = \"2\": expected a number");
 }
