@@ -45,6 +45,11 @@ impl Force {
         }
     }
 
+    /// N s/m, by how much the force grows with the rate at penetration d, m.
+    pub fn dashpot(&self, d: f64) -> f64 {
+        self.value(d, 1.0) - self.value(d, 0.0)
+    }
+
     /// W, power of the damping part at some penetrations and rates.
     #[inline(always)]
     pub fn damping_powers<const N: usize>(&self, d: &[f64; N], v: &[f64; N]) -> [f64; N] {

@@ -116,7 +116,7 @@ impl Model {
             _ if counters.energy_steps - before.energy_steps > 16 * steps => {
                 format!("the energy account takes the most of it: leave outputs.energy out; {}", self.quick())
             }
-            _ if self.ground.is_some() && in_contact + looked < steps / 16 => {
+            _ if self.is_outside_record(base) && in_contact + looked < steps / 16 => {
                 "run less far beyond the record, before and after which steps are as long as between its samples".into()
             }
             _ if impacts > steps / 16 => self.often(base, impacts),
@@ -129,6 +129,12 @@ impl Model {
                  impacts) since t = {start} s; {remedy}, or take smaller communication steps"
             ),
         }
+    }
+
+    /// Whether there is a record that has not begun or is over.
+    fn is_outside_record(&self, base: &Base) -> bool {
+        let is_in = |ground: &GroundMotion| ground.number(&base.segment).is_some_and(|n| ground.is_in_record(n));
+        self.ground.as_ref().is_some_and(|ground| !is_in(ground))
     }
 
     /// Floors that meet again and again.
@@ -182,8 +188,7 @@ impl Model {
         let (force, mass) = (contact.force.engaged, self.pairs[p].mass);
         let d = contact.episode.peak_penetration.max(contact.penetration);
         let spring = (force.value(2.0 * d, 0.0) - force.value(d, 0.0)) / d;
-        let dashpot = force.value(d, 1.0) - force.value(d, 0.0);
-        ((spring.max(0.0) / mass).sqrt(), dashpot / mass)
+        ((spring.max(0.0) / mass).sqrt(), force.dashpot(d) / mass)
     }
 
     /// The building with the fastest mode.

@@ -88,7 +88,8 @@ fn a_building_that_is_too_stiff_or_damped_is_named() {
     assert_names(&damped, &["left.damping"]);
 }
 
-/// With a record time goes on in steps as long as between its samples: for a day that is too much, and no stiffness is to blame.
+/// With a record time goes on in steps as long as between its samples: for a day that is too much, and no stiffness is to
+/// blame. Nor is its end where it is not over.
 #[test]
 fn a_run_far_beyond_its_record_is_named() {
     let mut scene = masses(1e6, 0.02, 0.0, 0.01, "law = \"linear\"\nstiffness = 1.0e6");
@@ -100,6 +101,10 @@ fn a_run_far_beyond_its_record_is_named() {
         assert_names(&given_up.message, &["the record", "smaller communication steps"]);
         assert!(!given_up.message.contains("stiffness"), "{}", given_up.message);
     }
+    let mut run = Run::new(&scene, Some(&crate::common::record(0.01, &[0.0, 0.1].repeat(10_000))));
+    run.model.limit_work(1e-4);
+    let given_up = run.model.advance(&mut run.state, 199.0, &mut |_| ()).expect_err("twenty thousand samples");
+    assert!(!given_up.message.contains("beyond the record"), "{}", given_up.message);
 }
 
 /// The account of a motion under a load that changes is integrated at the pace of the fastest mode: for twelve days that
