@@ -92,21 +92,38 @@ fn the_guide_quotes_its_scene_up_to_the_first_contact() {
 }
 
 #[test]
-fn the_scene_of_the_readme_is_a_scene() {
-    let readme = read("README.md");
+fn the_readme_quotes_its_scene_without_the_first_line() {
+    let (readme, scene) = (read("README.md"), read("examples/scenes/two_blocks.toml"));
     let scenes: Vec<&str> = between(&readme, "```toml\n", "```").collect();
-    assert_eq!(scenes.len(), 1);
-    Scene::from_toml(scenes[0]).unwrap();
+    let (comment, scene) = scene.split_once('\n').unwrap();
+    assert!(comment.starts_with('#'));
+    assert_eq!(scenes, [scene]);
+    Scene::from_toml(scene).unwrap();
 }
 
-/// The first cells of all table rows of the README, as they stand in backquotes.
-fn first_cells(readme: &str) -> BTreeSet<&str> {
-    let rows = readme.lines().filter_map(|line| line.strip_prefix("| ")?.split_once(" | "));
+/// For a first look: what is long belongs on a page of its own.
+#[test]
+fn the_readme_stays_short() {
+    let words = read("README.md").split_whitespace().count();
+    assert!(words < 1000, "{words} words");
+}
+
+/// A part of a page: from its heading to the next one of the same or a higher level.
+fn section(page: &str, heading: &str) -> String {
+    let (_, rest) = page.split_once(&format!("\n{heading}\n")).unwrap_or_else(|| panic!("no {heading}"));
+    let level = heading.len() - heading.trim_start_matches('#').len();
+    let ends = |line: &&str| line.starts_with('#') && line.len() - line.trim_start_matches('#').len() <= level;
+    rest.lines().take_while(|line| !ends(line)).flat_map(|line| [line, "\n"]).collect()
+}
+
+/// The first cells of all table rows, as they stand in backquotes.
+fn first_cells(text: &str) -> BTreeSet<&str> {
+    let rows = text.lines().filter_map(|line| line.strip_prefix("| ")?.split_once(" | "));
     rows.flat_map(|(cell, _)| cell.split('`').skip(1).step_by(2)).collect()
 }
 
 #[test]
-fn every_scene_key_is_in_the_readme() {
+fn every_scene_key_is_in_the_reference() {
     // A key that nobody knows is answered by the keys that there are.
     let building = "mass = [1.0]\nstiffness = [1.0]\nx = 0\ndamping = { ratio = 0.0, x = 0 }\n";
     let mut text = format!("x = 0\nname = \"A\"\n[left]\n{building}[right]\n{building}");
@@ -116,8 +133,8 @@ fn every_scene_key_is_in_the_readme() {
     for law in LawKind::ALL {
         text += &format!("[[contact]]\nleft_floor = 1\nright_floor = 1\nlaw = \"{}\"\nx = 0\n", law.info().name);
     }
-    let readme = read("README.md");
-    let cells = first_cells(&readme);
+    let reference = section(&read("docs/reference.md"), "## The scene");
+    let cells = first_cells(&reference);
     let mut sections = BTreeSet::new();
     for problem in Scene::from_toml(&text).unwrap_err().problems {
         let Some(path) = problem.path.strip_suffix('x') else { continue };
@@ -127,8 +144,8 @@ fn every_scene_key_is_in_the_readme() {
             let name = format!("{section}.{key}");
             let known = is_table && section.is_empty()
                 || cells.contains(name.trim_start_matches('.'))
-                || section == "left.damping" && readme.contains(&format!("`{{ {key} = "));
-            assert!(known, "{name} is not in the README");
+                || section == "left.damping" && reference.contains(&format!("`{{ {key} = "));
+            assert!(known, "{name} is not in the reference");
         }
         sections.insert(section);
     }
@@ -136,20 +153,20 @@ fn every_scene_key_is_in_the_readme() {
 }
 
 #[test]
-fn the_laws_of_the_readme_are_those_of_the_catalogue_in_its_words() {
-    let readme = read("README.md");
-    let (_, section) = readme.split_once("\n### Laws of contact\n").unwrap();
+fn the_laws_of_the_reference_are_those_of_the_catalogue_in_its_words() {
+    let reference = read("docs/reference.md");
+    let laws = section(&reference, "### Laws of contact");
     let rows: Vec<&str> =
-        section.lines().skip_while(|line| !line.starts_with('|')).take_while(|line| line.starts_with('|')).collect();
+        laws.lines().skip_while(|line| !line.starts_with('|')).take_while(|line| line.starts_with('|')).collect();
     let expected: Vec<String> = LawKind::ALL.iter().map(|law| row(law.info())).collect();
     assert_eq!(rows[2..], expected);
-    let formulas = readme.split("`damping_formula` is one of ").nth(1).unwrap().split(':').next().unwrap();
+    let formulas = reference.split("`damping_formula` is one of ").nth(1).unwrap().split(':').next().unwrap();
     let named: Vec<&str> = formulas.split('`').skip(1).step_by(2).collect();
     let known: Vec<&str> = DampingFormula::ALL.iter().map(|formula| formula.info().name).collect();
     assert_eq!(named, known);
 }
 
-/// A law's row of the README.
+/// A law's row of the reference.
 fn row(law: &LawInfo) -> String {
     let LawInfo { name, force, returns, defect, source, .. } = law;
     let formula = law.has_damping_formula.then_some("damping_formula");
@@ -159,14 +176,12 @@ fn row(law: &LawInfo) -> String {
 }
 
 #[test]
-fn the_variables_of_the_readme_are_those_of_the_table() {
-    let text = read("README.md");
-    let scene = between(&text, "```toml\n", "```").next().unwrap();
-    let with_hertz = scene.replace("kelvin_voigt_no_tension", "hertz").replace("restitution = 0.65", "exponent = 1.5");
+fn the_variables_of_the_reference_are_those_of_the_table() {
+    let scene = read("examples/scenes/two_blocks.toml");
     let driven = scene.lines().filter(|line| !line.starts_with("record") && !line.starts_with("pga"));
     let driven: String = driven.flat_map(|line| [line, "\n"]).collect();
     let mut variables = BTreeSet::new();
-    for scene in [scene, &with_hertz, &driven] {
+    for scene in [&scene, &driven] {
         let scene =
             Scene::from_toml(&format!("{scene}[inputs]\nfloor_forces = true\n[outputs]\nenergy = true")).unwrap();
         for row in Table::new(&scene).rows {
@@ -177,46 +192,44 @@ fn the_variables_of_the_readme_are_those_of_the_table() {
             variables.insert(if rest.is_empty() { name.clone() } else { format!("{before}[{counter}]{after}") });
         }
     }
-    let (_, section) = text.split_once("## What the numbers mean").unwrap();
-    let (section, _) = section.split_once("\n## ").unwrap();
-    let described: BTreeSet<String> = first_cells(section).into_iter().map(str::to_owned).collect();
+    let table = section(&read("docs/reference.md"), "## Variables");
+    let described: BTreeSet<String> = first_cells(&table).into_iter().map(str::to_owned).collect();
     assert_eq!(described, variables);
 }
 
 /// All outputs that are numbers have derivatives, which the table tells.
 #[test]
 fn the_derivatives_of_the_coupling_page_are_those_that_there_are() {
-    let readme = read("README.md");
-    let text = between(&readme, "```toml\n", "```").next().unwrap();
+    let text = read("examples/scenes/two_blocks.toml");
     let scene = Scene::from_toml(&format!("{text}[outputs]\nenergy = true")).unwrap();
     let is_real_output = |row: &&Row| matches!((row.slot, &row.ty), (Slot::Output(_), Type::Real(_)));
     let general = |name: &str| ["[1]", "[2]", "[3]"].iter().fold(name.to_owned(), |name, i| name.replace(i, "[i]"));
     let expected: BTreeSet<String> = (Table::new(&scene).rows.iter().filter(is_real_output))
         .map(|row| general(&row.name).replace("right", "left").replace("contact[i]", "contact[p]"))
         .collect();
-    let page = read("docs/coupling.md");
-    let (_, section) = page.split_once("## Derivatives of outputs").unwrap();
-    let (section, _) = section.split_once("\n## ").unwrap();
-    let described: BTreeSet<String> = first_cells(section).into_iter().map(str::to_owned).collect();
+    let table = section(&read("docs/coupling.md"), "## Derivatives of outputs with respect to time");
+    let described: BTreeSet<String> = first_cells(&table).into_iter().map(str::to_owned).collect();
     assert_eq!(described, expected);
-    assert!(section.contains(&format!("`maxOutputDerivativeOrder` is {HIGHEST_OUTPUT_DERIVATIVE}")));
+    assert!(table.contains(&format!("`maxOutputDerivativeOrder` is {HIGHEST_OUTPUT_DERIVATIVE}")));
 }
 
 /// The headings of a document, as links name them.
 fn headings(document: &Path) -> Vec<String> {
     let text = fs::read_to_string(document).unwrap();
     let headings = text.lines().filter(|line| line.starts_with('#'));
-    headings.map(|line| line.trim_start_matches(['#', ' ']).to_lowercase().replace(' ', "-")).collect()
+    let kept = |c: &char| c.is_alphanumeric() || ['-', '_', ' '].contains(c);
+    let name = |line: &str| line.trim_start_matches(['#', ' ']).to_lowercase().chars().filter(kept).collect::<String>();
+    headings.map(|line| name(line).replace(' ', "-")).collect()
 }
 
 #[test]
 fn the_files_that_the_documents_name_exist() {
     for document in documents() {
         let text = read(&document);
-        let folder = root().join(&document);
+        let page = root().join(&document);
         for link in between(&text, "](", ")").filter(|link| !link.contains("://")) {
             let (file, heading) = link.split_once('#').unwrap_or((link, ""));
-            let linked = folder.with_file_name(file);
+            let linked = if file.is_empty() { page.clone() } else { page.with_file_name(file) };
             assert!(linked.exists(), "{document}: {link}");
             assert!(heading.is_empty() || headings(&linked).contains(&heading.to_owned()), "{document}: {link}");
         }

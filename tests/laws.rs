@@ -1,5 +1,5 @@
 //! The list of laws is complete everywhere: sources, FMU variables, documents. That each is read from a scene by its
-//! name is a test of scenes (tests/scene/forms.rs), that the README has each one's row a test of documents.
+//! name is a test of scenes (tests/scene/forms.rs), that docs/reference.md has each one's row one of documents.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 #[path = "../examples/laws/impact.rs"]

@@ -20,7 +20,7 @@ const USE: &str = "<ul>\n\
     <li>Floors are counted from 1 at the bottom; storey <em>i</em> is below floor <em>i</em>.</li>\n\
     <li>Any communication step will do: impacts are found and followed inside. Inputs are held from one communication \
     point to the next, or follow the line whose slope is set as their derivative.</li>\n\
-    <li>An impact lasts milliseconds and falls between communication points: read <code>impulse</code>, \
+    <li>An impact may be over between two communication points: read <code>impulse</code>, \
     <code>peak_force</code> and <code>impacts</code> instead of sampling <code>force</code>. The mean force over a step \
     is the difference of the impulse divided by the step.</li>\n\
     <li>Parameters can be set until the end of the initialisation.</li>\n</ul>\n";

@@ -25,7 +25,7 @@ impl ImpactLaw {
 }
 
 /// What is known of one law: all that is particular to it stands in its file. The texts are for a person and stand in
-/// the README and in docs/laws.md as they are here.
+/// docs/reference.md and in docs/laws.md as they are here.
 ///
 /// Symbols that all laws share: penetration d, m, its rate v, m/s, and the approach velocity V, m/s, which is v at the
 /// entry; the reduced mass m of the two floors, kg; the coefficient of restitution e, the speed after a free impact

@@ -1,5 +1,7 @@
-"""The guide's numbers are those that its commands give."""
+"""The numbers of the guide and of the README are those that their commands give."""
 
+import csv
+import shutil
 import subprocess
 import sys
 
@@ -8,6 +10,7 @@ import pytest
 import harness
 
 GUIDE = (harness.ROOT / "docs/guide.md").read_text()
+README = (harness.ROOT / "README.md").read_text()
 SCENE = harness.replaced(
     (harness.ROOT / "examples/scenes/offices.toml").read_text(),
     '"../records/el_centro_1940_ns.csv"',
@@ -24,6 +27,48 @@ def test_the_gaps_are_those_that_the_guide_quotes(offices):
     command = [sys.executable, harness.ROOT / "examples/choose_gap.py", offices.path]
     printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     assert f"```text\n{printed}```" in GUIDE
+
+
+def test_the_readme_quotes_what_its_ten_lines_print(feup, tmp_path):
+    (tmp_path / "target/fmu").mkdir(parents=True)
+    shutil.copy(feup.path, tmp_path / "target/fmu/FeupFrames.fmu")
+    command = [sys.executable, harness.ROOT / "examples/drive_with_fmpy.py"]
+    printed = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True).stdout
+    assert f"```text\n{printed}```" in README
+
+
+def test_the_first_look_is_what_the_guide_says(offices):
+    stop = float(offices.description.defaultExperiment.stopTime)
+    last = offices.simulate(0.02, stop)[-1]
+    force = max(last[f"contact[{p}].peak_force"] for p in (1, 2, 3))
+    drifts = {name: last[name] for name in last.dtype.names if ".peak_drift[" in name}
+    drift = drifts["left.peak_drift[1]"]
+    assert drift == max(drifts.values()) and last["contact[1].impacts"] == 0
+    left, right = offices.instance().start().get("left.frequency[1]", "right.frequency[1]")
+    said = " ".join(GUIDE.split())
+    for sentence in [
+        f"{left:.2f} Hz on the left, {right:.2f} Hz on the right, periods of {1 / left:.2f} s and {1 / right:.2f} s.",
+        f"{last['impacts']} in {stop:.0f} s, {last['contact[3].impacts']} of them at floor 3 and none at floor 1",
+        f"**peak force**: {force / 1e6:.1f} MN.",
+        f"{1e3 * drift:.0f} mm in the left building's first storey, 1/{3.2 / drift:.0f} of its height",
+    ]:
+        assert sentence in said
+
+
+def lasting(scene, folder):
+    """The shortest and the longest contact of a run, ms."""
+    table = folder / "impacts.csv"
+    harness.run(harness.SIMULATE, scene, "--impacts", table)
+    times = [1e3 * (float(row["end_s"]) - float(row["start_s"])) for row in csv.DictReader(table.open())]
+    return min(times), max(times)
+
+
+def test_contacts_last_as_long_as_the_documents_say(feup, offices, tmp_path):
+    (shortest, longest), frames = lasting(offices.scene, tmp_path), lasting(feup.scene, tmp_path)
+    assert f"Here they last {shortest:.0f} to {longest:.0f} ms." in GUIDE
+    reference = " ".join((harness.ROOT / "docs/reference.md").read_text().split())
+    assert f"in the default scene one lasts {frames[0]:.0f} to {frames[1]:.0f} ms, " in reference
+    assert f"between the office buildings of the guide {shortest:.0f} to {longest:.0f} ms." in reference
 
 
 def rows():

@@ -15,7 +15,8 @@ pub const INFO: LawInfo = LawInfo {
     returns: "what the formula makes of e, whatever k, n, m and V: exactly e with `exact`",
     valid: "0 < e <= 1; 1 <= n <= 3; V from `solver.min_approach_velocity` on, which stands for a smaller one; floors that \
             overlap at the start are not damped until they part",
-    defect: "V damps the whole contact, however something else presses or parts the floors meanwhile",
+    defect: "the damping is scaled with the approach velocity V for the whole contact, however the motion of the \
+             buildings changes the speed meanwhile",
     keys: &[LawKey::Stiffness, LawKey::Exponent, LawKey::Restitution],
     pulls: false,
     has_damping_formula: true,

@@ -15,7 +15,7 @@ pub const INFO: LawInfo = LawInfo {
     source: "[Jankowski2005], [Jankowski2006], [BarrosKhatami2013, eqs. 7, 8]",
     returns: "nearly e: 0.4946 for e = 0.5",
     valid: "0 < e <= 1",
-    defect: "xi is an approximation: off by up to 0.0086 in what is returned, for e from 0.05 to 0.95",
+    defect: "xi is an approximation: the restitution of a free impact is off by up to 0.0086 for e from 0.05 to 0.95",
     keys: &[LawKey::Stiffness, LawKey::Restitution],
     pulls: false,
     has_damping_formula: false,

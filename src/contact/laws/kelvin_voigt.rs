@@ -14,7 +14,7 @@ pub const INFO: LawInfo = LawInfo {
     source: "[Anagnostopoulos1988], [BarrosKhatami2013, eqs. 4, 5]",
     returns: "exactly e",
     valid: "0 < e <= 1",
-    defect: "starts with a jump to c V and pulls at the end, at last with c e V",
+    defect: "the force jumps to c V at the entry and becomes tension before the floors part, c e V at the end",
     keys: &[LawKey::Stiffness, LawKey::Restitution],
     pulls: true,
     has_damping_formula: false,

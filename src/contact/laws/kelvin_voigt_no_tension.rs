@@ -1,6 +1,6 @@
 //! `kelvin_voigt_no_tension`: [`kelvin_voigt`] with the pull at the end left out.
 //!
-//! A free impact ends in effect where k d + c v = 0, before the half period that c is made for is over. It returns
+//! A free impact ends in effect where k d + c v = 0, before the end of the half period that c is derived for. It returns
 //! exp(-2 xi acos(xi) / sqrt(1 - xi^2)).
 
 use super::kelvin_voigt;
@@ -14,7 +14,8 @@ pub const INFO: LawInfo = LawInfo {
     source: "[Komodromos2007], [BarrosKhatami2013, section 2.2]",
     returns: "more than e: 0.5503 for e = 0.5",
     valid: "0 < e <= 1",
-    defect: "c is made for a contact that pulls at the end; starts with a jump to c V",
+    defect: "c is that of a contact with tension, which lasts until d = 0, while this force ends earlier; it jumps to c V \
+             at the entry",
     keys: &[LawKey::Stiffness, LawKey::Restitution],
     pulls: false,
     has_damping_formula: false,

@@ -8,7 +8,7 @@ pub const INFO: LawInfo = LawInfo {
     force: "k d",
     symbols: "",
     source: "[BarrosKhatami2013, eq. 3]",
-    returns: "1, pi sqrt(m/k) after the entry",
+    returns: "1, after a contact that lasts pi sqrt(m/k)",
     valid: "impacts that lose no energy",
     defect: "loses no energy",
     keys: &[LawKey::Stiffness],
