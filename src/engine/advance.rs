@@ -125,7 +125,7 @@ impl Model {
         if let Some(event) = step.event {
             counters.events += 1;
             base.watch.restart();
-            base.peaks.restart();
+            work.peaks.restart();
             self.handle(base, event, work, on_episode);
         }
         step.kind = StepKind::Unknown;

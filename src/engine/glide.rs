@@ -57,7 +57,7 @@ impl Model {
         let has_arrived = loop {
             let is_planned = state.step.kind != StepKind::Unknown;
             let is_free = state.base.watch.are_all_free(next) || !is_planned && self.look_ahead(ground, state, next);
-            let State { base, step, counters, .. } = &mut *state;
+            let State { base, step, counters, work, .. } = &mut *state;
             if next - first >= most || !is_free && is_planned {
                 break false;
             }
@@ -70,12 +70,11 @@ impl Model {
                 break is_free;
             }
             let end = if is_free { base.watch.due().min(next + MOST_AT_ONCE) } else { base.watch.next_look() };
-            let clear = self.clear_of_peaks(ground, &mut *state, next);
+            let clear = self.watch_peaks(ground, base, next, work);
             let is_checked = clear == next;
             let end = end.min(if is_checked { next + 1 } else { clear });
             let segments = next..end.min(first.saturating_add(most));
             let wanted = segments.end - next;
-            let State { base, step, counters, work, .. } = &mut *state;
             if is_checked {
                 work.q.copy_from_slice(&base.q);
                 work.v.copy_from_slice(&base.v);
@@ -105,16 +104,6 @@ impl Model {
             }
         };
         Glide { flown: next - first, has_arrived }
-    }
-
-    /// The first segment from the base's on, of that number, in which a peak may be exceeded.
-    #[inline(always)]
-    fn clear_of_peaks(&self, ground: &GroundMotion, state: &mut State, segment: u64) -> u64 {
-        let State { base, work, .. } = state;
-        if base.peaks.due() <= segment {
-            self.look_ahead_for_peaks(ground, base, segment, work);
-        }
-        base.peaks.due()
     }
 
     /// Raises peaks over the segment, of that number, that has been flown from the motion in `work` to the base.

@@ -203,6 +203,26 @@ pub struct Ahead<'a> {
 }
 
 impl Ahead<'_> {
+    /// s, the longest of so many segments.
+    pub fn longest(&self, segments: u64) -> f64 {
+        self.each(segments).fold(self.ground.spacing, |longest, (length, _)| longest.max(length))
+    }
+
+    /// The largest |ground acceleration|, m/s2, and the largest |slope|, m/s3, of so many segments.
+    pub fn largest(&self, segments: u64) -> (f64, f64) {
+        self.each(segments).fold((0.0, 0.0), |(strongest, steepest): (f64, f64), (length, [start, end])| {
+            (strongest.max(start.abs()).max(end.abs()), steepest.max(((end - start) / length).abs()))
+        })
+    }
+
+    /// Length, s, and accelerations at both ends, m/s2, of each of so many segments within the record.
+    fn each(&self, segments: u64) -> impl Iterator<Item = (f64, [f64; 2])> + '_ {
+        let GroundMotion { lengths, accelerations, .. } = self.ground;
+        let [first, end] = [self.number, self.number + segments].map(|number| number.min(lengths.len() as u64) as usize);
+        let ends = accelerations[first..].windows(2).map(|ends| [ends[0], ends[1]]);
+        lengths[first..end].iter().copied().zip(ends)
+    }
+
     /// s that so many segments last, and the integral of |acceleration| over them, m/s: never less than exact.
     #[inline(always)]
     pub fn over(&self, segments: u64) -> (f64, f64) {

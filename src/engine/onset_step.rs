@@ -73,7 +73,13 @@ impl OnsetSeries {
         }
     }
 
-    fn term(&self, index: usize) -> &[f64] {
+    /// The exponents of its terms, once it has been started.
+    pub fn grid(&self) -> Option<&Grid> {
+        self.grid.as_ref()
+    }
+
+    /// The motion's term with an index of the grid.
+    pub fn term(&self, index: usize) -> &[f64] {
         &self.terms[index * self.lanes..(index + 1) * self.lanes]
     }
 
@@ -142,14 +148,6 @@ impl OnsetSeries {
             let terms = self.blocks[block].copy_force(grid, lane).map(f64::abs);
             *out = grid.sum(&terms, x) / x;
         }
-    }
-
-    /// Penetration, m, and rate, m/s, of a pair in contact at x > 0.
-    pub fn penetration_at(&self, p: usize, x: f64) -> (f64, f64) {
-        let Some(grid) = &self.grid else { return (0.0, 0.0) };
-        let (block, lane) = self.places[p];
-        let (d, slope) = value_and_slope(grid, &self.blocks[block].copy_penetration(grid, lane), x);
-        (d, slope / self.scale)
     }
 
     /// u and v at x > 0.

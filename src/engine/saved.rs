@@ -97,7 +97,7 @@ impl Model {
         self.check_segment(saved)?;
         self.check_contacts(base)?;
         let number = self.ground.as_ref().and_then(|ground| ground.number(&base.segment)).unwrap_or_default();
-        require(base.peaks.fit(&self.start_peaks(), number), "the peaks in it are impossible")?;
+        require(base.peaks.fit(&self.start_peaks()), "the peaks in it are impossible")?;
         require(base.watch.fits(self.pairs.len(), number, MOST_COUNTED), "what it tells of pairs apart is impossible")?;
         self.restore(saved, &mut state);
         self.check_time(saved.is_planned, &state)

@@ -228,14 +228,6 @@ pub(super) struct Step {
 }
 
 impl Step {
-    /// Penetration, m, and rate, m/s, of a pair in contact at a time, s, of a step that has no power series in time.
-    pub fn penetration_at(&self, p: usize, time: f64) -> (f64, f64) {
-        match self.kind {
-            StepKind::Window => self.window.penetration_at(p, time),
-            _ => self.onset.penetration_at(p, time / self.onset.scale),
-        }
-    }
-
     /// Has the series read by a clock, in whose x those of pairs in contact are from now on; `bend` is what has made them so.
     pub fn bend(&mut self, clock: Clock, bend: &mut Bend) {
         bend.set(&clock, self.series.order + 1);

@@ -103,12 +103,6 @@ impl Window {
         }
     }
 
-    /// Penetration, m, and rate, m/s, of a pair in contact at a time of the window.
-    pub fn penetration_at(&self, p: usize, elapsed: f64) -> (f64, f64) {
-        let Some(place) = self.place(p) else { return (0.0, 0.0) };
-        self.depth(place, elapsed, self.moments(elapsed, &mut None))
-    }
-
     /// Penetration, m, and rate, m/s, of a pair under these moments.
     fn depth(&self, place: usize, elapsed: f64, moments: &Moments) -> (f64, f64) {
         let Equation { terms, ref free, ref kernels, .. } = self.equation;
@@ -168,7 +162,19 @@ fn weigh(nodes: &Nodes, force: &Row, part: &Part, elapsed: f64, moments: &mut [f
 
 impl Model {
     /// q and v, `elapsed` seconds into the window of a step.
-    pub(super) fn read_window(&self, step: &Step, elapsed: f64, powers: &mut Powers, (q, v): (&mut [f64], &mut [f64])) {
+    pub(super) fn read_window(&self, step: &Step, elapsed: f64, powers: &mut Powers, motion: (&mut [f64], &mut [f64])) {
+        self.read_window_and_pairs(step, elapsed, powers, motion, &mut []);
+    }
+
+    /// The same, and the penetrations, m, and rates, m/s, of as many pairs in contact as there is room for.
+    pub(super) fn read_window_and_pairs(
+        &self,
+        step: &Step,
+        elapsed: f64,
+        powers: &mut Powers,
+        (q, v): (&mut [f64], &mut [f64]),
+        pairs: &mut [(f64, f64)],
+    ) {
         let Some(windows) = &self.windows else { return };
         powers.set(elapsed / step.series.scale, step.series.order);
         step.series.evaluate(powers, q, v);
@@ -177,6 +183,9 @@ impl Model {
         let moments = window.moments(elapsed, &mut room);
         for (p, moments) in window.contacts.iter().zip(moments).take(window.equation.closed) {
             windows.response.push(&self.pairs[*p].row, &moments[..window.equation.powers], (q, v));
+        }
+        for (place, pair) in pairs.iter_mut().enumerate().take(window.equation.closed) {
+            *pair = window.depth(place, elapsed, moments);
         }
     }
 }

@@ -1,184 +1,262 @@
 //! For how many segments of the record nothing can exceed its peak.
 //!
 //! With the amplitude e = sqrt(q'^2 + w^2 q^2) of each mode, which grows by no more than |participation| S in a shaking
-//! S = integral of |ground acceleration| (see `dismissal.rs`), a quantity y = A q + B q' swings no further than
+//! S = integral of |ground acceleration| (see `dismissal.rs`), a quantity y = A q + B q' is bounded by sums over modes:
 //!
 //! ```text
-//! |y| <= sum over modes of (|A| / w + |B|) (e + |participation| S)
+//! |y|   <= sum of (|A| / w + |B|) e
+//! |y'|  <= sum of (|A| + |B| (w + c)) e + |B participation| |ground acceleration|
+//! |y''| <= sum of (|A - B c| (w + c) + |B| w^2) e + |(A - B c) participation| |ground acceleration|
+//!          + |B participation| |slope of the ground acceleration|
 //! ```
 //!
-//! That is enough once the strongest shaking is over. Before, y' = (A - B c) q' - B w^2 q but for the ground's own part, and
-//! that changes by no more than |y''| <= sum of (|A - B c| (w + c) + |B| w^2) (e + |participation| S) and what the ground does:
-//!
-//! ```text
-//! |y| <= |y + t y'| + |B participation| S + t (|(A - B c) participation| S + t/2 bound on |y''|)
-//! ```
-//!
-//! which is convex in t: what lies below a peak at both ends of a stretch does so all along.
+//! The first is enough once the strongest shaking is over. The second tells for how many segments a quantity cannot get from
+//! where it is to its peak. By the third, one that is below its peak at both ends of a segment by h^2/8 |y''| is so all along.
+//! These bounds are worked out every few segments, values where they are due. They change no result, so no saved state
+//! holds them.
 
-use super::Peaks;
+use super::flight::ModeBounds;
 use super::larger;
 use super::rows::{Block, BuildingRows};
-use crate::engine::ground::{Ahead, GroundMotion};
+use crate::engine::ground::GroundMotion;
 use crate::engine::model::Model;
 use crate::engine::state::{Base, Workspace};
 use crate::polynomial::each;
 use crate::structure::{LANES, Lane};
 
-/// Most segments that one look is good for.
-pub(super) const MOST: u64 = 256;
+/// Segments for which bounds are worked out, where nothing swings up to its peak and otherwise.
+const LONG: u64 = 128;
+const SHORT: u64 = 16;
 
-/// Numbers of segments that are tried.
-const TRIED: [u64; 14] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 128, MOST];
+/// Margin for rounding, relative to bounds.
+const MARGIN: f64 = 1e-10;
 
-/// Margin for rounding, relative to the whole swing.
-const MARGIN: f64 = 1e-12;
-
-/// The motion of a building's modes at the base.
-struct Motion<'a> {
-    q: &'a [f64],
-    v: &'a [f64],
-    /// m/s2 (kg^1/2), what stiffness and damping do to each mode.
-    own: &'a [f64],
-    /// c, 1/s.
-    damping: &'a [f64],
-    /// Amplitudes e, e / w, (w + c) e and w^2 e.
-    amplitude: [&'a [f64]; 4],
+/// For how long what is clear of its peak.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PeakWatch {
+    /// The first segment for which the bounds do not hold.
+    until: u64,
+    /// The first segment in which anything may exceed its peak, as far as is known.
+    due: u64,
+    /// s, the longest segment until then.
+    longest: f64,
+    blocks: Vec<WatchedBlock>,
 }
 
-/// What is known of a block at the base.
-struct Outlook {
+#[derive(Clone, Debug, Default)]
+struct WatchedBlock {
+    clear_until: u64,
+    /// The values at the start of a segment.
     value: Lane,
+    known_at: Option<u64>,
+    /// Bounds on |y'|, and on how far it bends away from the chord of a segment: h^2/8 |y''|.
     rate: Lane,
-    /// Bounds on the second derivative and on the whole swing without more shaking.
-    bend: Lane,
+    sag: Lane,
+}
+
+impl PeakWatch {
+    pub fn new(blocks: usize) -> PeakWatch {
+        PeakWatch { blocks: vec![WatchedBlock::default(); blocks], ..PeakWatch::default() }
+    }
+
+    /// Forgets all: the motion is another one, or a contact force or an impulse has acted.
+    pub fn restart(&mut self) {
+        (self.until, self.due) = (0, 0);
+        for block in &mut self.blocks {
+            (block.clear_until, block.known_at) = (0, None);
+        }
+    }
+
+    pub fn due(&self) -> u64 {
+        self.due
+    }
+
+    pub fn is_clear(&self, block: usize, segment: u64) -> bool {
+        self.blocks[block].clear_until > segment
+    }
+}
+
+/// What a building's modes have at the base.
+struct Amplitudes<'a> {
+    /// e, e / w, (w + c) e, w^2 e.
+    own: &'a [f64],
+    over_w: &'a [f64],
+    quick: &'a [f64],
+    bent: &'a [f64],
+    /// c, 1/s.
+    damping: &'a [f64],
+}
+
+/// The bounds on |y|, |y'| and |y''| without more shaking.
+#[derive(Default)]
+struct Reach {
     swing: Lane,
+    rate: Lane,
+    bend: Lane,
 }
 
 impl Model {
-    /// Looks ahead from the base, in the segment of that number, for the blocks that have not been cleared for it. The
-    /// motion is that of modes which damping does not couple.
-    pub(in crate::engine) fn look_ahead_for_peaks(
+    /// Looks ahead from the base, which is at the start of the segment of that number or within it, for the blocks that may
+    /// exceed a peak in it; returns the first segment in which any may. The motion is that of modes which damping does not
+    /// couple.
+    pub(in crate::engine) fn watch_peaks(
         &self,
         ground: &GroundMotion,
         base: &mut Base,
         segment: u64,
         work: &mut Workspace,
-    ) {
-        if base.peaks.due > segment {
-            return;
+    ) -> u64 {
+        if work.peaks.watch.due > segment {
+            return work.peaks.watch.due;
         }
-        let ahead = ground.ahead_of(segment);
+        if work.peaks.watch.until <= segment {
+            self.bound_ahead(ground, base, segment, work);
+        }
+        let watch = &mut work.peaks.watch;
+        let values = base.peaks.values.as_chunks_mut::<LANES>().0;
+        let mut due = watch.until;
         for building in &self.peak_rows.buildings {
-            let blocks = building.first..building.first + building.blocks.len();
-            if base.peaks.clear_until[blocks].iter().all(|until| *until > segment) {
-                continue;
+            let motion = (&base.q[building.modes.clone()], &base.v[building.modes.clone()]);
+            let watched = watch.blocks[building.first..].iter_mut().zip(&mut values[building.first..]);
+            for (block, (watched, peaks)) in building.blocks.iter().zip(watched) {
+                if watched.clear_until <= segment {
+                    if watched.known_at != Some(segment) || base.elapsed > 0.0 {
+                        (watched.value, watched.known_at) = (values_of(block, motion.0, motion.1), Some(segment));
+                        // An impulse may have made it larger.
+                        *peaks = each(|i| larger(peaks[i], watched.value[i].abs()));
+                    }
+                    watched.clear_until = (segment + watched.segments_to_peak(peaks, watch.longest)).min(watch.until);
+                }
+                due = due.min(watched.clear_until);
             }
-            self.find_amplitudes(building, base, work);
-            let bounds = &work.peaks.bounds;
-            let modes = building.modes.clone();
-            let motion = Motion {
-                q: &base.q[modes.clone()],
-                v: &base.v[modes.clone()],
-                own: &bounds.first[modes.clone()],
-                damping: &self.structure.damping[modes.clone()],
-                amplitude: [&bounds.swing, &bounds.swing_q, &bounds.slow, &bounds.quick].map(|all| &all[modes.clone()]),
-            };
-            look(building, &motion, (&ahead, segment, base.elapsed), &mut base.peaks);
         }
-        base.peaks.due = base.peaks.clear_until.iter().copied().min().unwrap_or(u64::MAX);
+        watch.due = due;
+        due
     }
 
-    /// Amplitudes of a building's modes at the base and what stiffness and damping do to each.
-    fn find_amplitudes(&self, building: &BuildingRows, base: &Base, work: &mut Workspace) {
-        let bounds = &mut work.peaks.bounds;
+    /// Works out bounds for some segments from the base on.
+    #[inline(never)]
+    fn bound_ahead(&self, ground: &GroundMotion, base: &Base, segment: u64, work: &mut Workspace) {
+        let ahead = ground.ahead_of(segment);
+        let shaking = [SHORT, LONG].map(|segments| ahead.over(segments).1);
+        let (strongest, steepest) = ahead.largest(SHORT);
+        let values = base.peaks.values.as_chunks::<LANES>().0;
+        let longest = ahead.longest(SHORT);
+        let sag = 0.125 * longest * longest;
+        for building in &self.peak_rows.buildings {
+            self.find_amplitudes(building, base, &mut work.peaks.bounds);
+            let amplitudes = self.amplitudes_of(building, &work.peaks.bounds);
+            for (b, block) in building.blocks.iter().enumerate() {
+                let watched = &mut work.peaks.watch.blocks[building.first + b];
+                let Reach { swing, rate, bend } = reach(block, &amplitudes);
+                let (peaks, growth) = (&values[building.first + b], &block.growth);
+                let most = |shaking: f64| each(|i| (1.0 + MARGIN) * (swing[i] + growth.swing[i] * shaking));
+                let is_below = |most: Lane| (0..LANES).all(|i| most[i] <= peaks[i]);
+                watched.clear_until = segment;
+                if is_below(most(shaking[1])) {
+                    watched.clear_until = segment + LONG;
+                } else if is_below(most(shaking[0])) {
+                    watched.clear_until = segment + SHORT;
+                }
+                watched.rate = each(|i| {
+                    (1.0 + MARGIN) * (rate[i] + growth.rate[i] * shaking[0] + growth.at_once[i] * strongest)
+                });
+                watched.sag = each(|i| {
+                    let pushed = growth.pushed[i] * strongest + growth.at_once[i] * steepest;
+                    (1.0 + MARGIN) * sag * (bend[i] + growth.bend[i] * shaking[0] + pushed)
+                });
+            }
+        }
+        let blocks = work.peaks.watch.blocks.iter();
+        let are_all_long = blocks.map(|block| block.clear_until).min().is_none_or(|first| first >= segment + LONG);
+        work.peaks.watch.longest = longest;
+        work.peaks.watch.until = segment + if are_all_long { LONG } else { SHORT };
+    }
+
+    /// Amplitudes of a building's modes at the base.
+    fn find_amplitudes(&self, building: &BuildingRows, base: &Base, bounds: &mut ModeBounds) {
         for m in building.modes.clone() {
-            let (q, v, w2, c) = (base.q[m], base.v[m], self.structure.omega2[m], self.structure.damping[m]);
+            let (q, v, w2) = (base.q[m], base.v[m], self.structure.omega2[m]);
             let amplitude = (v * v + w2 * q * q).sqrt();
-            bounds.first[m] = -c * v - w2 * q;
             bounds.swing[m] = amplitude;
             bounds.swing_q[m] = amplitude / w2.sqrt();
             bounds.slow[m] = self.structure.quickness[m] * amplitude;
             bounds.quick[m] = w2 * amplitude;
         }
     }
-}
 
-/// See [`Model::look_ahead_for_peaks`]. Wide instructions give the same bits.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn look(building: &BuildingRows, motion: &Motion, (ahead, segment, elapsed): (&Ahead, u64, f64), peaks: &mut Peaks) {
-    let Peaks { values, clear_until, .. } = peaks;
-    let peaks = values.as_chunks_mut::<LANES>().0[building.first..].iter_mut();
-    for ((block, peak), until) in building.blocks.iter().zip(peaks).zip(&mut clear_until[building.first..]) {
-        if *until > segment {
-            continue;
+    fn amplitudes_of<'a>(&'a self, building: &BuildingRows, bounds: &'a ModeBounds) -> Amplitudes<'a> {
+        let [own, over_w, quick, bent, damping] =
+            [&bounds.swing, &bounds.swing_q, &bounds.slow, &bounds.quick, &self.structure.damping]
+                .map(|all| &all[building.modes.clone()]);
+        Amplitudes { own, over_w, quick, bent, damping }
+    }
+
+    /// Whether a block may have exceeded a peak in the segment, of that number, that has been flown to the base.
+    pub(super) fn may_have_risen(&self, building: &BuildingRows, b: usize, segment: u64, base: &Base, work: &mut Workspace) -> bool {
+        let watched = &mut work.peaks.watch.blocks[building.first + b];
+        if watched.clear_until > segment {
+            return false;
         }
-        let outlook = block.outlook(motion);
-        *peak = each(|i| larger(peak[i], outlook.value[i].abs()));
-        *until = segment;
-        for segments in TRIED {
-            let (time, shaking) = ahead.over(segments);
-            if !outlook.stays_below(peak, &block.growth, time - elapsed, shaking) {
-                break;
-            }
-            *until = segment + segments;
-        }
+        let modes = building.modes.clone();
+        let end = values_of(&building.blocks[b], &base.q[modes.clone()], &base.v[modes]);
+        let start = std::mem::replace(&mut watched.value, end);
+        watched.known_at = Some(segment + 1);
+        let peaks = &base.peaks.values.as_chunks::<LANES>().0[building.first + b];
+        !(0..LANES).all(|i| larger(start[i].abs(), end[i].abs()) + watched.sag[i] <= peaks[i])
     }
 }
 
-impl Block {
+impl WatchedBlock {
+    /// For how many segments of a length, s, all stay below their peaks.
     #[inline(always)]
-    fn outlook(&self, motion: &Motion) -> Outlook {
-        let [amplitude, amplitude_q, slow, quick] = motion.amplitude;
-        let mut seen = Outlook { value: [0.0; LANES], rate: [0.0; LANES], bend: [0.0; LANES], swing: [0.0; LANES] };
-        let count = self.on_q.len();
-        let (q, v, own) = (&motion.q[..count], &motion.v[..count], &motion.own[..count]);
-        let (amplitude_q, slow) = (&amplitude_q[..count], &slow[..count]);
-        for m in 0..count {
-            let a = &self.on_q[m];
-            for i in 0..LANES {
-                seen.value[i] += a[i] * q[m];
-                seen.rate[i] += a[i] * v[m];
-                seen.swing[i] += a[i].abs() * amplitude_q[m];
-            }
-        }
-        if self.on_v.is_empty() {
-            for m in 0..count {
-                for i in 0..LANES {
-                    seen.bend[i] += self.on_q[m][i].abs() * slow[m];
-                }
-            }
-            return seen;
-        }
-        let (amplitude, quick, on_v) = (&amplitude[..count], &quick[..count], &self.on_v[..count]);
-        let damping = &motion.damping[..count];
-        for m in 0..count {
-            let (a, b, c) = (&self.on_q[m], &on_v[m], damping[m]);
-            for i in 0..LANES {
-                seen.value[i] += b[i] * v[m];
-                seen.rate[i] += b[i] * own[m];
-                seen.swing[i] += b[i].abs() * amplitude[m];
-                seen.bend[i] += (a[i] - b[i] * c).abs() * slow[m] + b[i].abs() * quick[m];
-            }
-        }
-        seen
-    }
-}
-
-impl Outlook {
-    /// Whether all of the block stay below their peaks for a time, s, and a shaking, m/s.
-    #[inline(always)]
-    fn stays_below(&self, peak: &Lane, growth: &super::rows::Growth, time: f64, shaking: f64) -> bool {
-        let mut stays = true;
+    fn segments_to_peak(&self, peaks: &Lane, length: f64) -> u64 {
+        let mut least = SHORT as f64;
         for i in 0..LANES {
-            let bend = self.bend[i] + growth.bend[i] * shaking;
-            let swing = (self.swing[i] + growth.swing[i] * shaking) * (1.0 + MARGIN);
-            let moved = (self.value[i] + time * self.rate[i]).abs()
-                + (growth.at_once[i] * shaking + time * (growth.rate[i] * shaking + 0.5 * time * bend));
-            let moved = moved + MARGIN * swing;
-            // Written so that a NaN is never below anything.
-            stays &= swing <= peak[i] || moved <= peak[i];
+            let segments = (peaks[i] - self.value[i].abs()) / (length * self.rate[i]);
+            // A quantity that is always 0 has no rate; a NaN never clears anything.
+            let segments = if self.rate[i] == 0.0 { least } else { segments };
+            least = if segments >= least { least } else { segments };
         }
-        stays
+        // Below 0 and NaN: 0.
+        (least - MARGIN) as u64
     }
+}
+
+/// The values of a block. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn values_of(block: &Block, q: &[f64], v: &[f64]) -> Lane {
+    block.values(q, v)
+}
+
+/// The bounds of a block. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn reach(block: &Block, amplitudes: &Amplitudes) -> Reach {
+    let count = block.on_q.len();
+    // Says once that no index below leaves its vector.
+    let Amplitudes { own, over_w, quick, bent, damping } = amplitudes;
+    let (own, over_w, quick, bent, damping) =
+        (&own[..count], &over_w[..count], &quick[..count], &bent[..count], &damping[..count]);
+    let mut reach = Reach::default();
+    if block.on_v.is_empty() {
+        for m in 0..count {
+            for i in 0..LANES {
+                let a = block.on_q[m][i].abs();
+                reach.swing[i] += a * over_w[m];
+                reach.rate[i] += a * own[m];
+                reach.bend[i] += a * quick[m];
+            }
+        }
+        return reach;
+    }
+    let on_v = &block.on_v[..count];
+    for m in 0..count {
+        for i in 0..LANES {
+            let (a, b) = (block.on_q[m][i], on_v[m][i]);
+            reach.swing[i] += a.abs() * over_w[m] + b.abs() * own[m];
+            reach.rate[i] += a.abs() * own[m] + b.abs() * quick[m];
+            reach.bend[i] += (a - b * damping[m]).abs() * quick[m] + b.abs() * bent[m];
+        }
+    }
+    reach
 }

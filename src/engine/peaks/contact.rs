@@ -32,11 +32,8 @@ impl ContactStep<'_> {
 impl Model {
     /// Notes the contacts at the start of a step.
     pub(in crate::engine) fn note_starts(&self, contacts: &[Contact], work: &mut Workspace) {
-        let starts = work.peaks.first_forces.iter_mut().zip(&mut work.peaks.starts);
-        for ((force, start), contact) in starts.zip(contacts) {
-            *force = contact.present_force();
-            *start = (contact.penetration, contact.rate);
-        }
+        let room = &mut work.peaks;
+        note(contacts, &mut room.first_forces, &mut room.starts);
     }
 
     /// Raises the peaks of the base over the step that is planned, whose contacts have been followed to its end.
@@ -49,9 +46,8 @@ impl Model {
         work: &mut Workspace,
     ) {
         let mut peaks = std::mem::take(&mut base.peaks);
-        for (force, contact) in work.peaks.last_forces.iter_mut().zip(&base.contacts) {
-            *force = contact.present_force();
-        }
+        let room = &mut work.peaks;
+        note(&base.contacts, &mut room.last_forces, &mut room.ends);
         self.bound_forces(&base.contacts, step, (step.length, &step.end), &mut work.peaks.strongest);
         let part = ContactStep { base, step, inputs, length: step.length, end: (&step.q, &step.v) };
         self.check_contact_step(&part, &mut peaks, work);
@@ -59,7 +55,7 @@ impl Model {
         if self.rigid.pairs.is_empty() && !self.floor_forces {
             work.peaks.floors.keep([base.segment.start, end]);
         }
-        peaks.restart();
+        work.peaks.restart();
         base.peaks = peaks;
     }
 
@@ -70,7 +66,9 @@ impl Model {
         step.series.set_powers(elapsed, &mut powers);
         self.note_starts(&base.contacts, work);
         for p in 0..self.pairs.len() {
-            work.peaks.last_forces[p] = self.contact_at(base, step, p, elapsed, &powers).present_force();
+            let contact = self.contact_at(base, step, p, elapsed, &powers);
+            work.peaks.last_forces[p] = contact.present_force();
+            work.peaks.ends[p] = (contact.penetration, contact.rate);
         }
         self.bound_forces(&base.contacts, step, (elapsed, &powers), &mut work.peaks.strongest);
         work.peaks.floors.forget();
@@ -198,6 +196,8 @@ impl Model {
             let below = if floor == 0 { None } else { Some(lane - 1) };
             let at = |of: &[f64], lane: Option<usize>| lane.map_or(0.0, |lane| of[lane]);
             let (fastest, slower) = (largest[lane], at(largest, below));
+            let speed = start.v[lane] + end.v[lane];
+            let drifting = speed - (at(&start.v, below) + at(&end.v, below));
             let moved = [start.u[lane], end.u[lane]];
             let drift = [moved[0] - at(&start.u, below), moved[1] - at(&end.u, below)];
             let resisted = [start.resisted[lane], end.resisted[lane]];
@@ -205,28 +205,32 @@ impl Model {
             let top = larger(resisted[0], resisted[1]) + most[lane] + strays[lane];
             let bottom = -larger(-resisted[0], -resisted[1]) + least[lane] - strays[lane];
             let of_largest = |[a, b]: [f64; 2]| larger(a.abs(), b.abs());
+            // What goes one way all along is largest at an end: a rate falls by no more than the acceleration allows.
+            let goes_on = |rates: f64, fastest: f64| rates.abs() > part.length * fastest;
             let bounds = [
-                (PeakOf::Displacement(side, floor), moved, of_largest(moved) + sag * fastest),
-                (PeakOf::Drift(side, floor), drift, of_largest(drift) + sag * (fastest + slower)),
-                (PeakOf::Acceleration(side, floor), pushed, larger(top, -bottom)),
+                (PeakOf::Displacement(side, floor), moved, sag * fastest, goes_on(speed, fastest)),
+                (PeakOf::Drift(side, floor), drift, sag * (fastest + slower), goes_on(drifting, fastest + slower)),
             ];
-            for (of, ends, bound) in bounds {
-                self.check_one(of, ends, bound, part, peaks, work);
+            let acceleration = larger(top, -bottom);
+            for (of, ends, sag, goes_on) in bounds {
+                let bound = of_largest(ends) + if goes_on { 0.0 } else { sag };
+                self.check_one(of, ends, (bound, goes_on), part, peaks, work);
             }
+            self.check_one(PeakOf::Acceleration(side, floor), pushed, (acceleration, false), part, peaks, work);
         }
         let FloorRoom { start, end, largest, .. } = &work.peaks.floors;
         let shears = [self.shear_of(side, start), self.shear_of(side, end)];
         let bound = larger(shears[0].abs(), shears[1].abs()) + self.shear_strays(side, part.length, largest);
-        self.check_one(PeakOf::BaseShear(side), shears, bound, part, peaks, work);
+        self.check_one(PeakOf::BaseShear(side), shears, (bound, false), part, peaks, work);
     }
 
-    /// Raises one peak from its values at both ends and a bound.
+    /// Raises one peak from its values at both ends, a bound, and whether it goes one way all along.
     #[inline(always)]
     fn check_one(
         &self,
         of: PeakOf,
         ends: [f64; 2],
-        bound: f64,
+        (bound, goes_on): (f64, bool),
         part: &ContactStep,
         peaks: &mut Peaks,
         work: &mut Workspace,
@@ -235,8 +239,10 @@ impl Model {
         // Written so that a NaN is never below anything.
         if !(bound <= peaks.values[place]) {
             ends.into_iter().for_each(|end| peaks.raise(place, end));
-            let peak = self.highest_in_contact(of, peaks.values[place], part, work);
-            peaks.raise(place, peak);
+            if !goes_on {
+                let peak = self.highest_in_contact(of, peaks.values[place], part, work);
+                peaks.raise(place, peak);
+            }
         }
     }
 
@@ -244,10 +250,11 @@ impl Model {
     #[inline(never)]
     fn highest_in_contact(&self, of: PeakOf, known: f64, part: &ContactStep, work: &mut Workspace) -> f64 {
         let mut rows = std::mem::take(&mut work.peaks.rows);
-        self.set_rows(of, part.base.coordinates, &mut rows);
-        let quantity = Quantity { of, rows: &rows, ground: part.ground() };
+        let lanes = self.set_rows(of, part.base.coordinates, &mut rows);
+        let quantity = Quantity { of, rows: &rows, lanes, ground: part.ground() };
         let peak = match part.step.kind {
-            StepKind::Onset | StepKind::Window => self.highest_by_reading(&quantity, known, part, work),
+            StepKind::Onset => self.highest_in_onset(&quantity, known, part),
+            StepKind::Window => self.highest_in_window(&quantity, known, part, work),
             _ => {
                 let series = &part.step.series;
                 let (terms, order) = quantity.terms(series, Some(&mut work.bend));
@@ -256,5 +263,13 @@ impl Model {
         };
         work.peaks.rows = rows;
         peak
+    }
+}
+
+/// Notes the forces of contacts, N, and their penetrations, m, and rates, m/s.
+fn note(contacts: &[Contact], forces: &mut [f64], motions: &mut [(f64, f64)]) {
+    for ((force, motion), contact) in forces.iter_mut().zip(motions).zip(contacts) {
+        *force = contact.present_force();
+        *motion = (contact.penetration, contact.rate);
     }
 }

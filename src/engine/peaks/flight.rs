@@ -30,14 +30,13 @@ pub(super) struct Flight<'a> {
 /// What is known of each mode over a flight.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ModeBounds {
-    /// Accelerations relative to the ground, at the start and at the end (for the look ahead: those by stiffness and
-    /// damping, at the base).
-    pub first: Vec<f64>,
+    /// Accelerations relative to the ground, at the start and at the end.
+    first: Vec<f64>,
     last: Vec<f64>,
     /// How far each mode can swing in q' and in q.
     pub swing: Vec<f64>,
     pub swing_q: Vec<f64>,
-    /// What |A| and |B| are multiplied by in the bound on a fourth derivative (for the look ahead: on a second one).
+    /// What |A| and |B| are multiplied by in the bound on a fourth derivative (for the look ahead: of others).
     pub slow: Vec<f64>,
     pub quick: Vec<f64>,
 }
@@ -68,6 +67,7 @@ pub(super) struct Course {
 impl Model {
     /// Raises peaks to what a flight reaches, but for blocks that have been cleared for the segment that it is in.
     pub(super) fn check_flight(&self, flight: &Flight, peaks: &mut Peaks, work: &mut Workspace) {
+        work.peaks.expanded = None;
         for building in &self.peak_rows.buildings {
             self.bound_modes(building, flight, &mut work.peaks.bounds, &mut work.node_v);
             for b in 0..building.blocks.len() {
@@ -78,10 +78,11 @@ impl Model {
 
     /// The same for the blocks that have not been cleared for the segment of that number.
     pub(super) fn check_due_blocks(&self, segment: u64, flight: &Flight, peaks: &mut Peaks, work: &mut Workspace) {
+        work.peaks.expanded = None;
         for building in &self.peak_rows.buildings {
             let mut is_bounded = false;
             for b in 0..building.blocks.len() {
-                if peaks.clear_until[building.first + b] > segment {
+                if work.peaks.watch.is_clear(building.first + b, segment) {
                     continue;
                 }
                 if !std::mem::replace(&mut is_bounded, true) {
@@ -170,7 +171,15 @@ impl Model {
         }
     }
 
-    fn check_block(&self, building: &BuildingRows, b: usize, flight: &Flight, peaks: &mut Peaks, work: &mut Workspace) {
+    pub(super) fn check_block(
+        &self,
+        building: &BuildingRows,
+        b: usize,
+        flight: &Flight,
+        peaks: &mut Peaks,
+        work: &mut Workspace,
+    ) {
+
         let (block, modes, h) = (&building.blocks[b], building.modes.clone(), flight.length);
         let bounds = &work.peaks.bounds;
         let place = (building.first + b) * LANES;
@@ -203,9 +212,20 @@ impl Model {
 
 impl Block {
     /// As `sum_course` adds them up.
-    fn values(&self, q: &[f64], v: &[f64]) -> Lane {
-        let terms = self.on_q.iter().zip(q).chain(self.on_v.iter().zip(v));
-        terms.fold([0.0; LANES], |sum, (row, motion)| each(|i| sum[i] + row[i] * motion))
+    #[inline(always)]
+    pub fn values(&self, q: &[f64], v: &[f64]) -> Lane {
+        let mut sum = [0.0; LANES];
+        for (row, q) in self.on_q.iter().zip(q) {
+            for i in 0..LANES {
+                sum[i] += row[i] * q;
+            }
+        }
+        for (row, v) in self.on_v.iter().zip(v) {
+            for i in 0..LANES {
+                sum[i] += row[i] * v;
+            }
+        }
+        sum
     }
 }
 

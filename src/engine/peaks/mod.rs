@@ -56,43 +56,22 @@ impl PeakOf {
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Peaks {
     values: Vec<f64>,
-    /// For each block the first segment of the record in which it may exceed a peak, as far as is known.
-    clear_until: Vec<u64>,
-    /// The first of them.
-    due: u64,
 }
 
 impl Peaks {
     fn new(rows: &PeakRows) -> Peaks {
-        Peaks { values: vec![0.0; rows.blocks() * LANES], clear_until: vec![0; rows.blocks()], due: 0 }
+        Peaks { values: vec![0.0; rows.blocks() * LANES] }
     }
 
-    /// Whether they are of as many quantities, and are looked at again in time.
-    pub fn fit(&self, other: &Peaks, segment: u64) -> bool {
-        self.values.len() == other.values.len()
-            && self.clear_until.len() == other.clear_until.len()
-            && self.values.iter().all(|peak| *peak >= 0.0)
-            && self.clear_until.iter().all(|until| *until <= segment.saturating_add(2 * ahead::MOST))
-            && self.clear_until.iter().min().is_none_or(|first| self.due == *first)
+    /// Whether they can be peaks of the same quantities.
+    pub fn fit(&self, other: &Peaks) -> bool {
+        self.values.len() == other.values.len() && self.values.iter().all(|peak| *peak >= 0.0)
     }
 
     /// All numbers in it.
     pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
-        let Peaks { values, clear_until: _, due: _ } = self;
+        let Peaks { values } = self;
         values.iter().copied()
-    }
-
-    /// Forgets the time to come: a contact force or an impulse has acted.
-    pub fn restart(&mut self) {
-        if self.due > 0 {
-            self.clear_until.fill(0);
-            self.due = 0;
-        }
-    }
-
-    /// The first segment of the record in which any quantity may exceed its peak, as far as is known.
-    pub fn due(&self) -> u64 {
-        self.due
     }
 
     fn block(&self, block: usize) -> &Lane {
@@ -105,12 +84,16 @@ impl Peaks {
     }
 }
 
-/// Room to work in; its content means nothing between calls, but for what [`floors`] keeps of the end of a step.
+/// Room to work in; between calls it means nothing but for what `floors` keeps of the end of a step and `ahead` of the time
+/// to come.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PeakRoom {
+    watch: ahead::PeakWatch,
     /// Of the modes over a flight, and over a piece of one.
     bounds: flight::ModeBounds,
     piece: flight::ModeBounds,
+    /// The piece of a flight, from and to, s, over which the series in the workspace has been expanded.
+    expanded: Option<(f64, f64)>,
     /// q and v at both ends of a piece, and the load at its start.
     pieces: [Vec<f64>; 4],
     load: Vec<f64>,
@@ -125,8 +108,9 @@ pub(super) struct PeakRoom {
     /// N, the contact forces at the start of a step and at its end.
     first_forces: Vec<f64>,
     last_forces: Vec<f64>,
-    /// Penetrations, m, and rates, m/s, at the start of a step.
+    /// Penetrations, m, and rates, m/s, there.
     starts: Vec<(f64, f64)>,
+    ends: Vec<(f64, f64)>,
     /// m/s2, what they push each floor by.
     first_push: Vec<f64>,
     last_push: Vec<f64>,
@@ -136,8 +120,10 @@ impl PeakRoom {
     pub fn new(structure: &Structure, rows: &PeakRows, pairs: usize) -> PeakRoom {
         let lanes = structure.lanes;
         PeakRoom {
+            watch: ahead::PeakWatch::new(rows.blocks()),
             bounds: flight::ModeBounds::new(lanes),
             piece: flight::ModeBounds::new(lanes),
+            expanded: None,
             pieces: [(); 4].map(|()| vec![0.0; lanes]),
             load: vec![0.0; lanes],
             rows: [(); 2].map(|()| vec![0.0; lanes]),
@@ -148,6 +134,7 @@ impl PeakRoom {
             first_forces: vec![0.0; pairs],
             last_forces: vec![0.0; pairs],
             starts: vec![(0.0, 0.0); pairs],
+            ends: vec![(0.0, 0.0); pairs],
             first_push: vec![0.0; lanes],
             last_push: vec![0.0; lanes],
         }
@@ -156,6 +143,14 @@ impl PeakRoom {
     /// Forgets what it keeps: the motion is another one.
     pub fn forget(&mut self) {
         self.floors.forget();
+        self.watch.restart();
+    }
+
+    /// Forgets the time to come: a contact force or an impulse has acted.
+    pub fn restart(&mut self) {
+        if self.watch.due() > 0 {
+            self.watch.restart();
+        }
     }
 }
 
@@ -212,7 +207,7 @@ impl Model {
     pub(super) fn raise_over_flight(&self, base: &mut Base, step: &Step, inputs: &Inputs, work: &mut Workspace) {
         let watched = self.watched_segment(base).filter(|_| self.structure.is_classical());
         if let Some((ground, segment)) = watched {
-            self.look_ahead_for_peaks(ground, base, segment, work);
+            self.watch_peaks(ground, base, segment, work);
         }
         let mut peaks = std::mem::take(&mut base.peaks);
         self.with_flight(base, inputs, (step.length, &step.q, &step.v), work, |flight, work| match watched {
@@ -229,17 +224,29 @@ impl Model {
         (segment, start, ground): (u64, (&[f64], &[f64]), (f64, f64)),
         work: &mut Workspace,
     ) {
-        let mut peaks = std::mem::take(&mut base.peaks);
         let shares = self.structure.participation.iter();
         for ((load, slope), share) in work.load.iter_mut().zip(&mut work.slope).zip(shares) {
             (*load, *slope) = (-share * ground.0, -share * ground.1);
         }
         let (load, slope) = (std::mem::take(&mut work.load), std::mem::take(&mut work.slope));
-        let (end, loads) = ((&base.q[..], &base.v[..]), (&load[..], &slope[..]));
-        let flight = Flight { start, end, loads, ground, length: base.segment.length };
-        self.check_due_blocks(segment, &flight, &mut peaks, work);
+        work.peaks.expanded = None;
+        for building in &self.peak_rows.buildings {
+            let mut is_bounded = false;
+            for b in 0..building.blocks.len() {
+                if !self.may_have_risen(building, b, segment, base, work) {
+                    continue;
+                }
+                let mut peaks = std::mem::take(&mut base.peaks);
+                let (end, loads) = ((&base.q[..], &base.v[..]), (&load[..], &slope[..]));
+                let flight = Flight { start, end, loads, ground, length: base.segment.length };
+                if !std::mem::replace(&mut is_bounded, true) {
+                    self.bound_modes(building, &flight, &mut work.peaks.bounds, &mut work.node_v);
+                }
+                self.check_block(building, b, &flight, &mut peaks, work);
+                base.peaks = peaks;
+            }
+        }
         (work.load, work.slope) = (load, slope);
-        base.peaks = peaks;
     }
 
     /// Calls with the flight from the base to an end after some seconds.

@@ -4,18 +4,25 @@
 use super::contact::ContactStep;
 use super::search::Quantity;
 use super::{PeakOf, larger};
+use crate::collocation::MOST_PAIRS;
+use crate::contact::onset::{MOST_TERMS, Terms, value_and_slope};
 use crate::engine::input::LinearInput;
 use crate::engine::model::Model;
-use crate::engine::state::{StepKind, Workspace};
+use crate::engine::onset_step::OnsetSeries;
+use crate::engine::state::Workspace;
 
-/// Parts that a step is read in.
-const PARTS: u32 = 6;
+/// Parts that the first step after an entry, and a window, are read in.
+const PARTS_OF_ONSET: u32 = 6;
+const PARTS_OF_WINDOW: u32 = 2;
+
+/// Share of the first step after an entry at which its start is read: its terms are divided by powers of the time.
+const START: f64 = 1e-6;
 
 /// Share of a peak that the cubic through a part's ends has to reach for the part to be searched.
-const NEARLY: f64 = 0.98;
+const NEARLY: f64 = 0.95;
 
 /// What is left to gain at a turn, relative to its value, where the search ends; and most readings that this takes.
-const CLOSE: f64 = 1e-14;
+const CLOSE: f64 = 1e-13;
 const MOST_READINGS: usize = 20;
 
 /// Vectors to read into.
@@ -44,81 +51,138 @@ struct Reading {
 }
 
 impl Model {
-    /// See above; or `known` if that is larger.
-    pub(super) fn highest_by_reading(
+    /// See above, for the first step after an entry; or `known` if that is larger.
+    pub(super) fn highest_in_onset(&self, quantity: &Quantity, known: f64, part: &ContactStep) -> f64 {
+        let onset = &part.step.onset;
+        let Some(series) = OnsetQuantity::of(quantity, onset) else { return known };
+        let first = START * part.length;
+        highest(known, (first, part.length), PARTS_OF_ONSET, |time| series.read(time, onset, quantity.ground))
+    }
+
+    /// The same for a window.
+    pub(super) fn highest_in_window(
         &self,
         quantity: &Quantity,
         known: f64,
         part: &ContactStep,
         work: &mut Workspace,
     ) -> f64 {
-        let mut peak = known;
-        let mut last = self.read_quantity(quantity, 0.0, part, work);
-        for i in 1..=PARTS {
-            let time = part.length * f64::from(i) / f64::from(PARTS);
-            let next = self.read_quantity(quantity, time, part, work);
-            for sign in [1.0, -1.0] {
-                let ends = (last.times(sign), next.times(sign));
-                if ends.0.slope > 0.0 && ends.1.slope < 0.0 && top(ends.0, ends.1).1 > NEARLY * peak {
-                    let read = |time: f64| self.read_quantity(quantity, time, part, work).times(sign);
-                    peak = larger(peak, turn(ends.0, ends.1, read));
-                }
-            }
-            peak = larger(peak, next.value.abs());
-            last = next;
-        }
-        peak
+        highest(known, (0.0, part.length), PARTS_OF_WINDOW, |time| self.read_in_window(quantity, time, part, work))
     }
 
-    /// Reads a quantity and its slope at a time of a step.
-    fn read_quantity(&self, quantity: &Quantity, time: f64, part: &ContactStep, work: &mut Workspace) -> Reading {
-        let ContactStep { base, step, inputs, .. } = part;
+    /// Reads a quantity and its slope at a time of a window, from the equations of motion.
+    fn read_in_window(&self, quantity: &Quantity, time: f64, part: &ContactStep, work: &mut Workspace) -> Reading {
+        let ContactStep { base, step, inputs, length, end } = *part;
         let coordinates = base.coordinates;
         let mut room = std::mem::take(&mut work.peaks.reading);
         let ReadingRoom { q, v, acceleration, jerk } = &mut room;
-        match step.kind {
-            _ if time == 0.0 => {
-                q.copy_from_slice(&base.q);
-                v.copy_from_slice(&base.v);
-            }
-            StepKind::Window => self.read_window(step, time, &mut work.powers, (q, v)),
-            _ => step.onset.evaluate(time / step.onset.scale, q, v),
+        let mut pairs = [(0.0, 0.0); MOST_PAIRS];
+        let known = match time {
+            _ if time == 0.0 => Some(((&base.q[..], &base.v[..]), &work.peaks.starts)),
+            _ if time == length => Some((end, &work.peaks.ends)),
+            _ => None,
+        };
+        let contacts = &step.window.contacts[..step.window.equation.closed];
+        if let Some(((known_q, known_v), known)) = known {
+            q.copy_from_slice(known_q);
+            v.copy_from_slice(known_v);
+            pairs.iter_mut().zip(contacts).for_each(|(pair, &p)| *pair = known[p]);
+        } else {
+            self.read_window_and_pairs(step, time, &mut work.powers, (q, v), &mut pairs);
         }
-        let (ground, ground_slope) = part.ground();
+        let (ground, ground_slope) = quantity.ground;
         let ground = ground + ground_slope * time;
-        let shares = self.participation(coordinates);
-        for (lane, share) in shares.iter().enumerate() {
-            acceleration[lane] = -share * ground;
-            jerk[lane] = -share * ground_slope;
+        for (lane, share) in self.participation(coordinates).iter().enumerate() {
+            (acceleration[lane], jerk[lane]) = (-share * ground, -share * ground_slope);
         }
         let at = base.elapsed + time;
         self.add_floor_forces(inputs, coordinates, |force| force.after(base.segment.start, at), acceleration);
         self.add_floor_forces(inputs, coordinates, LinearInput::slope, jerk);
         self.resist(coordinates, q, v, 1.0, acceleration);
-        let starts = &work.peaks.starts;
-        let penetration = |p: usize| if time == 0.0 { starts[p] } else { step.penetration_at(p, time) };
-        let in_contact = || base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact());
-        for (p, contact) in in_contact() {
-            let (d, rate) = penetration(p);
-            self.push_apart_by(p, coordinates, contact.branch().value(d, rate), acceleration);
+        for ((d, rate), &p) in pairs.iter().zip(contacts) {
+            self.push_apart_by(p, coordinates, base.contacts[p].branch().value(*d, *rate), acceleration);
         }
         self.resist(coordinates, v, acceleration, 1.0, jerk);
-        for (p, contact) in in_contact() {
-            let (d, rate) = penetration(p);
+        for ((d, rate), &p) in pairs.iter().zip(contacts) {
             let bend = self.pairs[p].relative(coordinates, acceleration);
-            let rates = contact.branch().rates([d, rate, bend, 0.0]);
+            let rates = base.contacts[p].branch().rates([*d, *rate, bend, 0.0]);
             self.push_apart_by(p, coordinates, rates.map_or(0.0, |[first, _]| first), jerk);
         }
-        let [row, row_v] = quantity.rows;
-        let dot = |row: &[f64], vector: &[f64]| row.iter().zip(vector).map(|(a, b)| a * b).sum::<f64>();
         let (value, slope) = match quantity.of {
-            PeakOf::Acceleration(..) => (dot(row, acceleration) + ground, dot(row, jerk) + ground_slope),
-            PeakOf::BaseShear(_) => (dot(row, q) + dot(row_v, v), dot(row, v) + dot(row_v, acceleration)),
-            PeakOf::Displacement(..) | PeakOf::Drift(..) => (dot(row, q), dot(row, v)),
+            PeakOf::Acceleration(..) => {
+                (quantity.of_motion(acceleration) + ground, quantity.of_motion(jerk) + ground_slope)
+            }
+            _ => (quantity.of_motion(q) + quantity.of_rate(v), quantity.of_motion(v) + quantity.of_rate(acceleration)),
         };
         work.peaks.reading = room;
         Reading { time, value, slope }
     }
+}
+
+/// A quantity in the double series of the first step after an entry: a sum of these divided by no, one, two powers of x.
+struct OnsetQuantity {
+    terms: [Terms; 3],
+}
+
+impl OnsetQuantity {
+    fn of(quantity: &Quantity, onset: &OnsetSeries) -> Option<OnsetQuantity> {
+        let grid = onset.grid()?;
+        let mut terms = [[0.0; MOST_TERMS]; 3];
+        let per_unit = 1.0 / onset.scale;
+        grid.each(|index, exponent| {
+            let term = onset.term(index);
+            match quantity.of {
+                PeakOf::Acceleration(..) => {
+                    terms[2][index] = exponent * (exponent - 1.0) * (quantity.of_motion(term) * per_unit * per_unit);
+                }
+                _ => {
+                    terms[0][index] = quantity.of_motion(term);
+                    terms[1][index] = exponent * quantity.of_rate(term) * per_unit;
+                }
+            }
+        });
+        Some(OnsetQuantity { terms })
+    }
+
+    fn read(&self, time: f64, onset: &OnsetSeries, (ground, ground_slope): (f64, f64)) -> Reading {
+        let x = time / onset.scale;
+        let (mut value, mut slope) = (0.0, 0.0);
+        if let Some(grid) = onset.grid() {
+            let mut divisor = 1.0;
+            for (k, terms) in self.terms.iter().enumerate() {
+                if terms.iter().any(|term| *term != 0.0) {
+                    let (sum, rate) = value_and_slope(grid, terms, x);
+                    value += sum / divisor;
+                    slope += (rate - k as f64 * sum / x) / divisor;
+                }
+                divisor *= x;
+            }
+        }
+        slope /= onset.scale;
+        if self.terms[2].iter().any(|term| *term != 0.0) {
+            (value, slope) = (value + ground + ground_slope * time, slope + ground_slope);
+        }
+        Reading { time, value, slope }
+    }
+}
+
+/// The largest magnitude from one time of a step to another, which is read in so many parts; or `known` if that is larger.
+fn highest(known: f64, (from, to): (f64, f64), parts: u32, mut read: impl FnMut(f64) -> Reading) -> f64 {
+    let mut peak = known;
+    let mut last = read(from);
+    for i in 1..=parts {
+        let share = f64::from(i) / f64::from(parts);
+        let next = read(if i == parts { to } else { from + (to - from) * share });
+        for sign in [1.0, -1.0] {
+            let ends = (last.times(sign), next.times(sign));
+            if ends.0.slope > 0.0 && ends.1.slope < 0.0 && top(ends.0, ends.1).1 > NEARLY * peak {
+                peak = larger(peak, turn(ends.0, ends.1, |time| read(time).times(sign)));
+            }
+        }
+        peak = larger(peak, next.value.abs());
+        last = next;
+    }
+    peak
 }
 
 impl Reading {

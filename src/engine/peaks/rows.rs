@@ -41,20 +41,19 @@ pub(in crate::engine) struct Block {
     pub on_q: Vec<Lane>,
     /// B; empty where it is 0.
     pub on_v: Vec<Lane>,
-    /// What a shaking (integral of |ground acceleration|) of 1 m/s adds to the bounds of `ahead.rs`.
     pub growth: Growth,
 }
 
-/// See `ahead.rs`.
+/// What the ground adds to the bounds of `ahead.rs`.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::engine) struct Growth {
-    /// |B participation|.
+    /// |B participation| and |(A - B c) participation|: what a ground acceleration does at once to y' and y''.
     pub at_once: Lane,
-    /// |(A - B c) participation|, to the rate.
-    pub rate: Lane,
-    /// To the bound on the second derivative, and to that on the whole swing.
-    pub bend: Lane,
+    pub pushed: Lane,
+    /// What a shaking (integral of |ground acceleration|) of 1 m/s adds to the bounds on |y|, |y'| and |y''|.
     pub swing: Lane,
+    pub rate: Lane,
+    pub bend: Lane,
 }
 
 impl PeakRows {
@@ -149,13 +148,14 @@ impl Block {
             for i in 0..LANES {
                 let (a, b) = (on_q[m][i], on_v[m][i]);
                 growth.at_once[i] += b * structure.participation[offset + m];
-                growth.rate[i] += (a - b * c) * structure.participation[offset + m];
+                growth.pushed[i] += (a - b * c) * structure.participation[offset + m];
+                growth.rate[i] += (a.abs() + b.abs() * (w + c)) * share;
                 growth.bend[i] += ((a - b * c).abs() * (w + c) + b.abs() * w2) * share;
                 growth.swing[i] += (a.abs() / w + b.abs()) * share;
             }
         }
         growth.at_once = growth.at_once.map(f64::abs);
-        growth.rate = growth.rate.map(f64::abs);
+        growth.pushed = growth.pushed.map(f64::abs);
         if on_v.as_flattened().iter().all(|b| *b == 0.0) {
             on_v.clear();
         }

@@ -8,7 +8,7 @@ use crate::engine::model::Model;
 use crate::engine::roots;
 use crate::engine::state::{Coordinates, Workspace};
 use crate::polynomial::{Coefficients, MAX_ORDER, Powers, ROOM, Reading};
-use crate::structure::{EXACT, LANES, MotionSeries, flight_order};
+use crate::structure::{EXACT, LANES, MotionSeries, dot, flight_order};
 
 /// (Fastest rate) x (time) that one series reaches.
 const REACH: f64 = 1.5;
@@ -24,11 +24,13 @@ struct Piece {
     halvings: u32,
 }
 
-/// A quantity as rows over a series in some coordinates.
+/// A quantity as rows over a motion in some coordinates.
 pub(super) struct Quantity<'a> {
     pub of: PeakOf,
-    /// Over its terms, and over those of its rate; of an acceleration, those of the floor's displacement.
+    /// Over the motion, and over its rate; of an acceleration, those of the floor's displacement.
     pub rows: &'a [Vec<f64>; 2],
+    /// The first row where it is 1 in one lane, and -1 in another one perhaps.
+    pub lanes: Option<(usize, Option<usize>)>,
     /// m/s2 and m/s3, of the ground at the start of the series.
     pub ground: (f64, f64),
 }
@@ -37,8 +39,8 @@ impl Model {
     /// The largest magnitude of a quantity over a flight, or `known` if that is larger.
     pub(super) fn highest_in_flight(&self, flight: &Flight, of: PeakOf, known: f64, work: &mut Workspace) -> f64 {
         let mut rows = std::mem::take(&mut work.peaks.rows);
-        self.set_rows(of, Coordinates::Modes, &mut rows);
-        let quantity = Quantity { of, rows: &rows, ground: flight.ground };
+        let lanes = self.set_rows(of, Coordinates::Modes, &mut rows);
+        let quantity = Quantity { of, rows: &rows, lanes, ground: flight.ground };
         let whole = Piece { from: 0.0, to: flight.length, halvings: MOST_HALVINGS };
         let peak = self.highest_in_piece(flight, &quantity, whole, known, work);
         work.peaks.rows = rows;
@@ -57,8 +59,8 @@ impl Model {
     ) -> f64 {
         let Piece { from, to, halvings } = piece;
         let reach = self.structure.fastest * (to - from);
-        self.fly_to(flight, from, [0, 1], work);
         if reach > REACH && halvings > 0 {
+            self.fly_to(flight, from, [0, 1], work);
             self.fly_to(flight, to, [2, 3], work);
             let (known, may_be_higher) = self.compare_ends(flight, quantity.of, piece, known, work);
             if !may_be_higher {
@@ -68,14 +70,23 @@ impl Model {
             let known = self.highest_in_piece(flight, quantity, Piece { from, to: middle, halvings }, known, work);
             return self.highest_in_piece(flight, quantity, Piece { from: middle, to, halvings }, known, work);
         }
-        let order = flight_order(reach, EXACT).unwrap_or(MAX_ORDER);
+        if work.peaks.expanded != Some((from, to)) {
+            self.expand_piece(flight, (from, to), work);
+        }
+        let (series, (ground, slope)) = (&work.series, quantity.ground);
+        let (terms, order) = Quantity { ground: (ground + slope * from, slope), ..*quantity }.terms(series, None);
+        highest(&terms, (1.0, order), known)
+    }
+
+    /// Expands a piece of a flight into a power series.
+    fn expand_piece(&self, flight: &Flight, (from, to): (f64, f64), work: &mut Workspace) {
+        self.fly_to(flight, from, [0, 1], work);
         self.set_load(flight, from, work);
+        let order = flight_order(self.structure.fastest * (to - from), EXACT).unwrap_or(MAX_ORDER);
         let Workspace { series, peaks, .. } = work;
         let ([q, v, ..], load) = (&peaks.pieces, &peaks.load);
         series.expand_flight(&self.structure, (q, v), (load, flight.loads.1), (to - from, order));
-        let (ground, slope) = quantity.ground;
-        let (terms, order) = Quantity { ground: (ground + slope * from, slope), ..*quantity }.terms(series, None);
-        highest(&terms, (1.0, order), known)
+        peaks.expanded = Some((from, to));
     }
 
     /// The motion at a time of a flight, into two vectors of the room.
@@ -122,10 +133,23 @@ impl Model {
         (known, course.may_turn_above(lane, own.length, known))
     }
 
-    /// The rows of a quantity in some coordinates.
-    pub(super) fn set_rows(&self, of: PeakOf, coordinates: Coordinates, rows: &mut [Vec<f64>; 2]) {
+    /// The rows of a quantity in some coordinates; or the lanes that say the same.
+    pub(super) fn set_rows(
+        &self,
+        of: PeakOf,
+        coordinates: Coordinates,
+        rows: &mut [Vec<f64>; 2],
+    ) -> Option<(usize, Option<usize>)> {
         let structure = &self.structure;
         let side = of.side() as usize;
+        if coordinates == Coordinates::Floors {
+            let lane = |floor| structure.floors.lane(side, floor);
+            match of {
+                PeakOf::Displacement(_, floor) | PeakOf::Acceleration(_, floor) => return Some((lane(floor), None)),
+                PeakOf::Drift(_, floor) => return Some((lane(floor), floor.checked_sub(1).map(lane))),
+                PeakOf::BaseShear(_) => {}
+            }
+        }
         let [row, row_v] = rows;
         row.fill(0.0);
         row_v.fill(0.0);
@@ -133,8 +157,8 @@ impl Model {
             PeakOf::Acceleration(side, floor) => PeakOf::Displacement(side, floor),
             _ => of,
         };
-        match (coordinates, of_shape) {
-            (Coordinates::Modes, _) => {
+        match coordinates {
+            Coordinates::Modes => {
                 let (building, place) = (&self.peak_rows.buildings[side], self.peak_rows.place(of_shape));
                 let (block, lane) = (&building.blocks[place / LANES - building.first], place % LANES);
                 for (m, a) in building.modes.clone().zip(&block.on_q) {
@@ -144,31 +168,41 @@ impl Model {
                     row_v[m] = b[lane];
                 }
             }
-            (Coordinates::Floors, PeakOf::BaseShear(_)) => {
-                self.resistance.set_shear_rows(side, structure.floors.lanes_of(side), row, row_v);
-            }
-            (Coordinates::Floors, PeakOf::Drift(_, floor)) => {
-                let lane = structure.floors.lane(side, floor);
-                row[lane] = 1.0;
-                if floor > 0 {
-                    row[lane - 1] = -1.0;
-                }
-            }
-            (Coordinates::Floors, PeakOf::Displacement(_, floor) | PeakOf::Acceleration(_, floor)) => {
-                row[structure.floors.lane(side, floor)] = 1.0;
-            }
+            Coordinates::Floors => self.resistance.set_shear_rows(side, structure.floors.lanes_of(side), row, row_v),
         }
+        None
     }
 }
 
 impl Quantity<'_> {
+    /// What the first row makes of a vector of motion.
+    pub fn of_motion(&self, motion: &[f64]) -> f64 {
+        match self.lanes {
+            Some((lane, below)) => motion[lane] - below.map_or(0.0, |below| motion[below]),
+            None => dot(&self.rows[0], motion),
+        }
+    }
+
+    /// What the second row makes of a vector of its rate.
+    pub fn of_rate(&self, rate: &[f64]) -> f64 {
+        match self.of {
+            PeakOf::BaseShear(_) => dot(&self.rows[1], rate),
+            PeakOf::Displacement(..) | PeakOf::Drift(..) | PeakOf::Acceleration(..) => 0.0,
+        }
+    }
+
     /// The power series of the quantity in the x of a motion's, and its highest power; `bend` is room for what makes it one,
     /// where a clock does.
     pub fn terms(&self, series: &MotionSeries, bend: Option<&mut Bend>) -> (Coefficients, usize) {
-        let [row, row_v] = self.rows;
         let (count, per_unit) = (series.order + 1, 1.0 / series.scale);
         let (mut of_q, mut terms) = ([0.0; ROOM], [0.0; ROOM]);
-        series.dot_each(row, 0, &mut of_q);
+        match self.lanes {
+            Some((lane, below)) => {
+                let difference = |n: usize| series.term(n)[lane] - below.map_or(0.0, |below| series.term(n)[below]);
+                of_q.iter_mut().enumerate().take(count).for_each(|(n, term)| *term = difference(n));
+            }
+            None => series.dot_each(&self.rows[0], 0, &mut of_q),
+        }
         // Derivatives are known to fewer powers.
         let order = match self.of {
             PeakOf::Displacement(..) | PeakOf::Drift(..) => {
@@ -185,7 +219,7 @@ impl Quantity<'_> {
             }
             PeakOf::BaseShear(_) => {
                 let mut of_v = [0.0; ROOM];
-                series.dot_each(row_v, 0, &mut of_v);
+                series.dot_each(&self.rows[1], 0, &mut of_v);
                 for n in 0..series.order {
                     terms[n] = of_q[n] + (n + 1) as f64 * of_v[n + 1] * per_unit;
                 }
