@@ -205,3 +205,162 @@ fn peaks_with_contacts_are_those_of_a_dense_reading() {
         }
     }
 }
+
+#[test]
+fn stiff_slow_and_coupled_buildings_have_the_peaks_of_a_dense_reading() {
+    let record = shaking(0.02, 100, 5.0);
+    let stiff = frame("left", 2, 1e4, 3000.0, 0.02) + &frame("right", 1, 1e4, 40.0, 0.0);
+    let undamped = frame("left", 1, 1.0, 1.0, 0.0) + &frame("right", 3, 1.0, 0.3, 0.0);
+    let mut coupled = frame("left", 2, 1e3, 4.0, 0.0) + &frame("right", 1, 1e3, 7.0, 0.3);
+    coupled = coupled.replacen(
+        "damping = { ratio = 0.0 }",
+        "damping = { matrix = [[9000.0, -1000.0], [-1000.0, 1200.0]] }",
+        1,
+    );
+    assert!(coupled.contains("matrix"));
+    for (what, text) in [("stiff", stiff), ("undamped", undamped), ("coupled", coupled)] {
+        compare(what, &with_record(&format!("name = \"B\"\n{text}")), Some(&record), 2.5, 20_000);
+    }
+}
+
+/// A record as an input that is linear from one communication point to the next has the same peaks, and so has one cut finer.
+#[test]
+fn peaks_under_inputs_are_those_under_a_record() {
+    let contact = "[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.002\nlaw = \"hertz\"\nstiffness = 3e8\n";
+    let text =
+        format!("name = \"In\"\n{}{}{contact}", frame("left", 2, 1e3, 3.0, 0.03), frame("right", 1, 2e3, 5.0, 0.05));
+    let (step, samples) = (1.0 / 64.0, shaking(1.0 / 64.0, 100, 6.0));
+    let mut by_record = Run::new(&with_record(&text), Some(&samples));
+    by_record.to(99.0 * step);
+    let expected = peaks(&by_record);
+    for parts in [1, 3] {
+        let mut driven = Run::new(&scene(&text), None);
+        for (k, ends) in samples.accelerations.windows(2).enumerate() {
+            for part in 0..parts {
+                let share = f64::from(part) / f64::from(parts);
+                driven.state.set_ground_acceleration(ends[0] + share * (ends[1] - ends[0]));
+                driven.state.set_ground_acceleration_rate((ends[1] - ends[0]) / step);
+                driven.to((k as f64 + f64::from(part + 1) / f64::from(parts)) * step);
+            }
+        }
+        for ((of, got), expected) in all_of(&driven).into_iter().zip(peaks(&driven)).zip(&expected) {
+            assert_close(got, *expected, 1e-11, &format!("{of:?} in {parts} parts"));
+        }
+    }
+}
+
+/// A floor force that is set to F for one step on an oscillator at rest: u = F/k (1 - cos w t), and the acceleration jumps to
+/// F/m at once and back when it ends.
+#[test]
+fn peaks_see_both_sides_of_a_jump_of_an_input() {
+    let (m, w, force) = (10.0, 8.0, 30.0);
+    let building = format!("mass = [{m:?}]\nstiffness = [{:?}]\ndamping = {{ ratio = 0.0 }}\n", m * w * w);
+    let scene = scene(&format!("name = \"F\"\n[left]\n{building}[right]\n{building}[inputs]\nfloor_forces = true\n"));
+    let mut run = Run::new(&scene, None);
+    run.to(0.0);
+    let acceleration = PeakOf::Acceleration(Side::Left, 0);
+    run.state.set_floor_force(Side::Left, 0, force);
+    run.model.observe(&run.state, &mut run.point);
+    assert_eq!(run.peak(acceleration), 0.0, "nothing has acted yet");
+    let short = 0.1;
+    run.to(short);
+    assert_close(run.peak(acceleration), force / m, 1e-14, "at the start of the step");
+    assert_close(
+        run.peak(PeakOf::Displacement(Side::Left, 0)),
+        force / (m * w * w) * (1.0 - libm::cos(w * short)),
+        1e-12,
+        "u",
+    );
+    run.state.set_floor_force(Side::Left, 0, 0.0);
+    run.to(2.0);
+    // Swings freely then with the amplitude 2 F/k sin(w t / 2).
+    let amplitude = 2.0 * force / (m * w * w) * libm::sin(0.5 * w * short);
+    assert_close(run.peak(PeakOf::Displacement(Side::Left, 0)), amplitude, 1e-12, "amplitude");
+    assert_close(run.peak(PeakOf::BaseShear(Side::Left)), m * w * w * amplitude, 1e-12, "base shear");
+    assert_close(run.peak(acceleration), f64::max(w * w * amplitude, force / m), 1e-12, "acceleration");
+}
+
+/// No peak ever falls, read at steps finer than the engine's own, and none is below what is read beside it.
+#[test]
+fn no_peak_ever_falls() {
+    let contact = |floor: usize, law: &str| {
+        format!("[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = 0.003\n{law}\n")
+    };
+    for (n, law) in LAWS.iter().enumerate() {
+        let contacts = contact(1, law) + &contact(2, LAWS[(n + 3) % 8]);
+        let text = format!(
+            "name = \"Up\"\n{}{}{contacts}",
+            frame("left", 2, 1e3, 3.0, 0.03),
+            frame("right", 3, 2e3, 5.0, 0.05)
+        );
+        let mut run = Run::new(&with_record(&text), Some(&shaking(0.02, 100, 6.0)));
+        let mut last: Vec<f64> = Vec::new();
+        for k in 0..30_000 {
+            run.to(2.3 * f64::from(k) / 30_000.0);
+            let forces = run.contacts();
+            let mut all = peaks(&run);
+            for (of, (peak, now)) in all_of(&run).into_iter().zip(all.iter().zip(now(&run))) {
+                assert!(now <= peak * (1.0 + 1e-13), "{law}, {of:?} at step {k}: {now:e} above {peak:e}");
+            }
+            for contact in &forces {
+                assert!(contact.force <= contact.peak_force * (1.0 + 1e-12), "{law} at step {k}: {contact:?}");
+            }
+            all.extend(forces.iter().map(|contact| contact.peak_force));
+            for (i, (now, before)) in all.iter().zip(&last).enumerate() {
+                assert!(now >= before, "{law}, number {i} falls at step {k}: {now:e} after {before:e}");
+            }
+            last = all;
+        }
+        assert!(run.point.impacts > 5, "{} impacts", run.point.impacts);
+    }
+}
+
+/// The beginning of another contact just before a force is largest: reference in quadruple precision.
+#[test]
+fn the_peak_of_a_force_just_after_another_contact_begins_is_found() {
+    let text = "name = \"Mini\"
+        [left]
+        mass = [1000.0]
+        stiffness = [1.0]
+        damping = { ratio = 0.0 }
+        initial_velocity = [1.0]
+        [right]
+        mass = [1000.0, 1000.0]
+        stiffness = [1.0, 1.0]
+        damping = { ratio = 0.0 }
+        [[contact]]
+        left_floor = 1
+        right_floor = 1
+        gap = 1e-06
+        law = \"kelvin_voigt\"
+        stiffness = 100000000.0
+        restitution = 0.3
+        [[contact]]
+        left_floor = 1
+        right_floor = 2
+        gap = 0.001
+        law = \"jankowski\"
+        stiffness = 1000000000.0
+        restitution = 0.5";
+    let quiet = record(0.02, &[0.0, 0.0]);
+    for (scene, record) in [(scene(text), None), (with_record(text), Some(&quiet))] {
+        for step in [0.003, 0.001, 0.0011057685, 0.00001] {
+            let mut run = Run::new(&scene, record);
+            run.in_steps(step, 0.003);
+            assert_close(run.contact(0).peak_force, 186_529.182_577_949_946, 1e-12, &format!("steps of {step} s"));
+        }
+    }
+}
+
+/// A contact that has been pressed together at the start and parts: it only pulls.
+#[test]
+fn a_contact_that_only_pulls_has_no_peak() {
+    let building = |speed: f64| {
+        format!("mass = [1000.0]\nstiffness = [1e5]\ndamping = {{ ratio = 0.05 }}\ninitial_velocity = [{speed:?}]\n")
+    };
+    let contact = "[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = -1e-5\nlaw = \"kelvin_voigt\"\nstiffness = 1e7\nrestitution = 0.5\n";
+    let scene = scene(&format!("name = \"Pull\"\n[left]\n{}[right]\n{}{contact}", building(-1.0), building(0.0)));
+    let mut run = Run::new(&scene, None);
+    run.to(1e-4);
+    assert_eq!((run.episodes[0].peak_force, run.contact(0).peak_force), (0.0, 0.0));
+}

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Run, record, scene};
-use pounding::engine::{Counters, Point, Side};
+use pounding::engine::{Counters, PeakOf, Point, Side};
 use pounding::record::Record;
 use pounding::scene::Scene;
 use pounding::variables::{Instant, Output};
@@ -207,13 +207,20 @@ fn floors_that_nobody_reads_are_not_worked_out() {
         run.point.rows_read() - before
     };
     let all = |side: Side, floors: usize| {
-        let of_floor = [Output::Displacement, Output::Velocity, Output::Acceleration, Output::PeakDrift];
-        (0..floors).flat_map(move |floor| of_floor.map(|output| output(side, floor)))
+        let of_floor = [Output::Displacement, Output::Velocity, Output::Acceleration];
+        let peaks = [PeakOf::Displacement, PeakOf::Drift, PeakOf::Acceleration];
+        (0..floors).flat_map(move |floor| {
+            let peaks = peaks.map(|of| Output::Peak(of(side, floor)));
+            of_floor.map(|output| output(side, floor)).into_iter().chain(peaks)
+        })
     };
     let floors: Vec<Output> = all(Side::Left, 8).chain(all(Side::Right, 12)).collect();
     run.in_steps(0.003, 0.3);
     assert_eq!(run.point.rows_read(), 0, "no floor was asked for");
-    assert_eq!(read(&run, &[Output::Impacts, Output::BaseShear(Side::Left), Output::PeakDrift(Side::Right, 1)]), 0);
+    assert_eq!(
+        read(&run, &[Output::Impacts, Output::BaseShear(Side::Left), Output::Peak(PeakOf::Drift(Side::Right, 1))]),
+        0
+    );
     assert_eq!(read(&run, &[Output::Displacement(Side::Right, 1)]), 4, "of its block of four");
     assert_eq!(read(&run, &[Output::Velocity(Side::Right, 3)]), 0, "of the same block");
     assert_eq!(

@@ -218,7 +218,8 @@ impl Ahead<'_> {
     /// Length, s, and accelerations at both ends, m/s2, of each of so many segments within the record.
     fn each(&self, segments: u64) -> impl Iterator<Item = (f64, [f64; 2])> + '_ {
         let GroundMotion { lengths, accelerations, .. } = self.ground;
-        let [first, end] = [self.number, self.number + segments].map(|number| number.min(lengths.len() as u64) as usize);
+        let [first, end] =
+            [self.number, self.number + segments].map(|number| number.min(lengths.len() as u64) as usize);
         let ends = accelerations[first..].windows(2).map(|ends| [ends[0], ends[1]]);
         lengths[first..end].iter().copied().zip(ends)
     }

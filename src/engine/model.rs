@@ -5,9 +5,9 @@ use super::dismissal::{ClosingSpeeds, Watch};
 use super::ground::{GroundMotion, Segment};
 use super::input::LinearInput;
 use super::near_pairs::NearPairs;
-use super::peaks::{FloorResistance, PeakRows};
 use super::onset_step::OnsetSeries;
 use super::open_pairs::OpenPairs;
+use super::peaks::{FloorResistance, PeakRows};
 use super::rigid::RigidPairs;
 use super::state::*;
 use super::window_step::Windows;
@@ -141,7 +141,11 @@ impl Model {
     /// Room to work in.
     pub(super) fn workspace(&self) -> Workspace {
         let pairs = self.pairs.len();
-        Workspace::new(&self.structure, &self.peak_rows, [pairs, self.rigid.pairs.len(), self.windows.as_ref().map_or(0, |_| pairs)])
+        Workspace::new(
+            &self.structure,
+            &self.peak_rows,
+            [pairs, self.rigid.pairs.len(), self.windows.as_ref().map_or(0, |_| pairs)],
+        )
     }
 
     /// The initial state at a time, s.

@@ -447,10 +447,7 @@ pub fn may_turn_above(
     (x, fourth): (f64, f64),
     known: f64,
 ) -> bool {
-    let (a, b) = (
-        End { x: 0.0, value, slope, fourth: 0.0 },
-        End { x, value: end, slope: end_slope, fourth },
-    );
+    let (a, b) = (End { x: 0.0, value, slope, fourth: 0.0 }, End { x, value: end, slope: end_slope, fourth });
     let (least, most) = b.slopes_from(a);
     // Written so that a NaN may be anywhere.
     !(least > 0.0 || most < 0.0) && !(b.ceiling_from(a) <= known)

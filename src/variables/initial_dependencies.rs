@@ -28,7 +28,9 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
         // No input has acted yet.
         Output::Peak(_) if matches!(known, Slot::Input(_)) => false,
         Output::BaseShear(side) | Output::Peak(PeakOf::BaseShear(side)) => base_shear(scene, side, known),
-        Output::Acceleration(side, floor) | Output::Peak(PeakOf::Acceleration(side, floor)) => acceleration(scene, (side, floor), known),
+        Output::Acceleration(side, floor) | Output::Peak(PeakOf::Acceleration(side, floor)) => {
+            acceleration(scene, (side, floor), known)
+        }
         Output::Contact(p, C::Penetration) => known == gap(p),
         Output::Contact(p, C::Active | C::Impacts) => known == gap(p) && is_pushed(scene, p),
         Output::Contact(p, C::Force | C::PeakForce) => contact_force(scene, p, known),

@@ -95,7 +95,8 @@ impl Table {
                 ACCELERATION,
             ),
         ] {
-            let about = format!("largest {about} {i} so far, of either sign, between communication points and in impacts too");
+            let about =
+                format!("largest {about} {i} so far, of either sign, between communication points and in impacts too");
             let row = self.add(Output::Peak(of), &format!("{name}.peak_{quantity}[{i}]"), ty, &about);
             row.at_least(0.0).nominal(scale);
         }

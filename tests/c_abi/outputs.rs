@@ -2,7 +2,7 @@
 
 use crate::support::{Fmu, Instance, OK, RECORD_SCENE, SCENE};
 use fmi::model_description::fmi2::Causality;
-use pounding::engine::{ContactPoint, Model, Point, Side, State};
+use pounding::engine::{ContactPoint, Model, PeakOf, Point, Side, State};
 use std::collections::HashMap;
 
 /// Names and values of all outputs and frequencies; counts and Booleans as numbers.
@@ -13,12 +13,15 @@ fn expected(model: &Model, state: &State) -> HashMap<String, f64> {
     for (side, name) in [(Side::Left, "left"), (Side::Right, "right")] {
         let mut add = |quantity: &str, value| values.insert(format!("{name}.{quantity}"), value);
         add("base_shear", model.base_shear(&point, side));
+        add("peak_base_shear", model.peak(state, &point, PeakOf::BaseShear(side)));
         for floor in 0..model.floors(side) {
             let mut add = |quantity: &str, value| add(&format!("{quantity}[{}]", floor + 1), value);
             add("displacement", model.displacement(&point, side, floor));
             add("velocity", model.velocity(&point, side, floor));
             add("acceleration", model.acceleration(&point, side, floor));
-            add("peak_drift", model.peak_drift(state, side, floor));
+            add("peak_displacement", model.peak(state, &point, PeakOf::Displacement(side, floor)));
+            add("peak_drift", model.peak(state, &point, PeakOf::Drift(side, floor)));
+            add("peak_acceleration", model.peak(state, &point, PeakOf::Acceleration(side, floor)));
             add("frequency", model.natural_frequencies(side)[floor]);
         }
     }

@@ -35,7 +35,10 @@ fn a_scene_without_record_has_these_variables() {
     let mut expected = vec!["ground.acceleration input Real m/s2", "impacts output Integer"];
     let mut names = Vec::new();
     for (side, floors) in [("left", 2), ("right", 3)] {
-        names.extend([format!("{side}.base_shear output Real N"), format!("{side}.damping_ratio parameter Real 1")]);
+        names.extend(
+            ["base_shear output Real N", "peak_base_shear output Real N", "damping_ratio parameter Real 1"]
+                .map(|line| format!("{side}.{line}")),
+        );
         for i in 1..=floors {
             names.extend(
                 [
@@ -43,7 +46,9 @@ fn a_scene_without_record_has_these_variables() {
                     "displacement[i] output Real m",
                     "velocity[i] output Real m/s",
                     "acceleration[i] output Real m/s2",
+                    "peak_displacement[i] output Real m",
                     "peak_drift[i] output Real m",
+                    "peak_acceleration[i] output Real m/s2",
                     "mass[i] parameter Real kg",
                     "stiffness[i] parameter Real N/m",
                     "frequency[i] calculatedParameter Real Hz",

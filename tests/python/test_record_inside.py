@@ -26,8 +26,12 @@ def test_communication_steps_agree_where_they_meet(feup):
         for name in feup.outputs():
             if ".displacement[" in name:
                 assert np.max(np.abs(one[name] - other[name])) <= 1e-13 * np.max(np.abs(fine[name])), name
-            if ".peak_drift[" in name or name.endswith("impacts"):
+            if name.endswith("impacts"):
                 assert np.array_equal(one[name], other[name]), name
+            if ".peak_" in name:
+                # While a peak grows it differs as the times do.
+                assert np.allclose(one[name], other[name], rtol=1e-13, atol=0), name
+                assert np.all(np.diff(one[name]) >= 0) and np.all(np.diff(other[name]) >= 0), name
 
 
 def test_reading_outputs_changes_nothing(feup):

@@ -158,9 +158,8 @@ impl Model {
                 } else if is_below(most(shaking[0])) {
                     watched.clear_until = segment + SHORT;
                 }
-                watched.rate = each(|i| {
-                    (1.0 + MARGIN) * (rate[i] + growth.rate[i] * shaking[0] + growth.at_once[i] * strongest)
-                });
+                watched.rate =
+                    each(|i| (1.0 + MARGIN) * (rate[i] + growth.rate[i] * shaking[0] + growth.at_once[i] * strongest));
                 watched.sag = each(|i| {
                     let pushed = growth.pushed[i] * strongest + growth.at_once[i] * steepest;
                     (1.0 + MARGIN) * sag * (bend[i] + growth.bend[i] * shaking[0] + pushed)
@@ -192,8 +191,16 @@ impl Model {
         Amplitudes { own, over_w, quick, bent, damping }
     }
 
-    /// Whether a block may have exceeded a peak in the segment, of that number, that has been flown to the base.
-    pub(super) fn may_have_risen(&self, building: &BuildingRows, b: usize, segment: u64, base: &Base, work: &mut Workspace) -> bool {
+    /// Raises the peaks of a block to the end of the segment, of that number, that has been flown to the base; whether it may
+    /// have exceeded them on the way.
+    pub(super) fn raise_to_end(
+        &self,
+        building: &BuildingRows,
+        b: usize,
+        segment: u64,
+        base: &mut Base,
+        work: &mut Workspace,
+    ) -> bool {
         let watched = &mut work.peaks.watch.blocks[building.first + b];
         if watched.clear_until > segment {
             return false;
@@ -202,8 +209,17 @@ impl Model {
         let end = values_of(&building.blocks[b], &base.q[modes.clone()], &base.v[modes]);
         let start = std::mem::replace(&mut watched.value, end);
         watched.known_at = Some(segment + 1);
-        let peaks = &base.peaks.values.as_chunks::<LANES>().0[building.first + b];
-        !(0..LANES).all(|i| larger(start[i].abs(), end[i].abs()) + watched.sag[i] <= peaks[i])
+        let peaks = &mut base.peaks.values.as_chunks_mut::<LANES>().0[building.first + b];
+        let mut may_exceed = false;
+        for i in 0..LANES {
+            let sag = watched.sag[i];
+            let is_below = larger(start[i].abs(), end[i].abs()) + sag <= peaks[i];
+            // A slope differs from that of the chord by h/2 |y''| at most: here it keeps its sign.
+            let goes_one_way = (end[i] - start[i]).abs() > 4.0 * sag;
+            peaks[i] = larger(peaks[i], end[i].abs());
+            may_exceed |= !(is_below || goes_one_way);
+        }
+        may_exceed
     }
 }
 

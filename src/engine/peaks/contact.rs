@@ -7,6 +7,7 @@ use crate::engine::model::{Model, Pair};
 use crate::engine::state::{Base, Contact, Coordinates, Inputs, State, Step, StepKind, Workspace};
 use crate::engine::{Point, Side};
 use crate::polynomial::Powers;
+use std::ops::Range;
 
 /// A step in contact, or its first part.
 #[derive(Clone, Copy)]
@@ -60,7 +61,14 @@ impl Model {
     }
 
     /// The same for the first part of the step under way, up to what a point shows.
-    pub(super) fn raise_over_part(&self, state: &State, elapsed: f64, point: &Point, peaks: &mut Peaks, work: &mut Workspace) {
+    pub(super) fn raise_over_part(
+        &self,
+        state: &State,
+        elapsed: f64,
+        point: &Point,
+        peaks: &mut Peaks,
+        work: &mut Workspace,
+    ) {
         let State { base, step, inputs, .. } = state;
         let mut powers = Powers::default();
         step.series.set_powers(elapsed, &mut powers);
@@ -190,38 +198,55 @@ impl Model {
     /// Raises the peaks of a building over the step.
     fn check_building(&self, side: Side, part: &ContactStep, peaks: &mut Peaks, work: &mut Workspace) {
         let lanes = self.structure.floors.lanes_of(side as usize);
-        let sag = 0.125 * part.length * part.length;
-        for (floor, lane) in lanes.clone().enumerate() {
-            let FloorRoom { start, end, least, most, largest, strays, .. } = &work.peaks.floors;
-            let below = if floor == 0 { None } else { Some(lane - 1) };
-            let at = |of: &[f64], lane: Option<usize>| lane.map_or(0.0, |lane| of[lane]);
-            let (fastest, slower) = (largest[lane], at(largest, below));
-            let speed = start.v[lane] + end.v[lane];
-            let drifting = speed - (at(&start.v, below) + at(&end.v, below));
-            let moved = [start.u[lane], end.u[lane]];
-            let drift = [moved[0] - at(&start.u, below), moved[1] - at(&end.u, below)];
-            let resisted = [start.resisted[lane], end.resisted[lane]];
-            let pushed = [resisted[0] + work.peaks.first_push[lane], resisted[1] + work.peaks.last_push[lane]];
-            let top = larger(resisted[0], resisted[1]) + most[lane] + strays[lane];
-            let bottom = -larger(-resisted[0], -resisted[1]) + least[lane] - strays[lane];
-            let of_largest = |[a, b]: [f64; 2]| larger(a.abs(), b.abs());
-            // What goes one way all along is largest at an end: a rate falls by no more than the acceleration allows.
-            let goes_on = |rates: f64, fastest: f64| rates.abs() > part.length * fastest;
-            let bounds = [
-                (PeakOf::Displacement(side, floor), moved, sag * fastest, goes_on(speed, fastest)),
-                (PeakOf::Drift(side, floor), drift, sag * (fastest + slower), goes_on(drifting, fastest + slower)),
-            ];
-            let acceleration = larger(top, -bottom);
-            for (of, ends, sag, goes_on) in bounds {
-                let bound = of_largest(ends) + if goes_on { 0.0 } else { sag };
-                self.check_one(of, ends, (bound, goes_on), part, peaks, work);
+        let places = [PeakOf::Displacement(side, 0), PeakOf::Drift(side, 0), PeakOf::Acceleration(side, 0)];
+        let known = places.map(|of| &peaks.values[self.peak_rows.place(of)..][..lanes.len()]);
+        find_excess(&mut work.peaks.floors, lanes.clone(), part.length, known);
+        for (floor, lane) in lanes.enumerate() {
+            // Written so that a NaN is never below anything.
+            if !(work.peaks.floors.excess[lane] <= 0.0) {
+                self.check_floor(side, (floor, lane), part, peaks, work);
             }
-            self.check_one(PeakOf::Acceleration(side, floor), pushed, (acceleration, false), part, peaks, work);
         }
         let FloorRoom { start, end, largest, .. } = &work.peaks.floors;
         let shears = [self.shear_of(side, start), self.shear_of(side, end)];
         let bound = larger(shears[0].abs(), shears[1].abs()) + self.shear_strays(side, part.length, largest);
         self.check_one(PeakOf::BaseShear(side), shears, (bound, false), part, peaks, work);
+    }
+
+    /// Raises the peaks of a floor and of the storey below.
+    fn check_floor(
+        &self,
+        side: Side,
+        (floor, lane): (usize, usize),
+        part: &ContactStep,
+        peaks: &mut Peaks,
+        work: &mut Workspace,
+    ) {
+        let sag = 0.125 * part.length * part.length;
+        let FloorRoom { start, end, least, most, largest, strays, .. } = &work.peaks.floors;
+        let below = floor.checked_sub(1).map(|_| lane - 1);
+        let at = |of: &[f64]| below.map_or(0.0, |lane| of[lane]);
+        let (fastest, slower) = (largest[lane], at(largest));
+        let speed = start.v[lane] + end.v[lane];
+        let drifting = speed - (at(&start.v) + at(&end.v));
+        let moved = [start.u[lane], end.u[lane]];
+        let drift = [moved[0] - at(&start.u), moved[1] - at(&end.u)];
+        let resisted = [start.resisted[lane], end.resisted[lane]];
+        let pushed = [resisted[0] + work.peaks.first_push[lane], resisted[1] + work.peaks.last_push[lane]];
+        let top = larger(resisted[0], resisted[1]) + most[lane] + strays[lane];
+        let bottom = larger(-resisted[0], -resisted[1]) - least[lane] + strays[lane];
+        let acceleration = larger(top, bottom);
+        // What goes one way all along is largest at an end: a rate falls by no more than the acceleration allows.
+        let goes_on = |rates: f64, fastest: f64| rates.abs() > part.length * fastest;
+        let moving = [
+            (PeakOf::Displacement(side, floor), moved, sag * fastest, goes_on(speed, fastest)),
+            (PeakOf::Drift(side, floor), drift, sag * (fastest + slower), goes_on(drifting, fastest + slower)),
+        ];
+        for (of, ends, sag, goes_on) in moving {
+            let bound = larger(ends[0].abs(), ends[1].abs()) + if goes_on { 0.0 } else { sag };
+            self.check_one(of, ends, (bound, goes_on), part, peaks, work);
+        }
+        self.check_one(PeakOf::Acceleration(side, floor), pushed, (acceleration, false), part, peaks, work);
     }
 
     /// Raises one peak from its values at both ends, a bound, and whether it goes one way all along.
@@ -271,5 +296,32 @@ fn note(contacts: &[Contact], forces: &mut [f64], motions: &mut [(f64, f64)]) {
     for ((force, motion), contact) in forces.iter_mut().zip(motions).zip(contacts) {
         *force = contact.present_force();
         *motion = (contact.penetration, contact.rate);
+    }
+}
+
+/// By how much the floors of a building, or the storeys below them, may exceed their peaks of displacement, drift and
+/// acceleration in a step of h seconds, in whatever units: the bounds of [`Model::check_floor`] for all floors at once. Wide
+/// instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn find_excess(room: &mut FloorRoom, lanes: Range<usize>, h: f64, [displacement, drift, acceleration]: [&[f64]; 3]) {
+    let FloorRoom { start, end, least, most, largest, strays, excess, .. } = room;
+    let (sag, count) = (0.125 * h * h, lanes.len());
+    // Says once that no index below leaves its vector.
+    let [u0, u1, r0, r1, least, most, largest, strays] =
+        [&start.u, &end.u, &start.resisted, &end.resisted, least, most, largest, strays]
+            .map(|vector| &vector[lanes.clone()][..count]);
+    let (displacement, drift, acceleration) = (&displacement[..count], &drift[..count], &acceleration[..count]);
+    let excess = &mut excess[lanes][..count];
+    for i in 0..count {
+        let moved = larger(u0[i].abs(), u1[i].abs()) + sag * largest[i] - displacement[i];
+        let top = larger(r0[i], r1[i]) + most[i];
+        let bottom = larger(-r0[i], -r1[i]) - least[i];
+        let pushed = larger(top, bottom) + strays[i] - acceleration[i];
+        excess[i] = if pushed <= moved { moved } else { pushed };
+    }
+    for i in 0..count {
+        let (below, slower) = if i == 0 { ((0.0, 0.0), 0.0) } else { ((u0[i - 1], u1[i - 1]), largest[i - 1]) };
+        let moved = larger((u0[i] - below.0).abs(), (u1[i] - below.1).abs()) + sag * (largest[i] + slower) - drift[i];
+        excess[i] = if moved <= excess[i] { excess[i] } else { moved };
     }
 }

@@ -179,7 +179,6 @@ impl Model {
         peaks: &mut Peaks,
         work: &mut Workspace,
     ) {
-
         let (block, modes, h) = (&building.blocks[b], building.modes.clone(), flight.length);
         let bounds = &work.peaks.bounds;
         let place = (building.first + b) * LANES;

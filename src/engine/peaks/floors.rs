@@ -87,6 +87,8 @@ pub(super) struct FloorRoom {
     /// B, and how far r strays from its chord, m/s2; at last A.
     pub largest: Vec<f64>,
     pub strays: Vec<f64>,
+    /// By how much a peak may be exceeded.
+    pub excess: Vec<f64>,
     pub modal: Vec<f64>,
     /// The time that `end` is of, as the start of a segment and the time since then.
     known: Option<[u64; 2]>,
@@ -103,6 +105,7 @@ impl FloorRoom {
             most: vector(),
             largest: vector(),
             strays: vector(),
+            excess: vector(),
             modal: vector(),
             known: None,
         }

@@ -136,9 +136,8 @@ impl BuildingRows {
 impl Block {
     /// From the A and the B of each lane and mode.
     fn of(structure: &Structure, side: Side, count: usize, row: impl Fn(usize, usize) -> [f64; 2]) -> Block {
-        let lanes = |part: usize| -> Vec<Lane> {
-            (0..count).map(|m| std::array::from_fn(|i| row(i, m)[part])).collect()
-        };
+        let lanes =
+            |part: usize| -> Vec<Lane> { (0..count).map(|m| std::array::from_fn(|i| row(i, m)[part])).collect() };
         let (on_q, mut on_v) = (lanes(0), lanes(1));
         let offset = structure.offset(side);
         let mut growth = Growth::default();

@@ -123,7 +123,13 @@ impl Model {
         let place = self.peak_rows.place(of);
         let (block, lane) = (&building.blocks[place / LANES - building.first], place % LANES);
         let [q, v, end_q, end_v] = &peaks.pieces;
-        let own = Flight { start: (q, v), end: (end_q, end_v), loads: (&peaks.load, flight.loads.1), length: to - from, ..*flight };
+        let own = Flight {
+            start: (q, v),
+            end: (end_q, end_v),
+            loads: (&peaks.load, flight.loads.1),
+            length: to - from,
+            ..*flight
+        };
         self.bound_modes(building, &own, &mut peaks.piece, jerk);
         let mut course = course_of(block, &own, &peaks.piece, building.modes.clone());
         if self.floor_forces {
