@@ -115,17 +115,22 @@ impl Clock {
 #[derive(Clone, Debug)]
 pub struct Bend {
     weights: [Weights; ROOM],
+    /// What they are for.
+    known: (Clock, usize),
 }
 
 impl Default for Bend {
     fn default() -> Bend {
-        Bend { weights: [[0.0; (ROOM / 2 + 1).next_multiple_of(LANES)]; ROOM] }
+        Bend { weights: [[0.0; (ROOM / 2 + 1).next_multiple_of(LANES)]; ROOM], known: (Clock::default(), 0) }
     }
 }
 
 impl Bend {
     /// For a clock and series of so many terms or less.
     pub fn set(&mut self, clock: &Clock, terms: usize) {
+        if std::mem::replace(&mut self.known, (*clock, terms)) == (*clock, terms) {
+            return;
+        }
         let mut powers: Weights = [1.0; _];
         for j in 1..=terms / 2 {
             powers[j] = powers[j - 1] * clock.bend;

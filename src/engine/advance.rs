@@ -106,14 +106,13 @@ impl Model {
         self.add_work(state, state.step.length);
         let State { base, step, inputs, counters, work, .. } = state;
         let start = base.time();
-        let is_flight = step.kind == StepKind::Flight;
-        if is_flight {
-            self.raise_over_flight(base, step, inputs, work);
-        } else {
-            self.note_starts(&base.contacts, work);
+        let is_watched = !self.peak_rows.are_none() && step.length > 0.0;
+        match step.kind {
+            StepKind::Flight if is_watched => self.raise_over_flight(base, step, inputs, work),
+            _ => self.note_starts(&base.contacts, work),
         }
         self.follow(&mut base.contacts, step, start);
-        if !is_flight && step.length > 0.0 {
+        if is_watched && step.kind != StepKind::Flight {
             self.raise_over_step(base, step, inputs, end, work);
         }
         base.contacts.iter_mut().filter(|contact| contact.in_contact()).for_each(|contact| contact.age += step.length);

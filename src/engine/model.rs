@@ -99,7 +99,7 @@ impl Model {
         let (step_tolerance, order) = contact_step::accuracy(scene.solver.relative_tolerance);
         Ok(Model {
             near: NearPairs::of(&structure, &pairs),
-            peak_rows: PeakRows::of(&structure),
+            peak_rows: PeakRows::of(&structure, scene.peaks),
             resistance: FloorResistance::of(&structure),
             closing: ClosingSpeeds::of(&structure, &pairs, &pair_weight),
             frequencies: [Side::Left, Side::Right]

@@ -30,7 +30,8 @@
 //! # Ok::<(), pounding::scene::SceneError>(())
 //! ```
 //!
-//! The optional tables `[ground]` (`record`, `scale` or `pga`), `[inputs]` (`floor_forces`), `[outputs]` (`energy`) and
+//! The optional tables `[ground]` (`record`, `scale` or `pga`), `[inputs]` (`floor_forces`), `[outputs]` (`energy`,
+//! `peaks`) and
 //! `[solver]` (`relative_tolerance`, `min_approach_velocity`) fill the fields of the same names in [`Scene`].
 //!
 //! A scene is refused with all its problems at once, in the order of the file, each with its path, the value found and
@@ -90,6 +91,8 @@ pub struct Scene {
     pub contacts: Vec<ContactPair>,
     /// `outputs.energy`: the energy account exists.
     pub energy: bool,
+    /// `outputs.peaks`: the largest displacements, drifts, accelerations and base shears so far exist.
+    pub peaks: bool,
     /// Accuracy of the contact episodes.
     pub solver: Solver,
 }

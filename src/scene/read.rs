@@ -62,14 +62,14 @@ fn scene(mut root: Section<'_>) -> Scene {
     let left = building(root.require_section("left", "the building on the left"));
     let right = building(root.require_section("right", "the building on the right"));
     let ground = ground(root.section("ground"));
-    let floor_forces = switch(root.section("inputs"), "floor_forces");
+    let floor_forces = inputs(root.section("inputs"));
     let contacts = root.get("contact").and_then(|item| item.list("[[contact]] tables"));
     let contacts = contacts.iter().flatten().map(|item| contact(item.section())).collect();
-    let energy = switch(root.section("outputs"), "energy");
+    let (energy, peaks) = outputs(root.section("outputs"));
     let solver = solver(root.section("solver"));
     root.close(KEY);
     let (name, description) = (name.to_owned(), description.to_owned());
-    Scene { name, description, stop_time, left, right, ground, floor_forces, contacts, energy, solver }
+    Scene { name, description, stop_time, left, right, ground, floor_forces, contacts, energy, peaks, solver }
 }
 
 fn building(mut section: Section<'_>) -> Building {
@@ -161,10 +161,19 @@ fn ground(mut section: Section<'_>) -> Ground {
     Ground { record, scaling }
 }
 
-fn switch(mut section: Section<'_>, key: &'static str) -> bool {
-    let on = section.get(key).is_some_and(|item| item.boolean());
+/// Whether floors have external forces.
+fn inputs(mut section: Section<'_>) -> bool {
+    let floor_forces = section.get("floor_forces").is_some_and(|item| item.boolean());
     section.close(KEY);
-    on
+    floor_forces
+}
+
+/// Whether there are an energy account and peaks.
+fn outputs(mut section: Section<'_>) -> (bool, bool) {
+    let energy = section.get("energy").is_some_and(|item| item.boolean());
+    let peaks = section.get("peaks").is_none_or(|item| item.boolean());
+    section.close(KEY);
+    (energy, peaks)
 }
 
 fn solver(mut section: Section<'_>) -> Solver {

@@ -32,8 +32,11 @@ impl Table {
             let building = building(scene, side);
             for floor in 0..building.mass.len() {
                 table.add_floor(building, (side, name), floor, scene.floor_forces);
+                if scene.peaks {
+                    table.add_peaks((side, name), floor);
+                }
             }
-            table.add_building(building, (side, name));
+            table.add_building(building, (side, name), scene.peaks);
         }
         for (p, pair) in scene.contacts.iter().enumerate() {
             table.add_contact(p, pair);
@@ -84,6 +87,18 @@ impl Table {
             let about = format!("{quantity} of floor {i}, {frame}");
             self.add(output, &format!("{name}.{quantity}[{i}]"), ty, &about).nominal(scale);
         }
+        let (about, ty) = (format!("mass of floor {i}"), Type::Real(Unit::Kilogram));
+        let row = self.add(Parameter::Mass(side, floor), &format!("{name}.mass[{i}]"), ty, &about);
+        row.at_least(0.0).nominal(building.mass[floor]);
+        if let Stiffness::Shear(storeys) = &building.stiffness {
+            let (about, ty) = (format!("lateral stiffness of storey {i}"), Type::Real(Unit::NewtonPerMetre));
+            let row = self.add(Parameter::Stiffness(side, floor), &format!("{name}.stiffness[{i}]"), ty, &about);
+            row.at_least(0.0).nominal(storeys[floor]);
+        }
+    }
+
+    fn add_peaks(&mut self, (side, name): (Side, &str), floor: usize) {
+        let i = floor + 1;
         for (of, quantity, ty, about, scale) in [
             (PeakOf::Displacement(side, floor), "displacement", METRE, "displacement of floor", DISPLACEMENT),
             (PeakOf::Drift(side, floor), "drift", METRE, "drift of storey", DISPLACEMENT),
@@ -100,23 +115,18 @@ impl Table {
             let row = self.add(Output::Peak(of), &format!("{name}.peak_{quantity}[{i}]"), ty, &about);
             row.at_least(0.0).nominal(scale);
         }
-        let (about, ty) = (format!("mass of floor {i}"), Type::Real(Unit::Kilogram));
-        let row = self.add(Parameter::Mass(side, floor), &format!("{name}.mass[{i}]"), ty, &about);
-        row.at_least(0.0).nominal(building.mass[floor]);
-        if let Stiffness::Shear(storeys) = &building.stiffness {
-            let (about, ty) = (format!("lateral stiffness of storey {i}"), Type::Real(Unit::NewtonPerMetre));
-            let row = self.add(Parameter::Stiffness(side, floor), &format!("{name}.stiffness[{i}]"), ty, &about);
-            row.at_least(0.0).nominal(storeys[floor]);
-        }
     }
 
-    fn add_building(&mut self, building: &Building, (side, name): (Side, &str)) {
+    fn add_building(&mut self, building: &Building, (side, name): (Side, &str), peaks: bool) {
         let about = "force of the building on the ground: sum of K u + C v over its floors";
         let row = self.add(Output::BaseShear(side), &format!("{name}.base_shear"), NEWTON, about);
         row.nominal(building.mass.iter().sum::<f64>() * ACCELERATION);
-        let about = "largest base shear so far, of either sign, between communication points and in impacts too";
-        let row = self.add(Output::Peak(PeakOf::BaseShear(side)), &format!("{name}.peak_base_shear"), NEWTON, about);
-        row.at_least(0.0).nominal(building.mass.iter().sum::<f64>() * ACCELERATION);
+        if peaks {
+            let about = "largest base shear so far, of either sign, between communication points and in impacts too";
+            let row =
+                self.add(Output::Peak(PeakOf::BaseShear(side)), &format!("{name}.peak_base_shear"), NEWTON, about);
+            row.at_least(0.0).nominal(building.mass.iter().sum::<f64>() * ACCELERATION);
+        }
         if let Damping::Ratio(ratio) = building.damping {
             let about = "ratio of critical damping in every mode";
             let row = self.add(Parameter::DampingRatio(side), &format!("{name}.damping_ratio"), ONE, about);

@@ -106,6 +106,9 @@ impl Model {
         segment: u64,
         work: &mut Workspace,
     ) -> u64 {
+        if self.peak_rows.are_none() {
+            return u64::MAX;
+        }
         if work.peaks.watch.due > segment {
             return work.peaks.watch.due;
         }

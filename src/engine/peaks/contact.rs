@@ -283,7 +283,7 @@ impl Model {
             _ => {
                 let series = &part.step.series;
                 let (terms, order) = quantity.terms(series, Some(&mut work.bend));
-                highest(&terms, (series.place(part.length), order), known)
+                highest(&terms, (series.place(part.length), order), known, &mut work.powers)
             }
         };
         work.peaks.rows = rows;
@@ -307,9 +307,11 @@ fn find_excess(room: &mut FloorRoom, lanes: Range<usize>, h: f64, [displacement,
     let FloorRoom { start, end, least, most, largest, strays, excess, .. } = room;
     let (sag, count) = (0.125 * h * h, lanes.len());
     // Says once that no index below leaves its vector.
-    let [u0, u1, r0, r1, least, most, largest, strays] =
-        [&start.u, &end.u, &start.resisted, &end.resisted, least, most, largest, strays]
-            .map(|vector| &vector[lanes.clone()][..count]);
+    let (from, to) = (lanes.start, lanes.end);
+    let (u0, u1) = (&start.u[from..to][..count], &end.u[from..to][..count]);
+    let (r0, r1) = (&start.resisted[from..to][..count], &end.resisted[from..to][..count]);
+    let (least, most) = (&least[from..to][..count], &most[from..to][..count]);
+    let (largest, strays) = (&largest[from..to][..count], &strays[from..to][..count]);
     let (displacement, drift, acceleration) = (&displacement[..count], &drift[..count], &acceleration[..count]);
     let excess = &mut excess[lanes][..count];
     for i in 0..count {

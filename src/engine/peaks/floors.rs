@@ -8,7 +8,7 @@
 use super::larger;
 use crate::engine::model::Model;
 use crate::engine::state::Coordinates;
-use crate::structure::{ModalDamping, Side, Structure};
+use crate::structure::{LANES, ModalDamping, Side, Structure};
 use nalgebra::DMatrix;
 use std::ops::Range;
 
@@ -150,9 +150,11 @@ impl Model {
             Coordinates::Modes => {
                 modal.fill(0.0);
                 structure.resist(q, v, 1.0, modal);
-                structure.to_floors(q, &mut out.u);
-                structure.to_floors(v, &mut out.v);
-                structure.to_floors(modal, &mut out.resisted);
+                let blocks = out.u.as_chunks_mut::<LANES>().0.iter_mut().zip(out.v.as_chunks_mut::<LANES>().0);
+                let blocks = blocks.zip(out.resisted.as_chunks_mut::<LANES>().0);
+                for (block, ((u, rate), resisted)) in blocks.enumerate() {
+                    [*u, *rate, *resisted] = structure.at_floors(block, [q, v, modal]);
+                }
             }
         }
     }

@@ -168,8 +168,12 @@ impl Model {
         Peaks::new(&self.peak_rows)
     }
 
-    /// The largest magnitude so far of what `of` names; `point` is what has been observed in `state`.
+    /// The largest magnitude so far of what `of` names, 0 where the scene has no peaks; `point` is what has been observed in
+    /// `state`.
     pub fn peak(&self, state: &State, point: &Point, of: PeakOf) -> f64 {
+        if self.peak_rows.are_none() {
+            return 0.0;
+        }
         let place = self.peak_rows.place(of);
         let mut known = point.peaks.borrow_mut();
         if known.observation != point.floors.observation {

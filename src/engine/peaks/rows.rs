@@ -57,10 +57,16 @@ pub(in crate::engine) struct Growth {
 }
 
 impl PeakRows {
-    pub fn of(structure: &Structure) -> PeakRows {
-        let left = BuildingRows::of(structure, Side::Left, 0);
-        let right = BuildingRows::of(structure, Side::Right, left.blocks.len());
+    /// Of all that is watched; nothing where that is not `wanted`.
+    pub fn of(structure: &Structure, wanted: bool) -> PeakRows {
+        let left = BuildingRows::of(structure, Side::Left, 0, wanted);
+        let right = BuildingRows::of(structure, Side::Right, left.blocks.len(), wanted);
         PeakRows { buildings: [left, right] }
+    }
+
+    /// Whether nothing is watched.
+    pub fn are_none(&self) -> bool {
+        self.blocks() == 0
     }
 
     /// Blocks of both buildings.
@@ -98,7 +104,7 @@ impl PeakRows {
 }
 
 impl BuildingRows {
-    fn of(structure: &Structure, side: Side, first: usize) -> BuildingRows {
+    fn of(structure: &Structure, side: Side, first: usize, wanted: bool) -> BuildingRows {
         let modes = structure.modes(side);
         let (floors, count) = (modes.shape.nrows(), modes.omega.len());
         let shape = |floor: usize, m: usize| modes.shape[(floor, m)];
@@ -122,11 +128,12 @@ impl BuildingRows {
             _ => [0.0; 2],
         };
         let mut blocks = Vec::new();
-        for from in (0..2 * floors).step_by(LANES) {
+        let count_of = |quantities: usize| if wanted { quantities } else { 0 };
+        for from in (0..count_of(2 * floors)).step_by(LANES) {
             blocks.push(Block::of(structure, side, count, |i, m| moving(from + i, m)));
         }
         let moving = blocks.len();
-        for from in (0..=floors).step_by(LANES) {
+        for from in (0..count_of(floors + 1)).step_by(LANES) {
             blocks.push(Block::of(structure, side, count, |i, m| pulling(from + i, m)));
         }
         BuildingRows { modes: structure.range(side), first, blocks, floors, moving }

@@ -75,7 +75,7 @@ impl Model {
         }
         let (series, (ground, slope)) = (&work.series, quantity.ground);
         let (terms, order) = Quantity { ground: (ground + slope * from, slope), ..*quantity }.terms(series, None);
-        highest(&terms, (1.0, order), known)
+        highest(&terms, (1.0, order), known, &mut work.powers)
     }
 
     /// Expands a piece of a flight into a power series.
@@ -242,9 +242,8 @@ impl Quantity<'_> {
     }
 }
 
-/// The largest magnitude of a polynomial over 0..=x, or `known` if that is larger.
-pub(super) fn highest(terms: &Coefficients, (x, order): (f64, usize), known: f64) -> f64 {
-    let mut powers = Powers::default();
+/// The largest magnitude of a polynomial over 0..=x, or `known` if that is larger; `powers` is room to work in.
+pub(super) fn highest(terms: &Coefficients, (x, order): (f64, usize), known: f64, powers: &mut Powers) -> f64 {
     powers.set(x, order);
     let Reading { value, slope, fourth } = powers.read(terms);
     let mut peak = known;
