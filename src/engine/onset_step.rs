@@ -7,6 +7,7 @@ use super::contact_step::touching;
 use super::meeting::{Meeting, OnFloors, OnModes};
 use super::members::{Members, Place, most_blocks};
 use super::model::{Model, Pair};
+use super::roots;
 use super::state::*;
 use crate::contact::Force;
 use crate::contact::onset::{
@@ -494,7 +495,7 @@ fn highest<C: Fn(f64) -> (f64, f64)>(
         let first = curve(start).1;
         if first > 0.0 {
             at = turning_point(|x| curve(x).1, (start, first), (end, slope));
-            value = curve(at).0;
+            value = curve(roots::roughly(at)).0;
         }
     }
     (value > known).then_some((at, value))

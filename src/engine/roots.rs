@@ -110,9 +110,9 @@ impl Terms {
         value_and_slope(self.blocks(), Place::at(x))
     }
 
-    /// Value, slope and curvature.
+    /// Slope and curvature.
     #[inline(always)]
-    fn bend(&self, x: f64) -> (f64, f64, f64) {
+    fn bend(&self, x: f64) -> (f64, f64) {
         let at = Place::at(x);
         let (mut value, mut by_y, mut half) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
         for block in self.blocks().iter().rev() {
@@ -125,7 +125,7 @@ impl Terms {
         let bend_of_y = 12.0 * at.x2 * at.total(by_y) + 2.0 * (rate * rate) * at.total(half);
         let own = 2.0 * value[2] + 6.0 * (value[3] * at.x);
         let slope = at.slope(value) + rate * at.total(by_y);
-        (at.total(value), slope, own + 2.0 * rate * at.slope(by_y) + bend_of_y)
+        (slope, own + 2.0 * rate * at.slope(by_y) + bend_of_y)
     }
 
     /// Sum of the sizes of all terms at x.
@@ -263,7 +263,8 @@ impl Curve<'_> {
         }
         if b.is_concave_from(a) {
             if a.slope > 0.0 && b.slope < 0.0 {
-                let (x, value) = top(self.terms, a, b);
+                let x = top(self.terms, a, b);
+                let value = self.terms.value(roughly(x));
                 if value > best.1 {
                     *best = (x, value);
                 }
@@ -311,15 +312,14 @@ fn newton(terms: &Terms, a: End, b: End) -> f64 {
     x
 }
 
-/// Where the slope of a concave piece passes 0, and the value there: Newton, kept inside a shrinking bracket. Wide
+/// Where the slope of a concave piece passes 0: Newton, kept inside a shrinking bracket. Wide
 /// instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn top(terms: &Terms, a: End, b: End) -> (f64, f64) {
+fn top(terms: &Terms, a: End, b: End) -> f64 {
     let (mut low, mut high) = (a.x, b.x);
     let mut x = top_of_cubic(a, b);
-    let mut top = (x, f64::NEG_INFINITY);
     for _ in 0..60 {
-        let (value, slope, curvature) = terms.bend(x);
+        let (slope, curvature) = terms.bend(x);
         if slope > 0.0 {
             low = x;
         } else {
@@ -328,14 +328,13 @@ fn top(terms: &Terms, a: End, b: End) -> (f64, f64) {
         let step = slope / curvature;
         let newton = x - step;
         let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        top = (next, value - 0.5 * slope * step);
         // The next step would be its square, and the value at the top is flat.
         if step.abs() <= 1e-7 * (b.x - a.x) {
-            return if newton >= a.x && newton <= b.x { (newton, top.1) } else { (x, value) };
+            return if newton >= a.x && newton <= b.x { newton } else { x };
         }
         x = next;
     }
-    top
+    x
 }
 
 impl End {
@@ -396,6 +395,13 @@ fn top_of_cubic(a: End, b: End) -> f64 {
         s = next;
     }
     a.x + w * s
+}
+
+/// x to eight digits. The value at a top is flat: there it is right to sixteen, and the same to the last bit however far a
+/// curve is looked at, so that no peak falls by a rounding.
+pub fn roughly(x: f64) -> f64 {
+    const LEFT_OUT: u64 = (1 << 26) - 1;
+    f64::from_bits((x.to_bits() + (LEFT_OUT >> 1)) & !LEFT_OUT)
 }
 
 /// x to twelve digits: neighbours become the same number.

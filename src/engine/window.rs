@@ -1,6 +1,7 @@
 //! The solution over a window of a contact (see [`crate::collocation`]): reading it and following contacts through it.
 
 use super::model::Model;
+use super::roots;
 use super::state::*;
 use crate::collocation::{
     Equation, Kernel, MOST_PAIRS, NODES, Nodes, POWERS, Row, Rule, Solution, Tables, dot, fours, larger, nodes,
@@ -279,8 +280,8 @@ impl Way {
         if at < before || self.rates.1 < 0.0 || self.rates.1.is_nan() {
             let low = if at == 0 { 0.0 } else { nodes[at - 1] };
             let found = summit(self.nodes, values, (low, x_of(at), x_of(at + 1)));
-            if let Some(found) = found.filter(|found| found.1 > best) {
-                top = found;
+            if let Some((x, value)) = found.filter(|found| found.1 > best) {
+                top = (roots::roughly(x), value);
             }
         }
         (top.1 > known * (1.0 - INTERPOLATED)).then_some(top.0)

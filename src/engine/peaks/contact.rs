@@ -33,8 +33,11 @@ impl ContactStep<'_> {
 impl Model {
     /// Notes the contacts at the start of a step.
     pub(in crate::engine) fn note_starts(&self, contacts: &[Contact], work: &mut Workspace) {
-        let room = &mut work.peaks;
-        note(contacts, &mut room.first_forces, &mut room.starts);
+        let starts = work.peaks.first_forces.iter_mut().zip(&mut work.peaks.starts);
+        for ((force, start), contact) in starts.zip(contacts) {
+            *force = contact.present_force();
+            *start = (contact.penetration, contact.rate);
+        }
     }
 
     /// Raises the peaks of the base over the step that is planned, whose contacts have been followed to its end.
@@ -47,8 +50,9 @@ impl Model {
         work: &mut Workspace,
     ) {
         let mut peaks = std::mem::take(&mut base.peaks);
-        let room = &mut work.peaks;
-        note(&base.contacts, &mut room.last_forces, &mut room.ends);
+        for (force, contact) in work.peaks.last_forces.iter_mut().zip(&base.contacts) {
+            *force = contact.present_force();
+        }
         self.bound_forces(&base.contacts, step, (step.length, &step.end), &mut work.peaks.strongest);
         let part = ContactStep { base, step, inputs, length: step.length, end: (&step.q, &step.v) };
         self.check_contact_step(&part, &mut peaks, work);
@@ -74,9 +78,7 @@ impl Model {
         step.series.set_powers(elapsed, &mut powers);
         self.note_starts(&base.contacts, work);
         for p in 0..self.pairs.len() {
-            let contact = self.contact_at(base, step, p, elapsed, &powers);
-            work.peaks.last_forces[p] = contact.present_force();
-            work.peaks.ends[p] = (contact.penetration, contact.rate);
+            work.peaks.last_forces[p] = self.contact_at(base, step, p, elapsed, &powers).present_force();
         }
         self.bound_forces(&base.contacts, step, (elapsed, &powers), &mut work.peaks.strongest);
         work.peaks.floors.forget();
@@ -271,31 +273,25 @@ impl Model {
         }
     }
 
-    /// The largest magnitude of a quantity within a step, or `known` if that is larger.
+    /// The largest magnitude of a quantity within a part of a step, or `known` if that is larger. It is looked for in the whole
+    /// step, so that a turn has the same bits whatever part is looked at.
     #[inline(never)]
     fn highest_in_contact(&self, of: PeakOf, known: f64, part: &ContactStep, work: &mut Workspace) -> f64 {
         let mut rows = std::mem::take(&mut work.peaks.rows);
         let lanes = self.set_rows(of, part.base.coordinates, &mut rows);
         let quantity = Quantity { of, rows: &rows, lanes, ground: part.ground() };
-        let peak = match part.step.kind {
+        let step = part.step;
+        let peak = match step.kind {
             StepKind::Onset => self.highest_in_onset(&quantity, known, part),
             StepKind::Window => self.highest_in_window(&quantity, known, part, work),
             _ => {
-                let series = &part.step.series;
-                let (terms, order) = quantity.terms(series, Some(&mut work.bend));
-                highest(&terms, (series.place(part.length), order), known, &mut work.powers)
+                let (terms, order) = quantity.terms(&step.series, Some(&mut work.bend));
+                let end = if part.length == step.length { step.end.x } else { step.series.place(part.length) };
+                highest(&terms, (end, order), known, &mut work.powers)
             }
         };
         work.peaks.rows = rows;
         peak
-    }
-}
-
-/// Notes the forces of contacts, N, and their penetrations, m, and rates, m/s.
-fn note(contacts: &[Contact], forces: &mut [f64], motions: &mut [(f64, f64)]) {
-    for ((force, motion), contact) in forces.iter_mut().zip(motions).zip(contacts) {
-        *force = contact.present_force();
-        *motion = (contact.penetration, contact.rate);
     }
 }
 

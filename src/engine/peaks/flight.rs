@@ -6,7 +6,7 @@
 //! bound stay below the peak, nothing has happened; where the slope keeps its sign, the larger end is the peak.
 
 use super::rows::{Block, BuildingRows};
-use super::{Peaks, larger};
+use super::{PeakOf, Peaks, larger};
 use crate::engine::model::Model;
 use crate::engine::roots;
 use crate::engine::state::{Base, Inputs, Workspace};
@@ -25,6 +25,8 @@ pub(super) struct Flight<'a> {
     pub ground: (f64, f64),
     /// s.
     pub length: f64,
+    /// The whole flight of which this is the first part.
+    pub whole: Option<&'a Flight<'a>>,
 }
 
 /// What is known of each mode over a flight.
@@ -109,7 +111,7 @@ impl Model {
     /// What floor forces add to accelerations at the base, and how that changes.
     pub(super) fn note_floor_forces(&self, base: &Base, inputs: &Inputs, direct: &mut [[f64; 2]]) {
         for (place, direct) in direct.iter_mut().enumerate() {
-            if let Some(super::PeakOf::Acceleration(side, floor)) = self.peak_rows.at(place) {
+            if let Some(PeakOf::Acceleration(side, floor)) = self.peak_rows.at(place) {
                 let force = &inputs.floor_forces[inputs.place(side, floor)];
                 let inverse = self.structure.floors.inverse_mass(self.structure.floors.lane(side as usize, floor));
                 let (start, elapsed) = (base.segment.start, base.elapsed);
@@ -199,10 +201,12 @@ impl Model {
         let highest = course.highest(h);
         for i in (0..LANES).filter(|&i| !(highest[i] <= known[i])) {
             peaks.raise(place + i, larger(course.start[0][i].abs(), course.end[0][i].abs()));
-            if course.may_turn_above(i, h, peaks.values[place + i])
+            let peak = peaks.values[place + i];
+            if course.may_turn_above(i, h, peak)
                 && let Some(of) = self.peak_rows.at(place + i)
             {
-                let peak = self.highest_in_flight(flight, of, peaks.values[place + i], work);
+                // In the whole flight, so that a turn has the same bits whatever part of it is looked at.
+                let peak = self.highest_in_flight(flight.whole.unwrap_or(flight), of, (peak, h), work);
                 peaks.raise(place + i, peak);
             }
         }

@@ -108,9 +108,8 @@ pub(super) struct PeakRoom {
     /// N, the contact forces at the start of a step and at its end.
     first_forces: Vec<f64>,
     last_forces: Vec<f64>,
-    /// Penetrations, m, and rates, m/s, there.
+    /// Penetrations, m, and rates, m/s, at the start.
     starts: Vec<(f64, f64)>,
-    ends: Vec<(f64, f64)>,
     /// m/s2, what they push each floor by.
     first_push: Vec<f64>,
     last_push: Vec<f64>,
@@ -134,7 +133,6 @@ impl PeakRoom {
             first_forces: vec![0.0; pairs],
             last_forces: vec![0.0; pairs],
             starts: vec![(0.0, 0.0); pairs],
-            ends: vec![(0.0, 0.0); pairs],
             first_push: vec![0.0; lanes],
             last_push: vec![0.0; lanes],
         }
@@ -198,13 +196,31 @@ impl Model {
                 self.raise_over_part(state, elapsed, point, &mut known.peaks, &mut work);
             }
             _ => {
-                let end = (elapsed, &point.q[..], &point.v[..]);
-                self.with_flight(base, inputs, end, &mut work, |flight, work| {
-                    self.check_flight(flight, &mut known.peaks, work);
+                let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
+                let length = self.end_of_flight(state, &mut work, (&mut q, &mut v));
+                self.with_flight(base, inputs, (length, &q, &v), &mut work, |whole, work| {
+                    let end = (&point.q[..], &point.v[..]);
+                    let part = Flight { end, length: elapsed, whole: Some(whole), ..*whole };
+                    self.check_flight(&part, &mut known.peaks, work);
                 });
+                (work.q, work.v) = (q, v);
             }
         }
         known.work = Some(work);
+    }
+
+    /// The end of the flight under way, as planned; returns how long it lasts, s.
+    fn end_of_flight(&self, state: &State, work: &mut Workspace, (q, v): (&mut [f64], &mut [f64])) -> f64 {
+        let State { base, step, inputs, .. } = state;
+        if step.kind == StepKind::Flight {
+            q.copy_from_slice(&step.q);
+            v.copy_from_slice(&step.v);
+            return step.length;
+        }
+        let length = base.segment.length;
+        self.load(base, inputs, &mut work.load, &mut work.slope);
+        self.fly(base, length, work, (q, v));
+        length
     }
 
     /// Raises the peaks of the base over the flight that is planned.
@@ -242,7 +258,7 @@ impl Model {
                 }
                 let mut peaks = std::mem::take(&mut base.peaks);
                 let (end, loads) = ((&base.q[..], &base.v[..]), (&load[..], &slope[..]));
-                let flight = Flight { start, end, loads, ground, length: base.segment.length };
+                let flight = Flight { start, end, loads, ground, length: base.segment.length, whole: None };
                 if !std::mem::replace(&mut is_bounded, true) {
                     self.bound_modes(building, &flight, &mut work.peaks.bounds, &mut work.node_v);
                 }
@@ -269,7 +285,7 @@ impl Model {
         }
         let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
         let loads = (&load[..], &slope[..]);
-        then(&Flight { start: (&base.q, &base.v), end: (q, v), loads, ground, length }, work);
+        then(&Flight { start: (&base.q, &base.v), end: (q, v), loads, ground, length, whole: None }, work);
         (work.load, work.slope) = (load, slope);
     }
 }

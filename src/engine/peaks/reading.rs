@@ -10,6 +10,7 @@ use crate::engine::input::LinearInput;
 use crate::engine::model::Model;
 use crate::engine::onset_step::OnsetSeries;
 use crate::engine::state::Workspace;
+use crate::engine::window::Window;
 
 /// Parts that the first step after an entry, and a window, are read in.
 const PARTS_OF_ONSET: u32 = 6;
@@ -51,12 +52,12 @@ struct Reading {
 }
 
 impl Model {
-    /// See above, for the first step after an entry; or `known` if that is larger.
+    /// The largest magnitude of a quantity in a part of the first step after an entry, or `known` if that is larger.
     pub(super) fn highest_in_onset(&self, quantity: &Quantity, known: f64, part: &ContactStep) -> f64 {
-        let onset = &part.step.onset;
-        let Some(series) = OnsetQuantity::of(quantity, onset) else { return known };
-        let first = START * part.length;
-        highest(known, (first, part.length), PARTS_OF_ONSET, |time| series.read(time, onset, quantity.ground))
+        let ContactStep { step, length: until, .. } = part;
+        let Some(series) = OnsetQuantity::of(quantity, &step.onset) else { return known };
+        let whole = (START * step.length, step.length);
+        highest((known, *until), whole, PARTS_OF_ONSET, |time| series.read(time, &step.onset, quantity.ground))
     }
 
     /// The same for a window.
@@ -67,26 +68,28 @@ impl Model {
         part: &ContactStep,
         work: &mut Workspace,
     ) -> f64 {
-        highest(known, (0.0, part.length), PARTS_OF_WINDOW, |time| self.read_in_window(quantity, time, part, work))
+        let whole = (0.0, part.step.length);
+        let read = |time: f64| self.read_in_window(quantity, time, part, work);
+        highest((known, part.length), whole, PARTS_OF_WINDOW, read)
     }
 
     /// Reads a quantity and its slope at a time of a window, from the equations of motion.
     fn read_in_window(&self, quantity: &Quantity, time: f64, part: &ContactStep, work: &mut Workspace) -> Reading {
-        let ContactStep { base, step, inputs, length, end } = *part;
+        let ContactStep { base, step, inputs, .. } = *part;
         let coordinates = base.coordinates;
         let mut room = std::mem::take(&mut work.peaks.reading);
         let ReadingRoom { q, v, acceleration, jerk } = &mut room;
         let mut pairs = [(0.0, 0.0); MOST_PAIRS];
-        let known = match time {
-            _ if time == 0.0 => Some(((&base.q[..], &base.v[..]), &work.peaks.starts)),
-            _ if time == length => Some((end, &work.peaks.ends)),
-            _ => None,
-        };
-        let contacts = &step.window.contacts[..step.window.equation.closed];
-        if let Some(((known_q, known_v), known)) = known {
-            q.copy_from_slice(known_q);
-            v.copy_from_slice(known_v);
-            pairs.iter_mut().zip(contacts).for_each(|(pair, &p)| *pair = known[p]);
+        let Window { contacts, equation, solution, .. } = &*step.window;
+        let contacts = &contacts[..equation.closed];
+        if time == 0.0 {
+            q.copy_from_slice(&base.q);
+            v.copy_from_slice(&base.v);
+            pairs.iter_mut().zip(contacts).for_each(|(pair, &p)| *pair = work.peaks.starts[p]);
+        } else if time == step.length {
+            q.copy_from_slice(&step.q);
+            v.copy_from_slice(&step.v);
+            pairs.copy_from_slice(&solution.end);
         } else {
             self.read_window_and_pairs(step, time, &mut work.powers, (q, v), &mut pairs);
         }
@@ -166,8 +169,14 @@ impl OnsetQuantity {
     }
 }
 
-/// The largest magnitude from one time of a step to another, which is read in so many parts; or `known` if that is larger.
-fn highest(known: f64, (from, to): (f64, f64), parts: u32, mut read: impl FnMut(f64) -> Reading) -> f64 {
+/// The largest magnitude in a step, from one time to another, as far as it lies before a time, or `known` if that is larger.
+/// The whole step is read, in so many parts, so that a turn has the same bits wherever it is asked for.
+fn highest(
+    (known, until): (f64, f64),
+    (from, to): (f64, f64),
+    parts: u32,
+    mut read: impl FnMut(f64) -> Reading,
+) -> f64 {
     let mut peak = known;
     let mut last = read(from);
     for i in 1..=parts {
@@ -176,8 +185,12 @@ fn highest(known: f64, (from, to): (f64, f64), parts: u32, mut read: impl FnMut(
         for sign in [1.0, -1.0] {
             let ends = (last.times(sign), next.times(sign));
             if ends.0.slope > 0.0 && ends.1.slope < 0.0 && top(ends.0, ends.1).1 > NEARLY * peak {
-                peak = larger(peak, turn(ends.0, ends.1, |time| read(time).times(sign)));
+                let found = turn(ends.0, ends.1, |time| read(time).times(sign));
+                peak = larger(peak, if found.time <= until { found.value } else { 0.0 });
             }
+        }
+        if next.time > until {
+            break;
         }
         peak = larger(peak, next.value.abs());
         last = next;
@@ -201,9 +214,9 @@ fn top(a: Reading, b: Reading) -> (f64, f64) {
     (a.time + w * s, a.value + s * (first + s * (second + s * third)))
 }
 
-/// The value where a quantity turns from rising to falling between two readings: cubics through readings ever closer to it.
-fn turn(mut a: Reading, mut b: Reading, mut read: impl FnMut(f64) -> Reading) -> f64 {
-    let mut best = larger(a.value, b.value);
+/// A quantity where it turns from rising to falling between two readings: cubics through readings ever closer to it.
+fn turn(mut a: Reading, mut b: Reading, mut read: impl FnMut(f64) -> Reading) -> Reading {
+    let mut best = if b.value > a.value { b } else { a };
     for _ in 0..MOST_READINGS {
         let (time, _) = top(a, b);
         if !(time > a.time && time < b.time) {
@@ -212,8 +225,8 @@ fn turn(mut a: Reading, mut b: Reading, mut read: impl FnMut(f64) -> Reading) ->
         let middle = read(time);
         // What a parabola as bent as the bracket has left to gain.
         let gain = 0.5 * middle.slope * middle.slope * (b.time - a.time) / (a.slope - b.slope);
-        best = larger(best, middle.value);
-        if gain <= CLOSE * best.abs() {
+        best = if middle.value > best.value { middle } else { best };
+        if gain <= CLOSE * best.value.abs() {
             break;
         }
         if middle.slope > 0.0 {

@@ -36,13 +36,19 @@ pub(super) struct Quantity<'a> {
 }
 
 impl Model {
-    /// The largest magnitude of a quantity over a flight, or `known` if that is larger.
-    pub(super) fn highest_in_flight(&self, flight: &Flight, of: PeakOf, known: f64, work: &mut Workspace) -> f64 {
+    /// The largest magnitude of a quantity over the first seconds of a flight, `until` then, or `known` if that is larger.
+    pub(super) fn highest_in_flight(
+        &self,
+        flight: &Flight,
+        of: PeakOf,
+        (known, until): (f64, f64),
+        work: &mut Workspace,
+    ) -> f64 {
         let mut rows = std::mem::take(&mut work.peaks.rows);
         let lanes = self.set_rows(of, Coordinates::Modes, &mut rows);
         let quantity = Quantity { of, rows: &rows, lanes, ground: flight.ground };
         let whole = Piece { from: 0.0, to: flight.length, halvings: MOST_HALVINGS };
-        let peak = self.highest_in_piece(flight, &quantity, whole, known, work);
+        let peak = self.highest_in_piece(flight, &quantity, whole, (known, until), work);
         work.peaks.rows = rows;
         peak
     }
@@ -54,28 +60,33 @@ impl Model {
         flight: &Flight,
         quantity: &Quantity,
         piece: Piece,
-        known: f64,
+        (known, until): (f64, f64),
         work: &mut Workspace,
     ) -> f64 {
         let Piece { from, to, halvings } = piece;
         let reach = self.structure.fastest * (to - from);
+        if from >= until {
+            return known;
+        }
         if reach > REACH && halvings > 0 {
             self.fly_to(flight, from, [0, 1], work);
             self.fly_to(flight, to, [2, 3], work);
-            let (known, may_be_higher) = self.compare_ends(flight, quantity.of, piece, known, work);
+            let (known, may_be_higher) = self.compare_ends(flight, quantity.of, piece, (known, until), work);
             if !may_be_higher {
                 return known;
             }
             let (middle, halvings) = (from + 0.5 * (to - from), halvings - 1);
-            let known = self.highest_in_piece(flight, quantity, Piece { from, to: middle, halvings }, known, work);
-            return self.highest_in_piece(flight, quantity, Piece { from: middle, to, halvings }, known, work);
+            let first = Piece { from, to: middle, halvings };
+            let known = self.highest_in_piece(flight, quantity, first, (known, until), work);
+            return self.highest_in_piece(flight, quantity, Piece { from: middle, to, halvings }, (known, until), work);
         }
         if work.peaks.expanded != Some((from, to)) {
             self.expand_piece(flight, (from, to), work);
         }
         let (series, (ground, slope)) = (&work.series, quantity.ground);
         let (terms, order) = Quantity { ground: (ground + slope * from, slope), ..*quantity }.terms(series, None);
-        highest(&terms, (1.0, order), known, &mut work.powers)
+        let end = if until < to { (until - from) / (to - from) } else { 1.0 };
+        highest(&terms, (end, order), known, &mut work.powers)
     }
 
     /// Expands a piece of a flight into a power series.
@@ -115,7 +126,14 @@ impl Model {
 
     /// The largest of `known` and the magnitudes at the ends of a piece, whose motions are in the room, and whether the
     /// quantity may exceed it in between.
-    fn compare_ends(&self, flight: &Flight, of: PeakOf, piece: Piece, known: f64, work: &mut Workspace) -> (f64, bool) {
+    fn compare_ends(
+        &self,
+        flight: &Flight,
+        of: PeakOf,
+        piece: Piece,
+        (known, until): (f64, f64),
+        work: &mut Workspace,
+    ) -> (f64, bool) {
         let Piece { from, to, .. } = piece;
         self.set_load(flight, from, work);
         let Workspace { peaks, node_v: jerk, .. } = work;
@@ -128,6 +146,7 @@ impl Model {
             end: (end_q, end_v),
             loads: (&peaks.load, flight.loads.1),
             length: to - from,
+            whole: None,
             ..*flight
         };
         self.bound_modes(building, &own, &mut peaks.piece, jerk);
@@ -135,7 +154,8 @@ impl Model {
         if self.floor_forces {
             course.add(&peaks.direct[place - lane..], from, own.length);
         }
-        let known = larger(known, larger(course.start[0][lane].abs(), course.end[0][lane].abs()));
+        let end = if to <= until { course.end[0][lane].abs() } else { 0.0 };
+        let known = larger(known, larger(course.start[0][lane].abs(), end));
         (known, course.may_turn_above(lane, own.length, known))
     }
 
@@ -253,9 +273,8 @@ pub(super) fn highest(terms: &Coefficients, (x, order): (f64, usize), known: f64
             order + 1
         };
         let end = Reading { value: sign * value, slope: sign * slope, fourth };
-        if let Some((_, value)) = roots::maximum_above((sign * terms[0], sign * terms[1]), x, &end, peak, copy) {
-            peak = value;
-        }
+        let top = roots::maximum_above((sign * terms[0], sign * terms[1]), x, &end, peak, copy);
+        peak = top.map_or(peak, |(_, value)| value);
     }
     peak
 }
