@@ -42,3 +42,4 @@ pub mod scene;
 pub mod slave;
 pub mod structure;
 pub mod variables;
+pub mod warnings;

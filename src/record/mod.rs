@@ -37,6 +37,9 @@ pub struct RecordError {
 /// A file of the wrong kind has a problem in every line: nobody reads more than these.
 pub const MOST_PROBLEMS: usize = 10;
 
+/// m/s2 in one g.
+pub const STANDARD_GRAVITY: f64 = 9.80665;
+
 /// The formats of record files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {

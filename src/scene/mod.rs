@@ -65,6 +65,7 @@ pub mod rule;
 pub use files::{Package, PackagedRecord, load};
 pub(crate) use files::{SCENE_RESOURCE, read_record};
 pub use problem::{Problem, SceneError};
+pub(crate) use problem::{excerpt, number, numbers, quoted};
 
 use crate::contact::ImpactLaw;
 use crate::record::Record;
