@@ -25,6 +25,10 @@ impl Destination {
             }
             Ok(_) | Err(_) => {}
         }
+        if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("fmu")) {
+            let (shown, right) = (path.display(), path.with_extension("fmu"));
+            bail!("{shown}: expected a name that ends in .fmu, as importers do: {}", right.display());
+        }
         let folder = match path.parent() {
             Some(parent) if parent != Path::new("") => parent.to_path_buf(),
             _ => PathBuf::from("."),

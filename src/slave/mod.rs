@@ -53,6 +53,7 @@ pub struct Slave {
     /// Made of the settings when something computed is asked for, dropped when they change.
     simulation: Option<Simulation>,
     snapshots: Snapshots,
+    has_warned_of_ground: bool,
 }
 
 impl Slave {
@@ -72,6 +73,7 @@ impl Slave {
             stop_time: None,
             simulation: None,
             snapshots: Snapshots::default(),
+            has_warned_of_ground: false,
         }
     }
 
@@ -145,10 +147,18 @@ impl Slave {
         Status::Ok
     }
 
-    /// The parameters are fixed from here on.
+    /// The parameters are fixed from here on: what looks like a slip in them is said.
     pub fn exit_initialization(&mut self) -> Result<(), Refusal> {
         self.start()?;
         self.phase = Phase::StepComplete;
+        if self.log.is_enabled(Category::StatusWarning) {
+            for warning in self.settings.warnings() {
+                self.log.add(Category::StatusWarning, warning.to_string());
+            }
+        }
+        if let Some(scaled) = self.settings.rescaled_record() {
+            self.log.add(Category::Events, scaled);
+        }
         Ok(())
     }
 
@@ -163,6 +173,7 @@ impl Slave {
         self.settings = Arc::clone(&self.defaults);
         self.inputs = Inputs::new(&self.settings.scene);
         (self.time, self.stop_time, self.simulation) = (0.0, None, None);
+        self.has_warned_of_ground = false;
         self.phase = Phase::Instantiated;
         Status::Ok
     }

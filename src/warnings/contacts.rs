@@ -22,7 +22,10 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     }
     let ground_is_odd = found.has("ground");
     group(facts, found, "gap", |pair| wide_gap(facts, pair, ground_is_odd));
-    group(facts, found, "gap", |pair| lost_gap(facts, pair));
+    // A gap that has been told of makes the others look small.
+    if !(1..=scene.contacts.len()).any(|contact| found.has(&format!("contact[{contact}].gap"))) {
+        group(facts, found, "gap", |pair| lost_gap(facts, pair));
+    }
     group(facts, found, "exponent", high_exponent);
     if !has_odd_building(found) {
         // Another exponent gives the stiffness another meaning.

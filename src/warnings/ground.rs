@@ -109,6 +109,14 @@ fn is_converted_twice(facts: &Facts<'_>, shaken: f64) -> bool {
     is_gravity && (Format::of(name(facts)) == Format::PeerAt2 || shaken > 1.5)
 }
 
+pub(super) fn look_at_input(value: f64, found: &mut Found) {
+    let peak = value.abs() / STANDARD_GRAVITY;
+    if peak > MOST_PEAK {
+        let meaning = format!("the ground shakes with {} g: no earthquake has been recorded like that", short(peak));
+        found.number("ground.acceleration", value, format!("{meaning}; it is in m/s2, was it given in cm/s2?"));
+    }
+}
+
 fn meant_pga(pga: f64) -> String {
     if (LEAST_PEAK..=MOST_PEAK).contains(&pga) {
         return format!(", was {} g meant ({} m/s2)?", short(pga), short(pga * STANDARD_GRAVITY));

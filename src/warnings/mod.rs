@@ -73,6 +73,13 @@ pub fn of(scene: &Scene, record: Option<&Record>) -> Vec<Warning> {
     found.0
 }
 
+/// A value of the input `ground.acceleration`, m/s2, that no earthquake has had.
+pub fn of_ground_input(value: f64) -> Option<Warning> {
+    let mut found = Found::default();
+    ground::look_at_input(value, &mut found);
+    found.0.pop()
+}
+
 /// What has been found so far.
 #[derive(Default)]
 struct Found(Vec<Warning>);
