@@ -33,6 +33,7 @@ mod collocation;
 pub mod contact;
 pub mod description;
 pub mod engine;
+mod figures;
 #[allow(unsafe_code)]
 mod fmi;
 mod polynomial;

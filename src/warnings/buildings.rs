@@ -1,7 +1,8 @@
 //! Masses, stiffnesses, damping and initial motion of each building.
 
-use super::facts::{Facts, Pace, median, name, opposite, short, stiffness_key};
+use super::facts::{Facts, Pace, median, name, opposite, stiffness_key};
 use super::{Found, excerpt, number, numbers};
+use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
 use crate::scene::{Building, Damping, Stiffness};
 use crate::structure::Side;

@@ -1,9 +1,10 @@
 //! Gaps and the numbers of the laws. What several contacts have in common is one slip, told of the first of them.
 
 use super::Found;
-use super::facts::{Facts, Pace, median, short};
+use super::facts::{Facts, Pace, median};
 use super::touch::{Touch, exponent};
 use crate::contact::LawKey;
+use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
 use crate::scene::{ContactPair, law_key};
 use std::f64::consts::PI;

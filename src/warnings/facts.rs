@@ -74,7 +74,7 @@ impl<'a> Facts<'a> {
 
     fn find_pace(&self, side: Side) -> Pace {
         let Some(period) = self.period(side) else { return Pace::Unknown };
-        let floors = self.building(side).mass.len() as f64;
+        let floors = self.building(side).mass.len();
         if period > slowest(floors) {
             let shaken = self.peak.is_some_and(|peak| peak > 0.0);
             let free = period > 1e5 || (period > 100.0 && !shaken && self.starts_moving());
@@ -92,7 +92,7 @@ impl<'a> Facts<'a> {
     fn is_wall(&self, side: Side, period: f64) -> bool {
         let other = opposite(side);
         let Some(other_period) = self.period(other) else { return false };
-        if other_period < fastest(self.building(other).mass.len() as f64) {
+        if other_period < fastest(self.building(other).mass.len()) {
             return false;
         }
         let total = |side| self.building(side).mass.iter().sum::<f64>();
@@ -105,14 +105,17 @@ impl<'a> Facts<'a> {
 
 /// s: not even walls of concrete, storey above storey, swing faster. Buildings in full size have some 0.1 s per storey,
 /// at least 0.02 s; frames in laboratories are as fast or slower for their size.
-fn fastest(floors: f64) -> f64 {
-    0.01 + 0.015 * floors
+fn fastest(floors: usize) -> f64 {
+    0.01 + 0.015 * floors.min(MOST_STOREYS) as f64
 }
 
 /// s: isolators go up to 4 s, towers to some 0.15 s per storey.
-fn slowest(floors: f64) -> f64 {
-    4.5 + 0.15 * floors
+fn slowest(floors: usize) -> f64 {
+    4.5 + 0.15 * floors.min(MOST_STOREYS) as f64
 }
+
+/// More are a way to divide a building into pieces, not storeys.
+const MOST_STOREYS: usize = 100;
 
 pub(super) fn opposite(side: Side) -> Side {
     match side {
@@ -141,31 +144,4 @@ pub(super) fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut sorted: Vec<f64> = values.collect();
     sorted.sort_by(f64::total_cmp);
     sorted.get(sorted.len() / 2).copied()
-}
-
-/// A number to three digits: 0.0246, 40.7, 55700, 2.75e9.
-pub fn short(value: f64) -> String {
-    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
-    if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::short;
-
-    #[test]
-    fn three_digits_whatever_the_size() {
-        for (value, text) in [
-            (0.0, "0"),
-            (0.024_57, "0.0246"),
-            (40.71, "40.7"),
-            (-55_724.0, "-55700"),
-            (2.75e9, "2.75e9"),
-            (9.996e-4, "0.001"),
-            (1.234e-5, "1.23e-5"),
-            (f64::MAX, "1.8e308"),
-        ] {
-            assert_eq!(short(value), text);
-        }
-    }
 }

@@ -1,7 +1,8 @@
 //! The record, its scaling, and when the run stops.
 
 use super::Found;
-use super::facts::{Facts, Pace, short};
+use super::facts::{Facts, Pace};
+use crate::figures::short;
 use crate::record::{Format, Record, STANDARD_GRAVITY};
 use crate::scene::Scaling;
 use crate::structure::Side;

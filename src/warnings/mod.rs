@@ -36,7 +36,7 @@ mod facts;
 mod ground;
 mod touch;
 
-pub use facts::short;
+pub use crate::figures::short;
 
 use crate::record::Record;
 use crate::scene::{Scene, excerpt, number, numbers, quoted};

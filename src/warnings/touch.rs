@@ -1,7 +1,8 @@
 //! How long a contact lasts: the measure of its stiffness that needs no unit.
 
-use super::facts::{Facts, opposite, short};
+use super::facts::{Facts, opposite};
 use crate::contact::{ImpactLaw, StiffnessUnit};
+use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
 use crate::scene::ContactPair;
 use crate::structure::Side;
