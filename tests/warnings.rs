@@ -251,10 +251,35 @@ fn contacts() {
             "mm/s",
         ),
     ]);
+    let crossed = edited(OFFICES, &[("left_floor = 3\nright_floor = 3", "left_floor = 3\nright_floor = 1")]);
+    let found_there = found(&crossed, None);
+    assert_eq!(paths(&found_there), ["contact[3]"]);
+    assert_eq!(found_there[0].value, "left_floor 3, right_floor 1");
+    // Where many pairs cross, that is what is meant.
+    let all = [(1, 1), (2, 2), (1, 2), (2, 1), (1, 3), (2, 3)].map(|(left, right)| {
+        format!(
+            "[[contact]]\nleft_floor = {left}\nright_floor = {right}\ngap = 0.03\nlaw = \"hertz\"\nstiffness = 2.75e9\n"
+        )
+    });
+    let head = OFFICES.split("[[contact]]").next().unwrap();
+    assert_eq!(paths(&found(&(head.to_owned() + &all.concat()), None)), [""; 0]);
     let without = OFFICES.split("[[contact]]").next().unwrap();
     let found = found(without, None);
     assert_eq!(paths(&found), ["contact"]);
     assert_eq!(found[0].value, "[]");
+}
+
+/// Single masses, whose contact has only one period to be compared with.
+#[test]
+fn the_contact_of_single_masses() {
+    for (law, usual) in [("linear", 1e9), ("hertz", 2.75e9)] {
+        for (factor, expected) in [(1e-3, &["contact[1].stiffness"][..]), (1.0, &[]), (1e3, &["contact[1].stiffness"])]
+        {
+            let contact = format!("gap = 0.05\nlaw = \"{law}\"\nstiffness = {:?}\n", usual * factor);
+            let found = found(&pair(&tower(1, 330e3, 0.777), &tower(1, 330e3, 0.5), &contact), None);
+            assert_eq!(paths(&found), expected, "{law}, {factor}: {found:?}");
+        }
+    }
 }
 
 /// One of several contacts, and no other.

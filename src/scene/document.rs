@@ -230,9 +230,9 @@ impl<'t> Item<'t> {
 
     /// Neutral: empty.
     pub(super) fn numbers(&self) -> Vec<f64> {
-        // One number is what it takes for one floor, and brackets.
+        // One number is what it takes for one floor, and brackets; rows of matrices are another matter.
         let what = match self.value.get_ref() {
-            DeValue::Float(_) | DeValue::Integer(_) => {
+            DeValue::Float(_) | DeValue::Integer(_) if !self.path.ends_with(']') => {
                 let number = excerpt(self.document.source(self.value));
                 format!("a list of numbers, [{number}] for one floor, [{number}, {number}] for two")
             }

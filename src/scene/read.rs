@@ -54,9 +54,11 @@ fn position(path: &str, places: &HashMap<String, Place>) -> usize {
     from_whole_to_root.find_map(|part| Some(places.get(part)?.start)).unwrap_or_default()
 }
 
-/// Values as the file has them: with its digits, and with what is no number at all.
+/// Values that reading has changed as the file has them: an entry that is no number has been read as NaN, one of hundreds
+/// of digits as infinite.
 fn write_as_found(problems: &mut [Problem], text: &str, places: &HashMap<String, Place>) {
-    for problem in problems.iter_mut().filter(|problem| !problem.found.is_empty()) {
+    let is_changed = |problem: &&mut Problem| problem.found.contains("nan") || problem.found.contains("inf");
+    for problem in problems.iter_mut().filter(is_changed) {
         let range = places.get(&problem.path).and_then(|place| place.value.clone());
         if let Some(found) = range.and_then(|range| text.get(range)) {
             problem.found = excerpt(found);

@@ -17,9 +17,7 @@ fn hint(line: &str, message: &str) -> Option<String> {
     }
     let digits = value.find(|c: char| !(c.is_ascii_digit() || matches!(c, '+' | '-' | '.' | 'e' | 'E' | '_')))?;
     let (number, rest) = value.split_at(digits);
-    if !number.contains(|c: char| c.is_ascii_digit()) {
-        return None;
-    }
+    number.trim_end_matches('e').parse::<f64>().ok()?;
     match rest.strip_prefix(',') {
         Some(decimals) if decimals.starts_with(|c: char| c.is_ascii_digit()) => {
             Some(format!("a decimal point, {key} = {number}.{decimals}, not a comma"))

@@ -6,7 +6,8 @@ use super::touch::{Touch, exponent};
 use crate::contact::LawKey;
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
-use crate::scene::{ContactPair, law_key};
+use crate::scene::{ContactPair, Scene, law_key};
+use std::cmp::Ordering;
 use std::f64::consts::PI;
 
 /// m; so far is nothing built, and from [`FAR_AWAY`] on it is meant to be out of reach.
@@ -17,6 +18,7 @@ const MOST_LEAST_APPROACH: f64 = 0.02;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     look_for_contacts(facts, found);
+    look_for_crossed_floors(facts.scene, found);
     let scene = facts.scene;
     if !found.has("left.initial_displacement") && !found.has("right.initial_displacement") {
         group(facts, found, "gap", |pair| overlap(facts, pair));
@@ -50,6 +52,36 @@ fn look_for_contacts(facts: &Facts<'_>, found: &mut Found) {
                     [[contact]] table";
         found.add("contact", "[]".to_owned(), text);
     }
+}
+
+/// Of two pairs the one that is higher on the left is so on the right. Told is a single pair that is in the way of that.
+fn look_for_crossed_floors(scene: &Scene, found: &mut Found) {
+    const MOST: usize = 1000;
+    let pairs = &scene.contacts;
+    if pairs.len() > MOST {
+        return;
+    }
+    let is_crossed = |one: &ContactPair, other: &ContactPair| {
+        let (left, right) = (one.left_floor.cmp(&other.left_floor), one.right_floor.cmp(&other.right_floor));
+        left != Ordering::Equal && right != Ordering::Equal && left != right
+    };
+    let crossings = |one: &ContactPair| pairs.iter().filter(|other| is_crossed(one, other)).count();
+    let counts: Vec<usize> = pairs.iter().map(crossings).collect();
+    let Some((index, count)) = counts.iter().copied().enumerate().max_by_key(|(_, count)| *count) else { return };
+    let all: usize = counts.iter().sum();
+    // Each crossing is counted at both of its pairs.
+    if count == 0 || all != 2 * count {
+        return;
+    }
+    let ContactPair { left_floor, right_floor, .. } = pairs[index];
+    let others = pairs.iter().enumerate().filter(|(_, other)| is_crossed(&pairs[index], other));
+    let others: Vec<String> = others.take(3).map(|(other, _)| format!("contact[{}]", other + 1)).collect();
+    let text = format!(
+        "above the floors of {} on one side and below them on the other, where floors cannot be; are left_floor and \
+         right_floor right?",
+        others.join(", ")
+    );
+    found.add(format!("contact[{}]", index + 1), format!("left_floor {left_floor}, right_floor {right_floor}"), text);
 }
 
 /// A building with other units makes its contacts look odd.

@@ -19,7 +19,8 @@ pub(super) struct Touch {
     duration: f64,
     /// s, in which a wave crosses a floor of that mass and comes back.
     wave: f64,
-    /// s, of a storey by itself: the longer one of both buildings. None where neither swings.
+    /// s, of a storey by itself: the longer one of both buildings, and no less than 1/20 of the period of a tower. None where
+    /// neither swings.
     storey: Option<f64>,
     /// s, the longer first period.
     period: Option<f64>,
@@ -40,21 +41,22 @@ impl Touch {
         let storey = |(side, period): (Side, f64)| {
             period * (2.0 * (PI / (4 * facts.building(side).mass.len() + 2) as f64).sin())
         };
+        let period = facts.usual_periods().map(|(_, period)| period).reduce(f64::max);
         Some(Touch {
             duration: 3.0 * depth / speed,
             wave: PI * (left.min(right) / AREA_MASS).sqrt() / SOUND,
-            storey: facts.usual_periods().map(storey).reduce(f64::max),
-            period: facts.usual_periods().map(|(_, period)| period).reduce(f64::max),
+            storey: facts.usual_periods().map(storey).chain(period.map(|period| 0.05 * period)).reduce(f64::max),
+            period,
         })
     }
 
-    /// Far longer than a storey swings; papers take contacts as soft as that. Small floors have a wave's time to tell by
-    /// as well.
+    /// Longer than a storey swings, which papers take contacts to last. Small floors have a wave's time to tell by as well.
     pub fn is_soft(&self) -> bool {
         let beyond_wave = self.duration > 400.0 * self.wave;
+        let beyond_period = self.period.is_some_and(|period| self.duration > 0.6 * period);
         self.storey.is_some_and(|storey| {
             let share = self.duration / storey;
-            share > 2.0 || (share > 0.3 && beyond_wave)
+            share > 2.0 || (share > 1.4 && beyond_period) || (share > 0.3 && beyond_wave)
         })
     }
 
