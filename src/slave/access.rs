@@ -64,11 +64,12 @@ impl Slave {
     /// Warns once in a run of a ground that shakes like no other.
     #[inline]
     fn look_at_input(&mut self, input: Input, value: f64) {
-        if input == Input::GroundAcceleration && !self.has_warned_of_ground {
-            if let Some(warning) = warnings::of_ground_input(value) {
-                self.log.add(Category::StatusWarning, warning.to_string());
-                self.has_warned_of_ground = true;
-            }
+        if input == Input::GroundAcceleration
+            && !self.has_warned_of_ground
+            && let Some(warning) = warnings::of_ground_input(value)
+        {
+            self.log.add(Category::StatusWarning, warning.to_string());
+            self.has_warned_of_ground = true;
         }
     }
 
