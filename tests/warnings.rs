@@ -72,7 +72,7 @@ fn units_of_a_building() {
             &["left.mass", "right.mass"],
             "Hz, period 0.0",
         ),
-        (OFFICES, &[(STOREYS, "300e3, 300e3, 300e3, 300e3, 300e3")], &["left.stiffness"], "given in kN/m?"),
+        (OFFICES, &[(STOREYS, "300e3, 300e3, 300e3, 300e3, 300e3")], &["left.stiffness"], "given in kN/m (or"),
         (OFFICES, &[(STOREYS, "300, 300, 300, 300, 300")], &["left.stiffness"], "kN/mm"),
         (OFFICES, &[(STOREYS, "300e9, 300e9, 300e9, 300e9, 300e9")], &["left.stiffness"], "power of ten"),
         (OFFICES, &[("165e3, 165e3, 128e3", "165e6, 165e6, 128e6")], &["right.mass"], "given in g?"),
@@ -92,7 +92,7 @@ fn units_of_a_building() {
                 "stiffness_matrix = [[282e3, -141e3, 0], [-141e3, 282e3, -141e3], [0, -141e3, 141e3]]",
             )],
             &["right.stiffness_matrix"],
-            "given in kN/m?",
+            "given in kN/m (or",
         ),
     ]);
 }

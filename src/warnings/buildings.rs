@@ -144,7 +144,8 @@ fn look_at_period(facts: &Facts<'_>, side: Side, found: &mut Found) {
                 found.numbers(format!("{}.mass", name(side)), &building.mass, format!("{text}; {meant}"));
             } else {
                 let meant = if period > 100.0 { "kN/m or kN/mm" } else { "kN/m" };
-                let text = format!("{text}; stiffnesses are in N/m, were they given in {meant}?");
+                let text =
+                    format!("{text}; stiffnesses are in N/m, were they given in {meant} (or masses, in kg, in g)?");
                 stiffness(side, building, text, found);
             }
         }

@@ -81,7 +81,7 @@ fn look_at_peak(facts: &Facts<'_>, record: &Record, found: &mut Found) {
     let meaning = match shaken {
         _ if stands_still => "the ground stands still".to_owned(),
         g if g < LEAST_PEAK => format!("{found_here}: hardly to be felt"),
-        g if g > MOST_PEAK => format!("{found_here}: no earthquake has been recorded like that"),
+        g if g > MOST_PEAK => format!("{found_here}: earthquakes reach 1 g, hardly ever 2 g"),
         _ if is_converted_twice(facts, shaken) => {
             format!("{found_here}: as if it had been turned from g into m/s2 twice")
         }
@@ -113,7 +113,7 @@ fn is_converted_twice(facts: &Facts<'_>, shaken: f64) -> bool {
 pub(super) fn look_at_input(value: f64, found: &mut Found) {
     let peak = value.abs() / STANDARD_GRAVITY;
     if peak > MOST_PEAK {
-        let meaning = format!("the ground shakes with {} g: no earthquake has been recorded like that", short(peak));
+        let meaning = format!("the ground shakes with {} g: earthquakes reach 1 g, hardly ever 2 g", short(peak));
         found.number("ground.acceleration", value, format!("{meaning}; it is in m/s2, was it given in cm/s2?"));
     }
 }

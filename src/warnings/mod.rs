@@ -86,7 +86,8 @@ struct Found(Vec<Warning>);
 
 impl Found {
     fn number(&mut self, path: impl Into<String>, value: f64, text: impl Into<String>) {
-        self.add(path, number(value), text);
+        // 2.75e9, not 2750000000.0.
+        self.add(path, if value.abs() >= 1e6 { format!("{value:e}") } else { number(value) }, text);
     }
 
     fn numbers(&mut self, path: impl Into<String>, values: &[f64], text: impl Into<String>) {
