@@ -37,7 +37,7 @@ pub const MOST_ACCELERATION: f64 = 1e6;
 /// no impact can be followed with.
 pub const MOST_TIME: f64 = 1e12;
 
-/// Floors of a building: the work before a run grows with the cube of their number, to ten seconds at this one. The
+/// Floors of a building: the work before a run grows with the cube of their number, to some twenty seconds here. The
 /// tallest buildings have less than 200.
 pub const MOST_FLOORS: usize = 1000;
 
