@@ -249,12 +249,10 @@ impl Model {
 
     #[cold]
     fn overflow(&self, base: &Base) -> EngineError {
-        let is_beyond = |contact: &Contact| {
-            !(contact.penetration + contact.rate + contact.impulse + contact.work + contact.peak_force).is_finite()
-        };
-        let beyond = base.contacts.iter().position(is_beyond);
-        // The state after an overflow has numbers nowhere: contacts that were closed are nearest to it.
-        let contact = beyond.or_else(|| base.contacts.iter().position(Contact::in_contact));
+        // Afterwards nothing has numbers: of the contacts that were closed the stiffest is the likeliest cause.
+        let closed = base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact());
+        let stiffness = |p: usize| self.pairs[p].law.stiffness;
+        let contact = closed.map(|(p, _)| p).max_by(|&p, &other| stiffness(p).total_cmp(&stiffness(other)));
         let place = contact.map_or(String::new(), |p| {
             let law = &self.pairs[p].law;
             let stiffness = match law.is_rigid() {
