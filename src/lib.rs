@@ -33,6 +33,7 @@ mod collocation;
 pub mod contact;
 pub mod description;
 pub mod engine;
+mod figures;
 #[allow(unsafe_code)]
 mod fmi;
 mod polynomial;
@@ -42,3 +43,4 @@ pub mod scene;
 pub mod slave;
 pub mod structure;
 pub mod variables;
+pub mod warnings;

@@ -16,6 +16,7 @@ mod thinning;
 use clap::Parser;
 use pounding::description::{Package, PackagedRecord};
 use pounding::engine::Model;
+use pounding::warnings;
 use solve::{Solution, Solved, episodes, solve};
 use std::error::Error;
 use std::io::Write;
@@ -75,6 +76,10 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let mut package = Package::from_scene_file(&arguments.scene)?;
     if let Some(file) = &arguments.record {
         give_record(&mut package, file)?;
+    }
+    for warning in warnings::of(&package.scene, package.record.as_ref().map(|packaged| &packaged.record)) {
+        // Nobody may be there to read it.
+        let _ = writeln!(std::io::stderr(), "warning: {warning}");
     }
     if arguments.without_contacts {
         package.scene.contacts.clear();

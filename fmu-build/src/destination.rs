@@ -25,6 +25,11 @@ impl Destination {
             }
             Ok(_) | Err(_) => {}
         }
+        if !is_fmu(&path) {
+            let stem = path.with_extension("");
+            let right = if is_fmu(&stem) { stem } else { path.with_extension("fmu") };
+            bail!("{}: expected a name that ends in .fmu, such as {}", path.display(), right.display());
+        }
         let folder = match path.parent() {
             Some(parent) if parent != Path::new("") => parent.to_path_buf(),
             _ => PathBuf::from("."),
@@ -65,6 +70,11 @@ impl Destination {
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         builder.tempfile_in(&self.folder).with_context(|| format!("cannot write to {}", self.folder.display()))
     }
+}
+
+/// Whether a path has the extension by which importers know FMUs.
+fn is_fmu(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("fmu"))
 }
 
 /// Directories that were not there before, the outermost first. Those that are still empty go when this is dropped.

@@ -93,7 +93,7 @@ impl Variables {
 }
 
 /// What a run has shown.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Outcome {
     /// What the FMU has.
     pub variables: Variables,

@@ -17,6 +17,7 @@
 //! | `log.rs` | what an FMU says through its logger |
 //! | `experiment.rs` | one run of an FMU over its default experiment, through either |
 //! | `summary.rs` | what happened in that run, for a person |
+//! | `went_in.rs` | what went into it |
 //! | `trial.rs` | an FMU tried in a process of its own, for as long as it may take |
 //! | `report.rs` | what a trial has found, for a person and for a program |
 //! | `check/` | `cargo fmu check`: what is wrong with an FMU |
@@ -40,6 +41,7 @@ mod recipe;
 mod report;
 mod summary;
 mod trial;
+mod went_in;
 mod workspace;
 
 use clap::{Args, Parser, Subcommand};

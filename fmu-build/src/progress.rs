@@ -1,6 +1,7 @@
 //! Progress on a terminal, silence in a pipe.
 
 use indicatif::{ProgressBar, ProgressStyle};
+use std::io::Write;
 use std::time::Duration;
 
 /// A line on the terminal's standard error that says what is going on; it vanishes when dropped.
@@ -15,6 +16,16 @@ impl Progress {
         }
         bar.enable_steady_tick(Duration::from_millis(100));
         Progress(bar)
+    }
+
+    /// Lines on standard error that stay.
+    pub fn say(&self, lines: &[String]) {
+        self.0.suspend(|| {
+            for line in lines {
+                // Nobody may be there to read it.
+                let _ = writeln!(std::io::stderr(), "{line}");
+            }
+        });
     }
 
     /// What is being done from now on.

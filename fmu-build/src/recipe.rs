@@ -10,7 +10,7 @@ use crate::workspace::Workspace;
 use crate::{documentation, licenses, platform, summary};
 use anyhow::{Context, Result};
 use fmi::model_description::fmi2::ModelDescription;
-use pounding::description::Package;
+use pounding::description::{Category, Package};
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Duration;
@@ -23,6 +23,7 @@ pub fn build(scene: Option<&Path>, output: Option<&Path>, limit: Duration) -> Re
     let workspace = Workspace::find()?;
     let scene_file = scene.map_or_else(|| workspace.default_scene(), Path::to_path_buf);
     let package = read(&scene_file)?;
+    progress.say(&warnings_of(&package));
     let output = output.map_or_else(|| workspace.default_output(&package.scene.name), Path::to_path_buf);
     // Compiling may take minutes: what cannot be written shall fail before that.
     let destination = Destination::open(output)?;
@@ -36,15 +37,27 @@ pub fn build(scene: Option<&Path>, output: Option<&Path>, limit: Duration) -> Re
     progress.step("running the FMU");
     let trial = Trial::Run.report(draft.path(), limit);
     let outcome = trial.outcome().context("the FMU has been built but does not run")?;
+    let outcome = Outcome { warnings: besides_slips(&outcome.warnings), ..outcome.clone() };
     destination.take(draft)?;
 
     drop(progress);
-    Ok(report(&package, &destination, outcome))
+    Ok(report(&package, &destination, &outcome))
 }
 
 fn read(scene_file: &Path) -> Result<Package> {
     Package::from_scene_file(scene_file)
         .map_err(|problems| anyhow::anyhow!("{} is not a scene that can be built:\n{problems}", scene_file.display()))
+}
+
+/// What looks like a slip, a line each.
+fn warnings_of(package: &Package) -> Vec<String> {
+    let record = package.record.as_ref().map(|packaged| &packaged.record);
+    pounding::warnings::of(&package.scene, record).iter().map(|warning| format!("warning: {warning}")).collect()
+}
+
+/// What the FMU has logged but for the slips, which have been told by then.
+fn besides_slips(logged: &[String]) -> Vec<String> {
+    logged.iter().filter(|line| !line.starts_with(Category::StatusWarning.name())).cloned().collect()
 }
 
 /// What the FMU holds, in the order in which it stands in the archive.
@@ -78,7 +91,7 @@ fn report(package: &Package, destination: &Destination, outcome: &Outcome) -> St
     let mut text = package.scene.name.clone() + if about.is_empty() { "" } else { ": " } + about + "\n";
     let _ = writeln!(text, "  file         {}", destination.describe());
     let _ = writeln!(text, "  guid         {}", package.guid());
-    text + &summary::text(outcome, stop_reason(package))
+    text + &summary::text(outcome, Some(package), stop_reason(package))
 }
 
 /// Why the default experiment ends when it does.

@@ -107,7 +107,7 @@ impl Report {
             }
         }
         if let Some(outcome) = &self.outcome {
-            let _ = write!(text, "\n{}", summary::text(outcome, "default experiment of the FMU"));
+            let _ = write!(text, "\n{}", summary::text(outcome, None, "default experiment of the FMU"));
         }
         let verdict = if self.valid { "nothing wrong found" } else { "this FMU is not in order" };
         let _ = writeln!(text, "\n{verdict}");

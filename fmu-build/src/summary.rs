@@ -1,12 +1,14 @@
 //! What happened in a run, for a person to check by eye.
 
 use crate::experiment::{Outcome, Seen, Variables};
+use crate::went_in;
+use pounding::description::Package;
 use std::fmt::Write;
 
-/// The summary; `stop_reason` says where the end of the experiment comes from.
-pub fn text(outcome: &Outcome, stop_reason: &str) -> String {
+/// The summary; `stop_reason` says where the end of the experiment comes from, `package` what is known of the ground.
+pub fn text(outcome: &Outcome, package: Option<&Package>, stop_reason: &str) -> String {
     let run = Run(outcome);
-    let mut text = overview(&run, stop_reason);
+    let mut text = overview(&run, package, stop_reason);
     for table in [run.floors(), run.contacts(), run.energy()].into_iter().flatten() {
         text.push('\n');
         text.push_str(&table.aligned());
@@ -20,26 +22,18 @@ pub fn text(outcome: &Outcome, stop_reason: &str) -> String {
     text
 }
 
-fn overview(run: &Run, stop_reason: &str) -> String {
+fn overview(run: &Run, package: Option<&Package>, stop_reason: &str) -> String {
     let experiment = run.0.experiment;
     let mut text = String::new();
     let mut line = |name: &str, what: String| {
         let _ = writeln!(text, "  {name:<12} {what}");
     };
-    line("buildings", {
-        let [left, right] = SIDES.map(|side| run.count(&format!("{side}.displacement")));
-        let count = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
-        let contacts = count(run.count_contacts(), "contact");
-        format!("left {}, right {}, {contacts}", count(left, "floor"), count(right, "floor"))
-    });
+    for (name, what) in went_in::lines(run.0, package) {
+        line(name, what);
+    }
     let Variables { inputs, outputs, parameters } = run.0.variables;
     let total = inputs + outputs + parameters;
     line("variables", format!("{total}: {inputs} inputs, {outputs} outputs, {parameters} parameters"));
-    for side in SIDES {
-        let name = format!("{side}.frequency");
-        let frequencies: Vec<String> = run.array(&name).map(|frequency| format!("{:.4}", frequency.last)).collect();
-        line("frequencies", format!("{side} {} Hz", frequencies.join(", ")));
-    }
     line(
         "experiment",
         format!(

@@ -5,6 +5,8 @@
 pub enum Category {
     /// Contact episodes as they end.
     Events,
+    /// What is allowed in scene and parameters and looks like a slip.
+    StatusWarning,
     /// A status that a co-simulation without pending steps does not have.
     StatusDiscard,
     /// A call that is refused, and why.
@@ -15,8 +17,13 @@ pub enum Category {
 
 impl Category {
     /// All categories but [`Category::ALL_MESSAGES`].
-    pub const ALL: [Category; 4] =
-        [Category::Events, Category::StatusDiscard, Category::StatusError, Category::StatusFatal];
+    pub const ALL: [Category; 5] = [
+        Category::Events,
+        Category::StatusWarning,
+        Category::StatusDiscard,
+        Category::StatusError,
+        Category::StatusFatal,
+    ];
 
     /// Name and description of the category that stands for all others.
     pub const ALL_MESSAGES: (&'static str, &'static str) = ("logAll", "all messages");
@@ -25,6 +32,7 @@ impl Category {
     pub const fn name(self) -> &'static str {
         match self {
             Category::Events => "logEvents",
+            Category::StatusWarning => "logStatusWarning",
             Category::StatusDiscard => "logStatusDiscard",
             Category::StatusError => "logStatusError",
             Category::StatusFatal => "logStatusFatal",
@@ -35,6 +43,7 @@ impl Category {
     pub const fn description(self) -> &'static str {
         match self {
             Category::Events => "contact episodes as they end: times, approach velocity, peak force, impulse",
+            Category::StatusWarning => "numbers of scene and parameters that are allowed and look like slips",
             Category::StatusDiscard => "status information that there is not",
             Category::StatusError => "calls that are refused, with every reason",
             Category::StatusFatal => "failures after which the instance cannot be used",

@@ -245,7 +245,6 @@ impl Model {
     /// Nothing may run on without numbers.
     fn check_numbers(&self, state: &State) -> Result<(), EngineError> {
         let base = &state.base;
-        let time = base.time();
         // A sum is finite only if all of its terms are.
         let contacts: f64 =
             base.contacts.iter().map(|contact| contact.impulse + contact.work + contact.peak_force).sum();
@@ -253,12 +252,30 @@ impl Model {
         if (lanes_sum(&base.q) + lanes_sum(&base.v) + contacts + account).is_finite() {
             return Ok(());
         }
-        Err(EngineError {
+        Err(self.overflow(base))
+    }
+
+    #[cold]
+    fn overflow(&self, base: &Base) -> EngineError {
+        // Afterwards nothing has numbers: of the contacts that were closed the stiffest is the likeliest cause.
+        let closed = base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact());
+        let stiffness = |p: usize| self.pairs[p].law.stiffness;
+        let contact = closed.map(|(p, _)| p).max_by(|&p, &other| stiffness(p).total_cmp(&stiffness(other)));
+        let place = contact.map_or(String::new(), |p| {
+            let law = &self.pairs[p].law;
+            let stiffness = match law.is_rigid() {
+                true => String::new(),
+                false => format!(", whose stiffness is {:e}", law.stiffness),
+            };
+            format!(" at contact[{}]{stiffness}", p + 1)
+        });
+        EngineError {
             message: format!(
-                "the motion exceeds what double precision can hold at t = {time} s; \
-                 check the units of masses, stiffnesses and ground acceleration"
+                "the motion exceeds what double precision can hold at t = {} s{place}; check the units of masses, \
+                 stiffnesses, gaps and ground acceleration",
+                base.time()
             ),
-        })
+        }
     }
 }
 

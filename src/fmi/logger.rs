@@ -36,6 +36,7 @@ impl Logger {
 const fn status(category: Category) -> Status {
     match category {
         Category::Events => Status::Ok,
+        Category::StatusWarning => Status::Warning,
         Category::StatusDiscard => Status::Discard,
         Category::StatusError => Status::Error,
         Category::StatusFatal => Status::Fatal,

@@ -1,9 +1,7 @@
 //! Records as PEER ground motion database files, `.AT2`.
 
-use super::{Reading, Record, RecordError, excerpt, on_line};
+use super::{Reading, Record, RecordError, STANDARD_GRAVITY, excerpt, on_line};
 
-/// m/s2 in one g.
-const STANDARD_GRAVITY: f64 = 9.80665;
 const HEADER_LINES: usize = 4;
 
 pub(super) fn parse(bytes: &[u8]) -> Result<Record, RecordError> {

@@ -12,6 +12,7 @@
 mod at2;
 mod csv;
 
+use crate::figures::plain;
 use serde::{Deserialize, Serialize};
 
 /// A ground acceleration, linear between its samples and 0 before the first and after the last.
@@ -36,6 +37,9 @@ pub struct RecordError {
 
 /// A file of the wrong kind has a problem in every line: nobody reads more than these.
 pub const MOST_PROBLEMS: usize = 10;
+
+/// m/s2 in one g.
+pub const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// The formats of record files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,15 +120,17 @@ impl Reading {
     fn add(&mut self, time: f64, acceleration: f64, place: impl Fn(String) -> String) {
         self.samples += 1;
         if !time.is_finite() {
-            self.refuse(|| place(format!("time {time} s: expected a finite time")));
+            self.refuse(|| place(format!("time {} s: expected a finite time", plain(time))));
         }
         if !acceleration.is_finite() {
-            self.refuse(|| place(format!("acceleration {acceleration} m/s2: expected a finite acceleration")));
+            self.refuse(|| place(format!("acceleration {} m/s2: expected a finite acceleration", plain(acceleration))));
         }
         if let Some(&last) = self.record.times.last()
             && time <= last
         {
-            self.refuse(|| place(format!("time {time} s: expected more than the time before it, {last} s")));
+            self.refuse(|| {
+                place(format!("time {} s: expected more than the time before it, {} s", plain(time), plain(last)))
+            });
         }
         // What comes next is compared with this one, in or out of order: one wrong time is one problem, or two.
         if time.is_finite() {

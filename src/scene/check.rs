@@ -21,6 +21,7 @@ pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
         check.contact(&format!("contact[{}]", i + 1), pair, scene);
     }
     check.pairs_differ(&scene.contacts);
+    check.count_contacts(scene);
     check.number("solver.relative_tolerance", scene.solver.relative_tolerance, rule::RELATIVE_TOLERANCE);
     check.number("solver.min_approach_velocity", scene.solver.min_approach_velocity, rule::MIN_APPROACH_VELOCITY);
     check.problems
@@ -72,6 +73,12 @@ impl Checker {
             self.refuse(format_args!("{path}.mass"), "[]", "at least one floor");
         }
         self.numbers(format_args!("{path}.mass"), &building.mass, rule::MASS);
+        if floors > rule::MOST_FLOORS {
+            let found = problem::excerpt(&problem::numbers(&building.mass));
+            let expected =
+                format!("at most {} floors, not {floors}, which would take minutes to prepare", rule::MOST_FLOORS);
+            self.refuse(format_args!("{path}.mass"), found, expected);
+        }
         match &building.stiffness {
             Stiffness::Shear(storeys) => {
                 self.list(format_args!("{path}.stiffness"), storeys, rule::STOREY_STIFFNESS, floors, "storey");
@@ -119,8 +126,14 @@ impl Checker {
     }
 
     fn ground(&mut self, ground: &Ground) {
-        if let Some(name) = ground.record.as_deref().filter(|name| name.trim().is_empty()) {
-            self.refuse("ground.record", problem::quoted(name), "the name of a record file");
+        if let Some(name) = ground.record.as_deref() {
+            if name.trim().is_empty() {
+                self.refuse("ground.record", problem::quoted(name), "the name of a record file");
+            } else if name.contains(char::is_control) {
+                let expected = "a file name without control characters: in \"...\" a \\ begins an escape, so write / between \
+                                folders, or single quotes";
+                self.refuse("ground.record", problem::quoted(name), expected);
+            }
         }
         match ground.scaling {
             Scaling::Scale(scale) => self.number("ground.scale", scale, rule::SCALE),
@@ -169,6 +182,18 @@ impl Checker {
         for &key in law.kind.info().keys {
             let key = law_key::number(key);
             self.number(format_args!("{path}.{}", key.name), (key.get)(law), key.rule);
+        }
+    }
+
+    fn count_contacts(&mut self, scene: &Scene) {
+        let (contacts, floors) = (scene.contacts.len(), scene.left.mass.len() + scene.right.mass.len());
+        if contacts.saturating_mul(floors) > rule::MOST_CONTACTS_TIMES_FLOORS {
+            let most = rule::MOST_CONTACTS_TIMES_FLOORS / floors;
+            self.refuse(
+                "contact",
+                "",
+                format!("at most {most} contacts where there are {floors} floors, not {contacts}"),
+            );
         }
     }
 

@@ -3,8 +3,10 @@
 //! A value that does not fit is reported once, where it stands, and a neutral value is handed on in its place.
 
 use super::problem::{Problem, SceneError, excerpt};
+use super::syntax;
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -36,36 +38,47 @@ pub(super) fn parse(text: &str) -> Result<DeTable<'_>, SceneError> {
         let before = text.get(..error.span().map_or(0, |span| span.start)).unwrap_or(text);
         let line = before.matches('\n').count() + 1;
         let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
-        let expected = format!("valid TOML, but {}", error.message());
+        let expected = syntax::expected(text.lines().nth(line - 1).unwrap_or_default(), error.message());
         Problem::new(format!("line {line}, column {column}"), "", expected).into()
     })
 }
 
-/// Where each path starts in the text, in bytes.
-pub(super) fn positions(table: &DeTable<'_>) -> HashMap<String, usize> {
-    fn table_positions(path: &str, table: &DeTable<'_>, positions: &mut HashMap<String, usize>) {
+/// Where a value stands in the text, in bytes.
+pub(super) struct Place {
+    /// Of its key, where it has one.
+    pub start: usize,
+    /// Of the value, where that is a number, a text or a list: tables may be spread over the file.
+    pub value: Option<Range<usize>>,
+}
+
+/// Where everything stands, by its path.
+pub(super) fn places(table: &DeTable<'_>) -> HashMap<String, Place> {
+    fn of_table(path: &str, table: &DeTable<'_>, places: &mut HashMap<String, Place>) {
         for (key, value) in table.iter() {
             let path = join(path, key.get_ref());
-            value_positions(&path, value.get_ref(), positions);
-            positions.insert(path, key.span().start);
+            of_value(&path, value, places);
+            places.insert(path, Place { start: key.span().start, value: text_of(value) });
         }
     }
-    fn value_positions(path: &str, value: &DeValue<'_>, positions: &mut HashMap<String, usize>) {
-        match value {
-            DeValue::Table(table) => table_positions(path, table, positions),
+    fn of_value(path: &str, value: &Spanned<DeValue<'_>>, places: &mut HashMap<String, Place>) {
+        match value.get_ref() {
+            DeValue::Table(table) => of_table(path, table, places),
             DeValue::Array(entries) => {
                 for (i, entry) in entries.iter().enumerate() {
                     let path = format!("{path}[{}]", i + 1);
-                    value_positions(&path, entry.get_ref(), positions);
-                    positions.insert(path, entry.span().start);
+                    of_value(&path, entry, places);
+                    places.insert(path, Place { start: entry.span().start, value: text_of(entry) });
                 }
             }
             _ => {}
         }
     }
-    let mut positions = HashMap::new();
-    table_positions("", table, &mut positions);
-    positions
+    fn text_of(value: &Spanned<DeValue<'_>>) -> Option<Range<usize>> {
+        (!matches!(value.get_ref(), DeValue::Table(_))).then(|| value.span())
+    }
+    let mut places = HashMap::new();
+    of_table("", table, &mut places);
+    places
 }
 
 impl<'t> Document<'t> {
@@ -159,10 +172,14 @@ impl<'t> Item<'t> {
     /// Neutral: NaN.
     pub(super) fn number(&self) -> f64 {
         let value = match self.value.get_ref() {
-            DeValue::Float(float) => float.as_str().parse().ok().filter(|&v: &f64| {
-                // What TOML calls a number but is too large for a double would read as infinite.
-                v.is_finite() || float.as_str().contains(['n', 'N'])
-            }),
+            // What TOML calls a number but is too large for a double would read as infinite.
+            DeValue::Float(float) => match float.as_str().parse() {
+                Ok(v) if f64::is_finite(v) || float.as_str().contains(['n', 'N']) => Some(v),
+                _ => {
+                    self.refuse("a number that double precision holds, up to 1.8e308");
+                    return f64::NAN;
+                }
+            },
             DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
             DeValue::Integer(integer) => {
                 u64::from_str_radix(integer.as_str(), integer.radix()).ok().map(|value| value as f64)
@@ -213,7 +230,30 @@ impl<'t> Item<'t> {
 
     /// Neutral: empty.
     pub(super) fn numbers(&self) -> Vec<f64> {
-        self.list("a list of numbers").iter().flatten().map(Item::number).collect()
+        // One number is what it takes for one floor, and brackets; rows of matrices are another matter.
+        let what = match self.value.get_ref() {
+            DeValue::Float(_) | DeValue::Integer(_) if !self.path.ends_with(']') => {
+                let number = excerpt(self.document.source(self.value));
+                format!("a list of numbers, [{number}] for one floor, [{number}, {number}] for two")
+            }
+            _ => "a list of numbers".to_owned(),
+        };
+        self.list(&what).iter().flatten().map(Item::number).collect()
+    }
+
+    /// Whether it is a number.
+    pub(super) fn is_number(&self) -> bool {
+        matches!(self.value.get_ref(), DeValue::Float(_) | DeValue::Integer(_))
+    }
+
+    /// As it is written.
+    pub(super) fn written(&self) -> String {
+        excerpt(self.document.source(self.value))
+    }
+
+    /// Whether it is a table.
+    pub(super) fn is_table(&self) -> bool {
+        self.value.get_ref().as_table().is_some()
     }
 
     /// Neutral: empty.

@@ -79,7 +79,8 @@ impl Package {
         let scene_text = read_text(path)?;
         let mut draft = Draft::read(&scene_text)?;
         let mut record = None;
-        if let Some(name) = draft.scene.ground.record.clone() {
+        let is_name = |name: &String| !name.contains(char::is_control);
+        if let Some(name) = draft.scene.ground.record.clone().filter(is_name) {
             match read_record(&name, &record_path(&name), draft.scene.ground.scaling) {
                 Ok(packaged) => record = Some(packaged),
                 Err(error) => draft.add(error.problems),

@@ -30,7 +30,10 @@ pub(super) const DAMPING: Definiteness = Definiteness {
 impl Checker {
     /// One row and column per floor, finite, symmetric and definite; each is looked at where the ones before hold.
     pub(super) fn matrix(&mut self, path: &str, rows: &[Vec<f64>], floors: usize, definiteness: Definiteness) {
-        let sound = self.shape(path, rows, floors) && self.entries(path, rows) && self.symmetry(path, rows);
+        let sound = floors <= rule::MOST_FLOORS
+            && self.shape(path, rows, floors)
+            && self.entries(path, rows)
+            && self.symmetry(path, rows);
         if !sound {
             return;
         }

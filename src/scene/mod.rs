@@ -51,7 +51,7 @@
 //! ```
 //!
 //! Where things are: [`rule`] says which numbers are allowed, `check` which shapes and combinations, `read` goes through
-//! the keys of the file, `document` is the file as a tree, `files` loads scenes with their records.
+//! the keys of the file, `document` is the file as a tree, `syntax` knows what is often written instead of TOML, `files` loads scenes with their records.
 
 mod check;
 mod document;
@@ -62,10 +62,12 @@ mod matrix;
 mod problem;
 mod read;
 pub mod rule;
+mod syntax;
 
 pub use files::{Package, PackagedRecord, load};
 pub(crate) use files::{SCENE_RESOURCE, read_record};
 pub use problem::{Problem, SceneError};
+pub(crate) use problem::{excerpt, number, numbers, quoted};
 
 use crate::contact::ImpactLaw;
 use crate::record::Record;

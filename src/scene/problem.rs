@@ -63,17 +63,17 @@ impl From<Problem> for SceneError {
 }
 
 /// A number as a scene may write it.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     if value.is_nan() { "nan".to_owned() } else { format!("{value:?}") }
 }
 
 /// A list of numbers as a scene may write it.
-pub(super) fn numbers(values: &[f64]) -> String {
+pub(crate) fn numbers(values: &[f64]) -> String {
     format!("[{}]", values.iter().copied().map(number).collect::<Vec<_>>().join(", "))
 }
 
 /// A text as a scene may write it.
-pub(super) fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     excerpt(&format!("{text:?}"))
 }
 
@@ -83,7 +83,7 @@ pub(super) fn count(n: usize, noun: &str) -> String {
 }
 
 /// Text on one line, at most 60 characters.
-pub(super) fn excerpt(text: &str) -> String {
+pub(crate) fn excerpt(text: &str) -> String {
     const LONGEST: usize = 60;
     let mut line = String::new();
     for word in text.split_whitespace() {

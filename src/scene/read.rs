@@ -1,8 +1,8 @@
 //! The keys of a scene file, one after the other.
 
-use super::document::{self, Document, Item, Section, one_of};
-use super::problem::{Problem, SceneError};
-use super::{Building, ContactPair, Damping, Ground, Scaling, Scene, Solver, Stiffness, check, law_key};
+use super::document::{self, Document, Item, Place, Section, one_of};
+use super::problem::{Problem, SceneError, excerpt};
+use super::{Building, ContactPair, Damping, Ground, Scaling, Scene, Solver, Stiffness, check, law_key, rule};
 use crate::contact::{DampingFormula, ImpactLaw, LawKind};
 use std::collections::HashMap;
 
@@ -22,6 +22,7 @@ impl<'t> Draft<'t> {
         let mut problems = document.into_problems();
         // A value that does not fit is represented in the scene by a neutral one, about which there is nothing to say.
         let mut wrong_values = check::problems(&scene);
+        write_as_found(&mut wrong_values, text, &document::places(&table));
         wrong_values.retain(|wrong| !problems.iter().any(|unfit| unfit.covers(&wrong.path)));
         problems.append(&mut wrong_values);
         Ok(Draft { text, scene, problems })
@@ -40,17 +41,29 @@ impl<'t> Draft<'t> {
             return Ok(self.scene);
         }
         let mut problems = self.problems;
-        let positions = document::positions(&document::parse(self.text)?);
-        problems.sort_by_cached_key(|problem| position(&problem.path, &positions));
+        let places = document::places(&document::parse(self.text)?);
+        problems.sort_by_cached_key(|problem| position(&problem.path, &places));
         Err(SceneError { problems })
     }
 }
 
 /// Where a path stands in the text; what is missing stands where that stands which it is missing from.
-fn position(path: &str, positions: &HashMap<String, usize>) -> usize {
+fn position(path: &str, places: &HashMap<String, Place>) -> usize {
     let ends = path.char_indices().rev().filter(|&(_, c)| matches!(c, '.' | '[')).map(|(end, _)| end);
     let mut from_whole_to_root = std::iter::once(path.len()).chain(ends).filter_map(|end| path.get(..end));
-    from_whole_to_root.find_map(|part| positions.get(part).copied()).unwrap_or_default()
+    from_whole_to_root.find_map(|part| Some(places.get(part)?.start)).unwrap_or_default()
+}
+
+/// Values that reading has changed as the file has them: an entry that is no number has been read as NaN, one of hundreds
+/// of digits as infinite.
+fn write_as_found(problems: &mut [Problem], text: &str, places: &HashMap<String, Place>) {
+    let is_changed = |problem: &&mut Problem| problem.found.contains("nan") || problem.found.contains("inf");
+    for problem in problems.iter_mut().filter(is_changed) {
+        let range = places.get(&problem.path).and_then(|place| place.value.clone());
+        if let Some(found) = range.and_then(|range| text.get(range)) {
+            problem.found = excerpt(found);
+        }
+    }
 }
 
 const KEY: &str = "a known key";
@@ -63,7 +76,13 @@ fn scene(mut root: Section<'_>) -> Scene {
     let right = building(root.require_section("right", "the building on the right"));
     let ground = ground(root.section("ground"));
     let floor_forces = inputs(root.section("inputs"));
-    let contacts = root.get("contact").and_then(|item| item.list("[[contact]] tables"));
+    let contacts = root.get("contact").and_then(|item| match item.is_table() {
+        false => item.list("[[contact]] tables"),
+        true => {
+            item.refuse("[[contact]], with two brackets on either side, above every contact");
+            None
+        }
+    });
     let contacts = contacts.iter().flatten().map(|item| contact(item.section())).collect();
     let (energy, peaks) = outputs(root.section("outputs"));
     let solver = solver(root.section("solver"));
@@ -77,8 +96,15 @@ fn building(mut section: Section<'_>) -> Building {
     let mass = mass.unwrap_or_default();
     let at_rest = || vec![0.0; mass.len()];
     let stiffness = stiffness(&mut section);
-    let damping = section.require_section("damping", "a table with one of ratio, ratios, rayleigh, matrix");
-    let damping = self::damping(damping);
+    let damping = section.require("damping", "a table with one of ratio, ratios, rayleigh, matrix");
+    let damping = match damping {
+        Some(item) if item.is_number() => {
+            item.refuse(format!("a table, such as {{ ratio = {} }}", item.written()));
+            Damping::Ratio(0.0)
+        }
+        Some(item) => self::damping(item.section()),
+        None => Damping::Ratio(0.0),
+    };
     let initial_displacement = section.get("initial_displacement").map_or_else(at_rest, |item| item.numbers());
     let initial_velocity = section.get("initial_velocity").map_or_else(at_rest, |item| item.numbers());
     section.close(KEY);
@@ -152,9 +178,17 @@ fn ground(mut section: Section<'_>) -> Ground {
     } else if let (Some(_), Some(pga)) = (&scale, &pga) {
         pga.refuse("either scale or pga, not both");
     }
-    let scaling = match (scale, pga) {
-        (Some(scale), _) => Scaling::Scale(scale.number()),
-        (None, Some(pga)) => Scaling::Pga(pga.number()),
+    // Both are looked at, so that what is wrong with either is said at once.
+    let scale = scale.map(|item| item.number());
+    let scaling = match (scale, pga.map(|item| (item.number(), item))) {
+        (Some(scale), Some((pga, item))) => {
+            if pga.is_finite() && !rule::PGA.holds(pga) {
+                item.refuse(rule::PGA.expected);
+            }
+            Scaling::Scale(scale)
+        }
+        (Some(scale), None) => Scaling::Scale(scale),
+        (None, Some((pga, _))) => Scaling::Pga(pga),
         (None, None) => Scaling::Scale(1.0),
     };
     let record = record.and_then(|item| item.text()).map(str::to_owned);

@@ -37,6 +37,13 @@ pub const MOST_ACCELERATION: f64 = 1e6;
 /// no impact can be followed with.
 pub const MOST_TIME: f64 = 1e12;
 
+/// Floors of a building: the work before a run grows with the cube of their number, to some twenty seconds here. The
+/// tallest buildings have less than 200.
+pub const MOST_FLOORS: usize = 1000;
+
+/// Contacts times floors of both buildings: each contact knows how every mode moves it, some hundred megabytes in all.
+pub const MOST_CONTACTS_TIMES_FLOORS: usize = 20_000_000;
+
 /// Any finite number: entries of matrices.
 pub const ENTRY: Rule = Rule { expected: "a finite number", holds: |_| true };
 /// `stop_time`, s.

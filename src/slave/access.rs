@@ -2,8 +2,10 @@
 
 use super::simulation::started;
 use super::{Phase, Refusal, Slave};
+use crate::description::Category;
 use crate::scene::SceneError;
-use crate::variables::{Row, Settings, Slot, Table, Value};
+use crate::variables::{Input, Row, Settings, Slot, Table, Value};
+use crate::warnings;
 use std::cell::LazyCell;
 use std::sync::Arc;
 
@@ -53,9 +55,22 @@ impl Slave {
                 if let Some(simulation) = &mut self.simulation {
                     simulation.set_input(input, value);
                 }
+                self.look_at_input(input, value);
             }
         }
         Ok(())
+    }
+
+    /// Warns once in a run of a ground that shakes like no other.
+    #[inline]
+    fn look_at_input(&mut self, input: Input, value: f64) {
+        if input == Input::GroundAcceleration
+            && !self.has_warned_of_ground
+            && let Some(warning) = warnings::of_ground_input(value)
+        {
+            self.log.add(Category::StatusWarning, warning.to_string());
+            self.has_warned_of_ground = true;
+        }
     }
 
     /// What is wrong with setting a variable now, but for the numbers of parameters, which the scene's rules judge.

@@ -20,10 +20,12 @@ pub struct Log {
 }
 
 impl Log {
-    /// Errors are always logged until the master chooses otherwise, all else only where it asks for it.
+    /// Warnings and errors are always logged until the master chooses otherwise, all else only where it asks for it.
     pub fn new(logging_on: bool) -> Log {
-        let errors = |category: &Category| matches!(category, Category::StatusError | Category::StatusFatal);
-        let enabled = Category::ALL.into_iter().filter(|category| logging_on || errors(category)).collect();
+        let always = |category: &Category| {
+            matches!(category, Category::StatusWarning | Category::StatusError | Category::StatusFatal)
+        };
+        let enabled = Category::ALL.into_iter().filter(|category| logging_on || always(category)).collect();
         Log { enabled, pending: Vec::new() }
     }
 
@@ -69,8 +71,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn errors_are_logged_without_being_asked_for_and_events_are_not() {
+    fn warnings_and_errors_are_logged_without_being_asked_for_and_events_are_not() {
         let log = Log::new(false);
+        assert!(log.is_enabled(Category::StatusWarning));
         assert!(log.is_enabled(Category::StatusError) && log.is_enabled(Category::StatusFatal));
         assert!(!log.is_enabled(Category::Events));
         assert!(Category::ALL.iter().all(|&category| Log::new(true).is_enabled(category)));

@@ -24,6 +24,7 @@ pub use status::{Refusal, Status, StatusKind};
 
 use crate::description::{Category, Package, guid};
 use crate::engine::Episode;
+use crate::figures::plain;
 use crate::scene::rule::MOST_TIME;
 use crate::variables::{Inputs, Settings, Table};
 use simulation::{Simulation, started};
@@ -53,6 +54,7 @@ pub struct Slave {
     /// Made of the settings when something computed is asked for, dropped when they change.
     simulation: Option<Simulation>,
     snapshots: Snapshots,
+    has_warned_of_ground: bool,
 }
 
 impl Slave {
@@ -72,6 +74,7 @@ impl Slave {
             stop_time: None,
             simulation: None,
             snapshots: Snapshots::default(),
+            has_warned_of_ground: false,
         }
     }
 
@@ -125,13 +128,18 @@ impl Slave {
     pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Result<(), Refusal> {
         let mut problems = Vec::new();
         if let Some(tolerance) = tolerance.filter(|tolerance| !(tolerance.is_finite() && *tolerance >= 0.0)) {
-            problems.push(format!("tolerance = {tolerance}: expected a finite number >= 0"));
+            problems.push(format!("tolerance = {}: expected a finite number >= 0", plain(tolerance)));
         }
         if !is_time(start) {
-            problems.push(format!("startTime = {start}: expected a number from -{MOST_TIME:e} to {MOST_TIME:e}"));
+            problems
+                .push(format!("startTime = {}: expected a number from -{MOST_TIME:e} to {MOST_TIME:e}", plain(start)));
         }
         if let Some(stop) = stop.filter(|stop| !(stop.is_finite() && *stop >= start)) {
-            problems.push(format!("stopTime = {stop}: expected a finite number >= startTime = {start}"));
+            problems.push(format!(
+                "stopTime = {}: expected a finite number >= startTime = {}",
+                plain(stop),
+                plain(start)
+            ));
         }
         Refusal::unless_empty(problems)?;
         (self.time, self.stop_time, self.simulation) = (start, stop, None);
@@ -145,10 +153,18 @@ impl Slave {
         Status::Ok
     }
 
-    /// The parameters are fixed from here on.
+    /// The parameters are fixed from here on: what looks like a slip in them is said.
     pub fn exit_initialization(&mut self) -> Result<(), Refusal> {
         self.start()?;
         self.phase = Phase::StepComplete;
+        if self.log.is_enabled(Category::StatusWarning) {
+            for warning in self.settings.warnings() {
+                self.log.add(Category::StatusWarning, warning.to_string());
+            }
+        }
+        if let Some(scaled) = self.settings.rescaled_record() {
+            self.log.add(Category::Events, scaled);
+        }
         Ok(())
     }
 
@@ -163,6 +179,7 @@ impl Slave {
         self.settings = Arc::clone(&self.defaults);
         self.inputs = Inputs::new(&self.settings.scene);
         (self.time, self.stop_time, self.simulation) = (0.0, None, None);
+        self.has_warned_of_ground = false;
         self.phase = Phase::Instantiated;
         Status::Ok
     }
@@ -191,19 +208,22 @@ impl Slave {
         let tolerance = |time: f64| TIME_TOLERANCE * time.abs().max(1.0);
         if !(current.is_finite() && (current - self.time).abs() <= tolerance(self.time)) {
             let expected = format!("expected {} within {:e}", self.time, tolerance(self.time));
-            problems.push(format!("currentCommunicationPoint = {current}: {expected}"));
+            problems.push(format!("currentCommunicationPoint = {}: {expected}", plain(current)));
         }
         if !(step.is_finite() && step > 0.0) {
-            problems.push(format!("communicationStepSize = {step}: expected a finite number > 0"));
+            problems.push(format!("communicationStepSize = {}: expected a finite number > 0", plain(step)));
         }
         let target = current + step;
         if let Some(stop) = self.stop_time.filter(|stop| target > stop + tolerance(*stop)) {
-            let expected = format!("expected at most stopTime = {stop}");
-            problems.push(format!("currentCommunicationPoint + communicationStepSize = {target}: {expected}"));
+            let expected = format!("expected at most stopTime = {}", plain(stop));
+            problems.push(format!("currentCommunicationPoint + communicationStepSize = {}: {expected}", plain(target)));
         }
         Refusal::unless_empty(problems)?;
         if !is_time(target) {
-            return Err(Refusal::from(format!("the step leads to {target} s: expected a time up to {MOST_TIME:e} s")));
+            return Err(Refusal::from(format!(
+                "the step leads to {} s: expected a time up to {MOST_TIME:e} s",
+                plain(target)
+            )));
         }
         // Only here it is known how far a line goes on.
         if self.inputs.are_moving() {

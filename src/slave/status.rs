@@ -3,11 +3,13 @@
 use crate::engine::EngineError;
 use crate::scene::SceneError;
 
-/// The status of a call, in the numbers of the standard. Warnings and pending calls do not occur here.
+/// The status of a call or a message, in the numbers of the standard. Pending calls do not occur here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// Done.
     Ok = 0,
+    /// Of messages only: what they are about has been done.
+    Warning = 1,
     /// Status information that there is not; a step is never discarded.
     Discard = 2,
     /// Refused, or failed; the instance can be reset.

@@ -9,6 +9,7 @@
 //! ```
 
 mod dense;
+mod first_mode;
 mod floors;
 mod impulse_response;
 mod interval;
@@ -17,6 +18,7 @@ mod propagator;
 mod series;
 mod short_flight;
 
+pub use first_mode::FirstMode;
 pub use floors::Floors;
 pub use impulse_response::{ImpulseResponse, RESPONSE_POWERS};
 pub use interval::{Interval, ModeBlock};

@@ -5,7 +5,7 @@ use super::{
 };
 use crate::contact::LawKey;
 use crate::engine::{PeakOf, Side};
-use crate::scene::{Building, ContactPair, Damping, Scene, Stiffness, rule};
+use crate::scene::{Building, ContactPair, Damping, Scaling, Scene, Stiffness, rule};
 
 // The motion that the nominal values stand for: m, m/s and m/s2.
 const DISPLACEMENT: f64 = 0.01;
@@ -67,8 +67,13 @@ impl Table {
         let about = "ground acceleration of the scaled record, positive to the right";
         self.add(Output::GroundAcceleration, name, ty, about).nominal(ACCELERATION);
         self.add(Parameter::GroundScale, "ground.scale", ONE, "factor on the record").nominal(1.0);
-        let about = "path of another record file (CSV or AT2) to run instead; empty: the one inside the FMU";
-        self.add(Parameter::GroundRecord, "ground.record", Type::String, about);
+        let scaled = match scene.ground.scaling {
+            Scaling::Scale(_) => "times ground.scale".to_owned(),
+            Scaling::Pga(pga) => format!("scaled to the scene's peak of {pga:?} m/s2 unless ground.scale is set"),
+        };
+        let about =
+            format!("path of another record file (CSV or AT2) to run instead, {scaled}; empty: the one inside the FMU");
+        self.add(Parameter::GroundRecord, "ground.record", Type::String, &about);
     }
 
     fn add_floor(&mut self, building: &Building, (side, name): (Side, &str), floor: usize, floor_forces: bool) {

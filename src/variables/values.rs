@@ -4,6 +4,7 @@ use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, Row, Slot, Ta
 use crate::engine::{ContactPoint, EnergyPoint, LinearInput, Model, Point, SavedState, Side, State};
 use crate::record::Record;
 use crate::scene::{Building, Damping, Scaling, Scene, SceneError, Stiffness, read_record};
+use crate::warnings::{self, Warning};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::sync::Arc;
@@ -116,13 +117,31 @@ impl Settings {
         {
             problems.push(problem);
         }
-        for problem in &mut problems {
-            // The only parameter whose name is not its path in the scene.
-            if let Some(building) = problem.path.strip_suffix(".damping.ratio") {
-                problem.path = format!("{building}.damping_ratio");
-            }
-        }
+        problems.iter_mut().for_each(|problem| name_variable(&mut problem.path));
         if problems.is_empty() { Ok(()) } else { Err(SceneError { problems }) }
+    }
+
+    /// What looks like a slip in them, under the names of the variables.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let mut scene = self.scene.clone();
+        if let Some((path, _)) = &self.other_record {
+            scene.ground.record = Some(path.clone());
+        }
+        let mut warnings = warnings::of(&scene, self.record());
+        warnings.iter_mut().for_each(|warning| name_variable(&mut warning.path));
+        warnings
+    }
+
+    /// What is done to a record that has been chosen instead of the scene's, where the scene says a peak.
+    pub fn rescaled_record(&self) -> Option<String> {
+        let (Scaling::Pga(pga), Some((path, record))) = (self.scene.ground.scaling, &self.other_record) else {
+            return None;
+        };
+        let (factor, peak) = (Scaling::Pga(pga).factor(record).ok()?, record.peak());
+        Some(format!(
+            "ground.record = {path:?}: scaled by {factor:?} from its own peak of {peak:?} m/s2 to that of the scene, {pga:?} m/s2 \
+             (ground.pga); ground.scale sets another factor"
+        ))
     }
 
     /// Sets a parameter to a value of its row's type. [`Settings::check`] is for the caller: once, after everything that
@@ -332,6 +351,13 @@ fn read_energy(energy: &EnergyPoint, term: EnergyOutput) -> f64 {
         EnergyOutput::Impact => energy.impact,
         EnergyOutput::External => energy.external,
         EnergyOutput::Residual => energy.residual,
+    }
+}
+
+/// The only parameter whose name is not its path in the scene.
+fn name_variable(path: &mut String) {
+    if let Some(building) = path.strip_suffix(".damping.ratio") {
+        *path = format!("{building}.damping_ratio");
     }
 }
 

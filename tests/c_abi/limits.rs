@@ -118,3 +118,20 @@ fn drive(instance: &Instance<'_>) -> usize {
     }
     pushes
 }
+
+#[test]
+fn an_overflow_names_its_contact() {
+    // The second contact alone begins 1 km deep, on a spring whose force is no number.
+    let scene = SCENE
+        .replace("gap = 0.002\nlaw = \"hertz\"\nstiffness = 1.0e6", "gap = -1e3\nlaw = \"hertz\"\nstiffness = 1e305");
+    assert_ne!(scene, SCENE);
+    let fmu = Fmu::new(&scene);
+    let instance = fmu.instance();
+    instance.start();
+    instance.log();
+    assert_eq!(instance.step(0.0, 0.1), ERROR);
+    let log = instance.log();
+    let message = &log.last().unwrap().message;
+    let expected = " s at contact[2], whose stiffness is 1e305";
+    assert!(message.contains(expected), "{message}");
+}

@@ -18,3 +18,4 @@ mod state;
 mod stepping;
 mod symbols;
 mod values;
+mod warnings;

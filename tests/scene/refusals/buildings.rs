@@ -17,7 +17,11 @@ fn masses() {
             "[\"3\", -4]",
             &["left.mass[1] = \"3\": expected a number", "left.mass[2] = -4.0: expected a finite mass > 0 kg"],
         ),
-        ("[3.0, 4.0]", "3.0", &["left.mass = 3.0: expected a list of numbers"]),
+        (
+            "[3.0, 4.0]",
+            "3.0",
+            &["left.mass = 3.0: expected a list of numbers, [3.0] for one floor, [3.0, 3.0] for two"],
+        ),
         ("[3.0, 4.0]", "[]", &["left.mass = []: expected at least one floor"]),
         ("mass = [3.0, 4.0]", "", &["left.mass: expected a list of masses in kg, one per floor (missing)"]),
     ]);
@@ -122,7 +126,7 @@ fn dampings() {
             "",
             &["left.damping: expected a table with one of ratio, ratios, rayleigh, matrix (missing)"],
         ),
-        ("{ ratio = 0.01 }", "0.01", &["left.damping = 0.01: expected a table"]),
+        ("{ ratio = 0.01 }", "0.01", &["left.damping = 0.01: expected a table, such as { ratio = 0.01 }"]),
         (
             "{ ratio = 0.01 }",
             "{ ratio = -0.01, ratios = [0.01, 0.02] }",

@@ -50,7 +50,8 @@ fn contacts() {
         assert!(line.starts_with(start) && line.ends_with("(missing)"), "{line}");
     }
     let one_table = format!("{SHORT}\n[contact]\ngap = 1");
-    assert_eq!(messages(&one_table), ["contact = [contact]: expected [[contact]] tables"]);
+    let expected = "contact = [contact]: expected [[contact]], with two brackets on either side, above every contact";
+    assert_eq!(messages(&one_table), [expected]);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod buildings;
 mod contacts;
+mod meant;
 
 use crate::{SCENE, SHORT, edited, messages};
 use pounding::scene::{Damping, Scene, Stiffness};
@@ -37,7 +38,11 @@ fn names_and_times() {
         ("stop_time = 20.0", "stop_time = inf", &["stop_time = inf: expected a time > 0 s and at most 1e12 s"]),
         ("stop_time = 20.0", "stop_time = 1e16", &["stop_time = 1e16: expected a time > 0 s and at most 1e12 s"]),
         ("stop_time = 20.0", "stop_time = \"20 s\"", &["stop_time = \"20 s\": expected a number"]),
-        ("stop_time = 20.0", "stop_time = 1e400", &["stop_time = 1e400: expected a number"]),
+        (
+            "stop_time = 20.0",
+            "stop_time = 1e400",
+            &["stop_time = 1e400: expected a number that double precision holds, up to 1.8e308"],
+        ),
         ("stop_time = 20.0", "stop_time = 1979-05-27", &["stop_time = 1979-05-27: expected a number"]),
     ]);
 }

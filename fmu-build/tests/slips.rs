@@ -1,0 +1,73 @@
+//! What `cargo fmu` says about a scene that may be built and looks like a slip, and what went into the run.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::{cargo_fmu, changed_feup, feup_fmu, replace_once, stderr, stdout};
+use tempfile::TempDir;
+
+#[test]
+fn slips_go_to_standard_error_and_the_fmu_is_built() {
+    let directory = TempDir::new().unwrap();
+    let scene = changed_feup(directory.path(), |text| {
+        let text = replace_once(text, "gap = 0.005", "gap = 40");
+        replace_once(&text, "damping = { ratio = 0.01 }", "damping = { ratio = 5.0 }")
+    });
+    let fmu = directory.path().join("slips.fmu");
+    let output = cargo_fmu(&[scene.to_str().unwrap(), "-o", fmu.to_str().unwrap()]);
+    assert!(output.status.success() && fmu.is_file());
+    let said = stderr(&output);
+    let lines: Vec<&str> = said.lines().collect();
+    assert_eq!(lines.len(), 2, "{said}");
+    assert!(lines[0].starts_with("warning: left.damping.ratio = 5.0: "), "{said}");
+    assert!(lines[1].starts_with("warning: contact[1].gap = 40.0: "), "{said}");
+    assert!(!stdout(&output).contains("warning"), "said once: {}", stdout(&output));
+    // The FMU says the same to whoever runs it.
+    let said = stdout(&cargo_fmu(&["check", fmu.to_str().unwrap()]));
+    for path in ["logStatusWarning: left.damping_ratio = 5.0: ", "logStatusWarning: contact[1].gap = 40.0: "] {
+        assert!(said.contains(path), "no {path:?} in\n{said}");
+    }
+    let said = stdout(&cargo_fmu(&["check", feup_fmu().to_str().unwrap()]));
+    assert!(!said.contains("logStatusWarning"), "{said}");
+}
+
+#[test]
+fn the_summary_begins_with_what_went_in() {
+    let directory = TempDir::new().unwrap();
+    let fmu = directory.path().join("a.fmu");
+    let summary = |from: &str, to: &str| {
+        let scene = changed_feup(directory.path(), |text| replace_once(text, from, to));
+        let output = cargo_fmu(&[scene.to_str().unwrap(), "-o", fmu.to_str().unwrap()]);
+        assert!(output.status.success(), "{}", stderr(&output));
+        stdout(&output)
+    };
+    // The peak is 0.319 g, as the record's own comment says; two floors of 3.65 kg; 1 / 2.7774 Hz is 0.36 s.
+    let said = summary("gap = 0.005", "gap = 0.006");
+    let place = |text: &str| said.find(text).unwrap_or_else(|| panic!("no {text:?} in\n{said}"));
+    let record = place("  record       record.csv: 1560 samples, every 0.02 s, 31.18 s long\n");
+    let ground = place("  ground       peak 3.127 m/s2, 0.319 g (as recorded)\n");
+    let left = place("  left         2 floors, 7.3 kg in all, periods 0.36, 0.138 s (frequencies 2.7774, 7.2712 Hz)\n");
+    let right = place("  right        3 floors, 10.95 kg in all, periods 0.5, 0.178, 0.123 s");
+    let contacts = place("  contacts     2, gaps from 5 mm to 6 mm\n");
+    let results = place("  impacts  ");
+    assert!([record, ground, left, right, contacts, results].is_sorted(), "{said}");
+    let said = summary("record.csv\"", "record.csv\"\npga = 4.903325");
+    assert!(said.contains("peak 4.903 m/s2, 0.5 g (pga; the record's 3.127 m/s2 times 1.568)"), "{said}");
+    assert!(said.contains("2, all gaps 5 mm"), "{said}");
+    let said = summary("record = \"record.csv\"", "");
+    assert!(said.contains("  ground       ground.acceleration is an input: 0 in this run\n"), "{said}");
+}
+
+#[test]
+fn an_fmu_is_called_one() {
+    let directory = TempDir::new().unwrap();
+    let scene = changed_feup(directory.path(), str::to_owned);
+    for (name, right) in [("x.zip", "x.fmu"), ("x", "x.fmu"), ("new/x.fmu.zip", "such as ")] {
+        let path = directory.path().join(name);
+        let output = cargo_fmu(&[scene.to_str().unwrap(), "-o", path.to_str().unwrap()]);
+        assert_eq!((output.status.code(), stdout(&output).as_str()), (Some(1), ""));
+        let expected = format!("{}: expected a name that ends in .fmu", path.display());
+        assert!(stderr(&output).contains(&expected) && stderr(&output).contains(right), "{}", stderr(&output));
+        assert!(!path.exists() && !directory.path().join("new").exists());
+    }
+}

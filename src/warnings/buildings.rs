@@ -1,0 +1,276 @@
+//! Masses, stiffnesses, damping and initial motion of each building.
+
+use super::facts::{Facts, Pace, median, name, opposite, stiffness_key};
+use super::{Found, excerpt, number, numbers};
+use crate::figures::short;
+use crate::record::STANDARD_GRAVITY;
+use crate::scene::{Building, Damping, Stiffness};
+use crate::structure::Side;
+use std::f64::consts::PI;
+
+/// Of critical damping; isolators and dampers of buildings stay below.
+const MOST_DAMPING: f64 = 0.3;
+/// Below this, but above 0, not even steel.
+const LEAST_DAMPING: f64 = 2e-4;
+
+pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
+    for side in [Side::Left, Side::Right] {
+        let building = facts.building(side);
+        let path = name(side);
+        look_at_entries(facts, side, found);
+        if !found.has(&format!("{path}.mass")) && !found.has(&format!("{path}.stiffness")) {
+            look_at_period(facts, side, found);
+            look_at_storey_masses(facts, side, found);
+        }
+        look_at_damping(facts, side, building, found);
+        look_at_start(facts, side, building, found);
+    }
+}
+
+/// Entries of a list that the others speak against.
+fn look_at_entries(facts: &Facts<'_>, side: Side, found: &mut Found) {
+    let (building, other) = (facts.building(side), facts.building(opposite(side)));
+    for (index, factor) in odd_entries(&building.mass, &other.mass, |_| false) {
+        let text = format!(
+            "{} the masses of the floors beside it; all are in kg{}",
+            how_many_times(factor),
+            missing_unit(factor, "t")
+        );
+        found.number(format!("{}.mass[{}]", name(side), index + 1), building.mass[index], text);
+    }
+    let Stiffness::Shear(storeys) = &building.stiffness else { return };
+    let others = match &other.stiffness {
+        Stiffness::Shear(others) => others.as_slice(),
+        Stiffness::Matrix(_) => &[],
+    };
+    // A soft first storey is an isolated building, unless that makes it slower than any.
+    let is_isolated = |(index, factor): (usize, f64)| index == 0 && factor < 1.0 && facts.pace(side) == Pace::Usual;
+    for (index, factor) in odd_entries(storeys, others, is_isolated) {
+        let text = format!(
+            "{} the stiffness of the storeys beside it; all are in N/m{}",
+            how_many_times(factor),
+            missing_unit(factor, "kN/m")
+        );
+        found.number(format!("{}.stiffness[{}]", name(side), index + 1), storeys[index], text);
+    }
+}
+
+/// Entries far from what they stand beside, and by what factor: at either end of the list by 50, within it by 8 from
+/// both neighbours. Where a list steps by 200 it is the entry above the step, wherever that is.
+fn odd_entries(values: &[f64], others: &[f64], is_meant: impl Fn((usize, f64)) -> bool) -> Vec<(usize, f64)> {
+    let mut odd: Vec<(usize, f64)> = Vec::new();
+    let usual = median(values.iter().copied()).unwrap_or(1.0);
+    for (i, &value) in values.iter().enumerate() {
+        let beside = [i.checked_sub(1), Some(i + 1)].map(|j| j.and_then(|j| values.get(j).copied()));
+        let (factor, least) = match beside {
+            [Some(below), Some(above)] => (nearest(value, &[below, above, usual]), 8.0),
+            [Some(one), None] | [None, Some(one)] if values.len() > 2 => (nearest(value, &[one, usual]), 50.0),
+            _ => continue,
+        };
+        if factor.max(1.0 / factor) >= least && !is_meant((i, factor)) {
+            odd.push((i, factor));
+        }
+    }
+    let is_far = |factor: f64| factor.max(1.0 / factor) >= 200.0;
+    for (i, pair) in values.windows(2).enumerate() {
+        let is_said = odd.iter().any(|&(known, _)| known == i || known == i + 1);
+        let factor = pair[1] / pair[0];
+        if is_said || !is_far(factor) || is_meant((i, 1.0 / factor)) {
+            continue;
+        }
+        // Of two floors the neighbour tells which one is odd.
+        let neighbour = median(others.iter().copied()).unwrap_or(pair[0]);
+        let first_is_odd = values.len() == 2 && distance(pair[0], neighbour) > distance(pair[1], neighbour);
+        odd.push(if first_is_odd { (i, 1.0 / factor) } else { (i + 1, factor) });
+    }
+    odd
+}
+
+/// The factor to the nearest of some numbers that all lie on one side, else 1.
+fn nearest(value: f64, others: &[f64]) -> f64 {
+    let factors = || others.iter().map(|other| value / other);
+    let (least, most) = factors().fold((f64::INFINITY, 0.0_f64), |(least, most), f| (least.min(f), most.max(f)));
+    match (least, most) {
+        (least, _) if least > 1.0 => least,
+        (_, most) if most < 1.0 => most,
+        _ => 1.0,
+    }
+}
+
+fn distance(value: f64, other: f64) -> f64 {
+    (value / other).ln().abs()
+}
+
+fn how_many_times(factor: f64) -> String {
+    if factor > 1.0 { format!("{} times", short(factor)) } else { format!("1/{} of", short(1.0 / factor)) }
+}
+
+/// What may have been meant by an entry that is off by a factor.
+fn missing_unit(factor: f64, larger_unit: &str) -> String {
+    match factor {
+        f if (3e-4..3e-3).contains(&f) => format!("; was it given in {larger_unit}?"),
+        _ => "; is its power of ten right?".to_owned(),
+    }
+}
+
+fn look_at_period(facts: &Facts<'_>, side: Side, found: &mut Found) {
+    let (building, other) = (facts.building(side), facts.building(opposite(side)));
+    let Some(period) = facts.period(side) else { return };
+    let count = building.mass.len();
+    let usual = format!("{} with some {} s", storeys(count), short(0.1 * count as f64));
+    let found_here = format!("the first natural frequency is {} Hz, period {} s", short(1.0 / period), short(period));
+    // The neighbour, where it is sound, tells whether it is the masses.
+    let lighter = mean(&other.mass) / mean(&building.mass);
+    let neighbour_is_usual = facts.pace(opposite(side)) == Pace::Usual;
+    match facts.pace(side) {
+        Pace::Fast => {
+            let text = format!("{found_here}, far too fast for {usual}");
+            if neighbour_is_usual && lighter < 10.0 {
+                stiffness(
+                    side,
+                    building,
+                    format!("{text}; stiffnesses are in N/m, is their power of ten right?"),
+                    found,
+                );
+            } else {
+                let meant = "masses are in kg, were they given in t?";
+                found.numbers(format!("{}.mass", name(side)), &building.mass, format!("{text}; {meant}"));
+            }
+        }
+        Pace::Slow => {
+            let text = format!("{found_here}, far too slow for {usual}");
+            if neighbour_is_usual && lighter < 0.02 {
+                let meant = "masses are in kg, were they given in g?";
+                found.numbers(format!("{}.mass", name(side)), &building.mass, format!("{text}; {meant}"));
+            } else {
+                let meant = if period > 100.0 { "kN/m or kN/mm" } else { "kN/m" };
+                let text =
+                    format!("{text}; stiffnesses are in N/m, were they given in {meant} (or masses, in kg, in g)?");
+                stiffness(side, building, text, found);
+            }
+        }
+        Pace::Usual | Pace::Wall | Pace::Free | Pace::Unknown => {}
+    }
+}
+
+fn stiffness(side: Side, building: &Building, text: String, found: &mut Found) {
+    let path = format!("{}.{}", name(side), stiffness_key(building));
+    match &building.stiffness {
+        Stiffness::Shear(storeys) => found.numbers(path, storeys, text),
+        Stiffness::Matrix(rows) => found.add(path, matrix(rows), text),
+    }
+}
+
+fn matrix(rows: &[Vec<f64>]) -> String {
+    let rows: Vec<String> = rows.iter().map(|row| numbers(row)).collect();
+    excerpt(&format!("[{}]", rows.join(", ")))
+}
+
+/// Two buildings of usual periods, one of them in other units throughout.
+fn look_at_storey_masses(facts: &Facts<'_>, side: Side, found: &mut Found) {
+    let (building, other) = (facts.building(side), facts.building(opposite(side)));
+    let both_usual = facts.pace == [Pace::Usual; 2] && other.mass.len() > 1;
+    let heavier = mean(&other.mass) / mean(&building.mass);
+    if both_usual && heavier >= 200.0 {
+        let (side, other) = (name(side), name(opposite(side)));
+        let text = format!(
+            "a floor has 1/{} of the mass of one of the {other} building, at usual periods of both; masses are in kg and \
+             stiffnesses in N/m, were those of this building given in t and kN/m?",
+            short(heavier)
+        );
+        found.numbers(format!("{side}.mass"), &building.mass, text);
+    }
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}
+
+fn storeys(count: usize) -> String {
+    format!("{count} {}", if count == 1 { "storey" } else { "storeys" })
+}
+
+fn look_at_damping(facts: &Facts<'_>, side: Side, building: &Building, found: &mut Found) {
+    let path = format!("{}.damping", name(side));
+    let (path, ratio) = match &building.damping {
+        Damping::Ratio(ratio) => (format!("{path}.ratio"), *ratio),
+        Damping::Rayleigh { ratio, .. } => (format!("{path}.rayleigh.ratio"), *ratio),
+        Damping::Ratios(ratios) => {
+            let Some(index) = ratios.iter().position(|&ratio| odd_damping(ratio).is_some()) else { return };
+            (format!("{path}.ratios[{}]", index + 1), ratios[index])
+        }
+        Damping::Matrix(rows) => return look_at_damping_matrix(facts, side, rows, found),
+    };
+    if let Some(text) = odd_damping(ratio) {
+        let meant = if ratio > MOST_DAMPING { percent(ratio) } else { String::new() };
+        found.number(path, ratio, format!("{text}{meant}"));
+    }
+}
+
+fn percent(ratio: f64) -> String {
+    if ratio >= 0.5 { format!("; was it meant in percent ({})?", number(ratio / 100.0)) } else { String::new() }
+}
+
+/// What a ratio of critical damping would mean that no building has.
+fn odd_damping(ratio: f64) -> Option<String> {
+    let meaning = match ratio {
+        r if r >= 1.0 => "the floors creep back instead of swinging",
+        r if r > MOST_DAMPING => "the floors hardly swing",
+        r if r > 0.0 && r < LEAST_DAMPING => "as good as no damping",
+        _ => return None,
+    };
+    Some(format!("{meaning}; 1 is critical damping and buildings have 0.01 to 0.1"))
+}
+
+/// The ratio of the first mode.
+fn look_at_damping_matrix(facts: &Facts<'_>, side: Side, rows: &[Vec<f64>], found: &mut Found) {
+    let Some(first) = facts.first[side as usize].as_ref().filter(|_| facts.pace(side) == Pace::Usual) else { return };
+    let resistance = |row: &Vec<f64>| row.iter().zip(&first.shape).map(|(c, x)| c * x).sum::<f64>();
+    let damped: f64 = rows.iter().zip(&first.shape).map(|(row, x)| x * resistance(row)).sum();
+    let inertia: f64 = facts.building(side).mass.iter().zip(&first.shape).map(|(m, x)| m * x * x).sum();
+    let ratio = damped / (2.0 * first.omega * inertia);
+    if odd_damping(ratio).is_some() {
+        let text = format!(
+            "the first mode has {} of critical damping, where buildings have 0.01 to 0.1; entries are in N s/m, were they \
+             given in another unit?",
+            short(ratio)
+        );
+        found.add(format!("{}.damping.matrix", name(side)), matrix(rows), text);
+    }
+}
+
+/// Initial motion beyond what a building stands.
+fn look_at_start(facts: &Facts<'_>, side: Side, building: &Building, found: &mut Found) {
+    let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let omega = match facts.pace(side) {
+        Pace::Usual => facts.period(side).map_or(0.0, |period| 2.0 * PI / period),
+        Pace::Free => return look_at_speed(side, building, 0.0, largest(&building.initial_velocity), found),
+        Pace::Fast | Pace::Slow | Pace::Wall | Pace::Unknown => 0.0,
+    };
+    let displacement = largest(&building.initial_displacement);
+    let pull = omega * omega * displacement / STANDARD_GRAVITY;
+    if displacement > 0.3 * building.mass.len() as f64 || pull > 5.0 {
+        let held = if pull > 1.0 {
+            format!(", held by forces of some {} times its weight", short(pull))
+        } else {
+            String::new()
+        };
+        let text = format!(
+            "the building starts up to {} m aside{held}; displacements are in m, were they given in mm?",
+            short(displacement)
+        );
+        found.numbers(format!("{}.initial_displacement", name(side)), &building.initial_displacement, text);
+    }
+    look_at_speed(side, building, omega, largest(&building.initial_velocity), found);
+}
+
+fn look_at_speed(side: Side, building: &Building, omega: f64, speed: f64, found: &mut Found) {
+    if speed > 10.0 || omega * speed > 8.0 * STANDARD_GRAVITY {
+        let text = format!(
+            "a floor starts at {} km/h, where the strongest earthquakes move the ground at 1 or 2 m/s; velocities are in \
+             m/s, were they given in mm/s or cm/s?",
+            short(3.6 * speed)
+        );
+        found.numbers(format!("{}.initial_velocity", name(side)), &building.initial_velocity, text);
+    }
+}

@@ -1,0 +1,212 @@
+//! Gaps and the numbers of the laws. What several contacts have in common is one slip, told of the first of them.
+
+use super::Found;
+use super::facts::{Facts, Pace, median};
+use super::touch::{Touch, exponent};
+use crate::contact::LawKey;
+use crate::figures::short;
+use crate::record::STANDARD_GRAVITY;
+use crate::scene::{ContactPair, Scene, law_key};
+use std::cmp::Ordering;
+use std::f64::consts::PI;
+
+/// m; so far is nothing built, and from [`FAR_AWAY`] on it is meant to be out of reach.
+const WIDEST_GAP: f64 = 1.0;
+const FAR_AWAY: f64 = 1000.0;
+/// m/s: impacts of buildings begin at 0.1 to 1 m/s.
+const MOST_LEAST_APPROACH: f64 = 0.02;
+
+pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
+    look_for_contacts(facts, found);
+    look_for_crossed_floors(facts.scene, found);
+    let scene = facts.scene;
+    if !found.has("left.initial_displacement") && !found.has("right.initial_displacement") {
+        group(facts, found, "gap", |pair| overlap(facts, pair));
+    }
+    let ground_is_odd = found.has("ground");
+    group(facts, found, "gap", |pair| wide_gap(facts, pair, ground_is_odd));
+    // A gap that has been told of makes the others look small.
+    if !(1..=scene.contacts.len()).any(|contact| found.has(&format!("contact[{contact}].gap"))) {
+        group(facts, found, "gap", |pair| lost_gap(facts, pair));
+    }
+    group(facts, found, "exponent", high_exponent);
+    if !has_odd_building(found) {
+        // Another exponent gives the stiffness another meaning.
+        group(facts, found, "stiffness", |pair| high_exponent(pair).is_none().then(|| duration(facts, pair)).flatten());
+    }
+    group(facts, found, "restitution", low_restitution);
+    let least = scene.solver.min_approach_velocity;
+    if least > MOST_LEAST_APPROACH {
+        let text = "impacts of buildings begin at 0.1 to 1 m/s, so this changes the damping of real ones; it is in m/s, \
+                    was it given in mm/s?";
+        found.number("solver.min_approach_velocity", least, text);
+    }
+}
+
+/// Two FMUs may be coupled through their floor forces, and what starts aside or moving swings freely.
+fn look_for_contacts(facts: &Facts<'_>, found: &mut Found) {
+    let scene = facts.scene;
+    let swings_freely = scene.ground.record.is_none() && facts.starts_moving();
+    if scene.contacts.is_empty() && !scene.floor_forces && !swings_freely {
+        let text = "no contact: the buildings pass through each other; each pair of floors that may collide needs a \
+                    [[contact]] table";
+        found.add("contact", "[]".to_owned(), text);
+    }
+}
+
+/// Of two pairs the one that is higher on the left is so on the right. Told is a single pair that is in the way of that.
+fn look_for_crossed_floors(scene: &Scene, found: &mut Found) {
+    const MOST: usize = 1000;
+    let pairs = &scene.contacts;
+    if pairs.len() > MOST {
+        return;
+    }
+    let is_crossed = |one: &ContactPair, other: &ContactPair| {
+        let (left, right) = (one.left_floor.cmp(&other.left_floor), one.right_floor.cmp(&other.right_floor));
+        left != Ordering::Equal && right != Ordering::Equal && left != right
+    };
+    let crossings = |one: &ContactPair| pairs.iter().filter(|other| is_crossed(one, other)).count();
+    let counts: Vec<usize> = pairs.iter().map(crossings).collect();
+    let Some((index, count)) = counts.iter().copied().enumerate().max_by_key(|(_, count)| *count) else { return };
+    let all: usize = counts.iter().sum();
+    // Each crossing is counted at both of its pairs.
+    if count == 0 || all != 2 * count {
+        return;
+    }
+    let ContactPair { left_floor, right_floor, .. } = pairs[index];
+    let others = pairs.iter().enumerate().filter(|(_, other)| is_crossed(&pairs[index], other));
+    let others: Vec<String> = others.take(3).map(|(other, _)| format!("contact[{}]", other + 1)).collect();
+    let text = format!(
+        "above the floors of {} on one side and below them on the other, where floors cannot be; are left_floor and \
+         right_floor right?",
+        others.join(", ")
+    );
+    found.add(format!("contact[{}]", index + 1), format!("left_floor {left_floor}, right_floor {right_floor}"), text);
+}
+
+/// A building with other units makes its contacts look odd.
+fn has_odd_building(found: &Found) -> bool {
+    ["left.mass", "left.stiffness", "left.stiffness_matrix", "right.mass", "right.stiffness", "right.stiffness_matrix"]
+        .into_iter()
+        .any(|path| found.has(path))
+}
+
+/// What is odd about one number of a contact: the number and a text.
+type Odd = Option<(f64, String)>;
+
+/// One warning for all contacts that have the same to be said about a key; none about a contact and key of which
+/// something has been said.
+fn group(facts: &Facts<'_>, found: &mut Found, key: &str, odd: impl Fn(&ContactPair) -> Odd) {
+    let path = |index: usize| format!("contact[{}].{key}", index + 1);
+    let pairs = facts.scene.contacts.iter().enumerate();
+    let mut all = pairs.filter(|(index, _)| !found.has(&path(*index))).filter_map(|(i, pair)| Some((i, odd(pair)?)));
+    let Some((first, (value, text))) = all.next() else { return };
+    let more: Vec<String> = all.map(|(index, _)| format!("contact[{}]", index + 1)).collect();
+    let also = match more.as_slice() {
+        [] => String::new(),
+        [one] => format!(" (likewise {one})"),
+        [one, .., last] => format!(" (likewise {} more, {one} to {last})", more.len()),
+    };
+    found.number(path(first), value, format!("{text}{also}"));
+}
+
+/// Floors that are deep in each other at the start.
+fn overlap(facts: &Facts<'_>, pair: &ContactPair) -> Odd {
+    let building = |left: bool| if left { &facts.scene.left } else { &facts.scene.right };
+    let at_start = |left: bool, floor: usize| building(left).initial_displacement.get(floor.wrapping_sub(1)).copied();
+    let displaced = at_start(true, pair.left_floor)? - at_start(false, pair.right_floor)?;
+    let overlap = displaced - pair.gap;
+    let mass = |left: bool, floor: usize| building(left).mass.get(floor.wrapping_sub(1)).copied();
+    let lighter = mass(true, pair.left_floor)?.min(mass(false, pair.right_floor)?);
+    let force = pair.law.stiffness * overlap.max(0.0).powf(exponent(&pair.law)?);
+    let weights = force / (lighter * STANDARD_GRAVITY);
+    if overlap < 2e-3 && (overlap <= 0.0 || weights < 20.0) {
+        return None;
+    }
+    let depth = format!(
+        "the floors start {} mm deep in each other, pressed with {} N, {} times the weight of the lighter one",
+        short(1e3 * overlap),
+        short(force),
+        short(weights)
+    );
+    let meant = if pair.gap < 0.0 {
+        format!("a gap that is open is positive, was {} m meant?", short(-pair.gap))
+    } else {
+        "the initial displacements reach across the gap, in m; were they meant to?".to_owned()
+    };
+    Some((pair.gap, format!("{depth}; {meant}")))
+}
+
+/// Farther than buildings reach.
+fn wide_gap(facts: &Facts<'_>, pair: &ContactPair, ground_is_odd: bool) -> Odd {
+    let gap = pair.gap;
+    if gap > WIDEST_GAP && gap < FAR_AWAY {
+        let text = format!(
+            "{} m between the buildings, which will not meet; gaps are in m, was it given in mm ({} m)?",
+            short(gap),
+            short(gap / 1e3)
+        );
+        return Some((gap, text));
+    }
+    let peak = facts.peak.filter(|_| !ground_is_odd)?;
+    let sway = |period: f64| 3.0 * peak * (period / (2.0 * PI)).powi(2);
+    let reach: f64 = facts.usual_periods().map(|(_, period)| sway(period)).sum();
+    let is_known = !facts.pace.iter().any(|pace| !matches!(pace, Pace::Usual | Pace::Wall));
+    let is_wide = is_known && gap > 5.0 * reach && gap > 0.02 && gap < FAR_AWAY;
+    is_wide.then(|| {
+        let text = format!(
+            "under this ground motion the buildings sway towards each other by some {} m, so they will not meet; gaps are \
+             in m, was it given in mm or cm?",
+            short(reach)
+        );
+        (gap, text)
+    })
+}
+
+/// A gap that is nothing beside the others.
+fn lost_gap(facts: &Facts<'_>, pair: &ContactPair) -> Odd {
+    let usual = median(facts.scene.contacts.iter().map(|pair| pair.gap))?;
+    (pair.gap > 0.0 && usual / pair.gap >= 100.0).then(|| {
+        let text = format!(
+            "1/{} of the gap of other contacts, {} m; is its power of ten right?",
+            short(usual / pair.gap),
+            short(usual)
+        );
+        (pair.gap, text)
+    })
+}
+
+fn duration(facts: &Facts<'_>, pair: &ContactPair) -> Odd {
+    let touch = Touch::of(facts, pair)?;
+    let unit = pair.law.kind.info().stiffness_unit.map_or("", |unit| unit.name());
+    let kilo = unit.replacen('N', "kN", 1);
+    let lasts = format!("an impact would last some {} ms", touch.milliseconds());
+    let text = match () {
+        () if touch.is_soft() => format!(
+            "{lasts}, longer than floors of these buildings swing, and they would pass deep into each other; it is in \
+             {unit}, was it given in {kilo}?"
+        ),
+        () if touch.is_hard() => format!(
+            "{lasts}, shorter than the floors themselves would let it; it is in {unit}, is its power of ten right?"
+        ),
+        () => return None,
+    };
+    Some((pair.law.stiffness, text))
+}
+
+fn high_exponent(pair: &ContactPair) -> Odd {
+    let exponent = has(pair, LawKey::Exponent).then_some(pair.law.exponent)?;
+    let text = "published exponents are 1 to 2, and Hertz's is 1.5; the stiffness is in N/m^exponent, so it means another \
+                one with each";
+    (exponent > 2.2).then(|| (exponent, text.to_owned()))
+}
+
+fn low_restitution(pair: &ContactPair) -> Odd {
+    let restitution = has(pair, LawKey::Restitution).then_some(pair.law.restitution)?;
+    let text = "next to nothing of the speed comes back; structures have 0.4 to 0.75, is its decimal point right?";
+    (restitution < 0.05).then(|| (restitution, text.to_owned()))
+}
+
+fn has(pair: &ContactPair, key: LawKey) -> bool {
+    pair.law.kind.info().keys.contains(&key) && law_key::number(key).rule.holds((law_key::number(key).get)(&pair.law))
+}

@@ -1,0 +1,147 @@
+//! What the rules share.
+
+use crate::record::Record;
+use crate::scene::{Building, Scene, Stiffness};
+use crate::structure::{FirstMode, Side};
+use std::f64::consts::PI;
+
+/// A scene with what follows from it.
+pub(super) struct Facts<'a> {
+    pub scene: &'a Scene,
+    pub record: Option<&'a Record>,
+    /// m/s2, of the scaled record; absent where the ground is an input.
+    pub peak: Option<f64>,
+    /// Left and right; absent where a building has none in double precision.
+    pub first: [Option<FirstMode>; 2],
+    pub pace: [Pace; 2],
+}
+
+/// How the first period of a building compares with its number of storeys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Pace {
+    /// As buildings are, in full size or in a laboratory, isolated or not.
+    Usual,
+    /// Far too fast for a building.
+    Fast,
+    /// Far too slow.
+    Slow,
+    /// A stiff mass beside a building: a wall.
+    Wall,
+    /// Floors that nothing holds.
+    Free,
+    /// No period at all.
+    Unknown,
+}
+
+impl<'a> Facts<'a> {
+    pub fn of(scene: &'a Scene, record: Option<&'a Record>) -> Facts<'a> {
+        let factor = record.and_then(|record| scene.ground.scaling.factor(record).ok());
+        let peak = record.zip(factor).map(|(record, factor)| (factor * record.peak()).abs());
+        let first = [&scene.left, &scene.right].map(|building| FirstMode::of(building).ok());
+        let mut facts = Facts { scene, record, peak, first, pace: [Pace::Unknown; 2] };
+        facts.pace = [Side::Left, Side::Right].map(|side| facts.find_pace(side));
+        facts
+    }
+
+    pub fn building(&self, side: Side) -> &'a Building {
+        match side {
+            Side::Left => &self.scene.left,
+            Side::Right => &self.scene.right,
+        }
+    }
+
+    pub fn pace(&self, side: Side) -> Pace {
+        self.pace[side as usize]
+    }
+
+    /// s.
+    pub fn period(&self, side: Side) -> Option<f64> {
+        self.first[side as usize].as_ref().map(|first| 2.0 * PI / first.omega)
+    }
+
+    /// Whether any floor is displaced or moves at the start.
+    pub fn starts_moving(&self) -> bool {
+        let buildings = [&self.scene.left, &self.scene.right];
+        let motions = buildings.into_iter().flat_map(|b| b.initial_displacement.iter().chain(&b.initial_velocity));
+        motions.into_iter().any(|number| *number != 0.0)
+    }
+
+    /// s of the buildings that swing as buildings do.
+    pub fn usual_periods(&self) -> impl Iterator<Item = (Side, f64)> + '_ {
+        let usual = |side| (self.pace(side) == Pace::Usual).then(|| self.period(side)).flatten();
+        [Side::Left, Side::Right].into_iter().filter_map(move |side| Some((side, usual(side)?)))
+    }
+
+    fn find_pace(&self, side: Side) -> Pace {
+        let Some(period) = self.period(side) else { return Pace::Unknown };
+        let floors = self.building(side).mass.len();
+        if period > slowest(floors) {
+            let shaken = self.peak.is_some_and(|peak| peak > 0.0);
+            let free = period > 1e5 || (period > 100.0 && !shaken && self.starts_moving());
+            return if free { Pace::Free } else { Pace::Slow };
+        }
+        match period < fastest(floors) {
+            true if self.is_wall(side, period) => Pace::Wall,
+            true => Pace::Fast,
+            false => Pace::Usual,
+        }
+    }
+
+    /// Whether what is too fast for a building is meant to hardly move: heavy, or one floor that is not light, beside a
+    /// building that is neither.
+    fn is_wall(&self, side: Side, period: f64) -> bool {
+        let other = opposite(side);
+        let Some(other_period) = self.period(other) else { return false };
+        if other_period < fastest(self.building(other).mass.len()) {
+            return false;
+        }
+        let total = |side| self.building(side).mass.iter().sum::<f64>();
+        let heavier = total(side) / total(other);
+        let stiffer = heavier * (other_period / period) * (other_period / period);
+        let single = self.building(side).mass.len() == 1;
+        (single && heavier >= 0.1) || (heavier >= 20.0 && stiffer >= 1e3)
+    }
+}
+
+/// s: not even walls of concrete, storey above storey, swing faster. Buildings in full size have some 0.1 s per storey,
+/// at least 0.02 s; frames in laboratories are as fast or slower for their size.
+fn fastest(floors: usize) -> f64 {
+    0.01 + 0.015 * floors.min(MOST_STOREYS) as f64
+}
+
+/// s: isolators go up to 4 s, towers to some 0.15 s per storey.
+fn slowest(floors: usize) -> f64 {
+    4.5 + 0.15 * floors.min(MOST_STOREYS) as f64
+}
+
+/// More are a way to divide a building into pieces, not storeys.
+const MOST_STOREYS: usize = 100;
+
+pub(super) fn opposite(side: Side) -> Side {
+    match side {
+        Side::Left => Side::Right,
+        Side::Right => Side::Left,
+    }
+}
+
+pub(super) fn name(side: Side) -> &'static str {
+    match side {
+        Side::Left => "left",
+        Side::Right => "right",
+    }
+}
+
+/// The key of a building's stiffness.
+pub(super) fn stiffness_key(building: &Building) -> &'static str {
+    match building.stiffness {
+        Stiffness::Shear(_) => "stiffness",
+        Stiffness::Matrix(_) => "stiffness_matrix",
+    }
+}
+
+/// The number in the middle.
+pub(super) fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut sorted: Vec<f64> = values.collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied()
+}

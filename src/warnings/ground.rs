@@ -1,0 +1,195 @@
+//! The record, its scaling, and when the run stops.
+
+use super::Found;
+use super::facts::{Facts, Pace};
+use crate::figures::short;
+use crate::record::{Format, Record, STANDARD_GRAVITY};
+use crate::scene::Scaling;
+use crate::structure::Side;
+
+/// Of g: peaks of ground motions that buildings feel, and that have been recorded.
+const LEAST_PEAK: f64 = 0.05;
+const MOST_PEAK: f64 = 3.0;
+/// Samples from which on a record is a measured one and not a few corners drawn by hand.
+const MEASURED: usize = 50;
+
+pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
+    if let Some(record) = facts.record {
+        look_at_times(facts, record, found);
+        if found.has("ground.record") {
+            return;
+        }
+        look_at_peak(facts, record, found);
+    }
+    match (facts.scene.stop_time, facts.record) {
+        (Some(stop), Some(record)) => look_at_stop_with_record(record, stop, found),
+        (Some(stop), None) => look_at_stop_without_record(facts, stop, found),
+        (None, _) => {}
+    }
+}
+
+/// s between samples, in the middle.
+fn spacing(record: &Record) -> f64 {
+    super::facts::median(record.times.windows(2).map(|pair| pair[1] - pair[0])).unwrap_or(0.0)
+}
+
+fn look_at_times(facts: &Facts<'_>, record: &Record, found: &mut Found) {
+    let (Some(&first), Some(&last)) = (record.times.first(), record.times.last()) else { return };
+    let (count, duration, spacing) = (record.times.len(), last - first, spacing(record));
+    let is_measured = count >= MEASURED;
+    let stop = facts.scene.stop_time.unwrap_or(last);
+    let text = if is_measured && (spacing > 0.25 || duration > 2000.0) {
+        format!(
+            "{count} samples over {} s, one every {} s, where records have one every 0.005 to 0.02 s; times are in s, \
+             were they given in ms or counted?",
+            short(duration),
+            short(spacing)
+        )
+    } else if is_measured && spacing < 8e-4 && duration < 5.0 {
+        format!(
+            "{count} samples within {} s, one every {} s, where records have one every 0.005 to 0.02 s; times are in s",
+            short(duration),
+            short(spacing)
+        )
+    } else if first >= stop || last <= 0.0 {
+        format!(
+            "it goes from {} s to {} s and the run from 0 s to {} s, so the ground stands still; should its times begin \
+             at 0?",
+            short(first),
+            short(last),
+            short(stop)
+        )
+    } else {
+        return;
+    };
+    found.text("ground.record", name(facts), text);
+}
+
+fn name<'a>(facts: &Facts<'a>) -> &'a str {
+    facts.scene.ground.record.as_deref().unwrap_or_default()
+}
+
+fn look_at_peak(facts: &Facts<'_>, record: &Record, found: &mut Found) {
+    let Some(peak) = facts.peak else { return };
+    let stands_still = peak == 0.0;
+    if stands_still && facts.starts_moving() {
+        return;
+    }
+    let (own, shaken) = (record.peak() / STANDARD_GRAVITY, peak / STANDARD_GRAVITY);
+    let is_odd = |peak: f64| !(LEAST_PEAK..=MOST_PEAK).contains(&peak);
+    let found_here = format!("the ground shakes with at most {} m/s2, {} g", short(peak), short(shaken));
+    let meaning = match shaken {
+        _ if stands_still => "the ground stands still".to_owned(),
+        g if g < LEAST_PEAK => format!("{found_here}: hardly to be felt"),
+        g if g > MOST_PEAK => format!("{found_here}: earthquakes reach 1 g, hardly ever 2 g"),
+        _ if is_converted_twice(facts, shaken) => {
+            format!("{found_here}: as if it had been turned from g into m/s2 twice")
+        }
+        _ => return,
+    };
+    match facts.scene.ground.scaling {
+        Scaling::Pga(pga) => {
+            let text = format!("{meaning}; it is in m/s2{}", meant_pga(pga));
+            found.number("ground.pga", pga, text);
+        }
+        // The record by itself is odd in the same way: the factor is not to blame.
+        Scaling::Scale(scale) if scale != 0.0 && is_odd(own) && (own < LEAST_PEAK) == (shaken < LEAST_PEAK) => {
+            found.text("ground.record", name(facts), format!("{meaning}; {}", meant_record(facts, own)));
+        }
+        Scaling::Scale(scale) => {
+            let text = format!("{meaning}; scale is a factor on the record, whose peak is {} g", short(own));
+            found.number("ground.scale", scale, text);
+        }
+    }
+}
+
+/// Files of the PEER are in g and read as such.
+fn is_converted_twice(facts: &Facts<'_>, shaken: f64) -> bool {
+    let Scaling::Scale(scale) = facts.scene.ground.scaling else { return false };
+    let is_gravity = [1.0, 100.0].iter().any(|unit| (scale.abs() / (unit * STANDARD_GRAVITY) - 1.0).abs() < 0.01);
+    is_gravity && (Format::of(name(facts)) == Format::PeerAt2 || shaken > 1.5)
+}
+
+pub(super) fn look_at_input(value: f64, found: &mut Found) {
+    let peak = value.abs() / STANDARD_GRAVITY;
+    if peak > MOST_PEAK {
+        let meaning = format!("the ground shakes with {} g: earthquakes reach 1 g, hardly ever 2 g", short(peak));
+        found.number("ground.acceleration", value, format!("{meaning}; it is in m/s2, was it given in cm/s2?"));
+    }
+}
+
+fn meant_pga(pga: f64) -> String {
+    if (LEAST_PEAK..=MOST_PEAK).contains(&pga) {
+        return format!(", was {} g meant ({} m/s2)?", short(pga), short(pga * STANDARD_GRAVITY));
+    }
+    let as_gal = 0.01 * pga / STANDARD_GRAVITY;
+    if (LEAST_PEAK..=MOST_PEAK).contains(&as_gal) {
+        return format!(", was {} cm/s2 meant ({} m/s2)?", short(pga), short(0.01 * pga));
+    }
+    String::new()
+}
+
+fn meant_record(facts: &Facts<'_>, own: f64) -> String {
+    let is_csv = Format::of(name(facts)) == Format::Csv;
+    let (unit, what) = if is_csv { ("m/s2", "the column accel_m_s2 is") } else { ("g", "a .AT2 file is") };
+    let in_file = if is_csv { own * STANDARD_GRAVITY } else { own };
+    let plausible = |factor: f64| (LEAST_PEAK..=MOST_PEAK).contains(&(own * factor));
+    let guess = match () {
+        () if own == 0.0 => return "all its samples are 0".to_owned(),
+        () if is_csv && plausible(STANDARD_GRAVITY) => "is it in g (then scale = 9.80665)?",
+        () if is_csv && plausible(0.01) => "is it in cm/s2 (then scale = 0.01)?",
+        () if is_csv && plausible(0.001) => "is it in mm/s2 (then scale = 0.001)?",
+        () if plausible(1.0 / STANDARD_GRAVITY) => "is it in m/s2 (then scale = 0.101972)?",
+        () if plausible(0.01 / STANDARD_GRAVITY) => "is it in cm/s2 (then scale = 0.00101972)?",
+        () => "is it in another unit?",
+    };
+    format!("{what} in {unit}, and its peak is {}: {guess}", short(in_file))
+}
+
+fn look_at_stop_with_record(record: &Record, stop: f64, found: &mut Found) {
+    let Some(&end) = record.times.last() else { return };
+    if end > 0.0 && stop > 20.0 * end && stop > end + 300.0 {
+        let text = format!("the record ends at {} s; stop_time is in s, was it given in ms?", short(end));
+        found.number("stop_time", stop, text);
+        return;
+    }
+    // Of the integral of the squared acceleration; a few corners drawn by hand may be a pulse that comes late.
+    let starts_before = record.times.first().is_some_and(|first| *first < stop);
+    let share = shaking_before(record, stop);
+    if starts_before && record.times.len() >= MEASURED && share < 0.02 {
+        let text = format!(
+            "the run ends before the shaking: {} % of the record's energy comes before that, the record ends at {} s; \
+             stop_time is in s",
+            short(100.0 * share),
+            short(end)
+        );
+        found.number("stop_time", stop, text);
+    }
+}
+
+/// Share of the integral of the squared acceleration before a time; 1 of a record without any.
+fn shaking_before(record: &Record, stop: f64) -> f64 {
+    let intervals = || record.times.windows(2).zip(record.accelerations.windows(2));
+    let energy = |(times, ends): (&[f64], &[f64])| {
+        (times[1] - times[0]) * (ends[0] * ends[0] + ends[0] * ends[1] + ends[1] * ends[1])
+    };
+    let all: f64 = intervals().map(energy).sum();
+    let before: f64 = intervals().filter(|(times, _)| times[1] <= stop).map(energy).sum();
+    if all > 0.0 { before / all } else { 1.0 }
+}
+
+fn look_at_stop_without_record(facts: &Facts<'_>, stop: f64, found: &mut Found) {
+    if stop > 1e4 {
+        let text = format!("{} hours; stop_time is in s, was it given in ms?", short(stop / 3600.0));
+        found.number("stop_time", stop, text);
+        return;
+    }
+    // A single impact needs no swing.
+    let moves = |side: Side| facts.building(side).initial_velocity.iter().any(|velocity| *velocity != 0.0);
+    let is_impact = moves(Side::Left) || moves(Side::Right) || facts.pace.contains(&Pace::Free);
+    let shortest = facts.usual_periods().map(|(_, period)| period).reduce(f64::min);
+    if let Some(period) = shortest.filter(|period| !is_impact && stop < 0.25 * period) {
+        let text = format!("shorter than a swing of the buildings ({} s); stop_time is in s", short(period));
+        found.number("stop_time", stop, text);
+    }
+}
