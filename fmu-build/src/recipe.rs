@@ -27,8 +27,9 @@ pub fn build(scene: Option<&Path>, output: Option<&Path>, limit: Duration) -> Re
     // Compiling may take minutes: what cannot be written shall fail before that.
     let destination = Destination::open(output)?;
 
-    progress.step("compiling the library");
-    let library = workspace.compile_library()?;
+    let compiling = "compiling the library";
+    progress.step(compiling);
+    let library = workspace.compile_library(|state| progress.state(compiling, state))?;
 
     progress.step("packing the FMU");
     let draft = destination.draft(&archive::pack(&entries(&package, &library, &workspace)?)?)?;
