@@ -28,11 +28,13 @@ fn compiled() -> BTreeMap<PathBuf, SystemTime> {
     let mut folders: Vec<PathBuf> = releases.filter(|folder| folder.is_dir()).collect();
     folders.push(target.join("release"));
     while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap()) {
-            let (path, kind) = (entry.path(), entry.file_type().unwrap());
-            if kind.is_dir() {
+        for entry in std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap()) {
+            let path = entry.path();
+            // Beside them is what each file was made of, which cargo writes anew each time.
+            let is_compiled = folder.ends_with("deps") || folder.ends_with("examples");
+            if path.is_dir() {
                 folders.push(path);
-            } else if path.parent().is_some_and(|folder| folder.ends_with("deps") || folder.ends_with("examples")) {
+            } else if is_compiled && path.extension().is_none_or(|extension| extension != "d") {
                 files.insert(path, entry.metadata().unwrap().modified().unwrap());
             }
         }
