@@ -10,7 +10,9 @@
 //! | `licenses.rs` | the licence texts that travel inside the FMU |
 //! | `archive.rs` | the zip: writing it reproducibly, unpacking it safely |
 //! | `destination.rs` | where an FMU goes: at once and whole, or not at all |
-//! | `platform.rs` | where FMI 2.0 wants the library of each platform |
+//! | `provenance.rs` | which scene the FMU at the default place is of |
+//! | `platform.rs` | where FMI 2.0 wants the library of each platform, and what it is |
+//! | `library.rs` | whether a library is what its folder and name say, without running it |
 //! | `functions.rs` | the names of the library's C functions |
 //! | `c_interface.rs` | the library's C functions, called by hand (the only unsafe code here) |
 //! | `importer.rs` | the same through an importer that is not ours |
@@ -19,24 +21,30 @@
 //! | `summary.rs` | what happened in that run, for a person |
 //! | `went_in.rs` | what went into it |
 //! | `trial.rs` | an FMU tried in a process of its own, for as long as it may take |
+//! | `channel.rs` | what that process reports, which the FMU's library cannot |
+//! | `bounded.rs` | as many texts of an FMU as a person reads |
 //! | `report.rs` | what a trial has found, for a person and for a program |
 //! | `check/` | `cargo fmu check`: what is wrong with an FMU |
 #![deny(unsafe_code)]
 
 mod archive;
+mod bounded;
 #[allow(unsafe_code)]
 mod c_interface;
+mod channel;
 mod check;
 mod destination;
 mod documentation;
 mod experiment;
 mod functions;
 mod importer;
+mod library;
 mod licenses;
 mod log;
 mod merge;
 mod platform;
 mod progress;
+mod provenance;
 mod recipe;
 mod report;
 mod summary;

@@ -1,8 +1,10 @@
 //! `cargo fmu merge`: one FMU with the libraries of two that are the same otherwise.
 
 use crate::archive::{self, Entry};
+use crate::bounded::Bounded;
 use crate::check;
 use crate::destination::Destination;
+use crate::library;
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -54,20 +56,19 @@ impl Source {
         let name = fmu.display().to_string();
         let entries = archive::entries(fmu).with_context(|| name.clone())?;
         let names: Vec<String> = entries.iter().map(|entry| entry.path.clone()).collect();
+        let (libraries, common): (Vec<Entry>, Vec<Entry>) = entries.into_iter().partition(is_library);
         let mut problems = check::file_names(&names);
-        match entries.iter().find(|entry| entry.path == DESCRIPTION) {
+        match common.iter().find(|entry| entry.path == DESCRIPTION) {
             Some(description) => {
-                let origin = check::origin(&String::from_utf8_lossy(&description.bytes));
-                problems.extend(origin.err().map(|error| format!("{error:#}")));
+                problems.extend(wrong_libraries(&String::from_utf8_lossy(&description.bytes), &libraries))
             }
             None => problems.push(format!("this is not an FMU: it has no {DESCRIPTION} at its root")),
         }
-        let (libraries, common): (Vec<Entry>, _) = entries.into_iter().partition(is_library);
         if libraries.is_empty() {
             problems.push(format!("no library in {LIBRARIES}"));
         }
         if !problems.is_empty() {
-            bail!("{name}: {}", problems.join("; "));
+            bail!("{name}: {}", Bounded::from(problems).listed().join("; "));
         }
         let libraries = libraries.into_iter().map(|library| (library.path, library.bytes)).collect();
         Ok(Source { name, common, libraries })
@@ -81,6 +82,18 @@ impl Source {
     fn platforms(&self) -> impl Iterator<Item = &str> {
         self.libraries.keys().map(|path| platform(path))
     }
+}
+
+/// What is wrong with the libraries beside a description, which ought to be that of an FMU of ours.
+fn wrong_libraries(description: &str, libraries: &[Entry]) -> Vec<String> {
+    if let Err(error) = check::origin(description) {
+        return vec![format!("{error:#}")];
+    }
+    let Some(identifier) = check::model_identifier(description) else {
+        return vec![format!("{DESCRIPTION} has no co-simulation interface with a modelIdentifier")];
+    };
+    let findings = libraries.iter().map(|library| library::inspect(&library.path, &library.bytes, &identifier));
+    findings.flat_map(|findings| [findings.library, findings.functions].concat()).collect()
 }
 
 fn is_library(entry: &Entry) -> bool {

@@ -1,24 +1,92 @@
-//! Where FMI 2.0 wants the library of each platform.
+//! Where FMI 2.0 wants the library of each platform, and what such a library is.
 
+use object::{Architecture, BinaryFormat};
 use std::env::consts::{ARCH, DLL_EXTENSION, OS};
 
-/// The folder of the host's library below `binaries/`, such as `linux64`.
-///
-/// FMI 2.0 defines the names for Intel processors only. FMPy looks for `linux64` and `darwin64` on Arm too; other
-/// importers use `<architecture>-<system>` there, the names of FMI 3.0.
-pub fn folder() -> String {
-    match (OS, ARCH) {
-        ("linux", "x86_64") => "linux64".into(),
-        ("linux", "x86") => "linux32".into(),
-        ("windows", "x86_64") => "win64".into(),
-        ("windows", "x86") => "win32".into(),
-        ("macos", "x86_64") => "darwin64".into(),
-        ("macos", arch) => format!("{arch}-darwin"),
-        (system, arch) => format!("{arch}-{system}"),
+/// What the folders of FMI 2.0 below `binaries/` are for; the standard defines them for Intel processors only. FMPy looks
+/// for `linux64` and `darwin64` on Arm too; other importers use `<architecture>-<system>` there, the names of FMI 3.0.
+const FMI2: [(&str, &str, &str); 5] = [
+    ("linux64", "linux", "x86_64"),
+    ("linux32", "linux", "x86"),
+    ("win64", "windows", "x86_64"),
+    ("win32", "windows", "x86"),
+    ("darwin64", "darwin", "x86_64"),
+];
+
+const ARCHITECTURES: [(&str, Architecture); 9] = [
+    ("x86_64", Architecture::X86_64),
+    ("x86", Architecture::I386),
+    ("aarch64", Architecture::Aarch64),
+    ("arm", Architecture::Arm),
+    ("aarch32", Architecture::Arm),
+    ("riscv64", Architecture::Riscv64),
+    ("powerpc64", Architecture::PowerPc64),
+    ("s390x", Architecture::S390x),
+    ("loongarch64", Architecture::LoongArch64),
+];
+
+/// The format of libraries and the extension of their names.
+const SYSTEMS: [(&str, BinaryFormat, &str); 6] = [
+    ("linux", BinaryFormat::Elf, "so"),
+    ("freebsd", BinaryFormat::Elf, "so"),
+    ("netbsd", BinaryFormat::Elf, "so"),
+    ("openbsd", BinaryFormat::Elf, "so"),
+    ("windows", BinaryFormat::Pe, "dll"),
+    ("darwin", BinaryFormat::MachO, "dylib"),
+];
+
+/// What the library in a folder has to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Platform {
+    /// Of the file.
+    pub format: BinaryFormat,
+    /// Of the machine.
+    pub architecture: Architecture,
+    /// Of the file's name, without its dot.
+    pub extension: &'static str,
+}
+
+impl Platform {
+    /// Of a folder below `binaries/`.
+    pub fn of(folder: &str) -> Option<Platform> {
+        let named = FMI2.iter().find(|(name, ..)| *name == folder).map(|(_, system, arch)| (*arch, *system));
+        let (arch, system) = named.or_else(|| folder.split_once('-'))?;
+        let (_, architecture) = *ARCHITECTURES.iter().find(|(name, _)| *name == arch)?;
+        let (_, format, extension) = *SYSTEMS.iter().find(|(name, ..)| *name == system)?;
+        Some(Platform { format, architecture, extension })
     }
+}
+
+/// The folder of the host's library below `binaries/`, such as `linux64`.
+pub fn folder() -> String {
+    let system = if OS == "macos" { "darwin" } else { OS };
+    let named = FMI2.iter().find(|(_, its_system, arch)| (*its_system, *arch) == (system, ARCH));
+    named.map_or_else(|| format!("{ARCH}-{system}"), |(name, ..)| (*name).to_owned())
 }
 
 /// Path inside the FMU of the host's library.
 pub fn library_path(model_identifier: &str) -> String {
     format!("binaries/{}/{model_identifier}.{DLL_EXTENSION}", folder())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_host_is_among_the_platforms() {
+        assert_eq!(Platform::of(&folder()).map(|platform| platform.extension), Some(DLL_EXTENSION));
+    }
+
+    #[test]
+    fn folders_of_both_standards() {
+        let arm =
+            Some(Platform { format: BinaryFormat::MachO, architecture: Architecture::Aarch64, extension: "dylib" });
+        assert_eq!(Platform::of("aarch64-darwin"), arm);
+        assert_eq!(Platform::of("linux64"), Platform::of("x86_64-linux"));
+        assert_eq!(Platform::of("win32").map(|platform| platform.architecture), Some(Architecture::I386));
+        for folder in ["", "vax", "linux", "x86_64-", "-linux", "Linux64", "linux64-x86_64"] {
+            assert_eq!(Platform::of(folder), None, "{folder}");
+        }
+    }
 }

@@ -11,7 +11,7 @@ impl Progress {
     /// Nothing is drawn where standard error is not a terminal.
     pub fn start() -> Progress {
         let bar = ProgressBar::new_spinner();
-        if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} ({elapsed})") {
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} {wide_msg}") {
             bar.set_style(style);
         }
         bar.enable_steady_tick(Duration::from_millis(100));
@@ -32,6 +32,11 @@ impl Progress {
     pub fn step(&self, what: &'static str) {
         self.0.reset_elapsed();
         self.0.set_message(what);
+    }
+
+    /// How far that is.
+    pub fn state(&self, what: &'static str, state: &str) {
+        self.0.set_message(format!("{what}: {state}"));
     }
 }
 

@@ -2,16 +2,19 @@
 
 use crate::archive::{self, Entry, Unpacked};
 use crate::c_interface::{Binary, Instance};
+use crate::channel::Channel;
 use crate::destination::Destination;
 use crate::experiment::{self, Outcome};
 use crate::progress::Progress;
-use crate::trial::{Trial, need, ran};
+use crate::provenance::Provenance;
+use crate::trial::Trial;
 use crate::workspace::Workspace;
 use crate::{documentation, licenses, platform, summary};
 use anyhow::{Context, Result};
 use fmi::model_description::fmi2::ModelDescription;
 use pounding::description::{Category, Package};
 use std::fmt::Write as _;
+use std::io::Write as _;
 use std::path::Path;
 use std::time::Duration;
 
@@ -24,12 +27,19 @@ pub fn build(scene: Option<&Path>, output: Option<&Path>, limit: Duration) -> Re
     let scene_file = scene.map_or_else(|| workspace.default_scene(), Path::to_path_buf);
     let package = read(&scene_file)?;
     progress.say(&warnings_of(&package));
-    let output = output.map_or_else(|| workspace.default_output(&package.scene.name), Path::to_path_buf);
+    let default_output = workspace.default_output(&package.scene.name);
+    let provenance = output.is_none().then(|| Provenance::new(&default_output, &scene_file, &package.guid()));
+    let output = output.map_or(default_output, Path::to_path_buf);
     // Compiling may take minutes: what cannot be written shall fail before that.
-    let destination = Destination::open(output)?;
+    let destination = Destination::open(output);
+    let destination = match provenance {
+        Some(_) => destination.context("the FMU cannot go to its usual place, -o FILE.fmu names another")?,
+        None => destination?,
+    };
 
-    progress.step("compiling the library");
-    let library = workspace.compile_library()?;
+    let compiling = "compiling the library";
+    progress.step(compiling);
+    let library = workspace.compile_library(|state| progress.state(compiling, state))?;
 
     progress.step("packing the FMU");
     let draft = destination.draft(&archive::pack(&entries(&package, &library, &workspace)?)?)?;
@@ -41,6 +51,9 @@ pub fn build(scene: Option<&Path>, output: Option<&Path>, limit: Duration) -> Re
     destination.take(draft)?;
 
     drop(progress);
+    if let Some(warning) = provenance.and_then(|provenance| provenance.note()) {
+        let _ = writeln!(std::io::stderr(), "warning: {warning}");
+    }
     Ok(report(&package, &destination, &outcome))
 }
 
@@ -74,7 +87,7 @@ fn entries(package: &Package, library: &Path, workspace: &Workspace) -> Result<V
 }
 
 /// In a process of its own: loads the FMU as an importer would and runs it.
-pub fn try_out(fmu: &Path, directory: &Path) -> Result<()> {
+pub fn try_out(fmu: &Path, directory: &Path, channel: &Channel) -> Result<()> {
     let run = || {
         let unpacked = Unpacked::open(fmu, directory)?;
         let description = ModelDescription::from_string(&unpacked.description()?)?;
@@ -83,7 +96,7 @@ pub fn try_out(fmu: &Path, directory: &Path) -> Result<()> {
         let instance = Instance::new(&binary, &description.modelName, &description.guid, &resources)?;
         experiment::run(&description, &instance)
     };
-    need("run", run)?.map_or(Ok(()), ran)
+    channel.need("run", run)?.map_or(Ok(()), |outcome| channel.ran(outcome))
 }
 
 fn report(package: &Package, destination: &Destination, outcome: &Outcome) -> String {

@@ -1,9 +1,10 @@
 //! What a trial of an FMU has found, for a person and for a program.
 
+use crate::bounded::Bounded;
 use crate::experiment::Outcome;
 use crate::summary;
-use anyhow::{Result, bail};
-use serde::Serialize;
+use anyhow::bail;
+use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
@@ -29,7 +30,12 @@ pub struct Report {
 struct Check {
     name: String,
     /// Empty where all is well.
-    findings: Vec<String>,
+    #[serde(serialize_with = "listed")]
+    findings: Bounded,
+}
+
+fn listed<S: Serializer>(findings: &Bounded, serializer: S) -> Result<S::Ok, S::Error> {
+    findings.listed().serialize(serializer)
 }
 
 /// What a run has shown, in figures.
@@ -70,10 +76,10 @@ impl Report {
     }
 
     /// Adds what a check has found; checks of the same name are one.
-    pub fn add(&mut self, name: &str, findings: Vec<String>) {
+    pub fn add(&mut self, name: &str, findings: Bounded) {
         self.valid &= findings.is_empty();
         match self.checks.iter_mut().find(|check| check.name == name) {
-            Some(check) => check.findings.extend(findings),
+            Some(check) => check.findings.append(findings),
             None => self.checks.push(Check { name: name.to_owned(), findings }),
         }
     }
@@ -84,12 +90,18 @@ impl Report {
     }
 
     /// What the run has shown, or everything that has been found.
-    pub fn outcome(&self) -> Result<&Outcome> {
-        let findings = self.checks.iter().flat_map(|check| &check.findings).cloned().collect::<Vec<_>>();
+    pub fn outcome(&self) -> anyhow::Result<&Outcome> {
+        let findings = self.checks.iter().flat_map(|check| check.findings.listed()).collect::<Vec<_>>();
         match &self.outcome {
             Some(outcome) if findings.is_empty() => Ok(outcome),
             _ => bail!("{}", findings.join("; ")),
         }
+    }
+
+    /// Whether all of these checks have been made and, where nothing was found, the FMU has run.
+    pub fn is_complete(&self, checks: &[&str]) -> bool {
+        let made = |name: &&str| self.checks.iter().any(|check| check.name == *name);
+        !self.valid || (checks.iter().all(made) && self.outcome.is_some())
     }
 
     /// Whether nothing has been found.
@@ -102,7 +114,7 @@ impl Report {
         let mut text = format!("{}\n", self.file);
         for Check { name, findings } in &self.checks {
             let _ = writeln!(text, "  {name:<20} {}", if findings.is_empty() { "ok" } else { "WRONG" });
-            for finding in findings {
+            for finding in findings.listed() {
                 let _ = writeln!(text, "    {finding}");
             }
         }
@@ -115,7 +127,7 @@ impl Report {
     }
 
     /// For a program.
-    pub fn json(&self) -> Result<String> {
+    pub fn json(&self) -> anyhow::Result<String> {
         Ok(serde_json::to_string_pretty(self)? + "\n")
     }
 }

@@ -1,21 +1,28 @@
 //! FMUs tried in a process of their own: an archive, a description or a library that crashes it or never comes back is
 //! a finding, not the end of this program.
 //!
-//! This program starts itself for that. The child writes what it finds line by line, so that nothing is lost with it.
+//! This program starts itself for that. The child reports what it finds line by line, so that nothing is lost with it.
 
+use crate::bounded::Bounded;
+use crate::channel::{self, Channel, News};
 use crate::check;
-use crate::experiment::Outcome;
 use crate::recipe;
 use crate::report::Report;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use clap::ValueEnum;
-use serde::{Deserialize, Serialize};
-use std::io::{BufRead, BufReader, Write};
+use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
-use std::sync::mpsc::{self, RecvTimeoutError};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
+
+/// How often a child is looked after that says nothing.
+const PAUSE: Duration = Duration::from_millis(20);
+/// For what a child has said before it ended.
+const LAST_WORDS: Duration = Duration::from_millis(500);
+/// Bytes of a library's own output that are shown.
+const SHOWN: u64 = 500;
 
 /// What is done with an FMU.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -26,26 +33,13 @@ pub enum Trial {
     Run,
 }
 
-/// One line from the child.
-#[derive(Serialize, Deserialize)]
-enum News {
-    /// A check begins.
-    Begins(String),
-    /// It has ended.
-    Found(String, Vec<String>),
-    /// The run has ended.
-    Ran(Box<Outcome>),
-    /// That was all; a library may end the process before that without a sign.
-    Over,
-}
-
 impl Trial {
     /// What a child finds that is stopped when the time is up.
     pub fn report(self, fmu: &Path, limit: Duration) -> Report {
         let mut report = Report::new(fmu);
         let mut check = "archive".to_owned();
         if let Err(error) = self.follow(fmu, limit, &mut report, &mut check) {
-            report.add(&check, vec![format!("{error:#}")]);
+            report.add(&check, Bounded::from(vec![format!("{error:#}")]));
         }
         report
     }
@@ -55,109 +49,135 @@ impl Trial {
         let deadline = Instant::now() + limit;
         // Here and not in the child, which may not live to clear it away.
         let directory = TempDir::with_prefix("fmu-").context("cannot make a temporary directory")?;
-        let mut child = self.start(fmu, directory.path()).context("cannot start a process for the FMU")?;
-        let news = listen(&mut child);
+        let mut trial = self.start(fmu, directory.path()).context("cannot start a process for the FMU")?;
         let mut is_over = false;
-        loop {
-            match news.recv_timeout(deadline.saturating_duration_since(Instant::now())) {
-                Ok(News::Begins(name)) => *check = name,
-                Ok(News::Found(name, findings)) => report.add(&name, findings),
-                Ok(News::Ran(outcome)) => report.ran(*outcome),
-                Ok(News::Over) => is_over = true,
-                Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => break,
+        while let Some(news) = trial.next(deadline)? {
+            match news {
+                News::Begins(name) => *check = name,
+                News::Found(name, findings) => report.add(&name, findings),
+                News::Ran(outcome) => report.ran(*outcome),
+                News::Over(process) => is_over = process == trial.child.id(),
             }
         }
-        match end(&mut child, deadline)? {
-            None => anyhow::bail!("not over after {} s, so it was stopped (--time-limit)", limit.as_secs_f64()),
-            Some(status) if status.success() && is_over => Ok(()),
-            Some(status) => anyhow::bail!("the process that tried the FMU came to a bad end: {status}"),
+        match trial.end(deadline)? {
+            None => bail!("not over after {} s, so it was stopped (--time-limit)", limit.as_secs_f64()),
+            Some(status) if status.success() && is_over && report.is_complete(self.checks()) => Ok(()),
+            Some(status) => {
+                let said = trial.output();
+                bail!("the process that tried the FMU came to a bad end before all was tried: {status}{said}")
+            }
         }
     }
 
-    fn start(self, fmu: &Path, directory: &Path) -> Result<Child> {
+    fn start(self, fmu: &Path, directory: &Path) -> Result<Running> {
         let mut command = Command::new(std::env::current_exe()?);
         let name = self.to_possible_value().context("a trial without a name")?;
-        command.arg("trial").arg(name.get_name()).arg(fmu).arg(directory);
-        Ok(command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn()?)
+        // A library may go elsewhere.
+        command.arg("trial").arg(name.get_name()).arg(fmu).arg(std::path::absolute(directory)?);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        // What a library starts goes with it.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut child = command.spawn()?;
+        let secret = channel::secret();
+        // The child ends when this pipe is closed: it stays open as long as the child is wanted.
+        child.stdin.as_mut().context("no input")?.write_all(format!("{secret}\n").as_bytes())?;
+        let news = channel::listen(child.stdout.take().context("no output")?, secret);
+        let output = collect(child.stderr.take().context("no errors")?);
+        Ok(Running { child, news, output })
+    }
+
+    /// What is tried where nothing is found.
+    fn checks(self) -> &'static [&'static str] {
+        match self {
+            Trial::Check => &check::CHECKS,
+            Trial::Run => &["run"],
+        }
     }
 
     /// The child: tries an FMU, which it unpacks in an empty directory.
     pub fn make(self, fmu: &Path, directory: &Path) -> Result<()> {
-        std::thread::spawn(end_with_parent);
+        let mut input = BufReader::new(io::stdin());
+        let channel = Channel::open(&mut input)?;
+        std::thread::spawn(move || end_with_parent(input));
         match self {
-            Trial::Check => check::inspect(fmu, directory)?,
-            Trial::Run => recipe::try_out(fmu, directory)?,
+            Trial::Check => check::inspect(fmu, directory, &channel)?,
+            Trial::Run => recipe::try_out(fmu, directory, &channel)?,
         }
-        tell(&News::Over)
+        channel.tell(&News::Over(std::process::id()))
     }
 }
 
 /// In the child: the parent holds the other end of its input, and who is killed lets go of it. There is nobody to stop
 /// this process then.
-fn end_with_parent() {
-    let _ = std::io::copy(&mut std::io::stdin(), &mut std::io::sink());
+fn end_with_parent(mut input: impl Read) {
+    let _ = io::copy(&mut input, &mut io::sink());
     std::process::exit(1);
 }
 
-/// What the child writes, without whatever else comes from its library.
-fn listen(child: &mut Child) -> mpsc::Receiver<News> {
-    let (sender, news) = mpsc::channel();
-    if let Some(output) = child.stdout.take() {
-        std::thread::spawn(move || {
-            let lines = BufReader::new(output).lines().map_while(Result::ok);
-            for item in lines.filter_map(|line| serde_json::from_str(&line).ok()) {
-                if sender.send(item).is_err() {
-                    break;
+/// The child, as the parent has it.
+struct Running {
+    child: Child,
+    news: Receiver<News>,
+    output: Receiver<String>,
+}
+
+impl Running {
+    /// The next that it reports; `None` where there is no more or the time is up.
+    fn next(&mut self, deadline: Instant) -> Result<Option<News>> {
+        loop {
+            match self.news.recv_timeout(PAUSE) {
+                Ok(news) => return Ok(Some(news)),
+                Err(RecvTimeoutError::Disconnected) => return Ok(None),
+                Err(RecvTimeoutError::Timeout) if Instant::now() >= deadline => return Ok(None),
+                // Its channel may outlive it in what the library has started.
+                Err(RecvTimeoutError::Timeout) if self.child.try_wait()?.is_some() => {
+                    return Ok(self.news.recv_timeout(LAST_WORDS).ok());
                 }
+                Err(RecvTimeoutError::Timeout) => {}
             }
-        });
-    }
-    news
-}
-
-/// How the child has ended; `None` where it had to be stopped.
-fn end(child: &mut Child, deadline: Instant) -> Result<Option<ExitStatus>> {
-    loop {
-        if let Some(status) = child.try_wait()? {
-            return Ok(Some(status));
         }
-        if Instant::now() >= deadline {
-            child.kill()?;
-            child.wait()?;
-            return Ok(None);
-        }
-        std::thread::sleep(Duration::from_millis(5));
+    }
+
+    /// How it has ended; `None` where it had to be stopped.
+    fn end(&mut self, deadline: Instant) -> Result<Option<ExitStatus>> {
+        let status = loop {
+            match self.child.try_wait()? {
+                None if Instant::now() < deadline => std::thread::sleep(PAUSE),
+                status => break status,
+            }
+        };
+        self.stop()?;
+        Ok(status)
+    }
+
+    /// Ends it and what the library has started.
+    fn stop(&mut self) -> io::Result<()> {
+        #[cfg(unix)]
+        // None left is as good.
+        let _ = rustix::process::kill_process_group(
+            rustix::process::Pid::from_child(&self.child),
+            rustix::process::Signal::KILL,
+        );
+        self.child.kill()?;
+        self.child.wait().map(drop)
+    }
+
+    /// What the library has written.
+    fn output(&self) -> String {
+        let said = self.output.recv_timeout(LAST_WORDS).unwrap_or_default();
+        if said.is_empty() { String::new() } else { format!("; its output begins {said:?}") }
     }
 }
 
-/// In the child: a step that the next ones need. Its error is a finding, its value what they go on with.
-pub fn need<T>(name: &str, check: impl FnOnce() -> Result<T>) -> Result<Option<T>> {
-    tell(&News::Begins(name.into()))?;
-    let (value, findings) = match check() {
-        Ok(value) => (Some(value), Vec::new()),
-        Err(error) => (None, vec![format!("{error:#}")]),
-    };
-    tell(&News::Found(name.into(), findings))?;
-    Ok(value)
-}
-
-/// In the child: a check that the next ones do not need, and whether all is well.
-pub fn look(name: &str, check: impl FnOnce() -> Vec<String>) -> Result<bool> {
-    tell(&News::Begins(name.into()))?;
-    let findings = check();
-    let well = findings.is_empty();
-    tell(&News::Found(name.into(), findings))?;
-    Ok(well)
-}
-
-/// In the child: what a run has shown.
-pub fn ran(outcome: Outcome) -> Result<()> {
-    tell(&News::Ran(Box::new(outcome)))
-}
-
-fn tell(news: &News) -> Result<()> {
-    let mut output = std::io::stdout().lock();
-    // On a line of its own, whatever the library has written.
-    writeln!(output, "\n{}", serde_json::to_string(news)?)?;
-    Ok(output.flush()?)
+/// The beginning of what comes from there. All of it is read: who writes shall not wait.
+fn collect(mut from: impl Read + Send + 'static) -> Receiver<String> {
+    let (sender, output) = mpsc::channel();
+    std::thread::spawn(move || {
+        let mut bytes = Vec::new();
+        let _ = (&mut from).take(SHOWN).read_to_end(&mut bytes);
+        let _ = sender.send(String::from_utf8_lossy(&bytes).trim().to_owned());
+        let _ = io::copy(&mut from, &mut io::sink());
+    });
+    output
 }

@@ -41,24 +41,21 @@ impl Workspace {
         std::fs::read(&path).with_context(|| format!("cannot read {}", path.display()))
     }
 
-    /// Compiles the library in its release profile and returns where it is.
+    /// Compiles the library in its release profile and returns where it is; `show` gets what cargo is at.
     ///
-    /// Naming the target, even this machine's, gives the library a directory of its own. Without it cargo would put it
-    /// where it puts the library that this program is linked with, and compile both anew each time, since their flags
-    /// differ.
-    pub fn compile_library(&self) -> Result<PathBuf> {
-        let output = self
-            .cargo("build")
-            .args(["--release", "--lib", "--package", PACKAGE, "--target", &self.host()?, "--quiet"])
+    /// Naming the target, even this machine's, gives it a directory of its own: no other command compiles for it, nor with
+    /// these flags.
+    pub fn compile_library(&self, show: impl FnMut(&str)) -> Result<PathBuf> {
+        let mut cargo = self.cargo("rustc");
+        cargo
+            .args(["--release", "--lib", "--crate-type", "cdylib", "--package", PACKAGE, "--target", &self.host()?])
             .arg("--message-format=json-render-diagnostics")
-            .args(["--config", &path_remapping(&self.root)?])
-            .output()
-            .context("cannot start cargo")?;
-        if !output.status.success() {
-            bail!("the library does not compile:\n{}", String::from_utf8_lossy(&output.stderr).trim_end());
+            .args(["--config", &path_remapping(&self.root)?]);
+        let done = fmu_start::watch(cargo, show).context("cannot start cargo")?;
+        if !done.status.success() {
+            bail!("the library does not compile:\n{}", done.complaints.trim_end());
         }
-        let messages = String::from_utf8_lossy(&output.stdout);
-        messages.lines().find_map(dynamic_library).context("cargo did not say where it put the library")
+        done.output.lines().find_map(dynamic_library).context("cargo did not say where it put the library")
     }
 
     /// The crates that are compiled into the library, one `name version licence` a line.

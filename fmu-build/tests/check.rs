@@ -3,6 +3,7 @@
 
 mod common;
 
+use common::libraries::{FUNCTIONS, exporting, library};
 use common::{Files, cargo_fmu, feup_fmu, files, replace_once, stderr, stdout, write_fmu};
 use serde_json::Value;
 use std::path::Path;
@@ -163,12 +164,52 @@ fn a_library_that_lacks_a_function_or_is_none() {
         files[1].1 = b"not a library".to_vec();
         files
     };
-    plant(garbage, "library", "cannot load");
+    plant(garbage, "library", "FeupFrames.so: no library that can be read");
     let elsewhere = |mut files: Files| {
         files[1].0 = "binaries/vax/FeupFrames.exe".into();
         files
     };
     plant(elsewhere, "library", "it has: binaries/vax/FeupFrames.exe");
+    plant(elsewhere, "library", "\"vax\" is no platform that is known here");
+}
+
+#[test]
+fn libraries_for_other_machines_are_looked_at_too() {
+    let with = |path: &str, bytes: Vec<u8>| {
+        let file = (format!("binaries/{path}"), bytes);
+        move |mut files: Files| {
+            files.push(file.clone());
+            files
+        }
+    };
+    plant(with("win64/FeupFrames.dll", b"MZ".to_vec()), "library", "no library that can be read");
+    let intel =
+        "FeupFrames.dll: a library in the format Elf for X86_64; expected a library in the format Pe for X86_64";
+    plant(with("win64/FeupFrames.dll", library("linux64")), "library", intel);
+    let arm = "a library in the format Elf for X86_64; expected a library in the format Elf for Aarch64";
+    plant(with("aarch64-linux/FeupFrames.so", library("linux64")), "library", arm);
+    let name = "expected the name FeupFrames.dylib in darwin64";
+    plant(with("darwin64/FeupFrames.so", library("darwin64")), "library", name);
+    plant(with("darwin64/FeupFrames.dylib", library("aarch64-darwin")), "library", "for Aarch64; expected");
+    let mut program = library("linux64");
+    program[16] = 2;
+    plant(with("x86_64-linux/FeupFrames.so", program), "library", "executable; expected a shared library");
+    for folder in ["win64", "darwin64", "aarch64-linux"] {
+        let mut cut = library(folder);
+        cut.truncate(cut.len() / 2);
+        let file = format!("{folder}/FeupFrames.{}", extension(folder));
+        plant(with(&file, cut), "library", "no library that can be read");
+        let rest = exporting(folder, &FUNCTIONS[1..]);
+        plant(with(&file, rest), "exported functions", &format!("{file}: {} is not exported", FUNCTIONS[0]));
+    }
+}
+
+fn extension(folder: &str) -> &str {
+    match folder {
+        "win64" => "dll",
+        "darwin64" => "dylib",
+        _ => "so",
+    }
 }
 
 #[test]

@@ -3,6 +3,7 @@
 
 mod common;
 
+use common::libraries::{FUNCTIONS, library, universal};
 use common::{Files, cargo_fmu, changed_description, feup_fmu, files, replace_once, stderr, stdout, write_fmu};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -27,14 +28,23 @@ fn finding(report: &Value, check: &str) -> String {
     checks.iter().find(|c| c["name"] == check).map_or(String::new(), |c| c["findings"].to_string())
 }
 
-/// The FMU with a library that does something when it is loaded.
+/// The FMU with a library that exports what it should, and does something when it is loaded or instantiated.
 #[cfg(target_os = "linux")]
-fn with_library(on_load: &str) -> Files {
+fn with_library(on_load: &str, on_instantiate: &str) -> Files {
     let directory = TempDir::new().unwrap();
     let (source, library) = (directory.path().join("evil.rs"), directory.path().join("evil.so"));
+    let functions = FUNCTIONS.map(|name| {
+        let body = if name == "fmi2Instantiate" { on_instantiate } else { "" };
+        format!("#[no_mangle] pub extern \"C\" fn {name}() -> usize {{ unsafe {{ {body}; }} 0 }}\n")
+    });
     let code = format!(
-        "#[used] #[link_section = \".init_array\"] static ON_LOAD: extern \"C\" fn() = on_load;\n\
-         extern \"C\" fn on_load() {{ {on_load} }}\n"
+        "#![allow(unused, clashing_extern_declarations)]\n\
+         extern \"C\" {{ fn _exit(code: i32) -> !; fn write(file: i32, text: *const u8, length: usize) -> isize;\n\
+         fn fork() -> i32; fn sleep(seconds: u32) -> u32; fn close(file: i32) -> i32; fn raise(signal: i32) -> i32;\n\
+         fn chdir(path: *const u8) -> i32; }}\n\
+         #[used] #[link_section = \".init_array\"] static ON_LOAD: extern \"C\" fn() = on_load;\n\
+         extern \"C\" fn on_load() {{ unsafe {{ {on_load}; }} }}\n{}",
+        functions.concat()
     );
     std::fs::write(&source, code).unwrap();
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
@@ -44,6 +54,16 @@ fn with_library(on_load: &str) -> Files {
     let mut files = files(feup_fmu());
     files[1].1 = std::fs::read(&library).unwrap();
     files
+}
+
+/// What a check finds under the name of what it was at, with a library that must be found.
+#[cfg(target_os = "linux")]
+fn found(on_load: &str, on_instantiate: &str, name: &str) -> String {
+    let (code, report) = check(&with_library(on_load, on_instantiate), "30");
+    assert_eq!((code, &report["valid"]), (Some(1), &Value::Bool(false)), "{report:#}");
+    assert!(report.get("run").is_none(), "{report:#}");
+    assert!(report.to_string().len() < 20_000, "{} bytes", report.to_string().len());
+    finding(&report, name)
 }
 
 #[test]
@@ -59,18 +79,64 @@ fn a_run_that_takes_too_long_is_stopped() {
 #[test]
 #[cfg(target_os = "linux")]
 fn a_library_that_crashes_or_hangs_is_a_finding() {
-    let (code, report) = check(&with_library("std::process::abort()"), "30");
-    assert_eq!(code, Some(1), "{report:#}");
-    let said = finding(&report, "library");
-    assert!(said.contains("came to a bad end") && said.contains("signal"), "{report:#}");
+    let said = found("std::process::abort()", "", "library");
+    assert!(said.contains("came to a bad end") && said.contains("signal"), "{said}");
+    assert!(found("raise(9)", "", "library").contains("signal: 9"));
+    assert!(found("", "(8 as *mut u8).write_volatile(1)", "guid").contains("signal: 11"));
 
-    let (code, report) = check(&with_library("loop { std::thread::yield_now() }"), "2");
+    let (code, report) = check(&with_library("loop { std::thread::yield_now() }", ""), "2");
     assert_eq!(code, Some(1), "{report:#}");
     assert!(finding(&report, "library").contains("not over after 2 s"), "{report:#}");
+}
 
-    // Output of its own, even where it looks like a finding, does not mislead.
-    let (code, report) = check(&with_library("print!(\"{{\\\"Begins\\\": \"); std::process::exit(0)"), "30");
-    assert_eq!(code, Some(1), "{report:#}");
+/// A library may say what it likes, wherever it can write: what it says is no finding, and no verdict.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_library_cannot_speak_for_the_check() {
+    let lines = "\n\"Over\"\n{\"Over\":1}\n{\"Found\":[\"run\",{\"texts\":[],\"more\":0}]}\n";
+    let forged = format!("let text = {lines:?}; for file in 0..64 {{ write(file, text.as_ptr(), text.len()); }}");
+    for end in ["_exit(0)", "std::process::exit(0)"] {
+        let said = found(&format!("{forged} {end}"), "", "library");
+        assert!(said.contains("came to a bad end before all was tried: exit status: 0"), "{said}");
+        assert!(said.contains("its output begins") && said.contains("Over"), "{said}");
+        let said = found("", &format!("{forged} {end}"), "guid");
+        assert!(said.contains("exit status: 0"), "{said}");
+    }
+    // Where it goes on, so does the check.
+    for harmless in [&forged, "chdir(b\"/\\0\".as_ptr())"] {
+        // It is no FMU that can be instantiated, then.
+        assert_eq!(found(harmless, "", "start values"), "[\"FMI call failed\"]");
+    }
+    // A copy of the process that goes on alone is not the process.
+    assert!(found("if fork() != 0 { _exit(0) }", "", "start values").contains("came to a bad end"));
+    // What is wrong with its own channel is found, too.
+    assert!(found("for file in 0..1000 { close(file); }", "", "library").contains("came to a bad end"));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_library_that_says_much_is_cut_short() {
+    let much =
+        "let text = [b'x'; 65536]; for _ in 0..500 { for file in 1..64 { write(file, text.as_ptr(), text.len()); } }";
+    let said = found(&format!("{much} std::process::abort()"), "", "library");
+    assert!(said.contains("signal: 6") && said.contains("xxx"), "{said}");
+}
+
+/// Neither is a process waited for that the library leaves behind, nor does it stay.
+#[test]
+#[cfg(target_os = "linux")]
+fn what_a_library_starts_ends_with_the_check() {
+    let directory = TempDir::new().unwrap();
+    let note = directory.path().join("child");
+    let child = format!("std::fs::write({note:?}, std::process::id().to_string()).unwrap(); sleep(100); _exit(0)");
+    let clock = Instant::now();
+    let said = found(&format!("if fork() == 0 {{ {child} }} sleep(2); _exit(0)"), "", "library");
+    assert!(said.contains("exit status: 0"), "{said}");
+    assert!(clock.elapsed() < Duration::from_secs(60), "{:?}", clock.elapsed());
+    let child = PathBuf::from("/proc").join(std::fs::read_to_string(note).unwrap()).join("cmdline");
+    // One that has ended but that nobody has asked for has no command line any more.
+    let has_ended = || std::fs::read(&child).unwrap_or_default().is_empty().then_some(());
+    assert!(within_seconds(20, has_ended).is_some(), "the child goes on");
 }
 
 /// What reads the description is not ours and may not stand everything, or not soon: here it compares each attribute
@@ -122,11 +188,12 @@ fn within_seconds<T>(seconds: u64, mut look: impl FnMut() -> Option<T>) -> Optio
 #[test]
 fn libraries_for_other_platforms_do_no_harm() {
     let mut files = files(feup_fmu());
-    for library in
-        ["binaries/win64/FeupFrames.dll", "binaries/darwin64/FeupFrames.dylib", "binaries/linux32/FeupFrames.so"]
+    for (folder, extension) in
+        [("win64", "dll"), ("aarch64-darwin", "dylib"), ("aarch64-linux", "so"), ("aarch64-windows", "dll")]
     {
-        files.push((library.into(), b"for another machine".to_vec()));
+        files.push((format!("binaries/{folder}/FeupFrames.{extension}"), library(folder)));
     }
+    files.push(("binaries/darwin64/FeupFrames.dylib".into(), universal(&["aarch64-darwin", "darwin64"])));
     files.push(("binaries/darwin64/".into(), Vec::new()));
     let (code, report) = check(&files, "300");
     assert_eq!(code, Some(0), "{report:#}");

@@ -3,6 +3,7 @@
 
 mod common;
 
+use common::libraries::{FUNCTIONS, exporting, library};
 use common::{Files, cargo_fmu, cargo_fmu_in, feup_fmu, files, replace_once, stderr, stdout, write_fmu};
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -42,10 +43,10 @@ impl Pair {
     }
 }
 
-/// The files of the default FMU with its library in another folder.
-fn elsewhere(library: &str) -> Files {
+/// The files of the default FMU with a library for another machine in its place.
+fn elsewhere(path: &str) -> Files {
     let mut files = files(feup_fmu());
-    files[1] = (format!("binaries/{library}"), format!("a library for {library}").into_bytes());
+    files[1] = (format!("binaries/{path}"), library(path.split('/').next().unwrap()));
     files
 }
 
@@ -109,9 +110,26 @@ fn a_platform_that_both_have_is_refused() {
     let pair = Pair::new(unchanged);
     let said = pair.refused("here.fmu", "here.fmu");
     assert!(said.contains("binaries/linux64: in both; expected libraries for different platforms"), "{said}");
-    // Another name does not make it another platform.
-    write_fmu(&pair.path("renamed.fmu"), &elsewhere("win64/Other.dll"));
-    assert!(pair.refused("there.fmu", "renamed.fmu").contains("binaries/win64: in both"));
+}
+
+#[test]
+fn what_is_no_library_for_its_folder_is_refused() {
+    let pair = Pair::new(unchanged);
+    let refused = |path: &str, bytes: &[u8], expected: &str| {
+        let mut files = elsewhere("win64/FeupFrames.dll");
+        files[1] = (format!("binaries/{path}"), bytes.to_vec());
+        write_fmu(&pair.path("bad.fmu"), &files);
+        for fmus in [["here.fmu", "bad.fmu"], ["bad.fmu", "here.fmu"]] {
+            let said = pair.refused(fmus[0], fmus[1]);
+            assert!(said.contains(&format!("bad.fmu: binaries/{path}: {expected}")), "no {expected:?} in {said}");
+        }
+    };
+    refused("darwin64/FeupFrames.so", b"MZ no library at all", "expected the name FeupFrames.dylib in darwin64");
+    refused("darwin64/FeupFrames.dylib", b"MZ no library at all", "no library that can be read");
+    refused("win64/Other.dll", &library("win64"), "expected the name FeupFrames.dll in win64");
+    let arm = "a library in the format Pe for Aarch64; expected a library in the format Pe for X86_64";
+    refused("win64/FeupFrames.dll", &library("aarch64-windows"), arm);
+    refused("win64/FeupFrames.dll", &exporting("win64", &FUNCTIONS[1..]), "fmi2GetTypesPlatform is not exported");
 }
 
 #[test]

@@ -93,6 +93,34 @@ fn the_default_scene_goes_to_the_default_place_and_says_what_happened() {
 }
 
 #[test]
+fn another_scene_of_the_same_name_is_not_replaced_without_a_word() {
+    let fmu = root().join("target/fmu/TwoOfOneName.fmu");
+    let named = |text: &str| replace_once(text, "\"FeupFrames\"", "\"TwoOfOneName\"");
+    let directories = [TempDir::new().unwrap(), TempDir::new().unwrap()];
+    let scenes = directories.each_ref().map(|directory| changed_feup(directory.path(), named));
+    let build = |scene: &Path| {
+        let output = cargo_fmu(&[scene.to_str().unwrap()]);
+        assert!(output.status.success(), "{}", stderr(&output));
+        stderr(&output)
+    };
+    let _ = std::fs::remove_file(&fmu);
+    assert_eq!(build(&scenes[0]), "");
+    // The same contents from elsewhere, and the same scene changed, are no other scene.
+    assert_eq!(build(&scenes[1]), "");
+    let changed = |text: &str| replace_once(&named(text), "gap = 0.005", "gap = 0.006");
+    changed_feup(directories[1].path(), changed);
+    assert_eq!(build(&scenes[1]), "");
+    let said = build(&scenes[0]);
+    let [one, other] = scenes.each_ref().map(|scene| scene.canonicalize().unwrap().display().to_string());
+    let expected = format!("warning: {} = {one}: it was {other}, a scene of the same name;", fmu.display());
+    assert!(said.starts_with(&expected) && said.lines().count() == 1, "{said}");
+    assert_eq!(build(&scenes[0]), "");
+    // A place that is named is for whoever names it.
+    let arguments = [scenes[1].to_str().unwrap(), "-o", fmu.to_str().unwrap()];
+    assert_eq!(stderr(&cargo_fmu(&arguments)), "");
+}
+
+#[test]
 fn the_scene_is_relative_to_the_current_directory() {
     let directory = TempDir::new().unwrap();
     changed_feup(directory.path(), str::to_owned);

@@ -1,5 +1,6 @@
 //! Cases in processes of their own: the only way to survive a crash or a hang, and to see all of them.
 
+use crate::support::{LIBRARY, library_path};
 use std::env;
 use std::io::Read;
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -23,6 +24,7 @@ pub fn run_each(names: &[&str], variable: &str, test: &str) -> Vec<String> {
             let child = Command::new(env::current_exe().unwrap())
                 .args(["--exact", test, "--nocapture", "--test-threads=1"])
                 .env(variable, place.to_string())
+                .env(LIBRARY, library_path())
                 .stdin(Stdio::null())
                 .stdout(Stdio::null())
                 .stderr(Stdio::piped())

@@ -8,64 +8,89 @@ mod behaviour;
 mod lint;
 
 use crate::archive::Unpacked;
+use crate::channel::Channel;
 use crate::experiment;
 use crate::importer::Imported;
+use crate::library;
 use crate::platform;
-use crate::trial::{look, need, ran};
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use fmi::model_description::fmi2::ModelDescription;
-pub use lint::{file_names, origin};
+pub use lint::{file_names, model_identifier, origin};
 use std::path::Path;
 
+/// What is looked at, in this order.
+pub const CHECKS: [&str; 10] = [
+    "archive",
+    "description",
+    "origin",
+    "file names",
+    "description lint",
+    "library",
+    "exported functions",
+    "guid",
+    "start values",
+    "run",
+];
+
 /// Goes through the FMU as long as what has been found lets it.
-pub fn inspect(fmu: &Path, directory: &Path) -> Result<()> {
-    let Some(fmu) = need("archive", || Unpacked::open(fmu, directory))? else { return Ok(()) };
-    let Some(text) = need("description", || fmu.description())? else { return Ok(()) };
-    if need("origin", || lint::origin(&text))?.is_none() {
+pub fn inspect(fmu: &Path, directory: &Path, channel: &Channel) -> Result<()> {
+    let Some(fmu) = channel.need("archive", || Unpacked::open(fmu, directory))? else { return Ok(()) };
+    let Some(text) = channel.need("description", || fmu.description())? else { return Ok(()) };
+    if channel.need("origin", || lint::origin(&text))?.is_none() {
         return Ok(());
     }
-    look("file names", || lint::file_names(&fmu.names))?;
-    look("description lint", || lint::document(&text))?;
+    channel.look("file names", || lint::file_names(&fmu.names))?;
+    channel.look("description lint", || lint::document(&text))?;
 
-    let Some(description) = need("description", || parse(&text))? else { return Ok(()) };
-    look("description", || description.validate().into_iter().map(|problem| problem.message).collect())?;
-    look("description lint", || lint::description(&description))?;
-    look("file names", || lint::files(&fmu.names, &description))?;
+    let Some(description) = channel.need("description", || parse(&text))? else { return Ok(()) };
+    channel.look("description", || description.validate().into_iter().map(|problem| problem.message).collect())?;
+    channel.look("description lint", || lint::description(&description))?;
+    channel.look("file names", || lint::files(&fmu.names, &description))?;
 
-    if need("library", || library_is_there(&fmu, &description))?.is_none() {
-        return Ok(());
-    }
-    try_library(fmu.root(), &description)
+    let Some(can_be_tried) = channel.need("library", || libraries(&fmu, &description, channel))? else { return Ok(()) };
+    if can_be_tried { try_library(fmu.root(), &description, channel) } else { Ok(()) }
 }
 
 fn parse(text: &str) -> Result<ModelDescription> {
     Ok(ModelDescription::from_string(text)?)
 }
 
-fn library_is_there(fmu: &Unpacked, description: &ModelDescription) -> Result<()> {
+/// Looks at the libraries for all machines as files; whether the one for this machine is in order.
+fn libraries(fmu: &Unpacked, description: &ModelDescription, channel: &Channel) -> Result<bool> {
     let Some(interface) = &description.coSimulation else { bail!("the FMU has no co-simulation interface") };
-    let path = platform::library_path(&interface.modelIdentifier);
-    if !fmu.path(&path).is_file() {
-        let there = fmu.names.iter().filter(|name| name.starts_with("binaries/")).cloned().collect::<Vec<_>>();
-        bail!("the FMU has no {path}, the library for this machine; it has: {}", there.join(", "));
+    let identifier = interface.modelIdentifier.as_str();
+    let here = platform::library_path(identifier);
+    // Others than plain names have not been unpacked, and have been found already.
+    let is_plain = |name: &str| lint::file_names(&[name.to_owned()]).is_empty() && !name.ends_with('/');
+    let there = fmu.names.iter().filter(|name| name.starts_with("binaries/") && is_plain(name));
+    let mut is_here_in_order = None;
+    for name in there.clone() {
+        let bytes = std::fs::read(fmu.path(name)).with_context(|| format!("{name} cannot be read"))?;
+        let findings = library::inspect(name, &bytes, identifier);
+        if *name == here {
+            is_here_in_order = Some(findings.is_empty());
+        }
+        channel.look("library", || findings.library)?;
+        channel.look("exported functions", || findings.functions)?;
     }
-    Ok(())
+    let all = || there.cloned().collect::<Vec<_>>().join(", ");
+    is_here_in_order.with_context(|| format!("the FMU has no {here}, the library for this machine; it has: {}", all()))
 }
 
 /// Goes through what the library does as long as what has been found lets it.
-fn try_library(root: &Path, description: &ModelDescription) -> Result<()> {
-    let Some(binary) = need("library", || behaviour::library(root, description))? else { return Ok(()) };
-    if !look("exported functions", || behaviour::missing_functions(&binary))? {
+fn try_library(root: &Path, description: &ModelDescription, channel: &Channel) -> Result<()> {
+    let Some(binary) = channel.need("library", || behaviour::library(root, description))? else { return Ok(()) };
+    if !channel.look("exported functions", || behaviour::missing_functions(&binary))? {
         return Ok(());
     }
-    look("guid", || behaviour::wrong_guid_accepted(root, description, &binary))?;
+    channel.look("guid", || behaviour::wrong_guid_accepted(root, description, &binary))?;
     let start_values = || {
         let instance = Imported::new(root, description)?;
         behaviour::start_values(description, &instance)
     };
-    let Some(differences) = need("start values", start_values)? else { return Ok(()) };
-    look("start values", || differences)?;
+    let Some(differences) = channel.need("start values", start_values)? else { return Ok(()) };
+    channel.look("start values", || differences)?;
     let run = || experiment::run(description, &Imported::new(root, description)?);
-    let Some(outcome) = need("run", run)? else { return Ok(()) };
-    ran(outcome)
+    let Some(outcome) = channel.need("run", run)? else { return Ok(()) };
+    channel.ran(outcome)
 }

@@ -1,6 +1,8 @@
 //! `cargo fmu` as a user runs it, and FMUs to run it on.
 #![allow(dead_code)] // each test file uses its share
 
+pub mod libraries;
+
 use std::fs::File;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -87,6 +89,33 @@ pub fn write_fmu(path: &Path, files: &Files) {
         archive.write_all(bytes).unwrap();
     }
     archive.finish().unwrap();
+}
+
+/// An archive with a number of so many bytes changed in the entry of a file: at that place of its header in the directory
+/// or, where none is given, before the file itself.
+pub fn patched(archive: &[u8], name: &str, [central, local]: [Option<usize>; 2], value: u32) -> Vec<u8> {
+    let mut bytes = archive.to_vec();
+    for (signature, name_at, place) in [(b"PK\x01\x02", 46, central), (b"PK\x03\x04", 30, local)] {
+        let is_header =
+            |at: &usize| bytes[*at..].starts_with(signature) && bytes[at + name_at..].starts_with(name.as_bytes());
+        let at = (0..bytes.len() - name_at).find(is_header).expect("the header");
+        if let Some(place) = place {
+            bytes[at + place..at + place + 4].copy_from_slice(&value.to_le_bytes());
+        }
+    }
+    bytes
+}
+
+/// An archive with a name replaced by another of the same length, wherever it stands.
+pub fn renamed(archive: &[u8], old: &str, new: &str) -> Vec<u8> {
+    assert_eq!(old.len(), new.len());
+    let mut bytes = archive.to_vec();
+    let places: Vec<usize> = (0..bytes.len()).filter(|at| bytes[*at..].starts_with(old.as_bytes())).collect();
+    assert!(places.len() >= 2, "no {old} to rename");
+    for at in places {
+        bytes[at..at + new.len()].copy_from_slice(new.as_bytes());
+    }
+    bytes
 }
 
 /// The text with its only (or first) `old` replaced; a test that finds nothing to replace tests nothing.

@@ -46,6 +46,13 @@ pub fn origin(text: &str) -> Result<()> {
     }
 }
 
+/// What the libraries are called, for co-simulation.
+pub fn model_identifier(text: &str) -> Option<String> {
+    let document = Document::parse(text).ok()?;
+    let interface = document.root_element().children().find(|child| child.has_tag_name("CoSimulation"))?;
+    interface.attribute("modelIdentifier").map(str::to_owned)
+}
+
 /// `modelDescription.xml` as it stands.
 pub fn findings(text: &str) -> Vec<String> {
     let document = match Document::parse(text) {

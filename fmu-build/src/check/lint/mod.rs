@@ -10,7 +10,7 @@ mod model_structure;
 mod tests;
 mod variables;
 
-pub use document::{findings as document, origin};
+pub use document::{findings as document, model_identifier, origin};
 pub use files::{file_names, files};
 use fmi::model_description::fmi2::ModelDescription;
 use std::collections::HashSet;
