@@ -3,7 +3,10 @@
 Each is a function of cases, materials and the number of workers, and yields rows, in any order, as they come.
 """
 
+import contextlib
 import multiprocessing
+import signal
+import tempfile
 from concurrent import futures
 from concurrent.futures.process import BrokenProcessPool
 
@@ -35,13 +38,29 @@ def serial(cases, materials, workers):
         yield study_worker.run_cases(batch)
 
 
+@contextlib.contextmanager
+def without_interrupts():
+    """Processes that begin in here leave Ctrl-C to this one, which ends them; it comes here when this is over."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def pool(cases, materials, workers):
     """A process for each core."""
     if not cases:
         return
     context = multiprocessing.get_context("spawn")
-    with futures.ProcessPoolExecutor(workers, context, study_worker.prepare, (materials,)) as executor:
-        submitted = [executor.submit(study_worker.run_cases, batch) for batch in batches(cases, workers)]
+    # Of this process: it is removed however the workers end.
+    with tempfile.TemporaryDirectory(prefix="study") as folder:
+        with without_interrupts():
+            executor = futures.ProcessPoolExecutor(workers, context, study_worker.prepare, (materials, folder))
+            submitted = [executor.submit(study_worker.run_cases, batch) for batch in batches(cases, workers)]
         try:
             for future in futures.as_completed(submitted):
                 yield future.result()
@@ -49,15 +68,22 @@ def pool(cases, materials, workers):
             raise SystemExit("a worker process died; the same command goes on from here") from None
         finally:
             executor.shutdown(wait=False, cancel_futures=True)
+            for process in multiprocessing.active_children():
+                process.terminate()
+                process.join()
 
 
 def local_cluster(cases, materials, workers):
     """A Dask cluster on this machine: what a real one does, at the size of this machine."""
     from distributed import Client, LocalCluster
 
-    with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0") as local:
-        with Client(local) as client:
-            yield from through(client, cases, materials)
+    with contextlib.ExitStack() as held:
+        with without_interrupts():
+            local = held.enter_context(
+                LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL")
+            )
+            client = held.enter_context(Client(local))
+        yield from through(client, cases, materials)
 
 
 def cluster(cases, materials, workers, address):
