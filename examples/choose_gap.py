@@ -23,7 +23,7 @@ class Buildings:
         self.fmu = fmu
         description = read_model_description(fmu)
         names = [variable.name for variable in description.modelVariables]
-        self.stop = description.defaultExperiment.stopTime
+        self.stop = float(description.defaultExperiment.stopTime)
         self.contacts = [name.removesuffix(".gap") for name in names if name.startswith("contact[") and name.endswith(".gap")]
         self.drifts = {side: [name for name in names if name.startswith(f"{side}.peak_drift")] for side in ("left", "right")}
         self.displacements = [name for name in names if ".peak_displacement[" in name]
