@@ -39,7 +39,7 @@ def main():
         page = context.new_page()
         troubles = listen(page)
         page.goto(html.as_uri())
-        for look in [reads, hovers, zooms, chooses, sorts, finds_an_impact, is_narrow]:
+        for look in [reads, tells_apart, hovers, zooms, chooses, sorts, finds_an_impact, is_narrow]:
             look(page, scene, impacts)
             print(f"{look.__name__.replace('_', ' ')}: well")
         assert not troubles, troubles
@@ -91,6 +91,24 @@ def reads(page, scene, impacts):
     page.screenshot(path=FOLDER / "whole.png")
 
 
+def tells_apart(page, scene, impacts):
+    """No two lines of a chart look the same, each is in its legend as it is drawn, and a quantity has one unit."""
+    page.locator("#variables .group input").evaluate_all("boxes => boxes.forEach(box => box.checked || box.click())")
+    for chart in page.locator(".chart").all():
+        keys = chart.locator(".key line").evaluate_all(
+            "keys => keys.map(key => key.getAttribute('stroke') + ' ' + key.getAttribute('stroke-dasharray'))"
+        )
+        assert len(set(keys)) == len(keys) == chart.locator(".u-legend .u-series").count() - 1 > 0, keys
+    headings = page.locator(".chart h3, th").all_inner_texts()
+    units = {unit for heading in headings for unit in re.findall(r"\[(.*)\]", heading.replace("\n", " "))}
+    for one, other in [("N", "kN"), ("N s", "kN s"), ("m", "mm"), ("m/s2", "g"), ("N", "kN s"), ("kN", "N s")]:
+        assert not {one, other} <= units, units
+    page.locator("#usual").click()
+    # A box of a group stands for all that is below it.
+    assert not page.locator('input[aria-label="all: velocity"]').is_checked()
+    assert page.locator('input[aria-label="all: contact force"]').is_checked()
+
+
 def over(page, chart, share):
     """A point of a chart: `share` of its width from the left."""
     box = page.locator(".chart .u-over").nth(chart).bounding_box()
@@ -139,8 +157,11 @@ def sorts(page, scene, impacts):
     forces = sorted((float(impact["peak_force"]) for impact in impacts), reverse=True)
     heading = page.get_by_role("button", name="peak force")
 
+    factor = {"N": 1.0, "kN": 1e3}[re.search(r"\[(.*)\]", heading.inner_text())[1]]
+
     def column():
-        return [float(text) for text in page.locator("#impact-table tbody td:nth-child(6)").all_inner_texts()]
+        texts = page.locator("#impact-table tbody td:nth-child(6)").all_inner_texts()
+        return [factor * float(text) for text in texts]
 
     for wanted in (forces, forces[::-1]):
         heading.click()
