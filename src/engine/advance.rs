@@ -104,19 +104,28 @@ impl Model {
     /// Takes the planned step, which ends at `end` (s since the segment's start), and handles its event.
     fn take(&self, state: &mut State, end: f64, on_episode: &mut dyn FnMut(&Episode)) {
         self.add_work(state, state.step.length);
-        let State { base, step, counters, work, .. } = state;
+        let State { base, step, inputs, counters, work, .. } = state;
         let start = base.time();
+        let is_flight = step.kind == StepKind::Flight;
+        if is_flight {
+            self.raise_over_flight(base, step, inputs, work);
+        } else {
+            self.note_starts(&base.contacts, work);
+        }
         self.follow(&mut base.contacts, step, start);
+        if !is_flight && step.length > 0.0 {
+            self.raise_over_step(base, step, inputs, end, work);
+        }
         base.contacts.iter_mut().filter(|contact| contact.in_contact()).for_each(|contact| contact.age += step.length);
         std::mem::swap(&mut base.q, &mut step.q);
         std::mem::swap(&mut base.v, &mut step.v);
         base.elapsed = end;
         self.move_contacts(base, step);
         self.keep_together(base, work);
-        self.update_peak_drift(base);
         if let Some(event) = step.event {
             counters.events += 1;
             base.watch.restart();
+            base.peaks.restart();
             self.handle(base, event, work, on_episode);
         }
         step.kind = StepKind::Unknown;

@@ -307,6 +307,32 @@ impl ClosedPairs {
         });
     }
 
+    /// N, bounds on the sizes of the forces up to the x of the powers, one per contact.
+    pub fn bound_forces(&self, contacts: &[Contact], powers: &Powers, out: &mut [f64]) {
+        for (b, block) in self.blocks[..self.used].iter().enumerate() {
+            let depth = block.read(powers);
+            let force = (!block.is_elastic()).then(|| block.read_force(powers));
+            for (lane, pair) in self.pairs_of(b) {
+                let highest = |terms: &[Each], end: (f64, f64), fourth: f64, sign: f64| {
+                    let start = (sign * terms[0][lane], sign * terms[1][lane]);
+                    roots::ceiling(start, (sign * end.0, sign * end.1), powers.x, fourth)
+                };
+                out[pair] = match &force {
+                    None => {
+                        let end = (depth.penetration[lane], depth.slope[lane]);
+                        let deepest = highest(&block.penetration, end, depth.fourth[lane], 1.0);
+                        contacts[pair].branch().value(deepest.max(0.0), 0.0)
+                    }
+                    Some(force) => {
+                        let force = force.of(lane);
+                        let of = |sign| highest(&block.force, (force.value, force.slope), force.fourth, sign);
+                        of(1.0).max(of(-1.0))
+                    }
+                };
+            }
+        }
+    }
+
     /// Follows the contacts to the end of the step, which has begun at `start` [s].
     pub fn follow(&self, contacts: &mut [Contact], series: &MotionSeries, start: f64, powers: &Powers) {
         for (b, block) in self.blocks[..self.used].iter().enumerate() {

@@ -70,8 +70,16 @@ impl Model {
                 break is_free;
             }
             let end = if is_free { base.watch.due().min(next + MOST_AT_ONCE) } else { base.watch.next_look() };
+            let clear = self.clear_of_peaks(ground, &mut *state, next);
+            let is_checked = clear == next;
+            let end = end.min(if is_checked { next + 1 } else { clear });
             let segments = next..end.min(first.saturating_add(most));
             let wanted = segments.end - next;
+            let State { base, step, counters, work, .. } = &mut *state;
+            if is_checked {
+                work.q.copy_from_slice(&base.q);
+                work.v.copy_from_slice(&base.v);
+            }
             let flown = if is_free {
                 fly_over(self, ground, base, step, segments, until)
             } else {
@@ -86,6 +94,9 @@ impl Model {
                 base.watch.move_on(flown);
                 self.count_glide(counters, flown - u64::from(is_planned));
             }
+            if is_checked {
+                self.check_flown(base, next, work);
+            }
             step.kind = StepKind::Unknown;
             next += flown;
             base.segment = ground.segment(next);
@@ -94,6 +105,25 @@ impl Model {
             }
         };
         Glide { flown: next - first, has_arrived }
+    }
+
+    /// The first segment from the base's on, of that number, in which a peak may be exceeded.
+    #[inline(always)]
+    fn clear_of_peaks(&self, ground: &GroundMotion, state: &mut State, segment: u64) -> u64 {
+        let State { base, work, .. } = state;
+        if base.peaks.due() <= segment {
+            self.look_ahead_for_peaks(ground, base, segment, work);
+        }
+        base.peaks.due()
+    }
+
+    /// Raises peaks over the segment, of that number, that has been flown from the motion in `work` to the base.
+    #[inline(never)]
+    fn check_flown(&self, base: &mut Base, segment: u64, work: &mut Workspace) {
+        let start = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
+        let load = (base.segment.acceleration_at(0.0), base.segment.slope);
+        self.raise_over_segment(base, (segment, (&start.0, &start.1), load), work);
+        (work.q, work.v) = start;
     }
 
     /// Looks at the pairs that have not been dismissed for the base's segment, of that number; whether all are now. Seldom
@@ -156,7 +186,6 @@ impl Model {
     fn move_base(&self, base: &mut Base, step: &mut Step) {
         std::mem::swap(&mut base.q, &mut step.q);
         std::mem::swap(&mut base.v, &mut step.v);
-        self.update_peak_drift(base);
     }
 }
 
@@ -176,7 +205,7 @@ fn fly_over(
     segments: Range<u64>,
     until: f64,
 ) -> u64 {
-    let is_simple = model.drift.are_few() && ground.is_in_record(segments.start);
+    let is_simple = ground.is_in_record(segments.start);
     match model.structure.lanes / LANES {
         1 if is_simple => fly_few::<1>(model, ground, base, NothingNear, segments, until),
         2 if is_simple => fly_few::<2>(model, ground, base, NothingNear, segments, until),
@@ -250,10 +279,9 @@ fn fly_few<const WIDTH: usize>(
 ) -> u64 {
     let Some(interval) = ground.prepared(&ground.segment(segments.start)) else { return 0 };
     let Some(modes) = interval.blocks::<WIDTH>() else { return 0 };
-    let Some(peaks) = base.peak_drift.few() else { return 0 };
     let participation = few::<WIDTH>(&model.structure.participation);
     let (mut q, mut v) = (few::<WIDTH>(&base.q), few::<WIDTH>(&base.v));
-    let (mut raised, mut flown) = (*peaks, 0);
+    let mut flown = 0;
     for (start, length, load) in ground.of_record(segments) {
         if until - start < length || length != interval.length {
             break;
@@ -266,7 +294,6 @@ fn fly_few<const WIDTH: usize>(
             break;
         }
         (q, v) = (end_q, end_v);
-        model.drift.raise_few(q.as_flattened(), &mut raised);
         flown += 1;
     }
     let mut spoiled = [0.0; LANES];
@@ -278,7 +305,6 @@ fn fly_few<const WIDTH: usize>(
     if spoiled.iter().any(|spoiled| spoiled.is_nan()) {
         return 0;
     }
-    *peaks = raised;
     base.q.copy_from_slice(q.as_flattened());
     base.v.copy_from_slice(v.as_flattened());
     flown

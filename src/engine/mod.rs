@@ -47,7 +47,6 @@ mod complementarity;
 mod contact_events;
 mod contact_step;
 mod dismissal;
-mod drift;
 mod energy;
 mod energy_rates;
 mod feedthrough;
@@ -67,6 +66,7 @@ mod observe;
 mod onset_step;
 mod open_pairs;
 mod pair_forces;
+mod peaks;
 mod rates;
 mod rigid;
 mod roots;
@@ -86,7 +86,8 @@ pub use energy_rates::EnergyRates;
 pub use feedthrough::Response;
 pub use input::LinearInput;
 pub use model::Model;
-pub use rates::{ContactRates, PointRates, Rates};
+pub use peaks::PeakOf;
+pub use rates::{ContactRates, PEAK_ROUNDING, PointRates, Rates};
 pub use saved::SavedState;
 pub use state::{Counters, State};
 
@@ -110,6 +111,7 @@ pub struct Point {
     /// What is known of each contact.
     contacts: Vec<Cell<observe::Known>>,
     work: Option<Box<state::Workspace>>,
+    peaks: peaks::PeakCell,
 }
 
 /// One contact at one time. Names and meaning as in the FMU variables `contact[p].*`.

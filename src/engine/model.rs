@@ -2,10 +2,10 @@
 
 use super::closed_pairs::ClosedPairs;
 use super::dismissal::{ClosingSpeeds, Watch};
-use super::drift::DriftShapes;
 use super::ground::{GroundMotion, Segment};
 use super::input::LinearInput;
 use super::near_pairs::NearPairs;
+use super::peaks::{FloorResistance, PeakRows};
 use super::onset_step::OnsetSeries;
 use super::open_pairs::OpenPairs;
 use super::rigid::RigidPairs;
@@ -44,7 +44,8 @@ pub struct Model {
     pub(super) order: usize,
     /// The same under linear laws, where it is worth while.
     pub(super) linear_order: usize,
-    pub(super) drift: DriftShapes,
+    pub(super) peak_rows: PeakRows,
+    pub(super) resistance: FloorResistance,
     pub(super) closing: ClosingSpeeds,
     pub(super) near: Option<NearPairs>,
     pub(super) windows: Option<Windows>,
@@ -96,10 +97,10 @@ impl Model {
             None => None,
         };
         let (step_tolerance, order) = contact_step::accuracy(scene.solver.relative_tolerance);
-        let drift = DriftShapes::of(&structure);
         Ok(Model {
-            near: NearPairs::of(&structure, &pairs, &drift),
-            drift,
+            near: NearPairs::of(&structure, &pairs),
+            peak_rows: PeakRows::of(&structure),
+            resistance: FloorResistance::of(&structure),
             closing: ClosingSpeeds::of(&structure, &pairs, &pair_weight),
             frequencies: [Side::Left, Side::Right]
                 .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
@@ -140,7 +141,7 @@ impl Model {
     /// Room to work in.
     pub(super) fn workspace(&self) -> Workspace {
         let pairs = self.pairs.len();
-        Workspace::new(&self.structure, [pairs, self.rigid.pairs.len(), self.windows.as_ref().map_or(0, |_| pairs)])
+        Workspace::new(&self.structure, &self.peak_rows, [pairs, self.rigid.pairs.len(), self.windows.as_ref().map_or(0, |_| pairs)])
     }
 
     /// The initial state at a time, s.
@@ -161,7 +162,7 @@ impl Model {
                 elapsed: time - segment.start,
                 contacts: self.pairs.iter().enumerate().map(|(p, pair)| pair.at_start(p, time, &q, &v)).collect(),
                 watch: Watch::new(self.pairs.len()),
-                peak_drift: self.drift.peaks(),
+                peaks: self.start_peaks(),
                 energy: self.energy.then(Account::default),
                 velocity_scale: 0.0,
                 last_length: 0.0,
@@ -198,7 +199,6 @@ impl Model {
             work: self.workspace(),
         };
         state.base.impacts = state.base.contacts.iter().map(|contact| contact.impacts).sum();
-        self.update_peak_drift(&mut state.base);
         self.open_account(&mut state.base);
         state
     }
@@ -380,14 +380,16 @@ impl Contact {
         self.stored_reference = self.branch().stored_energy(self.penetration);
         (self.work_before, self.age) = (self.work, 0.0);
         let force = self.present_force();
-        self.peak_force = self.peak_force.max(force);
+        // A contact that begins with a pull has not pushed yet.
+        let pushed = force.max(0.0);
+        self.peak_force = self.peak_force.max(pushed);
         self.episode = Episode {
             contact: self.episode.contact,
             start: time,
             end: None,
             approach_velocity,
             separation_velocity: 0.0,
-            peak_force: force,
+            peak_force: pushed,
             peak_time: time,
             peak_penetration: self.penetration,
             impulse: 0.0,

@@ -3,7 +3,6 @@
 //! What [`super::flight`] asks of a planned flight, for all pairs of a scene abreast and without a stop between segments,
 //! where modes and pairs are few. It is never surer than that: what is flown over here would be certified there.
 
-use super::drift::DriftShapes;
 use super::glide::Sight;
 use super::model::{Model, Pair};
 use super::state::{Base, Counters};
@@ -38,8 +37,8 @@ struct ModeBlock {
 
 impl NearPairs {
     /// For all pairs; none where modes or pairs are many, or damping couples modes.
-    pub fn of(structure: &Structure, pairs: &[Pair], drift: &DriftShapes) -> Option<NearPairs> {
-        let are_few = structure.lanes <= MOST_BLOCKS * LANES && pairs.len() <= LANES && drift.are_few();
+    pub fn of(structure: &Structure, pairs: &[Pair]) -> Option<NearPairs> {
+        let are_few = structure.lanes <= MOST_BLOCKS * LANES && pairs.len() <= LANES;
         if !are_few || !structure.is_classical() {
             return None;
         }

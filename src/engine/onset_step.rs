@@ -22,6 +22,10 @@ const HIGHEST: f64 = 8.0;
 /// Most places at which a slope is looked at for where it passes 0: it takes some ten.
 const MOST_TURNS: usize = 60;
 
+/// Share of a step after which the slope of a force is looked at for where it goes from the start: what turns before that
+/// is within the square of this of its peak at the start.
+const JUST_AFTER: f64 = 1e-6;
+
 /// The double series of the motion and of all contacts.
 #[derive(Clone, Debug, Default)]
 pub(super) struct OnsetSeries {
@@ -127,6 +131,25 @@ impl OnsetSeries {
         for (reading, block) in self.readings.iter_mut().zip(&self.blocks).take(self.used) {
             *reading = block.read(&self.powers);
         }
+    }
+
+    /// N, bounds on the sizes of the forces up to x, one per contact.
+    pub fn bound_forces(&self, contacts: &[Contact], x: f64, out: &mut [f64]) {
+        let Some(grid) = &self.grid else { return };
+        for (p, out) in out.iter_mut().enumerate().filter(|(p, _)| contacts[*p].in_contact()) {
+            let (block, lane) = self.places[p];
+            // The stored force terms are those of F x.
+            let terms = self.blocks[block].copy_force(grid, lane).map(f64::abs);
+            *out = grid.sum(&terms, x) / x;
+        }
+    }
+
+    /// Penetration, m, and rate, m/s, of a pair in contact at x > 0.
+    pub fn penetration_at(&self, p: usize, x: f64) -> (f64, f64) {
+        let Some(grid) = &self.grid else { return (0.0, 0.0) };
+        let (block, lane) = self.places[p];
+        let (d, slope) = value_and_slope(grid, &self.blocks[block].copy_penetration(grid, lane), x);
+        (d, slope / self.scale)
     }
 
     /// u and v at x > 0.
@@ -469,7 +492,7 @@ fn highest<C: Fn(f64) -> (f64, f64)>(
 ) -> Option<(f64, f64)> {
     let (mut at, (mut value, slope)) = (end, last);
     if slope < 0.0 {
-        let (curve, start) = (curve(), 1e-3 * end);
+        let (curve, start) = (curve(), JUST_AFTER * end);
         let first = curve(start).1;
         if first > 0.0 {
             at = turning_point(|x| curve(x).1, (start, first), (end, slope));

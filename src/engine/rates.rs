@@ -11,8 +11,8 @@ use super::state::*;
 use super::{Point, Side};
 use crate::contact::Force;
 
-/// What a force may be below its peak so far by rounding.
-const PEAK_ROUNDING: f64 = 1e-12;
+/// What a quantity may be below its peak so far by rounding, relative to it.
+pub const PEAK_ROUNDING: f64 = 1e-12;
 
 /// First and second derivative with respect to time.
 pub type Rates = [f64; 2];

@@ -439,6 +439,23 @@ fn first_rise_from_zero(coefficients: &[f64], end: f64, noise: f64) -> Option<f6
     Curve { terms: &Terms::of(rest), noise, left: None }.first_rise_up_to(end)
 }
 
+/// Whether a function may turn from rising to falling above `known` in 0..=x, from its values and slopes at both ends and a
+/// bound on its fourth derivative.
+pub fn may_turn_above(
+    (value, slope): (f64, f64),
+    (end, end_slope): (f64, f64),
+    (x, fourth): (f64, f64),
+    known: f64,
+) -> bool {
+    let (a, b) = (
+        End { x: 0.0, value, slope, fourth: 0.0 },
+        End { x, value: end, slope: end_slope, fourth },
+    );
+    let (least, most) = b.slopes_from(a);
+    // Written so that a NaN may be anywhere.
+    !(least > 0.0 || most < 0.0) && !(b.ceiling_from(a) <= known)
+}
+
 /// Where a polynomial is largest in 0..=end, if it exceeds `known` there: (x, value), from its value and slope at 0 and
 /// its reading at the end. `terms` copies its coefficients and tells their number; it is asked only where the maximum
 /// may be in between.

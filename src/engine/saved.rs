@@ -70,6 +70,7 @@ impl Model {
         state.time = *time;
         state.base.clone_from(base);
         state.inputs.clone_from(inputs);
+        state.work.peaks.forget();
         state.step.kind = StepKind::Unknown;
         if *is_planned {
             let limit = self.limit(&state.base.segment, state.time);
@@ -96,6 +97,7 @@ impl Model {
         self.check_segment(saved)?;
         self.check_contacts(base)?;
         let number = self.ground.as_ref().and_then(|ground| ground.number(&base.segment)).unwrap_or_default();
+        require(base.peaks.fit(&self.start_peaks(), number), "the peaks in it are impossible")?;
         require(base.watch.fits(self.pairs.len(), number, MOST_COUNTED), "what it tells of pairs apart is impossible")?;
         self.restore(saved, &mut state);
         self.check_time(saved.is_planned, &state)
@@ -106,7 +108,6 @@ impl Model {
         let fits = base.q.len() == fresh.base.q.len()
             && base.v.len() == fresh.base.v.len()
             && base.contacts.len() == self.pairs.len()
-            && base.peak_drift.storeys() == fresh.base.peak_drift.storeys()
             && base.energy.is_some() == self.energy
             && inputs.floor_forces.len() == fresh.inputs.floor_forces.len()
             && inputs.left_floors == fresh.inputs.left_floors;
@@ -182,7 +183,7 @@ impl Base {
             v,
             contacts,
             watch: _, // counts, looked at by themselves
-            peak_drift,
+            peaks,
             energy,
             velocity_scale,
             last_length: _, // infinite where a series ended by itself
@@ -190,7 +191,7 @@ impl Base {
         } = self;
         let of_motion = [q, v].into_iter().flatten().chain([elapsed, velocity_scale]).copied();
         let of_contacts = contacts.iter().flat_map(Contact::numbers);
-        of_motion.chain(of_contacts).chain(peak_drift.numbers()).chain(energy.iter().flat_map(Account::numbers))
+        of_motion.chain(of_contacts).chain(peaks.numbers()).chain(energy.iter().flat_map(Account::numbers))
     }
 
     /// Displacements and velocities.

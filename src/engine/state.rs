@@ -3,12 +3,12 @@
 use super::closed_pairs::ClosedPairs;
 use super::complementarity::Complementarity;
 use super::dismissal::Watch;
-use super::drift::PeakDrifts;
 use super::ground::Segment;
 use super::input::LinearInput;
 use super::look::Look;
 use super::onset_step::OnsetSeries;
 use super::open_pairs::OpenPairs;
+use super::peaks::{PeakRoom, PeakRows, Peaks};
 use super::window::Window;
 use super::{Episode, Side};
 use crate::clock::{Bend, Clock};
@@ -74,7 +74,7 @@ pub(super) struct Base {
     pub v: Vec<f64>,
     pub contacts: Vec<Contact>,
     pub watch: Watch,
-    pub peak_drift: PeakDrifts,
+    pub peaks: Peaks,
     pub energy: Option<Account>,
     /// m/s, largest floor velocity that a contact step has seen: what its error is relative to.
     pub velocity_scale: f64,
@@ -228,6 +228,14 @@ pub(super) struct Step {
 }
 
 impl Step {
+    /// Penetration, m, and rate, m/s, of a pair in contact at a time, s, of a step that has no power series in time.
+    pub fn penetration_at(&self, p: usize, time: f64) -> (f64, f64) {
+        match self.kind {
+            StepKind::Window => self.window.penetration_at(p, time),
+            _ => self.onset.penetration_at(p, time / self.onset.scale),
+        }
+    }
+
     /// Has the series read by a clock, in whose x those of pairs in contact are from now on; `bend` is what has made them so.
     pub fn bend(&mut self, clock: Clock, bend: &mut Bend) {
         bend.set(&clock, self.series.order + 1);
@@ -307,11 +315,12 @@ pub(super) struct Workspace {
     pub rigid: Complementarity,
     pub look: Look,
     pub windows: Room,
+    pub peaks: PeakRoom,
 }
 
 impl Workspace {
     /// For a structure with so many pairs, rigid pairs, and pairs that windows are for.
-    pub fn new(structure: &Structure, [pairs, rigid, windowed]: [usize; 3]) -> Workspace {
+    pub fn new(structure: &Structure, rows: &PeakRows, [pairs, rigid, windowed]: [usize; 3]) -> Workspace {
         let lanes = structure.lanes;
         let vector = || vec![0.0; lanes];
         Workspace {
@@ -331,6 +340,7 @@ impl Workspace {
             rigid: Complementarity::new(rigid),
             look: Look::new(lanes, pairs),
             windows: Room::new(windowed),
+            peaks: PeakRoom::new(structure, rows, pairs),
         }
     }
 }

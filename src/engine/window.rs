@@ -93,6 +93,22 @@ impl Window {
         all
     }
 
+    /// N, bounds on the sizes of the forces, one per contact.
+    pub fn bound_forces(&self, contacts: &[Contact], out: &mut [f64]) {
+        for (place, &p) in self.contacts.iter().enumerate().take(self.equation.closed) {
+            // Between nodes a force is at most a little higher than at them.
+            let (d, v) = self.solution.end[place];
+            let end = contacts[p].branch().value(d, v);
+            out[p] = larger(end.abs(), largest(&self.solution.force[place]) / NEARLY);
+        }
+    }
+
+    /// Penetration, m, and rate, m/s, of a pair in contact at a time of the window.
+    pub fn penetration_at(&self, p: usize, elapsed: f64) -> (f64, f64) {
+        let Some(place) = self.place(p) else { return (0.0, 0.0) };
+        self.depth(place, elapsed, self.moments(elapsed, &mut None))
+    }
+
     /// Penetration, m, and rate, m/s, of a pair under these moments.
     fn depth(&self, place: usize, elapsed: f64, moments: &Moments) -> (f64, f64) {
         let Equation { terms, ref free, ref kernels, .. } = self.equation;

@@ -184,6 +184,21 @@ impl Floors {
         }
     }
 
+    /// Adds |M^-1 K| x times the first factor and |M^-1 C| x times the second for one building, where it feels its
+    /// neighbours only.
+    pub fn add_sizes(&self, side: usize, [by_u, by_v]: [f64; 2], x: &[f64], out: &mut [f64]) {
+        let Blocks { on_mass, on_stiffness, .. } = self.buildings[side];
+        let (by_storeys, by_itself) = (by_u + by_v * on_stiffness.abs(), by_v * on_mass.abs());
+        let lanes = self.lanes_of(side);
+        for lane in lanes.clone() {
+            let block = &self.blocks[lane / LANES];
+            let (below, above) = (block.below[lane % LANES], block.above[lane % LANES]);
+            let lower = if lane == lanes.start { 0.0 } else { x[lane - 1] };
+            let upper = if lane + 1 == lanes.end { 0.0 } else { x[lane + 1] };
+            out[lane] += by_storeys * (below * (x[lane] + lower) + above * (x[lane] + upper)) + by_itself * x[lane];
+        }
+    }
+
     /// Kinetic and strain energy, J.
     pub fn energies(&self, u: &[f64], v: &[f64]) -> (f64, f64) {
         let kinetic: f64 = self.mass.iter().zip(v).map(|(m, v)| m * v * v).sum();

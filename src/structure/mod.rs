@@ -176,6 +176,11 @@ impl Structure {
         self.coupling.is_empty()
     }
 
+    /// Whether damping couples the mode to others.
+    pub fn couples(&self, mode: usize) -> bool {
+        self.coupling.iter().any(|coupling| (coupling.offset..coupling.offset + coupling.matrix.nrows()).contains(&mode))
+    }
+
     /// The motions of a block of floors from as many modal vectors of displacements, velocities ...: lane by lane as in a
     /// vector of all floors.
     #[inline]

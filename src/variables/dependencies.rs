@@ -37,7 +37,7 @@ pub fn at_communication_points(scene: &Scene, output: Output, input: Input) -> O
             | Output::Velocity(..)
             | Output::Acceleration(..)
             | Output::BaseShear(_)
-            | Output::PeakDrift(..)
+            | Output::Peak(_)
             | Output::Contact(..)
             | Output::Impacts
             | Output::Energy(_),

@@ -1,7 +1,7 @@
 //! Derivatives of what a slot stands for: with respect to time, and with respect to inputs and parameters.
 
 use super::{ContactOutput, EnergyOutput, Input, Instant, Output, Parameter, Slot, at_start};
-use crate::engine::{EnergyRates, Model, PointRates, Rates, Response};
+use crate::engine::{EnergyRates, Model, PEAK_ROUNDING, PeakOf, PointRates, Rates, Response};
 use crate::scene::Scene;
 
 /// The highest order of the derivatives of outputs with respect to time.
@@ -25,10 +25,39 @@ impl Instant<'_> {
             Output::Energy(term) => energy_rates(&rates.energy.unwrap_or_default(), term),
             // Held from one event, or one step of the engine, to the next.
             Output::Contact(_, ContactOutput::ApproachVelocity | ContactOutput::Active | ContactOutput::Impacts)
-            | Output::PeakDrift(..)
             | Output::Impacts => [0.0; 2],
+            Output::Peak(of) => self.differentiate_peak(rates, of),
         }
     }
+}
+
+impl Instant<'_> {
+    /// Those of the quantity while it is the largest so far and grows.
+    fn differentiate_peak(&self, rates: &PointRates, of: PeakOf) -> Rates {
+        let Instant { model, state, point } = *self;
+        let now = match of {
+            PeakOf::Displacement(side, floor) => Output::Displacement(side, floor),
+            PeakOf::Drift(side, storey) => {
+                let [upper, lower] = [Some(storey), storey.checked_sub(1)].map(|floor| {
+                    let rates = |floor| model.displacement_rates(point, rates, side, floor);
+                    let [first, second] = floor.map_or([0.0; 2], rates);
+                    [floor.map_or(0.0, |floor| model.displacement(point, side, floor)), first, second]
+                });
+                let [value, rest @ ..] = [0, 1, 2].map(|k| upper[k] - lower[k]);
+                return rates_of_peak(value, rest, model.peak(state, point, of));
+            }
+            PeakOf::Acceleration(side, floor) => Output::Acceleration(side, floor),
+            PeakOf::BaseShear(side) => Output::BaseShear(side),
+        };
+        let value = self.read(now).real().unwrap_or_default();
+        rates_of_peak(value, self.differentiate(rates, now), model.peak(state, point, of))
+    }
+}
+
+/// The derivatives of the largest magnitude so far, from those of what it is of.
+fn rates_of_peak(value: f64, [first, second]: Rates, peak: f64) -> Rates {
+    let is_peak = value.abs() >= (1.0 - PEAK_ROUNDING) * peak && value * first > 0.0;
+    if is_peak { [first * value.signum(), second * value.signum()] } else { [0.0; 2] }
 }
 
 fn energy_rates(rates: &EnergyRates, term: EnergyOutput) -> Rates {
@@ -65,7 +94,7 @@ impl Output {
             | Output::Displacement(..)
             | Output::Velocity(..)
             | Output::BaseShear(_)
-            | Output::PeakDrift(..)
+            | Output::Peak(_)
             | Output::Contact(..)
             | Output::Impacts
             | Output::Energy(_) => 0.0,

@@ -7,7 +7,7 @@
 use super::dependencies::floors;
 use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot, building};
 use crate::contact::EpisodeForce;
-use crate::engine::Side;
+use crate::engine::{PeakOf, Side};
 use crate::scene::{Building, Damping, Scene, Stiffness};
 
 /// Whether an unknown may depend on a known at the start time; `unknown` is an output or a calculated parameter,
@@ -23,9 +23,12 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
         Output::GroundAcceleration => {
             matches!(known, Slot::Parameter(Parameter::GroundScale | Parameter::GroundRecord))
         }
-        Output::Displacement(..) | Output::Velocity(..) | Output::PeakDrift(..) => false,
-        Output::BaseShear(side) => base_shear(scene, side, known),
-        Output::Acceleration(side, floor) => acceleration(scene, (side, floor), known),
+        Output::Displacement(..) | Output::Velocity(..) => false,
+        Output::Peak(PeakOf::Displacement(..) | PeakOf::Drift(..)) => false,
+        // No input has acted yet.
+        Output::Peak(_) if matches!(known, Slot::Input(_)) => false,
+        Output::BaseShear(side) | Output::Peak(PeakOf::BaseShear(side)) => base_shear(scene, side, known),
+        Output::Acceleration(side, floor) | Output::Peak(PeakOf::Acceleration(side, floor)) => acceleration(scene, (side, floor), known),
         Output::Contact(p, C::Penetration) => known == gap(p),
         Output::Contact(p, C::Active | C::Impacts) => known == gap(p) && is_pushed(scene, p),
         Output::Contact(p, C::Force | C::PeakForce) => contact_force(scene, p, known),

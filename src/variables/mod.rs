@@ -21,7 +21,7 @@ pub use initial_dependencies::at_start;
 pub use unit::{Unit, UnitInfo};
 pub use values::{Inputs, Instant, Settings, Value};
 
-use crate::engine::Side;
+use crate::engine::{PeakOf, Side};
 use crate::scene::{Building, Scene};
 
 /// What a variable stands for. Floors, storeys and contacts are counted from 0.
@@ -84,8 +84,8 @@ pub enum Output {
     Acceleration(Side, usize),
     /// N
     BaseShear(Side),
-    /// m
-    PeakDrift(Side, usize),
+    /// The largest magnitude so far.
+    Peak(PeakOf),
     /// One contact.
     Contact(usize, ContactOutput),
     /// Contact episodes so far.

@@ -4,7 +4,7 @@ use super::{
     ContactOutput, EnergyOutput, Input, Output, Parameter, Row, Slot, Table, Type, Unit, Variability, building,
 };
 use crate::contact::LawKey;
-use crate::engine::Side;
+use crate::engine::{PeakOf, Side};
 use crate::scene::{Building, ContactPair, Damping, Scene, Stiffness, rule};
 
 // The motion that the nominal values stand for: m, m/s and m/s2.
@@ -84,9 +84,21 @@ impl Table {
             let about = format!("{quantity} of floor {i}, {frame}");
             self.add(output, &format!("{name}.{quantity}[{i}]"), ty, &about).nominal(scale);
         }
-        let about = format!("largest drift of storey {i} so far, also between communication points");
-        let row = self.add(Output::PeakDrift(side, floor), &format!("{name}.peak_drift[{i}]"), METRE, &about);
-        row.at_least(0.0).nominal(DISPLACEMENT);
+        for (of, quantity, ty, about, scale) in [
+            (PeakOf::Displacement(side, floor), "displacement", METRE, "displacement of floor", DISPLACEMENT),
+            (PeakOf::Drift(side, floor), "drift", METRE, "drift of storey", DISPLACEMENT),
+            (
+                PeakOf::Acceleration(side, floor),
+                "acceleration",
+                METRE_PER_SECOND_SQUARED,
+                "absolute acceleration of floor",
+                ACCELERATION,
+            ),
+        ] {
+            let about = format!("largest {about} {i} so far, of either sign, between communication points and in impacts too");
+            let row = self.add(Output::Peak(of), &format!("{name}.peak_{quantity}[{i}]"), ty, &about);
+            row.at_least(0.0).nominal(scale);
+        }
         let (about, ty) = (format!("mass of floor {i}"), Type::Real(Unit::Kilogram));
         let row = self.add(Parameter::Mass(side, floor), &format!("{name}.mass[{i}]"), ty, &about);
         row.at_least(0.0).nominal(building.mass[floor]);
@@ -101,6 +113,9 @@ impl Table {
         let about = "force of the building on the ground: sum of K u + C v over its floors";
         let row = self.add(Output::BaseShear(side), &format!("{name}.base_shear"), NEWTON, about);
         row.nominal(building.mass.iter().sum::<f64>() * ACCELERATION);
+        let about = "largest base shear so far, of either sign, between communication points and in impacts too";
+        let row = self.add(Output::Peak(PeakOf::BaseShear(side)), &format!("{name}.peak_base_shear"), NEWTON, about);
+        row.at_least(0.0).nominal(building.mass.iter().sum::<f64>() * ACCELERATION);
         if let Damping::Ratio(ratio) = building.damping {
             let about = "ratio of critical damping in every mode";
             let row = self.add(Parameter::DampingRatio(side), &format!("{name}.damping_ratio"), ONE, about);

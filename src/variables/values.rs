@@ -300,7 +300,7 @@ impl Instant<'_> {
             Output::Velocity(side, floor) => model.velocity(point, side, floor),
             Output::Acceleration(side, floor) => model.acceleration(point, side, floor),
             Output::BaseShear(side) => model.base_shear(point, side),
-            Output::PeakDrift(side, storey) => model.peak_drift(state, side, storey),
+            Output::Peak(of) => model.peak(state, point, of),
             Output::Contact(p, output) => return read_contact(&model.contact(state, point, p), output),
             Output::Impacts => return count(point.impacts),
             Output::Energy(term) => read_energy(&point.energy.unwrap_or_default(), term),

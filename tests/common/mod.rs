@@ -3,7 +3,7 @@
 
 pub mod bodies;
 
-use pounding::engine::{ContactPoint, Episode, Model, Point, Side, State};
+use pounding::engine::{ContactPoint, Episode, Model, PeakOf, Point, Side, State};
 use pounding::record::Record;
 use pounding::scene::Scene;
 
@@ -85,6 +85,10 @@ impl Run {
         self.model.velocity(&self.point, side, floor)
     }
 
+    pub fn peak(&self, of: PeakOf) -> f64 {
+        self.model.peak(&self.state, &self.point, of)
+    }
+
     pub fn contact(&self, p: usize) -> ContactPoint {
         self.model.contact(&self.state, &self.point, p)
     }
@@ -106,7 +110,9 @@ impl Run {
                 values.push(self.displacement(side, floor));
                 values.push(self.velocity(side, floor));
                 values.push(self.model.acceleration(&self.point, side, floor));
-                values.push(self.model.peak_drift(&self.state, side, floor));
+                for of in [PeakOf::Displacement, PeakOf::Drift, PeakOf::Acceleration] {
+                    values.push(self.peak(of(side, floor)));
+                }
             }
         }
         for contact in contacts {

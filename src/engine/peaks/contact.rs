@@ -1,0 +1,260 @@
+//! Peaks over a step in contact: what its ends, its length and the largest contact forces do not rule out is searched for.
+
+use super::floors::FloorRoom;
+use super::search::{Quantity, highest};
+use super::{PeakOf, Peaks, larger};
+use crate::engine::model::{Model, Pair};
+use crate::engine::state::{Base, Contact, Coordinates, Inputs, State, Step, StepKind, Workspace};
+use crate::engine::{Point, Side};
+use crate::polynomial::Powers;
+
+/// A step in contact, or its first part.
+#[derive(Clone, Copy)]
+pub(super) struct ContactStep<'a> {
+    /// What it starts from.
+    pub base: &'a Base,
+    pub step: &'a Step,
+    pub inputs: &'a Inputs,
+    /// s.
+    pub length: f64,
+    /// q and v at the end, in the coordinates of the base.
+    pub end: (&'a [f64], &'a [f64]),
+}
+
+impl ContactStep<'_> {
+    /// m/s2 and m/s3, of the ground at the start.
+    pub fn ground(&self) -> (f64, f64) {
+        let Base { segment, elapsed, .. } = self.base;
+        (segment.acceleration_at(*elapsed), segment.slope)
+    }
+}
+
+impl Model {
+    /// Notes the contacts at the start of a step.
+    pub(in crate::engine) fn note_starts(&self, contacts: &[Contact], work: &mut Workspace) {
+        let starts = work.peaks.first_forces.iter_mut().zip(&mut work.peaks.starts);
+        for ((force, start), contact) in starts.zip(contacts) {
+            *force = contact.present_force();
+            *start = (contact.penetration, contact.rate);
+        }
+    }
+
+    /// Raises the peaks of the base over the step that is planned, whose contacts have been followed to its end.
+    pub(in crate::engine) fn raise_over_step(
+        &self,
+        base: &mut Base,
+        step: &Step,
+        inputs: &Inputs,
+        end: f64,
+        work: &mut Workspace,
+    ) {
+        let mut peaks = std::mem::take(&mut base.peaks);
+        for (force, contact) in work.peaks.last_forces.iter_mut().zip(&base.contacts) {
+            *force = contact.present_force();
+        }
+        self.bound_forces(&base.contacts, step, (step.length, &step.end), &mut work.peaks.strongest);
+        let part = ContactStep { base, step, inputs, length: step.length, end: (&step.q, &step.v) };
+        self.check_contact_step(&part, &mut peaks, work);
+        // Motions near rigid pairs change between two steps, and floor forces may.
+        if self.rigid.pairs.is_empty() && !self.floor_forces {
+            work.peaks.floors.keep([base.segment.start, end]);
+        }
+        peaks.restart();
+        base.peaks = peaks;
+    }
+
+    /// The same for the first part of the step under way, up to what a point shows.
+    pub(super) fn raise_over_part(&self, state: &State, elapsed: f64, point: &Point, peaks: &mut Peaks, work: &mut Workspace) {
+        let State { base, step, inputs, .. } = state;
+        let mut powers = Powers::default();
+        step.series.set_powers(elapsed, &mut powers);
+        self.note_starts(&base.contacts, work);
+        for p in 0..self.pairs.len() {
+            work.peaks.last_forces[p] = self.contact_at(base, step, p, elapsed, &powers).present_force();
+        }
+        self.bound_forces(&base.contacts, step, (elapsed, &powers), &mut work.peaks.strongest);
+        work.peaks.floors.forget();
+        let part = ContactStep { base, step, inputs, length: elapsed, end: (&point.q, &point.v) };
+        self.check_contact_step(&part, peaks, work);
+        work.peaks.floors.forget();
+    }
+
+    /// Raises peaks to the motion of the base under the contact forces there. What an input that has just been set does
+    /// belongs to the step that begins: it has not acted yet.
+    pub(super) fn raise_to_contact(&self, base: &Base, peaks: &mut Peaks, work: &mut Workspace) {
+        self.note_starts(&base.contacts, work);
+        work.peaks.strongest.fill(0.0);
+        work.peaks.last_forces.copy_from_slice(&work.peaks.first_forces);
+        self.find_pushes(base, work);
+        let room = &mut work.peaks.floors;
+        let mut modal = std::mem::take(&mut room.modal);
+        self.find_floors(base.coordinates, (&base.q, &base.v), &mut room.start, &mut modal);
+        room.modal = modal;
+        for side in [Side::Left, Side::Right] {
+            let FloorRoom { start, .. } = &work.peaks.floors;
+            for (floor, lane) in self.structure.floors.lanes_of(side as usize).enumerate() {
+                let below = if floor == 0 { 0.0 } else { start.u[lane - 1] };
+                let now = [
+                    (PeakOf::Displacement(side, floor), start.u[lane]),
+                    (PeakOf::Drift(side, floor), start.u[lane] - below),
+                    (PeakOf::Acceleration(side, floor), start.resisted[lane] + work.peaks.first_push[lane]),
+                ];
+                now.into_iter().for_each(|(of, value)| peaks.raise(self.peak_rows.place(of), value));
+            }
+            peaks.raise(self.peak_rows.place(PeakOf::BaseShear(side)), self.shear_of(side, start));
+        }
+    }
+
+    /// N, bounds on the sizes of the contact forces over a step's first seconds, of which the powers of its series are given.
+    fn bound_forces(&self, contacts: &[Contact], step: &Step, (elapsed, powers): (f64, &Powers), out: &mut [f64]) {
+        out.fill(0.0);
+        match step.kind {
+            StepKind::Onset => step.onset.bound_forces(contacts, elapsed / step.onset.scale, out),
+            StepKind::Window => step.window.bound_forces(contacts, out),
+            _ => {
+                step.closed.bound_forces(contacts, powers, out);
+                for (terms, &p) in step.reactions.iter().zip(&self.rigid.pairs) {
+                    if contacts[p].is_held() {
+                        let powers = powers.all().0.iter();
+                        out[p] = terms.iter().zip(powers).take(step.reaction_order + 1).map(|(c, x)| c.abs() * x).sum();
+                    }
+                }
+            }
+        }
+    }
+
+    fn check_contact_step(&self, part: &ContactStep, peaks: &mut Peaks, work: &mut Workspace) {
+        self.find_ends(part, work);
+        self.find_pushes(part.base, work);
+        for side in [Side::Left, Side::Right] {
+            self.bound_building(side, part, work);
+            self.check_building(side, part, peaks, work);
+        }
+    }
+
+    /// The floors at both ends.
+    fn find_ends(&self, part: &ContactStep, work: &mut Workspace) {
+        let ContactStep { base, length, end, .. } = *part;
+        let room = &mut work.peaks.floors;
+        let mut modal = std::mem::take(&mut room.modal);
+        if !room.go_on([base.segment.start, base.elapsed]) {
+            self.find_floors(base.coordinates, (&base.q, &base.v), &mut room.start, &mut modal);
+        }
+        self.find_floors(base.coordinates, end, &mut room.end, &mut modal);
+        room.modal = modal;
+        if self.floor_forces {
+            self.add_forces((base, part.inputs), 0.0, &mut room.start.resisted);
+            self.add_forces((base, part.inputs), length, &mut room.end.resisted);
+        }
+    }
+
+    /// Adds what floor forces do some seconds after the base.
+    fn add_forces(&self, (base, inputs): (&Base, &Inputs), time: f64, resisted: &mut [f64]) {
+        let at = base.elapsed + time;
+        self.add_floor_forces(inputs, Coordinates::Floors, |force| force.after(base.segment.start, at), resisted);
+    }
+
+    /// How much contact forces push each floor: at the ends, and at the least and the most.
+    fn find_pushes(&self, base: &Base, work: &mut Workspace) {
+        let room = &mut work.peaks;
+        for vector in [&mut room.first_push, &mut room.last_push, &mut room.floors.least, &mut room.floors.most] {
+            vector.fill(0.0);
+        }
+        for (p, pair) in self.pairs.iter().enumerate().filter(|(p, _)| base.contacts[*p].in_contact()) {
+            let Pair { lanes: [left, right], inverse_masses: [of_left, of_right], .. } = pair;
+            let (strongest, pulls) = (room.strongest[p], pair.law.kind.info().pulls);
+            let pulled = if pulls { strongest } else { 0.0 };
+            room.floors.least[*left] -= strongest * of_left;
+            room.floors.most[*left] += pulled * of_left;
+            room.floors.most[*right] += strongest * of_right;
+            room.floors.least[*right] -= pulled * of_right;
+            for (push, force) in
+                [(&mut room.first_push, room.first_forces[p]), (&mut room.last_push, room.last_forces[p])]
+            {
+                push[*left] -= force * of_left;
+                push[*right] += force * of_right;
+            }
+        }
+    }
+
+    /// How fast the floors of a building are at most.
+    fn bound_building(&self, side: Side, part: &ContactStep, work: &mut Workspace) {
+        let (ground, slope) = part.ground();
+        let ground = larger(ground.abs(), (ground + slope * part.length).abs());
+        let room = &mut work.peaks.floors;
+        for lane in self.structure.floors.lanes_of(side as usize) {
+            let resisted = larger(room.start.resisted[lane].abs(), room.end.resisted[lane].abs());
+            room.largest[lane] = resisted + larger(room.most[lane], -room.least[lane]) + ground;
+        }
+        self.find_strays(side, part.length, room);
+    }
+
+    /// Raises the peaks of a building over the step.
+    fn check_building(&self, side: Side, part: &ContactStep, peaks: &mut Peaks, work: &mut Workspace) {
+        let lanes = self.structure.floors.lanes_of(side as usize);
+        let sag = 0.125 * part.length * part.length;
+        for (floor, lane) in lanes.clone().enumerate() {
+            let FloorRoom { start, end, least, most, largest, strays, .. } = &work.peaks.floors;
+            let below = if floor == 0 { None } else { Some(lane - 1) };
+            let at = |of: &[f64], lane: Option<usize>| lane.map_or(0.0, |lane| of[lane]);
+            let (fastest, slower) = (largest[lane], at(largest, below));
+            let moved = [start.u[lane], end.u[lane]];
+            let drift = [moved[0] - at(&start.u, below), moved[1] - at(&end.u, below)];
+            let resisted = [start.resisted[lane], end.resisted[lane]];
+            let pushed = [resisted[0] + work.peaks.first_push[lane], resisted[1] + work.peaks.last_push[lane]];
+            let top = larger(resisted[0], resisted[1]) + most[lane] + strays[lane];
+            let bottom = -larger(-resisted[0], -resisted[1]) + least[lane] - strays[lane];
+            let of_largest = |[a, b]: [f64; 2]| larger(a.abs(), b.abs());
+            let bounds = [
+                (PeakOf::Displacement(side, floor), moved, of_largest(moved) + sag * fastest),
+                (PeakOf::Drift(side, floor), drift, of_largest(drift) + sag * (fastest + slower)),
+                (PeakOf::Acceleration(side, floor), pushed, larger(top, -bottom)),
+            ];
+            for (of, ends, bound) in bounds {
+                self.check_one(of, ends, bound, part, peaks, work);
+            }
+        }
+        let FloorRoom { start, end, largest, .. } = &work.peaks.floors;
+        let shears = [self.shear_of(side, start), self.shear_of(side, end)];
+        let bound = larger(shears[0].abs(), shears[1].abs()) + self.shear_strays(side, part.length, largest);
+        self.check_one(PeakOf::BaseShear(side), shears, bound, part, peaks, work);
+    }
+
+    /// Raises one peak from its values at both ends and a bound.
+    #[inline(always)]
+    fn check_one(
+        &self,
+        of: PeakOf,
+        ends: [f64; 2],
+        bound: f64,
+        part: &ContactStep,
+        peaks: &mut Peaks,
+        work: &mut Workspace,
+    ) {
+        let place = self.peak_rows.place(of);
+        // Written so that a NaN is never below anything.
+        if !(bound <= peaks.values[place]) {
+            ends.into_iter().for_each(|end| peaks.raise(place, end));
+            let peak = self.highest_in_contact(of, peaks.values[place], part, work);
+            peaks.raise(place, peak);
+        }
+    }
+
+    /// The largest magnitude of a quantity within a step, or `known` if that is larger.
+    #[inline(never)]
+    fn highest_in_contact(&self, of: PeakOf, known: f64, part: &ContactStep, work: &mut Workspace) -> f64 {
+        let mut rows = std::mem::take(&mut work.peaks.rows);
+        self.set_rows(of, part.base.coordinates, &mut rows);
+        let quantity = Quantity { of, rows: &rows, ground: part.ground() };
+        let peak = match part.step.kind {
+            StepKind::Onset | StepKind::Window => self.highest_by_reading(&quantity, known, part, work),
+            _ => {
+                let series = &part.step.series;
+                let (terms, order) = quantity.terms(series, Some(&mut work.bend));
+                highest(&terms, (series.place(part.length), order), known)
+            }
+        };
+        work.peaks.rows = rows;
+        peak
+    }
+}

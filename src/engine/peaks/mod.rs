@@ -1,0 +1,273 @@
+//! Largest magnitudes so far, in continuous time: of displacements, drifts, absolute accelerations and base shears.
+//!
+//! Nothing is sampled. A flight is exact, so what a quantity is at both ends of it, how fast it changes there and a bound on
+//! its fourth derivative tell whether it can have exceeded its peak in between ([`flight`]); most segments of a record need
+//! not even that, since the amplitudes of the modes tell for how long nothing can ([`ahead`]). In contact the largest force
+//! and both ends of a step bound what the floors have done ([`contact`]). What may have exceeded its peak is searched for
+//! where it did: in the power series of the step ([`search`]), or by readings of the step where it has none in time
+//! ([`reading`]).
+//!
+//! Between communication points a peak belongs to the scene: the base holds that of all whole steps, and what the step under
+//! way adds is worked out from its start when somebody asks. Velocities jump in an impact of `stereomechanical`: the motion
+//! before and after counts, the impulse itself, in which accelerations have no size, does not.
+
+mod ahead;
+mod contact;
+mod flight;
+mod floors;
+mod reading;
+mod rows;
+mod search;
+
+use super::model::Model;
+use super::state::*;
+use super::{Point, Side};
+use crate::structure::{LANES, Lane, Structure};
+use flight::Flight;
+use serde::{Deserialize, Serialize};
+use std::cell::RefCell;
+
+pub(super) use floors::FloorResistance;
+pub(super) use rows::PeakRows;
+
+/// Something whose largest magnitude so far is kept. Floors and storeys count from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PeakOf {
+    /// m, of a floor relative to the ground.
+    Displacement(Side, usize),
+    /// m, of a storey: of its upper floor relative to its lower one.
+    Drift(Side, usize),
+    /// m/s2, of a floor, absolute.
+    Acceleration(Side, usize),
+    /// N, force of the building on the ground.
+    BaseShear(Side),
+}
+
+impl PeakOf {
+    fn side(self) -> Side {
+        match self {
+            PeakOf::Displacement(side, _) | PeakOf::Drift(side, _) | PeakOf::Acceleration(side, _) => side,
+            PeakOf::BaseShear(side) => side,
+        }
+    }
+}
+
+/// The peaks up to the base, in the places of [`PeakRows`].
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Peaks {
+    values: Vec<f64>,
+    /// For each block the first segment of the record in which it may exceed a peak, as far as is known.
+    clear_until: Vec<u64>,
+    /// The first of them.
+    due: u64,
+}
+
+impl Peaks {
+    fn new(rows: &PeakRows) -> Peaks {
+        Peaks { values: vec![0.0; rows.blocks() * LANES], clear_until: vec![0; rows.blocks()], due: 0 }
+    }
+
+    /// Whether they are of as many quantities, and are looked at again in time.
+    pub fn fit(&self, other: &Peaks, segment: u64) -> bool {
+        self.values.len() == other.values.len()
+            && self.clear_until.len() == other.clear_until.len()
+            && self.values.iter().all(|peak| *peak >= 0.0)
+            && self.clear_until.iter().all(|until| *until <= segment.saturating_add(2 * ahead::MOST))
+            && self.clear_until.iter().min().is_none_or(|first| self.due == *first)
+    }
+
+    /// All numbers in it.
+    pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+        let Peaks { values, clear_until: _, due: _ } = self;
+        values.iter().copied()
+    }
+
+    /// Forgets the time to come: a contact force or an impulse has acted.
+    pub fn restart(&mut self) {
+        if self.due > 0 {
+            self.clear_until.fill(0);
+            self.due = 0;
+        }
+    }
+
+    /// The first segment of the record in which any quantity may exceed its peak, as far as is known.
+    pub fn due(&self) -> u64 {
+        self.due
+    }
+
+    fn block(&self, block: usize) -> &Lane {
+        &self.values.as_chunks::<LANES>().0[block]
+    }
+
+    fn raise(&mut self, place: usize, value: f64) {
+        let peak = &mut self.values[place];
+        *peak = larger(*peak, value.abs());
+    }
+}
+
+/// Room to work in; its content means nothing between calls, but for what [`floors`] keeps of the end of a step.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PeakRoom {
+    /// Of the modes over a flight, and over a piece of one.
+    bounds: flight::ModeBounds,
+    piece: flight::ModeBounds,
+    /// q and v at both ends of a piece, and the load at its start.
+    pieces: [Vec<f64>; 4],
+    load: Vec<f64>,
+    /// A row over q and one over v.
+    rows: [Vec<f64>; 2],
+    /// Of each place: what floor forces add to an acceleration at the start of a flight, m/s2, and its rate.
+    direct: Vec<[f64; 2]>,
+    floors: floors::FloorRoom,
+    reading: reading::ReadingRoom,
+    /// N, bounds on the sizes of the contact forces over a step.
+    strongest: Vec<f64>,
+    /// N, the contact forces at the start of a step and at its end.
+    first_forces: Vec<f64>,
+    last_forces: Vec<f64>,
+    /// Penetrations, m, and rates, m/s, at the start of a step.
+    starts: Vec<(f64, f64)>,
+    /// m/s2, what they push each floor by.
+    first_push: Vec<f64>,
+    last_push: Vec<f64>,
+}
+
+impl PeakRoom {
+    pub fn new(structure: &Structure, rows: &PeakRows, pairs: usize) -> PeakRoom {
+        let lanes = structure.lanes;
+        PeakRoom {
+            bounds: flight::ModeBounds::new(lanes),
+            piece: flight::ModeBounds::new(lanes),
+            pieces: [(); 4].map(|()| vec![0.0; lanes]),
+            load: vec![0.0; lanes],
+            rows: [(); 2].map(|()| vec![0.0; lanes]),
+            direct: vec![[0.0; 2]; rows.blocks() * LANES],
+            floors: floors::FloorRoom::new(lanes),
+            reading: reading::ReadingRoom::new(lanes),
+            strongest: vec![0.0; pairs],
+            first_forces: vec![0.0; pairs],
+            last_forces: vec![0.0; pairs],
+            starts: vec![(0.0, 0.0); pairs],
+            first_push: vec![0.0; lanes],
+            last_push: vec![0.0; lanes],
+        }
+    }
+
+    /// Forgets what it keeps: the motion is another one.
+    pub fn forget(&mut self) {
+        self.floors.forget();
+    }
+}
+
+/// The peaks at an observed time, worked out when one is first asked for.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PointPeaks {
+    observation: u64,
+    peaks: Peaks,
+    work: Option<Box<Workspace>>,
+}
+
+impl Model {
+    /// No peak yet.
+    pub(super) fn start_peaks(&self) -> Peaks {
+        Peaks::new(&self.peak_rows)
+    }
+
+    /// The largest magnitude so far of what `of` names; `point` is what has been observed in `state`.
+    pub fn peak(&self, state: &State, point: &Point, of: PeakOf) -> f64 {
+        let place = self.peak_rows.place(of);
+        let mut known = point.peaks.borrow_mut();
+        if known.observation != point.floors.observation {
+            known.observation = point.floors.observation;
+            self.read_peaks(state, point, &mut known);
+        }
+        known.peaks.values[place]
+    }
+
+    /// The peaks of the base and of what the step under way adds until the observed time.
+    #[inline(never)]
+    fn read_peaks(&self, state: &State, point: &Point, known: &mut PointPeaks) {
+        let State { base, step, inputs, .. } = state;
+        let mut work = known.work.take().unwrap_or_else(|| Box::new(self.workspace()));
+        known.peaks.clone_from(&base.peaks);
+        let elapsed = state.since_base();
+        let is_in_contact = base.contacts.iter().any(Contact::in_contact);
+        match step.kind {
+            _ if elapsed == 0.0 && is_in_contact => self.raise_to_contact(base, &mut known.peaks, &mut work),
+            _ if elapsed == 0.0 => self.raise_to_motion(base, &mut known.peaks),
+            StepKind::Contact | StepKind::Onset | StepKind::Window if elapsed > 0.0 => {
+                self.raise_over_part(state, elapsed, point, &mut known.peaks, &mut work);
+            }
+            _ => {
+                let end = (elapsed, &point.q[..], &point.v[..]);
+                self.with_flight(base, inputs, end, &mut work, |flight, work| {
+                    self.check_flight(flight, &mut known.peaks, work);
+                });
+            }
+        }
+        known.work = Some(work);
+    }
+
+    /// Raises the peaks of the base over the flight that is planned.
+    pub(super) fn raise_over_flight(&self, base: &mut Base, step: &Step, inputs: &Inputs, work: &mut Workspace) {
+        let watched = self.watched_segment(base).filter(|_| self.structure.is_classical());
+        if let Some((ground, segment)) = watched {
+            self.look_ahead_for_peaks(ground, base, segment, work);
+        }
+        let mut peaks = std::mem::take(&mut base.peaks);
+        self.with_flight(base, inputs, (step.length, &step.q, &step.v), work, |flight, work| match watched {
+            Some((_, segment)) => self.check_due_blocks(segment, flight, &mut peaks, work),
+            None => self.check_flight(flight, &mut peaks, work),
+        });
+        base.peaks = peaks;
+    }
+
+    /// Raises the peaks of the base, to which a segment of the record has been flown from a motion before.
+    pub(super) fn raise_over_segment(
+        &self,
+        base: &mut Base,
+        (segment, start, ground): (u64, (&[f64], &[f64]), (f64, f64)),
+        work: &mut Workspace,
+    ) {
+        let mut peaks = std::mem::take(&mut base.peaks);
+        let shares = self.structure.participation.iter();
+        for ((load, slope), share) in work.load.iter_mut().zip(&mut work.slope).zip(shares) {
+            (*load, *slope) = (-share * ground.0, -share * ground.1);
+        }
+        let (load, slope) = (std::mem::take(&mut work.load), std::mem::take(&mut work.slope));
+        let (end, loads) = ((&base.q[..], &base.v[..]), (&load[..], &slope[..]));
+        let flight = Flight { start, end, loads, ground, length: base.segment.length };
+        self.check_due_blocks(segment, &flight, &mut peaks, work);
+        (work.load, work.slope) = (load, slope);
+        base.peaks = peaks;
+    }
+
+    /// Calls with the flight from the base to an end after some seconds.
+    fn with_flight(
+        &self,
+        base: &Base,
+        inputs: &Inputs,
+        (length, q, v): (f64, &[f64], &[f64]),
+        work: &mut Workspace,
+        then: impl FnOnce(&Flight, &mut Workspace),
+    ) {
+        self.load(base, inputs, &mut work.load, &mut work.slope);
+        let (load, slope) = (std::mem::take(&mut work.load), std::mem::take(&mut work.slope));
+        if self.floor_forces {
+            self.note_floor_forces(base, inputs, &mut work.peaks.direct);
+        }
+        let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
+        let loads = (&load[..], &slope[..]);
+        then(&Flight { start: (&base.q, &base.v), end: (q, v), loads, ground, length }, work);
+        (work.load, work.slope) = (load, slope);
+    }
+}
+
+/// The larger of two numbers that are not NaN: unlike `max` it does not look for one.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
+/// For [`Point`], which is read through a shared reference.
+pub(super) type PeakCell = RefCell<PointPeaks>;

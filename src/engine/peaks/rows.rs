@@ -1,0 +1,164 @@
+//! What is watched for its peak, as functions of the motion: four of them at a time.
+//!
+//! Without contact and floor forces each is a row over the displacements q and one over the velocities v of its building's
+//! modes, y = A q + B v:
+//!
+//! ```text
+//! displacement         A = shape of the floor                     B = 0
+//! drift                A = that less the shape of the floor below B = 0
+//! acceleration         A = -w^2 shape                             B = -shape C     (absolute)
+//! base shear           A = w^2 participation                      B = participation C
+//! ```
+
+use super::PeakOf;
+use crate::engine::Side;
+use crate::structure::{LANES, Lane, ModalDamping, Structure};
+use std::ops::Range;
+
+/// The watched quantities of both buildings.
+#[derive(Debug)]
+pub(in crate::engine) struct PeakRows {
+    pub buildings: [BuildingRows; 2],
+}
+
+/// Of one building: blocks of [`LANES`] quantities, first displacements and drifts, then accelerations and the base shear.
+#[derive(Debug)]
+pub(in crate::engine) struct BuildingRows {
+    /// Its modes in a modal vector.
+    pub modes: Range<usize>,
+    /// Number of its first block among those of both buildings.
+    pub first: usize,
+    pub blocks: Vec<Block>,
+    floors: usize,
+    /// Blocks of displacements and drifts.
+    moving: usize,
+}
+
+/// [`LANES`] quantities of one building.
+#[derive(Debug)]
+pub(in crate::engine) struct Block {
+    /// A, mode by mode.
+    pub on_q: Vec<Lane>,
+    /// B; empty where it is 0.
+    pub on_v: Vec<Lane>,
+    /// What a shaking (integral of |ground acceleration|) of 1 m/s adds to the bounds of `ahead.rs`.
+    pub growth: Growth,
+}
+
+/// See `ahead.rs`.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::engine) struct Growth {
+    /// |B participation|.
+    pub at_once: Lane,
+    /// |(A - B c) participation|, to the rate.
+    pub rate: Lane,
+    /// To the bound on the second derivative, and to that on the whole swing.
+    pub bend: Lane,
+    pub swing: Lane,
+}
+
+impl PeakRows {
+    pub fn of(structure: &Structure) -> PeakRows {
+        let left = BuildingRows::of(structure, Side::Left, 0);
+        let right = BuildingRows::of(structure, Side::Right, left.blocks.len());
+        PeakRows { buildings: [left, right] }
+    }
+
+    /// Blocks of both buildings.
+    pub fn blocks(&self) -> usize {
+        self.buildings.iter().map(|building| building.blocks.len()).sum()
+    }
+
+    /// Where a quantity is among those of all blocks.
+    pub fn place(&self, of: PeakOf) -> usize {
+        let building = &self.buildings[of.side() as usize];
+        let floors = building.floors;
+        building.first * LANES
+            + match of {
+                PeakOf::Displacement(_, floor) => floor,
+                PeakOf::Drift(_, storey) => floors + storey,
+                PeakOf::Acceleration(_, floor) => building.moving * LANES + floor,
+                PeakOf::BaseShear(_) => building.moving * LANES + floors,
+            }
+    }
+
+    /// What is at a place, if anything is.
+    pub fn at(&self, place: usize) -> Option<PeakOf> {
+        let side = if place < self.buildings[1].first * LANES { Side::Left } else { Side::Right };
+        let building = &self.buildings[side as usize];
+        let (place, floors, moving) = (place - building.first * LANES, building.floors, building.moving * LANES);
+        match place {
+            _ if place < floors => Some(PeakOf::Displacement(side, place)),
+            _ if place < 2 * floors => Some(PeakOf::Drift(side, place - floors)),
+            _ if place < moving => None,
+            _ if place < moving + floors => Some(PeakOf::Acceleration(side, place - moving)),
+            _ if place == moving + floors => Some(PeakOf::BaseShear(side)),
+            _ => None,
+        }
+    }
+}
+
+impl BuildingRows {
+    fn of(structure: &Structure, side: Side, first: usize) -> BuildingRows {
+        let modes = structure.modes(side);
+        let (floors, count) = (modes.shape.nrows(), modes.omega.len());
+        let shape = |floor: usize, m: usize| modes.shape[(floor, m)];
+        let drift = |storey: usize, m: usize| match storey {
+            0 => shape(0, m),
+            _ => shape(storey, m) - shape(storey - 1, m),
+        };
+        let damped = |of: &dyn Fn(usize) -> f64, m: usize| match &modes.damping {
+            ModalDamping::Diagonal(c) => c[m] * of(m),
+            ModalDamping::Coupled(c) => (0..count).map(|k| c[(k, m)] * of(k)).sum(),
+        };
+        let w2 = |m: usize| modes.omega[m] * modes.omega[m];
+        let moving = |place: usize, m: usize| match place {
+            _ if place < floors => [shape(place, m), 0.0],
+            _ if place < 2 * floors => [drift(place - floors, m), 0.0],
+            _ => [0.0; 2],
+        };
+        let pulling = |place: usize, m: usize| match place {
+            _ if place < floors => [-w2(m) * shape(place, m), -damped(&|k| shape(place, k), m)],
+            _ if place == floors => [w2(m) * modes.participation[m], damped(&|k| modes.participation[k], m)],
+            _ => [0.0; 2],
+        };
+        let mut blocks = Vec::new();
+        for from in (0..2 * floors).step_by(LANES) {
+            blocks.push(Block::of(structure, side, count, |i, m| moving(from + i, m)));
+        }
+        let moving = blocks.len();
+        for from in (0..=floors).step_by(LANES) {
+            blocks.push(Block::of(structure, side, count, |i, m| pulling(from + i, m)));
+        }
+        BuildingRows { modes: structure.range(side), first, blocks, floors, moving }
+    }
+}
+
+impl Block {
+    /// From the A and the B of each lane and mode.
+    fn of(structure: &Structure, side: Side, count: usize, row: impl Fn(usize, usize) -> [f64; 2]) -> Block {
+        let lanes = |part: usize| -> Vec<Lane> {
+            (0..count).map(|m| std::array::from_fn(|i| row(i, m)[part])).collect()
+        };
+        let (on_q, mut on_v) = (lanes(0), lanes(1));
+        let offset = structure.offset(side);
+        let mut growth = Growth::default();
+        for m in 0..count {
+            let (w2, c) = (structure.omega2[offset + m], structure.damping[offset + m]);
+            let (w, share) = (w2.sqrt(), structure.participation[offset + m].abs());
+            for i in 0..LANES {
+                let (a, b) = (on_q[m][i], on_v[m][i]);
+                growth.at_once[i] += b * structure.participation[offset + m];
+                growth.rate[i] += (a - b * c) * structure.participation[offset + m];
+                growth.bend[i] += ((a - b * c).abs() * (w + c) + b.abs() * w2) * share;
+                growth.swing[i] += (a.abs() / w + b.abs()) * share;
+            }
+        }
+        growth.at_once = growth.at_once.map(f64::abs);
+        growth.rate = growth.rate.map(f64::abs);
+        if on_v.as_flattened().iter().all(|b| *b == 0.0) {
+            on_v.clear();
+        }
+        Block { on_q, on_v, growth }
+    }
+}
