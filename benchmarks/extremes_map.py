@@ -1,10 +1,13 @@
 """Pictures of the runs at the extremes."""
 
+import io
+
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
+from PIL import Image  # noqa: E402
 
 plt.rcParams.update({"font.size": 9, "axes.titlesize": 10, "axes.titlelocation": "left"})
 
@@ -51,8 +54,7 @@ def draw(rows, file):
         f"{len(rows)} runs, stiffnesses 1e4 to 1e14: {len(ended)} to the end, energy balanced to {max(ended):.0e}",
         x=0.005, ha="left",
     )  # fmt: skip
-    figure.savefig(file, dpi=110)
-    plt.close(figure)
+    save(figure, file)
 
 
 def draw_line(panel, rows, values, line):
@@ -88,6 +90,14 @@ def name_marks(panel, laws, unbalanced):
     panel.legend(handles=lines, loc="center left", frameon=False, fontsize=10)
 
 
+def save(figure, file):
+    """Of 256 colours: a third of the size that all take."""
+    drawn = io.BytesIO()
+    figure.savefig(drawn, dpi=110)
+    plt.close(figure)
+    Image.open(drawn).convert("RGB").quantize(256).save(file, optimize=True)
+
+
 def draw_drift(rows, file):
     """Error of the energy against the number of impacts, for laws that lose none."""
     figure, axes = plt.subplots(figsize=(8.0, 4.6), layout="constrained")
@@ -109,5 +119,4 @@ def draw_drift(rows, file):
     axes.grid(alpha=0.25)
     axes.spines[["top", "right"]].set_visible(False)
     axes.legend(frameon=False, fontsize=8, loc="upper left")
-    figure.savefig(file, dpi=110)
-    plt.close(figure)
+    save(figure, file)

@@ -34,7 +34,8 @@ def draw(scene, motion, alone):
 
     figure, panels = prepare_figure()
     for column, clock, around in [(0, motion.time, STRONG_MOTION), (1, 1e3 * (motion.time - start), ONE_IMPACT)]:
-        shown = (clock >= around[0]) & (clock <= around[1])
+        # With a row before and after, so that lines reach the edges.
+        shown = slice(np.searchsorted(clock, around[0]) - 1, np.searchsorted(clock, around[1]) + 1)
         draw_edges(panels[0, column], clock, motion, shown, gap)
         panels[1, column].plot(clock[shown], motion[f"contact[{CONTACT}].force"][shown], **FORCE)
         draw_acceleration(panels[2, column], motion, alone, start if column else 0.0, 1e3 if column else 1.0)

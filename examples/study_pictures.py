@@ -59,10 +59,10 @@ def gaps(rows, path):
             of_pga = [row for row in closing if row["pga_m_s2"] == pga]
             draw_demand(panel, of_pga, demand, style, in_g(pga), shaded=panel is axes[0, 0])
         panel.set_title(title)
-        panel.set_ylim(bottom=0)
         if "building" in title:
             panel.axhline(1.0, **{**ALONE, "linewidth": 1.2})
             panel.set_ylabel("relative to no contact")
+        panel.set_ylim(0, 1.05 * panel.get_ylim()[1])
     for panel in axes[1]:
         panel.set_xlabel("gap [mm]")
     records = len({row["record_id"] for row in rows})
