@@ -269,7 +269,7 @@ def draw_sweep(axes, record):
             markeredgecolor=style.BLACK,
             markeredgewidth=0.5,
             markersize=6,
-            label=f"{label}: {len(found)} pairs",
+            label=f"{label}: {len(found)} pair{'s' if len(found) != 1 else ''}",
         )
     axes.plot(PUBLISHED[1], PUBLISHED[3], "s", color=style.BLACK, markerfacecolor="white", markersize=8, label="published")
     axes.plot([150, 3000], [150, 3000], color=style.GREY, linewidth=1, zorder=1, label="the same force")

@@ -78,7 +78,8 @@ if (units.has("N.s") && units.has("N")) {
 
 // Name and factor of what a unit is shown in.
 const shownIn = (unit) => units.get(unit) ?? [unit === "1" ? "" : unit, 1];
-const withUnit = (name, unit) => (shownIn(unit)[0] ? `${name} [${shownIn(unit)[0].replace(".", " ")}]` : name);
+const unitText = (unit) => shownIn(unit)[0].replace(".", "\u00a0");
+const withUnit = (name, unit) => (unitText(unit) ? `${name} [${unitText(unit)}]` : name);
 const scaled = (value, unit) => (value === null ? null : value * shownIn(unit)[1]);
 
 // Colour and dash of a column among those that are drawn with it.
@@ -327,7 +328,7 @@ function peakTable() {
   const rows = Array.from({ length: storeys }, (_, i) => storeys - i);
   const cells = rows.map((index) => [index, ...known.map((columns) => last(columns.find((c) => c.index === index)))]);
   tableOf(element("peak-table"), ["storey, floor", ...headings], cells);
-  const shears = (groups.get("peak base shear") ?? []).map((c) => `${digits(last(c))} ${shownIn(c.unit)[0]} (${c.of})`);
+  const shears = (groups.get("peak base shear") ?? []).map((c) => `${digits(last(c))} ${unitText(c.unit)} (${c.of})`);
   element("peak-shears").textContent = shears.length > 0 ? `base shear: ${shears.join(", ")}` : "";
 }
 
@@ -382,7 +383,7 @@ function happened() {
   if (!hardest) return `${text}.`;
   const { left_floor, right_floor } = run.contacts[hardest[CONTACT] - 1];
   const where = `left floor ${left_floor} and right floor ${right_floor}`;
-  return `${text}, the hardest between ${where} at ${hardest[START].toFixed(3)} s with ${digits(scaled(hardest[by], unit))} ${shownIn(unit)[0].replace(".", " ")}.`;
+  return `${text}, the hardest between ${where} at ${hardest[START].toFixed(3)} s with ${digits(scaled(hardest[by], unit))} ${unitText(unit)}.`;
 }
 
 document.title = run.name;
