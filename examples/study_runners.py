@@ -9,6 +9,7 @@ import signal
 import tempfile
 from concurrent import futures
 from concurrent.futures.process import BrokenProcessPool
+from multiprocessing import resource_tracker
 
 import study_worker
 
@@ -41,14 +42,22 @@ def serial(cases, materials, workers):
 @contextlib.contextmanager
 def without_interrupts():
     """Processes that begin in here leave Ctrl-C to this one, which ends them; it comes here when this is over."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    came = []
+    handler = signal.signal(signal.SIGINT, lambda *_: came.append(True))
+    blocks = hasattr(signal, "pthread_sigmask")
+    if blocks:
+        # Starting this one of multiprocessing's own would unblock what is blocked.
+        resource_tracker.ensure_running()
+        # For the processes, which inherit it; in this one another thread may take the signal, so there is a handler, too.
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        if blocks:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        signal.signal(signal.SIGINT, handler)
+    if came:
+        raise KeyboardInterrupt
 
 
 def pool(cases, materials, workers):
@@ -58,10 +67,10 @@ def pool(cases, materials, workers):
     context = multiprocessing.get_context("spawn")
     # Of this process: it is removed however the workers end.
     with tempfile.TemporaryDirectory(prefix="study") as folder:
-        with without_interrupts():
-            executor = futures.ProcessPoolExecutor(workers, context, study_worker.prepare, (materials, folder))
-            submitted = [executor.submit(study_worker.run_cases, batch) for batch in batches(cases, workers)]
+        executor = futures.ProcessPoolExecutor(workers, context, study_worker.prepare, (materials, folder))
         try:
+            with without_interrupts():
+                submitted = [executor.submit(study_worker.run_cases, batch) for batch in batches(cases, workers)]
             for future in futures.as_completed(submitted):
                 yield future.result()
         except BrokenProcessPool:

@@ -160,6 +160,15 @@ def test_ctrl_c_ends_without_a_traceback(tmp_path, where):
 
 
 @pytest.mark.skipif(not hasattr(os, "killpg"), reason="no process groups here")
+def test_ctrl_c_while_workers_begin(tmp_path):
+    table = tmp_path / "results.csv"
+    # They have been started, and load their libraries: for tenths of a second.
+    begun = lambda: table.exists() and time.time() - table.stat().st_mtime > 0.15  # noqa: E731
+    code, said = interrupted(command(tmp_path, "--workers", 4), begun)
+    assert code == 130 and "Traceback" not in said, said
+
+
+@pytest.mark.skipif(not hasattr(os, "killpg"), reason="no process groups here")
 def test_ctrl_c_before_there_is_anything_to_do(tmp_path):
     code, said = interrupted(command(tmp_path), lambda: True)
     assert code in (130, -signal.SIGINT) and "Traceback" not in said, said
