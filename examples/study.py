@@ -31,7 +31,7 @@ import study_fragility  # noqa: E402
 from engine import ROOT  # noqa: E402
 from study_plan import plan  # noqa: E402
 from study_results import Results  # noqa: E402
-from study_runners import runner  # noqa: E402
+from study_runners import runner, without_interrupts  # noqa: E402
 from study_table import NEVER_CLOSES  # noqa: E402
 
 GAPS = [0.0, 0.005, 0.01, 0.02, 0.03, 0.05, 0.08, 0.12]  # m
@@ -77,13 +77,19 @@ def draw(rows, options):
         demands = study_fragility.demands(of_scene, limits)
         curves = study_fragility.curves(of_scene, demands, options.intensity)
         study_fragility.write(curves, options.output / f"fragility_{scene}.csv")
-        try:
-            import study_pictures
-        except ModuleNotFoundError as missing:
-            print(f"no pictures without {missing.name}", file=sys.stderr)
-            return
-        study_pictures.gaps(of_scene, options.output / f"gaps_{scene}.png")
-        study_pictures.fragility(of_scene, curves, options.intensity, options.output / f"fragility_{scene}.png")
+        # A second or two; matplotlib may crash when it is interrupted.
+        with without_interrupts():
+            draw_scene(of_scene, curves, options, scene)
+
+
+def draw_scene(rows, curves, options, scene):
+    try:
+        import study_pictures
+    except ModuleNotFoundError as missing:
+        print(f"no pictures without {missing.name}", file=sys.stderr)
+        return
+    study_pictures.gaps(rows, options.output / f"gaps_{scene}.png")
+    study_pictures.fragility(rows, curves, options.intensity, options.output / f"fragility_{scene}.png")
 
 
 def arguments():

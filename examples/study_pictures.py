@@ -95,6 +95,7 @@ def fragility(rows, curves, intensity, path):
     widths = {curve.gap for curve in curves} - {NEVER_CLOSES}
     styles = {**dict(zip(some(widths), CYCLE)), NEVER_CLOSES: NO_CONTACT}
     demands = list(dict.fromkeys(curve.demand for curve in curves))
+    strongest = max(curve.levels[-1] for curve in curves)
     columns = 2
     shape = (-(-len(demands) // columns), columns)
     figure, axes = plt.subplots(*shape, figsize=(9.6, 3.9 * shape[0] + 0.6), sharex=True, sharey=True, squeeze=False)
@@ -103,7 +104,7 @@ def fragility(rows, curves, intensity, path):
         for curve in shown:
             draw_curve(panel, curve, styles[curve.gap])
         panel.set_title(f"P({demand.said})")
-        panel.set(ylim=(-0.03, 1.03), xlim=(0, None))
+        panel.set(ylim=(-0.03, 1.03), xlim=(0, 1.04 * strongest / STANDARD_GRAVITY))
         panel.set_xlabel(f"{INTENSITIES[intensity][1]} [g]{without_fit(shown)}")
         panel.tick_params(labelbottom=True)
     for panel in axes.flat[len(demands) :]:
@@ -121,7 +122,9 @@ def fragility(rows, curves, intensity, path):
 def without_fit(curves):
     """Which have no curve, with how many runs exceed of how many."""
     counts = [f"{in_mm(curve.gap)} ({curve.exceeds.sum()} of {len(curve.exceeds)})" for curve in curves if not curve.fit]
-    return f"\n{textwrap.fill('no curve fits: ' + ', '.join(counts), 62)}" if counts else ""
+    # Lines end between them, not within.
+    said = ", ".join(count.replace(" ", "\N{NO-BREAK SPACE}") for count in counts)
+    return f"\n{textwrap.fill(f'no curve fits: {said}', 52)}" if counts else ""
 
 
 def draw_curve(panel, curve, style):
