@@ -195,3 +195,5 @@ if __name__ == "__main__":
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         print("\nstopped; the same command goes on from here", file=sys.stderr)
         sys.exit(INTERRUPTED)
+    except OSError as error:
+        sys.exit(f"error: {error}")
