@@ -84,6 +84,7 @@ def forces(scene, run, alone, window):
     figure, panels = plt.subplots(
         len(contacts), 2, figsize=(9, 2.3 * len(contacts) + 0.8), squeeze=False, width_ratios=[2.5, 1]
     )
+    factor, unit = force_unit(max(run.hardest(p)["peak_force"] for p in contacts))
     for (bursts, near), p in zip(panels, contacts):
         title = f"{name_of(scene, p).capitalize()}: {len(run.of_contact(p))} impacts"
         bursts.set(title=title, xlim=(0, run.time[-1]))
@@ -91,8 +92,7 @@ def forces(scene, run, alone, window):
             draw_impulses(bursts, run.of_contact(p))
             near.axis("off")
             continue
-        # A scale for each contact: one may press a hundred times as hard as another.
-        factor, unit = force_unit(run.hardest(p)["peak_force"])
+        # In one unit, to a scale for each contact: one may press a hundred times as hard as another.
         draw_bursts(bursts, run, p, factor, unit)
         draw_hardest(near, run, p, factor)
         near.set_ylim(bursts.get_ylim())
