@@ -31,7 +31,6 @@ plt.rcParams.update({
     "axes.spines.right": False, "axes.grid": True, "grid.alpha": 0.25, "axes.axisbelow": True,
     "svg.hashsalt": "pounding", "svg.fonttype": "none",
 })  # fmt: skip
-HALO = {"facecolor": "white", "alpha": 0.7, "pad": 0.3, "linewidth": 0}
 PREVIEWS = Path(__file__).resolve().parents[1] / "target/benchmarks/pictures"
 
 
@@ -46,14 +45,12 @@ def draw_scene(scene, rows, folder):
     columns = min(3, len(laws))
     shape = (-(-len(laws) // columns), columns)
     figure, panels = plt.subplots(
-        *shape, figsize=(4.4 * columns, 3.9 * shape[0]), sharex=True, sharey=True, squeeze=False
+        *shape, figsize=(4.4 * columns, 3.9 * shape[0]), sharex=True, sharey=True, squeeze=False, layout="constrained"
     )
     for law, axes in zip(laws, panels.flat):
         of_law = [row for row in rows if row["law"] == law]
         draw_law(axes, of_law)
         axes.set_title(f"{law} ({of_law[0]['true_impacts']} impacts)")
-    for axes in panels.flat[len(laws) :]:
-        axes.axis("off")
     for axes in panels[:, 0]:
         axes.set_ylabel("run time [ms]")
     for index in range(len(laws)):
@@ -63,9 +60,7 @@ def draw_scene(scene, rows, folder):
             panels.flat[index].xaxis.label.set_size(8)
     title = f"{scene}: {TEMPLATES[scene].title}. Run time against error, whole record"
     figure.suptitle(title, x=0.01, ha="left", weight="bold")
-    figure.tight_layout()
-    for axes in panels.flat[: len(laws)]:
-        label_lines(axes)
+    name_lines(figure, panels.flat[len(laws) :], {row["solver"] for row in rows})
     save(figure, folder, scene)
 
 
@@ -79,39 +74,32 @@ def save(figure, folder, name):
 
 def draw_law(axes, rows):
     axes.set(xscale="log", yscale="log")
-    axes.labels = []
-    for solver, (color, dashes, marker) in STYLES.items():
+    for solver in STYLES:
         points = [(float(row["error"]), 1e3 * float(row["best_s"])) for row in rows if row["solver"] == solver]
         points = [(max(error, 1e-15), time) for error, time in points if np.isfinite(error) and error < 0.5]
-        if not points:
-            continue
-        wide = 2.4 if solver == OURS else 1.3
-        axes.plot(*zip(*points), dashes, color=color, marker=marker, markersize=4.5, linewidth=wide)
-        axes.labels.append((solver, color, *min(points)))
+        if points:
+            axes.plot(*zip(*points), **look(solver))
     axes.set_xticks([10.0**-exponent for exponent in range(0, 16, 3)])
-    # Accurate to the right, with room for the names.
-    axes.set_xlim(0.5, 1e-18)
+    # Accurate to the right.
+    axes.set_xlim(0.7, 3e-16)
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
 
 
-def label_lines(axes):
-    """Names each line at its most accurate point, moved apart where names would overlap."""
-    points_per_pixel = 72.0 / axes.figure.dpi
-    height = 9.0
-    taken = []
-    for solver, color, error, time in sorted(axes.labels, key=lambda label: -label[3]):
-        x, y = axes.transData.transform((error, time)) * points_per_pixel
-        text = solver.replace("SciPy ", "").replace("CVODE Adams", "CVODE")
-        width = 5.0 * len(text)
-        shift = 0.0
-        while any(abs(y + shift - other_y) < height and x < other_x + other_width and other_x < x + width
-                  for other_x, other_y, other_width in taken):  # fmt: skip
-            shift -= 2.0
-        taken.append((x, y + shift, width))
-        axes.annotate(
-            text, (error, time), (6, shift), textcoords="offset points", color=color, fontsize=8, va="center",
-            weight="bold" if solver == OURS else "normal", bbox=HALO,
-        )  # fmt: skip
+def look(solver):
+    color, dashes, marker = STYLES[solver]
+    wide = 2.4 if solver == OURS else 1.3
+    return {"color": color, "linestyle": dashes, "marker": marker, "markersize": 4.5, "linewidth": wide}
+
+
+def name_lines(figure, free, solvers):
+    """One legend for all panels: in the place of one that is free, or below them."""
+    lines = [plt.Line2D([], [], label=solver, **look(solver)) for solver in STYLES if solver in solvers]
+    for axes in free:
+        axes.axis("off")
+    if len(free):
+        free[0].legend(handles=lines, loc="center left", frameon=False, fontsize=10)
+    else:
+        figure.legend(handles=lines, loc="outside lower center", ncols=4, frameon=False)
 
 
 # Series of scaling.py: its column on the x axis, what that is, and how its line is drawn.

@@ -100,7 +100,8 @@ class Stage:
 
     def prepare_axes(self, axes, xlim, top):
         axes.set(xlim=xlim, ylim=(-0.08 * top, 1.14 * top + 0.3), yticks=range(1, top + 1, max(1, top // 10)))
-        axes.set(xlabel="mm (displacements and gap to scale; heights and widths not)", ylabel="floor")
+        axes.set(xlabel="mm (displacements and gap to scale; heights and widths not)")
+        axes.set(ylabel="floor (storeys drawn equally high)")
         axes.xaxis.set_major_locator(MaxNLocator(6))
         axes.grid(False)
         axes.axhline(0, color=GREY, linewidth=3)

@@ -84,8 +84,7 @@ def forces(scene, run, alone, window):
     figure, panels = plt.subplots(
         len(contacts), 2, figsize=(9, 2.3 * len(contacts) + 0.8), squeeze=False, width_ratios=[2.5, 1]
     )
-    largest = {p: run.hardest(p)["peak_force"] for p in contacts}
-    factor, unit = force_unit(max(largest.values()))
+    factor, unit = force_unit(max(run.hardest(p)["peak_force"] for p in contacts))
     for (bursts, near), p in zip(panels, contacts):
         title = f"{name_of(scene, p).capitalize()}: {len(run.of_contact(p))} impacts"
         bursts.set(title=title, xlim=(0, run.time[-1]))
@@ -93,10 +92,10 @@ def forces(scene, run, alone, window):
             draw_impulses(bursts, run.of_contact(p))
             near.axis("off")
             continue
+        # In one unit, to a scale for each contact: one may press a hundred times as hard as another.
         draw_bursts(bursts, run, p, factor, unit)
         draw_hardest(near, run, p, factor)
-        for axes in (bursts, near):
-            axes.set_ylim(top=1.08 * max(largest.values()) / factor)
+        near.set_ylim(bursts.get_ylim())
     panels[-1, 0].set_xlabel("time [s]")
     return figure
 
@@ -145,7 +144,7 @@ def accelerations(scene, run, alone, window):
             g = one[name] / STANDARD_GRAVITY
             shown = (one.time >= window[0]) & (one.time <= window[1])
             axes.plot(one.time[shown], g[shown], label=label, **line)
-            largest.append(np.abs(g).max())
+            largest.append(one[name.replace("acceleration", "peak_acceleration")][-1] / STANDARD_GRAVITY)
         floor = pair[f"{side}_floor"]
         axes.set_title(
             f"Floor {floor}, {side} building: up to {largest[0]:.3g} g in the run, {largest[1]:.3g} g without contact"
@@ -214,7 +213,7 @@ def drifts(scene, run, alone, window):
             axes.plot([0], [p], "D", color=BLACK, markersize=4, zorder=3)
     top = max(scene.floors.values())
     every = max(1, top // 12)
-    panels[0].set(ylabel="floor (diamond: faces another)", yticks=range(0, top + 1, every), ylim=(0, top + 0.1))
+    panels[0].set(ylabel="floor (diamond: faces another);\nstoreys drawn equally high", yticks=range(0, top + 1, every), ylim=(0, top + 0.1))
     for axes in panels:
         axes.set_xlim(-1.08 * largest, 1.08 * largest)
     (left, free, *_), right = (axes.get_legend_handles_labels()[0] for axes in panels)

@@ -11,6 +11,7 @@ The program can import what lies in its own folder and in that of the requiremen
 """
 
 import os
+import signal
 import subprocess
 import sys
 import venv
@@ -60,10 +61,17 @@ def main():
     if not above:
         sys.exit(f"{program}: no requirements.txt in its folder or above")
     environment = Environment(above[0])
-    environment.prepare()
+    try:
+        environment.prepare()
+    except KeyboardInterrupt:
+        sys.exit(130)
     paths = [str(above[0]), *filter(None, [os.environ.get("PYTHONPATH")])]
     variables = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
-    sys.exit(subprocess.run([environment.python, *sys.argv[1:]], env=variables).returncode)
+    running = subprocess.Popen([environment.python, *sys.argv[1:]], env=variables)
+    # Ctrl-C is the program's: how it ends, this ends.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    code = running.wait()
+    sys.exit(128 - code if code < 0 else code)
 
 
 if __name__ == "__main__":

@@ -9,71 +9,87 @@ peak ground acceleration. Each case runs a second time with a gap that never clo
 there are El Centro and synthetic motions (ground_motions.py).
 
 Results are in results.csv of the output folder, a row per case, as soon as it is done; a study that was stopped
-goes on from there, however it was stopped. At the end come pictures: what the gap does, and fragility curves.
+goes on from there, however it was stopped. At the end come results.parquet, where pyarrow is installed, the parameters
+of the fragility curves, and pictures: what the gap does, and fragility curves.
 """
 
-import argparse
-import csv
-import hashlib
-import os
-import shlex
-import sys
-import time
-from pathlib import Path
+import signal
 
-import numpy as np
-from fmpy import read_model_description
+# Until there is something to end in order, Ctrl-C ends this at once.
+signal.signal(signal.SIGINT, signal.SIG_DFL)
 
-import ground_motions
-from engine import ROOT, STANDARD_GRAVITY
-from runs import Scene, run_or_stop
-from study_results import Results
-from study_runners import runner
-from study_worker import Case, Materials
+import argparse  # noqa: E402
+import contextlib  # noqa: E402
+import os  # noqa: E402
+import sys  # noqa: E402
+import time  # noqa: E402
+from pathlib import Path  # noqa: E402
+
+import numpy as np  # noqa: E402
+
+import study_fragility  # noqa: E402
+from engine import ROOT  # noqa: E402
+from study_plan import plan  # noqa: E402
+from study_results import Results  # noqa: E402
+from study_runners import runner, without_interrupts  # noqa: E402
+from study_table import NEVER_CLOSES  # noqa: E402
 
 GAPS = [0.0, 0.005, 0.01, 0.02, 0.03, 0.05, 0.08, 0.12]  # m
-NEVER_CLOSES = 1e3  # m
 PGA = [0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0]  # m/s2
-CARGO_FMU = shlex.split(os.environ.get("CARGO_FMU", "cargo fmu"))
+INTERRUPTED = 130  # what a shell calls the end of a program by Ctrl-C
 
 
 def main():
     options = arguments()
-    cases, materials = plan(options)
+    planned = plan(options)
     if options.measure:
-        return measure(cases, materials)
-    results = Results(options.output / "results.csv")
-    missing = results.missing(cases)
-    print(f"{len(cases)} cases, {len(cases) - len(missing)} of them done", file=sys.stderr)
-    run, workers = runner(options.scheduler, options.workers)
-    progress = Progress(len(missing))
-    try:
-        for rows in run(missing, materials, workers):
-            results.add(rows)
-            progress.show(len(rows))
-    except KeyboardInterrupt:
-        raise SystemExit("\nstopped; the same command goes on from here") from None
-    progress.end()
-    results.finish(cases)
-    rows = results.of(cases)
+        return measure(planned.cases, planned.materials)
+    results = Results(options.output / "results.csv", planned.storeys)
+    fill(results, planned, options)
+    results.finish(planned.cases)
+    rows = results.of(planned.cases)
     results.close()
-    if len(rows) < len(cases):
-        print(f"{len(cases) - len(rows)} cases failed: see the last column of {results.path}", file=sys.stderr)
+    failed = len(planned.cases) - len(rows)
+    if failed:
+        print(f"{failed} cases failed: see the last column of {results.path}", file=sys.stderr)
     print(results.path)
     draw(rows, options)
 
 
+def fill(results, planned, options):
+    """Runs the cases that have no row yet."""
+    cases = planned.cases
+    missing = results.missing(cases)
+    print(f"{len(cases)} cases, {len(cases) - len(missing)} of them done", file=sys.stderr)
+    run, workers = runner(options.scheduler, options.workers)
+    progress = Progress(len(missing))
+    with contextlib.closing(run(missing, planned.materials, workers)) as batches:
+        for rows in batches:
+            results.add(planned.with_intensity(case, row) for case, row in rows)
+            progress.show(len(rows))
+    progress.end()
+
+
 def draw(rows, options):
+    limits = {"force": options.force_limit, "drift": options.drift_limit, "acceleration": options.acceleration_limit}
+    for scene in dict.fromkeys(row["scene"] for row in rows):
+        of_scene = [row for row in rows if row["scene"] == scene]
+        demands = study_fragility.demands(of_scene, limits)
+        curves = study_fragility.curves(of_scene, demands, options.intensity)
+        study_fragility.write(curves, options.output / f"fragility_{scene}.csv")
+        # A second or two; matplotlib may crash when it is interrupted.
+        with without_interrupts():
+            draw_scene(of_scene, curves, options, scene)
+
+
+def draw_scene(rows, curves, options, scene):
     try:
         import study_pictures
     except ModuleNotFoundError as missing:
         print(f"no pictures without {missing.name}", file=sys.stderr)
         return
-    for scene in dict.fromkeys(row["scene"] for row in rows):
-        of_scene = [row for row in rows if row["scene"] == scene]
-        study_pictures.gaps(of_scene, NEVER_CLOSES, options.output / f"gaps_{scene}.png")
-        limits = options.force_limit, options.drift_limit
-        study_pictures.fragility(of_scene, NEVER_CLOSES, limits, options.output / f"fragility_{scene}.png")
+    study_pictures.gaps(rows, options.output / f"gaps_{scene}.png")
+    study_pictures.fragility(rows, curves, options.intensity, options.output / f"fragility_{scene}.png")
 
 
 def arguments():
@@ -92,90 +108,31 @@ def arguments():
     parser.add_argument("--force-limit", type=float, metavar="N", help="N, of the fragility; default: the median")
     parser.add_argument("--drift-limit", type=float, metavar="M", help="m, of the fragility; default: the median")
     parser.add_argument(
+        "--acceleration-limit", type=float, metavar="A", help="m/s2, of the fragility; default: the median"
+    )
+    parser.add_argument(
+        "--intensity",
+        choices=study_fragility.INTENSITIES,
+        default="pga",
+        help="what the fragility is drawn against: peak ground acceleration, or the spectral acceleration at the first "
+        "period of a building (default: %(default)s)",
+    )
+    parser.add_argument(
         "--output", type=lambda name: Path(name).resolve(), default=ROOT / "target/study", help="folder"
     )
     parser.add_argument(
         "--measure", action="store_true", help="how many cases a second: one core, all, Dask; no results"
     )
     options = parser.parse_args()
-    if options.workers < 1 or min(options.pga) <= 0 or not np.all(np.isfinite([*options.gaps, *options.pga])):
-        parser.error("expected at least one worker, --pga above 0 and finite --gaps")
+    numbers = [*options.gaps, *options.pga, options.stop or 1.0]
+    if not np.all(np.isfinite(numbers)) or min(options.pga) <= 0 or max(options.gaps) >= NEVER_CLOSES:
+        parser.error(f"expected --pga above 0 and --gaps below {NEVER_CLOSES:g}, all finite")
+    if options.workers < 1 or options.synthetic < 0 or options.seed < 0 or (options.stop or 1.0) <= 0:
+        parser.error("expected at least one worker, --stop above 0, --synthetic and --seed of 0 or more")
     for file in [*options.scenes, *(options.records or [])]:
-        if not file.exists():
+        if not file.is_file():
             parser.error(f"{file}: no such file")
     return options
-
-
-def plan(options):
-    """All cases, and what they need."""
-    fmus = {}
-    for file in options.scenes:
-        fmu = build(file, options.output / "fmus")
-        fmus[fmu] = Scene(file).name
-    synthetic = range(options.seed, options.seed + options.synthetic)
-    records = options.records or [
-        ROOT / "examples/records/el_centro_1940_ns.csv",
-        *(ground_motions.write(options.output / "records", seed) for seed in synthetic),
-    ]
-    contents = {record: Path(record).read_bytes() for record in records}
-    names = {record: hashlib.sha256(content).hexdigest()[:12] for record, content in contents.items()}
-    motions = {record: read_record(record) for record in records}
-    materials = Materials(
-        fmus={fingerprint(fmu): fmu.read_bytes() for fmu in fmus},
-        records={
-            names[record]: (record.suffix.lower(), contents[record], float(np.abs(motion[1]).max()))
-            for record, motion in motions.items()
-        },
-    )
-    cases = [
-        Case(
-            scene, fingerprint(fmu), record.stem, names[record], pga, gap, options.stop or float(motions[record][0][-1])
-        )
-        for fmu, scene in fmus.items()
-        for record in records
-        for pga in dict.fromkeys(options.pga)
-        for gap in dict.fromkeys([*options.gaps, NEVER_CLOSES])
-    ]
-    return cases, materials
-
-
-def build(scene, folder):
-    """The FMU of a scene."""
-    folder.mkdir(parents=True, exist_ok=True)
-    fmu = folder / f"{Scene(scene).name}.fmu"
-    run_or_stop([*CARGO_FMU, scene.resolve(), "-o", fmu])
-    names = {variable.name for variable in read_model_description(str(fmu)).modelVariables}
-    for needed, why in [("ground.record", "a record in [ground]"), ("contact[1].gap", "a [[contact]]")]:
-        if needed not in names:
-            raise SystemExit(f"{scene}: a study needs a scene with {why}")
-    return fmu
-
-
-def fingerprint(fmu):
-    """The GUID: it stands for scene, record and variables."""
-    return read_model_description(str(fmu)).guid.strip("{}")
-
-
-def read_record(path):
-    """Times, s, and accelerations, m/s2, of a record."""
-    try:
-        return read_at2(path) if path.suffix.lower() == ".at2" else read_csv(path)
-    except (ValueError, IndexError):
-        raise SystemExit(f"{path}: expected CSV with the columns time_s,accel_m_s2, or PEER AT2") from None
-
-
-def read_csv(path):
-    lines = path.read_text().splitlines()
-    rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))[1:]
-    time, acceleration = np.array(rows, float).T
-    return time, acceleration
-
-
-def read_at2(path):
-    lines = path.read_text().splitlines()
-    step = float(lines[3].upper().split("DT=")[1].split()[0].strip(","))
-    values = np.array(" ".join(lines[4:]).split(), float) * STANDARD_GRAVITY
-    return step * np.arange(len(values)), values
 
 
 def measure(cases, materials, repeats=3):
@@ -231,4 +188,12 @@ class Progress:
 
 
 if __name__ == "__main__":
-    main()
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        main()
+    except KeyboardInterrupt:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        print("\nstopped; the same command goes on from here", file=sys.stderr)
+        sys.exit(INTERRUPTED)
+    except OSError as error:
+        sys.exit(f"error: {error}")

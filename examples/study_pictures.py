@@ -1,15 +1,20 @@
 """Pictures of a study: demand against the gap, and the probability of exceeding a limit against intensity."""
 
-import math
+import textwrap
 
 import numpy as np
 
 from engine import STANDARD_GRAVITY
+from pictures import force_unit
+from study_fragility import INTENSITIES, lognormal
+from study_table import NEVER_CLOSES
 from style import ALONE, BLACK, CYCLE, pyplot, save
 
 plt = pyplot()
 
 MOST_LINES = 5
+MOST_POINTS = 8  # of a curve whose runs all differ in intensity: shares of groups of runs
+NO_CONTACT = {"color": BLACK, "linestyle": ":", "marker": "x"}
 
 
 def some(values, most=MOST_LINES):
@@ -19,110 +24,124 @@ def some(values, most=MOST_LINES):
     return [values[place] for place in places]
 
 
-def drift(row):
-    return max(row["left_drift_m"], row["right_drift_m"])
+def left_out(values, drawn, unit, name):
+    """What to say of those that are not drawn."""
+    missing = [f"{unit(value)}" for value in sorted(set(values) - set(drawn))]
+    return f"; {name} not drawn: {', '.join(missing)}" if missing else ""
 
 
-def gaps(rows, never_closes, path):
-    """Peak force, impacts and largest drift against the gap: median over the records and the middle two thirds."""
-    free = {(row["record_id"], row["pga_m_s2"]): drift(row) for row in rows if row["gap_m"] == never_closes}
-    closing = [row for row in rows if row["gap_m"] < never_closes and free.get((row["record_id"], row["pga_m_s2"]))]
+def in_g(acceleration):
+    return f"{acceleration / STANDARD_GRAVITY:.2f} g"
+
+
+def in_mm(gap):
+    return "no contact" if gap == NEVER_CLOSES else f"{1e3 * gap:g} mm"
+
+
+def gaps(rows, path):
+    """Force, impacts, drifts and accelerations against the gap: medians over the records."""
+    closing = [row for row in rows if row["gap_m"] != NEVER_CLOSES]
     if not closing:
         return
-    large = max(row["peak_force_n"] for row in closing) >= 2000
+    factor, unit = force_unit(max(row["peak_force_n"] for row in closing))
     panels = {
-        f"peak contact force [{'kN' if large else 'N'}]": lambda row: row["peak_force_n"] / (1e3 if large else 1.0),
+        f"largest contact force [{unit}]": lambda row: row["peak_force_n"] / factor,
+        "left building: storey drift": lambda row: row["left_drift_ratio"],
+        "right building: storey drift": lambda row: row["right_drift_ratio"],
         "impacts": lambda row: row["impacts"],
-        "largest drift, relative to no contact": lambda row: drift(row) / free[row["record_id"], row["pga_m_s2"]],
+        "left building: floor acceleration": lambda row: row["left_acceleration_ratio"],
+        "right building: floor acceleration": lambda row: row["right_acceleration_ratio"],
     }
-    figure, axes = plt.subplots(1, 3, figsize=(12, 4.2))
-    widths = sorted({row["gap_m"] for row in closing})
-    for panel, (label, demand) in zip(axes, panels.items()):
-        for pga, style in zip(some(row["pga_m_s2"] for row in closing), CYCLE):
+    figure, axes = plt.subplots(2, 3, figsize=(12, 7.2), sharex=True)
+    drawn = some(row["pga_m_s2"] for row in closing)
+    for panel, (title, demand) in zip(axes.flat, panels.items()):
+        for pga, style in zip(drawn, CYCLE):
             of_pga = [row for row in closing if row["pga_m_s2"] == pga]
-            found = [[demand(row) for row in of_pga if row["gap_m"] == width] or [np.nan] for width in widths]
-            low, middle, high = np.array([np.percentile(values, [16, 50, 84]) for values in found]).T
-            if panel is axes[0]:
-                panel.fill_between(np.array(widths) * 1e3, low, high, color=style["color"], alpha=0.15, linewidth=0)
-            panel.plot(np.array(widths) * 1e3, middle, **style, markersize=4, label=f"{pga / STANDARD_GRAVITY:.2f} g")
-        panel.set(xlabel="gap [mm]", ylabel=label)
-    axes[2].axhline(1.0, **{**ALONE, "linewidth": 1.2})
+            draw_demand(panel, of_pga, demand, style, in_g(pga), shaded=panel is axes[0, 0])
+        panel.set_title(title)
+        if "building" in title:
+            panel.axhline(1.0, **{**ALONE, "linewidth": 1.2})
+            panel.set_ylabel("relative to no contact")
+        panel.set_ylim(0, 1.05 * panel.get_ylim()[1])
+    for panel in axes[1]:
+        panel.set_xlabel("gap [mm]")
     records = len({row["record_id"] for row in rows})
-    figure.suptitle(f"{rows[0]['scene']}: medians of {records} records (shaded: the middle 68 %)", x=0.01, ha="left")
-    lines = axes[0].get_legend_handles_labels()
+    said = f"{rows[0]['scene']}: medians of {records} records (shaded: the middle 68 %); of storeys and floors the largest"
+    said += left_out([row["pga_m_s2"] for row in closing], drawn, in_g, "peak ground accelerations")
+    figure.suptitle(said, x=0.01, ha="left", fontsize=10.5)
+    lines = axes[0, 0].get_legend_handles_labels()
     figure.legend(*lines, loc="outside lower center", ncols=MOST_LINES, title="peak ground acceleration")
     save(figure, path)
 
 
-def fragility(rows, never_closes, limits, path):
-    """Share of the records that exceed a limit, against peak ground acceleration, one curve for each gap."""
-    closing = [row for row in rows if row["gap_m"] < never_closes]
-    if not closing:
+def draw_demand(panel, rows, demand, style, label, shaded):
+    widths, found = [], []
+    for width in sorted({row["gap_m"] for row in rows}):
+        values = [demand(row) for row in rows if row["gap_m"] == width and demand(row) is not None]
+        if values:
+            widths.append(1e3 * width)
+            found.append(np.percentile(values, [16, 50, 84]))
+    if found:
+        low, middle, high = np.array(found).T
+        if shaded:
+            panel.fill_between(widths, low, high, color=style["color"], alpha=0.15, linewidth=0)
+        panel.plot(widths, middle, **style, markersize=4, label=label)
+
+
+def fragility(rows, curves, intensity, path):
+    """Share of the runs that exceed a limit, against intensity, one curve for each gap that there is room for."""
+    if all(curve.gap == NEVER_CLOSES for curve in curves):
         return
-    force_limit, drift_limit = limits
-    hit = [row["peak_force_n"] for row in closing if row["peak_force_n"] > 0]
-    panels = [("pounding", closing, lambda row: row["impacts"] > 0)]
-    if hit:
-        force, said = (force_limit, "") if force_limit is not None else (float(np.median(hit)), " (median)")
-        shown = f"{force / 1e3:.3g} kN" if force >= 1e3 else f"{force:.3g} N"
-        panels.append((f"force above {shown}{said}", closing, lambda row: row["peak_force_n"] > force))
-    middle = float(np.median([drift(row) for row in closing]))
-    bound, said = (drift_limit, "") if drift_limit is not None else (middle, " (median)")
-    panels.append((f"drift above {1e3 * bound:.3g} mm{said}", rows, lambda row: drift(row) > bound))
-    figure, axes = plt.subplots(1, len(panels), figsize=(4 * len(panels), 4.2), sharey=True, squeeze=False)
-    drawn = some(row["gap_m"] for row in closing)
-    for panel, (title, of, exceeds) in zip(axes.flat, panels):
-        for gap, style in [*zip(drawn, CYCLE), (never_closes, {"color": BLACK, "linestyle": ":", "marker": "x"})]:
-            label = "no contact" if gap == never_closes else f"{1e3 * gap:g} mm"
-            draw_fragility(panel, [row for row in of if row["gap_m"] == gap], exceeds, style, label)
-        panel.set_title(f"P({title})")
-        panel.set(xlabel="peak ground acceleration [g]", ylim=(-0.03, 1.03), xlim=(0, None))
-    axes[0, 0].set_ylabel("share of the records; lines: lognormal fit")
+    widths = {curve.gap for curve in curves} - {NEVER_CLOSES}
+    styles = {**dict(zip(some(widths), CYCLE)), NEVER_CLOSES: NO_CONTACT}
+    demands = list(dict.fromkeys(curve.demand for curve in curves))
+    strongest = max(curve.levels[-1] for curve in curves)
+    columns = 2
+    shape = (-(-len(demands) // columns), columns)
+    figure, axes = plt.subplots(*shape, figsize=(9.6, 3.9 * shape[0] + 0.6), sharex=True, sharey=True, squeeze=False)
+    for panel, demand in zip(axes.flat, demands):
+        shown = [curve for curve in curves if curve.demand is demand and curve.gap in styles]
+        for curve in shown:
+            draw_curve(panel, curve, styles[curve.gap])
+        panel.set_title(f"P({demand.said})")
+        panel.set(ylim=(-0.03, 1.03), xlim=(0, 1.04 * strongest / STANDARD_GRAVITY))
+        panel.set_xlabel(f"{INTENSITIES[intensity][1]} [g]{without_fit(shown)}")
+        panel.tick_params(labelbottom=True)
+    for panel in axes.flat[len(demands) :]:
+        panel.axis("off")
+    for panel in axes[:, 0]:
+        panel.set_ylabel("share of the runs; lines: lognormal fit")
     records = len({row["record_id"] for row in rows})
-    figure.suptitle(f"{rows[0]['scene']}: fragility, {records} records", x=0.01, ha="left")
-    lines = axes[0, -1].get_legend_handles_labels()
-    figure.legend(*lines, loc="outside lower center", ncols=MOST_LINES + 1, title="gap")
+    said = f"{rows[0]['scene']}: fragility, {records} records{left_out(widths, styles, in_mm, 'gaps')}"
+    figure.suptitle(said, x=0.01, ha="left")
+    lines = [plt.Line2D([], [], **style, markersize=5, label=in_mm(gap)) for gap, style in styles.items()]
+    figure.legend(handles=lines, loc="outside lower center", ncols=MOST_LINES + 1, title="gap")
     save(figure, path)
 
 
-def draw_fragility(panel, rows, exceeds, style, label):
-    if not rows:
-        return
-    levels = np.array(sorted({row["pga_m_s2"] for row in rows}))
-    counts = np.array([[exceeds(row) for row in rows if row["pga_m_s2"] == level].count(True) for level in levels])
-    totals = np.array([sum(row["pga_m_s2"] == level for row in rows) for level in levels])
-    colour = style["color"]
-    shares = {"linestyle": "", "marker": style["marker"], "color": colour, "markersize": 5}
-    panel.plot(levels / STANDARD_GRAVITY, counts / totals, **shares)
-    median, beta = fit_lognormal(levels, counts, totals)
-    x = np.linspace(levels[0] / 2, levels[-1], 200)
-    line = {"color": colour, "linestyle": style["linestyle"], "linewidth": 1.6}
-    panel.plot(x / STANDARD_GRAVITY, lognormal(x, median, beta), **line)
-    panel.plot([], [], **style, markersize=5, label=label)
+def without_fit(curves):
+    """Which have no curve, with how many runs exceed of how many."""
+    counts = [f"{in_mm(curve.gap)} ({curve.exceeds.sum()} of {len(curve.exceeds)})" for curve in curves if not curve.fit]
+    # Lines end between them, not within.
+    said = ", ".join(count.replace(" ", "\N{NO-BREAK SPACE}") for count in counts)
+    return f"\n{textwrap.fill(f'no curve fits: {said}', 52)}" if counts else ""
 
 
-def lognormal(levels, median, beta):
-    """Probability at these intensities; `median` and `beta` may be arrays that go with them."""
-    error_function = np.vectorize(math.erf)
-    return 0.5 * (1.0 + error_function(np.log(levels / median) / (beta * math.sqrt(2.0))))
+def draw_curve(panel, curve, style):
+    points = {"linestyle": "", "marker": style["marker"], "color": style["color"], "markersize": 5}
+    levels, shares = groups(curve.levels, curve.exceeds)
+    panel.plot(levels / STANDARD_GRAVITY, shares, **points)
+    if curve.fit:
+        x = np.linspace(levels[0] / 2, curve.levels[-1], 200)
+        line = {"color": style["color"], "linestyle": style["linestyle"], "linewidth": 1.6}
+        panel.plot(x / STANDARD_GRAVITY, lognormal(x, *curve.fit), **line)
 
 
-def fit_lognormal(levels, counts, totals):
-    """Median and dispersion of the fragility with the largest likelihood [Baker2015].
-
-    Found on a grid that is refined: where all or no records exceed the limit at every level the likelihood has no
-    largest value inside, and a grid then ends at its edge.
-    """
-    medians = np.geomspace(levels[0] / 10, levels[-1] * 10, 41)
-    betas = np.geomspace(0.05, 2.0, 41)
-    for _ in range(4):
-        grid = lognormal(levels, medians[:, None, None], betas[:, None]).clip(1e-12, 1 - 1e-12)
-        likelihood = np.sum(counts * np.log(grid) + (totals - counts) * np.log1p(-grid), axis=-1)
-        best = np.unravel_index(np.argmax(likelihood), likelihood.shape)
-        found = medians[best[0]], betas[best[1]]
-        medians, betas = (around(values, place) for values, place in zip((medians, betas), best))
-    return found
-
-
-def around(values, place):
-    return np.geomspace(values[max(0, place - 1)], values[min(len(values) - 1, place + 1)], 41)
+def groups(levels, exceeds):
+    """Intensities and the share that exceeds there: of each intensity, or of neighbours where there are too many."""
+    distinct, first = np.unique(levels, return_index=True)
+    if len(distinct) <= 2 * MOST_POINTS:
+        parts = list(zip(np.split(levels, first[1:]), np.split(exceeds, first[1:])))
+    else:
+        parts = list(zip(np.array_split(levels, MOST_POINTS), np.array_split(exceeds, MOST_POINTS)))
+    return np.array([np.median(of) for of, _ in parts]), np.array([share.mean() for _, share in parts])

@@ -1,95 +1,111 @@
-"""The table of a study: it grows while the study runs, and a study that was stopped goes on from it."""
+"""The table of a study as a file: it grows while the study runs, and a study that was stopped goes on from it."""
 
 import csv
 import os
 
-CASE = {
-    "scene": str, "scene_id": str, "record": str, "record_id": str, "pga_m_s2": float, "gap_m": float, "stop_s": float
-}  # fmt: skip
-RESULT = {
-    "impacts": int, "peak_force_n": float, "impulse_n_s": float, "dissipated_energy_j": float,
-    "left_drift_m": float, "right_drift_m": float, "error": str,
-}  # fmt: skip
-COLUMNS = {**CASE, **RESULT}
+import study_table
+from study_table import CASE, key, text
+
+TEMPORARY = ".new"
 
 
 class Results:
-    """Rows by case. A case is what its columns say, numbers by their shortest text."""
+    """Rows by case. `storeys` are those of each building that there must be room for."""
 
-    def __init__(self, path):
+    def __init__(self, path, storeys):
         self.path = path
         path.parent.mkdir(parents=True, exist_ok=True)
-        self.file = path.open("a+", newline="")
-        self.lock()
-        self.rows = {}
-        self.read()
+        self.file = path.open("a+", encoding="utf-8", newline="")
+        lock(self.file, path)
+        # Written anew at the end: a half of a study is not beside the whole of an older one.
+        self.parquet = path.with_suffix(".parquet")
+        self.parquet.unlink(missing_ok=True)
+        found, rows = self.read(storeys)
+        self.columns = study_table.columns({side: max(found[side], storeys[side]) for side in storeys})
+        self.rows = {key(row): row for row in rows}
+        if found != study_table.storeys_of(self.columns) or not self.path.stat().st_size:
+            self.write(self.rows.values())
 
-    def lock(self):
-        """Two studies at once would write each row twice. The lock goes with its process, however that ends."""
-        try:
-            import fcntl
-
-            fcntl.flock(self.file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except ImportError:
-            pass
-        except OSError:
-            raise SystemExit(f"{self.path}: another study is writing here") from None
-
-    def read(self):
+    def read(self, storeys):
         """Takes what is there; a row that a killed run has not finished is cut off."""
         content = self.path.read_bytes()
         whole = content.rfind(b"\n") + 1
         if whole < len(content):
             self.file.truncate(whole)
-        lines = list(csv.reader(content[:whole].decode().splitlines()))
-        if not lines:
-            self.file.write(",".join(COLUMNS) + "\n")
-            self.file.flush()
-        elif lines[0] != list(COLUMNS):
-            raise SystemExit(f"{self.path}: expected the columns {','.join(COLUMNS)}")
-        for line in lines[1:]:
-            self.rows[tuple(line[: len(CASE)])] = line
+        return study_table.parse(self.path, content[:whole]) if whole else (storeys, [])
 
     def add(self, rows):
         """Writes rows and waits until the disk has them."""
-        for case, result in rows:
-            line = [*key(case), *texts(result)]
-            self.rows[key(case)] = line
-            csv.writer(self.file, lineterminator="\n").writerow(line)
+        table = csv.writer(self.file, lineterminator="\n")
+        for known in rows:
+            row = {name: known.get(name) for name in self.columns}
+            self.rows[key(row)] = row
+            table.writerow(map(text, row.values()))
         self.file.flush()
         os.fsync(self.file.fileno())
 
     def missing(self, cases):
         """Cases without a result; those that failed are tried again."""
-        done = {case for case, row in self.rows.items() if not row[-1]}
-        return [case for case in cases if key(case) not in done]
+        return [case for case in cases if (row := self.rows.get(key(columns_of(case)))) is None or row["error"]]
 
     def of(self, cases):
-        """The rows of these cases as dictionaries, errors left out."""
-        found = [dict(zip(COLUMNS, self.rows[key(case)])) for case in cases if key(case) in self.rows]
-        return [{name: kind(row[name]) for name, kind in COLUMNS.items()} for row in found if not row["error"]]
+        """The rows of these cases, errors left out."""
+        found = (self.rows.get(key(columns_of(case))) for case in cases)
+        return [row for row in found if row and not row["error"]]
 
     def finish(self, cases):
-        """Puts the rows in the order of the cases, whoever ran them; those of other cases stay behind them."""
-        first = {key(case): self.rows[key(case)] for case in cases if key(case) in self.rows}
+        """Adds the ratios and puts the rows in the order of the cases, whoever ran them; others stay behind them."""
+        study_table.add_ratios(list(self.rows.values()))
+        keys = [key(columns_of(case)) for case in cases]
+        first = {case: self.rows[case] for case in keys if case in self.rows}
         ordered = first | dict(sorted(self.rows.items()))
-        new = self.path.with_suffix(".new")
-        with new.open("w", newline="") as file:
-            csv.writer(file, lineterminator="\n").writerows([list(COLUMNS), *ordered.values()])
-            file.flush()
-            os.fsync(file.fileno())
+        self.write(ordered.values())
+        write_parquet(self.parquet, self.columns, list(ordered.values()))
+
+    def write(self, rows):
+        """Puts a table with these rows in the place of the one that is there."""
+        new = self.path.with_suffix(TEMPORARY)
+        file = new.open("w", encoding="utf-8", newline="")
+        lock(file, self.path)
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(self.columns)
+        table.writerows([text(row.get(name)) for name in self.columns] for row in rows)
+        file.flush()
+        os.fsync(file.fileno())
         os.replace(new, self.path)
+        self.file.close()
+        self.file = file
 
     def close(self):
         self.file.close()
 
 
-def key(case):
-    """What names a case in the table."""
-    names = (case.scene, case.scene_id, case.record, case.record_id)
-    return (*names, *(repr(float(number)) for number in (case.pga, case.gap, case.stop)))
+def lock(file, path):
+    """Two studies at once would write each row twice. The lock goes with its process, however that ends."""
+    try:
+        import fcntl
+
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except ImportError:
+        pass
+    except OSError:
+        raise SystemExit(f"{path}: another study is writing here") from None
 
 
-def texts(result):
-    names = ["impacts", "peak_force", "impulse", "dissipated_energy", "left_drift", "right_drift", "error"]
-    return [result[name] if name == "error" else repr(result[name]) if name in result else "" for name in names]
+def columns_of(case):
+    values = (case.scene, case.scene_id, case.record, case.record_id, case.pga, case.gap, case.stop)
+    return dict(zip(CASE, values))
+
+
+def write_parquet(path, columns, rows):
+    """The same table for programs, texts as they are, where there is a library for it."""
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError:
+        return
+    kinds = {str: pyarrow.string(), int: pyarrow.int64(), float: pyarrow.float64()}
+    table = {name: pyarrow.array([row.get(name) for row in rows], kinds[kind]) for name, kind in columns.items()}
+    new = path.with_suffix(TEMPORARY)
+    pyarrow.parquet.write_table(pyarrow.table(table), new)
+    os.replace(new, path)

@@ -3,9 +3,13 @@
 Each is a function of cases, materials and the number of workers, and yields rows, in any order, as they come.
 """
 
+import contextlib
 import multiprocessing
+import signal
+import tempfile
 from concurrent import futures
 from concurrent.futures.process import BrokenProcessPool
+from multiprocessing import resource_tracker
 
 import study_worker
 
@@ -35,29 +39,60 @@ def serial(cases, materials, workers):
         yield study_worker.run_cases(batch)
 
 
+@contextlib.contextmanager
+def without_interrupts():
+    """Processes that begin in here leave Ctrl-C to this one, which ends them; it comes here when this is over."""
+    came = []
+    handler = signal.signal(signal.SIGINT, lambda *_: came.append(True))
+    blocks = hasattr(signal, "pthread_sigmask")
+    if blocks:
+        # Starting this one of multiprocessing's own would unblock what is blocked.
+        resource_tracker.ensure_running()
+        # For the processes, which inherit it; in this one another thread may take the signal, so there is a handler, too.
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        if blocks:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        signal.signal(signal.SIGINT, handler)
+    if came:
+        raise KeyboardInterrupt
+
+
 def pool(cases, materials, workers):
     """A process for each core."""
     if not cases:
         return
     context = multiprocessing.get_context("spawn")
-    with futures.ProcessPoolExecutor(workers, context, study_worker.prepare, (materials,)) as executor:
-        submitted = [executor.submit(study_worker.run_cases, batch) for batch in batches(cases, workers)]
+    # Of this process: it is removed however the workers end.
+    with tempfile.TemporaryDirectory(prefix="study") as folder:
+        executor = futures.ProcessPoolExecutor(workers, context, study_worker.prepare, (materials, folder))
         try:
+            with without_interrupts():
+                submitted = [executor.submit(study_worker.run_cases, batch) for batch in batches(cases, workers)]
             for future in futures.as_completed(submitted):
                 yield future.result()
         except BrokenProcessPool:
             raise SystemExit("a worker process died; the same command goes on from here") from None
         finally:
             executor.shutdown(wait=False, cancel_futures=True)
+            for process in multiprocessing.active_children():
+                process.terminate()
+                process.join()
 
 
 def local_cluster(cases, materials, workers):
     """A Dask cluster on this machine: what a real one does, at the size of this machine."""
     from distributed import Client, LocalCluster
 
-    with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0") as local:
-        with Client(local) as client:
-            yield from through(client, cases, materials)
+    with contextlib.ExitStack() as held:
+        with without_interrupts():
+            local = held.enter_context(
+                LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL")
+            )
+            client = held.enter_context(Client(local))
+        yield from through(client, cases, materials)
 
 
 def cluster(cases, materials, workers, address):

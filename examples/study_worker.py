@@ -38,9 +38,9 @@ class Materials:
 class Bench:
     """The materials as files, and an instance of each FMU for each thread."""
 
-    def __init__(self, materials):
+    def __init__(self, materials, folder):
         self.materials = materials
-        self.folder = Path(tempfile.mkdtemp(prefix="study"))
+        self.folder = Path(tempfile.mkdtemp(prefix="study", dir=folder))
         atexit.register(shutil.rmtree, self.folder, ignore_errors=True)
         self.records = {}
         for name, (ending, content, _) in materials.records.items():
@@ -97,9 +97,8 @@ class FMU2Instance(FMU2Slave):
         self.forces, self.impulses, self.losses = (
             named(f"].{name}") for name in ("peak_force", "impulse", "dissipated_energy")
         )
-        self.drifts = {
-            side: [r for name, r in self.reference.items() if name.startswith(f"{side}.peak_drift")]
-            for side in ("left", "right")
+        self.storeys = {
+            side: sum(name.startswith(f"{side}.peak_drift[") for name in self.reference) for side in ("left", "right")
         }
 
     def run(self, record, scale, gap, stop):
@@ -121,25 +120,44 @@ class FMU2Instance(FMU2Slave):
         self.enterInitializationMode()
         self.exitInitializationMode()
         self.doStep(0.0, stop)
-        return {
+        found = {
             "impacts": self.getInteger([self.reference["impacts"]])[0],
-            "peak_force": max(self.getReal(self.forces)),
-            "impulse": sum(self.getReal(self.impulses)),
-            "dissipated_energy": sum(self.getReal(self.losses)),
-            **{f"{side}_drift": max(self.getReal(storeys)) for side, storeys in self.drifts.items()},
+            "peak_force_n": max(self.getReal(self.forces)),
+            "impulse_n_s": sum(self.getReal(self.impulses)),
+            "dissipated_energy_j": sum(self.getReal(self.losses)),
         }
+        for side in self.storeys:
+            drifts, accelerations = self.peaks(side, "drift"), self.peaks(side, "acceleration")
+            found |= {f"{side}_drift_m": max(drifts), f"{side}_acceleration_m_s2": max(accelerations)}
+            found[f"{side}_base_shear_n"] = self.getReal([self.reference[f"{side}.peak_base_shear"]])[0]
+            found |= {f"{side}_drift_m[{i}]": drift for i, drift in enumerate(drifts, 1)}
+            found |= {f"{side}_acceleration_m_s2[{i}]": peak for i, peak in enumerate(accelerations, 1)}
+        return found
+
+    def peaks(self, side, what):
+        """The largest so far, of each storey or floor."""
+        names = (f"{side}.peak_{what}[{i}]" for i in range(1, self.storeys[side] + 1))
+        return self.getReal([self.reference[name] for name in names])
+
+    def first_periods(self):
+        """s, of each building alone."""
+        self.setupExperiment(startTime=0.0)
+        self.enterInitializationMode()
+        self.exitInitializationMode()
+        self.used = True
+        return {side: 1.0 / self.getReal([self.reference[f"{side}.frequency[1]"]])[0] for side in self.storeys}
 
 
 _bench = None
 _making = threading.Lock()
 
 
-def prepare(materials):
-    """Makes this process ready; once is enough."""
+def prepare(materials, folder=None):
+    """Makes this process ready; once is enough. Its files go into a folder of their own, below `folder` if it is given."""
     global _bench
     with _making:
         if _bench is None or _bench.materials != materials:
-            _bench = Bench(materials)
+            _bench = Bench(materials, folder)
 
 
 def run_cases(cases, materials=None):

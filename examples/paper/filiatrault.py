@@ -12,8 +12,6 @@ from concurrent.futures import ThreadPoolExecutor
 from itertools import product
 from pathlib import Path
 
-import numpy as np
-
 import engine
 import scenes
 import statement
@@ -27,8 +25,7 @@ GAPS = {"no contact": None, "gap 0": 0.0, "gap 15 mm": SCENE["contact"][0]["gap"
 MASSES = [100.0, 200.0, 400.0]  # kg a floor
 PERIODS = [(0.4, 0.15), (0.6, 0.2), (0.8, 0.3), (0.6, 0.3)]  # s, eight and three storeys
 DAMPING = SCENE["left"]["damping"]["ratio"]
-STEP = 5e-4  # s: a contact lasts 6 ms and more, so that a sampled peak is low by less than 1 %
-LEVEL_3, ROOF_OF_3, ROOF_OF_8 = "left.acceleration[3]", "right.acceleration[3]", "left.acceleration[8]"
+LEVEL_3, ROOF_OF_3 = "left.peak_acceleration[3]", "right.peak_acceleration[3]"
 
 # g, as the paper reports the test: what was measured, where, in which test, largest absolute acceleration. At which
 # floor of the free-standing frame is not said; the largest over its height is taken.
@@ -52,9 +49,9 @@ def run(mass, periods, gap):
     for (side, count), period in zip(storeys.items(), periods):
         stiffness = scenes.storey_stiffness(mass, period, count)
         scene[side] = scenes.shear_building(mass, stiffness, count, DAMPING)
-    columns = [f"left.acceleration[{floor}]" for floor in range(1, storeys["left"] + 1)] + [ROOF_OF_3]
-    motion = scenes.run(scene, step=STEP, columns=columns).motion
-    largest = {name: np.abs(motion[name]).max() / engine.STANDARD_GRAVITY for name in columns}
+    columns = [f"left.peak_acceleration[{floor}]" for floor in range(1, storeys["left"] + 1)] + [ROOF_OF_3]
+    motion = scenes.run(scene, columns=columns).motion
+    largest = {name: motion[name][-1] / engine.STANDARD_GRAVITY for name in columns}
     anywhere = max(largest[name] for name in columns[:-1])
     return {
         "8 storeys, anywhere": anywhere,

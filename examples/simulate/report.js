@@ -22,11 +22,18 @@ function digits(value) {
 
 // ---- Columns: what quantity they are, the unit they are shown in, their line.
 
-// Okabe and Ito's colours; the left building blue, the right one orange, as in the other pictures.
-const HUES = { left: [201, 100], right: [26, 100] };
-const CYCLE = ["#000000", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#0072B2", "#D55E00"];
-const DASHES = [[], [8, 4], [2, 3], [8, 3, 2, 3]];
-const USUAL = ["displacement", "force", "acceleration"];
+// Okabe and Ito's colours and two of Tol's: the left building in cold ones and solid lines, the right one in warm ones and
+// dashed lines, the top floor in those of the other pictures.
+const COLOURS = {
+  left: ["#0072B2", "#56B4E9", "#009E73", "#332288"],
+  right: ["#D55E00", "#E69F00", "#CC79A7", "#882255"],
+  others: ["#000000", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#0072B2", "#D55E00"],
+};
+const DASHES = {
+  left: [[], [2, 3], [12, 3, 2, 3]],
+  right: [[8, 4], [4, 3], [8, 3, 2, 3]],
+  others: [[], [8, 4], [2, 3], [8, 3, 2, 3]],
+};
 
 for (const column of run.columns) {
   const [, whole, index, part, storey] = column.name.match(/^(\w+)(?:\[(\d+)\])?(?:\.(\w+)(?:\[(\d+)\])?)?$/);
@@ -52,31 +59,44 @@ function rowsOf(steps) {
   return steps.map((step) => (row += step));
 }
 
-// Of a column's two units the one with the handier numbers.
-function unitOf(columns) {
-  const { unit, display } = columns[0];
-  const largest = Math.max(...columns.map((column) => column.largest));
-  if (!display || largest === 0) return [unit || "", 1];
+// Each unit is shown as itself or as its display unit, whichever has the handier numbers, and the same on the whole page.
+const units = new Map();
+for (const { unit, display, largest } of run.columns) {
+  if (!unit || unit === "1" || !display) continue;
+  const known = units.get(unit) ?? { display, largest: 0 };
+  units.set(unit, { ...known, largest: Math.max(known.largest, largest) });
+}
+for (const [unit, { display, largest }] of units) {
   const awkward = (factor) => Math.abs(Math.log10(largest * factor) - 1.5);
-  return awkward(display[1]) < awkward(1) ? display : [unit, 1];
+  units.set(unit, largest > 0 && awkward(display[1]) < awkward(1) ? display : [unit, 1]);
+}
+// Impulses go with forces.
+if (units.has("N.s") && units.has("N")) {
+  const [name, factor] = units.get("N");
+  units.set("N.s", [`${name}.s`, factor]);
 }
 
-function lineOf(column, columns) {
-  const same = columns.filter((other) => other.of === column.of);
+// Name and factor of what a unit is shown in.
+const shownIn = (unit) => units.get(unit) ?? [unit === "1" ? "" : unit, 1];
+const unitText = (unit) => shownIn(unit)[0].replace(".", "\u00a0");
+const withUnit = (name, unit) => (unitText(unit) ? `${name} [${unitText(unit)}]` : name);
+const scaled = (value, unit) => (value === null ? null : value * shownIn(unit)[1]);
+
+// Colour and dash of a column among those that are drawn with it.
+function lineOf(column, drawn) {
+  const kind = column.of in COLOURS ? column.of : "others";
+  // From the top floor down.
+  const same = kind === "others" ? drawn : drawn.filter((other) => other.of === kind).reverse();
   const place = same.indexOf(column);
-  if (!(column.of in HUES)) {
-    const at = columns.indexOf(column);
-    return { stroke: CYCLE[at % CYCLE.length], dash: DASHES[Math.floor(at / CYCLE.length) % DASHES.length] };
-  }
-  // The top floor is the darkest.
-  const [hue, saturation] = HUES[column.of];
-  const lightness = same.length === 1 ? 38 : 68 - (36 * place) / (same.length - 1);
-  const dash = column.of === "right" ? DASHES[1] : DASHES[0];
-  return { stroke: `hsl(${hue} ${saturation}% ${lightness}%)`, dash };
+  const [colours, dashes] = [COLOURS[kind], DASHES[kind]];
+  const dash = dashes[Math.floor(place / colours.length) % dashes.length];
+  return { stroke: colours[place % colours.length], dash };
 }
 
 // ---- Charts: one for each quantity of which variables are chosen, all over the same stretch of time.
 
+// Three charts fill a window.
+const height = () => Math.max(190, Math.min(400, (innerHeight - 50) / 3 - 42));
 const chosen = new Set();
 const charts = new Map();
 let stretch = [0, run.stop];
@@ -105,45 +125,69 @@ function nearest(chart, series, index) {
   return index;
 }
 
+// Its quantity stands above the chart.
+function shortName(column) {
+  return column.of in COLOURS || column.of === "contact" ? `${column.of} ${column.index || ""}`.trim() : column.name;
+}
+
 function drawChart(quantity) {
   charts.get(quantity)?.box.remove();
   charts.get(quantity)?.plot.destroy();
   charts.delete(quantity);
   const columns = groups.get(quantity).filter((column) => chosen.has(column));
   if (columns.length === 0) return;
-  const [unit, factor] = unitOf(columns);
+  const { unit } = columns[0];
   const box = document.createElement("div");
   box.className = "chart";
-  make(box, "h3", unit && unit !== "1" ? `${quantity} [${unit}]` : quantity);
+  const head = make(box, "div", "", { class: "head" });
+  make(head, "h3", withUnit(quantity, unit));
   // Charts keep the order of the list, whatever order they are chosen in.
   const order = [...groups.keys()];
   const next = [...charts.keys()].filter((other) => order.indexOf(other) > order.indexOf(quantity));
   next.sort((a, b) => order.indexOf(a) - order.indexOf(b));
   element("charts").insertBefore(box, next.length ? charts.get(next[0]).box : null);
   const series = columns.map((column) => ({
-    label: column.name,
+    label: shortName(column),
     width: 1.4,
     points: { show: false },
     // Where a line is, not the pixel beside it: smooth under a magnifying glass.
     pxAlign: 0,
     value: (_, value) => digits(value),
     paths: column.unit === "" ? uPlot.paths.stepped({ align: 1 }) : undefined,
-    ...lineOf(column, groups.get(quantity)),
+    ...lineOf(column, columns),
   }));
   const options = {
     width: element("charts").clientWidth,
-    height: 230,
+    height: height(),
+    padding: [6, 8, 0, 0],
     cursor: { sync: { key: "run" }, dataIdx: nearest, drag: { x: true, y: false } },
     scales: { x: { time: false, min: stretch[0], max: stretch[1] } },
-    axes: [{}, { size: 70, values: (_, ticks) => ticks.map(digits) }],
+    axes: [{ size: 28 }, { size: 62, values: (_, ticks) => ticks.map(digits) }],
     series: [{ label: "time [s]", value: (_, time) => (time === null ? "" : time.toFixed(5)) }, ...series],
     hooks: { setScale: [(plot, key) => key === "x" && follow(plot.scales.x.min, plot.scales.x.max)] },
     legend: { live: true },
   };
-  const plot = new uPlot(options, aligned(columns, factor), box);
+  const plot = new uPlot(options, aligned(columns, shownIn(unit)[1]), box);
+  head.append(plot.root.querySelector(".u-legend"));
+  drawKeys(head, series);
   charts.set(quantity, { box, plot });
   plot.setScale("x", { min: stretch[0], max: stretch[1] });
   plot.over.title = columns.length === 1 ? columns[0].about : "";
+}
+
+// In the legend each line as it is drawn, where the library has a square.
+function drawKeys(head, series) {
+  const marks = [...head.querySelectorAll(".u-marker")].slice(-series.length);
+  marks.forEach((mark, at) => {
+    const key = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
+    const { stroke, dash } = series[at];
+    const look = { x1: 0, x2: 30, y1: 5, y2: 5, stroke, "stroke-width": 2, "stroke-dasharray": dash.join(" ") || "none" };
+    Object.entries({ class: "key", width: 30, height: 10 }).forEach(([name, value]) => key.setAttribute(name, value));
+    Object.entries(look).forEach(([name, value]) => line.setAttribute(name, value));
+    key.append(line);
+    mark.replaceWith(key);
+  });
 }
 
 // What one chart shows, all show.
@@ -171,6 +215,7 @@ function move(share) {
 // ---- The list of variables.
 
 const boxes = new Map();
+const groupBoxes = new Map();
 
 function choose(columns, wanted) {
   const changed = new Set();
@@ -180,7 +225,10 @@ function choose(columns, wanted) {
     boxes.get(column).checked = wanted;
     changed.add(column.quantity);
   }
-  changed.forEach(drawChart);
+  for (const quantity of changed) {
+    groupBoxes.get(quantity).checked = groups.get(quantity).every((column) => chosen.has(column));
+    drawChart(quantity);
+  }
 }
 
 function usual() {
@@ -190,7 +238,7 @@ function usual() {
   // Top floors, and those that can hit: of many, as many as lines can be told apart.
   const facing = run.contacts.length <= 3 ? run.contacts : [run.contacts.at(-1)];
   const forces = groups.get("contact force") ?? [];
-  const hardest = [...forces].sort((a, b) => b.largest - a.largest).slice(0, CYCLE.length);
+  const hardest = [...forces].sort((a, b) => b.largest - a.largest).slice(0, COLOURS.others.length);
   const isShown = (c) =>
     c.of in top
       ? ["displacement", "acceleration"].includes(c.quantity) &&
@@ -204,6 +252,7 @@ function listVariables() {
     const heading = make(element("variables"), "li", "", { class: "group" });
     const all = make(make(heading, "label"), "input", "", { type: "checkbox", "aria-label": `all: ${quantity}` });
     all.parentElement.append(` ${quantity}`);
+    groupBoxes.set(quantity, all);
     all.addEventListener("change", () => choose(columns.filter((column) => !boxes.get(column).closest("li").hidden), all.checked));
     for (const column of columns) {
       const item = make(element("variables"), "li", "", { title: column.about });
@@ -231,7 +280,7 @@ function listVariables() {
 
 const IMPACTS = [
   ["contact", ""], ["start", "s"], ["end", "s"], ["approach velocity", "m/s"], ["separation velocity", "m/s"],
-  ["peak force", "N"], ["time of it", "s"], ["peak penetration", "m"], ["impulse", "N s"], ["dissipated", "J"],
+  ["peak force", "N"], ["time of it", "s"], ["peak penetration", "m"], ["impulse", "N.s"], ["dissipated", "J"],
 ];
 const [CONTACT, START, END, APPROACH, , FORCE, , PENETRATION, IMPULSE, DISSIPATED] = IMPACTS.keys();
 const FIRST_ROWS = 300;
@@ -252,24 +301,35 @@ function tableOf(table, headings, rows) {
 }
 
 function contactTable() {
-  const headings = ["contact", "floors left, right", "gap [m]", "law", "impacts", "approach up to [m/s]"];
-  headings.push("force up to [N]", "penetration up to [m]", "impulse [N s]", "dissipated [J]");
+  const most = [["approach up to", APPROACH], ["force up to", FORCE], ["penetration up to", PENETRATION]];
+  const sums = [["impulse", IMPULSE], ["dissipated", DISSIPATED]];
+  const headings = ["contact", "floors left, right", withUnit("gap", "m"), "law", "impacts"];
+  for (const [name, by] of [...most, ...sums]) headings.push(withUnit(name, IMPACTS[by][1]));
   const rows = run.contacts.map((pair, at) => {
     const own = run.impacts.filter((impact) => impact[CONTACT] === at + 1);
-    const most = [APPROACH, FORCE, PENETRATION].map((by) => largestOf(own, by));
-    const sums = [IMPULSE, DISSIPATED].map((by) => sumOf(own, by));
-    return [at + 1, `${pair.left_floor}, ${pair.right_floor}`, pair.gap, pair.law, own.length, ...most, ...sums];
+    const numbers = [...most.map(([, by]) => [by, largestOf(own, by)]), ...sums.map(([, by]) => [by, sumOf(own, by)])];
+    const cells = numbers.map(([by, value]) => scaled(value, IMPACTS[by][1]));
+    return [at + 1, `${pair.left_floor}, ${pair.right_floor}`, scaled(pair.gap, "m"), pair.law, own.length, ...cells];
   });
   tableOf(element("contact-table"), headings, rows);
 }
 
-function driftTable() {
-  const drifts = run.columns.filter((column) => column.quantity === "peak drift");
-  const storeys = Math.max(...drifts.map((column) => column.index));
-  const of = (side, storey) => drifts.find((c) => c.of === side && c.index === storey)?.values.at(-1) ?? "";
+// The largest of each storey and floor, the top first, and of the base; as far as the scene asks for them.
+function peakTable() {
+  const quantities = ["peak drift", "peak displacement", "peak acceleration"];
+  const peaks = ["left", "right"].flatMap((side) =>
+    quantities.map((quantity) => (groups.get(quantity) ?? []).filter((column) => column.of === side)),
+  );
+  const known = peaks.filter((columns) => columns.length > 0);
+  element("peaks").hidden = known.length === 0;
+  const headings = known.map(([{ quantity, of, unit }]) => withUnit(quantity.replace("peak", of), unit));
+  const last = (column) => (column ? scaled(column.values.at(-1), column.unit) : "");
+  const storeys = Math.max(0, ...known.map((columns) => columns.length));
   const rows = Array.from({ length: storeys }, (_, i) => storeys - i);
-  const cells = rows.map((storey) => [storey, of("left", storey), of("right", storey)]);
-  tableOf(element("drift-table"), ["storey", "left [m]", "right [m]"], cells);
+  const cells = rows.map((index) => [index, ...known.map((columns) => last(columns.find((c) => c.index === index)))]);
+  tableOf(element("peak-table"), ["storey, floor", ...headings], cells);
+  const shears = (groups.get("peak base shear") ?? []).map((c) => `${digits(last(c))} ${unitText(c.unit)} (${c.of})`);
+  element("peak-shears").textContent = shears.length > 0 ? `base shear: ${shears.join(", ")}` : "";
 }
 
 function sorted() {
@@ -285,7 +345,7 @@ function impactTable() {
   IMPACTS.forEach(([name, unit], by) => {
     const cell = make(head, "th");
     const arrow = by === sorting.by ? (sorting.down ? " \u25BE" : " \u25B4") : "";
-    const button = make(cell, "button", `${name}${unit && ` [${unit}]`}${arrow}`);
+    const button = make(cell, "button", `${withUnit(name, unit)}${arrow}`);
     if (by === sorting.by) cell.setAttribute("aria-sort", sorting.down ? "descending" : "ascending");
     // The largest first, but times as they pass.
     const first = ![CONTACT, START, END, 6].includes(by);
@@ -298,7 +358,7 @@ function impactTable() {
   const rows = sorted();
   for (const impact of allRows ? rows : rows.slice(0, FIRST_ROWS)) {
     const line = make(body, "tr");
-    impact.forEach((value, by) => make(line, "td", [START, END, 6].includes(by) ? (value?.toFixed(5) ?? "open") : digits(value)));
+    impact.forEach((value, by) => make(line, "td", [START, END, 6].includes(by) ? (value?.toFixed(5) ?? "open") : digits(scaled(value, IMPACTS[by][1]))));
     line.addEventListener("click", () => {
       body.querySelector(".chosen")?.classList.remove("chosen");
       line.classList.add("chosen");
@@ -317,13 +377,13 @@ function impactTable() {
 function happened() {
   const count = run.impacts.length;
   // Rigid contacts have no force of an impact: there the impulse tells which was the hardest.
-  const [by, unit] = run.contacts.some((pair) => pair.law === "stereomechanical") ? [IMPULSE, "N s"] : [FORCE, "N"];
+  const [by, unit] = run.contacts.some((pair) => pair.law === "stereomechanical") ? [IMPULSE, "N.s"] : [FORCE, "N"];
   const hardest = run.impacts.reduce((most, impact) => (most && most[by] >= impact[by] ? most : impact), null);
   const text = `0 s to ${digits(run.stop)} s: ${count} impact${count === 1 ? "" : "s"}`;
   if (!hardest) return `${text}.`;
   const { left_floor, right_floor } = run.contacts[hardest[CONTACT] - 1];
   const where = `left floor ${left_floor} and right floor ${right_floor}`;
-  return `${text}, the hardest between ${where} at ${hardest[START].toFixed(3)} s with ${digits(hardest[by])} ${unit}.`;
+  return `${text}, the hardest between ${where} at ${hardest[START].toFixed(3)} s with ${digits(scaled(hardest[by], unit))} ${unitText(unit)}.`;
 }
 
 document.title = run.name;
@@ -333,7 +393,7 @@ element("happened").textContent = happened();
 element("scene-text").textContent = run.scene;
 listVariables();
 contactTable();
-driftTable();
+peakTable();
 impactTable();
 usual();
 show(0, run.stop);
@@ -344,5 +404,5 @@ element("earlier").addEventListener("click", () => move(-0.5));
 element("later").addEventListener("click", () => move(0.5));
 element("more").addEventListener("click", () => { allRows = true; impactTable(); });
 addEventListener("resize", () => {
-  for (const { plot } of charts.values()) plot.setSize({ width: element("charts").clientWidth, height: 230 });
+  for (const { plot } of charts.values()) plot.setSize({ width: element("charts").clientWidth, height: height() });
 });

@@ -8,6 +8,7 @@ the page without a browser.
 """
 
 import csv
+import io
 import os
 import re
 import shlex
@@ -39,7 +40,7 @@ def main():
         page = context.new_page()
         troubles = listen(page)
         page.goto(html.as_uri())
-        for look in [reads, hovers, zooms, chooses, sorts, finds_an_impact, is_narrow]:
+        for look in [reads, tells_apart, hovers, zooms, chooses, sorts, finds_an_impact, is_narrow]:
             look(page, scene, impacts)
             print(f"{look.__name__.replace('_', ' ')}: well")
         assert not troubles, troubles
@@ -91,6 +92,24 @@ def reads(page, scene, impacts):
     page.screenshot(path=FOLDER / "whole.png")
 
 
+def tells_apart(page, scene, impacts):
+    """No two lines of a chart look the same, each is in its legend as it is drawn, and a quantity has one unit."""
+    page.locator("#variables .group input").evaluate_all("boxes => boxes.forEach(box => box.checked || box.click())")
+    for chart in page.locator(".chart").all():
+        keys = chart.locator(".key line").evaluate_all(
+            "keys => keys.map(key => key.getAttribute('stroke') + ' ' + key.getAttribute('stroke-dasharray'))"
+        )
+        assert len(set(keys)) == len(keys) == chart.locator(".u-legend .u-series").count() - 1 > 0, keys
+    headings = page.locator(".chart h3, th").all_inner_texts()
+    units = {unit for heading in headings for unit in re.findall(r"\[(.*)\]", " ".join(heading.split()))}
+    for one, other in [("N", "kN"), ("N s", "kN s"), ("m", "mm"), ("m/s2", "g"), ("N", "kN s"), ("kN", "N s")]:
+        assert not {one, other} <= units, units
+    page.locator("#usual").click()
+    # A box of a group stands for all that is below it.
+    assert not page.locator('input[aria-label="all: velocity"]').is_checked()
+    assert page.locator('input[aria-label="all: contact force"]').is_checked()
+
+
 def over(page, chart, share):
     """A point of a chart: `share` of its width from the left."""
     box = page.locator(".chart .u-over").nth(chart).bounding_box()
@@ -122,7 +141,8 @@ def zooms(page, scene, impacts):
 
 def chooses(page, scene, impacts):
     page.locator("#filter").fill("left acc")
-    assert page.locator("#variables li:not(.group):visible").count() == 2
+    # Those at a time and the largest, of two floors.
+    assert page.locator("#variables li:not(.group):visible").count() == 4
     page.locator("#filter").fill("")
     box = page.locator('input[data-name="contact[1].penetration"]')
     box.check()
@@ -139,8 +159,11 @@ def sorts(page, scene, impacts):
     forces = sorted((float(impact["peak_force"]) for impact in impacts), reverse=True)
     heading = page.get_by_role("button", name="peak force")
 
+    factor = {"N": 1.0, "kN": 1e3}[re.search(r"\[(.*)\]", heading.inner_text())[1]]
+
     def column():
-        return [float(text) for text in page.locator("#impact-table tbody td:nth-child(6)").all_inner_texts()]
+        texts = page.locator("#impact-table tbody td:nth-child(6)").all_inner_texts()
+        return [factor * float(text) for text in texts]
 
     for wanted in (forces, forces[::-1]):
         heading.click()
@@ -148,13 +171,16 @@ def sorts(page, scene, impacts):
 
 
 def finds_an_impact(page, scene, impacts):
+    from PIL import Image
+
     page.get_by_role("button", name="peak force").click()
     page.locator("#impact-table tbody tr").first.click()
     hardest = max(impacts, key=lambda impact: float(impact["peak_force"]))
     start, end = stretch(page)
     assert start < float(hardest["start_s"]) < float(hardest["end_s"]) < end < start + 0.05
     page.wait_for_timeout(300)
-    page.screenshot(path=FOLDER / "impact.png")
+    # Of 256 colours: the picture of docs/pictures.md, a third of the size that all take.
+    Image.open(io.BytesIO(page.screenshot())).convert("RGB").quantize(256).save(FOLDER / "impact.png", optimize=True)
     page.locator("#whole").click()
 
 

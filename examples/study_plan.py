@@ -1,0 +1,158 @@
+"""What a study runs: an FMU of each scene, the records, all cases, and how strong each is."""
+
+import csv
+import hashlib
+import os
+import shlex
+import shutil
+import tempfile
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from fmpy import extract, read_model_description
+
+import ground_motions
+import spectra
+from engine import EL_CENTRO, STANDARD_GRAVITY
+from runs import Scene, run_or_stop
+from study_table import NEVER_CLOSES, SIDES
+from study_worker import Case, FMU2Instance, Materials
+
+CARGO_FMU = shlex.split(os.environ.get("CARGO_FMU", "cargo fmu"))
+NEEDED = {
+    "ground.record": "a record in [ground]",
+    "contact[1].gap": "a [[contact]]",
+    "left.peak_acceleration[1]": "the outputs left.peak_acceleration[i]",
+}
+
+
+@dataclass
+class Plan:
+    cases: list
+    materials: Materials
+    storeys: dict  # of each building, in the tallest scene
+    # By scene_id: period of each building, s; by scene_id and record_id: spectral acceleration there for 1 m/s2 of peak.
+    periods: dict = field(default_factory=dict)
+    spectra: dict = field(default_factory=dict)
+
+    def with_intensity(self, case, row):
+        """The row of a case with its case and with how strong the ground motion is for each building."""
+        known = {"scene": case.scene, "scene_id": case.scene_id, "record": case.record, "record_id": case.record_id}
+        known |= {"pga_m_s2": case.pga, "gap_m": case.gap, "stop_s": case.stop}
+        for side in SIDES:
+            known[f"{side}_period_s"] = self.periods[case.scene_id][side]
+            known[f"{side}_sa_m_s2"] = case.pga * self.spectra[case.scene_id, case.record_id][side]
+        return known | row
+
+
+def plan(options):
+    """All cases, and what they need."""
+    scenes = named_scenes(options.scenes)
+    records = chosen_records(options)
+    motions = {record: read_record(record) for record in records}
+    fmus = {name: build(file, options.output / "fmus" / f"{name}.fmu") for name, file in scenes.items()}
+    ids = {name: read_model_description(str(fmu)).guid.strip("{}") for name, fmu in fmus.items()}
+    contents = {record: record.read_bytes() for record in records}
+    names = {record: hashlib.sha256(content).hexdigest()[:12] for record, content in contents.items()}
+    peaks = {record: float(np.abs(motion[1]).max()) for record, motion in motions.items()}
+    materials = Materials(
+        fmus={ids[name]: fmu.read_bytes() for name, fmu in fmus.items()},
+        records={names[record]: (record.suffix.lower(), contents[record], peaks[record]) for record in records},
+    )
+    cases = [
+        Case(scene, ids[scene], record.stem, names[record], pga, gap, options.stop or float(motions[record][0][-1]))
+        for scene in fmus
+        for record in records
+        for pga in dict.fromkeys(options.pga)
+        for gap in dict.fromkeys([*options.gaps, NEVER_CLOSES])
+    ]
+    floors = {side: max(Scene(file).floors[side] for file in scenes.values()) for side in SIDES}
+    # The same record twice, by two paths, is one.
+    found = Plan(list(dict.fromkeys(cases)), materials, floors)
+    for name, fmu in fmus.items():
+        found.periods[ids[name]] = first_periods(fmu)
+        for record, motion in motions.items():
+            found.spectra[ids[name], names[record]] = strengths(record, motion, found.periods[ids[name]])
+    return found
+
+
+def named_scenes(files):
+    """The scenes by name: the name is that of the FMU, of pictures, and in the table."""
+    scenes = {}
+    for file in dict.fromkeys(file.resolve() for file in files):
+        name = Scene(file).name
+        if name in scenes:
+            raise SystemExit(f"{scenes[name]} and {file} are both named {name!r}: give one another name")
+        scenes[name] = file
+    return scenes
+
+
+def chosen_records(options):
+    synthetic = range(options.seed, options.seed + options.synthetic)
+    return options.records or [
+        EL_CENTRO,
+        *(ground_motions.write(options.output / "records", seed) for seed in synthetic),
+    ]
+
+
+def build(scene, fmu):
+    """The FMU of a scene."""
+    fmu.parent.mkdir(parents=True, exist_ok=True)
+    run_or_stop([*CARGO_FMU, scene, "-o", fmu])
+    names = {variable.name for variable in read_model_description(str(fmu)).modelVariables}
+    lacking = [why for needed, why in NEEDED.items() if needed not in names]
+    if lacking:
+        raise SystemExit(f"{scene}: a study needs a scene with {', '.join(lacking)}")
+    return fmu
+
+
+def first_periods(fmu):
+    """s, of each building of an FMU alone."""
+    folder = tempfile.mkdtemp(prefix="study")
+    try:
+        instance = FMU2Instance(read_model_description(str(fmu)), extract(str(fmu), unzipdir=folder))
+        periods = instance.first_periods()
+        instance.freeInstance()
+        return periods
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def strengths(record, motion, periods):
+    """Of each building's first period, the spectral acceleration that goes with a peak of 1 m/s2."""
+    times, accelerations = motion
+    unit = accelerations / np.abs(accelerations).max()
+    try:
+        return {side: spectra.pseudo_acceleration(times, unit, period) for side, period in periods.items()}
+    except ValueError as error:
+        raise SystemExit(f"{record}: {error}") from None
+
+
+def read_record(path):
+    """Times, s, and accelerations, m/s2, of a record."""
+    try:
+        times, accelerations = read_at2(path) if path.suffix.lower() == ".at2" else read_csv(path)
+    except (ValueError, IndexError, OSError):
+        raise SystemExit(f"{path}: expected CSV with the columns time_s,accel_m_s2, or PEER AT2") from None
+    if len(times) < 2 or not np.all(np.isfinite([times, accelerations])) or np.any(np.diff(times) <= 0):
+        raise SystemExit(f"{path}: expected two samples or more, finite, at times that increase")
+    if not accelerations.any():
+        raise SystemExit(f"{path}: the ground does not move, so it cannot be scaled to a peak")
+    if not path.stem.isprintable():
+        raise SystemExit(f"{str(path)!r}: expected a file name without line breaks and the like")
+    return times, accelerations
+
+
+def read_csv(path):
+    lines = path.read_text().splitlines()
+    rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))[1:]
+    time, acceleration = np.array(rows, float).T
+    return time, acceleration
+
+
+def read_at2(path):
+    lines = path.read_text().splitlines()
+    step = float(lines[3].upper().split("DT=")[1].split()[0].strip(","))
+    values = np.array(" ".join(lines[4:]).split(), float) * STANDARD_GRAVITY
+    return step * np.arange(len(values)), values
