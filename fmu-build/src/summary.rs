@@ -9,13 +9,13 @@ use std::fmt::Write;
 pub fn text(outcome: &Outcome, package: Option<&Package>, stop_reason: &str) -> String {
     let run = Run(outcome);
     let mut text = overview(&run, package, stop_reason);
-    for table in [run.floors(), run.contacts(), run.energy()].into_iter().flatten() {
+    for table in [run.floors(), run.buildings(), run.contacts(), run.energy()].into_iter().flatten() {
         text.push('\n');
         text.push_str(&table.aligned());
     }
-    // Masters see the same: what lasts milliseconds falls between their points.
-    text.push_str("\n  largest displacement, acceleration and approach velocity: as read every ");
-    let _ = writeln!(text, "{} s", outcome.experiment.step);
+    let sampled = if run.has_peaks() { "" } else { "displacement, acceleration and " };
+    let step = outcome.experiment.step;
+    let _ = writeln!(text, "\n  largest {sampled}approach velocity: as read every {step} s");
     for warning in &outcome.warnings {
         let _ = writeln!(text, "\n  warning      {warning}");
     }
@@ -79,22 +79,42 @@ impl Run<'_> {
         (1..).take_while(|contact| self.seen(&format!("contact[{contact}].impacts")).is_some()).count()
     }
 
+    /// Whether the FMU knows its peaks; otherwise what has been read has to do.
+    fn has_peaks(&self) -> bool {
+        SIDES.iter().any(|side| self.count(&format!("{side}.peak_displacement")) > 0)
+    }
+
     fn floors(&self) -> Option<Table> {
+        let heading = |quantity: &str| format!("{} {quantity}", if self.has_peaks() { "peak" } else { "largest" });
         let mut table = Table::new(&[
             ("floor", ""),
-            ("largest displacement", "m"),
-            ("largest acceleration", "m/s2"),
+            (&heading("displacement"), "m"),
+            (&heading("acceleration"), "m/s2"),
             ("peak storey drift", "m"),
         ]);
         for side in SIDES {
             for floor in 1..=self.count(&format!("{side}.displacement")) {
-                let number = |quantity, pick| self.cell(&format!("{side}.{quantity}[{floor}]"), pick);
+                let number = |quantity: &str, pick| self.cell(&format!("{side}.{quantity}[{floor}]"), pick);
+                let largest = |quantity: &str| match self.has_peaks() {
+                    true => number(&format!("peak_{quantity}"), |seen| seen.last),
+                    false => number(quantity, |seen| seen.largest),
+                };
                 table.row([
                     format!("{side} {floor}"),
-                    number("displacement", |seen| seen.largest),
-                    number("acceleration", |seen| seen.largest),
+                    largest("displacement"),
+                    largest("acceleration"),
                     number("peak_drift", |seen| seen.last),
                 ]);
+            }
+        }
+        table.unless_empty()
+    }
+
+    fn buildings(&self) -> Option<Table> {
+        let mut table = Table::new(&[("building", ""), ("peak base shear", "N")]);
+        for side in SIDES {
+            if let Some(shear) = self.seen(&format!("{side}.peak_base_shear")) {
+                table.row([side.into(), digits(shear.last)]);
             }
         }
         table.unless_empty()
