@@ -21,7 +21,8 @@
 //! | contact forces over a whole window from an integral equation, at Gauss nodes | `collocation/`, `engine/window_step.rs`, `structure/impulse_response.rs` | \[Brunner2004\] |
 //! | motion just after an entry, powers i + beta j of time | `engine/onset_step.rs`, `contact/onset.rs` | |
 //! | bounds of a curve by its cubic Hermite interpolant: no contact, first root, largest value | `engine/flight.rs`, `engine/roots.rs` | \[BirkhoffPriver1967\] |
-//! | energy account; impulse, work and peaks of a contact | `engine/energy.rs`, `engine/advance.rs` | |
+//! | energy account; impulse, work and peak force of a contact | `engine/energy.rs`, `engine/advance.rs` | |
+//! | largest displacements, drifts, accelerations and base shears in continuous time | `engine/peaks/mod.rs` | \[BirkhoffPriver1967\] |
 //! | derivatives with respect to time, and to inputs at an instant | `engine/rates.rs`, `contact/rates.rs`, `engine/feedthrough.rs` | |
 //! | Gauss-Legendre quadrature | `quadrature.rs` | [AbramowitzStegun1964, table 25.4] |
 //!
