@@ -12,7 +12,7 @@ plt = pyplot()
 
 SLOWER = 2.0  # than in life
 FRAMES_PER_SECOND = 20  # a GIF counts in hundredths of a second
-AFTERGLOW = 4  # frames that an impact stays to be seen: it lasts a part of one
+AFTERGLOW = 4  # frames that an impact stays to be seen: it may last a part of one
 COLOURS = 24  # of the palette: plain areas need few, and few make small files
 
 
