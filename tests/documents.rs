@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use pounding::contact::{DampingFormula, LawInfo, LawKind};
+use pounding::record::Record;
 use pounding::scene::{Scene, law_key};
 use pounding::variables::{HIGHEST_OUTPUT_DERIVATIVE, Row, Slot, Table, Type};
 use std::collections::BTreeSet;
@@ -106,6 +107,17 @@ fn the_readme_quotes_its_scene_without_the_first_line() {
 fn the_readme_stays_short() {
     let words = read("README.md").split_whitespace().count();
     assert!(words < 1000, "{words} words");
+}
+
+#[test]
+fn the_warning_of_the_reference_is_the_one_that_is_given() {
+    let text = read("examples/scenes/two_blocks.toml").replace("pga = 3.0", "pga = 0.35");
+    let record = "examples/records/el_centro_1940_ns.csv";
+    let record = Record::parse(record, read(record).as_bytes()).unwrap();
+    let warnings = pounding::warnings::of(&Scene::from_toml(&text).unwrap(), Some(&record));
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    let reference = read("docs/reference.md").split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(reference.contains(&format!("`warning: {}`", warnings[0])), "{}", warnings[0]);
 }
 
 /// A part of a page: from its heading to the next one of the same or a higher level.

@@ -37,6 +37,12 @@ def test_the_readme_quotes_what_its_ten_lines_print(feup, tmp_path):
     assert f"```text\n{printed}```" in README
 
 
+def test_the_summary_begins_as_the_guide_quotes(tmp_path):
+    printed = harness.run(harness.CARGO_FMU, "examples/scenes/offices.toml", "-o", tmp_path / "Offices.fmu")
+    (quoted,) = [block.split("```")[0] for block in GUIDE.split("```text\n") if block.startswith("  record ")]
+    assert quoted in printed
+
+
 def test_the_first_look_is_what_the_guide_says(offices):
     stop = float(offices.description.defaultExperiment.stopTime)
     last = offices.simulate(0.02, stop)[-1]
