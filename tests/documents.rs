@@ -55,6 +55,7 @@ fn citations(text: &str) -> BTreeSet<String> {
         let (name, year) = rest.get(..end)?.split_at_checked(end.checked_sub(4)?)?;
         let is_key = name.starts_with(|c: char| c.is_ascii_uppercase())
             && name.chars().all(|c| c.is_ascii_alphabetic())
+            && year.starts_with(['1', '2'])
             && year.chars().all(|c| c.is_ascii_digit());
         is_key.then(|| format!("{name}{year}"))
     };
