@@ -67,8 +67,9 @@ impl PeakWatch {
         }
     }
 
-    pub fn due(&self) -> u64 {
-        self.due
+    /// Whether it knows anything of the time to come.
+    pub fn looks_ahead(&self) -> bool {
+        self.until > 0
     }
 
     pub fn is_clear(&self, block: usize, segment: u64) -> bool {

@@ -107,7 +107,9 @@ impl Model {
                     (PeakOf::Drift(side, floor), start.u[lane] - below),
                     (PeakOf::Acceleration(side, floor), start.resisted[lane] + work.peaks.first_push[lane]),
                 ];
-                now.into_iter().for_each(|(of, value)| peaks.raise(self.peak_rows.place(of), value));
+                // Floor forces are part of an acceleration.
+                let known = if self.floor_forces { &now[..2] } else { &now };
+                known.iter().for_each(|&(of, value)| peaks.raise(self.peak_rows.place(of), value));
             }
             peaks.raise(self.peak_rows.place(PeakOf::BaseShear(side)), self.shear_of(side, start));
         }

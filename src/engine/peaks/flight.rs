@@ -102,7 +102,10 @@ impl Model {
             let [q, v] = [&base.q, &base.v].map(|vector| &vector[building.modes.clone()]);
             for (b, block) in building.blocks.iter().enumerate() {
                 for (i, value) in block.values(q, v).into_iter().enumerate() {
-                    peaks.raise((building.first + b) * LANES + i, value);
+                    let place = (building.first + b) * LANES + i;
+                    if !(self.floor_forces && matches!(self.peak_rows.at(place), Some(PeakOf::Acceleration(..)))) {
+                        peaks.raise(place, value);
+                    }
                 }
             }
         }

@@ -146,7 +146,7 @@ impl PeakRoom {
 
     /// Forgets the time to come: a contact force or an impulse has acted.
     pub fn restart(&mut self) {
-        if self.watch.due() > 0 {
+        if self.watch.looks_ahead() {
             self.watch.restart();
         }
     }
