@@ -392,3 +392,30 @@ fn a_scene_without_peaks_moves_as_one_with_them() {
     });
     assert_eq!(names, [2 * 3 + 3 * 3 + 2, 0]);
 }
+
+/// Under a force that is held from the start, acceleration is largest at once: what is shown later is never without the force.
+#[test]
+fn a_held_force_is_a_part_of_the_acceleration() {
+    let (m, w, force) = (10.0, 8.0, 30.0);
+    let building = format!("mass = [{m:?}]\nstiffness = [{:?}]\ndamping = {{ ratio = 0.05 }}\n", m * w * w);
+    let scene = scene(&format!("name = \"F\"\n[left]\n{building}[right]\n{building}[inputs]\nfloor_forces = true\n"));
+    let mut run = Run::new(&scene, None);
+    run.state.set_floor_force(Side::Left, 0, force);
+    for k in 1..=500 {
+        run.to(0.005 * f64::from(k));
+        assert_close(run.peak(PeakOf::Acceleration(Side::Left, 0)), force / m, 1e-14, &format!("step {k}"));
+    }
+}
+
+/// A contact within the first segment of a record ends what was known of the time to come.
+#[test]
+fn a_contact_in_the_first_segment_is_not_looked_past() {
+    for law in LAWS {
+        let contact = format!("[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.001\n{law}\n");
+        let left = frame("left", 2, 1e3, 1.0, 0.03) + "initial_velocity = [0.8, 0.6]\n";
+        let right = frame("right", 1, 2e3, 2.0, 0.05) + "initial_velocity = [-0.3]\n";
+        let record = shaking(0.05, 30, 0.5);
+        let scene = with_record(&format!("name = \"First\"\n{left}{right}{contact}"));
+        compare(law, &scene, Some(&record), 1.2, 20_000);
+    }
+}

@@ -86,12 +86,12 @@ impl Run<'_> {
 
     fn floors(&self) -> Option<Table> {
         let heading = |quantity: &str| format!("{} {quantity}", if self.has_peaks() { "peak" } else { "largest" });
-        let mut table = Table::new(&[
-            ("floor", ""),
-            (&heading("displacement"), "m"),
-            (&heading("acceleration"), "m/s2"),
-            ("peak storey drift", "m"),
-        ]);
+        let headings = [heading("displacement"), heading("acceleration")];
+        let mut columns = vec![("floor", ""), (&*headings[0], "m"), (&*headings[1], "m/s2")];
+        if self.has_peaks() {
+            columns.push(("peak storey drift", "m"));
+        }
+        let mut table = Table::new(&columns);
         for side in SIDES {
             for floor in 1..=self.count(&format!("{side}.displacement")) {
                 let number = |quantity: &str, pick| self.cell(&format!("{side}.{quantity}[{floor}]"), pick);
@@ -99,12 +99,11 @@ impl Run<'_> {
                     true => number(&format!("peak_{quantity}"), |seen| seen.last),
                     false => number(quantity, |seen| seen.largest),
                 };
-                table.row([
-                    format!("{side} {floor}"),
-                    largest("displacement"),
-                    largest("acceleration"),
-                    number("peak_drift", |seen| seen.last),
-                ]);
+                let mut row = vec![format!("{side} {floor}"), largest("displacement"), largest("acceleration")];
+                if self.has_peaks() {
+                    row.push(number("peak_drift", |seen| seen.last));
+                }
+                table.row(row);
             }
         }
         table.unless_empty()

@@ -453,5 +453,12 @@ impl Contact {
         }
         self.penetration = depth.value;
         self.rate = depth.slope / series.time_rate(x);
+        // The series of a damped force is truncated; what is shown is what the law makes of the motion.
+        let last = if block.is_elastic() { 0.0 } else { self.branch().value(self.penetration, self.rate) };
+        if last > self.episode.peak_force {
+            self.episode.peak_force = last;
+            self.episode.peak_time = start + series.time(x);
+            self.peak_force = self.peak_force.max(last);
+        }
     }
 }

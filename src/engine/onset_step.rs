@@ -23,6 +23,9 @@ const HIGHEST: f64 = 8.0;
 /// Most places at which a slope is looked at for where it passes 0: it takes some ten.
 const MOST_TURNS: usize = 60;
 
+/// Share of a peak that the series of a force has to reach for the law to be asked: it is truncated.
+const NEARLY: f64 = 0.999;
+
 /// Share of a step after which the slope of a force is looked at for where it goes from the start: what turns before that
 /// is within the square of this of its peak at the start.
 const JUST_AFTER: f64 = 1e-6;
@@ -465,10 +468,16 @@ impl Contact {
             }
         };
         let last = (end.force[lane], end.force_slope[lane]);
-        if let Some((at, peak)) = highest(force, x, last, self.episode.peak_force) {
-            self.episode.peak_force = peak;
-            self.episode.peak_time = start + at * scale;
-            self.peak_force = self.peak_force.max(peak);
+        if let Some((at, _)) = highest(force, x, last, NEARLY * self.episode.peak_force) {
+            // The series of the force tells where; how much is what the law makes of the motion there, as it is shown.
+            let (d, slope) = value_and_slope(grid, &block.copy_penetration(grid, lane), at);
+            let (peak, last) = (law.value(d, slope / scale), law.value(end.penetration[lane], end.slope[lane] / scale));
+            let (at, peak) = if last > peak { (x, last) } else { (at, peak) };
+            if peak > self.episode.peak_force {
+                self.episode.peak_force = peak;
+                self.episode.peak_time = start + at * scale;
+                self.peak_force = self.peak_force.max(peak);
+            }
         }
         let penetration = || {
             let terms = block.copy_penetration(grid, lane);

@@ -239,7 +239,9 @@ impl Contact {
             }
         };
         if let Some((x, (d, v))) = strongest {
-            let peak = law.value(d, v);
+            // Between nodes a force is known to fewer digits: a summit there may lie below the end.
+            let (peak, last_force) = (law.value(d, v), law.value(end.0, end.1));
+            let (x, peak) = if last_force > peak { (last, last_force) } else { (x, peak) };
             if peak > self.episode.peak_force {
                 self.episode.peak_force = peak;
                 self.episode.peak_time = start + solution.length * solution.map.at(x).0;

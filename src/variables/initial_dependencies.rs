@@ -25,7 +25,8 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
         }
         Output::Displacement(..) | Output::Velocity(..) => false,
         Output::Peak(PeakOf::Displacement(..) | PeakOf::Drift(..)) => false,
-        // No input has acted yet.
+        // No floor force has acted yet, without which an acceleration is not known.
+        Output::Peak(PeakOf::Acceleration(..)) if scene.floor_forces => false,
         Output::Peak(_) if matches!(known, Slot::Input(_)) => false,
         Output::BaseShear(side) | Output::Peak(PeakOf::BaseShear(side)) => base_shear(scene, side, known),
         Output::Acceleration(side, floor) | Output::Peak(PeakOf::Acceleration(side, floor)) => {

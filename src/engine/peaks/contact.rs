@@ -6,8 +6,12 @@ use super::{PeakOf, Peaks, larger};
 use crate::engine::model::{Model, Pair};
 use crate::engine::state::{Base, Contact, Coordinates, Inputs, State, Step, StepKind, Workspace};
 use crate::engine::{Point, Side};
-use crate::polynomial::Powers;
+use crate::polynomial::{Powers, value_and_slope};
 use std::ops::Range;
+
+/// How far the series of a quantity may be off at the end of a step, relative to its peak, to be searched. A series is as
+/// long as velocities allow: in a step of next to no time an acceleration may be off by any amount, and its ends say all.
+const TRUSTED: f64 = 1e-6;
 
 /// A step in contact, or its first part.
 #[derive(Clone, Copy)]
@@ -269,16 +273,23 @@ impl Model {
         if !(bound <= peaks.values[place]) {
             ends.into_iter().for_each(|end| peaks.raise(place, end));
             if !goes_on {
-                let peak = self.highest_in_contact(of, peaks.values[place], part, work);
+                let peak = self.highest_in_contact(of, (peaks.values[place], ends[1]), part, work);
                 peaks.raise(place, peak);
             }
         }
     }
 
-    /// The largest magnitude of a quantity within a part of a step, or `known` if that is larger. It is looked for in the whole
+    /// The largest magnitude of a quantity within a part of a step, or `known` if that is larger, from its value at the end of
+    /// the part. It is looked for in the whole
     /// step, so that a turn has the same bits whatever part is looked at.
     #[inline(never)]
-    fn highest_in_contact(&self, of: PeakOf, known: f64, part: &ContactStep, work: &mut Workspace) -> f64 {
+    fn highest_in_contact(
+        &self,
+        of: PeakOf,
+        (known, at_end): (f64, f64),
+        part: &ContactStep,
+        work: &mut Workspace,
+    ) -> f64 {
         let mut rows = std::mem::take(&mut work.peaks.rows);
         let lanes = self.set_rows(of, part.base.coordinates, &mut rows);
         let quantity = Quantity { of, rows: &rows, lanes, ground: part.ground() };
@@ -289,7 +300,12 @@ impl Model {
             _ => {
                 let (terms, order) = quantity.terms(&step.series, Some(&mut work.bend));
                 let end = if part.length == step.length { step.end.x } else { step.series.place(part.length) };
-                highest(&terms, (end, order), known, &mut work.powers)
+                let off = value_and_slope(&terms[..=order], end).0 - at_end;
+                if off.abs() <= TRUSTED * larger(known, at_end.abs()) {
+                    highest(&terms, (end, order), known, &mut work.powers)
+                } else {
+                    known
+                }
             }
         };
         work.peaks.rows = rows;

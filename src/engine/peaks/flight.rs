@@ -14,6 +14,9 @@ use crate::polynomial::each;
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
 
+/// Margin for rounding, relative to the numbers that a swing is made of.
+const MARGIN: f64 = 1e-12;
+
 /// A flight of both buildings from start to end.
 pub(super) struct Flight<'a> {
     /// q and v of all modes.
@@ -35,9 +38,11 @@ pub(super) struct ModeBounds {
     /// Accelerations relative to the ground, at the start and at the end.
     first: Vec<f64>,
     last: Vec<f64>,
-    /// How far each mode can swing in q' and in q.
+    /// How far each mode can swing in q' and in q, about where the load holds it: q at the start and at the end, and q'.
     pub swing: Vec<f64>,
     pub swing_q: Vec<f64>,
+    held: [Vec<f64>; 2],
+    held_rate: Vec<f64>,
     /// What |A| and |B| are multiplied by in the bound on a fourth derivative (for the look ahead: of others).
     pub slow: Vec<f64>,
     pub quick: Vec<f64>,
@@ -51,6 +56,8 @@ impl ModeBounds {
             last: vector(),
             swing: vector(),
             swing_q: vector(),
+            held: [vector(), vector()],
+            held_rate: vector(),
             slow: vector(),
             quick: vector(),
         }
@@ -138,7 +145,6 @@ impl Model {
             let (w2, c) = (structure.omega2[m], structure.damping[m]);
             room.first[m] = load[m] - c * v[m] - w2 * q[m];
             room.last[m] = load[m] + slope[m] * h - c * end_v[m] - w2 * end_q[m];
-            room.swing[m] = (v[m] * v[m] + w2 * q[m] * q[m]).sqrt();
         }
         if !structure.is_classical() {
             structure.subtract_coupling(v, 1.0, &mut room.first);
@@ -153,26 +159,47 @@ impl Model {
         for m in modes.clone() {
             let (w2, acceleration) = (structure.omega2[m], room.first[m]);
             room.slow[m] = (jerk[m] * jerk[m] + w2 * acceleration * acceleration).sqrt();
-            room.quick[m] = larger(load[m].abs(), (load[m] + slope[m] * h).abs());
         }
         let is_coupled = structure.couples(building.modes.start);
         if is_coupled {
-            // Coupled modes exchange energy: any may come to have all of it.
-            for vector in [&mut room.slow, &mut room.swing, &mut room.quick] {
-                let whole = vector[modes.clone()].iter().map(|e| e * e).sum::<f64>().sqrt();
-                vector[modes.clone()].fill(whole);
-            }
+            share(&mut room.slow[modes.clone()]);
         }
         for m in modes {
             let (w2, c) = (structure.omega2[m], structure.damping[m]);
-            room.swing[m] += h * room.quick[m];
-            room.swing_q[m] = room.swing[m] / w2.sqrt();
             let (speed, change) = match is_coupled {
                 true => (2.0 * structure.fastest, 3.0 * structure.fastest * structure.fastest),
                 false => (structure.quickness[m], c * structure.quickness[m] + w2),
             };
             room.quick[m] = change * room.slow[m];
             room.slow[m] *= speed;
+        }
+        self.bound_swings(building, flight, room, is_coupled);
+    }
+
+    /// How far a building's modes can swing over a flight, about where the load holds them (see `swing.rs`).
+    fn bound_swings(&self, building: &BuildingRows, flight: &Flight, room: &mut ModeBounds, is_coupled: bool) {
+        let ((q, v), (load, slope)) = (flight.start, flight.loads);
+        let modes = building.modes.clone();
+        // Where damping couples modes, what holds them under a load that changes is not worked out: all of it may push.
+        let is_pushed = is_coupled && slope[modes.clone()].iter().any(|slope| *slope != 0.0);
+        let [held, held_end] = &mut room.held;
+        for m in modes.clone() {
+            let (w2, c) = (self.structure.omega2[m], self.structure.damping[m]);
+            let rate = if is_pushed { 0.0 } else { slope[m] / w2 };
+            held[m] = if is_pushed { 0.0 } else { load[m] / w2 - c * rate / w2 };
+            (room.held_rate[m], held_end[m]) = (rate, held[m] + rate * flight.length);
+            let (h, dh) = (q[m] - held[m], v[m] - rate);
+            room.swing[m] = (dh * dh + w2 * h * h).sqrt() + MARGIN * w2.sqrt() * (held[m].abs() + q[m].abs());
+        }
+        if is_coupled {
+            share(&mut room.swing[modes.clone()]);
+        }
+        for m in modes {
+            if is_pushed {
+                let end = load[m] + slope[m] * flight.length;
+                room.swing[m] += flight.length * larger(load[m].abs(), end.abs());
+            }
+            room.swing_q[m] = room.swing[m] / self.structure.omega2[m].sqrt();
         }
     }
 
@@ -187,14 +214,9 @@ impl Model {
         let (block, modes, h) = (&building.blocks[b], building.modes.clone(), flight.length);
         let bounds = &work.peaks.bounds;
         let place = (building.first + b) * LANES;
-        let mut swings = swing_of(block, &bounds.swing_q[modes.clone()], &bounds.swing[modes.clone()]);
-        if self.floor_forces {
-            for (swing, [force, rate]) in swings.iter_mut().zip(&work.peaks.direct[place..]) {
-                *swing += larger(force.abs(), (force + rate * h).abs());
-            }
-        }
+        let direct = &work.peaks.direct[place..];
         let known = *peaks.block(building.first + b);
-        if (0..LANES).all(|i| swings[i] <= known[i]) {
+        if stays_below(&known, block, (bounds, &modes), self.floor_forces.then_some((direct, 0.0, h))) {
             return;
         }
         let mut course = course_of(block, flight, bounds, modes);
@@ -235,17 +257,58 @@ impl Block {
     }
 }
 
-/// How far the quantities of a block can swing where the modes can so far. Wide instructions give the same bits.
+/// Coupled modes exchange energy: any may come to have all of it.
+fn share(modes: &mut [f64]) {
+    let whole = modes.iter().map(|e| e * e).sum::<f64>().sqrt();
+    modes.fill(whole);
+}
+
+/// Whether the modes cannot swing far enough for the quantities of a block to exceed their peaks by more than rounding;
+/// `direct` is what is added to them, linear in time, over some seconds from a time on.
+pub(super) fn stays_below(
+    peaks: &Lane,
+    block: &Block,
+    (bounds, modes): (&ModeBounds, &Range<usize>),
+    direct: Option<(&[[f64; 2]], f64, f64)>,
+) -> bool {
+    let [held, held_end] = &bounds.held;
+    let of_modes =
+        [held, held_end, &bounds.held_rate, &bounds.swing_q, &bounds.swing].map(|vector| &vector[modes.clone()]);
+    let swings = swing_of(block, of_modes);
+    let added = |i: usize| {
+        direct.map_or(0.0, |(direct, from, h)| {
+            let [value, rate] = direct[i];
+            larger((value + rate * from).abs(), (value + rate * (from + h)).abs())
+        })
+    };
+    (0..LANES).all(|i| swings[i] + added(i) <= (1.0 + MARGIN) * peaks[i])
+}
+
+/// How far the quantities of a block can swing, from where the modes are held at the start, at the end, how fast that
+/// changes, and how far they can swing about it in q and in q'. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn swing_of(block: &Block, swing_q: &[f64], swing: &[f64]) -> Lane {
-    let mut sum = [0.0; LANES];
-    for (a, swing) in block.on_q.iter().zip(swing_q) {
-        sum = each(|i| sum[i] + a[i].abs() * swing);
+fn swing_of(block: &Block, [held, held_end, rate, swing_q, swing]: [&[f64]; 5]) -> Lane {
+    let count = block.on_q.len();
+    // Says once that no index below leaves its vector.
+    let (held, held_end, rate) = (&held[..count], &held_end[..count], &rate[..count]);
+    let (swing_q, swing) = (&swing_q[..count], &swing[..count]);
+    let (mut start, mut end, mut sum) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    for m in 0..count {
+        let row = &block.on_q[m];
+        for i in 0..LANES {
+            start[i] += row[i] * held[m];
+            end[i] += row[i] * held_end[m];
+            sum[i] += row[i].abs() * swing_q[m];
+        }
     }
-    for (b, swing) in block.on_v.iter().zip(swing) {
-        sum = each(|i| sum[i] + b[i].abs() * swing);
+    for (m, row) in block.on_v.iter().enumerate().take(count) {
+        for i in 0..LANES {
+            start[i] += row[i] * rate[m];
+            end[i] += row[i] * rate[m];
+            sum[i] += row[i].abs() * swing[m];
+        }
     }
-    sum
+    each(|i| larger(start[i].abs(), end[i].abs()) + sum[i])
 }
 
 /// The course of a block over a flight.

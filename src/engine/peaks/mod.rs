@@ -94,6 +94,8 @@ pub(super) struct PeakRoom {
     piece: flight::ModeBounds,
     /// The piece of a flight, from and to, s, over which the series in the workspace has been expanded.
     expanded: Option<(f64, f64)>,
+    /// How many more pieces of a flight may be looked at.
+    pieces_left: u32,
     /// q and v at both ends of a piece, and the load at its start.
     pieces: [Vec<f64>; 4],
     load: Vec<f64>,
@@ -123,6 +125,7 @@ impl PeakRoom {
             bounds: flight::ModeBounds::new(lanes),
             piece: flight::ModeBounds::new(lanes),
             expanded: None,
+            pieces_left: 0,
             pieces: [(); 4].map(|()| vec![0.0; lanes]),
             load: vec![0.0; lanes],
             rows: [(); 2].map(|()| vec![0.0; lanes]),

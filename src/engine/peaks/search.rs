@@ -1,7 +1,7 @@
 //! The largest magnitude of one quantity in the power series of a motion: of a flight, piece by piece, or of a step in
 //! contact.
 
-use super::flight::{Flight, course_of};
+use super::flight::{Flight, course_of, stays_below};
 use super::{PeakOf, larger};
 use crate::clock::Bend;
 use crate::engine::model::Model;
@@ -15,6 +15,10 @@ const REACH: f64 = 1.5;
 
 /// Pieces of a flight are halved so often at most: then they are as short as rounding.
 const MOST_HALVINGS: u32 = 40;
+
+/// Pieces in which one flight is searched for one quantity. Only free vibration without end has more, of several modes that
+/// nothing damps, over thousands of periods in one communication step: what it may reach later is not looked for.
+const MOST_PIECES: u32 = 10_000;
 
 /// A piece of a flight: from one time of it to another, s, and how often it may be halved.
 #[derive(Clone, Copy)]
@@ -48,6 +52,7 @@ impl Model {
         let lanes = self.set_rows(of, Coordinates::Modes, &mut rows);
         let quantity = Quantity { of, rows: &rows, lanes, ground: flight.ground };
         let whole = Piece { from: 0.0, to: flight.length, halvings: MOST_HALVINGS };
+        work.peaks.pieces_left = MOST_PIECES;
         let peak = self.highest_in_piece(flight, &quantity, whole, (known, until), work);
         work.peaks.rows = rows;
         peak
@@ -65,9 +70,10 @@ impl Model {
     ) -> f64 {
         let Piece { from, to, halvings } = piece;
         let reach = self.structure.fastest * (to - from);
-        if from >= until {
+        if from >= until || work.peaks.pieces_left == 0 {
             return known;
         }
+        work.peaks.pieces_left -= 1;
         if reach > REACH && halvings > 0 {
             self.fly_to(flight, from, [0, 1], work);
             self.fly_to(flight, to, [2, 3], work);
@@ -150,9 +156,16 @@ impl Model {
             ..*flight
         };
         self.bound_modes(building, &own, &mut peaks.piece, jerk);
+        let direct = &peaks.direct[place - lane..];
+        let (known_lane, modes) =
+            (std::array::from_fn(|i| if i == lane { known } else { f64::INFINITY }), &building.modes);
+        let added = self.floor_forces.then_some((direct, from, own.length));
+        if stays_below(&known_lane, block, (&peaks.piece, modes), added) {
+            return (known, false);
+        }
         let mut course = course_of(block, &own, &peaks.piece, building.modes.clone());
         if self.floor_forces {
-            course.add(&peaks.direct[place - lane..], from, own.length);
+            course.add(direct, from, own.length);
         }
         let end = if to <= until { course.end[0][lane].abs() } else { 0.0 };
         let known = larger(known, larger(course.start[0][lane].abs(), end));
