@@ -110,8 +110,7 @@ impl Model {
     #[inline(never)]
     fn check_flown(&self, base: &mut Base, segment: u64, work: &mut Workspace) {
         let start = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
-        let load = (base.segment.acceleration_at(0.0), base.segment.slope);
-        self.raise_over_segment(base, (segment, (&start.0, &start.1), load), work);
+        self.raise_over_segment(base, segment, (&start.0, &start.1), work);
         (work.q, work.v) = start;
     }
 

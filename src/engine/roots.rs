@@ -456,7 +456,8 @@ pub fn may_turn_above(
     let (a, b) = (End { x: 0.0, value, slope, fourth: 0.0 }, End { x, value: end, slope: end_slope, fourth });
     let (least, most) = b.slopes_from(a);
     // Written so that a NaN may be anywhere.
-    !(least > 0.0 || most < 0.0) && !(b.ceiling_from(a) <= known)
+    let (goes_one_way, is_below) = (least > 0.0 || most < 0.0, b.ceiling_from(a) <= known);
+    !goes_one_way && !is_below
 }
 
 /// Where a polynomial is largest in 0..=end, if it exceeds `known` there: (x, value), from its value and slope at 0 and

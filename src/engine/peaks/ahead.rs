@@ -232,10 +232,10 @@ impl WatchedBlock {
     #[inline(always)]
     fn segments_to_peak(&self, peaks: &Lane, length: f64) -> u64 {
         let mut least = SHORT as f64;
-        for i in 0..LANES {
-            let segments = (peaks[i] - self.value[i].abs()) / (length * self.rate[i]);
+        for ((peak, value), rate) in peaks.iter().zip(&self.value).zip(&self.rate) {
+            let segments = (peak - value.abs()) / (length * rate);
             // A quantity that is always 0 has no rate; a NaN never clears anything.
-            let segments = if self.rate[i] == 0.0 { least } else { segments };
+            let segments = if *rate == 0.0 { least } else { segments };
             least = if segments >= least { least } else { segments };
         }
         // Below 0 and NaN: 0.
@@ -269,10 +269,9 @@ fn reach(block: &Block, amplitudes: &Amplitudes) -> Reach {
         }
         return reach;
     }
-    let on_v = &block.on_v[..count];
-    for m in 0..count {
+    for (m, (on_q, on_v)) in block.on_q.iter().zip(&block.on_v).enumerate().take(count) {
         for i in 0..LANES {
-            let (a, b) = (block.on_q[m][i], on_v[m][i]);
+            let (a, b) = (on_q[i], on_v[i]);
             reach.swing[i] += a.abs() * over_w[m] + b.abs() * own[m];
             reach.rate[i] += a.abs() * own[m] + b.abs() * quick[m];
             reach.bend[i] += (a - b * damping[m]).abs() * quick[m] + b.abs() * bent[m];

@@ -211,7 +211,8 @@ impl Model {
         find_excess(&mut work.peaks.floors, lanes.clone(), part.length, known);
         for (floor, lane) in lanes.enumerate() {
             // Written so that a NaN is never below anything.
-            if !(work.peaks.floors.excess[lane] <= 0.0) {
+            let is_below = work.peaks.floors.excess[lane] <= 0.0;
+            if !is_below {
                 self.check_floor(side, (floor, lane), part, peaks, work);
             }
         }
@@ -270,7 +271,8 @@ impl Model {
     ) {
         let place = self.peak_rows.place(of);
         // Written so that a NaN is never below anything.
-        if !(bound <= peaks.values[place]) {
+        let is_below = bound <= peaks.values[place];
+        if !is_below {
             ends.into_iter().for_each(|end| peaks.raise(place, end));
             if !goes_on {
                 let peak = self.highest_in_contact(of, (peaks.values[place], ends[1]), part, work);

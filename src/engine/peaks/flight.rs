@@ -224,7 +224,10 @@ impl Model {
             course.add(&work.peaks.direct[place..], 0.0, h);
         }
         let highest = course.highest(h);
-        for i in (0..LANES).filter(|&i| !(highest[i] <= known[i])) {
+        for i in 0..LANES {
+            if highest[i] <= known[i] {
+                continue;
+            }
             peaks.raise(place + i, larger(course.start[0][i].abs(), course.end[0][i].abs()));
             let peak = peaks.values[place + i];
             if course.may_turn_above(i, h, peak)

@@ -167,7 +167,8 @@ impl Model {
         let factors = [0.125 * h * h, 0.5 * h];
         let norm = factors[0] * most[0] + factors[1] * most[1];
         let FloorRoom { largest, strays, .. } = room;
-        if !(norm <= FURTHEST) {
+        let is_short = norm <= FURTHEST;
+        if !is_short {
             strays[lanes.clone()].fill(f64::INFINITY);
             largest[lanes].fill(f64::INFINITY);
             return;

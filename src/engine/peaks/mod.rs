@@ -244,9 +244,11 @@ impl Model {
     pub(super) fn raise_over_segment(
         &self,
         base: &mut Base,
-        (segment, start, ground): (u64, (&[f64], &[f64]), (f64, f64)),
+        segment: u64,
+        start: (&[f64], &[f64]),
         work: &mut Workspace,
     ) {
+        let ground = (base.segment.acceleration_at(0.0), base.segment.slope);
         let shares = self.structure.participation.iter();
         for ((load, slope), share) in work.load.iter_mut().zip(&mut work.slope).zip(shares) {
             (*load, *slope) = (-share * ground.0, -share * ground.1);
