@@ -61,8 +61,9 @@ fn keys() {
     let dotted = edited("stop_time = 20.0", "a.b = 1");
     assert_eq!(messages(&dotted), [message("a = a", "")]);
     expect(&[
-        ("energy = true", "work = true", &["outputs.work = true: expected a known key (energy)"]),
+        ("energy = true", "work = true", &["outputs.work = true: expected a known key (energy, peaks)"]),
         ("energy = true", "energy = \"yes\"", &["outputs.energy = \"yes\": expected true or false"]),
+        ("energy = true", "peaks = 1", &["outputs.peaks = 1: expected true or false"]),
         ("floor_forces = true", "floor_forces = 1", &["inputs.floor_forces = 1: expected true or false"]),
         (
             "floor_forces = true",
