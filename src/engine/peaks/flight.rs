@@ -76,7 +76,7 @@ pub(super) struct Course {
 impl Model {
     /// Raises peaks to what a flight reaches, but for blocks that have been cleared for the segment that it is in.
     pub(super) fn check_flight(&self, flight: &Flight, peaks: &mut Peaks, work: &mut Workspace) {
-        work.peaks.expanded = None;
+        work.peaks.start_flight();
         for building in &self.peak_rows.buildings {
             self.bound_modes(building, flight, &mut work.peaks.bounds, &mut work.node_v);
             for b in 0..building.blocks.len() {
@@ -87,7 +87,7 @@ impl Model {
 
     /// The same for the blocks that have not been cleared for the segment of that number.
     pub(super) fn check_due_blocks(&self, segment: u64, flight: &Flight, peaks: &mut Peaks, work: &mut Workspace) {
-        work.peaks.expanded = None;
+        work.peaks.start_flight();
         for building in &self.peak_rows.buildings {
             let mut is_bounded = false;
             for b in 0..building.blocks.len() {

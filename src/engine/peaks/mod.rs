@@ -84,6 +84,17 @@ impl Peaks {
     }
 }
 
+/// Places of a flight that are remembered.
+const MOST_FLOWN: usize = 16;
+
+/// The motion of all modes at a time of a flight, s since its start.
+#[derive(Clone, Debug, Default)]
+struct Flown {
+    time: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+}
+
 /// Room to work in; between calls it means nothing but for what `floors` keeps of the end of a step and `ahead` of the time
 /// to come.
 #[derive(Clone, Debug, Default)]
@@ -96,6 +107,9 @@ pub(super) struct PeakRoom {
     expanded: Option<(f64, f64)>,
     /// How many more pieces of a flight may be looked at.
     pieces_left: u32,
+    /// Where the flight that is searched has been worked out, the latest last: halves of it are asked for by many quantities.
+    flown: [Flown; MOST_FLOWN],
+    next_flown: usize,
     /// q and v at both ends of a piece, and the load at its start.
     pieces: [Vec<f64>; 4],
     load: Vec<f64>,
@@ -126,6 +140,8 @@ impl PeakRoom {
             piece: flight::ModeBounds::new(lanes),
             expanded: None,
             pieces_left: 0,
+            flown: std::array::from_fn(|_| Flown { time: f64::NAN, q: vec![0.0; lanes], v: vec![0.0; lanes] }),
+            next_flown: 0,
             pieces: [(); 4].map(|()| vec![0.0; lanes]),
             load: vec![0.0; lanes],
             rows: [(); 2].map(|()| vec![0.0; lanes]),
@@ -139,6 +155,12 @@ impl PeakRoom {
             first_push: vec![0.0; lanes],
             last_push: vec![0.0; lanes],
         }
+    }
+
+    /// Another flight is looked at.
+    fn start_flight(&mut self) {
+        self.expanded = None;
+        self.flown.iter_mut().for_each(|flown| flown.time = f64::NAN);
     }
 
     /// Forgets what it keeps: the motion is another one.
@@ -254,7 +276,7 @@ impl Model {
             (*load, *slope) = (-share * ground.0, -share * ground.1);
         }
         let (load, slope) = (std::mem::take(&mut work.load), std::mem::take(&mut work.slope));
-        work.peaks.expanded = None;
+        work.peaks.start_flight();
         for building in &self.peak_rows.buildings {
             let mut is_bounded = false;
             for b in 0..building.blocks.len() {

@@ -2,7 +2,7 @@
 //! contact.
 
 use super::flight::{Flight, course_of, stays_below};
-use super::{PeakOf, larger};
+use super::{MOST_FLOWN, PeakOf, larger};
 use crate::clock::Bend;
 use crate::engine::model::Model;
 use crate::engine::roots;
@@ -114,8 +114,16 @@ impl Model {
             _ if time == 0.0 => flight.start,
             _ if time == flight.length => flight.end,
             _ => {
-                interval.prepare(&self.structure, time);
-                return interval.fly(flight.start, flight.loads, (q, v), scratch);
+                let place = peaks.flown.iter().position(|flown| flown.time == time).unwrap_or_else(|| {
+                    let place = peaks.next_flown;
+                    peaks.next_flown = (place + 1) % MOST_FLOWN;
+                    let flown = &mut peaks.flown[place];
+                    interval.prepare(&self.structure, time);
+                    interval.fly(flight.start, flight.loads, (&mut flown.q, &mut flown.v), scratch);
+                    flown.time = time;
+                    place
+                });
+                (&peaks.flown[place].q[..], &peaks.flown[place].v[..])
             }
         };
         q.copy_from_slice(known.0);
