@@ -161,6 +161,7 @@ class Problem:
             self.template.left.toml("left"),
             self.template.right.toml("right"),
             f'[ground]\nrecord = "{self.record}"\n',
+            "[outputs]\npeaks = false\n",  # no other solver has them
             *(contact.toml() for contact in self.contacts),
             solver,
         ]

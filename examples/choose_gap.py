@@ -27,6 +27,8 @@ class Buildings:
         self.contacts = [name.removesuffix(".gap") for name in names if name.startswith("contact[") and name.endswith(".gap")]
         self.drifts = {side: [name for name in names if name.startswith(f"{side}.peak_drift")] for side in ("left", "right")}
         self.displacements = [name for name in names if ".peak_displacement[" in name]
+        if not (self.contacts and self.displacements):
+            raise SystemExit(f"error: {fmu}: expected contacts and peaks (its scene may say outputs.peaks = false)")
 
     def run(self, gap, interval):
         """Time histories by name, a row every interval, s; peaks, counts and impulses miss nothing in between."""
