@@ -43,7 +43,7 @@ pub(super) struct ModeBounds {
     pub swing_q: Vec<f64>,
     held: [Vec<f64>; 2],
     held_rate: Vec<f64>,
-    /// What |A| and |B| are multiplied by in the bound on a fourth derivative (for the look ahead: of others).
+    /// What |A| and |B| are multiplied by in the bound on a fourth derivative (in the look ahead: on a first and a second).
     pub slow: Vec<f64>,
     pub quick: Vec<f64>,
 }
@@ -74,7 +74,7 @@ pub(super) struct Course {
 }
 
 impl Model {
-    /// Raises peaks to what a flight reaches, but for blocks that have been cleared for the segment that it is in.
+    /// Raises peaks to what a flight reaches.
     pub(super) fn check_flight(&self, flight: &Flight, peaks: &mut Peaks, work: &mut Workspace) {
         work.peaks.start_flight();
         for building in &self.peak_rows.buildings {
