@@ -36,7 +36,7 @@ pub mod description;
 pub mod engine;
 mod figures;
 #[allow(unsafe_code)]
-mod fmi;
+pub mod fmi;
 mod polynomial;
 mod quadrature;
 pub mod record;

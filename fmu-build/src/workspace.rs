@@ -50,7 +50,7 @@ impl Workspace {
         cargo
             .args(["--release", "--lib", "--crate-type", "cdylib", "--package", PACKAGE, "--target", &self.host()?])
             .arg("--message-format=json-render-diagnostics")
-            .args(["--config", &path_remapping(&self.root)?]);
+            .args(["--config", &path_remapping(&self.root)?, "--", "--cfg", "fmi_exports"]);
         let done = fmu_start::watch(cargo, show).context("cannot start cargo")?;
         if !done.status.success() {
             bail!("the library does not compile:\n{}", done.complaints.trim_end());

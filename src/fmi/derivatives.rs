@@ -6,8 +6,8 @@ use super::types::{Component, ValueReference};
 use crate::slave::Call;
 use std::ffi::c_int;
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2SetRealInputDerivatives(
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     c: Component,
     vr: *const ValueReference,
     n: usize,
@@ -23,8 +23,8 @@ unsafe extern "C" fn fmi2SetRealInputDerivatives(
     }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2GetRealOutputDerivatives(
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
     c: Component,
     vr: *const ValueReference,
     n: usize,
@@ -43,8 +43,8 @@ unsafe extern "C" fn fmi2GetRealOutputDerivatives(
     }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2GetDirectionalDerivative(
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     c: Component,
     unknowns: *const ValueReference,
     n_unknowns: usize,

@@ -7,18 +7,18 @@ use super::types::{Boolean, CallbackFunctions, Component, Text};
 use crate::slave::Call;
 use std::ffi::c_int;
 
-#[unsafe(no_mangle)]
-extern "C" fn fmi2GetTypesPlatform() -> Text {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub extern "C" fn fmi2GetTypesPlatform() -> Text {
     c"default".as_ptr()
 }
 
-#[unsafe(no_mangle)]
-extern "C" fn fmi2GetVersion() -> Text {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub extern "C" fn fmi2GetVersion() -> Text {
     c"2.0".as_ptr()
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2SetDebugLogging(c: Component, on: Boolean, n: usize, categories: *const Text) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2SetDebugLogging(c: Component, on: Boolean, n: usize, categories: *const Text) -> c_int {
     // SAFETY: as the module says.
     unsafe {
         with_instance(c, Call::SetDebugLogging, |instance| {
@@ -28,8 +28,8 @@ unsafe extern "C" fn fmi2SetDebugLogging(c: Component, on: Boolean, n: usize, ca
     }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2Instantiate(
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2Instantiate(
     instance_name: Text,
     fmu_type: c_int,
     guid: Text,
@@ -43,14 +43,14 @@ unsafe extern "C" fn fmi2Instantiate(
     unsafe { create(&request) }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2FreeInstance(c: Component) {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2FreeInstance(c: Component) {
     // SAFETY: as the module says.
     unsafe { free(c) }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2SetupExperiment(
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2SetupExperiment(
     c: Component,
     tolerance_defined: Boolean,
     tolerance: f64,
@@ -68,26 +68,26 @@ unsafe extern "C" fn fmi2SetupExperiment(
     }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2EnterInitializationMode(c: Component) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2EnterInitializationMode(c: Component) -> c_int {
     // SAFETY: as the module says.
     unsafe { with_instance(c, Call::EnterInitializationMode, |instance| Ok(instance.slave.enter_initialization())) }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2ExitInitializationMode(c: Component) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2ExitInitializationMode(c: Component) -> c_int {
     // SAFETY: as the module says.
     unsafe { with_instance(c, Call::ExitInitializationMode, |instance| instance.slave.exit_initialization()) }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2Terminate(c: Component) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2Terminate(c: Component) -> c_int {
     // SAFETY: as the module says.
     unsafe { with_instance(c, Call::Terminate, |instance| Ok(instance.slave.terminate())) }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2Reset(c: Component) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2Reset(c: Component) -> c_int {
     // SAFETY: as the module says.
     unsafe { with_instance(c, Call::Reset, |instance| Ok(instance.slave.reset())) }
 }

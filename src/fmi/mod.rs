@@ -8,6 +8,12 @@
 //! What every function relies on, as FMI 2.0.4, chapter 2.1 requires of a caller: a component is null or comes from
 //! `fmi2Instantiate` and has not been freed, no two threads use the same component at once, an array has at least as
 //! many elements as the call says, and a string ends with a zero. Null arrays and strings are refused, not trusted.
+//!
+//! The functions have their C names where this crate is compiled into an FMU's library, with `--cfg fmi_exports`, and
+//! nowhere else: a program or a Python module that links this crate exports none of them.
+#![allow(non_snake_case, reason = "their names in C")]
+#![allow(missing_docs, reason = "FMI 2.0.4 says what each function does")]
+#![allow(clippy::missing_safety_doc, reason = "one rule for all of them stands above")]
 
 mod arguments;
 mod derivatives;
@@ -21,3 +27,10 @@ mod step;
 mod test_support;
 mod types;
 mod values;
+
+pub use derivatives::*;
+pub use life::*;
+pub use state::*;
+pub use step::*;
+pub use types::{CallbackFunctions, Component, FmuState};
+pub use values::*;

@@ -8,8 +8,8 @@ use std::ffi::c_int;
 use std::num::NonZeroUsize;
 use std::ptr::{null_mut, without_provenance_mut};
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2GetFMUstate(c: Component, state: *mut FmuState) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2GetFMUstate(c: Component, state: *mut FmuState) -> c_int {
     // SAFETY: as the module says.
     unsafe {
         with_instance(c, Call::GetFMUstate, |instance| {
@@ -19,15 +19,15 @@ unsafe extern "C" fn fmi2GetFMUstate(c: Component, state: *mut FmuState) -> c_in
     }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2SetFMUstate(c: Component, state: FmuState) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2SetFMUstate(c: Component, state: FmuState) -> c_int {
     // SAFETY: as the module says.
     unsafe { with_instance(c, Call::SetFMUstate, |instance| instance.slave.restore_state(handle(state))) }
 }
 
 /// No place for a pointer is nothing to free, like a place without one.
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2FreeFMUstate(c: Component, state: *mut FmuState) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2FreeFMUstate(c: Component, state: *mut FmuState) -> c_int {
     // SAFETY: as the module says.
     unsafe {
         with_instance(c, Call::FreeFMUstate, |instance| {
@@ -40,8 +40,8 @@ unsafe extern "C" fn fmi2FreeFMUstate(c: Component, state: *mut FmuState) -> c_i
     }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2SerializedFMUstateSize(c: Component, state: FmuState, size: *mut usize) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2SerializedFMUstateSize(c: Component, state: FmuState, size: *mut usize) -> c_int {
     // SAFETY: as the module says.
     unsafe {
         with_instance(c, Call::SerializedFMUstateSize, |instance| {
@@ -50,8 +50,8 @@ unsafe extern "C" fn fmi2SerializedFMUstateSize(c: Component, state: FmuState, s
     }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2SerializeFMUstate(c: Component, state: FmuState, bytes: *mut u8, size: usize) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2SerializeFMUstate(c: Component, state: FmuState, bytes: *mut u8, size: usize) -> c_int {
     // SAFETY: as the module says.
     unsafe {
         with_instance(c, Call::SerializeFMUstate, |instance| {
@@ -67,8 +67,8 @@ unsafe extern "C" fn fmi2SerializeFMUstate(c: Component, state: FmuState, bytes:
     }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2DeSerializeFMUstate(
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     c: Component,
     bytes: *const u8,
     size: usize,

@@ -7,22 +7,22 @@ use crate::slave::{Call, Refusal, Status, StatusKind};
 use std::ffi::c_int;
 
 /// What the master says about its plans for earlier states is not used: masters say it wrongly.
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2DoStep(c: Component, current: f64, step: f64, _no_set_state_before: Boolean) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2DoStep(c: Component, current: f64, step: f64, _no_set_state_before: Boolean) -> c_int {
     // SAFETY: as the module says.
     unsafe { with_instance(c, Call::DoStep, |instance| instance.slave.do_step(current, step)) }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2GetStatus(c: Component, kind: c_int, _value: *mut c_int) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2GetStatus(c: Component, kind: c_int, _value: *mut c_int) -> c_int {
     // SAFETY: as the module says.
     unsafe {
         with_instance(c, Call::GetStatus, |instance| Ok(instance.slave.no_status(Call::GetStatus, status_kind(kind)?)))
     }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2GetRealStatus(c: Component, kind: c_int, value: *mut f64) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2GetRealStatus(c: Component, kind: c_int, value: *mut f64) -> c_int {
     // SAFETY: as the module says.
     unsafe {
         with_instance(c, Call::GetRealStatus, |instance| match status_kind(kind)? {
@@ -34,8 +34,8 @@ unsafe extern "C" fn fmi2GetRealStatus(c: Component, kind: c_int, value: *mut f6
     }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2GetIntegerStatus(c: Component, kind: c_int, _value: *mut c_int) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2GetIntegerStatus(c: Component, kind: c_int, _value: *mut c_int) -> c_int {
     // SAFETY: as the module says.
     unsafe {
         with_instance(c, Call::GetIntegerStatus, |instance| {
@@ -44,8 +44,8 @@ unsafe extern "C" fn fmi2GetIntegerStatus(c: Component, kind: c_int, _value: *mu
     }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2GetBooleanStatus(c: Component, kind: c_int, value: *mut Boolean) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2GetBooleanStatus(c: Component, kind: c_int, value: *mut Boolean) -> c_int {
     // SAFETY: as the module says.
     unsafe {
         with_instance(c, Call::GetBooleanStatus, |instance| match status_kind(kind)? {
@@ -55,8 +55,8 @@ unsafe extern "C" fn fmi2GetBooleanStatus(c: Component, kind: c_int, value: *mut
     }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2GetStringStatus(c: Component, kind: c_int, _value: *mut Text) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2GetStringStatus(c: Component, kind: c_int, _value: *mut Text) -> c_int {
     // SAFETY: as the module says.
     unsafe {
         with_instance(c, Call::GetStringStatus, |instance| {
@@ -66,8 +66,8 @@ unsafe extern "C" fn fmi2GetStringStatus(c: Component, kind: c_int, _value: *mut
 }
 
 /// For asynchronous steps, which the description does not declare: no step is ever in progress.
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2CancelStep(c: Component) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2CancelStep(c: Component) -> c_int {
     let refusal = || Refusal::from("this FMU does not declare canRunAsynchronuously".to_owned());
     // SAFETY: as the module says.
     unsafe { with_instance::<()>(c, Call::CancelStep, |_| Err(refusal())) }

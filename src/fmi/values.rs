@@ -8,27 +8,37 @@ use crate::slave::Call;
 use crate::variables::Value;
 use std::ffi::c_int;
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2GetReal(c: Component, vr: *const ValueReference, n: usize, values: *mut f64) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2GetReal(c: Component, vr: *const ValueReference, n: usize, values: *mut f64) -> c_int {
     // SAFETY: as the module says.
     unsafe { get(c, Call::GetReal, (vr, n, values), "Real", |value| value.real()) }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2GetInteger(c: Component, vr: *const ValueReference, n: usize, values: *mut c_int) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2GetInteger(
+    c: Component,
+    vr: *const ValueReference,
+    n: usize,
+    values: *mut c_int,
+) -> c_int {
     // SAFETY: as the module says.
     unsafe { get(c, Call::GetInteger, (vr, n, values), "Integer", |value| value.integer()) }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2GetBoolean(c: Component, vr: *const ValueReference, n: usize, values: *mut Boolean) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2GetBoolean(
+    c: Component,
+    vr: *const ValueReference,
+    n: usize,
+    values: *mut Boolean,
+) -> c_int {
     // SAFETY: as the module says.
     unsafe { get(c, Call::GetBoolean, (vr, n, values), "Boolean", |value| value.boolean().map(Boolean::from)) }
 }
 
 /// The strings belong to the instance and live until the next call of this function.
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2GetString(c: Component, vr: *const ValueReference, n: usize, values: *mut Text) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2GetString(c: Component, vr: *const ValueReference, n: usize, values: *mut Text) -> c_int {
     // SAFETY: as the module says.
     unsafe {
         with_instance(c, Call::GetString, |instance| {
@@ -47,20 +57,25 @@ unsafe extern "C" fn fmi2GetString(c: Component, vr: *const ValueReference, n: u
     }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2SetReal(c: Component, vr: *const ValueReference, n: usize, values: *const f64) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2SetReal(c: Component, vr: *const ValueReference, n: usize, values: *const f64) -> c_int {
     // SAFETY: as the module says.
     unsafe { set(c, Call::SetReal, (vr, n, values), Value::Real) }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2SetInteger(c: Component, vr: *const ValueReference, n: usize, values: *const c_int) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2SetInteger(
+    c: Component,
+    vr: *const ValueReference,
+    n: usize,
+    values: *const c_int,
+) -> c_int {
     // SAFETY: as the module says.
     unsafe { set(c, Call::SetInteger, (vr, n, values), Value::Integer) }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2SetBoolean(
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2SetBoolean(
     c: Component,
     vr: *const ValueReference,
     n: usize,
@@ -70,8 +85,13 @@ unsafe extern "C" fn fmi2SetBoolean(
     unsafe { set(c, Call::SetBoolean, (vr, n, values), |value| Value::Boolean(value != 0)) }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2SetString(c: Component, vr: *const ValueReference, n: usize, values: *const Text) -> c_int {
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi2SetString(
+    c: Component,
+    vr: *const ValueReference,
+    n: usize,
+    values: *const Text,
+) -> c_int {
     // SAFETY: as the module says.
     unsafe {
         with_instance(c, Call::SetString, |instance| {

@@ -82,7 +82,10 @@ impl Record {
     }
 
     /// A record that has come another way than by [`Record::parse`], if it could have been read from a file.
-    pub(crate) fn checked(self) -> Result<Record, RecordError> {
+    ///
+    /// # Errors
+    /// As [`Record::parse`], without lines.
+    pub fn checked(self) -> Result<Record, RecordError> {
         let (times, accelerations) = (self.times.len(), self.accelerations.len());
         if times != accelerations {
             return Err(RecordError::new(format!("{times} times and {accelerations} accelerations: expected as many")));

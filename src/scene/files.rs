@@ -57,7 +57,15 @@ impl Package {
     /// file's name.
     pub fn from_scene_file(path: &Path) -> Result<Package, SceneError> {
         let folder = path.parent().unwrap_or(Path::new(""));
-        Package::read(path, |record| folder.join(record))
+        Package::from_scene_text(read_text(path)?, folder)
+    }
+
+    /// Reads the text of a scene file and the record that it names, relative to a folder.
+    ///
+    /// # Errors
+    /// As [`Package::from_scene_file`].
+    pub fn from_scene_text(scene_text: String, folder: &Path) -> Result<Package, SceneError> {
+        Package::read(scene_text, |record| folder.join(record))
     }
 
     /// Reads a package back from the `resources` folder of an unpacked FMU.
@@ -65,7 +73,7 @@ impl Package {
     /// # Errors
     /// As [`Package::from_scene_file`].
     pub fn from_resources(folder: &Path) -> Result<Package, SceneError> {
-        Package::read(&folder.join(SCENE_RESOURCE), |record| folder.join(record_resource(record)))
+        Package::read(read_text(&folder.join(SCENE_RESOURCE))?, |record| folder.join(record_resource(record)))
     }
 
     /// The files in the `resources` folder of the FMU, name and bytes: the scene file and, where there is one, the
@@ -75,8 +83,7 @@ impl Package {
         std::iter::once((SCENE_RESOURCE, self.scene_text.as_bytes())).chain(record)
     }
 
-    fn read(path: &Path, record_path: impl Fn(&str) -> PathBuf) -> Result<Package, SceneError> {
-        let scene_text = read_text(path)?;
+    fn read(scene_text: String, record_path: impl Fn(&str) -> PathBuf) -> Result<Package, SceneError> {
         let mut draft = Draft::read(&scene_text)?;
         let mut record = None;
         let is_name = |name: &String| !name.contains(char::is_control);

@@ -178,16 +178,29 @@ impl Settings {
             self.other_record = None;
             return Ok(());
         }
-        let packaged = read_record(path, Path::new(path), self.scene.ground.scaling).map_err(|mut error| {
-            // No variable says which peak the scene scales a record to.
-            for problem in error.problems.iter_mut().filter(|problem| problem.path == "ground.pga") {
-                (problem.path, problem.found) = ("ground.record".to_owned(), format!("{path:?}"));
-            }
-            error
-        })?;
+        let packaged = read_record(path, Path::new(path), self.scene.ground.scaling);
+        let packaged = packaged.map_err(|error| without_pga(error, path))?;
         self.other_record = Some((path.to_owned(), Arc::new(packaged.record)));
         Ok(())
     }
+
+    /// Another record that has been read already; `name` is what `ground.record` reads as from here on.
+    ///
+    /// # Errors
+    /// A record that cannot be scaled to the peak of the scene, at `ground.record`.
+    pub fn set_record(&mut self, name: &str, record: Arc<Record>) -> Result<(), SceneError> {
+        self.scene.ground.scaling.factor(&record).map_err(|problem| without_pga(problem.into(), name))?;
+        self.other_record = Some((name.to_owned(), record));
+        Ok(())
+    }
+}
+
+/// What is wrong with a record that takes the place of the scene's: no variable says which peak it is scaled to.
+fn without_pga(mut error: SceneError, record: &str) -> SceneError {
+    for problem in error.problems.iter_mut().filter(|problem| problem.path == "ground.pga") {
+        (problem.path, problem.found) = ("ground.record".to_owned(), format!("{record:?}"));
+    }
+    error
 }
 
 /// The inputs.

@@ -74,7 +74,7 @@ def test_it_loads_nothing_and_no_text_of_a_scene_becomes_markup(tmp_path):
     assert policy.startswith("default-src 'none'")
     assert "/*data*/" not in text and "/*report.js*/" not in text
     # Its licence goes with the library.
-    assert (harness.ROOT / "examples/simulate/uplot/LICENSE").read_text() in text
+    assert (harness.ROOT / "simulate/src/uplot/LICENSE").read_text() in text
 
 
 def test_its_numbers_are_those_of_the_tables(feup, tmp_path):

@@ -36,7 +36,7 @@ fn compiled_library() -> PathBuf {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)
         .args(["rustc", "--lib", "--crate-type", "cdylib", "--quiet", "--message-format=json-render-diagnostics"])
-        .args(["--profile", if cfg!(debug_assertions) { "dev" } else { "release" }])
+        .args(["--profile", if cfg!(debug_assertions) { "dev" } else { "release" }, "--", "--cfg", "fmi_exports"])
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()
         .unwrap();

@@ -1,19 +1,23 @@
-//! The engine without FMI: a scene in, tables and a page to look at out.
-//!
-//! ```text
-//! cargo run --release --example simulate -- examples/scenes/feup.toml --csv motion.csv --impacts impacts.csv --html run.html
-//! ```
+//! The engine without FMI: what the example `simulate` and the command `pounding-fmu simulate` do.
 //!
 //! `--csv` has `time` and one column per output of the scene's FMU, under the same names; `--impacts` has one row per
 //! contact episode; `--html` is one file with both, drawn, for a browser.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `lib.rs` | the arguments, and what is done with them |
+//! | `instants.rs` | the instants at which a run is looked at |
+//! | `solve.rs` | the run over these instants |
+//! | `tables.rs` | the tables and the summary of a run |
+//! | `report.rs`, `thinning.rs` | the page, and as much of a long run as it can show |
 
-mod instants;
+pub mod instants;
 mod report;
-mod solve;
-mod tables;
+pub mod solve;
+pub mod tables;
 mod thinning;
 
-use clap::Parser;
+use clap::Args;
 use pounding::description::{Package, PackagedRecord};
 use pounding::engine::Model;
 use pounding::warnings;
@@ -21,11 +25,15 @@ use solve::{Solution, Solved, episodes, solve};
 use std::error::Error;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
-/// Solves a scene with the engine alone.
-#[derive(Parser)]
-struct Arguments {
+/// s, from row to row, where nothing else is said.
+pub const STEP: f64 = 0.01;
+/// s, time of the last row of a scene that has neither a stop time nor a record.
+pub const STOP: f64 = 10.0;
+
+/// What is solved, and which files are written.
+#[derive(Args)]
+pub struct Arguments {
     /// The scene.
     #[arg(value_name = "SCENE.toml")]
     scene: PathBuf,
@@ -36,7 +44,7 @@ struct Arguments {
     #[arg(long)]
     without_contacts: bool,
     /// s, from row to row.
-    #[arg(long, value_name = "S", default_value_t = 0.01, value_parser = positive)]
+    #[arg(long, value_name = "S", default_value_t = STEP, value_parser = positive)]
     step: f64,
     /// s, time of the last row; without it, the scene's stop_time, else the end of the record, else 10.
     #[arg(long, value_name = "T", value_parser = positive)]
@@ -62,17 +70,11 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+/// Solves a scene, writes the files that are asked for, and returns the summary.
+///
+/// # Errors
+/// A scene or record with everything that is wrong with it, a file that cannot be written, a run that cannot go on.
+pub fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     let mut package = Package::from_scene_file(&arguments.scene)?;
     if let Some(file) = &arguments.record {
         give_record(&mut package, file)?;
@@ -84,7 +86,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     if arguments.without_contacts {
         package.scene.contacts.clear();
     }
-    let stop = arguments.stop.or_else(|| package.stop_time()).unwrap_or(10.0);
+    let stop = arguments.stop.or_else(|| package.stop_time()).unwrap_or(STOP);
 
     let Package { scene, record, .. } = &package;
     let model = Model::new(scene, record.as_ref().map(|packaged| &packaged.record))?;
@@ -111,14 +113,8 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         page.write_all(report::page(&package, &model, stop, &solution.episodes)?.as_bytes())?;
     }
     let Solution { time, .. } = &solution;
-    let text = format!(
-        "{}{}solve_seconds={}\n",
-        tables::summary(scene, stop, &solution),
-        tables::frequencies(&model),
-        time.as_secs_f64()
-    );
-    std::io::stdout().write_all(text.as_bytes())?;
-    Ok(())
+    let summary = tables::summary(scene, stop, &solution) + &tables::frequencies(&model);
+    Ok(format!("{summary}solve_seconds={}\n", time.as_secs_f64()))
 }
 
 /// Reads a record and makes it the scene's.

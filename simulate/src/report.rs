@@ -6,7 +6,7 @@
 
 use crate::instants;
 use crate::solve::{Solved, solve};
-use crate::tables::outputs;
+use crate::tables::{impact, outputs};
 use crate::thinning::Column;
 use pounding::description::Package;
 use pounding::engine::{Episode, Model};
@@ -48,7 +48,7 @@ struct Run<'a> {
     times: Vec<f64>,
     columns: Vec<Series>,
     /// One row per contact episode, in the order of `--impacts`; where it has not ended, `null`.
-    impacts: Vec<[Option<f64>; 10]>,
+    impacts: Vec<Vec<Option<f64>>>,
 }
 
 #[derive(Serialize)]
@@ -89,7 +89,7 @@ pub fn page(package: &Package, model: &Model, stop: f64, episodes: &[Episode]) -
         contacts: contacts(scene),
         times,
         columns,
-        impacts: episodes.iter().map(impact).collect(),
+        impacts: episodes.iter().map(row).collect(),
     };
     let data = serde_json::to_string(&run)?.replace('<', "\\u003c");
     let page = PARTS.iter().fold(PAGE.to_owned(), |page, (mark, part)| page.replacen(mark, part, 1));
@@ -160,17 +160,7 @@ fn rounded(value: f64) -> f64 {
     format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value)
 }
 
-fn impact(episode: &Episode) -> [Option<f64>; 10] {
-    [
-        Some((episode.contact + 1) as f64),
-        Some(episode.start),
-        episode.end,
-        Some(episode.approach_velocity),
-        Some(episode.separation_velocity),
-        Some(episode.peak_force),
-        Some(episode.peak_time),
-        Some(episode.peak_penetration),
-        Some(episode.impulse),
-        Some(episode.dissipated_energy),
-    ]
+fn row(episode: &Episode) -> Vec<Option<f64>> {
+    let (contact, row) = impact(episode);
+    std::iter::once(Some(contact as f64)).chain(row).collect()
 }

@@ -8,7 +8,9 @@ use std::time::{Duration, Instant as Clock};
 /// A run that has come to an instant.
 pub type Solved<'a> = Instant<'a>;
 
+/// What a run has left.
 pub struct Solution {
+    /// How many instants have been shown.
     pub rows: u64,
     /// In the order of their start, open ones included.
     pub episodes: Vec<Episode>,

@@ -8,9 +8,10 @@ use std::error::Error;
 use std::fs::File;
 use std::path::Path;
 
-pub type CsvFile = csv::Writer<File>;
+type CsvFile = csv::Writer<File>;
 
-pub fn create(file: &Path) -> Result<CsvFile, Box<dyn Error>> {
+/// The file, before the work that it is for.
+pub(crate) fn create(file: &Path) -> Result<CsvFile, Box<dyn Error>> {
     let created = File::create(file).map_err(|error| format!("cannot write {}: {error}", file.display()))?;
     Ok(csv::Writer::from_writer(created))
 }
@@ -24,7 +25,7 @@ pub fn outputs(scene: &Scene) -> impl Iterator<Item = (Row, Output)> {
 }
 
 /// The table of the motion: `time`, then every output of the FMU in its order.
-pub struct Motion {
+pub(crate) struct Motion {
     table: CsvFile,
     outputs: Vec<Output>,
     cells: Vec<String>,
@@ -60,38 +61,50 @@ fn number(value: f64) -> String {
     format!("{value:?}")
 }
 
-pub fn write_impacts(mut table: CsvFile, episodes: &[Episode]) -> csv::Result<()> {
-    table.write_record([
-        "contact",
-        "start_s",
-        "end_s",
-        "approach_velocity",
-        "separation_velocity",
-        "peak_force",
-        "peak_time_s",
-        "peak_penetration",
-        "impulse",
-        "dissipated_energy",
-    ])?;
+/// The columns of the table of impacts: s, m/s, N, m, N s, J.
+pub const IMPACT_COLUMNS: [&str; 10] = [
+    "contact",
+    "start_s",
+    "end_s",
+    "approach_velocity",
+    "separation_velocity",
+    "peak_force",
+    "peak_time_s",
+    "peak_penetration",
+    "impulse",
+    "dissipated_energy",
+];
+
+/// A row of that table: the contact, counted from 1, and what is in the other columns; no end while it lasts.
+pub fn impact(episode: &Episode) -> (usize, [Option<f64>; 9]) {
+    let row = [
+        Some(episode.start),
+        episode.end,
+        Some(episode.approach_velocity),
+        Some(episode.separation_velocity),
+        Some(episode.peak_force),
+        Some(episode.peak_time),
+        Some(episode.peak_penetration),
+        Some(episode.impulse),
+        Some(episode.dissipated_energy),
+    ];
+    (episode.contact + 1, row)
+}
+
+/// Writes the table of impacts.
+pub(crate) fn write_impacts(mut table: CsvFile, episodes: &[Episode]) -> csv::Result<()> {
+    table.write_record(IMPACT_COLUMNS)?;
     for episode in episodes {
-        table.write_record([
-            (episode.contact + 1).to_string(),
-            number(episode.start),
-            episode.end.map(number).unwrap_or_default(),
-            number(episode.approach_velocity),
-            number(episode.separation_velocity),
-            number(episode.peak_force),
-            number(episode.peak_time),
-            number(episode.peak_penetration),
-            number(episode.impulse),
-            number(episode.dissipated_energy),
-        ])?;
+        let (contact, row) = impact(episode);
+        let cells = row.map(|value| value.map(number).unwrap_or_default());
+        table.write_record(std::iter::once(contact.to_string()).chain(cells))?;
     }
     table.flush()?;
     Ok(())
 }
 
-pub fn summary(scene: &Scene, stop: f64, solution: &Solution) -> String {
+/// How many impacts each contact has had, and the hardest.
+pub(crate) fn summary(scene: &Scene, stop: f64, solution: &Solution) -> String {
     let Solution { rows, episodes, .. } = solution;
     let mut text = format!("{}: 0 s to {stop} s in {rows} rows, {} impacts\n", scene.name, episodes.len());
     for (index, pair) in scene.contacts.iter().enumerate() {
@@ -113,7 +126,7 @@ pub fn summary(scene: &Scene, stop: f64, solution: &Solution) -> String {
 }
 
 /// Natural frequencies of each building alone, ascending.
-pub fn frequencies(model: &Model) -> String {
+pub(crate) fn frequencies(model: &Model) -> String {
     let line = |name: &str, side: Side| {
         let numbers: Vec<String> = model.natural_frequencies(side).iter().map(|f| format!("{f:.4}")).collect();
         format!("  {name} frequencies: {} Hz\n", numbers.join(", "))
