@@ -18,6 +18,8 @@ What is allowed in a scene but looks like a slip is told as a ``SceneWarning``.
 from pathlib import Path
 
 from ._batch import BatchError, simulate_batch
+from ._data import DATA
+from ._fmu import build_fmu
 from ._native import __version__
 from ._scenes import SceneWarning, Variable, problems, variables
 from ._single import Result, simulate
@@ -28,6 +30,7 @@ __all__ = [
     "SceneWarning",
     "Variable",
     "__version__",
+    "build_fmu",
     "example_scene",
     "problems",
     "simulate",
@@ -35,5 +38,5 @@ __all__ = [
     "variables",
 ]
 
-example_scene: Path = Path(__file__).parent / "data" / "scenes" / "feup.toml"
+example_scene: Path = DATA / "scenes" / "feup.toml"
 """The default scene: two laboratory frames under El Centro 1940. Others lie beside it."""

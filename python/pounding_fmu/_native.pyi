@@ -1,6 +1,7 @@
 """What is compiled; `pounding_fmu` alone calls it. Names are handed over as places in `Scene.variables`."""
 
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any, final
 
 import numpy as np
@@ -53,3 +54,5 @@ class Batch:
 def simulate(
     scene: Scene, step: float, stop: float, references: list[int]
 ) -> tuple[list[NDArray[Any]], list[NDArray[Any]]]: ...
+def build(scene: Scene, output: str | None, libraries: str, platforms: list[str]) -> Path: ...
+def run_command(arguments: list[str], again: list[str], data: str) -> int: ...

@@ -13,12 +13,16 @@
 //! | `single.rs` | one run with all its rows |
 //! | `cases.rs` | the cases of a batch: their parameters, and what is wrong with them |
 //! | `batch.rs` | many runs on all cores |
+//! | `fmu.rs` | FMUs of scenes |
+//! | `command.rs` | the command `pounding-fmu` |
 //! | `threads.rs` | work beside Python: it goes on meanwhile, and Ctrl-C ends the work |
 #![deny(unsafe_code)]
 
 mod batch;
 mod cases;
+mod command;
 mod document;
+mod fmu;
 mod readings;
 mod records;
 mod scene;
@@ -34,6 +38,10 @@ mod _native {
 
     #[pymodule_export]
     use crate::batch::Batch;
+    #[pymodule_export]
+    use crate::command::run_command;
+    #[pymodule_export]
+    use crate::fmu::build;
     #[pymodule_export]
     use crate::records::Record;
     #[pymodule_export]

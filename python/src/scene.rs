@@ -17,7 +17,8 @@ use std::sync::Arc;
 /// A scene that never changes: what gives it a record or parameters returns another one.
 #[pyclass(frozen, module = "pounding_fmu._native")]
 pub struct Scene {
-    package: Arc<Package>,
+    /// As it goes into an FMU.
+    pub package: Arc<Package>,
     pub settings: Settings,
     pub table: Table,
     /// Whether anything is not as the scene says.
