@@ -3,7 +3,7 @@
 >>> import pounding_fmu
 >>> result = pounding_fmu.simulate(pounding_fmu.example_scene, stop=5)
 >>> result["time"].shape, len(result.impacts)
-((501,), 20)
+((501,), 28)
 
 A scene says everything that is fixed about a problem: masses, storeys, gaps, contact laws, ground motion. It is given as
 

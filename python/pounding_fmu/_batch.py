@@ -190,7 +190,9 @@ def _arrays(columns: Mapping[str, Any]) -> dict[str, NDArray[np.float64]]:
     for name, values in columns.items():
         try:
             array = np.asarray(values)
-            if array.dtype.kind not in "biufO" or array.ndim > 1:
+            if array.dtype.kind == "O" and array.ndim == 1:
+                array = np.array([float(value) for value in array])
+            if array.dtype.kind not in "biuf" or array.ndim > 1:
                 raise ValueError
             arrays[name] = array.astype(np.float64)
         except (TypeError, ValueError):

@@ -7,6 +7,18 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = [
+    "IMPACT_COLUMNS",
+    "STEP",
+    "Batch",
+    "Record",
+    "Scene",
+    "__version__",
+    "build",
+    "run_command",
+    "simulate",
+]
+
 __version__: str
 STEP: float
 IMPACT_COLUMNS: list[str]

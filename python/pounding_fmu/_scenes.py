@@ -24,7 +24,7 @@ class SceneWarning(UserWarning):
 
 
 class Variable(NamedTuple):
-    """A variable of the FMU, as its description has it."""
+    """A variable of the FMU, as ``modelDescription.xml`` has it."""
 
     name: str
     causality: str
@@ -47,8 +47,9 @@ def problems(scene: Scene) -> list[str]:
 
     Each says where in the scene, the value found and what was expected.
 
-    >>> problems({"name": "Two", "left": {"mass": [1e3, -2e3]}})[0]
-    'left.mass[2] = -2000.0: expected a finite mass > 0 kg'
+    >>> building = {"mass": [1e3, -2e3], "stiffness": [1e6, 1e6], "damping": {"ratio": 0.05}}
+    >>> problems({"name": "Two", "left": building, "right": building})
+    ['left.mass[2] = -2000.0: expected a finite mass > 0 kg', 'right.mass[2] = -2000.0: expected a finite mass > 0 kg']
 
     Raises:
         OSError: the scene file cannot be read (``FileNotFoundError`` where there is none).

@@ -75,7 +75,7 @@ def simulate(
     >>> import pounding_fmu
     >>> result = simulate(pounding_fmu.example_scene, parameters={"contact[1].gap": 0.01, "contact[2].gap": 0.01})
     >>> result
-    <Result: 2001 rows from 0 s to 20 s, 48 columns, 73 impacts>
+    <Result: 2001 rows from 0 s to 20 s, 60 columns, 68 impacts>
     >>> result["contact[1].active"].dtype, result["impacts"][-1] == len(result.impacts)
     (dtype('bool'), np.True_)
 
