@@ -140,6 +140,6 @@ def _with_parameters(
 
 def number(value: Any) -> float:
     """A number, but not one that is written as a text or in an array."""
-    if isinstance(value, (str, bytes)) or getattr(value, "ndim", 0):
+    if isinstance(value, (str, bytes)) or getattr(value, "ndim", None):
         raise TypeError
     return float(value)

@@ -1,5 +1,7 @@
 """Scenes of the examples, and their FMUs as FMPy drives them."""
 
+import os
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +12,18 @@ EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 SCENES = sorted([*EXAMPLES.glob("scenes/*.toml"), *EXAMPLES.glob("paper/scenes/*.toml")])
 FEUP = EXAMPLES / "scenes/feup.toml"
 RECORD = EXAMPLES / "records/el_centro_1940_ns.csv"
+
+# As cargo fmu makes them, with the library for this machine alone.
+REFERENCES = Path(os.environ["REFERENCE_FMUS"])
+
+
+def libraries(fmu):
+    """The platforms of an FMU, and their libraries."""
+    with zipfile.ZipFile(fmu) as archive:
+        return {name.split("/")[1]: archive.read(name) for name in archive.namelist() if name.startswith("binaries/")}
+
+
+(HOST,) = libraries(REFERENCES / "feup.fmu")
 
 
 def feup(old="", new=""):

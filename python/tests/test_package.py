@@ -35,7 +35,8 @@ def mypy(*arguments, module="mypy"):
 
 
 def test_types_of_the_package(tmp_path):
-    assert mypy("--strict", "--cache-dir", tmp_path, "-p", "pounding_fmu") == (0, "Success: no issues found in 8 source files\n")
+    code, said = mypy("--strict", "--cache-dir", tmp_path, "-p", "pounding_fmu")
+    assert code == 0, said
 
 
 def test_types_for_users(tmp_path):
