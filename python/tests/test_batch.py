@@ -293,13 +293,16 @@ def test_other_threads_go_on():
     ],
 )
 def test_ctrl_c(call):
-    code = f"import numpy as np, pounding_fmu as p; print('go', flush=True); {call}"
+    # A background job of a shell ignores SIGINT, and so would Python.
+    heed = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
+    code = f"{heed}; import numpy as np, pounding_fmu as p; print('go', flush=True); {call}"
     process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert process.stdout.readline() == "go\n"
     time.sleep(1.5)
     assert process.poll() is None
-    began = time.monotonic()
     process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=60)
-    assert time.monotonic() - began < 10
+    try:
+        _, errors = process.communicate(timeout=10)
+    finally:
+        process.kill()
     assert errors.rstrip().endswith("KeyboardInterrupt") and process.returncode == -signal.SIGINT
