@@ -4,7 +4,7 @@ import threading
 from pathlib import Path
 
 from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE, fmi2Error
 
 from study_worker import failed
 
@@ -56,8 +56,13 @@ class FMU2Instance(FMU2Slave):
         self.reference = {variable.name: variable.valueReference for variable in description.modelVariables}
         self.said, self.used = [], False
         callbacks = fmi2CallbackFunctions()
-        callbacks.logger = fmi2CallbackLoggerTYPE(lambda *message: self.said.append(message[-1].decode()))
+        callbacks.logger = fmi2CallbackLoggerTYPE(self.note)
         self.instantiate(callbacks=callbacks)
+
+    def note(self, _environment, _name, status, _category, text):
+        """Keeps what is said of a call that has failed, and no warnings."""
+        if status >= fmi2Error:
+            self.said.append(text.decode())
 
     def of(self, *names):
         """The value references of these variables."""

@@ -18,13 +18,18 @@ class Module:
         self.scene = scene_of(file)
 
     def run(self, record, scales, gaps, stop, threads):
+        """The rows. What fails says where an FMU would have failed: when it is set, or in its only step."""
         parameters = {"ground.scale": np.array(scales)} | dict.fromkeys(self.description.gaps, np.array(gaps))
         failures = {}
         try:
             ends = run_batch(self.scene, parameters, self.description.outputs(), record, stop, threads)
         except pounding_fmu.BatchError as error:
             ends, failures = error.results, error.failures
-        # What failed has failed in its only step, and the FMU says so.
+        except ValueError as error:
+            if len(gaps) == 1:
+                return [failed(f"fmi2SetReal: {str(error).removeprefix('case 0: ')}")]
+            each = zip(scales, gaps, strict=True)
+            return [self.run(record, [scale], [gap], stop, 1)[0] for scale, gap in each]
         return [
             failed(f"fmi2DoStep: {failures[i]}") if i in failures else {**self.description.row(end), "error": ""}
             for i, end in enumerate(ends.tolist())
