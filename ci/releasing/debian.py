@@ -1,0 +1,56 @@
+"""The Debian packages that a release needs. Which are missing is said at once; installing them is the user's."""
+
+import importlib.util
+import platform
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Callable
+
+from releasing.commands import Failure
+
+# The loader, which libc6-arm64-cross installs, and the folder in which qemu looks for it and the C library.
+ARM_ROOT = Path("/usr/aarch64-linux-gnu")
+
+
+@dataclass(frozen=True)
+class Need:
+    package: str
+    purpose: str
+    is_there: Callable[[], bool]
+
+
+def command(name):
+    return lambda: shutil.which(name) is not None
+
+
+def wine():
+    """Debian's wine64 is not on the path unless the package wine is there too."""
+    found = [Path("/usr/lib/wine/wine64"), shutil.which("wine64"), shutil.which("wine")]
+    return next((Path(path) for path in found if path and Path(path).exists()), None)
+
+
+NEEDS = (
+    Need("gcc", "links what runs while cargo builds", command("cc")),
+    Need("python3-venv", "holds the packages of ci/requirements.txt", lambda: importlib.util.find_spec("ensurepip")),
+    Need("gcc-mingw-w64-x86-64-posix", "links the library for Windows", command("x86_64-w64-mingw32-gcc")),
+    Need("wine64", "runs the library for Windows", wine),
+    Need("qemu-user", "runs the library for Arm", command("qemu-aarch64")),
+    Need("libc6-arm64-cross", "the C library of Arm, for qemu", lambda: (ARM_ROOT / "lib/ld-linux-aarch64.so.1").exists()),
+)
+
+
+def require(needs=NEEDS):
+    """Fails with everything that is missing."""
+    if (platform.system(), platform.machine()) != ("Linux", "x86_64"):
+        raise Failure("ci/release runs on Linux with an x86-64 processor; elsewhere ci/native builds this machine's library")
+    problems = []
+    if not shutil.which("cargo"):
+        problems.append("Rust is missing: cargo is not on the path")
+    missing = [need for need in needs if not need.is_there()]
+    if missing:
+        problems.append("Debian packages are missing:")
+        problems += [f"  {need.package:<28}{need.purpose}" for need in missing]
+        problems.append("install them: apt-get install " + " ".join(need.package for need in missing))
+    if problems:
+        raise Failure("\n".join(problems))

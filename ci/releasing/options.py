@@ -1,0 +1,11 @@
+"""The options of ci/release."""
+
+import argparse
+
+
+def parse():
+    parser = argparse.ArgumentParser(prog="ci/release", description="Builds everything that is published.")
+    parser.add_argument("--std", choices=("auto", "rustup", "debian"), default="auto",
+                        help="where the standard libraries of other platforms come from: rustup, Debian's sources of "
+                             "Rust, or (auto) rustup where it can be reached")
+    return parser.parse_args()

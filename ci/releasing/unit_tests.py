@@ -1,0 +1,31 @@
+"""Unit tests of the library that say something on Windows only, compiled for it and run under wine."""
+
+import json
+import re
+import shutil
+
+from releasing.cargo import VARIABLES
+from releasing.commands import run
+
+# What a master passes as the location of the resources: drives and servers.
+TESTS = "resource_location"
+
+
+def on_windows(host, compiler):
+    """What is wrong, a line each."""
+    messages = run("cargo", "test", "--package", "pounding-fmu", "--lib", "--no-run", "--target", host.platform.triple,
+                   "--message-format=json-render-diagnostics", variables={**VARIABLES, "RUSTC": compiler}, aloud=True)
+    programs = [json.loads(line).get("executable") for line in messages.splitlines()]
+    # Beside the host, where wine finds what it lacks.
+    program = host.folder / "unit-tests.exe"
+    shutil.copy(next(program for program in programs if program), program)
+    code, said = host.start(program, [TESTS])
+    return judged(code, said)
+
+
+def judged(code, said):
+    """A selection of no tests passes as well: it would be a mistake here."""
+    passed = re.search(r"test result: ok\. (\d+) passed", said)
+    if code == 0 and passed and int(passed[1]) > 0:
+        return []
+    return [f"unit tests {TESTS} on Windows ended with code {code}:\n{said}"]
