@@ -1,10 +1,10 @@
 //! `cargo fmu merge`: one FMU with the libraries of two that are the same otherwise.
 
-use crate::archive::{self, Entry};
 use crate::bounded::Bounded;
 use crate::check;
 use crate::destination::Destination;
-use crate::library;
+use crate::inspection;
+use crate::pack::archive::{self, Entry};
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -92,7 +92,9 @@ fn wrong_libraries(description: &str, libraries: &[Entry]) -> Vec<String> {
     let Some(identifier) = check::model_identifier(description) else {
         return vec![format!("{DESCRIPTION} has no co-simulation interface with a modelIdentifier")];
     };
-    let findings = libraries.iter().map(|library| library::inspect(&library.path, &library.bytes, &identifier));
+    // It has company in the merged FMU.
+    let inspect = |library: &Entry| inspection::inspect(&library.path, &library.bytes, &identifier, false);
+    let findings = libraries.iter().map(inspect);
     findings.flat_map(|findings| [findings.library, findings.functions].concat()).collect()
 }
 

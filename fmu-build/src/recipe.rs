@@ -1,60 +1,78 @@
 //! From a scene file to an FMU that has been seen to run, step by step.
 
-use crate::archive::{self, Entry, Unpacked};
 use crate::c_interface::{Binary, Instance};
 use crate::channel::Channel;
+use crate::command::BuildArguments;
 use crate::destination::Destination;
 use crate::experiment::{self, Outcome};
+use crate::face::{Face, Home};
+use crate::libraries::{Library, Shipped, move_arm_for_fmpy};
+use crate::pack::archive::{self, Unpacked};
+use crate::pack::{pack, platform};
 use crate::progress::Progress;
 use crate::provenance::Provenance;
+use crate::summary;
 use crate::trial::Trial;
-use crate::workspace::Workspace;
-use crate::{documentation, licenses, platform, summary};
 use anyhow::{Context, Result};
 use fmi::model_description::fmi2::ModelDescription;
 use pounding::description::{Category, Package};
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
-use std::time::Duration;
 
 /// Builds the FMU of a scene and returns what there is to say about it. The FMU takes its place only when it has been
-/// loaded and has run, for no longer than `limit`: what fails leaves no FMU behind, and an older one where it was.
-pub fn build(scene: Option<&Path>, output: Option<&Path>, limit: Duration) -> Result<String> {
+/// loaded and has run, for no longer than the limit: what fails leaves no FMU behind, and an older one where it was.
+pub fn build(face: &dyn Face, arguments: &BuildArguments) -> Result<String> {
     let progress = Progress::start();
     progress.step("reading the scene");
-    let workspace = Workspace::find()?;
-    let scene_file = scene.map_or_else(|| workspace.default_scene(), Path::to_path_buf);
-    let package = read(&scene_file)?;
+    let home = face.home()?;
+    let scene_file = arguments.scene.as_ref().unwrap_or(&home.default_scene);
+    let package = read(scene_file)?;
     progress.say(&warnings_of(&package));
-    let default_output = workspace.default_output(&package.scene.name);
-    let provenance = output.is_none().then(|| Provenance::new(&default_output, &scene_file, &package.guid()));
-    let output = output.map_or(default_output, Path::to_path_buf);
+    let default_output = home.fmus.join(format!("{}.fmu", package.scene.name));
+    let has_note = home.has_notes && arguments.output.is_none();
+    let provenance = has_note.then(|| Provenance::new(&default_output, scene_file, &package.guid()));
     // Compiling may take minutes: what cannot be written shall fail before that.
-    let destination = Destination::open(output);
-    let destination = match provenance {
-        Some(_) => destination.context("the FMU cannot go to its usual place, -o FILE.fmu names another")?,
-        None => destination?,
+    let destination = match &arguments.output {
+        Some(output) => Destination::open(output.clone())?,
+        None => Destination::open(default_output)
+            .context("the FMU cannot go to its usual place, -o FILE.fmu names another")?,
     };
 
-    let compiling = "compiling the library";
-    progress.step(compiling);
-    let library = workspace.compile_library(|state| progress.state(compiling, state))?;
-
+    let libraries = libraries(home, arguments, &progress)?;
     progress.step("packing the FMU");
-    let draft = destination.draft(&archive::pack(&entries(&package, &library, &workspace)?)?)?;
+    let draft = destination.draft(&pack(&package, &libraries)?)?;
 
     progress.step("running the FMU");
-    let trial = Trial::Run.report(draft.path(), limit);
-    let outcome = trial.outcome().context("the FMU has been built but does not run")?;
-    let outcome = Outcome { warnings: besides_slips(&outcome.warnings), ..outcome.clone() };
+    let outcome = match libraries.iter().any(Library::is_for_this_machine) {
+        false => None,
+        true => {
+            let trial = Trial::Run.report(face, draft.path(), arguments.limit.time_limit);
+            let outcome = trial.outcome().context("the FMU has been built but does not run")?;
+            Some(Outcome { warnings: besides_slips(&outcome.warnings), ..outcome.clone() })
+        }
+    };
     destination.take(draft)?;
 
     drop(progress);
     if let Some(warning) = provenance.and_then(|provenance| provenance.note()) {
         let _ = writeln!(std::io::stderr(), "warning: {warning}");
     }
-    Ok(report(&package, &destination, &outcome))
+    Ok(report(&package, &destination, &libraries, outcome.as_ref()))
+}
+
+/// The libraries that the arguments ask for.
+fn libraries(home: Home, arguments: &BuildArguments, progress: &Progress) -> Result<Vec<Library>> {
+    let source = match &arguments.libraries {
+        Some(folder) => Box::new(Shipped(folder.clone())),
+        None => home.libraries,
+    };
+    progress.step(source.work());
+    let mut libraries = source.get(&arguments.platforms, &mut |state| progress.state(source.work(), state))?;
+    if arguments.arm_in_linux64 {
+        move_arm_for_fmpy(&mut libraries)?;
+    }
+    Ok(libraries)
 }
 
 fn read(scene_file: &Path) -> Result<Package> {
@@ -73,25 +91,13 @@ fn besides_slips(logged: &[String]) -> Vec<String> {
     logged.iter().filter(|line| !line.starts_with(Category::StatusWarning.name())).cloned().collect()
 }
 
-/// What the FMU holds, in the order in which it stands in the archive.
-fn entries(package: &Package, library: &Path, workspace: &Workspace) -> Result<Vec<Entry>> {
-    let binary = std::fs::read(library).with_context(|| format!("cannot read {}", library.display()))?;
-    let mut entries = vec![
-        Entry::file("modelDescription.xml", package.model_description().into_bytes()),
-        Entry::library(&platform::library_path(&package.scene.name), binary),
-    ];
-    entries.extend(package.resources().map(|(name, bytes)| Entry::file(&format!("resources/{name}"), bytes.to_vec())));
-    entries.extend(documentation::entries(package));
-    entries.extend(licenses::entries(workspace)?);
-    Ok(entries)
-}
-
 /// In a process of its own: loads the FMU as an importer would and runs it.
 pub fn try_out(fmu: &Path, directory: &Path, channel: &Channel) -> Result<()> {
     let run = || {
         let unpacked = Unpacked::open(fmu, directory)?;
         let description = ModelDescription::from_string(&unpacked.description()?)?;
-        let binary = Binary::load(&unpacked.path(&platform::library_path(&description.modelName)))?;
+        let library = platform::host_library(&unpacked.names, &description.modelName);
+        let binary = Binary::load(&unpacked.path(library.context("the FMU has no library for this machine")?))?;
         let resources = archive::resource_uri(unpacked.root());
         let instance = Instance::new(&binary, &description.modelName, &description.guid, &resources)?;
         experiment::run(&description, &instance)
@@ -99,12 +105,17 @@ pub fn try_out(fmu: &Path, directory: &Path, channel: &Channel) -> Result<()> {
     channel.need("run", run)?.map_or(Ok(()), |outcome| channel.ran(outcome))
 }
 
-fn report(package: &Package, destination: &Destination, outcome: &Outcome) -> String {
+fn report(package: &Package, destination: &Destination, libraries: &[Library], outcome: Option<&Outcome>) -> String {
     let about = &package.scene.description;
+    let folders: Vec<&str> = libraries.iter().map(|library| library.folder.as_str()).collect();
     let mut text = package.scene.name.clone() + if about.is_empty() { "" } else { ": " } + about + "\n";
     let _ = writeln!(text, "  file         {}", destination.describe());
     let _ = writeln!(text, "  guid         {}", package.guid());
-    text + &summary::text(outcome, Some(package), stop_reason(package))
+    let _ = writeln!(text, "  libraries    {}", folders.join(", "));
+    match outcome {
+        Some(outcome) => text + &summary::text(outcome, Some(package), stop_reason(package)),
+        None => text + "  not run      none of the libraries is for this machine\n",
+    }
 }
 
 /// Why the default experiment ends when it does.

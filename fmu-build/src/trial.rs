@@ -1,18 +1,19 @@
 //! FMUs tried in a process of their own: an archive, a description or a library that crashes it or never comes back is
 //! a finding, not the end of this program.
 //!
-//! This program starts itself for that. The child reports what it finds line by line, so that nothing is lost with it.
+//! The command starts itself for that. The child reports what it finds line by line, so that nothing is lost with it.
 
 use crate::bounded::Bounded;
 use crate::channel::{self, Channel, News};
 use crate::check;
+use crate::face::Face;
 use crate::recipe;
 use crate::report::Report;
 use anyhow::{Context, Result, bail};
 use clap::ValueEnum;
 use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Child, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
@@ -35,21 +36,28 @@ pub enum Trial {
 
 impl Trial {
     /// What a child finds that is stopped when the time is up.
-    pub fn report(self, fmu: &Path, limit: Duration) -> Report {
+    pub fn report(self, face: &dyn Face, fmu: &Path, limit: Duration) -> Report {
         let mut report = Report::new(fmu);
         let mut check = "archive".to_owned();
-        if let Err(error) = self.follow(fmu, limit, &mut report, &mut check) {
+        if let Err(error) = self.follow(face, fmu, limit, &mut report, &mut check) {
             report.add(&check, Bounded::from(vec![format!("{error:#}")]));
         }
         report
     }
 
     /// Takes over what the child finds; `check` is what it is at.
-    fn follow(self, fmu: &Path, limit: Duration, report: &mut Report, check: &mut String) -> Result<()> {
+    fn follow(
+        self,
+        face: &dyn Face,
+        fmu: &Path,
+        limit: Duration,
+        report: &mut Report,
+        check: &mut String,
+    ) -> Result<()> {
         let deadline = Instant::now() + limit;
         // Here and not in the child, which may not live to clear it away.
         let directory = TempDir::with_prefix("fmu-").context("cannot make a temporary directory")?;
-        let mut trial = self.start(fmu, directory.path()).context("cannot start a process for the FMU")?;
+        let mut trial = self.start(face, fmu, directory.path()).context("cannot start a process for the FMU")?;
         let mut is_over = false;
         while let Some(news) = trial.next(deadline)? {
             match news {
@@ -69,8 +77,8 @@ impl Trial {
         }
     }
 
-    fn start(self, fmu: &Path, directory: &Path) -> Result<Running> {
-        let mut command = Command::new(std::env::current_exe()?);
+    fn start(self, face: &dyn Face, fmu: &Path, directory: &Path) -> Result<Running> {
+        let mut command = face.again()?;
         let name = self.to_possible_value().context("a trial without a name")?;
         // A library may go elsewhere.
         command.arg("trial").arg(name.get_name()).arg(fmu).arg(std::path::absolute(directory)?);

@@ -1,6 +1,8 @@
 //! The checkout: where it is, and the library that cargo compiles from it.
 
 use anyhow::{Context, Result, bail};
+use fmu_build::host_folder;
+use fmu_build::libraries::{Libraries, Library, chosen};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -30,22 +32,16 @@ impl Workspace {
         self.root.join("examples/scenes/feup.toml")
     }
 
-    /// Where the FMU goes when no place is given.
-    pub fn default_output(&self, name: &str) -> PathBuf {
-        self.root.join("target/fmu").join(format!("{name}.fmu"))
-    }
-
-    /// A file of the checkout.
-    pub fn read(&self, relative: &str) -> Result<Vec<u8>> {
-        let path = self.root.join(relative);
-        std::fs::read(&path).with_context(|| format!("cannot read {}", path.display()))
+    /// Where FMUs go when no place is given.
+    pub fn fmus(&self) -> PathBuf {
+        self.root.join("target/fmu")
     }
 
     /// Compiles the library in its release profile and returns where it is; `show` gets what cargo is at.
     ///
     /// Naming the target, even this machine's, gives it a directory of its own: no other command compiles for it, nor with
     /// these flags.
-    pub fn compile_library(&self, show: impl FnMut(&str)) -> Result<PathBuf> {
+    fn compile_library(&self, show: impl FnMut(&str)) -> Result<PathBuf> {
         let mut cargo = self.cargo("rustc");
         cargo
             .args(["--release", "--lib", "--crate-type", "cdylib", "--package", PACKAGE, "--target", &self.host()?])
@@ -56,20 +52,6 @@ impl Workspace {
             bail!("the library does not compile:\n{}", done.complaints.trim_end());
         }
         done.output.lines().find_map(dynamic_library).context("cargo did not say where it put the library")
-    }
-
-    /// The crates that are compiled into the library, one `name version licence` a line.
-    pub fn linked_crates(&self) -> Result<String> {
-        let output = self
-            .cargo("tree")
-            .args(["--package", PACKAGE, "--edges", "normal,no-proc-macro", "--prefix", "none", "--no-dedupe"])
-            .args(["--format", "{p}, {l}"])
-            .output()
-            .context("cannot start cargo")?;
-        if !output.status.success() {
-            bail!("cargo tree failed:\n{}", String::from_utf8_lossy(&output.stderr).trim_end());
-        }
-        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
     }
 
     /// The target triple of this machine, as the toolchain calls it.
@@ -84,6 +66,22 @@ impl Workspace {
         let mut cargo = Command::new(cargo());
         cargo.arg(command).current_dir(&self.root).stdin(Stdio::null());
         cargo
+    }
+}
+
+impl Libraries for Workspace {
+    fn work(&self) -> &'static str {
+        "compiling the library"
+    }
+
+    fn get(&self, platforms: &[String], show: &mut dyn FnMut(&str)) -> Result<Vec<Library>> {
+        let folder = host_folder();
+        chosen(platforms, std::slice::from_ref(&folder)).context(
+            "without --libraries there is the library that is compiled here, for this machine's own platform",
+        )?;
+        let path = self.compile_library(show)?;
+        let bytes = std::fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
+        Ok(vec![Library::new(folder, bytes)])
     }
 }
 

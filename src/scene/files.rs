@@ -120,17 +120,29 @@ fn read_text(path: &Path) -> Result<String, Problem> {
 }
 
 /// Reads a record file, named as `ground.record` names it, that this scaling fits.
-pub(crate) fn read_record(name: &str, path: &Path, scaling: Scaling) -> Result<PackagedRecord, SceneError> {
-    let problem = |what: String| Problem::new("ground.record", quoted(name), format!("a record file, but {what}"));
-    // A device or a pipe may have no end.
-    if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
-        return Err(problem(format!("{}: it is no file", path.display())).into());
-    }
-    let bytes = fs::read(path).map_err(|error| problem(format!("{}: {error}", path.display())))?;
-    let packaged = PackagedRecord::parse(name, bytes)
-        .map_err(|error| SceneError { problems: error.problems.into_iter().map(problem).collect() })?;
+fn read_record(name: &str, path: &Path, scaling: Scaling) -> Result<PackagedRecord, SceneError> {
+    let packaged = parse_record(name, read_record_file(name, path)?)?;
     scaling.factor(&packaged.record)?;
     Ok(packaged)
+}
+
+/// The bytes of a record file.
+pub(crate) fn read_record_file(name: &str, path: &Path) -> Result<Vec<u8>, SceneError> {
+    // A device or a pipe may have no end.
+    if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
+        return Err(record_problem(name, format!("{}: it is no file", path.display())).into());
+    }
+    fs::read(path).map_err(|error| record_problem(name, format!("{}: {error}", path.display())).into())
+}
+
+/// What the bytes of a record file say.
+pub(crate) fn parse_record(name: &str, bytes: Vec<u8>) -> Result<PackagedRecord, SceneError> {
+    let problems = |error: RecordError| error.problems.into_iter().map(|what| record_problem(name, what)).collect();
+    PackagedRecord::parse(name, bytes).map_err(|error| SceneError { problems: problems(error) })
+}
+
+fn record_problem(name: &str, what: String) -> Problem {
+    Problem::new("ground.record", quoted(name), format!("a record file, but {what}"))
 }
 
 fn not_utf8(bytes: &[u8], valid: usize) -> String {

@@ -1,12 +1,12 @@
 //! Reading and writing what a slot stands for: each one match over all slots.
 
+use super::last_record::LastRecord;
 use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, Row, Slot, Table, building};
 use crate::engine::{ContactPoint, EnergyPoint, LinearInput, Model, Point, SavedState, Side, State};
 use crate::record::Record;
-use crate::scene::{Building, Damping, Scaling, Scene, SceneError, Stiffness, read_record};
+use crate::scene::{Building, Damping, Scaling, Scene, SceneError, Stiffness};
 use crate::warnings::{self, Warning};
 use serde::{Deserialize, Serialize};
-use std::path::Path;
 use std::sync::Arc;
 
 /// A value of a variable.
@@ -63,12 +63,13 @@ pub struct Settings {
     packaged_record: Option<Arc<Record>>,
     /// `ground.record` and what it names.
     pub(super) other_record: Option<(String, Arc<Record>)>,
+    last_record: Arc<LastRecord>,
 }
 
 impl Settings {
     /// The parameters as the scene gives them.
     pub fn new(scene: Scene, record: Option<Record>) -> Settings {
-        Settings { scene, packaged_record: record.map(Arc::new), other_record: None }
+        Settings { scene, packaged_record: record.map(Arc::new), other_record: None, last_record: Arc::default() }
     }
 
     /// The record that runs.
@@ -178,10 +179,7 @@ impl Settings {
             self.other_record = None;
             return Ok(());
         }
-        let packaged = read_record(path, Path::new(path), self.scene.ground.scaling);
-        let packaged = packaged.map_err(|error| without_pga(error, path))?;
-        self.other_record = Some((path.to_owned(), Arc::new(packaged.record)));
-        Ok(())
+        self.set_record(path, self.last_record.read(path)?)
     }
 
     /// Another record that has been read already; `name` is what `ground.record` reads as from here on.

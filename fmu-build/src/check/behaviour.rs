@@ -1,17 +1,18 @@
 //! What the library of an FMU does, compared with what its description says.
 
-use crate::archive;
 use crate::c_interface::{Binary, Instance};
 use crate::experiment::{CoSimulation, Experiment};
-use crate::platform;
+use crate::pack::archive::{self, Unpacked};
+use crate::pack::platform;
 use anyhow::{Context, Result, bail};
 use fmi::model_description::fmi2::{ModelDescription, ScalarVariable, VariableType};
 use std::path::Path;
 
-/// The library for this machine, in the FMU that is unpacked in `root`.
-pub fn library(root: &Path, description: &ModelDescription) -> Result<Binary> {
+/// The library for this machine.
+pub fn library(fmu: &Unpacked, description: &ModelDescription) -> Result<Binary> {
     let Some(interface) = &description.coSimulation else { bail!("the FMU has no co-simulation interface") };
-    Binary::load(&root.join(platform::library_path(&interface.modelIdentifier)))
+    let path = platform::host_library(&fmu.names, &interface.modelIdentifier);
+    Binary::load(&fmu.path(path.context("the FMU has no library for this machine")?))
 }
 
 /// A finding for each function that the library does not export.

@@ -7,12 +7,12 @@
 mod behaviour;
 mod lint;
 
-use crate::archive::Unpacked;
 use crate::channel::Channel;
 use crate::experiment;
 use crate::importer::Imported;
-use crate::library;
-use crate::platform;
+use crate::inspection;
+use crate::pack::archive::Unpacked;
+use crate::pack::platform::{self, Platform};
 use anyhow::{Context, Result, bail};
 use fmi::model_description::fmi2::ModelDescription;
 pub use lint::{file_names, model_identifier, origin};
@@ -48,7 +48,7 @@ pub fn inspect(fmu: &Path, directory: &Path, channel: &Channel) -> Result<()> {
     channel.look("file names", || lint::files(&fmu.names, &description))?;
 
     let Some(can_be_tried) = channel.need("library", || libraries(&fmu, &description, channel))? else { return Ok(()) };
-    if can_be_tried { try_library(fmu.root(), &description, channel) } else { Ok(()) }
+    if can_be_tried { try_library(&fmu, &description, channel) } else { Ok(()) }
 }
 
 fn parse(text: &str) -> Result<ModelDescription> {
@@ -59,27 +59,31 @@ fn parse(text: &str) -> Result<ModelDescription> {
 fn libraries(fmu: &Unpacked, description: &ModelDescription, channel: &Channel) -> Result<bool> {
     let Some(interface) = &description.coSimulation else { bail!("the FMU has no co-simulation interface") };
     let identifier = interface.modelIdentifier.as_str();
-    let here = platform::library_path(identifier);
+    let here = platform::host_library(&fmu.names, identifier);
     // Others than plain names have not been unpacked, and have been found already.
     let is_plain = |name: &str| lint::file_names(&[name.to_owned()]).is_empty() && !name.ends_with('/');
     let there = fmu.names.iter().filter(|name| name.starts_with("binaries/") && is_plain(name));
     let mut is_here_in_order = None;
     for name in there.clone() {
         let bytes = std::fs::read(fmu.path(name)).with_context(|| format!("{name} cannot be read"))?;
-        let findings = library::inspect(name, &bytes, identifier);
-        if *name == here {
+        let findings = inspection::inspect(name, &bytes, identifier, there.clone().count() == 1);
+        let is_for_another = findings.platform.is_some_and(|platform| Some(platform) != Platform::host());
+        if here == Some(name) && !is_for_another {
             is_here_in_order = Some(findings.is_empty());
         }
         channel.look("library", || findings.library)?;
         channel.look("exported functions", || findings.functions)?;
     }
     let all = || there.cloned().collect::<Vec<_>>().join(", ");
-    is_here_in_order.with_context(|| format!("the FMU has no {here}, the library for this machine; it has: {}", all()))
+    is_here_in_order.with_context(|| {
+        format!("the FMU has no library for this machine in binaries/{}; it has: {}", platform::folder(), all())
+    })
 }
 
 /// Goes through what the library does as long as what has been found lets it.
-fn try_library(root: &Path, description: &ModelDescription, channel: &Channel) -> Result<()> {
-    let Some(binary) = channel.need("library", || behaviour::library(root, description))? else { return Ok(()) };
+fn try_library(fmu: &Unpacked, description: &ModelDescription, channel: &Channel) -> Result<()> {
+    let root = fmu.root();
+    let Some(binary) = channel.need("library", || behaviour::library(fmu, description))? else { return Ok(()) };
     if !channel.look("exported functions", || behaviour::missing_functions(&binary))? {
         return Ok(());
     }

@@ -3,10 +3,15 @@
 use object::{Architecture, BinaryFormat};
 use std::env::consts::{ARCH, DLL_EXTENSION, OS};
 
+/// Linux on Intel processors.
+pub const INTEL_LINUX: &str = "linux64";
+/// Linux on Arm.
+pub const ARM_LINUX: &str = "aarch64-linux";
+
 /// What the folders of FMI 2.0 below `binaries/` are for; the standard defines them for Intel processors only. FMPy looks
 /// for `linux64` and `darwin64` on Arm too; other importers use `<architecture>-<system>` there, the names of FMI 3.0.
 const FMI2: [(&str, &str, &str); 5] = [
-    ("linux64", "linux", "x86_64"),
+    (INTEL_LINUX, "linux", "x86_64"),
     ("linux32", "linux", "x86"),
     ("win64", "windows", "x86_64"),
     ("win32", "windows", "x86"),
@@ -55,6 +60,16 @@ impl Platform {
         let (_, format, extension) = *SYSTEMS.iter().find(|(name, ..)| *name == system)?;
         Some(Platform { format, architecture, extension })
     }
+
+    /// What else may be in a folder, where it is the only library of its FMU: the one for Arm, for FMPy.
+    pub fn of_lone_library(folder: &str) -> Option<Platform> {
+        if folder == INTEL_LINUX { Platform::of(ARM_LINUX) } else { None }
+    }
+
+    /// Of this machine.
+    pub fn host() -> Option<Platform> {
+        Platform::of(&self::folder())
+    }
 }
 
 /// The folder of the host's library below `binaries/`, such as `linux64`.
@@ -64,9 +79,12 @@ pub fn folder() -> String {
     named.map_or_else(|| format!("{ARCH}-{system}"), |(name, ..)| (*name).to_owned())
 }
 
-/// Path inside the FMU of the host's library.
-pub fn library_path(model_identifier: &str) -> String {
-    format!("binaries/{}/{model_identifier}.{DLL_EXTENSION}", folder())
+/// Path inside an FMU with these files of the library that this machine loads.
+pub fn host_library<'a>(names: &'a [String], model_identifier: &str) -> Option<&'a str> {
+    let own = folder();
+    let folders = [own.as_str(), if own == ARM_LINUX { INTEL_LINUX } else { &own }];
+    let paths = folders.map(|folder| format!("binaries/{folder}/{model_identifier}.{DLL_EXTENSION}"));
+    paths.iter().find_map(|path| names.iter().find(|name| *name == path)).map(String::as_str)
 }
 
 #[cfg(test)]
@@ -75,7 +93,7 @@ mod tests {
 
     #[test]
     fn the_host_is_among_the_platforms() {
-        assert_eq!(Platform::of(&folder()).map(|platform| platform.extension), Some(DLL_EXTENSION));
+        assert_eq!(Platform::host().map(|platform| platform.extension), Some(DLL_EXTENSION));
     }
 
     #[test]

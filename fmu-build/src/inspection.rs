@@ -2,14 +2,16 @@
 //! it is run.
 
 use crate::functions::FUNCTIONS;
-use crate::platform::Platform;
+use crate::pack::platform::Platform;
 use object::read::macho::{FatArch, MachOFatFile32, MachOFatFile64};
 use object::{Architecture, BinaryFormat, ExportTarget, FileKind, NameOrOrdinal, Object, ObjectKind, ObjectSegment};
 use std::collections::HashSet;
 
-/// What is wrong with a library.
+/// What a library is, and what is wrong with it.
 #[derive(Debug, Default, PartialEq)]
 pub struct Findings {
+    /// Whose library it is, where that can be seen.
+    pub platform: Option<Platform>,
     /// With folder, name, format, machine and contents.
     pub library: Vec<String>,
     /// With what it exports.
@@ -23,8 +25,9 @@ impl Findings {
     }
 }
 
-/// Looks at the library at a path of an FMU, which ought to be `binaries/<platform>/<identifier>.<extension>`.
-pub fn inspect(path: &str, bytes: &[u8], identifier: &str) -> Findings {
+/// Looks at the library at a path of an FMU, which ought to be `binaries/<platform>/<identifier>.<extension>`; whether
+/// there is no other library in the FMU.
+pub fn inspect(path: &str, bytes: &[u8], identifier: &str, is_alone: bool) -> Findings {
     let mut findings = Findings::default();
     let parts: Vec<&str> = path.split('/').collect();
     let ["binaries", folder, file] = parts.as_slice() else {
@@ -36,6 +39,8 @@ pub fn inspect(path: &str, bytes: &[u8], identifier: &str) -> Findings {
         findings.library.push(format!("{path}: {folder:?} is no platform that is known here; expected {known}"));
         return findings;
     };
+    let other = Platform::of_lone_library(folder).filter(|other| is_alone && is_of(bytes, *other));
+    let platform = other.unwrap_or(platform);
     let name = format!("{identifier}.{}", platform.extension);
     if *file != name {
         findings.library.push(format!("{path}: expected the name {name} in {folder}"));
@@ -43,6 +48,7 @@ pub fn inspect(path: &str, bytes: &[u8], identifier: &str) -> Findings {
     match exports(bytes, platform) {
         Err(problem) => findings.library.push(format!("{path}: {problem}")),
         Ok(exports) => {
+            findings.platform = Some(platform);
             let missing: Vec<&str> = FUNCTIONS.into_iter().filter(|name| !exports.contains(name.as_bytes())).collect();
             let verb = if missing.len() == 1 { "is" } else { "are" };
             let finding = || format!("{path}: {} {verb} not exported", missing.join(", "));
@@ -50,6 +56,12 @@ pub fn inspect(path: &str, bytes: &[u8], identifier: &str) -> Findings {
         }
     }
     findings
+}
+
+/// Whether it looks like a library for a platform.
+fn is_of(bytes: &[u8], platform: Platform) -> bool {
+    object::File::parse(bytes)
+        .is_ok_and(|file| (file.format(), file.architecture()) == (platform.format, platform.architecture))
 }
 
 /// The functions that a library for a platform exports.

@@ -1,0 +1,58 @@
+//! FMUs of scenes of two pounding buildings: made, tried, checked, merged. Two commands share it: `cargo fmu` (`main.rs`,
+//! in a checkout, compiles the library) and `pounding-fmu` (in `python/`, with libraries that have been compiled before).
+//!
+//! | file | holds |
+//! |---|---|
+//! | `command.rs` | arguments, exit codes |
+//! | `face.rs` | what differs between the two commands |
+//! | `main.rs`, `workspace.rs` | `cargo fmu`: where the checkout is; compiling the library with cargo |
+//! | `libraries.rs` | the libraries that go into an FMU, and a folder of them |
+//! | `recipe.rs` | from a scene file to an FMU that has been seen to run, step by step |
+//! | `merge.rs` | one FMU with the libraries of two |
+//! | `pack/mod.rs` | what an FMU holds |
+//! | `pack/documentation.rs`, `pack/licenses.rs` | the page about the model and the icon; the licence texts |
+//! | `pack/archive.rs` | the zip: writing it reproducibly, unpacking it safely |
+//! | `pack/platform.rs` | where FMI 2.0 wants the library of each platform, and what it is |
+//! | `destination.rs` | where an FMU goes: at once and whole, or not at all |
+//! | `provenance.rs` | which scene the FMU at the default place is of |
+//! | `inspection.rs` | whether a library is what its folder and name say, without running it |
+//! | `functions.rs` | the names of the library's C functions |
+//! | `c_interface.rs` | the library's C functions, called by hand (the only unsafe code here) |
+//! | `importer.rs` | the same through an importer that is not ours |
+//! | `log.rs` | what an FMU says through its logger |
+//! | `experiment.rs` | one run of an FMU over its default experiment, through either |
+//! | `summary.rs` | what happened in that run, for a person |
+//! | `went_in.rs` | what went into it |
+//! | `trial.rs` | an FMU tried in a process of its own, for as long as it may take |
+//! | `channel.rs` | what that process reports, which the FMU's library cannot |
+//! | `bounded.rs` | as many texts of an FMU as a person reads |
+//! | `report.rs` | what a trial has found, for a person and for a program |
+//! | `check/` | the command `check`: what is wrong with an FMU |
+#![deny(unsafe_code)]
+
+mod bounded;
+#[allow(unsafe_code)]
+mod c_interface;
+mod channel;
+mod check;
+pub mod command;
+pub mod destination;
+mod experiment;
+pub mod face;
+mod functions;
+mod importer;
+mod inspection;
+pub mod libraries;
+mod log;
+mod merge;
+mod pack;
+mod progress;
+mod provenance;
+mod recipe;
+mod report;
+mod summary;
+mod trial;
+mod went_in;
+
+pub use pack::pack;
+pub use pack::platform::folder as host_folder;
