@@ -1,6 +1,7 @@
 """The libraries, compiled for any platform."""
 
 import json
+import os
 import shutil
 import sys
 from pathlib import Path
@@ -12,8 +13,9 @@ from releasing.places import WORK
 # The programs of ci/requirements.txt lie beside their Python.
 ZIGBUILD = Path(sys.executable).with_name("cargo-zigbuild")
 
-# Caches that would go to the home directory; flags of the user's that would replace ours.
+# Where cargo-zigbuild finds zig; caches that would go to the home directory; flags of the user's that would replace ours.
 VARIABLES = {
+    "PATH": os.pathsep.join([str(ZIGBUILD.parent), os.environ.get("PATH", "")]),
     "CARGO_TARGET_DIR": WORK / "cargo",
     "CARGO_ZIGBUILD_CACHE_DIR": WORK / "zig",
     "ZIG_GLOBAL_CACHE_DIR": WORK / "zig/global",

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from releasing.commands import Failure, run
 from releasing.places import ROOT, WORK
+from releasing.platforms import LINUX
 
 FOLDER = WORK / "runs/cases"
 SCENES = ("examples", "tests/reference/scenes", "tests/stress", "ci/scenes")
@@ -37,7 +38,7 @@ def prepare(libraries):
         if folder.exists():
             raise Failure(f"{scene}: there is another scene of the name {scene.stem}")
         fmu = FOLDER / "scene.fmu"
-        run("cargo", "fmu", "--libraries", libraries, scene, "-o", fmu)
+        run("cargo", "fmu", scene, "--libraries", libraries, "--platform", LINUX.name, "-o", fmu)
         with zipfile.ZipFile(fmu) as archive:
             wanted = [name for name in archive.namelist() if name.startswith(("modelDescription.xml", "resources/"))]
             archive.extractall(folder, wanted)

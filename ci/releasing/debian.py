@@ -40,6 +40,10 @@ NEEDS = (
 )
 
 
+def missing(needs=NEEDS):
+    return [need for need in needs if not need.is_there()]
+
+
 def require(needs=NEEDS):
     """Fails with everything that is missing."""
     if (platform.system(), platform.machine()) != ("Linux", "x86_64"):
@@ -47,10 +51,10 @@ def require(needs=NEEDS):
     problems = []
     if not shutil.which("cargo"):
         problems.append("Rust is missing: cargo is not on the path")
-    missing = [need for need in needs if not need.is_there()]
-    if missing:
+    packages = missing(needs)
+    if packages:
         problems.append("Debian packages are missing:")
-        problems += [f"  {need.package:<28}{need.purpose}" for need in missing]
-        problems.append("install them: apt-get install " + " ".join(need.package for need in missing))
+        problems += [f"  {need.package:<28}{need.purpose}" for need in packages]
+        problems.append("install them: apt-get install " + " ".join(need.package for need in packages))
     if problems:
         raise Failure("\n".join(problems))

@@ -4,9 +4,7 @@
 """
 
 import re
-import zipfile
 
-from releasing import reading
 from releasing.places import ROOT
 
 LIST_OF_FUNCTIONS = ROOT / "fmu-build/src/functions.rs"
@@ -78,17 +76,3 @@ def of_file(path, library, platform, private):
         *symbol_versions(library, platform), *stripped(library), *private_paths(path.read_bytes(), private),
     ]
     return [f"{platform.name}/{path.name}: {problem}" for problem in problems]
-
-
-def of_archive(path, platform, private):
-    """A wheel or an FMU: no member has a path of the machine, and what Python loads from a wheel is fit for its platform."""
-    problems = []
-    with zipfile.ZipFile(path) as archive:
-        for name in archive.namelist():
-            content = archive.read(name)
-            found = private_paths(content, private)
-            if re.search(r"\.abi3\.(so|pyd)$", name):
-                module = reading.read_bytes(content)
-                found += [*machine(module, platform), *symbol_versions(module, platform), *stripped(module)]
-            problems += [f"{path.name}: {name} {problem}" for problem in found]
-    return problems

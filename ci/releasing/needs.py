@@ -4,7 +4,7 @@ import hashlib
 import re
 import zipfile
 
-from releasing import reading
+from releasing import archives, reading
 
 LIBRARIES = (".so", ".dll", ".dylib", ".pyd")
 
@@ -32,11 +32,9 @@ def of_archive(path):
     """A wheel needs what its Python module needs; an FMU is for each platform of which it has the library."""
     with zipfile.ZipFile(path) as archive:
         if path.suffix == ".whl":
-            modules = [name for name in archive.namelist() if re.search(r"/_?\w+(\.abi3)?\.(so|pyd)$", name)
-                       and "/libraries/" not in name]
-            return "; ".join([python_of(archive), *(of_member(archive, name) for name in modules)])
-        members = [name for name in archive.namelist() if re.fullmatch(r"binaries/[^/]+/[^/]+", name)]
-        return "; ".join(f"{name.split('/')[1]}: {of_member(archive, name)}" for name in sorted(members))
+            modules = [of_member(archive, name) for name in archives.python_modules(archive)]
+            return "; ".join([python_of(archive), *modules])
+        return "; ".join(f"{name.split('/')[1]}: {of_member(archive, name)}" for name in archives.libraries(archive))
 
 
 def python_of(archive):

@@ -5,9 +5,9 @@ import sys
 import tomllib
 import unittest
 
-from releasing import cases, comparison, gates, hosts, needs, options, progress, reading, remapping, standard_library
-from releasing import unit_tests
-from releasing.cargo import compile_library
+from releasing import archives, cases, comparison, gates, hosts, needs, options, progress, reading, remapping
+from releasing import standard_library, unit_tests
+from releasing.cargo import VARIABLES, compile_library
 from releasing.commands import Failure, run
 from releasing.places import CI, FILES, ROOT, WORK
 from releasing.platforms import CROSS, LINUX, WINDOWS
@@ -92,19 +92,19 @@ def check_behaviour(compiler):
 
 def make_wheel():
     (DRAFT / "wheels").mkdir()
-    run(CI / "wheel", "--libraries", LIBRARIES, "--output", DRAFT / "wheels", "--target", "linux64-2.17", aloud=True)
+    run(CI / "wheel", "--libraries", LIBRARIES, "--output", DRAFT / "wheels", "--zig", variables=VARIABLES, aloud=True)
 
 
 def make_fmus():
     (DRAFT / "fmus").mkdir()
     for scene in sorted((ROOT / "examples/scenes").glob("*.toml")):
         name = tomllib.loads(scene.read_text())["name"]
-        run("cargo", "fmu", "--libraries", LIBRARIES, scene, "-o", DRAFT / f"fmus/{name}.fmu")
+        run("cargo", "fmu", scene, "--libraries", LIBRARIES, "-o", DRAFT / f"fmus/{name}.fmu")
 
 
 def check_archives():
-    archives = sorted([*DRAFT.glob("wheels/*.whl"), *DRAFT.glob("fmus/*.fmu")])
-    return [problem for archive in archives for problem in gates.of_archive(archive, LINUX, remapping.private_paths())]
+    files = sorted([*DRAFT.glob("wheels/*.whl"), *DRAFT.glob("fmus/*.fmu")])
+    return [problem for file in files for problem in archives.check(file, LINUX, remapping.private_paths())]
 
 
 def stop_at(problems):

@@ -9,12 +9,14 @@ from releasing.commands import run
 
 # What a master passes as the location of the resources: drives and servers.
 TESTS = "resource_location"
+# They take no time to run, but what all tests need takes minutes to optimise.
+QUICKLY = ("--config", "profile.dev.opt-level=0", "--config", "profile.dev.debug=false")
 
 
 def on_windows(host, compiler):
     """What is wrong, a line each."""
     messages = run("cargo", "test", "--package", "pounding-fmu", "--lib", "--no-run", "--target", host.platform.triple,
-                   "--message-format=json-render-diagnostics", variables={**VARIABLES, "RUSTC": compiler}, aloud=True)
+                   *QUICKLY, "--message-format=json-render-diagnostics", variables={**VARIABLES, "RUSTC": compiler}, aloud=True)
     programs = [json.loads(line).get("executable") for line in messages.splitlines()]
     # Beside the host, where wine finds what it lacks.
     program = host.folder / "unit-tests.exe"

@@ -97,6 +97,8 @@ class Bytes(unittest.TestCase):
     def test_going_on_from_a_state(self):
         host = PretendedHost(self.outputs[900 * 32:], b"a state")
         self.assertEqual(comparison.from_kept_states([self.case], host), [])
+        order = (self.folder / "aarch64-linux/two.from-kept.run").read_text()
+        self.assertIn("start_state cases/two/middle.state", order)
         changed = bytearray(self.outputs[900 * 32:])
         changed[40] ^= 128
         host = PretendedHost(bytes(changed), b"a state")

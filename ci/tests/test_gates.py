@@ -5,7 +5,7 @@ import unittest
 import zipfile
 from pathlib import Path
 
-from releasing import gates
+from releasing import archives, gates, reading
 from releasing.platforms import ARM, LINUX, WINDOWS
 from tests.compiled import FUNCTIONS, WINDOWS as MINGW, code, library, read
 
@@ -70,7 +70,8 @@ class OtherProperties(unittest.TestCase):
         for compiler in (("cc",), MINGW):
             self.assertEqual(gates.stripped(read(code(), compiler=compiler)), [])
             self.assertNotEqual(gates.stripped(read(code(), compiler=compiler, stripped=False)), [])
-            self.assertNotEqual(gates.stripped(read(code(), "-g", compiler=compiler, stripped=False)), [])
+            for options in (["-g"], ["-Wl,--strip-debug"]):  # the names of functions alone
+                self.assertNotEqual(gates.stripped(read(code(), *options, compiler=compiler, stripped=False)), [])
 
 
 class PrivatePaths(unittest.TestCase):
@@ -105,16 +106,17 @@ class Files(unittest.TestCase):
         text = code(FUNCTIONS[1:]) + NEW_SYMBOL + 'const char *where(void) { return "/some/checkout/src"; }\n'
         file = self.folder / "pounding.so"
         file.write_bytes(library(text, stripped=False))
-        problems = "\n".join(gates.of_file(file, gates.reading.read(file), LINUX, ["/some/checkout"]))
+        problems = "\n".join(gates.of_file(file, reading.read(file), LINUX, ["/some/checkout"]))
         for part in ("fmi2CancelStep is not", "use is exported", "GLIBC_2.25", "not stripped", "/some/checkout"):
             self.assertIn(part, problems)
 
     def test_members_of_archives(self):
         wheel = self.folder / "x.whl"
         with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED) as archive:
-            archive.writestr("x/_x.abi3.so", library(NEW_SYMBOL))
+            archive.writestr("x/_native.abi3.so", library(NEW_SYMBOL))
             archive.writestr("x/text.txt", "made in /some/checkout/target")
-        problems = gates.of_archive(wheel, LINUX, ["/some/checkout"])
+            archive.writestr("x/data/libraries/linux64/pounding.so", library(NEW_SYMBOL))  # data: not Python's
+        problems = archives.check(wheel, LINUX, ["/some/checkout"])
         self.assertEqual(len(problems), 2, problems)
-        self.assertIn("x.whl: x/_x.abi3.so needs GLIBC_2.25", problems[0])
+        self.assertIn("x.whl: x/_native.abi3.so needs GLIBC_2.25", problems[0])
         self.assertIn("x.whl: x/text.txt contains the path /some/checkout", problems[1])

@@ -33,8 +33,9 @@ class Sources(unittest.TestCase):
 class OnWindows(unittest.TestCase):
     def test_only_tests_that_ran_count(self):
         self.assertEqual(unit_tests.judged(0, "test result: ok. 8 passed; 0 failed"), [])
-        for code_and_text in ((0, "test result: ok. 0 passed; 0 failed"), (101, "test result: FAILED. 7 passed"), (0, "")):
-            self.assertEqual(len(unit_tests.judged(*code_and_text)), 1)
+        for failed in ((0, "test result: ok. 0 passed; 0 failed"), (101, "test result: FAILED. 7 passed; 1 failed"), (0, ""),
+                       (1, "test result: ok. 8 passed; 0 failed")):
+            self.assertEqual(len(unit_tests.judged(*failed)), 1)
 
 
 class Needs(unittest.TestCase):
