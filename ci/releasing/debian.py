@@ -2,12 +2,14 @@
 
 import importlib.util
 import platform
+import re
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Callable
 
 from releasing.commands import Failure
+from releasing.places import ROOT
 
 # The loader, which libc6-arm64-cross installs, and the folder in which qemu looks for it and the C library.
 ARM_ROOT = Path("/usr/aarch64-linux-gnu")
@@ -44,11 +46,17 @@ def missing(needs=NEEDS):
     return [need for need in needs if not need.is_there()]
 
 
+def blanks_in(folder):
+    if not re.search(r"\s", str(folder)):
+        return []
+    return [f"{folder}: the checkout has to be in a path without blanks, which dlltool of mingw cannot read"]
+
+
 def require(needs=NEEDS):
     """Fails with everything that is missing."""
     if (platform.system(), platform.machine()) != ("Linux", "x86_64"):
         raise Failure("ci/release runs on Linux with an x86-64 processor; elsewhere ci/native builds this machine's library")
-    problems = []
+    problems = blanks_in(ROOT)
     if not shutil.which("cargo"):
         problems.append("Rust is missing: cargo is not on the path")
     packages = missing(needs)

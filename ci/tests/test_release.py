@@ -21,6 +21,11 @@ class Packages(unittest.TestCase):
         debian.require([there])
 
 
+    def test_a_path_with_blanks(self):
+        self.assertEqual(debian.blanks_in(Path("/srv/pounding")), [])
+        self.assertIn("/srv/two words: ", debian.blanks_in(Path("/srv/two words"))[0])
+
+
 class Sources(unittest.TestCase):
     def test_the_version_of_the_compiler_and_no_other(self):
         offered = ["1.97.1+dfsg1-1", "1.95.0+dfsg1-2~bpo13+1", "1.95.01-1", "1.9.0-1"]
