@@ -15,6 +15,8 @@ MACHINES = {
     lief.PE.Header.MACHINE_TYPES.AMD64: "x86-64", lief.PE.Header.MACHINE_TYPES.ARM64: "aarch64",
     lief.MachO.Header.CPU_TYPE.X86_64: "x86-64", lief.MachO.Header.CPU_TYPE.ARM64: "aarch64",
 }
+# Bits in the type of a symbol in a Mach-O file that only those of a debugger have.
+N_STAB = 0xE0
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,7 @@ def of_mach_o(binary):
               if not (own and library.command == lief.MachO.LoadCommand.TYPE.ID_DYLIB)]
     build = binary.build_version or binary.version_min
     minimum = ".".join(map(str, (build.minos if binary.build_version else build.version)[:2])) if build else None
-    is_stripped = not any(section.name.startswith("__debug") for section in binary.sections)
+    is_stripped = not any(symbol.raw_type & N_STAB for symbol in binary.symbols)
     return Library(MACH_O, machine(binary.header.cpu_type), frozenset(names), frozenset(needed), frozenset(), is_stripped,
                    minimum)
 

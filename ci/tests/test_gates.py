@@ -6,8 +6,8 @@ import zipfile
 from pathlib import Path
 
 from releasing import archives, gates, reading
-from releasing.platforms import ARM, LINUX, WINDOWS
-from tests.compiled import FUNCTIONS, WINDOWS as MINGW, code, library, read
+from releasing.platforms import ARM, LINUX, NATIVE, WINDOWS
+from tests.compiled import FUNCTIONS, MACOS, WINDOWS as MINGW, code, library, read
 
 NEW_SYMBOL = "#include <sys/random.h>\nint use(void *p) { return getrandom(p, 1, 0); }\n"  # GLIBC_2.25
 OLD_SYMBOL = "#include <stdlib.h>\nint use(void) { return abs(rand()); }\n"  # GLIBC_2.2.5
@@ -72,6 +72,23 @@ class OtherProperties(unittest.TestCase):
             self.assertNotEqual(gates.stripped(read(code(), compiler=compiler, stripped=False)), [])
             for options in (["-g"], ["-Wl,--strip-debug"]):  # the names of functions alone
                 self.assertNotEqual(gates.stripped(read(code(), *options, compiler=compiler, stripped=False)), [])
+
+
+class MacOs(unittest.TestCase):
+    """Where no Mac is at hand: zig links for it too."""
+
+    def test_what_its_files_say(self):
+        found = read(code(), compiler=MACOS)
+        # zig exports these two as well; Apple's linker does not.
+        problems = [name for name in gates.exports(found, frozenset(FUNCTIONS)) if "__dso" not in name and "_mh_" not in name]
+        self.assertEqual(problems, [])
+        self.assertEqual((found.machine, found.minimum_system), ("aarch64", "12.0"))
+        self.assertEqual(gates.system_libraries(found, NATIVE["Darwin", "arm64"]), [])
+        self.assertEqual(gates.machine(found, NATIVE["Darwin", "x86_64"]), ["made for aarch64, expected x86-64"])
+
+    def test_stripped(self):
+        self.assertEqual(gates.stripped(read(code(), compiler=MACOS)), [])
+        self.assertNotEqual(gates.stripped(read(code(), "-g", compiler=MACOS, stripped=False)), [])
 
 
 class PrivatePaths(unittest.TestCase):
