@@ -4,6 +4,7 @@ import json
 import os
 import shutil
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 from releasing import remapping
@@ -16,7 +17,6 @@ ZIGBUILD = Path(sys.executable).with_name("cargo-zigbuild")
 # Where cargo-zigbuild finds zig; caches that would go to the home directory; flags of the user's that would replace ours.
 VARIABLES = {
     "PATH": os.pathsep.join([str(ZIGBUILD.parent), os.environ.get("PATH", "")]),
-    "CARGO_TARGET_DIR": WORK / "cargo",
     "CARGO_ZIGBUILD_CACHE_DIR": WORK / "zig",
     "ZIG_GLOBAL_CACHE_DIR": WORK / "zig/global",
     "ZIG_LOCAL_CACHE_DIR": WORK / "zig/local",
@@ -25,16 +25,28 @@ VARIABLES = {
 }
 
 
-def compile_library(platform, compiler, libraries):
+@dataclass(frozen=True)
+class Toolchain:
+    """A rustc, and the target directory for it: what was compiled with one standard library does not fit another."""
+
+    compiler: Path = Path("rustc")
+    target: Path = WORK / "cargo"
+
+    @property
+    def variables(self):
+        return {**VARIABLES, "RUSTC": self.compiler, "CARGO_TARGET_DIR": self.target}
+
+
+def compile_library(platform, toolchain, libraries):
     """Compiles the library and puts it into the folder of its platform below `libraries`."""
     triple = platform.triple + (f".{platform.glibc}" if platform.glibc else "")
     cargo = [ZIGBUILD] if platform.glibc else ["cargo"]
     run(*cargo, "rustc", "--release", "--lib", "--crate-type", "cdylib", "--package", "pounding-fmu", "--target", triple,
-        *flag_arguments([*platform.flags, *remapping.flags(compiler)]), "--", "--cfg", "fmi_exports",
-        variables={**VARIABLES, "RUSTC": compiler}, aloud=True)
+        *flag_arguments([*platform.flags, *remapping.flags(toolchain.compiler)]), "--", "--cfg", "fmi_exports",
+        variables=toolchain.variables, aloud=True)
     library = libraries / platform.name / platform.library
     library.parent.mkdir(parents=True, exist_ok=True)
-    shutil.copyfile(WORK / "cargo" / platform.triple / "release" / platform.file, library)
+    shutil.copyfile(toolchain.target / platform.triple / "release" / platform.file, library)
     return library
 
 

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from releasing import cases, comparison, gates, needs, platforms, reading, remapping
-from releasing.cargo import compile_library
+from releasing.cargo import Toolchain, compile_library
 from releasing.commands import Failure
 from releasing.hosts import Host
 
@@ -19,7 +19,7 @@ def main():
         command = commands.add_parser(name)
         command.set_defaults(function=function)
         for folder in folders:
-            command.add_argument(folder, type=Path)
+            command.add_argument(folder, type=Path if function is build else existing_folder)
     arguments = vars(parser.parse_args())
     try:
         arguments.pop("function")(**arguments)
@@ -27,19 +27,29 @@ def main():
         sys.exit(str(failure))
 
 
+def existing_folder(name):
+    if not Path(name).is_dir():
+        raise argparse.ArgumentTypeError(f"{name!r} is no folder")
+    return Path(name)
+
+
 def build(libraries):
     platform = this_platform()
-    file = compile_library(platform, Path("rustc"), libraries)
+    file = compile_library(platform, Toolchain(), libraries)
     stop_at(gates.of_file(file, reading.read(file), platform, remapping.private_paths()))
     print(f"{file}: {needs.of(file)}")
 
 
 def compare(libraries, cases_folder):
     platform = this_platform()
-    shutil.rmtree(cases.FOLDER, ignore_errors=True)
-    shutil.copytree(cases_folder, cases.FOLDER)
+    if cases_folder.resolve() != cases.FOLDER:
+        shutil.rmtree(cases.FOLDER, ignore_errors=True)
+        shutil.copytree(cases_folder, cases.FOLDER)
     host = Host(platform, is_native=True)
-    host.prepare(libraries / platform.name / platform.library)
+    library = libraries / platform.name / platform.library
+    if not library.is_file():
+        raise Failure(f"{library}: no such file")
+    host.prepare(library)
     reference = cases.found()
     stop_at(comparison.same_outputs(reference, [host]))
     stop_at(comparison.from_kept_states(reference, host))

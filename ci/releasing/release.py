@@ -36,12 +36,12 @@ def release(arguments):
     test_gates()
     shutil.rmtree(DRAFT, ignore_errors=True)
     progress.step("the standard libraries of other platforms")
-    compiler = standard_library.compiler(CROSS, arguments.std)
+    toolchain = standard_library.toolchain(CROSS, arguments.std)
     for platform in CROSS:
         progress.step(f"compiling the library for {platform.name}")
-        compile_library(platform, compiler, LIBRARIES)
+        compile_library(platform, toolchain, LIBRARIES)
     stop_at(check_libraries())
-    check_behaviour(compiler)
+    check_behaviour(toolchain)
     progress.step("the wheel")
     make_wheel()
     progress.step("the FMUs of the examples")
@@ -71,7 +71,7 @@ def check_libraries():
     return [problem for file, platform in files for problem in gates.of_file(file, reading.read(file), platform, private)]
 
 
-def check_behaviour(compiler):
+def check_behaviour(toolchain):
     """The same bits on all platforms, and the unit tests that only Windows has."""
     all_hosts = [hosts.Host(platform, is_native=platform is LINUX) for platform in CROSS]
     for host in all_hosts:
@@ -87,7 +87,7 @@ def check_behaviour(compiler):
     stop_at(comparison.crosswise(reference, all_hosts))
     progress.step("unit tests on Windows")
     windows = next(host for host in all_hosts if host.platform is WINDOWS)
-    stop_at(unit_tests.on_windows(windows, compiler))
+    stop_at(unit_tests.on_windows(windows, toolchain))
 
 
 def make_wheel():

@@ -5,7 +5,7 @@ import subprocess
 from pathlib import Path
 
 from releasing import debian_sources
-from releasing.cargo import VARIABLES, flag_arguments
+from releasing.cargo import Toolchain, flag_arguments
 from releasing.commands import Failure, run
 from releasing.places import WORK
 from releasing.remapping import flags
@@ -13,8 +13,8 @@ from releasing.remapping import flags
 FOLDER = WORK / "std"
 
 
-def compiler(platforms, source):
-    """A rustc that has the standard libraries of the platforms; `source` is auto, rustup or debian."""
+def toolchain(platforms, source):
+    """One that has the standard libraries of the platforms; `source` is auto, rustup or debian."""
     if source == "debian":
         return from_debian(platforms)
     missing = [platform.triple for platform in platforms if not has_library(platform.triple)]
@@ -22,7 +22,7 @@ def compiler(platforms, source):
         if source == "rustup":
             raise Failure("rustup has no standard library for " + ", ".join(missing))
         return from_debian(platforms)
-    return Path("rustc")
+    return Toolchain()
 
 
 def has_library(triple):
@@ -34,21 +34,22 @@ def added(triples):
 
 
 def from_debian(platforms):
-    """A rustc with a system root of its own: links to the toolchain's library for this machine, and what is built here."""
-    root, toolchain = FOLDER / "root", Path(run("rustc", "--print", "sysroot").strip())
+    """A rustc with a system root of its own: links to what the installed one has for this machine, and what is built here."""
+    root, installed = FOLDER / "root", Path(run("rustc", "--print", "sysroot").strip())
     host = next(line.split()[1] for line in run("rustc", "-vV").splitlines() if line.startswith("host:"))
-    link(root / "lib/rustlib" / host, toolchain / "lib/rustlib" / host)
+    link(root / "lib/rustlib" / host, installed / "lib/rustlib" / host)
     link(root / "lib/rustlib/src/rust/library", debian_sources.library())
     compiler = FOLDER / "rustc"
-    compiler.write_text(f'#!/bin/sh\nexec "{toolchain}/bin/rustc" --sysroot "{root}" "$@"\n')
+    compiler.write_text(f'#!/bin/sh\nexec "{installed}/bin/rustc" --sysroot "{root}" "$@"\n')
     compiler.chmod(0o755)
+    toolchain = Toolchain(compiler, WORK / "cargo-debian")
     for platform in platforms:
         if platform.triple != host:
-            build(platform.triple, compiler, root)
-    return compiler
+            build(platform.triple, toolchain, root)
+    return toolchain
 
 
-def build(triple, compiler, root):
+def build(triple, toolchain, root):
     """Builds the standard library so that it can be optimised together with the crates that use it."""
     version = run("rustc", "-V")
     built = root / "lib/rustlib" / triple / "lib"
@@ -60,11 +61,12 @@ def build(triple, compiler, root):
     (crate / "src/lib.rs").touch()
     (crate / "Cargo.toml").write_text('[package]\nname = "empty"\nedition = "2021"\n[workspace]\n')
     target = FOLDER / "build"
-    shutil.rmtree(target / triple, ignore_errors=True)
+    for outdated in (target, toolchain.target):
+        shutil.rmtree(outdated / triple, ignore_errors=True)
     # The compiler lets only its developers build the standard library, unless it is told that it is at work for them.
     run("cargo", "build", "--release", "-Zbuild-std=std,panic_unwind", "--target", triple, "--target-dir", target,
-        *flag_arguments(["-Cembed-bitcode=yes", *flags(compiler)]),
-        variables={**VARIABLES, "RUSTC": compiler, "RUSTC_BOOTSTRAP": "1"}, folder=crate, aloud=True)
+        *flag_arguments(["-Cembed-bitcode=yes", *flags(toolchain.compiler)]),
+        variables={**toolchain.variables, "RUSTC_BOOTSTRAP": "1"}, folder=crate, aloud=True)
     shutil.rmtree(built, ignore_errors=True)
     built.mkdir(parents=True)
     for file in (target / triple / "release/deps").glob("*.rlib"):

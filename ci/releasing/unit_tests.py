@@ -4,7 +4,6 @@ import json
 import re
 import shutil
 
-from releasing.cargo import VARIABLES
 from releasing.commands import run
 
 # What a master passes as the location of the resources: drives and servers.
@@ -13,10 +12,10 @@ TESTS = "resource_location"
 QUICKLY = ("--config", "profile.dev.opt-level=0", "--config", "profile.dev.debug=false")
 
 
-def on_windows(host, compiler):
+def on_windows(host, toolchain):
     """What is wrong, a line each."""
     messages = run("cargo", "test", "--package", "pounding-fmu", "--lib", "--no-run", "--target", host.platform.triple,
-                   *QUICKLY, "--message-format=json-render-diagnostics", variables={**VARIABLES, "RUSTC": compiler}, aloud=True)
+                   *QUICKLY, "--message-format=json-render-diagnostics", variables=toolchain.variables, aloud=True)
     programs = [json.loads(line).get("executable") for line in messages.splitlines()]
     # Beside the host, where wine finds what it lacks.
     program = host.folder / "unit-tests.exe"
