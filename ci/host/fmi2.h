@@ -15,8 +15,8 @@ typedef struct {
     void *environment;
 } Callbacks;
 
-typedef void *Instantiate(const char *name, int type, const char *guid, const char *resources, const Callbacks *callbacks,
-                          int visible, int logging);
+typedef void *Instantiate(const char *name, int type, const char *guid, const char *resources,
+                          const Callbacks *callbacks, int visible, int logging);
 typedef void FreeInstance(void *fmu);
 typedef int SetupExperiment(void *fmu, int has_tolerance, double tolerance, double start, int has_stop, double stop);
 typedef int Simple(void *fmu);

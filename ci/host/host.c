@@ -131,7 +131,8 @@ static void free_run(Run *run) {
 
 /* ---- the FMU ---- */
 
-static void log_message(void *environment, const char *name, int status, const char *category, const char *message, ...) {
+static void log_message(void *environment, const char *name, int status, const char *category, const char *message,
+                        ...) {
     (void)environment, (void)name, (void)category;
     if (status <= FMI2_WARNING) return;
     va_list arguments;
@@ -216,8 +217,8 @@ static void observe(const Functions *fmi, void *fmu, const Run *run, FILE *outpu
         const unsigned *pair = run->partials.references + i;
         const double seed = 1.0;
         double partial;
-        require(fmi->GetDirectionalDerivative(fmu, pair, 1, pair + 1, 1, &seed, &partial), "fmi2GetDirectionalDerivative",
-                point);
+        require(fmi->GetDirectionalDerivative(fmu, pair, 1, pair + 1, 1, &seed, &partial),
+                "fmi2GetDirectionalDerivative", point);
         write_all(output, &partial, sizeof(double), 1);
     }
     free(numbers);

@@ -16,7 +16,11 @@ def check(path, platform, private):
             found = gates.private_paths(content, private)
             if name in modules:
                 module = reading.read_bytes(content, name)
-                found += [*gates.machine(module, platform), *gates.symbol_versions(module, platform), *gates.stripped(module)]
+                found += [
+                    *gates.machine(module, platform),
+                    *gates.symbol_versions(module, platform),
+                    *gates.stripped(module),
+                ]
             problems += [f"{path.name}: {name} {problem}" for problem in found]
     return problems
 

@@ -14,7 +14,8 @@ from releasing.places import WORK
 # The programs of ci/requirements.txt lie beside their Python.
 ZIGBUILD = Path(sys.executable).with_name("cargo-zigbuild")
 
-# Where cargo-zigbuild finds zig; caches that would go to the home directory; flags of the user's that would replace ours.
+# Where cargo-zigbuild finds zig; caches that would go to the home directory; flags of the user's that would replace
+# ours.
 VARIABLES = {
     "PATH": os.pathsep.join([str(ZIGBUILD.parent), os.environ.get("PATH", "")]),
     "CARGO_ZIGBUILD_CACHE_DIR": WORK / "zig",
@@ -41,9 +42,24 @@ def compile_library(platform, toolchain, libraries):
     """Compiles the library and puts it into the folder of its platform below `libraries`."""
     triple = platform.triple + (f".{platform.glibc}" if platform.glibc else "")
     cargo = [ZIGBUILD] if platform.glibc else ["cargo"]
-    run(*cargo, "rustc", "--release", "--lib", "--crate-type", "cdylib", "--package", "pounding-fmu", "--target", triple,
-        *flag_arguments([*platform.flags, *remapping.flags(toolchain.compiler)]), "--", "--cfg", "fmi_exports",
-        variables=toolchain.variables, aloud=True)
+    run(
+        *cargo,
+        "rustc",
+        "--release",
+        "--lib",
+        "--crate-type",
+        "cdylib",
+        "--package",
+        "pounding-fmu",
+        "--target",
+        triple,
+        *flag_arguments([*platform.flags, *remapping.flags(toolchain.compiler)]),
+        "--",
+        "--cfg",
+        "fmi_exports",
+        variables=toolchain.variables,
+        aloud=True,
+    )
     library = libraries / platform.name / platform.library
     library.parent.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(toolchain.target / platform.triple / "release" / platform.file, library)

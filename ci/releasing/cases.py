@@ -1,7 +1,7 @@
 """The reference scenes as cases to run: an unpacked FMU each, of which the host gets the resources.
 
-Every scene of the examples, of the comparison with the reference solution and of the stress tests, and one in ci/scenes/
-with every kind of input.
+Every scene of the examples, of the comparison with the reference solution and of the stress tests, and one in
+ci/scenes/ with every kind of input.
 """
 
 import shutil
@@ -71,8 +71,11 @@ class Case:
         return self.description.findall("ModelVariables/ScalarVariable")
 
     def of(self, causality, kind):
-        return [variable for variable in self.variables
-                if variable.get("causality") == causality and variable.find(kind) is not None]
+        return [
+            variable
+            for variable in self.variables
+            if variable.get("causality") == causality and variable.find(kind) is not None
+        ]
 
     @cached_property
     def inputs(self):
@@ -84,7 +87,9 @@ class Case:
         pairs = []
         for unknown in self.description.findall("ModelStructure/Outputs/Unknown"):
             knowns = [self.variables[int(index) - 1] for index in unknown.get("dependencies", "").split()]
-            pairs += [(self.variables[int(unknown.get("index")) - 1], known) for known in knowns if known in self.inputs]
+            pairs += [
+                (self.variables[int(unknown.get("index")) - 1], known) for known in knowns if known in self.inputs
+            ]
         return pairs
 
     @cached_property
@@ -101,7 +106,7 @@ class Case:
         return sum(size for _, size in self.columns)
 
     def input_rows(self):
-        """Values and slopes of all inputs at every point, as the host reads them: lines between the points of a sawtooth, near resonance.
+        """Values and slopes of all inputs at every point, as the host reads them: a sawtooth, near resonance.
 
         The limits of an input are those of a million m/s2 (docs/coupling.md): 3e-6 of them is an earthquake.
         """
@@ -118,7 +123,7 @@ class Case:
         return struct.pack(f"<{len(rows)}d", *rows)
 
     def middle(self, outputs):
-        """The point at which states are saved: in contact, if there is such a point in the second third, else half way."""
+        """Where states are saved: in contact, if the second third of the run has such a point, else half way."""
         offset, flags = 0, []
         for name, size in self.columns:
             if name.endswith(".active"):

@@ -17,8 +17,16 @@ def run(*command, variables=None, folder=ROOT, aloud=False):
     command = [str(word) for word in command]
     shown = None if aloud and sys.stderr.isatty() else subprocess.PIPE
     try:
-        done = subprocess.run(command, env=environment(variables), cwd=folder, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=shown, text=True, errors="replace")
+        done = subprocess.run(
+            command,
+            env=environment(variables),
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=shown,
+            text=True,
+            errors="replace",
+        )
     except OSError as error:
         raise Failure(f"cannot start {command[0]}: {error.strerror}") from error
     if done.returncode != 0:

@@ -39,7 +39,9 @@ def same_outputs(cases, hosts):
 
 def crosswise(cases, hosts):
     """What any host has saved, every host goes on from: to the same outputs, to the same bytes when saved again."""
-    return together(hosts, lambda host: check(host, [continued(run, host) for saver in hosts for run in started(cases, saver)]))
+    return together(
+        hosts, lambda host: check(host, [continued(run, host) for saver in hosts for run in started(cases, saver)])
+    )
 
 
 def continued(run, host):

@@ -38,7 +38,9 @@ NEEDS = (
     Need("gcc-mingw-w64-x86-64-posix", "links the library for Windows", command("x86_64-w64-mingw32-gcc")),
     Need("wine64", "runs the library for Windows", wine),
     Need("qemu-user", "runs the library for Arm", command("qemu-aarch64")),
-    Need("libc6-arm64-cross", "the C library of Arm, for qemu", lambda: (ARM_ROOT / "lib/ld-linux-aarch64.so.1").exists()),
+    Need(
+        "libc6-arm64-cross", "the C library of Arm, for qemu", lambda: (ARM_ROOT / "lib/ld-linux-aarch64.so.1").exists()
+    ),
 )
 
 
@@ -55,7 +57,9 @@ def blanks_in(folder):
 def require(needs=NEEDS):
     """Fails with everything that is missing."""
     if (platform.system(), platform.machine()) != ("Linux", "x86_64"):
-        raise Failure("ci/release runs on Linux with an x86-64 processor; elsewhere ci/native builds this machine's library")
+        raise Failure(
+            "ci/release runs on Linux with an x86-64 processor; elsewhere ci/native builds the library of the machine"
+        )
     problems = blanks_in(ROOT)
     if not shutil.which("cargo"):
         problems.append("Rust is missing: cargo is not on the path")

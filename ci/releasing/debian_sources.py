@@ -29,7 +29,9 @@ def fetch(version):
     apt = configure()
     # A release that a server does not have is no reason to stop.
     run("sh", "-c", "apt-get --quiet update || true", variables=apt)
-    offered = [line.split("|")[1].strip() for line in run("apt-cache", "madison", "rust-src", variables=apt).splitlines()]
+    offered = [
+        line.split("|")[1].strip() for line in run("apt-cache", "madison", "rust-src", variables=apt).splitlines()
+    ]
     run("apt-get", "--quiet", "download", f"rust-src={fitting(version, offered)}", variables=apt, folder=FOLDER)
     for package in FOLDER.glob("rust-src_*.deb"):
         run("dpkg-deb", "--extract", package, FOLDER)
@@ -55,12 +57,13 @@ def configure():
         (FOLDER / folder).mkdir(parents=True, exist_ok=True)
     sources = [f"deb {signed}{server} {release} main" for server in sorted(set(servers)) for release in RELEASES]
     (FOLDER / "sources.list").write_text("\n".join(sources) + "\n")
-    # Files of a release that are not lists of packages are not fetched; nobody but root may read a checkout in root's home.
+    # No translations; and root's home directory, where a checkout may be, is for root alone.
     (FOLDER / "apt.conf").write_text(
         f'Dir::Etc::sourcelist "{FOLDER}/sources.list";\n'
         'Dir::Etc::sourceparts "-";\n'
         f'Dir::State::lists "{FOLDER}/lists";\n'
         f'Dir::Cache "{FOLDER}/cache";\n'
         'Acquire::Languages "none";\n'
-        'APT::Sandbox::User "root";\n')
+        'APT::Sandbox::User "root";\n'
+    )
     return {"APT_CONFIG": FOLDER / "apt.conf"}

@@ -30,8 +30,10 @@ def exports(library, functions):
 
 def system_libraries(library, platform):
     """What it needs is on every machine of the platform."""
-    return [f"needs {name}, which is no part of the system"
-            for name in sorted(library.libraries - set(platform.system_libraries))]
+    return [
+        f"needs {name}, which is no part of the system"
+        for name in sorted(library.libraries - set(platform.system_libraries))
+    ]
 
 
 def symbol_versions(library, platform):
@@ -56,14 +58,14 @@ def private_paths(content, paths):
         for spelling in {path, path.replace("\\", "/"), path.replace("/", "\\")}:
             position = re.search(pattern(spelling), content)
             if position:
-                around = content[max(position.start() - 20, 0):position.end() + 60]
+                around = content[max(position.start() - 20, 0) : position.end() + 60]
                 found.append(f"contains the path {path}: {around!r}")
                 break
     return found
 
 
 def pattern(path):
-    """A path, then a separator. One that is a single word may be a folder of another path: a name before it excludes it."""
+    """A path, then a separator. One of a single word may be a folder in another path: a name before it excludes it."""
     text = re.escape(path.rstrip("/\\").encode())
     is_single = len(re.findall(r"[^/\\]+", path)) < 2
     return (rb"(?<![\w.\-])" if is_single else rb"") + text + rb"[/\\]"
@@ -72,7 +74,11 @@ def pattern(path):
 def of_file(path, library, platform, private):
     """All of them, for one file."""
     problems = [
-        *machine(library, platform), *exports(library, functions_of_fmi()), *system_libraries(library, platform),
-        *symbol_versions(library, platform), *stripped(library), *private_paths(path.read_bytes(), private),
+        *machine(library, platform),
+        *exports(library, functions_of_fmi()),
+        *system_libraries(library, platform),
+        *symbol_versions(library, platform),
+        *stripped(library),
+        *private_paths(path.read_bytes(), private),
     ]
     return [f"{platform.name}/{path.name}: {problem}" for problem in problems]

@@ -43,14 +43,31 @@ class Host:
         self.folder.mkdir(parents=True, exist_ok=True)
         shutil.copy(library, self.folder / self.platform.library)
         if self.is_wine:
-            # Before wine 9 there is no bcryptprimitives.dll, which the standard library of Rust asks for random numbers.
-            run("x86_64-w64-mingw32-gcc", "-shared", CI / "host/bcryptprimitives.c", "-o",
-                self.folder / "bcryptprimitives.dll", "-ladvapi32")
+            # wine before version 9 has no bcryptprimitives.dll, which Rust's standard library asks for random numbers.
+            run(
+                "x86_64-w64-mingw32-gcc",
+                "-shared",
+                CI / "host/bcryptprimitives.c",
+                "-o",
+                self.folder / "bcryptprimitives.dll",
+                "-ladvapi32",
+            )
             (WORK / "wine").mkdir(exist_ok=True)
         libraries = ["-ldl"] if self.platform.file.endswith(".so") else []
         compiler = [sys.executable if word == "python" else word for word in self.platform.host_compiler]
-        run(*compiler, "-std=c99", "-Wall", "-Wextra", "-Werror", "-O1", CI / "host/host.c", "-o", self.program, *libraries,
-            variables=VARIABLES)
+        run(
+            *compiler,
+            "-std=c99",
+            "-Wall",
+            "-Wextra",
+            "-Werror",
+            "-O1",
+            CI / "host/host.c",
+            "-o",
+            self.program,
+            *libraries,
+            variables=VARIABLES,
+        )
 
     def start(self, program, arguments):
         """Runs a program of the platform; returns its exit code and what it has said."""
@@ -60,8 +77,15 @@ class Host:
             command, variables = [debian.wine(), program], WINE
         else:
             command, variables = ["qemu-aarch64", "-L", debian.ARM_ROOT, program], {}
-        done = subprocess.run([*map(str, command), *arguments], cwd=FOLDER, env=environment(variables),
-                              stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
+        done = subprocess.run(
+            [*map(str, command), *arguments],
+            cwd=FOLDER,
+            env=environment(variables),
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            errors="replace",
+        )
         return done.returncode, "\n".join(text.strip() for text in (done.stdout, done.stderr) if text.strip())
 
     def uri(self, folder):
@@ -72,7 +96,13 @@ class Host:
 
 def stop_wine():
     """Ends the processes that wine has left in our prefix."""
-    server = next((path for path in (Path("/usr/lib/wine/wineserver64"), shutil.which("wineserver"))
-                   if path and Path(path).exists()), None)
+    server = next(
+        (
+            path
+            for path in (Path("/usr/lib/wine/wineserver64"), shutil.which("wineserver"))
+            if path and Path(path).exists()
+        ),
+        None,
+    )
     if server and (WORK / "wine").exists():
         subprocess.run([str(server), "-k"], env=environment(WINE), stdin=subprocess.DEVNULL, capture_output=True)

@@ -14,8 +14,11 @@ from releasing.hosts import Host
 def main():
     parser = argparse.ArgumentParser(prog="ci/native", description="The part of a release for the platform it runs on.")
     commands = parser.add_subparsers(required=True)
-    for name, function, *folders in (("build", build, "libraries"), ("compare", compare, "libraries", "cases_folder"),
-                                     ("list", list_files, "files")):
+    for name, function, *folders in (
+        ("build", build, "libraries"),
+        ("compare", compare, "libraries", "cases_folder"),
+        ("list", list_files, "files"),
+    ):
         command = commands.add_parser(name)
         command.set_defaults(function=function)
         for folder in folders:

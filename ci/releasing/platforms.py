@@ -7,7 +7,12 @@ GLIBC = "2.17"  # of manylinux2014: RHEL 7, Ubuntu 14.04, and everything since
 
 OF_GLIBC = ("libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1")
 OF_WINDOWS = (
-    "kernel32.dll", "ntdll.dll", "msvcrt.dll", "ws2_32.dll", "userenv.dll", "bcryptprimitives.dll",
+    "kernel32.dll",
+    "ntdll.dll",
+    "msvcrt.dll",
+    "ws2_32.dll",
+    "userenv.dll",
+    "bcryptprimitives.dll",
     "api-ms-win-core-synch-l1-2-0.dll",
 )
 OF_MACOS = ("/usr/lib/libSystem.B.dylib",)
@@ -32,26 +37,38 @@ class Platform:
 
 
 LINUX = Platform(
-    "linux64", "x86_64-unknown-linux-gnu", "x86-64", "libpounding.so",
-    (*OF_GLIBC, "ld-linux-x86-64.so.2"), GLIBC,
-    host_compiler=("python", "-m", "ziglang", "cc", "-target", f"x86_64-linux-gnu.{GLIBC}"))
+    "linux64",
+    "x86_64-unknown-linux-gnu",
+    "x86-64",
+    "libpounding.so",
+    (*OF_GLIBC, "ld-linux-x86-64.so.2"),
+    GLIBC,
+    host_compiler=("python", "-m", "ziglang", "cc", "-target", f"x86_64-linux-gnu.{GLIBC}"),
+)
 WINDOWS = Platform(
-    "win64", "x86_64-pc-windows-gnu", "x86-64", "pounding.dll", OF_WINDOWS,
-    host_compiler=("x86_64-w64-mingw32-gcc",))
+    "win64", "x86_64-pc-windows-gnu", "x86-64", "pounding.dll", OF_WINDOWS, host_compiler=("x86_64-w64-mingw32-gcc",)
+)
 ARM = Platform(
-    "aarch64-linux", "aarch64-unknown-linux-gnu", "aarch64", "libpounding.so",
-    (*OF_GLIBC, "ld-linux-aarch64.so.1"), GLIBC,
-    host_compiler=("python", "-m", "ziglang", "cc", "-target", f"aarch64-linux-gnu.{GLIBC}"))
+    "aarch64-linux",
+    "aarch64-unknown-linux-gnu",
+    "aarch64",
+    "libpounding.so",
+    (*OF_GLIBC, "ld-linux-aarch64.so.1"),
+    GLIBC,
+    host_compiler=("python", "-m", "ziglang", "cc", "-target", f"aarch64-linux-gnu.{GLIBC}"),
+)
 
 # What a Debian machine builds and runs; the first is what the others are compared with.
 CROSS = (LINUX, WINDOWS, ARM)
 
-# What ci/native builds on a machine of the platform itself. No redistributable of Microsoft's is needed with +crt-static.
+# What ci/native builds on a machine of the platform itself; with +crt-static no redistributable of Microsoft's is
+# needed.
 NATIVE = {
     ("Linux", "x86_64"): LINUX,
     ("Linux", "aarch64"): ARM,
     ("Windows", "AMD64"): Platform(
-        "win64", "x86_64-pc-windows-msvc", "x86-64", "pounding.dll", OF_WINDOWS, flags=("-Ctarget-feature=+crt-static",)),
+        "win64", "x86_64-pc-windows-msvc", "x86-64", "pounding.dll", OF_WINDOWS, flags=("-Ctarget-feature=+crt-static",)
+    ),
     ("Darwin", "x86_64"): Platform("darwin64", "x86_64-apple-darwin", "x86-64", "libpounding.dylib", OF_MACOS),
     ("Darwin", "arm64"): Platform("aarch64-darwin", "aarch64-apple-darwin", "aarch64", "libpounding.dylib", OF_MACOS),
 }

@@ -68,7 +68,9 @@ def library(platform):
 def check_libraries():
     private = remapping.private_paths()
     files = [(library(platform), platform) for platform in CROSS]
-    return [problem for file, platform in files for problem in gates.of_file(file, reading.read(file), platform, private)]
+    return [
+        problem for file, platform in files for problem in gates.of_file(file, reading.read(file), platform, private)
+    ]
 
 
 def check_behaviour(toolchain):

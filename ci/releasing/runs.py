@@ -56,8 +56,10 @@ class Run:
 
     def differences(self, expected):
         """Against all rows of the run from the start; one line about the first difference."""
-        found, expected = self.outputs(), expected[self.start * self.case.row_size:]
-        where = f"{self.case.name} on {self.host.platform.name}" + (f" from {self.start_state}" if self.start_state else "")
+        found, expected = self.outputs(), expected[self.start * self.case.row_size :]
+        where = f"{self.case.name} on {self.host.platform.name}" + (
+            f" from {self.start_state}" if self.start_state else ""
+        )
         return [f"{where}: {line}" for line in first_difference(self.case, found, expected, self.start)]
 
 
@@ -75,8 +77,10 @@ def first_difference(case, found, expected, start=0):
     for name, size in case.columns:
         if offset < size:
             begin = position - offset
-            return [f"{name} at point {start + row} is {found[begin:begin + size].hex()}, "
-                    f"expected {expected[begin:begin + size].hex()}"]
+            return [
+                f"{name} at point {start + row} is {found[begin : begin + size].hex()}, "
+                f"expected {expected[begin : begin + size].hex()}"
+            ]
         offset -= size
     return []
 

@@ -34,7 +34,7 @@ def added(triples):
 
 
 def from_debian(platforms):
-    """A rustc with a system root of its own: links to what the installed one has for this machine, and what is built here."""
+    """One with a system root of its own: links to what the installed rustc has for this machine, and what is built."""
     root, installed = FOLDER / "root", Path(run("rustc", "--print", "sysroot").strip())
     host = next(line.split()[1] for line in run("rustc", "-vV").splitlines() if line.startswith("host:"))
     link(root / "lib/rustlib" / host, installed / "lib/rustlib" / host)
@@ -64,9 +64,20 @@ def build(triple, toolchain, root):
     for outdated in (target, toolchain.target):
         shutil.rmtree(outdated / triple, ignore_errors=True)
     # The compiler lets only its developers build the standard library, unless it is told that it is at work for them.
-    run("cargo", "build", "--release", "-Zbuild-std=std,panic_unwind", "--target", triple, "--target-dir", target,
+    run(
+        "cargo",
+        "build",
+        "--release",
+        "-Zbuild-std=std,panic_unwind",
+        "--target",
+        triple,
+        "--target-dir",
+        target,
         *flag_arguments(["-Cembed-bitcode=yes", *flags(toolchain.compiler)]),
-        variables={**toolchain.variables, "RUSTC_BOOTSTRAP": "1"}, folder=crate, aloud=True)
+        variables={**toolchain.variables, "RUSTC_BOOTSTRAP": "1"},
+        folder=crate,
+        aloud=True,
+    )
     shutil.rmtree(built, ignore_errors=True)
     built.mkdir(parents=True)
     for file in (target / triple / "release/deps").glob("*.rlib"):

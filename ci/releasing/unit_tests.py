@@ -14,8 +14,20 @@ QUICKLY = ("--config", "profile.dev.opt-level=0", "--config", "profile.dev.debug
 
 def on_windows(host, toolchain):
     """What is wrong, a line each."""
-    messages = run("cargo", "test", "--package", "pounding-fmu", "--lib", "--no-run", "--target", host.platform.triple,
-                   *QUICKLY, "--message-format=json-render-diagnostics", variables=toolchain.variables, aloud=True)
+    messages = run(
+        "cargo",
+        "test",
+        "--package",
+        "pounding-fmu",
+        "--lib",
+        "--no-run",
+        "--target",
+        host.platform.triple,
+        *QUICKLY,
+        "--message-format=json-render-diagnostics",
+        variables=toolchain.variables,
+        aloud=True,
+    )
     programs = [json.loads(line).get("executable") for line in messages.splitlines()]
     # Beside the host, where wine finds what it lacks.
     program = host.folder / "unit-tests.exe"

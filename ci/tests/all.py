@@ -6,5 +6,6 @@ from pathlib import Path
 CI = Path(__file__).resolve().parents[1]
 
 if __name__ == "__main__":
-    unittest.main(module=None, argv=["all", "discover", "--start-directory", str(CI / "tests"),
-                                     "--top-level-directory", str(CI)])
+    unittest.main(
+        module=None, argv=["all", "discover", "--start-directory", str(CI / "tests"), "--top-level-directory", str(CI)]
+    )

@@ -31,8 +31,11 @@ def library(text, *options, compiler=LINUX, stripped=True):
         source, output = Path(folder) / "code.c", Path(folder) / "library.so"
         source.write_text(text)
         strip = ["-s"] if stripped else []
-        subprocess.run([*compiler, "-shared", "-fPIC", "-O1", *strip, source, "-o", output, *options], check=True,
-                       env=environment(VARIABLES))
+        subprocess.run(
+            [*compiler, "-shared", "-fPIC", "-O1", *strip, source, "-o", output, *options],
+            check=True,
+            env=environment(VARIABLES),
+        )
         return output.read_bytes()
 
 

@@ -57,7 +57,9 @@ class Bytes(unittest.TestCase):
         self.case = Case(self.folder / "cases/two")
         self.case.folder.mkdir(parents=True)
         (self.case.folder / "modelDescription.xml").write_text(DESCRIPTION)
-        self.outputs = b"".join(struct.pack("<ddiid", point, 0.5, point % 3, point == 900, 2.0) for point in range(STEPS + 1))
+        self.outputs = b"".join(
+            struct.pack("<ddiid", point, 0.5, point % 3, point == 900, 2.0) for point in range(STEPS + 1)
+        )
         (self.case.folder / "expected.outputs").write_bytes(self.outputs)
         for name in ("middle.state", "end.state"):
             (self.case.folder / name).write_bytes(b"a state")
@@ -67,8 +69,16 @@ class Bytes(unittest.TestCase):
 
     def test_the_row_is_read_from_the_description(self):
         names = [name for name, _ in self.case.columns]
-        self.assertEqual(names, ["left.acceleration[1]", "der(left.acceleration[1])", "impacts", "contact[1].active",
-                                 "d left.acceleration[1] / d left.force[1]"])
+        self.assertEqual(
+            names,
+            [
+                "left.acceleration[1]",
+                "der(left.acceleration[1])",
+                "impacts",
+                "contact[1].active",
+                "d left.acceleration[1] / d left.force[1]",
+            ],
+        )
         self.assertEqual(self.case.row_size, 32)
         self.assertEqual(self.case.middle(self.outputs), 900)
         self.assertEqual(len(self.case.input_rows()), 16 * (STEPS + 1))
@@ -77,9 +87,13 @@ class Bytes(unittest.TestCase):
         self.assertEqual(self.problems(self.outputs), [])
 
     def test_one_byte_of_the_outputs(self):
-        for position, name in ((32 * 70 + 7, "left.acceleration[1]"), (32 * 70 + 8, "der(left.acceleration[1])"),
-                               (32 * 70 + 16, "impacts"), (32 * 70 + 20, "contact[1].active"),
-                               (32 * 70 + 31, "d left.acceleration[1] / d left.force[1]")):
+        for position, name in (
+            (32 * 70 + 7, "left.acceleration[1]"),
+            (32 * 70 + 8, "der(left.acceleration[1])"),
+            (32 * 70 + 16, "impacts"),
+            (32 * 70 + 20, "contact[1].active"),
+            (32 * 70 + 31, "d left.acceleration[1] / d left.force[1]"),
+        ):
             changed = bytearray(self.outputs)
             changed[position] ^= 1
             problems = self.problems(bytes(changed))
@@ -95,17 +109,17 @@ class Bytes(unittest.TestCase):
         self.assertIn("aarch64-linux/two.start.900.state: the saved state has other bytes", problems[0])
 
     def test_going_on_from_a_state(self):
-        host = PretendedHost(self.outputs[900 * 32:], b"a state")
+        host = PretendedHost(self.outputs[900 * 32 :], b"a state")
         self.assertEqual(comparison.from_kept_states([self.case], host), [])
         order = (self.folder / "aarch64-linux/two.from-kept.run").read_text()
         self.assertIn("start_state cases/two/middle.state", order)
-        changed = bytearray(self.outputs[900 * 32:])
+        changed = bytearray(self.outputs[900 * 32 :])
         changed[40] ^= 128
         host = PretendedHost(bytes(changed), b"a state")
         self.assertIn("der(left.acceleration[1]) at point 901", comparison.from_kept_states([self.case], host)[0])
 
     def test_crosswise_takes_every_direction(self):
-        host = PretendedHost(self.outputs[900 * 32:], b"a state")
+        host = PretendedHost(self.outputs[900 * 32 :], b"a state")
         seen = []
         start = host.start
         host.start = lambda program, orders: seen.extend(orders) or start(program, orders)
@@ -117,5 +131,7 @@ class Bytes(unittest.TestCase):
     def test_a_host_that_fails(self):
         host = PretendedHost(self.outputs, b"a state")
         host.start = lambda program, orders: (1, "fmi2DoStep at point 3 returned status 3")
-        self.assertEqual(comparison.same_outputs([self.case], [host]),
-                         ["aarch64-linux: the host ended with code 1: fmi2DoStep at point 3 returned status 3"])
+        self.assertEqual(
+            comparison.same_outputs([self.case], [host]),
+            ["aarch64-linux: the host ended with code 1: fmi2DoStep at point 3 returned status 3"],
+        )

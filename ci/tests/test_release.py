@@ -20,7 +20,6 @@ class Packages(unittest.TestCase):
         self.assertIn("install them: apt-get install one two", str(failure.exception))
         debian.require([there])
 
-
     def test_a_path_with_blanks(self):
         self.assertEqual(debian.blanks_in(Path("/srv/pounding")), [])
         self.assertIn("/srv/two words: ", debian.blanks_in(Path("/srv/two words"))[0])
@@ -38,8 +37,12 @@ class Sources(unittest.TestCase):
 class OnWindows(unittest.TestCase):
     def test_only_tests_that_ran_count(self):
         self.assertEqual(unit_tests.judged(0, "test result: ok. 8 passed; 0 failed"), [])
-        for failed in ((0, "test result: ok. 0 passed; 0 failed"), (101, "test result: FAILED. 7 passed; 1 failed"), (0, ""),
-                       (1, "test result: ok. 8 passed; 0 failed")):
+        for failed in (
+            (0, "test result: ok. 0 passed; 0 failed"),
+            (101, "test result: FAILED. 7 passed; 1 failed"),
+            (0, ""),
+            (1, "test result: ok. 8 passed; 0 failed"),
+        ):
             self.assertEqual(len(unit_tests.judged(*failed)), 1)
 
 
@@ -58,7 +61,9 @@ class Needs(unittest.TestCase):
     def test_lines_come_from_the_files(self):
         fmu, linux = needs.write(self.folder)
         self.assertEqual(linux, "libraries/linux64/pounding.so  Linux, x86-64 processor, glibc 2.25 or later")
-        self.assertRegex(fmu, r"^Two\.fmu +linux64: Linux, .*glibc 2\.25 or later; win64: Windows, x86-64 .*kernel32\.dll")
+        self.assertRegex(
+            fmu, r"^Two\.fmu +linux64: Linux, .*glibc 2\.25 or later; win64: Windows, x86-64 .*kernel32\.dll"
+        )
         self.assertEqual((self.folder / "NEEDS").read_text().splitlines(), [fmu, linux])
 
     def test_checksums(self):
