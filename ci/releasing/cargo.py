@@ -44,19 +44,10 @@ def compile_library(platform, toolchain, libraries):
     cargo = [ZIGBUILD] if platform.glibc else ["cargo"]
     run(
         *cargo,
-        "rustc",
-        "--release",
-        "--lib",
-        "--crate-type",
-        "cdylib",
-        "--package",
-        "pounding-fmu",
-        "--target",
+        *"rustc --release --lib --crate-type cdylib --package pounding-fmu --target".split(),
         triple,
         *flag_arguments([*platform.flags, *remapping.flags(toolchain.compiler)]),
-        "--",
-        "--cfg",
-        "fmi_exports",
+        *("--", "--cfg", "fmi_exports"),
         variables=toolchain.variables,
         aloud=True,
     )

@@ -27,9 +27,16 @@ def command(name):
 
 
 def wine():
-    """Debian's wine64 is not on the path unless the package wine is there too."""
-    found = [Path("/usr/lib/wine/wine64"), shutil.which("wine64"), shutil.which("wine")]
-    return next((Path(path) for path in found if path and Path(path).exists()), None)
+    """Of Debian's wine64 nothing is on the path unless the package wine is there too."""
+    return first_program("/usr/lib/wine/wine64", "wine64", "wine")
+
+
+def wine_server():
+    return first_program("/usr/lib/wine/wineserver64", "wineserver")
+
+
+def first_program(*names):
+    return next(filter(None, map(shutil.which, names)), None)
 
 
 NEEDS = (

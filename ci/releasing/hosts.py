@@ -4,7 +4,6 @@ import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
-from pathlib import Path
 
 from releasing import debian, platforms
 from releasing.cargo import VARIABLES
@@ -13,6 +12,7 @@ from releasing.places import CI, WORK
 
 # Where hosts start: all names that they get are relative to it.
 FOLDER = WORK / "runs"
+FLAGS = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-O1")
 WINE = {
     "WINEPREFIX": WORK / "wine",
     "WINEDEBUG": "-all",
@@ -44,30 +44,12 @@ class Host:
         shutil.copy(library, self.folder / self.platform.library)
         if self.is_wine:
             # wine before version 9 has no bcryptprimitives.dll, which Rust's standard library asks for random numbers.
-            run(
-                "x86_64-w64-mingw32-gcc",
-                "-shared",
-                CI / "host/bcryptprimitives.c",
-                "-o",
-                self.folder / "bcryptprimitives.dll",
-                "-ladvapi32",
-            )
-            (WORK / "wine").mkdir(exist_ok=True)
+            stub = self.folder / "bcryptprimitives.dll"
+            run(*self.platform.host_compiler, "-shared", CI / "host/bcryptprimitives.c", "-o", stub, "-ladvapi32")
+            WINE["WINEPREFIX"].mkdir(exist_ok=True)
         libraries = ["-ldl"] if self.platform.file.endswith(".so") else []
         compiler = [sys.executable if word == "python" else word for word in self.platform.host_compiler]
-        run(
-            *compiler,
-            "-std=c99",
-            "-Wall",
-            "-Wextra",
-            "-Werror",
-            "-O1",
-            CI / "host/host.c",
-            "-o",
-            self.program,
-            *libraries,
-            variables=VARIABLES,
-        )
+        run(*compiler, *FLAGS, CI / "host/host.c", "-o", self.program, *libraries, variables=VARIABLES)
 
     def start(self, program, arguments):
         """Runs a program of the platform; returns its exit code and what it has said."""
@@ -96,13 +78,6 @@ class Host:
 
 def stop_wine():
     """Ends the processes that wine has left in our prefix."""
-    server = next(
-        (
-            path
-            for path in (Path("/usr/lib/wine/wineserver64"), shutil.which("wineserver"))
-            if path and Path(path).exists()
-        ),
-        None,
-    )
-    if server and (WORK / "wine").exists():
-        subprocess.run([str(server), "-k"], env=environment(WINE), stdin=subprocess.DEVNULL, capture_output=True)
+    server = debian.wine_server()
+    if server and WINE["WINEPREFIX"].exists():
+        subprocess.run([server, "-k"], env=environment(WINE), stdin=subprocess.DEVNULL, capture_output=True)

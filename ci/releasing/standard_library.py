@@ -65,14 +65,8 @@ def build(triple, toolchain, root):
         shutil.rmtree(outdated / triple, ignore_errors=True)
     # The compiler lets only its developers build the standard library, unless it is told that it is at work for them.
     run(
-        "cargo",
-        "build",
-        "--release",
-        "-Zbuild-std=std,panic_unwind",
-        "--target",
-        triple,
-        "--target-dir",
-        target,
+        *"cargo build --release -Zbuild-std=std,panic_unwind --target".split(),
+        *(triple, "--target-dir", target),
         *flag_arguments(["-Cembed-bitcode=yes", *flags(toolchain.compiler)]),
         variables={**toolchain.variables, "RUSTC_BOOTSTRAP": "1"},
         folder=crate,
