@@ -42,9 +42,11 @@ def compile_library(platform, toolchain, libraries):
     """Compiles the library and puts it into the folder of its platform below `libraries`."""
     triple = platform.triple + (f".{platform.glibc}" if platform.glibc else "")
     cargo = [ZIGBUILD] if platform.glibc else ["cargo"]
+    # Before the crates are there, their folders cannot be renamed.
+    run("cargo", "fetch", "--locked", variables=toolchain.variables, aloud=True)
     run(
         *cargo,
-        *"rustc --release --lib --crate-type cdylib --package pounding-fmu --target".split(),
+        *"rustc --locked --release --lib --crate-type cdylib --package pounding-fmu --target".split(),
         triple,
         *flag_arguments([*platform.flags, *remapping.flags(toolchain.compiler)]),
         *("--", "--cfg", "fmi_exports"),

@@ -15,6 +15,8 @@ def flags(compiler):
     sources = Path(run(compiler, "--print", "sysroot").strip()) / "lib/rustlib/src/rust"
     official = "/rustc/" + facts["commit-hash"]
     names = {cargo_home(): "/cargo", ROOT: "/pounding-fmu", sources: official}
+    # The folder of the crates is called like the server that they came from: the same bytes wherever that is.
+    names |= {folder: "/cargo/registry" for folder in (cargo_home() / "registry/src").glob("*")}
     library = sources / "library"
     if library.is_symlink():
         names[library.resolve()] = official + "/library"
