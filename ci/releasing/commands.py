@@ -30,7 +30,8 @@ def run(*command, variables=None, folder=ROOT, aloud=False):
     except OSError as error:
         raise Failure(f"cannot start {command[0]}: {error.strerror}") from error
     if done.returncode != 0:
-        said = "\n".join(text.strip() for text in (done.stdout, done.stderr or "") if text.strip())
+        # On a terminal it has been seen already.
+        said = "" if shown is None else done.stderr.strip() or done.stdout.strip()
         raise Failure(f"{shlex.join(command)}\nfailed with exit code {done.returncode}:\n{said}")
     return done.stdout
 

@@ -11,6 +11,8 @@ from releasing.places import WORK
 from releasing.remapping import flags
 
 FOLDER = WORK / "std"
+# The last one is for unit tests.
+CRATES = "std,panic_unwind,test"
 
 
 def toolchain(platforms, source):
@@ -51,7 +53,7 @@ def from_debian(platforms):
 
 def build(triple, toolchain, root):
     """Builds the standard library so that it can be optimised together with the crates that use it."""
-    version = run("rustc", "-V")
+    version = run("rustc", "-V") + CRATES
     built = root / "lib/rustlib" / triple / "lib"
     stamp = built / "built-by"
     if stamp.exists() and stamp.read_text() == version:
@@ -65,7 +67,7 @@ def build(triple, toolchain, root):
         shutil.rmtree(outdated / triple, ignore_errors=True)
     # The compiler lets only its developers build the standard library, unless it is told that it is at work for them.
     run(
-        *"cargo build --release -Zbuild-std=std,panic_unwind --target".split(),
+        *f"cargo build --release -Zbuild-std={CRATES} --target".split(),
         *(triple, "--target-dir", target),
         *flag_arguments(["-Cembed-bitcode=yes", *flags(toolchain.compiler)]),
         variables={**toolchain.variables, "RUSTC_BOOTSTRAP": "1"},
