@@ -1,9 +1,7 @@
 //! The document `modelDescription.xml`, element by element in the order of the FMI 2.0 schema.
 
 use super::{Category, Package, structure};
-use crate::variables::{
-    Causality, HIGHEST_OUTPUT_DERIVATIVE, Inputs, Row, Settings, Slot, Table, Type, Unit, Value, Variability,
-};
+use crate::variables::{Causality, HIGHEST_OUTPUT_DERIVATIVE, Inputs, Row, Settings, Slot, Table, Type, Unit, Value};
 use quick_xml::Writer;
 use std::borrow::Cow;
 use std::io;
@@ -141,8 +139,8 @@ fn write_variable(xml: &mut Xml, value_reference: u32, row: &Row, start: Option<
         ("name", row.name.as_str()),
         ("valueReference", &value_reference.to_string()),
         ("description", &row.description),
-        ("causality", causality(row.slot.causality())),
-        ("variability", variability(row.variability)),
+        ("causality", row.slot.causality().name()),
+        ("variability", row.variability.name()),
     ]);
     match row.slot.causality() {
         Causality::Parameter => element = element.with_attribute(("initial", "exact")),
@@ -179,23 +177,6 @@ fn write_type(xml: &mut Xml, row: &Row, start: Option<Value<'_>>) -> io::Result<
     }
     element.write_empty()?;
     Ok(())
-}
-
-const fn causality(causality: Causality) -> &'static str {
-    match causality {
-        Causality::Parameter => "parameter",
-        Causality::CalculatedParameter => "calculatedParameter",
-        Causality::Input => "input",
-        Causality::Output => "output",
-    }
-}
-
-const fn variability(variability: Variability) -> &'static str {
-    match variability {
-        Variability::Fixed => "fixed",
-        Variability::Discrete => "discrete",
-        Variability::Continuous => "continuous",
-    }
 }
 
 /// The shortest decimal that reads back as the same number, whole numbers without a point.

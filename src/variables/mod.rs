@@ -230,6 +230,29 @@ impl From<Output> for Slot {
     }
 }
 
+impl Causality {
+    /// As the description writes it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Causality::Parameter => "parameter",
+            Causality::CalculatedParameter => "calculatedParameter",
+            Causality::Input => "input",
+            Causality::Output => "output",
+        }
+    }
+}
+
+impl Variability {
+    /// As the description writes it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Variability::Fixed => "fixed",
+            Variability::Discrete => "discrete",
+            Variability::Continuous => "continuous",
+        }
+    }
+}
+
 impl Type {
     /// Name of the element of the description.
     pub const fn name(self) -> &'static str {

@@ -1,0 +1,52 @@
+"""FMUs of scenes."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from . import _native
+from ._data import DATA
+from ._scenes import read_scene, warn
+
+if TYPE_CHECKING:
+    from ._scenes import Scene
+
+
+def build_fmu(
+    scene: Scene, output: str | os.PathLike[str] | None = None, platforms: Iterable[str] | None = None
+) -> Path:
+    """Makes an FMU (FMI 2.0, co-simulation) of a scene and returns its path. The FMU is not run.
+
+    Args:
+        scene: a path, a text or a dict.
+        output: where the FMU goes, in a directory that is made if need be; ``NAME.fmu`` in the current directory
+            (NAME: the scene's) where nothing is said. An older file there is replaced at once, or stays.
+        platforms: those that the FMU can be run on, such as ``["win64", "linux64"]``; all whose library has come with
+            this package where nothing is said.
+
+    >>> import pounding_fmu, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     fmu = build_fmu(pounding_fmu.example_scene, f"{folder}/frames.fmu")
+    ...     fmu.name, fmu.stat().st_size > 100_000
+    ('frames.fmu', True)
+
+    Raises:
+        ValueError: everything that is wrong with the scene; a platform that there is no library for; a name that does
+            not end in ``.fmu``.
+        OSError: the scene file cannot be read, or the FMU cannot be written.
+        TypeError: the scene is none of the forms that a scene may have.
+
+    Warns:
+        SceneWarning: for each thing that looks like a slip.
+    """
+    if platforms is not None:
+        platforms = [platforms] if isinstance(platforms, str) else list(platforms)
+        if not platforms:
+            raise ValueError("platforms: expected at least one, or None for all")
+    read = read_scene(scene)
+    warn(read.warnings())
+    path = None if output is None else os.fsdecode(output)
+    return _native.build(read, path, os.fspath(DATA / "libraries"), platforms or [])

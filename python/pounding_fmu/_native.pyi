@@ -1,0 +1,70 @@
+"""What is compiled; `pounding_fmu` alone calls it. Names are handed over as places in `Scene.variables`."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = [
+    "IMPACT_COLUMNS",
+    "STEP",
+    "Batch",
+    "Record",
+    "Scene",
+    "__version__",
+    "build",
+    "run_command",
+    "simulate",
+]
+
+__version__: str
+STEP: float
+IMPACT_COLUMNS: list[str]
+
+@final
+class Scene:
+    @staticmethod
+    def read(file: str) -> tuple[Scene | None, list[str]]: ...
+    @staticmethod
+    def parse(text: str) -> tuple[Scene | None, list[str]]: ...
+    @staticmethod
+    def from_dict(scene: Mapping[str, Any]) -> tuple[Scene | None, list[str]]: ...
+    def variables(self) -> list[tuple[str, str, str, str, str | None, float | None, float | None, float | str | None, str]]: ...
+    def warnings(self) -> list[str]: ...
+    def with_record(self, record: Record) -> Scene: ...
+    def with_parameters(self, parameters: list[tuple[int, float]]) -> Scene: ...
+    def stop(self) -> float: ...
+
+@final
+class Record:
+    @staticmethod
+    def read(file: str, key: str) -> Record: ...
+    @staticmethod
+    def of(times: NDArray[np.float64], accelerations: NDArray[np.float64], key: str) -> Record: ...
+
+@final
+class Batch:
+    def __new__(
+        cls,
+        count: int,
+        scenes: list[Scene],
+        which: list[int] | None,
+        parameters: list[tuple[int, NDArray[np.float64]]],
+    ) -> Batch: ...
+    def look(self, threads: int | None) -> list[str]: ...
+    def run(
+        self,
+        references: list[int],
+        step: float | None,
+        stop: float | None,
+        threads: int | None,
+        progress: Callable[[int, int], object] | None,
+    ) -> tuple[NDArray[np.float64], dict[int, str]]: ...
+
+def simulate(
+    scene: Scene, step: float, stop: float, references: list[int]
+) -> tuple[list[NDArray[Any]], list[NDArray[Any]]]: ...
+def build(scene: Scene, output: str | None, libraries: str, platforms: list[str]) -> Path: ...
+def run_command(arguments: list[str], again: list[str], data: str) -> int: ...

@@ -1,0 +1,66 @@
+//! What is read of a run, by value reference.
+
+use pounding::engine::Side;
+use pounding::variables::{Instant, Output, Settings, Slot, Table, Type, Value};
+
+/// A numeric variable.
+#[derive(Clone, Copy)]
+pub enum Reading {
+    /// Changes in the course of a run.
+    Computed(Output, Kind),
+    /// Hz, of the model.
+    Frequency(Side, usize),
+    /// Does not change: a parameter or an input, which nobody sets.
+    Constant(f64),
+}
+
+/// How the values of a variable are kept.
+#[derive(Clone, Copy)]
+pub enum Kind {
+    Real,
+    Integer,
+    Boolean,
+}
+
+impl Reading {
+    /// That of a value reference; none where it is of no variable, or of a text.
+    pub fn new(table: &Table, settings: &Settings, reference: u32) -> Option<Reading> {
+        let row = table.row(reference)?;
+        Some(match row.slot {
+            Slot::Output(output) => Reading::Computed(output, Kind::of(row.ty)?),
+            Slot::Frequency(side, mode) => Reading::Frequency(side, mode),
+            Slot::Input(_) => Reading::Constant(0.0),
+            Slot::Parameter(parameter) => Reading::Constant(settings.read(parameter).real()?),
+        })
+    }
+
+    /// How its values are kept.
+    pub fn kind(self) -> Kind {
+        if let Reading::Computed(_, kind) = self { kind } else { Kind::Real }
+    }
+
+    /// Its value at a time.
+    pub fn at(self, now: &Instant<'_>) -> f64 {
+        match self {
+            Reading::Computed(output, _) => match now.read(output) {
+                Value::Real(value) => value,
+                Value::Integer(value) => f64::from(value),
+                Value::Boolean(value) => f64::from(value),
+                Value::String(_) => f64::NAN, // no output is one
+            },
+            Reading::Frequency(side, mode) => now.model.natural_frequencies(side)[mode],
+            Reading::Constant(value) => value,
+        }
+    }
+}
+
+impl Kind {
+    fn of(ty: Type) -> Option<Kind> {
+        match ty {
+            Type::Real(_) => Some(Kind::Real),
+            Type::Integer => Some(Kind::Integer),
+            Type::Boolean => Some(Kind::Boolean),
+            Type::String => None,
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! A scene with its record and parameters, as `pounding_fmu` hands it from step to step.
+
+use crate::document;
+use crate::records::Record;
+use pounding::description::Package;
+use pounding::scene::SceneError;
+use pounding::variables::{Parameter, Row, Settings, Slot, Table, Type, Value};
+use pounding::warnings;
+use pounding_simulate::STOP;
+use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A scene that never changes: what gives it a record or parameters returns another one.
+#[pyclass(frozen, module = "pounding_fmu._native")]
+pub struct Scene {
+    /// As it goes into an FMU.
+    pub package: Arc<Package>,
+    pub settings: Settings,
+    pub table: Table,
+    /// Whether anything is not as the scene says.
+    is_changed: bool,
+}
+
+/// A scene, or everything that is wrong with it.
+type Read = (Option<Scene>, Vec<String>);
+
+#[pymethods]
+impl Scene {
+    /// That of a file; its record is relative to the folder of the file.
+    #[staticmethod]
+    fn read(file: PathBuf) -> Read {
+        Scene::of(Package::from_scene_file(&file))
+    }
+
+    /// That of a text; its record is relative to the current directory.
+    #[staticmethod]
+    fn parse(text: String) -> Read {
+        Scene::of(Package::from_scene_text(text, Path::new("")))
+    }
+
+    /// That of a dict, likewise.
+    #[staticmethod]
+    fn from_dict(scene: &Bound<'_, PyAny>) -> PyResult<Read> {
+        Ok(Scene::parse(document::to_toml(scene)?))
+    }
+
+    /// The variables of its FMU in their order: name, causality, variability, type, unit, min, max, start, description.
+    fn variables<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyTuple>>> {
+        self.table.rows.iter().map(|row| self.variable(py, row)).collect()
+    }
+
+    /// What looks like a slip in it.
+    fn warnings(&self) -> Vec<String> {
+        let found = if self.is_changed {
+            self.settings.warnings()
+        } else {
+            warnings::of(&self.settings.scene, self.settings.record())
+        };
+        found.iter().map(ToString::to_string).collect()
+    }
+
+    /// The same under another record.
+    fn with_record(&self, record: &Record) -> PyResult<Scene> {
+        let Record { name, record } = record;
+        let mut settings = self.settings.clone();
+        if settings.scene.ground.record.is_some() {
+            settings.set_record(name, Arc::clone(record)).map_err(|error| refusal(&error))?;
+        } else {
+            let mut scene = settings.scene;
+            scene.ground.record = Some(name.clone());
+            settings = Settings::new(scene, Some(record.as_ref().clone()));
+            settings.check().map_err(|error| refusal(&error))?;
+        }
+        let table = Table::new(&settings.scene);
+        Ok(Scene { package: Arc::clone(&self.package), settings, table, is_changed: true })
+    }
+
+    /// The same with other parameters: value references and numbers.
+    fn with_parameters(&self, parameters: Vec<(u32, f64)>) -> PyResult<Scene> {
+        let mut settings = self.settings.clone();
+        for (reference, value) in parameters {
+            settings.write(self.parameter(reference)?, Value::Real(value)).map_err(|error| refusal(&error))?;
+        }
+        settings.check().map_err(|error| refusal(&error))?;
+        Ok(Scene { package: Arc::clone(&self.package), settings, table: self.table.clone(), is_changed: true })
+    }
+
+    /// s, when a run ends where nothing else is said.
+    pub fn stop(&self) -> f64 {
+        let end = || self.settings.record()?.times.last().copied().filter(|&end| end > 0.0);
+        self.settings.scene.stop_time.or_else(end).unwrap_or(STOP)
+    }
+}
+
+impl Scene {
+    fn of(package: Result<Package, SceneError>) -> Read {
+        match package {
+            Ok(package) => {
+                let record = package.record.as_ref().map(|packaged| packaged.record.clone());
+                let settings = Settings::new(package.scene.clone(), record);
+                let table = Table::new(&settings.scene);
+                (Some(Scene { package: Arc::new(package), settings, table, is_changed: false }), Vec::new())
+            }
+            Err(error) => (None, error.problems.iter().map(ToString::to_string).collect()),
+        }
+    }
+
+    /// The parameter of a value reference.
+    pub fn parameter(&self, reference: u32) -> PyResult<Parameter> {
+        match self.table.row(reference).map(|row| row.slot) {
+            Some(Slot::Parameter(parameter)) => Ok(parameter),
+            _ => Err(PyValueError::new_err(format!("value reference {reference}: expected that of a parameter"))),
+        }
+    }
+
+    fn variable<'py>(&self, py: Python<'py>, row: &Row) -> PyResult<Bound<'py, PyTuple>> {
+        let unit = if let Type::Real(unit) = row.ty { Some(unit.info().name) } else { None };
+        let start = match row.slot {
+            Slot::Parameter(parameter) => match self.settings.read(parameter) {
+                Value::String(text) => text.into_bound_py_any(py)?,
+                value => value.real().into_bound_py_any(py)?,
+            },
+            Slot::Input(_) => 0.0.into_bound_py_any(py)?,
+            Slot::Frequency(..) | Slot::Output(_) => py.None().into_bound(py),
+        };
+        let (causality, variability) = (row.slot.causality().name(), row.variability.name());
+        let (name, description) = (row.name.as_str(), row.description.as_str());
+        (name, causality, variability, row.ty.name(), unit, row.min, row.max, start, description).into_pyobject(py)
+    }
+}
+
+/// Everything that is wrong with the parameters.
+pub fn refusal(error: &SceneError) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}

@@ -1,0 +1,95 @@
+//! One run with all its rows.
+
+use crate::readings::{Kind, Reading};
+use crate::scene::{Scene, refusal};
+use crate::threads::work_on;
+use numpy::PyArray1;
+use pounding::engine::Model;
+use pounding_simulate::instants;
+use pounding_simulate::solve::{Solved, solve};
+use pounding_simulate::tables::impact;
+use pyo3::exceptions::{PyMemoryError, PyRuntimeError};
+use pyo3::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// What is kept of a run: its rows by columns, and its impacts.
+#[derive(Default)]
+struct Kept {
+    time: Vec<f64>,
+    columns: Vec<Vec<f64>>,
+    contacts: Vec<i32>,
+    impacts: Vec<[f64; 9]>,
+}
+
+/// The columns of a run, and those of its impacts.
+type Arrays<'py> = (Vec<Bound<'py, PyAny>>, Vec<Bound<'py, PyAny>>);
+
+/// Runs a scene: `time` and the columns of these value references, and those of the impacts.
+#[pyfunction]
+pub fn simulate<'py>(
+    py: Python<'py>,
+    scene: &Bound<'py, Scene>,
+    step: f64,
+    stop: f64,
+    references: Vec<u32>,
+) -> PyResult<Arrays<'py>> {
+    let Scene { settings, table, .. } = scene.get();
+    let reading = |&reference| Reading::new(table, settings, reference);
+    let readings: Vec<Reading> = references.iter().filter_map(reading).collect();
+    has_room(stop / step, readings.len() + 1)?;
+    let model = Model::new(&settings.scene, settings.record()).map_err(|error| refusal(&error))?;
+
+    let done = Mutex::new(Ok(Kept::default()));
+    let work = |told_to_stop: &AtomicBool| {
+        let kept = run(&model, &readings, (step, stop), told_to_stop);
+        *done.lock().unwrap_or_else(PoisonError::into_inner) = kept;
+    };
+    work_on(py, 1, work, |_| Ok(()))?;
+    let kept = done.into_inner().unwrap_or_else(PoisonError::into_inner).map_err(PyRuntimeError::new_err)?;
+    Ok(kept.into_arrays(py, &readings))
+}
+
+/// Whether there is memory for so many rows and columns; a run that outgrows it would end the process.
+fn has_room(rows: f64, columns: usize) -> PyResult<()> {
+    let bytes = rows * columns as f64 * 8.0;
+    Vec::<u8>::new().try_reserve_exact(bytes as usize).map_err(|_| {
+        PyMemoryError::new_err(format!("{rows:.1e} rows of {columns} columns: expected fewer, by a larger step"))
+    })
+}
+
+fn run(
+    model: &Model,
+    readings: &[Reading],
+    (step, stop): (f64, f64),
+    told_to_stop: &AtomicBool,
+) -> Result<Kept, String> {
+    let mut kept = Kept { columns: vec![Vec::new(); readings.len()], ..Kept::default() };
+    let solution = solve(model, instants::regular(step, stop), |now: Solved<'_>| {
+        kept.time.push(now.point.time);
+        kept.columns.iter_mut().zip(readings).for_each(|(column, reading)| column.push(reading.at(&now)));
+        if told_to_stop.load(Ordering::Relaxed) { Err("interrupted") } else { Ok(()) }
+    });
+    for episode in &solution.map_err(|error| error.to_string())?.episodes {
+        let (contact, row) = impact(episode);
+        kept.contacts.push(i32::try_from(contact).unwrap_or(i32::MAX));
+        kept.impacts.push(row.map(|value| value.unwrap_or(f64::NAN)));
+    }
+    Ok(kept)
+}
+
+impl Kept {
+    fn into_arrays<'py>(self, py: Python<'py>, readings: &[Reading]) -> Arrays<'py> {
+        let real = |values: Vec<f64>| PyArray1::from_vec(py, values).into_any();
+        let column = |(values, reading): (Vec<f64>, &Reading)| match reading.kind() {
+            Kind::Real => real(values),
+            Kind::Integer => PyArray1::from_iter(py, values.into_iter().map(|value| value as i32)).into_any(),
+            Kind::Boolean => PyArray1::from_iter(py, values.into_iter().map(|value| value != 0.0)).into_any(),
+        };
+        let columns =
+            std::iter::once(real(self.time)).chain(self.columns.into_iter().zip(readings).map(column)).collect();
+        let of_impacts = (0..9).map(|i| real(self.impacts.iter().map(|row| row[i]).collect()));
+        let impacts = std::iter::once(PyArray1::from_vec(py, self.contacts).into_any()).chain(of_impacts).collect();
+        (columns, impacts)
+    }
+}
