@@ -5,9 +5,9 @@
 >>> result["time"].shape, len(result.impacts)
 ((501,), 28)
 
-A scene says everything that is fixed about a problem: masses, storeys, gaps, contact laws, ground motion. It is given as
+A scene says everything that is fixed about a problem: masses, storeys, gaps, contact laws, ground motion. It is
 
-* a path (a ``str`` without a line break, or an ``os.PathLike``): the scene file, whose record is relative to its folder,
+* a path (a ``str`` without a line break, or an ``os.PathLike``): the scene file; its record is relative to its folder,
 * a text (a ``str`` with a line break): what such a file holds; a record is relative to the current directory,
 * a ``dict``: the same keys, with lists or numpy arrays; a record is relative to the current directory.
 

@@ -94,7 +94,9 @@ def simulate_batch(
     threads = None if threads is None else _whole("threads", threads)
     step = None if step is None else positive("step", step)
     stop = None if stop is None else positive("stop", stop)
-    columns = dict(parameters)
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress = {progress!r}: expected a function")
+    columns = dict(parameters or {})
     key = "records"
     if "ground.record" in columns and "ground.record" in Names(read).references:
         if records is not None:
@@ -126,8 +128,10 @@ class _Motions:
             self.scenes = [read]
         elif _is_one(records):
             self.scenes = [read.with_record(read_record(records, key))]
-        else:
+        elif isinstance(records, Iterable):
             self._read_all(read, list(records))
+        else:
+            raise TypeError(f"{key} = {records!r}: expected a record, or a list of records")
 
     def _read_all(self, read: _native.Scene, records: list[Any]) -> None:
         self.scenes, self.which = [], []
@@ -156,7 +160,9 @@ def _under(read: _native.Scene, record: Any, key: str) -> _native.Scene:
     try:
         return read.with_record(read_record(record, key))
     except ValueError as error:
-        raise ValueError("\n".join(line if line.startswith(key) else f"{key}: {line}" for line in str(error).split("\n")))
+        raise ValueError(
+            "\n".join(line if line.startswith(key) else f"{key}: {line}" for line in str(error).split("\n"))
+        )
 
 
 def _identity(record: Any) -> object:

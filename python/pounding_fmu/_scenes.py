@@ -138,7 +138,9 @@ class Names:
         causality = self.variables[name].causality
         if causality == "input":
             return f"{name} is an input, which is 0 here: expected names of parameters"
-        return None if causality == "parameter" else f"{name} is computed and cannot be set: expected names of parameters"
+        return (
+            None if causality == "parameter" else f"{name} is computed and cannot be set: expected names of parameters"
+        )
 
 
 def refuse(found: list[str]) -> None | NoReturn:

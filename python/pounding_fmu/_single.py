@@ -40,6 +40,10 @@ class Result(Mapping[str, "NDArray[Any]"]):
     def __len__(self) -> int:
         return len(self._columns)
 
+    # Columns of two runs are compared one by one; as a whole each run is itself.
+    __eq__ = object.__eq__
+    __hash__ = object.__hash__
+
     def __repr__(self) -> str:
         time = self["time"]
         rows = f"{len(time)} rows from {time[0]:g} s to {time[-1]:g} s"
@@ -95,7 +99,7 @@ def simulate(
     read = read_scene(scene)
     if record is not None:
         read = read.with_record(read_record(record, "record"))
-    read, names = _with_parameters(read, parameters or {}, record is not None)
+    read, names = _with_parameters(read, dict(parameters or {}), record is not None)
     if outputs is None:
         columns = [name for name, variable in names.variables.items() if variable.causality == "output"]
     else:

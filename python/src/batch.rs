@@ -104,7 +104,7 @@ impl Batch {
         let stop = stop.unwrap_or(self.stops[self.cases.which.as_ref().map_or(0, |which| which[case])]);
         let model = Model::new(&settings.scene, settings.record()).map_err(|error| error.to_string())?;
         let (mut state, mut point) = (model.start(0.0), Point::default());
-        for time in instants::regular(step.unwrap_or(stop), stop).skip(1) {
+        for time in instants::regular(step.unwrap_or(stop), stop).filter(|&time| time > 0.0) {
             model.advance(&mut state, time, &mut |_| {}).map_err(|error| error.to_string())?;
         }
         model.observe(&state, &mut point);

@@ -138,5 +138,8 @@ def test_ctrl_c(tmp_path):
     time.sleep(1.5)
     assert process.poll() is None
     process.send_signal(signal.SIGINT)
-    output, errors = process.communicate(timeout=30)
+    try:
+        output, errors = process.communicate(timeout=10)
+    finally:
+        process.kill()
     assert (process.returncode, output, errors) == (-signal.SIGINT, "", "")

@@ -1,5 +1,6 @@
 """What Python computes has the bits of the FMU that it builds, as FMPy reads them; that FMU has those of cargo fmu."""
 
+import pickle
 import warnings
 from pathlib import Path
 
@@ -84,6 +85,8 @@ def test_rows_and_types():
     dtypes = {"Real": np.float64, "Integer": np.int32, "Boolean": np.bool_}
     assert all(result[name].dtype == dtypes[kinds[name]] for name in result)
     assert "nothing" not in result and len(list(result.items())) == len(result)
+    again = pickle.loads(pickle.dumps(result))
+    assert list(again) == list(result) and again != result and again.impacts.dtype == result.impacts.dtype
 
 
 def test_impacts_are_those_of_the_command(tmp_path):
@@ -100,9 +103,10 @@ def test_impacts_are_those_of_the_command(tmp_path):
 
 def test_a_run_ends_where_that_of_the_command_does():
     assert pounding_fmu.simulate(fmus.FEUP)["time"][-1] == 20.0
-    assert pounding_fmu.simulate(fmus.feup("stop_time = 20.0"))["time"][-1] == np.loadtxt(
-        fmus.RECORD, delimiter=",", comments=("#", "t")
-    )[-1, 0]
+    assert (
+        pounding_fmu.simulate(fmus.feup("stop_time = 20.0"))["time"][-1]
+        == np.loadtxt(fmus.RECORD, delimiter=",", comments=("#", "t"))[-1, 0]
+    )
     assert pounding_fmu.simulate(fmus.without_record().replace("stop_time = 20.0", ""))["time"][-1] == 10.0
 
 

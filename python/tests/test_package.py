@@ -1,4 +1,4 @@
-"""The package: its types, what it exports, how fast it is there, and that nothing of the machine that built it is in it."""
+"""The package: its types, what it exports, how soon it is there."""
 
 import importlib.metadata
 import subprocess
@@ -20,7 +20,7 @@ problems: list[str] = p.problems({"left": {"mass": np.ones(2)}})
 unit: str | None = p.variables("a")["b"].unit
 result: p.Result = p.simulate("a", 0.01, 2, ["x"], {"y": 1, "ground.record": Path("z")}, ([0, 1], np.ones(2)))
 total: float = float(result["time"].sum()) + float(result.impacts["start_s"][0])
-ends = p.simulate_batch("a", {"x": [1, 2], "y": 3.0}, ["z"], records=["a", Path("b"), ([0], [1])], threads=2, progress=print)
+ends = p.simulate_batch("a", {"x": [1, 2], "y": 3.0}, ["z"], records=["a", ([0], [1])], threads=2, progress=print)
 shape: tuple[int, ...] = ends.shape
 try:
     pass

@@ -46,19 +46,24 @@ def test_texts_of_a_dict_survive():
     assert pounding_fmu.problems(scene)[0].startswith('name = "no identifier')
 
 
-def test_variables_are_those_of_the_fmu(build):
-    variables = pounding_fmu.variables(FEUP)
-    described = build(FEUP).description.modelVariables
+@pytest.mark.parametrize("scene", [FEUP, fmus.without_record()], ids=["record", "no record"])
+def test_variables_are_those_of_the_fmu(build, scene):
+    variables = pounding_fmu.variables(scene)
+    described = build(scene).description.modelVariables
     assert list(variables) == [v.name for v in described]
-    number = lambda text: None if text is None else float(text)
+
+    def number(text):
+        return None if text is None else float(text)
+
     for v in described:
         start = v.start if v.type == "String" else number(v.start)
-        expected = (v.name, v.causality, v.variability, v.type, v.unit, number(v.min), number(v.max), start, v.description)
-        assert variables[v.name] == expected
+        limits = (number(v.min), number(v.max), start)
+        assert variables[v.name] == (v.name, v.causality, v.variability, v.type, v.unit, *limits, v.description)
+
+
+def test_some_variables():
+    variables = pounding_fmu.variables(FEUP)
     assert variables["contact[1].gap"].start == 0.005 and variables["contact[1].active"].unit is None
-
-
-def test_variables_without_a_record(build):
     variables = pounding_fmu.variables(fmus.without_record())
     assert variables["ground.acceleration"].causality == "input" and "ground.scale" not in variables
 
@@ -144,14 +149,22 @@ def test_arrays_that_are_no_record(record, message):
 @pytest.mark.parametrize(
     ("parameters", "error", "message"),
     [
-        ({"contact[1].gapp": 1, "foo": 2}, KeyError, "contact[1].gapp: the scene has no such variable; did you mean contact[1].gap?; foo: the"),
+        (
+            {"contact[1].gapp": 1, "foo": 2},
+            KeyError,
+            "contact[1].gapp: the scene has no such variable; did you mean contact[1].gap?; foo: the",
+        ),
         ({"impacts": 1}, ValueError, "impacts is computed and cannot be set"),
         ({"left.frequency[1]": 1}, ValueError, "left.frequency[1] is computed and cannot be set"),
         ({"left.mass[1]": "3"}, ValueError, "left.mass[1] = '3': expected a number"),
         ({"left.mass[1]": None}, ValueError, "left.mass[1] = None: expected a number"),
         ({"left.mass[1]": np.ones(1)}, ValueError, "left.mass[1] = array([1.]): expected a number"),
         ({"ground.record": 3}, ValueError, "ground.record = 3: expected"),
-        ({"left.mass[1]": -1, "contact[1].restitution": 1.5}, ValueError, "left.mass[1] = -1.0: expected a finite mass > 0 kg\ncontact[1].restitution = 1.5: expected 0 < e <= 1"),
+        (
+            {"left.mass[1]": -1, "contact[1].restitution": 1.5},
+            ValueError,
+            "left.mass[1] = -1.0: expected a finite mass > 0 kg\ncontact[1].restitution = 1.5: expected 0 < e <= 1",
+        ),
         ({"left.damping_ratio": float("inf")}, ValueError, "left.damping_ratio = inf: expected"),
     ],
 )
