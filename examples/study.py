@@ -4,9 +4,10 @@
     python3 examples/run.py examples/study.py SCENE.toml ... --records MINE.AT2 ... --gaps 0.01 0.05 --pga 2 4
     python3 examples/run.py examples/study.py --scheduler tcp://HOST:8786
 
-Every scene becomes an FMU, which each worker loads once; a case sets its gap (of all contacts), its record and the
-peak ground acceleration. Each case runs a second time with a gap that never closes, for comparison. Without --records
-there are El Centro and synthetic motions (ground_motions.py).
+Every scene becomes an FMU. A case sets its gap (of all contacts), its record and the peak ground acceleration, and runs
+in the Python module pounding_fmu where that is installed, else in the FMU, which each worker loads once. Each case runs
+a second time with a gap that never closes, for comparison. Without --records there are El Centro and synthetic motions
+(ground_motions.py).
 
 Results are in results.csv of the output folder, a row per case, as soon as it is done; a study that was stopped
 goes on from there, however it was stopped. At the end come results.parquet, where pyarrow is installed, the parameters
@@ -61,7 +62,7 @@ def fill(results, planned, options):
     cases = planned.cases
     missing = results.missing(cases)
     print(f"{len(cases)} cases, {len(cases) - len(missing)} of them done", file=sys.stderr)
-    run, workers = runner(options.scheduler, options.workers)
+    run, workers = runner(options.scheduler, options.workers, planned.materials.with_module)
     progress = Progress(len(missing))
     with contextlib.closing(run(missing, planned.materials, workers)) as batches:
         for rows in batches:
@@ -105,6 +106,9 @@ def arguments():
     parser.add_argument("--stop", type=float, help="s, end of each run; without it, the end of its record")
     parser.add_argument("--scheduler", help="tcp://HOST:PORT of a Dask cluster, or `local` for one on this machine")
     parser.add_argument("--workers", type=int, default=os.cpu_count(), help="on this machine (default: all cores)")
+    parser.add_argument(
+        "--through", choices=["module", "fmus"], help="what runs the cases (default: the module where it is installed)"
+    )
     parser.add_argument("--force-limit", type=float, metavar="N", help="N, of the fragility; default: the median")
     parser.add_argument("--drift-limit", type=float, metavar="M", help="m, of the fragility; default: the median")
     parser.add_argument(
@@ -138,12 +142,14 @@ def arguments():
 def measure(cases, materials, repeats=3):
     """Prints how fast each way of running is, and what starting takes: medians, and the lowest and highest rate."""
     cores = os.cpu_count()
-    ways = [("one process", None, 1), (f"{cores} processes", None, cores)]
+    kind = ["thread", "threads"] if materials.with_module else ["process", "processes"]
+    ways = [(f"one {kind[0]}", None, 1), (f"{cores} {kind[1]}", None, cores)]
     ways += [(f"local Dask cluster, {workers} workers", "local", workers) for workers in sorted({1, cores, 2 * cores})]
     print(f"{len(cases)} cases, {cores} cores")
     for name, scheduler, workers in ways:
         processor = time.process_time()
-        found = [measure_once(cases, materials, *runner(scheduler, workers)) for _ in range(repeats)]
+        how = runner(scheduler, workers, materials.with_module)
+        found = [measure_once(cases, materials, *how) for _ in range(repeats)]
         rates, starts = zip(*found)
         low, middle, high = np.percentile(rates, [0, 50, 100])
         said = f"{middle:4.0f} cases a second ({low:.0f} to {high:.0f})"

@@ -2,6 +2,7 @@
 
 import csv
 import hashlib
+import importlib.util
 import os
 import shlex
 import shutil
@@ -10,14 +11,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from fmpy import extract, read_model_description
 
 import ground_motions
 import spectra
 from engine import EL_CENTRO, STANDARD_GRAVITY
 from runs import Scene, run_or_stop
 from study_table import NEVER_CLOSES, SIDES
-from study_worker import Case, FMU2Instance, Materials
+from study_worker import Case, Description, Materials
 
 CARGO_FMU = shlex.split(os.environ.get("CARGO_FMU", "cargo fmu"))
 NEEDED = {
@@ -51,14 +51,16 @@ def plan(options):
     scenes = named_scenes(options.scenes)
     records = chosen_records(options)
     motions = {record: read_record(record) for record in records}
-    fmus = {name: build(file, options.output / "fmus" / f"{name}.fmu") for name, file in scenes.items()}
-    ids = {name: read_model_description(str(fmu)).guid.strip("{}") for name, fmu in fmus.items()}
+    with_module = uses_module(options)
+    fmus = {name: build(file, options.output / "fmus" / f"{name}.fmu", with_module) for name, file in scenes.items()}
+    ids = {name: Description(fmu.read_bytes()).guid.strip("{}") for name, fmu in fmus.items()}
     contents = {record: record.read_bytes() for record in records}
     names = {record: hashlib.sha256(content).hexdigest()[:12] for record, content in contents.items()}
     peaks = {record: float(np.abs(motion[1]).max()) for record, motion in motions.items()}
     materials = Materials(
         fmus={ids[name]: fmu.read_bytes() for name, fmu in fmus.items()},
         records={names[record]: (record.suffix.lower(), contents[record], peaks[record]) for record in records},
+        with_module=with_module,
     )
     cases = [
         Case(scene, ids[scene], record.stem, names[record], pga, gap, options.stop or float(motions[record][0][-1]))
@@ -71,7 +73,7 @@ def plan(options):
     # The same record twice, by two paths, is one.
     found = Plan(list(dict.fromkeys(cases)), materials, floors)
     for name, fmu in fmus.items():
-        found.periods[ids[name]] = first_periods(fmu)
+        found.periods[ids[name]] = first_periods(fmu, with_module)
         for record, motion in motions.items():
             found.spectra[ids[name], names[record]] = strengths(record, motion, found.periods[ids[name]])
     return found
@@ -96,27 +98,47 @@ def chosen_records(options):
     ]
 
 
-def build(scene, fmu):
+def uses_module(options):
+    """Whether the Python module of this project runs the cases, as it does where it is installed."""
+    is_there = importlib.util.find_spec("pounding_fmu") is not None
+    if options.through == "module" and not is_there:
+        raise SystemExit("--through module: the Python module pounding_fmu is not installed here")
+    return is_there and options.through != "fmus"
+
+
+def build(scene, fmu, with_module):
     """The FMU of a scene."""
     fmu.parent.mkdir(parents=True, exist_ok=True)
-    run_or_stop([*CARGO_FMU, scene, "-o", fmu])
-    names = {variable.name for variable in read_model_description(str(fmu)).modelVariables}
+    if with_module:
+        import pounding_fmu
+
+        try:
+            pounding_fmu.build_fmu(scene, fmu)
+        except (ValueError, OSError) as error:
+            raise SystemExit(f"error: {error}") from None
+    else:
+        run_or_stop([*CARGO_FMU, scene, "-o", fmu])
+    names = Description(fmu.read_bytes()).names
     lacking = [why for needed, why in NEEDED.items() if needed not in names]
     if lacking:
         raise SystemExit(f"{scene}: a study needs a scene with {', '.join(lacking)}")
     return fmu
 
 
-def first_periods(fmu):
+def first_periods(fmu, with_module):
     """s, of each building of an FMU alone."""
-    folder = tempfile.mkdtemp(prefix="study")
-    try:
-        instance = FMU2Instance(read_model_description(str(fmu)), extract(str(fmu), unzipdir=folder))
-        periods = instance.first_periods()
-        instance.freeInstance()
-        return periods
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
+    names = [f"{side}.frequency[1]" for side in SIDES]
+    with tempfile.TemporaryDirectory(prefix="study") as folder:
+        copy = shutil.copy(fmu, folder)
+        if with_module:
+            import study_module
+
+            frequencies = study_module.first_values(study_module.scene_of(Path(copy)), names)
+        else:
+            import study_fmus
+
+            frequencies = study_fmus.first_values(copy, names)
+    return {side: 1.0 / frequency for side, frequency in zip(SIDES, frequencies)}
 
 
 def strengths(record, motion, periods):

@@ -1,4 +1,5 @@
-"""Where the cases of a study run: in this process, on the cores of this machine, or on a Dask cluster.
+"""Where the cases of a study run: in this process, in one for each core, in threads of the Python module, or on a Dask
+cluster.
 
 Each is a function of cases, materials and the number of workers, and yields rows, in any order, as they come.
 """
@@ -10,17 +11,21 @@ import tempfile
 from concurrent import futures
 from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import resource_tracker
+from pathlib import Path
 
 import study_worker
 
-PROGRAM = study_worker.__file__
+FOLDER = Path(study_worker.__file__).parent
+PROGRAMS = [FOLDER / f"study_{part}.py" for part in ("worker", "fmus", "module")]
 # A batch takes long enough that handing it out costs little, and is short enough to lose when a worker dies.
 LARGEST_BATCH = 40
 BATCHES_PER_WORKER = 20
 
 
-def runner(scheduler, workers):
+def runner(scheduler, workers, with_module):
     """What runs the cases, and its number of workers."""
+    if scheduler is None and with_module:
+        return in_threads, workers
     if scheduler is None:
         return (serial if workers == 1 else pool), workers
     if scheduler == "local":
@@ -37,6 +42,14 @@ def serial(cases, materials, workers):
     study_worker.prepare(materials)
     for batch in batches(cases, 1):
         yield study_worker.run_cases(batch)
+
+
+def in_threads(cases, materials, workers):
+    """In this process, in which the Python module has so many threads."""
+    study_worker.prepare(materials)
+    size = LARGEST_BATCH * workers
+    for start in range(0, len(cases), size):
+        yield study_worker.run_cases(cases[start : start + size], threads=workers)
 
 
 @contextlib.contextmanager
@@ -96,11 +109,12 @@ def local_cluster(cases, materials, workers):
 
 
 def cluster(cases, materials, workers, address):
-    """A Dask cluster by its address. Its workers need FMPy; the program that they run is sent to them."""
+    """A Dask cluster by its address. Its workers need FMPy or the Python module; the programs are sent to them."""
     from distributed import Client
 
     with Client(address) as client:
-        client.upload_file(PROGRAM)
+        for program in PROGRAMS:
+            client.upload_file(str(program))
         yield from through(client, cases, materials)
 
 

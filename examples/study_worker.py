@@ -1,17 +1,27 @@
-"""What a worker of study.py does, on this machine or another: holds FMUs ready and runs cases with them.
+"""What a worker of study.py does, on this machine or another: holds scenes ready and runs cases with them.
 
-Needs FMPy and nothing of this project: FMUs and records come as bytes.
+FMUs and records come as bytes. Where the Python module pounding_fmu is installed, in the version that made the FMUs, it
+runs the cases (study_module.py), else FMPy does (study_fmus.py): the rows are the same.
 """
 
 import atexit
+import importlib.metadata
+import io
+import itertools
 import shutil
 import tempfile
 import threading
+import xml.etree.ElementTree
+import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+SIDES = ("left", "right")
+# Columns by what they are made of: outputs of all contacts, and peaks of all storeys or floors of a building.
+OF_CONTACTS = {
+    "peak_force_n": ("peak_force", max), "impulse_n_s": ("impulse", sum), "dissipated_energy_j": ("dissipated_energy", sum)
+}  # fmt: skip
+OF_STOREYS = {"drift_m": "drift", "acceleration_m_s2": "acceleration"}
 
 
 @dataclass(frozen=True)
@@ -33,10 +43,59 @@ class Materials:
 
     fmus: dict  # by scene_id
     records: dict  # by record_id: ending of the file name, its bytes, the largest acceleration in it in m/s2
+    with_module: bool  # where it is installed
+
+
+class Description:
+    """What a study needs to know of an FMU, and what it reads out of a run."""
+
+    def __init__(self, content):
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            root = xml.etree.ElementTree.fromstring(archive.read("modelDescription.xml"))
+        self.guid, self.tool = root.get("guid"), root.get("generationTool")
+        self.names = [variable.get("name") for variable in root.iter("ScalarVariable")]
+        self.gaps = self._named("contact[", "].gap")
+        self._of_contacts = {what: self._named("contact[", f"].{what}") for what, _ in OF_CONTACTS.values()}
+        self._of_storeys = {
+            (side, what): self._named(f"{side}.peak_{what}[") for side in SIDES for what in OF_STOREYS.values()
+        }
+        self._base_shears = {side: f"{side}.peak_base_shear" for side in SIDES}
+
+    def _named(self, start, end=""):
+        return [name for name in self.names if name.startswith(start) and name.endswith(end)]
+
+    def outputs(self):
+        """The names of all variables that a row is made of; the first one is an Integer, the others are Real."""
+        lists = [*self._of_contacts.values(), *self._of_storeys.values()]
+        return ["impacts", *itertools.chain(*lists), *self._base_shears.values()]
+
+    def row(self, values):
+        """The results of a case of the values of these variables at its end."""
+        value = dict(zip(self.outputs(), values))
+        row = {"impacts": int(value["impacts"])}
+        for column, (what, summary) in OF_CONTACTS.items():
+            row[column] = summary(value[name] for name in self._of_contacts[what])
+        for side in SIDES:
+            peaks = {
+                column: [value[name] for name in self._of_storeys[side, what]] for column, what in OF_STOREYS.items()
+            }
+            row |= {f"{side}_{column}": max(of_storeys) for column, of_storeys in peaks.items()}
+            row[f"{side}_base_shear_n"] = value[self._base_shears[side]]
+            for column, of_storeys in peaks.items():
+                row |= {f"{side}_{column}[{i}]": peak for i, peak in enumerate(of_storeys, 1)}
+        return row
+
+
+def has_module(tool):
+    """Whether the module is installed here, of the version that made an FMU."""
+    try:
+        return tool == f"pounding-fmu {importlib.metadata.version('pounding-fmu')}"
+    except importlib.metadata.PackageNotFoundError:
+        return False
 
 
 class Bench:
-    """The materials as files, and an instance of each FMU for each thread."""
+    """The materials as files, and what runs each scene."""
 
     def __init__(self, materials, folder):
         self.materials = materials
@@ -47,105 +106,44 @@ class Bench:
             self.records[name] = self.folder / f"{name}{ending}"
             self.records[name].write_bytes(content)
         self.lock = threading.Lock()
-        self.unpacked = {}
-        self.instances = threading.local()
+        self.runners = {}
 
-    def instance(self, scene_id):
-        held = self.instances.__dict__.setdefault("held", {})
-        if scene_id not in held:
-            held[scene_id] = FMU2Instance(*self.unpack(scene_id))
-        return held[scene_id]
-
-    def unpack(self, scene_id):
+    def runner(self, scene_id):
         with self.lock:
-            if scene_id not in self.unpacked:
+            if scene_id not in self.runners:
+                content = self.materials.fmus[scene_id]
                 file = self.folder / f"{scene_id}.fmu"
-                file.write_bytes(self.materials.fmus[scene_id])
-                folder = extract(str(file), unzipdir=str(self.folder / scene_id))
-                self.unpacked[scene_id] = (read_model_description(str(file)), folder)
-            return self.unpacked[scene_id]
+                file.write_bytes(content)
+                description = Description(content)
+                self.runners[scene_id] = runner_class(self.materials, description)(file, description)
+            return self.runners[scene_id]
 
-    def run(self, case):
-        """The row of a case; where the run fails, it says why."""
-        peak = self.materials.records[case.record_id][2]
-        try:
-            instance = self.instance(case.scene_id)
-            results = instance.run(self.records[case.record_id], case.pga / peak, case.gap, case.stop)
-            return {**results, "error": ""}
-        except Exception as error:
-            self.instances.held.pop(case.scene_id, None)
-            return {"error": " ".join(str(error).split()) or type(error).__name__}
+    def run(self, cases, threads):
+        """Each case and its row; where the run has failed, the row says why."""
+        rows = []
+        for (scene_id, record_id, stop), group in itertools.groupby(cases, lambda c: (c.scene_id, c.record_id, c.stop)):
+            group = list(group)
+            scales = [case.pga / self.materials.records[record_id][2] for case in group]
+            gaps = [case.gap for case in group]
+            done = self.runner(scene_id).run(self.records[record_id], scales, gaps, stop, threads)
+            rows += zip(group, done, strict=True)
+        return rows
 
 
-class FMU2Instance(FMU2Slave):
-    """An instance that is reset for each case: the FMU is loaded once. Its messages become the errors.
+def runner_class(materials, description):
+    """What runs the cases of a scene here. A worker that has not one of the two does not import it."""
+    if materials.with_module and has_module(description.tool):
+        from study_module import Module
 
-    FMPy loads the functions that the beginning of the class's name stands for.
-    """
+        return Module
+    from study_fmus import Fmu
 
-    def __init__(self, description, folder):
-        identifier = description.coSimulation.modelIdentifier
-        super().__init__(guid=description.guid, unzipDirectory=folder, modelIdentifier=identifier, instanceName="study")
-        self.reference = {variable.name: variable.valueReference for variable in description.modelVariables}
-        self.said = []
-        callbacks = fmi2CallbackFunctions()
-        callbacks.logger = fmi2CallbackLoggerTYPE(lambda *message: self.said.append(message[-1].decode()))
-        self.instantiate(callbacks=callbacks)
-        self.used = False
-        named = lambda *ends: [r for name, r in self.reference.items() if name.endswith(ends)]  # noqa: E731
-        self.gaps = named("].gap")
-        self.forces, self.impulses, self.losses = (
-            named(f"].{name}") for name in ("peak_force", "impulse", "dissipated_energy")
-        )
-        self.storeys = {
-            side: sum(name.startswith(f"{side}.peak_drift[") for name in self.reference) for side in ("left", "right")
-        }
+    return Fmu
 
-    def run(self, record, scale, gap, stop):
-        """One step over the whole record: events happen inside, and peaks miss nothing."""
-        self.said.clear()
-        try:
-            return self.results(record, scale, gap, stop)
-        except Exception as error:
-            raise RuntimeError("; ".join(self.said) or str(error)) from error
 
-    def results(self, record, scale, gap, stop):
-        if self.used:
-            self.reset()
-        self.used = True
-        self.setString([self.reference["ground.record"]], [str(record)])
-        self.setReal([self.reference["ground.scale"]], [scale])
-        self.setReal(self.gaps, [gap] * len(self.gaps))
-        self.setupExperiment(startTime=0.0, stopTime=stop)
-        self.enterInitializationMode()
-        self.exitInitializationMode()
-        self.doStep(0.0, stop)
-        found = {
-            "impacts": self.getInteger([self.reference["impacts"]])[0],
-            "peak_force_n": max(self.getReal(self.forces)),
-            "impulse_n_s": sum(self.getReal(self.impulses)),
-            "dissipated_energy_j": sum(self.getReal(self.losses)),
-        }
-        for side in self.storeys:
-            drifts, accelerations = self.peaks(side, "drift"), self.peaks(side, "acceleration")
-            found |= {f"{side}_drift_m": max(drifts), f"{side}_acceleration_m_s2": max(accelerations)}
-            found[f"{side}_base_shear_n"] = self.getReal([self.reference[f"{side}.peak_base_shear"]])[0]
-            found |= {f"{side}_drift_m[{i}]": drift for i, drift in enumerate(drifts, 1)}
-            found |= {f"{side}_acceleration_m_s2[{i}]": peak for i, peak in enumerate(accelerations, 1)}
-        return found
-
-    def peaks(self, side, what):
-        """The largest so far, of each storey or floor."""
-        names = (f"{side}.peak_{what}[{i}]" for i in range(1, self.storeys[side] + 1))
-        return self.getReal([self.reference[name] for name in names])
-
-    def first_periods(self):
-        """s, of each building alone."""
-        self.setupExperiment(startTime=0.0)
-        self.enterInitializationMode()
-        self.exitInitializationMode()
-        self.used = True
-        return {side: 1.0 / self.getReal([self.reference[f"{side}.frequency[1]"]])[0] for side in self.storeys}
+def failed(text):
+    """The row of a case whose run has failed."""
+    return {"error": " ".join(text.split())}
 
 
 _bench = None
@@ -160,8 +158,8 @@ def prepare(materials, folder=None):
             _bench = Bench(materials, folder)
 
 
-def run_cases(cases, materials=None):
+def run_cases(cases, materials=None, threads=1):
     """The rows of some cases. A worker that is not prepared yet gets the materials with them."""
     if materials is not None:
         prepare(materials)
-    return [(case, _bench.run(case)) for case in cases]
+    return _bench.run(cases, threads)

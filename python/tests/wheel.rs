@@ -40,10 +40,11 @@ fn reference_fmus() -> PathBuf {
     folder
 }
 
-/// The Python of an environment that holds exactly what `requirements.txt` says, and the wheel.
+/// The Python of an environment that holds exactly what `requirements.txt` and the list that it includes say, and the wheel.
 fn environment() -> PathBuf {
     let requirements = root().join("python/tests/requirements.txt");
-    let wanted = std::fs::read_to_string(&requirements).unwrap();
+    let files = [requirements.clone(), root().join("tests/python/requirements.txt")];
+    let wanted = files.map(|file| std::fs::read_to_string(file).unwrap()).concat();
     let home = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wheel");
     let python_here = home.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     // Written last: an environment without it is not finished.

@@ -2,13 +2,22 @@
 //!
 //! Masters write it as `file:/x`, `file:///x`, `file://localhost/x` or `file:////x` or pass the plain path, with
 //! percent escapes or with the characters themselves. Escapes stand for bytes: a path need not be UTF-8.
+//!
+//! On Windows a folder of another machine has a path too: `file://server/share/x` and `file:////server/share/x` are
+//! `\\server\share\x`.
 
 use percent_encoding::percent_decode;
 use std::path::PathBuf;
 
-/// The paths that a location may mean, the likeliest first; none if it points to another machine.
+/// The paths that a location may mean, the likeliest first; none if it points to another machine and has no path here.
 pub fn paths(location: &[u8]) -> Vec<PathBuf> {
+    candidates(location, cfg!(windows)).into_iter().filter_map(|bytes| to_path(&bytes)).collect()
+}
+
+/// The bytes of the paths, as Windows or everybody else reads them.
+fn candidates(location: &[u8], windows: bool) -> Vec<Vec<u8>> {
     let (is_uri, path) = match strip_scheme(location) {
+        Some(path) if windows => (true, path_on_windows(&with_slashes(path))),
         Some(path) => (true, local_path(path)),
         None => (false, Some(location.to_vec())),
     };
@@ -16,7 +25,7 @@ pub fn paths(location: &[u8]) -> Vec<PathBuf> {
     let decoded = percent_decode(&verbatim).collect::<Vec<u8>>();
     let mut candidates = if is_uri { vec![decoded, verbatim] } else { vec![verbatim, decoded] };
     candidates.dedup();
-    candidates.into_iter().filter_map(|bytes| to_path(&bytes)).collect()
+    candidates
 }
 
 fn strip_scheme(location: &[u8]) -> Option<&[u8]> {
@@ -26,24 +35,49 @@ fn strip_scheme(location: &[u8]) -> Option<&[u8]> {
 
 /// What stands behind the scheme, as a path with at most one leading slash.
 fn local_path(rest: &[u8]) -> Option<Vec<u8>> {
-    let path = match rest.strip_prefix(b"//") {
-        None => rest,
-        Some(after) => {
-            let end_of_host = after.iter().position(|&byte| byte == b'/').unwrap_or(after.len());
-            let (host, path) = after.split_at(end_of_host);
-            let is_local = host.is_empty() || host.eq_ignore_ascii_case(b"localhost");
-            match (is_local, is_drive(host)) {
-                (true, _) => path,
-                (false, true) => after, // file://C:/x: a slash too few, seen in the wild
-                (false, false) => return None,
-            }
-        }
-    };
-    let slashes = path.iter().take_while(|&&byte| byte == b'/').count();
-    let path = &path[slashes.saturating_sub(1)..];
-    // /C:/x is the drive C on Windows. Elsewhere it stays what it says.
-    let drive = path.strip_prefix(b"/").filter(|drive| cfg!(windows) && is_drive(drive));
-    Some(drive.unwrap_or(path).to_vec())
+    let (host, path) = host_and_path(rest);
+    // file://C:/x: a slash too few, seen in the wild.
+    let path = if is_drive(host) { &rest[b"//".len()..] } else { path };
+    (is_this_machine(host) || is_drive(host)).then(|| path[leading_slashes(path).saturating_sub(1)..].to_vec())
+}
+
+/// The same on Windows: /C:/x is the drive C, and what belongs to a server is `\\server\share\x`.
+fn path_on_windows(rest: &[u8]) -> Option<Vec<u8>> {
+    let (host, path) = host_and_path(rest);
+    let behind = &path[leading_slashes(path)..];
+    if !is_this_machine(host) && !is_drive(host) {
+        return (!behind.is_empty()).then(|| on_server(&rest[b"//".len()..]));
+    }
+    if is_this_machine(host) && leading_slashes(path) > 1 && !is_drive(behind) {
+        return Some(on_server(behind));
+    }
+    let path = local_path(rest)?;
+    Some(path.strip_prefix(b"/").filter(|drive| is_drive(drive)).unwrap_or(&path).to_vec())
+}
+
+/// `server/share/x` as Windows writes it.
+fn on_server(path: &[u8]) -> Vec<u8> {
+    let backslashes = path.iter().map(|&byte| if byte == b'/' { b'\\' } else { byte });
+    br"\\".iter().copied().chain(backslashes).collect()
+}
+
+/// Backslashes separate on Windows, in what masters write behind `file:` too.
+fn with_slashes(path: &[u8]) -> Vec<u8> {
+    path.iter().map(|&byte| if byte == b'\\' { b'/' } else { byte }).collect()
+}
+
+/// The two parts of `//host/path`; without the two slashes everything is path.
+fn host_and_path(rest: &[u8]) -> (&[u8], &[u8]) {
+    let Some(after) = rest.strip_prefix(b"//") else { return (&[], rest) };
+    after.split_at(after.iter().position(|&byte| byte == b'/').unwrap_or(after.len()))
+}
+
+fn leading_slashes(path: &[u8]) -> usize {
+    path.iter().take_while(|&&byte| byte == b'/').count()
+}
+
+fn is_this_machine(host: &[u8]) -> bool {
+    host.is_empty() || host.eq_ignore_ascii_case(b"localhost")
 }
 
 /// Starts with a drive letter and a colon, which may be escaped.
@@ -108,6 +142,7 @@ mod tests {
         assert_eq!(both("/ab"), [PathBuf::from("/ab")]);
     }
 
+    #[cfg(not(windows))]
     #[test]
     fn another_machine_is_none() {
         assert_eq!(first("file://server/share/resources"), None);
@@ -115,15 +150,78 @@ mod tests {
 
     #[cfg(windows)]
     #[test]
-    fn drives() {
+    fn drives_and_servers() {
         for location in ["file:///C:/x y", "file:/C:/x%20y", "file:///C%3A/x%20y", "file://C:/x y", "C:/x y"] {
             assert_eq!(first(location), Some(PathBuf::from("C:/x y")), "{location}");
         }
+        for location in ["file://server/share/x%20y", "file:////server/share/x y", r"\\server\share\x y"] {
+            assert_eq!(first(location), Some(PathBuf::from(r"\\server\share\x y")), "{location}");
+        }
     }
 
-    #[cfg(not(windows))]
+    fn read(location: &str, windows: bool) -> Option<String> {
+        candidates(location.as_bytes(), windows).first().map(|bytes| String::from_utf8_lossy(bytes).into_owned())
+    }
+
     #[test]
-    fn drives_are_plain_names_elsewhere() {
-        assert_eq!(first("file:///C:/x"), Some(PathBuf::from("/C:/x")));
+    fn on_windows_a_server_has_a_path() {
+        for location in [
+            "file://server/share/a%20b/resources",
+            "FILE://server/share/a b/resources",
+            "file:////server/share/a%20b/resources",
+            "file://localhost//server/share/a%20b/resources",
+            "file://///server/share/a%20b/resources",
+            r"file:\\server\share\a b\resources",
+            r"file:///\\server\share\a b\resources",
+            r"\\server\share\a b\resources",
+        ] {
+            assert_eq!(read(location, true).as_deref(), Some(r"\\server\share\a b\resources"), "{location}");
+        }
+        for (location, path) in [
+            ("file://my%2Dserver/share/100%25", r"\\my-server\share\100%"),
+            ("file://192.168.0.1/share/x", r"\\192.168.0.1\share\x"),
+            ("file:////server/C$/x", r"\\server\C$\x"),
+            ("file:////?/C:/x", r"\\?\C:\x"),
+            (r"\\?\C:\x", r"\\?\C:\x"),
+        ] {
+            assert_eq!(read(location, true).as_deref(), Some(path), "{location}");
+        }
+    }
+
+    #[test]
+    fn on_windows_drives_stay_drives() {
+        for location in [
+            "file:C:/x y",
+            "file:/C:/x%20y",
+            "file://C:/x y",
+            "file:///C:/x%20y",
+            "file:////C:/x%20y",
+            "file://localhost/C:/x%20y",
+            r"file:///C:\x y",
+            "file:///C%3A/x%20y",
+            "C:/x y",
+        ] {
+            assert_eq!(read(location, true).as_deref(), Some("C:/x y"), "{location}");
+        }
+    }
+
+    #[test]
+    fn a_server_without_a_share_has_no_path() {
+        for location in ["file://server", "file://server/", "file://server//"] {
+            assert_eq!(read(location, true), None, "{location}");
+        }
+    }
+
+    #[test]
+    fn elsewhere_servers_have_no_path_and_drives_are_plain_names() {
+        for (location, path) in [
+            ("file://server/share/x", None),
+            ("file:////server/share/x", Some("/server/share/x")),
+            (r"file:\\server\share\x", Some(r"\\server\share\x")),
+            ("file:///C:/x", Some("/C:/x")),
+            ("file://C:/x", Some("C:/x")),
+        ] {
+            assert_eq!(read(location, false).as_deref(), path, "{location}");
+        }
     }
 }

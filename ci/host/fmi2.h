@@ -1,0 +1,68 @@
+/* The part of the C interface of FMI 2.0 [FMI2022] that the host calls. */
+
+#ifndef FMI2_H
+#define FMI2_H
+
+#include <stddef.h>
+
+enum { FMI2_WARNING = 1, FMI2_CO_SIMULATION = 1 };
+
+typedef struct {
+    void (*logger)(void *environment, const char *name, int status, const char *category, const char *message, ...);
+    void *(*allocate)(size_t count, size_t size);
+    void (*release)(void *memory);
+    void (*step_finished)(void *environment, int status);
+    void *environment;
+} Callbacks;
+
+typedef void *Instantiate(const char *name, int type, const char *guid, const char *resources,
+                          const Callbacks *callbacks, int visible, int logging);
+typedef void FreeInstance(void *fmu);
+typedef int SetupExperiment(void *fmu, int has_tolerance, double tolerance, double start, int has_stop, double stop);
+typedef int Simple(void *fmu);
+typedef int GetReal(void *fmu, const unsigned *references, size_t count, double *values);
+typedef int SetReal(void *fmu, const unsigned *references, size_t count, const double *values);
+typedef int GetInteger(void *fmu, const unsigned *references, size_t count, int *values);
+typedef int SetRealInputDerivatives(void *fmu, const unsigned *references, size_t count, const int *orders,
+                                    const double *values);
+typedef int GetRealOutputDerivatives(void *fmu, const unsigned *references, size_t count, const int *orders,
+                                     double *values);
+typedef int GetDirectionalDerivative(void *fmu, const unsigned *unknowns, size_t unknown_count, const unsigned *knowns,
+                                     size_t known_count, const double *seed, double *values);
+typedef int DoStep(void *fmu, double time, double step, int no_return);
+typedef int OfStatePlace(void *fmu, void **state);
+typedef int SetState(void *fmu, void *state);
+typedef int StateSize(void *fmu, void *state, size_t *size);
+typedef int SerializeState(void *fmu, void *state, unsigned char *bytes, size_t size);
+typedef int DeserializeState(void *fmu, const unsigned char *bytes, size_t size, void **state);
+
+/* Type and name, without its fmi2, of each. */
+#define FOR_EACH_FUNCTION(X)                              \
+    X(Instantiate, Instantiate)                           \
+    X(FreeInstance, FreeInstance)                         \
+    X(SetupExperiment, SetupExperiment)                   \
+    X(Simple, EnterInitializationMode)                    \
+    X(Simple, ExitInitializationMode)                     \
+    X(Simple, Terminate)                                  \
+    X(GetReal, GetReal)                                   \
+    X(SetReal, SetReal)                                   \
+    X(GetInteger, GetInteger)                             \
+    X(GetInteger, GetBoolean)                             \
+    X(SetRealInputDerivatives, SetRealInputDerivatives)   \
+    X(GetRealOutputDerivatives, GetRealOutputDerivatives) \
+    X(GetDirectionalDerivative, GetDirectionalDerivative) \
+    X(DoStep, DoStep)                                     \
+    X(OfStatePlace, GetFMUstate)                          \
+    X(SetState, SetFMUstate)                              \
+    X(OfStatePlace, FreeFMUstate)                         \
+    X(StateSize, SerializedFMUstateSize)                  \
+    X(SerializeState, SerializeFMUstate)                  \
+    X(DeserializeState, DeSerializeFMUstate)
+
+typedef struct {
+#define FIELD(type, name) type *name;
+    FOR_EACH_FUNCTION(FIELD)
+#undef FIELD
+} Functions;
+
+#endif

@@ -1,0 +1,80 @@
+"""The same bits everywhere: outputs of all cases and saved states, on all platforms that run here.
+
+Each function returns what is wrong, a line each.
+"""
+
+from concurrent.futures import ThreadPoolExecutor
+from itertools import chain
+
+from releasing.cases import STEPS
+from releasing.hosts import FOLDER
+from releasing.runs import Run, carry_out
+
+
+def expect(cases, host):
+    """The outputs that all others must have: this host's, kept beside each case, with the states of two points."""
+    runs = [Run(case, host, "expected") for case in cases]
+    problems = carry_out(host, runs)
+    if problems:
+        return problems
+    for run in runs:
+        (run.case.folder / "expected.outputs").write_bytes(run.outputs())
+    saving = started(cases, host)
+    problems = carry_out(host, saving) or [line for run in saving for line in run.differences(expected(run.case))]
+    for run in saving:
+        for kind, point in zip(("middle", "end"), run.saves):
+            (run.case.folder / f"{kind}.state").write_bytes((FOLDER / run.state(point)).read_bytes())
+    return problems
+
+
+def started(cases, host):
+    """Runs from the start that save a state on the way and at the end."""
+    return [Run(case, host, "start", saves=(case.middle(expected(case)), STEPS)) for case in cases]
+
+
+def same_outputs(cases, hosts):
+    """Outputs and states of every host have the bytes of what is kept beside the cases."""
+    return together(hosts, lambda host: check(host, started(cases, host)))
+
+
+def crosswise(cases, hosts):
+    """What any host has saved, every host goes on from: to the same outputs, to the same bytes when saved again."""
+    return together(
+        hosts, lambda host: check(host, [continued(run, host) for saver in hosts for run in started(cases, saver)])
+    )
+
+
+def continued(run, host):
+    """From the state that this run has saved on its way."""
+    middle = run.saves[0]
+    return Run(run.case, host, f"from-{run.host.platform.name}", middle, run.state(middle), run.saves)
+
+
+def from_kept_states(cases, host):
+    """Goes on from the states that are kept beside the cases, on a machine that has no other platform."""
+    kept = [(run, f"cases/{run.case.name}/middle.state") for run in started(cases, host)]
+    return check(host, [Run(run.case, host, "from-kept", run.saves[0], state, run.saves) for run, state in kept])
+
+
+def check(host, runs):
+    problems = carry_out(host, runs)
+    if problems:
+        return problems
+    return [line for run in runs for line in (*run.differences(expected(run.case)), *state_differences(run))]
+
+
+def state_differences(run):
+    problems = []
+    for kind, point in zip(("middle", "end"), run.saves):
+        if (FOLDER / run.state(point)).read_bytes() != (run.case.folder / f"{kind}.state").read_bytes():
+            problems.append(f"{run.state(point)}: the saved state has other bytes than on the first platform")
+    return problems
+
+
+def expected(case):
+    return (case.folder / "expected.outputs").read_bytes()
+
+
+def together(hosts, work):
+    with ThreadPoolExecutor(len(hosts)) as pool:
+        return list(chain.from_iterable(pool.map(work, hosts)))

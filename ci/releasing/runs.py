@@ -1,0 +1,91 @@
+"""Runs of cases on a host: what it is told, and whether what comes out has the bytes that are expected."""
+
+from dataclasses import dataclass
+
+from releasing.cases import STEP, STEPS, Case
+from releasing.hosts import FOLDER, Host
+
+
+@dataclass(frozen=True)
+class Run:
+    """A case on a host: from its start, or from a state that some platform has saved."""
+
+    case: Case
+    host: Host
+    name: str  # of the files that it writes
+    start: int = 0
+    start_state: str = ""  # a file; as all names here relative to the folder of the hosts
+    saves: tuple = ()  # points at which a state is saved
+
+    def file(self, ending):
+        return f"{self.host.platform.name}/{self.case.name}.{self.name}.{ending}"
+
+    def state(self, point):
+        return self.file(f"{point}.state")
+
+    def outputs(self):
+        return (FOLDER / self.file("outputs")).read_bytes()
+
+    def order(self):
+        """Writes the file that the host reads and returns its name."""
+        case, description = self.case, self.case.description
+        if case.inputs:
+            (FOLDER / self.file("inputs")).write_bytes(case.input_rows())
+        states = [f"{point} {self.state(point)}" for point in self.saves]
+        lines = [
+            f"library {self.host.platform.name}/{self.host.platform.library}",
+            f"resources {self.host.uri(case.folder / 'resources')}",
+            f"name {description.get('modelName')}",
+            f"guid {description.get('guid')}",
+            f"step {STEP!r}",
+            f"start {self.start}",
+            f"stop {STEPS}",
+            f"inputs_file {self.file('inputs')}",
+            f"output_file {self.file('outputs')}",
+            references("reals", case.of("output", "Real")),
+            references("integers", case.of("output", "Integer")),
+            references("booleans", case.of("output", "Boolean")),
+            references("inputs", case.inputs),
+            references("partials", [variable for pair in case.partials for variable in pair]),
+            f"states {len(states)} " + " ".join(states),
+        ]
+        if self.start_state:
+            lines.append(f"start_state {self.start_state}")
+        (FOLDER / self.file("run")).write_text("\n".join(lines) + "\n")
+        return self.file("run")
+
+    def differences(self, expected):
+        """Against all rows of the run from the start; one line about the first difference."""
+        found, expected = self.outputs(), expected[self.start * self.case.row_size :]
+        where = f"{self.case.name} on {self.host.platform.name}" + (
+            f" from {self.start_state}" if self.start_state else ""
+        )
+        return [f"{where}: {line}" for line in first_difference(self.case, found, expected, self.start)]
+
+
+def references(key, variables):
+    return " ".join([key, str(len(variables)), *(variable.get("valueReference") for variable in variables)])
+
+
+def first_difference(case, found, expected, start=0):
+    if found == expected:
+        return []
+    if len(found) != len(expected):
+        return [f"{len(found)} bytes of outputs, expected {len(expected)}"]
+    position = next(index for index, pair in enumerate(zip(found, expected)) if pair[0] != pair[1])
+    row, offset = divmod(position, case.row_size)
+    for name, size in case.columns:
+        if offset < size:
+            begin = position - offset
+            return [
+                f"{name} at point {start + row} is {found[begin : begin + size].hex()}, "
+                f"expected {expected[begin : begin + size].hex()}"
+            ]
+        offset -= size
+    return []
+
+
+def carry_out(host, runs):
+    """All runs of a host in one process; returns what went wrong."""
+    code, said = host.start(host.program, [run.order() for run in runs])
+    return [f"{host.platform.name}: the host ended with code {code}: {said}"] if code else []
