@@ -246,11 +246,12 @@ def test_progress():
     seen = []
     simulate_batch(
         FEUP,
-        {"contact[1].gap": np.full(300, 0.005)},
+        {"contact[1].gap": np.full(1000, 0.005)},
         ["impacts"],
+        threads=1,  # for long enough on any machine
         progress=lambda *done: seen.append((threading.get_ident(), *done)),
     )
-    assert seen[-1][1:] == (300, 300) and len(seen) > 1
+    assert seen[-1][1:] == (1000, 1000) and len(seen) > 1
     assert seen == sorted(seen) and {who for who, *_ in seen} == {threading.get_ident()}
 
     class Enough(Exception):
@@ -275,7 +276,7 @@ def test_other_threads_go_on():
     thread = threading.Thread(target=tick)
     thread.start()
     began = time.monotonic()
-    simulate_batch(FEUP, {"contact[1].gap": np.full(600, 0.005)}, ["impacts"])
+    simulate_batch(FEUP, {"contact[1].gap": np.full(1000, 0.005)}, ["impacts"], threads=1)
     pounding_fmu.simulate(FEUP, step=1e-4, outputs=["impacts"])
     ended = time.monotonic()
     over.set()
