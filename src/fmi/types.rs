@@ -5,7 +5,7 @@
 
 use std::ffi::{c_char, c_int, c_void};
 
-/// `fmi2Component`: an [`Instance`](super::instance::Instance).
+/// `fmi2Component`: an `Instance` (`instance.rs`).
 pub type Component = *mut c_void;
 /// `fmi2ComponentEnvironment`: the master's, opaque.
 pub type ComponentEnvironment = *mut c_void;
