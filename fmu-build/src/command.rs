@@ -31,7 +31,7 @@ pub struct BuildArguments {
     #[arg(short, long, value_name = "FILE.fmu")]
     pub(crate) output: Option<PathBuf>,
     /// Platforms whose library goes into the FMU, such as linux64, win64, aarch64-linux; without it, all there are.
-    #[arg(long = "platform", value_name = "PLATFORM", num_args = 1.., value_delimiter = ',')]
+    #[arg(long = "platform", value_name = "PLATFORM", num_args = 1.., value_delimiter = ',', value_parser = platform)]
     pub(crate) platforms: Vec<String>,
     /// Takes libraries that have been compiled before: PLATFORM/pounding.so, .dll or .dylib in this directory.
     #[arg(long, value_name = "DIRECTORY")]
@@ -83,6 +83,11 @@ pub(crate) struct Limit {
     /// How long the FMU may take to be tried, its run included; then it is stopped, and that is a failure.
     #[arg(long, value_name = "SECONDS", default_value = "300", value_parser = seconds)]
     pub(crate) time_limit: Duration,
+}
+
+fn platform(text: &str) -> Result<String, String> {
+    let is_name = text.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_')) && !text.is_empty();
+    is_name.then(|| text.to_owned()).ok_or_else(|| "expected a platform; the scene stands before --platform".to_owned())
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {

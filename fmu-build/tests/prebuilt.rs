@@ -102,6 +102,9 @@ fn platforms_are_chosen_by_name_and_others_refused_together() {
     }
     let said = shipped.refused(&["--platform", "vax", "linux64", "darwin64"]);
     assert!(said.contains("platform vax, darwin64: expected one of aarch64-linux, linux64, win64"), "{said}");
+    let behind = cargo_fmu(&["--platform", HOST.0, feup().to_str().unwrap()]);
+    assert_eq!(behind.status.code(), Some(2));
+    assert!(stderr(&behind).contains("the scene stands before --platform"), "{}", stderr(&behind));
     let said = stderr(&cargo_fmu(&["--platform", "aarch64-darwin"]));
     assert!(said.contains(&format!("platform aarch64-darwin: expected one of {}", HOST.0)), "{said}");
     assert!(said.contains("--libraries"), "{said}");
