@@ -134,7 +134,13 @@ def test_two_studies_do_not_write_at_once(tmp_path):
 def interrupted(command, begun):
     """Starts a program, presses Ctrl-C once it has begun, and returns its exit code and what it said."""
     running = subprocess.Popen(
-        list(map(str, command)), env=ENVIRONMENT, stderr=subprocess.PIPE, text=True, start_new_session=True
+        list(map(str, command)),
+        env=ENVIRONMENT,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        # A shell that has started the tests in the background has it ignored.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     give_up = time.monotonic() + 60
     while running.poll() is None and not begun() and time.monotonic() < give_up:
