@@ -92,8 +92,17 @@ impl Libraries for Shipped {
         if there.is_empty() {
             bail!("{}: no library in it; expected such as linux64/{STEM}.so", self.0.display());
         }
-        let wanted = chosen(platforms, &there)?;
-        wanted.iter().map(|folder| self.read(folder)).collect()
+        let (mut libraries, mut problems) = (Vec::new(), Vec::new());
+        for folder in chosen(platforms, &there)? {
+            match self.read(&folder) {
+                Ok(library) => libraries.push(library),
+                Err(problem) => problems.push(format!("{problem:#}")),
+            }
+        }
+        if !problems.is_empty() {
+            bail!("{}", problems.join("\n"));
+        }
+        Ok(libraries)
     }
 }
 

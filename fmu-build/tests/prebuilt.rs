@@ -117,7 +117,13 @@ fn what_is_no_library_is_refused() {
     let said = shipped.refused(&[]);
     assert!(said.contains("pounding.dylib: ") && said.contains("no library that can be read"), "{said}");
     shipped.put("darwin64/pounding.dylib", &library("aarch64-darwin"));
-    assert!(shipped.refused(&[]).contains("expected a library in the format MachO for X86_64"));
+    shipped.put("linux32/pounding.so", b"");
+    let said = shipped.refused(&[]);
+    assert!(
+        said.contains("expected a library in the format MachO for X86_64") && said.contains("for I386"),
+        "all: {said}"
+    );
+    std::fs::remove_dir_all(shipped.path("libraries/linux32")).unwrap();
     std::fs::remove_file(shipped.path("libraries/darwin64/pounding.dylib")).unwrap();
     assert!(shipped.refused(&[]).contains("cannot read"));
     std::fs::remove_dir_all(shipped.path("libraries")).unwrap();

@@ -62,9 +62,9 @@ def simulate_batch(
         records: other ground motions, as ``simulate`` takes them: one for all, or n of them, of which those that are
             the same path or the same arrays are read once; ``None`` among them is the scene's own.
         threads: how many cases run at a time; all cores where nothing is said. The results do not depend on it.
-        step: s, communication step of the FMU; one step over everything where nothing is said. With a record no value
-            depends on it; it divides a case that is more work than one step may be (``BatchError`` says so). Without
-            ground motion the FMU may be driven from outside, and its steps end there.
+        step: s, communication step of the FMU; one step over everything where nothing is said. With a record, and without
+            ``inputs.floor_forces``, no value depends on it; it divides a case that is more work than one step may be (``BatchError`` says so). Otherwise the
+            FMU may be driven from outside, and its steps end there.
         stop: s, end of each case; without it the scene's ``stop_time``, else the end of its record, else 10.
         progress: called with (cases done, n) about ten times a second, and at the end.
 
@@ -124,6 +124,8 @@ class _Motions:
     def __init__(self, read: _native.Scene, records: Any, key: str) -> None:
         self.key = key
         self.which: list[int] | None = None
+        if not (records is None or isinstance(records, (str, os.PathLike)) or hasattr(records, "__len__")):
+            records = list(records)  # one look at an iterator uses it up
         if records is None or (isinstance(records, str) and not records):
             self.scenes = [read]
         elif _is_one(records):
@@ -169,10 +171,9 @@ def _identity(record: Any) -> object:
     """What two records have in common that are read once."""
     if record is None or isinstance(record, (str, os.PathLike)):
         return record and os.fsdecode(record)
-    try:
+    if isinstance(record, (tuple, list)):
         return tuple(id(column) for column in record)
-    except TypeError:
-        return id(record)
+    return id(record)  # rows of an array are objects that last no longer than a look at them
 
 
 def _is_one(records: Any) -> bool:

@@ -62,8 +62,9 @@ def simulate(
 
     Args:
         scene: a path, a text or a dict.
-        step: s, from row to row; 0.01 where nothing is said. With a record no value depends on it. Where a scene has no
-            ground motion, the FMU may be driven from outside, and its steps end where the rows are.
+        step: s, from row to row; 0.01 where nothing is said. With a record, and without
+            ``inputs.floor_forces``, no value depends on it. Otherwise the FMU may be driven from outside, and its steps
+            end where the rows are.
         stop: s, time of the last row; without it the scene's ``stop_time``, else the end of the record, else 10.
         outputs: names of the columns beside ``time``: outputs of the FMU, also its frequencies and parameters. All
             outputs where nothing is said.
@@ -99,7 +100,7 @@ def simulate(
     read = read_scene(scene)
     if record is not None:
         read = read.with_record(read_record(record, "record"))
-    read, names = _with_parameters(read, dict(parameters or {}), record is not None)
+    read, names = _with_parameters(read, {} if parameters is None else dict(parameters), record is not None)
     if outputs is None:
         columns = [name for name, variable in names.variables.items() if variable.causality == "output"]
     else:

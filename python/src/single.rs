@@ -38,7 +38,7 @@ pub fn simulate<'py>(
     let reading = |&reference| Reading::new(table, settings, reference);
     let readings: Vec<Reading> = references.iter().filter_map(reading).collect();
     has_room(stop / step, readings.len() + 1)?;
-    let model = Model::new(&settings.scene, settings.record()).map_err(|error| refusal(&error))?;
+    let model = py.detach(|| Model::new(&settings.scene, settings.record())).map_err(|error| refusal(&error))?;
 
     let done = Mutex::new(Ok(Kept::default()));
     let work = |told_to_stop: &AtomicBool| {

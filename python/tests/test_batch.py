@@ -91,6 +91,9 @@ def test_records(tmp_path):
         [one_arrays, other_arrays, one_arrays, None],
         [one, other_arrays, [list(column) for column in one_arrays], ""],
         (one, other, one_arrays, fmus.RECORD),
+        # Rows of an array are objects that are gone when the next ones are made.
+        [np.array(one_arrays), np.array(other_arrays), np.array(one_arrays), None],
+        (record for record in (one, other, one, None)),
     ):
         assert fmus.same_bits(simulate_batch(scene, {}, OUTPUTS, records=records), ends)
     assert fmus.same_bits(simulate_batch(scene, {"ground.record": [one, other, one, ""]}, OUTPUTS), ends)
@@ -98,6 +101,11 @@ def test_records(tmp_path):
         batch = simulate_batch(scene, {"ground.scale": np.ones(2)}, OUTPUTS, records=one_for_all)
         assert fmus.same_bits(batch, [ends[0]] * 2)
     assert fmus.same_bits(simulate_batch(scene, {"ground.record": one}, OUTPUTS), ends[:1])
+    many = pulses(tmp_path, 6)
+    of_files = simulate_batch(scene, {}, OUTPUTS, records=[file for file, _ in many])
+    assert fmus.same_bits(simulate_batch(scene, {}, OUTPUTS, records=np.array([arrays for _, arrays in many])), of_files)
+    assert fmus.same_bits(simulate_batch(scene, {}, OUTPUTS, records=iter([file for file, _ in many[:2]])), of_files[:2])
+    assert fmus.same_bits(simulate_batch(scene, {"ground.record": map(str, [one, other])}, OUTPUTS), ends[:2])
     # A scene without a record gets them as its own.
     bare = fmus.without_record().replace("stop_time = 20.0", "")
     assert fmus.same_bits(simulate_batch(bare, {}, OUTPUTS, records=[one, other_arrays]), ends[:2])

@@ -76,7 +76,8 @@ fn libraries(fmu: &Unpacked, description: &ModelDescription, channel: &Channel) 
     }
     let all = || there.cloned().collect::<Vec<_>>().join(", ");
     is_here_in_order.with_context(|| {
-        format!("the FMU has no library for this machine in binaries/{}; it has: {}", platform::folder(), all())
+        let here = platform::folder();
+        format!("cannot be tried here: the FMU has no library for this machine, {here}; it has: {}", all())
     })
 }
 
