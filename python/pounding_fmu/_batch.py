@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _native
@@ -124,8 +124,8 @@ class _Motions:
     def __init__(self, read: _native.Scene, records: Any, key: str) -> None:
         self.key = key
         self.which: list[int] | None = None
-        if not (records is None or isinstance(records, (str, os.PathLike)) or hasattr(records, "__len__")):
-            records = list(records)  # one look at an iterator uses it up
+        if isinstance(records, Iterator):
+            records = list(records)  # the first look at it uses it up
         if records is None or (isinstance(records, str) and not records):
             self.scenes = [read]
         elif _is_one(records):
