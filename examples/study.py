@@ -21,6 +21,7 @@ signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 import argparse  # noqa: E402
 import contextlib  # noqa: E402
+import dataclasses  # noqa: E402
 import os  # noqa: E402
 import sys  # noqa: E402
 import time  # noqa: E402
@@ -140,34 +141,39 @@ def arguments():
 
 
 def measure(cases, materials, repeats=3):
-    """Prints how fast each way of running is, and what starting takes: medians, and the lowest and highest rate."""
+    """Prints how fast each way of running is, and what starting takes: medians, and the lowest and highest rate.
+
+    Where the Python module is installed, FMUs and module take turns, so that both have the same of what else goes on.
+    """
     cores = os.cpu_count()
-    kind = ["thread", "threads"] if materials.with_module else ["process", "processes"]
-    ways = [(f"one {kind[0]}", None, 1), (f"{cores} {kind[1]}", None, cores)]
+    kinds = {"FMUs": dataclasses.replace(materials, with_module=False)}
+    kinds |= {"module": materials} if materials.with_module else {}
+    ways = [(f"{workers} at a time", None, workers) for workers in sorted({1, cores})]
     ways += [(f"local Dask cluster, {workers} workers", "local", workers) for workers in sorted({1, cores, 2 * cores})]
     print(f"{len(cases)} cases, {cores} cores")
     for name, scheduler, workers in ways:
-        processor = time.process_time()
-        how = runner(scheduler, workers, materials.with_module)
-        found = [measure_once(cases, materials, *how) for _ in range(repeats)]
-        rates, starts = zip(*found)
-        low, middle, high = np.percentile(rates, [0, 50, 100])
-        said = f"{middle:4.0f} cases a second ({low:.0f} to {high:.0f})"
-        print(f"{name:30}  {said:34}  after {np.median(starts):.1f} s", flush=True)
-        if workers == 1 and scheduler is None:
+        found = {kind: [] for kind in kinds}
+        for kind in [*kinds] * repeats:
+            found[kind].append(measure_once(cases, kinds[kind], scheduler, workers))
+        for kind, runs in found.items():
+            rates, starts, processor = zip(*runs)
+            low, middle, high = np.percentile(rates, [0, 50, 100])
+            said = f"{middle:4.0f} cases a second ({low:.0f} to {high:.0f})"
             # Of this process, whatever else the machine is doing.
-            each = (time.process_time() - processor) / (repeats * len(cases))
-            print(f"{'':30}  {1e3 * each:.2f} ms of processor time each", flush=True)
+            own = f", {np.median(processor):.2f} ms of processor time each" if workers == 1 and scheduler is None else ""
+            print(f"{name:30}  {kind:7} {said:34}  after {np.median(starts):.1f} s{own}", flush=True)
 
 
-def measure_once(cases, materials, run, workers):
-    """Cases a second from the first results on, and s until then."""
-    start = time.monotonic()
+def measure_once(cases, materials, scheduler, workers):
+    """Cases a second from the first results on, s until then, and ms of processor time a case."""
+    run, workers = runner(scheduler, workers, materials.with_module)
+    processor, start = time.process_time(), time.monotonic()
     batches = run(cases, materials, workers)
     next(batches)
     begun = time.monotonic()
     rest = sum(len(rows) for rows in batches)
-    return rest / (time.monotonic() - begun), begun - start
+    each = 1e3 * (time.process_time() - processor) / len(cases)
+    return rest / (time.monotonic() - begun), begun - start, each
 
 
 class Progress:

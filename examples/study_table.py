@@ -9,8 +9,9 @@ import io
 import math
 import re
 
+from study_worker import SIDES
+
 NEVER_CLOSES = 1e3  # m, the gap of the runs without contact
-SIDES = ("left", "right")
 CASE = {
     "scene": str, "scene_id": str, "record": str, "record_id": str, "pga_m_s2": float, "gap_m": float, "stop_s": float
 }  # fmt: skip

@@ -12,6 +12,12 @@ class Failure(Exception):
     """What the user is told, instead of a traceback."""
 
 
+def stop_at(problems):
+    """Ends with what gates have found, a line each."""
+    if problems:
+        raise Failure("not fit to be published:\n" + "\n".join(problems))
+
+
 def run(*command, variables=None, folder=ROOT, aloud=False):
     """Runs a program and returns what it has written. What it says on the way shows on a terminal if it is `aloud`."""
     command = [str(word) for word in command]

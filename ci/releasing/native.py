@@ -7,7 +7,7 @@ from pathlib import Path
 
 from releasing import cases, comparison, gates, needs, platforms, reading, remapping
 from releasing.cargo import Toolchain, compile_library
-from releasing.commands import Failure
+from releasing.commands import Failure, stop_at
 from releasing.hosts import Host
 
 
@@ -68,11 +68,6 @@ def this_platform():
     if found is None:
         raise Failure("there are no libraries for machines like this one")
     return found
-
-
-def stop_at(problems):
-    if problems:
-        raise Failure("not fit to be published:\n" + "\n".join(problems))
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import unittest
 from releasing import archives, cases, comparison, gates, hosts, needs, options, progress, reading, remapping
 from releasing import standard_library, unit_tests
 from releasing.cargo import VARIABLES, compile_library
-from releasing.commands import Failure, run
+from releasing.commands import Failure, run, stop_at
 from releasing.places import CI, FILES, ROOT, WORK
 from releasing.platforms import CROSS, LINUX, WINDOWS
 
@@ -107,11 +107,6 @@ def make_fmus():
 def check_archives():
     files = sorted([*DRAFT.glob("wheels/*.whl"), *DRAFT.glob("fmus/*.fmu")])
     return [problem for file in files for problem in archives.check(file, LINUX, remapping.private_paths())]
-
-
-def stop_at(problems):
-    if problems:
-        raise Failure("not fit to be published:\n" + "\n".join(problems))
 
 
 if __name__ == "__main__":

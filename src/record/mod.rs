@@ -11,6 +11,9 @@
 
 mod at2;
 mod csv;
+mod known;
+
+pub use known::KnownRecords;
 
 use crate::figures::plain;
 use serde::{Deserialize, Serialize};

@@ -121,7 +121,8 @@ fn read_text(path: &Path) -> Result<String, Problem> {
 
 /// Reads a record file, named as `ground.record` names it, that this scaling fits.
 fn read_record(name: &str, path: &Path, scaling: Scaling) -> Result<PackagedRecord, SceneError> {
-    let packaged = parse_record(name, read_record_file(name, path)?)?;
+    let packaged = PackagedRecord::parse(name, read_record_file(name, path)?);
+    let packaged = packaged.map_err(|error| record_problems(name, error))?;
     scaling.factor(&packaged.record)?;
     Ok(packaged)
 }
@@ -135,10 +136,9 @@ pub(crate) fn read_record_file(name: &str, path: &Path) -> Result<Vec<u8>, Scene
     fs::read(path).map_err(|error| record_problem(name, format!("{}: {error}", path.display())).into())
 }
 
-/// What the bytes of a record file say.
-pub(crate) fn parse_record(name: &str, bytes: Vec<u8>) -> Result<PackagedRecord, SceneError> {
-    let problems = |error: RecordError| error.problems.into_iter().map(|what| record_problem(name, what)).collect();
-    PackagedRecord::parse(name, bytes).map_err(|error| SceneError { problems: problems(error) })
+/// What is wrong in a record file, as problems of the scene that names it.
+pub(crate) fn record_problems(name: &str, error: RecordError) -> SceneError {
+    SceneError { problems: error.problems.into_iter().map(|what| record_problem(name, what)).collect() }
 }
 
 fn record_problem(name: &str, what: String) -> Problem {

@@ -65,7 +65,7 @@ pub mod rule;
 mod syntax;
 
 pub use files::{Package, PackagedRecord, load};
-pub(crate) use files::{SCENE_RESOURCE, parse_record, read_record_file};
+pub(crate) use files::{SCENE_RESOURCE, read_record_file, record_problems};
 pub use problem::{Problem, SceneError};
 pub(crate) use problem::{excerpt, number, numbers, quoted};
 

@@ -10,7 +10,6 @@ mod changes;
 mod dependencies;
 mod derivatives;
 mod initial_dependencies;
-mod last_record;
 mod rows;
 mod unit;
 mod values;

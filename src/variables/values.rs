@@ -1,12 +1,12 @@
 //! Reading and writing what a slot stands for: each one match over all slots.
 
-use super::last_record::LastRecord;
 use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, Row, Slot, Table, building};
 use crate::engine::{ContactPoint, EnergyPoint, LinearInput, Model, Point, SavedState, Side, State};
-use crate::record::Record;
-use crate::scene::{Building, Damping, Scaling, Scene, SceneError, Stiffness};
+use crate::record::{KnownRecords, Record};
+use crate::scene::{Building, Damping, Scaling, Scene, SceneError, Stiffness, read_record_file, record_problems};
 use crate::warnings::{self, Warning};
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 use std::sync::Arc;
 
 /// A value of a variable.
@@ -63,13 +63,19 @@ pub struct Settings {
     packaged_record: Option<Arc<Record>>,
     /// `ground.record` and what it names.
     pub(super) other_record: Option<(String, Arc<Record>)>,
-    last_record: Arc<LastRecord>,
+    /// What files have held, for all settings of an instance.
+    known_records: Arc<KnownRecords>,
 }
 
 impl Settings {
     /// The parameters as the scene gives them.
     pub fn new(scene: Scene, record: Option<Record>) -> Settings {
-        Settings { scene, packaged_record: record.map(Arc::new), other_record: None, last_record: Arc::default() }
+        Settings {
+            scene,
+            packaged_record: record.map(Arc::new),
+            other_record: None,
+            known_records: Arc::new(KnownRecords::new(1)),
+        }
     }
 
     /// The record that runs.
@@ -179,7 +185,9 @@ impl Settings {
             self.other_record = None;
             return Ok(());
         }
-        self.set_record(path, self.last_record.read(path)?)
+        let bytes = read_record_file(path, Path::new(path))?;
+        let record = self.known_records.read(path, bytes).map_err(|error| record_problems(path, error))?;
+        self.set_record(path, record)
     }
 
     /// Another record that has been read already; `name` is what `ground.record` reads as from here on.
