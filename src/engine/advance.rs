@@ -92,8 +92,6 @@ impl Model {
             StepKind::Glide => self.forget_glide(state),
             _ => return,
         }
-        // A step in contact notes its length in the base: all else that planning changes there it would find again.
-        state.step.planned_from = state.base.last_length;
         if state.base.contacts.iter().any(Contact::in_contact) {
             self.plan_contact(state, limit);
         } else {
@@ -119,6 +117,7 @@ impl Model {
         std::mem::swap(&mut base.q, &mut step.q);
         std::mem::swap(&mut base.v, &mut step.v);
         base.elapsed = end;
+        base.last_length = step.next_length.unwrap_or(base.last_length);
         self.move_contacts(base, step);
         self.keep_together(base, work);
         if let Some(event) = step.event {

@@ -139,7 +139,7 @@ impl Model {
                 base.contacts[p].reaction = reaction[0];
             }
         }
-        base.last_length = step.series.time(reach);
+        step.next_length = Some(step.series.time(reach));
     }
 
     /// How long a step may be near rigid contacts, of the `remaining` time, s, and whether it is cut; or the release that
@@ -472,6 +472,7 @@ fn happen_now(state: &mut State, event: Event) {
     step.event = Some(event);
     step.reaches_limit = false;
     step.length = 0.0;
+    step.next_length = None;
     step.series.scale = 1.0;
     step.carried.fill(None);
     step.ends.clear();

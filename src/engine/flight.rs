@@ -19,6 +19,7 @@ impl Model {
         step.length = remaining;
         step.reaches_limit = remaining >= whole;
         step.event = None;
+        step.next_length = None;
         step.carried.fill(None);
         step.ends.clear();
         self.fly(base, remaining, work, (&mut step.q, &mut step.v));

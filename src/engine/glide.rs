@@ -64,7 +64,6 @@ impl Model {
             if ends_after(&base.segment, until) {
                 if is_free && !is_planned {
                     step.kind = StepKind::Glide;
-                    step.planned_from = base.last_length;
                     self.count_glide(counters, 1);
                 }
                 break is_free;

@@ -179,7 +179,7 @@ impl Model {
                 kind: StepKind::Unknown,
                 length: 0.0,
                 reaches_limit: false,
-                planned_from: 0.0,
+                next_length: None,
                 event: None,
                 q: vec![0.0; lanes],
                 v: vec![0.0; lanes],

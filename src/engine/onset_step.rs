@@ -298,7 +298,7 @@ impl Model {
         step.length = if step.reaches_limit { remaining } else { x * scale };
         step.onset.read(step.length / scale);
         step.onset.evaluate(step.length / scale, &mut step.q, &mut step.v);
-        base.last_length = step.length;
+        step.next_length = Some(step.length);
         true
     }
 

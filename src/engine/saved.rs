@@ -36,12 +36,8 @@ impl State {
     /// What [`Model::restore`] brings back.
     pub fn save(&self) -> SavedState {
         let State { time, base, step, inputs, counters, work: _ } = self;
-        let mut base = base.clone();
         let is_planned = step.kind != StepKind::Unknown;
-        if is_planned {
-            base.last_length = step.planned_from;
-        }
-        SavedState { time: *time, base, is_planned, inputs: inputs.clone(), counters: *counters }
+        SavedState { time: *time, base: base.clone(), is_planned, inputs: inputs.clone(), counters: *counters }
     }
 }
 

@@ -199,8 +199,8 @@ pub(super) struct Step {
     pub length: f64,
     /// Whether the step ends where the segment (or the communication step that cuts it) does.
     pub reaches_limit: bool,
-    /// s, `last_length` of the base when the step was planned: with it the step can be planned again.
-    pub planned_from: f64,
+    /// s, `last_length` of the base once the step is taken; absent where it stays as it is.
+    pub next_length: Option<f64>,
     pub event: Option<Event>,
     /// The state at the end, in the coordinates of the base.
     pub q: Vec<f64>,

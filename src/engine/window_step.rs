@@ -127,7 +127,7 @@ impl Model {
                 Verdict::Good => {
                     counters.contact_steps += 1;
                     counters.law_evaluations += base.count_forces(Contact::branch);
-                    self.commit_window(base, step, work, draft.ending, remaining);
+                    self.commit_window(step, work, draft.ending, remaining);
                     return true;
                 }
                 Verdict::Another(next) => draft = next,
@@ -257,7 +257,7 @@ impl Model {
         }
     }
 
-    fn commit_window(&self, base: &mut Base, step: &mut Step, work: &mut Workspace, ending: Ending, remaining: f64) {
+    fn commit_window(&self, step: &mut Step, work: &mut Workspace, ending: Ending, remaining: f64) {
         let (length, contacts) = (step.window.solution.length, step.window.contacts);
         step.kind = StepKind::Window;
         step.carried.fill(None);
@@ -273,7 +273,7 @@ impl Model {
         let (mut q, mut v) = (std::mem::take(&mut step.q), std::mem::take(&mut step.v));
         self.read_window(step, length, &mut work.powers, (&mut q, &mut v));
         (step.q, step.v) = (q, v);
-        base.last_length = length;
+        step.next_length = Some(length);
     }
 }
 
