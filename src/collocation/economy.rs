@@ -4,7 +4,7 @@
 //! So a small term of degree n is taken away together with so much of the lower ones [Lanczos1956].
 
 use super::tables::POWERS;
-use crate::polynomial::each;
+use crate::numerics::polynomial::each;
 
 /// Row n: factors of x^0 to x^n of the Chebyshev polynomial of degree n on 0..=1 that begins with x^n.
 const SMALLEST: [[f64; POWERS]; POWERS] = {

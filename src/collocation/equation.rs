@@ -5,7 +5,7 @@ use super::nodes::{Matrix, NODES, Row};
 use super::rows::{NOTHING, combine, combined, fours, value, values};
 use super::tables::{POWERS, Tables};
 use crate::contact::Force;
-use crate::polynomial::{COUNT, Coefficients, ROOM, each, value_and_slope};
+use crate::numerics::polynomial::{COUNT, Coefficients, ROOM, each, value_and_slope};
 
 /// Pairs that a window is solved for at once: those in contact, and those that may come into contact.
 pub const MOST_PAIRS: usize = 4;

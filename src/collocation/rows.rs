@@ -2,7 +2,7 @@
 
 use super::nodes::{Matrix, NODES, Row};
 use crate::contact::Force;
-use crate::polynomial::{SECOND, each};
+use crate::numerics::polynomial::{SECOND, each};
 
 /// Columns that are added up side by side.
 const ABREAST: usize = 2;

@@ -7,7 +7,7 @@ use super::equation::{Equation, MOST_PAIRS, Room};
 use super::nodes::{NODES, Row, Rule, dot, nodes};
 use super::rows::{NOTHING, add_product, combine, forces, fours, fours_mut, larger, product, row, second_derivative};
 use super::tables::{Map, Tables};
-use crate::polynomial::each;
+use crate::numerics::polynomial::each;
 
 /// Sweeps after which a window is given up: it is too long for this, or its damping too stiff.
 const MOST_SWEEPS: usize = 24;

@@ -14,7 +14,7 @@
 
 use super::force::{Force, power};
 use super::series::{Each, Kind, PAIRS, ROOT};
-use crate::polynomial::each;
+use crate::numerics::polynomial::each;
 
 /// Most terms of a double series.
 pub const MOST_TERMS: usize = 64;

@@ -3,9 +3,11 @@
 use super::ground::Segment;
 use super::model::Model;
 use super::state::*;
-use super::{EngineError, Episode, roots};
+use super::{EngineError, Episode};
 use crate::contact::EpisodeForce;
-use crate::polynomial::{Coefficients, Powers};
+use crate::numerics::polynomial::Coefficients;
+use crate::numerics::powers::Powers;
+use crate::numerics::roots;
 use crate::structure::LANES;
 
 impl Model {

@@ -4,11 +4,12 @@ use super::members::{Members, Place, most_blocks};
 use super::model::Pair;
 use super::open_pairs::Course;
 use super::pair_forces::Blocks;
-use super::roots;
 use super::state::*;
-use crate::clock::Bend;
 use crate::contact::series::{Any, BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
-use crate::polynomial::{Coefficients, Powers, Reading, each};
+use crate::numerics::polynomial::{Coefficients, each};
+use crate::numerics::powers::{Powers, Reading};
+use crate::numerics::roots;
+use crate::numerics::substitution::Bend;
 use crate::structure::MotionSeries;
 
 /// The pairs in contact, in blocks of one kind of law each.

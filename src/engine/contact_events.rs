@@ -2,11 +2,12 @@
 
 use super::closed_pairs::ClosedPairs;
 use super::model::Model;
-use super::roots;
 use super::state::*;
 use crate::contact::Guard;
 use crate::contact::series::BlockReading;
-use crate::polynomial::{Coefficients, Powers};
+use crate::numerics::polynomial::Coefficients;
+use crate::numerics::powers::Powers;
+use crate::numerics::roots;
 use crate::structure::MotionSeries;
 
 /// Share of the velocities so far below which a rate may be rounding.

@@ -8,16 +8,16 @@
 //! time are weighed as those by a [`Clock`] have them, which knows no such root and goes several times as far.
 
 use super::closed_pairs::ClosedPairs;
-use super::complementarity::Complementarity;
 use super::linear_pairs::LinearPairs;
 use super::meeting::{OnFewModes, OnFloors, OnModes};
 use super::model::Model;
 use super::pair_forces::with_forces;
 use super::state::*;
-use crate::clock::Clock;
 use crate::contact::Force;
 use crate::contact::series::PAIRS;
-use crate::polynomial::{MAX_ORDER, ROOM, rough_root};
+use crate::numerics::complementarity::Complementarity;
+use crate::numerics::polynomial::{MAX_ORDER, ROOM, rough_root};
+use crate::numerics::time_map::Clock;
 use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, difference, dot};
 
 /// Share of `relative_tolerance` that one step may use: an episode takes some thirty steps and an earthquake some

@@ -25,7 +25,7 @@
 use super::ground::{Ahead, GroundMotion};
 use super::model::{Model, Pair};
 use super::state::*;
-use crate::polynomial::each;
+use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane, ModalDamping, Side, Structure};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;

@@ -6,8 +6,8 @@ use super::input::LinearInput;
 use super::model::Model;
 use super::state::*;
 use super::{EnergyPoint, Point};
-use crate::polynomial::ROOM;
-use crate::quadrature::{EIGHT, Rule, TWELVE, gauss, graded};
+use crate::numerics::polynomial::ROOM;
+use crate::numerics::quadrature::{EIGHT, Rule, TWELVE, gauss, graded};
 use crate::structure::{MotionSeries, dot, flight_order};
 
 /// (Fastest rate) x (time) of a piece of a flight.
@@ -179,7 +179,8 @@ impl Model {
         const REMAINDER: f64 = 1e-16;
         let pieces = self.pieces(length);
         let h = length / pieces as f64;
-        let order = flight_order(self.structure.fastest * h, REMAINDER).unwrap_or(crate::polynomial::MAX_ORDER);
+        let order =
+            flight_order(self.structure.fastest * h, REMAINDER).unwrap_or(crate::numerics::polynomial::MAX_ORDER);
         self.load(base, inputs, &mut work.load, &mut work.slope);
         if length > self.longest_pieces() {
             return self.integrate_quiet_flight(base, work, length, done);

@@ -4,9 +4,9 @@
 //! the same whether it has been looked at or not. So it does not matter which pairs there are that never meet.
 
 use super::model::Model;
-use super::roots;
 use super::state::*;
-use crate::polynomial::ALL;
+use crate::numerics::polynomial::ALL;
+use crate::numerics::roots;
 use crate::structure::{EXACT, flight_order};
 
 /// (Fastest rate) x (time) that one series reaches.
@@ -77,7 +77,8 @@ impl Model {
 
     /// The first entry in a piece, from its power series: where, as a share of the piece, and which pair.
     fn first_rise_in(&self, base: &Base, work: &mut Workspace, length: f64) -> Option<(f64, usize)> {
-        let order = flight_order(self.structure.fastest * length, EXACT).unwrap_or(crate::polynomial::MAX_ORDER);
+        let order =
+            flight_order(self.structure.fastest * length, EXACT).unwrap_or(crate::numerics::polynomial::MAX_ORDER);
         let Look { from, q, v, load, stay_apart, .. } = &work.look;
         work.series.expand_flight(&self.structure, (q, v), (load, &work.slope), (length, order));
         let mut first: Option<(f64, usize)> = None;

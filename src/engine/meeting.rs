@@ -4,7 +4,7 @@ use super::members::Members;
 use super::model::Pair;
 use super::state::Coordinates;
 use crate::contact::series::{Each, PAIRS};
-use crate::polynomial::each;
+use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane, difference};
 
 /// How contact forces and the motion meet in its coordinates. `count` lanes of the members hold pairs.

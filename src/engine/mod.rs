@@ -43,7 +43,6 @@
 
 mod advance;
 mod closed_pairs;
-mod complementarity;
 mod contact_events;
 mod contact_step;
 mod dismissal;
@@ -69,7 +68,6 @@ mod pair_forces;
 mod peaks;
 mod rates;
 mod rigid;
-mod roots;
 mod saved;
 mod state;
 mod swing;

@@ -6,7 +6,7 @@
 use super::glide::Sight;
 use super::model::{Model, Pair};
 use super::state::{Base, Counters};
-use crate::polynomial::each;
+use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane, Side, Structure};
 use std::ops::Range;
 

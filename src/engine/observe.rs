@@ -4,7 +4,7 @@ use super::input::LinearInput;
 use super::model::Model;
 use super::state::*;
 use super::{ContactPoint, Episode, Point, Side};
-use crate::polynomial::Powers;
+use crate::numerics::powers::Powers;
 use crate::structure::{exact_order, fly_in_one_series};
 use std::cell::Cell;
 

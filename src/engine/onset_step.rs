@@ -7,14 +7,14 @@ use super::contact_step::touching;
 use super::meeting::{Meeting, OnFloors, OnModes};
 use super::members::{Members, Place, most_blocks};
 use super::model::{Model, Pair};
-use super::roots;
 use super::state::*;
 use crate::contact::Force;
 use crate::contact::onset::{
     Grid, GridPowers, MOST_TERMS, OnsetBlock, OnsetReading, Products, value_and_slope, values_and_slopes,
 };
 use crate::contact::series::Kind;
-use crate::quadrature::{TWELVE, graded};
+use crate::numerics::quadrature::{TWELVE, graded};
+use crate::numerics::roots;
 use crate::structure::{LANES, Lane, Structure, sum_sizes, sum_terms};
 
 /// Highest power of x of the double series: its cost grows with the square, its reach hardly.

@@ -3,11 +3,12 @@
 use super::meeting::{Meeting, OnFewModes, OnFloors, OnModes};
 use super::members::{Members, Place, most_blocks};
 use super::model::{Model, Pair};
-use super::roots;
 use super::state::*;
-use crate::clock::Bend;
 use crate::contact::series::{Each, PAIRS};
-use crate::polynomial::{Powers, ROOM, each};
+use crate::numerics::polynomial::{ROOM, each};
+use crate::numerics::powers::Powers;
+use crate::numerics::roots;
+use crate::numerics::substitution::Bend;
 use crate::structure::{FEW_BLOCKS, LANES, MotionSeries};
 
 /// A block of pairs over a step, by the x of its powers.

@@ -8,7 +8,7 @@ use super::closed_pairs::ClosedPairs;
 use super::meeting::Meeting;
 use super::members::Members;
 use crate::contact::series::{Any, PairBlock, PairLaw};
-use crate::polynomial::each;
+use crate::numerics::polynomial::each;
 use crate::structure::{Lane, PairForces};
 use std::marker::PhantomData;
 

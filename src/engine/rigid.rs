@@ -6,12 +6,13 @@
 //! other ever faster and end after a finite time, which the engine follows until what returns is below rounding: there
 //! the floors stay together, and the reaction is what keeps their relative acceleration 0, power by power of the series.
 
-use super::complementarity::Complementarity;
+use super::Episode;
 use super::contact_step::touching;
 use super::model::{Model, Pair};
 use super::state::*;
-use super::{Episode, roots};
-use crate::polynomial::Powers;
+use crate::numerics::complementarity::Complementarity;
+use crate::numerics::powers::Powers;
+use crate::numerics::roots;
 use crate::structure::{MotionSeries, difference, dot};
 use nalgebra::DMatrix;
 
@@ -286,7 +287,7 @@ impl Model {
                 let terms = &mut scalar[..=series.order];
                 let noise = pair.noise(self.project(p, base.coordinates, series, powers.in_time().0, terms));
                 contact.begin_flight(terms, series.scale, noise);
-                let (penetration, slope) = crate::polynomial::value_and_slope(terms, powers.x);
+                let (penetration, slope) = crate::numerics::polynomial::value_and_slope(terms, powers.x);
                 (penetration, slope / series.scale)
             });
         }

@@ -1,7 +1,6 @@
 //! Everything that changes during a run: plain data, cloned to save it.
 
 use super::closed_pairs::ClosedPairs;
-use super::complementarity::Complementarity;
 use super::dismissal::Watch;
 use super::ground::Segment;
 use super::input::LinearInput;
@@ -11,10 +10,13 @@ use super::open_pairs::OpenPairs;
 use super::peaks::{PeakRoom, PeakRows, Peaks};
 use super::window::Window;
 use super::{Episode, Side};
-use crate::clock::{Bend, Clock};
 use crate::collocation::Room;
 use crate::contact::{EpisodeForce, Force};
-use crate::polynomial::{Coefficients, MAX_ORDER, Powers, ROOM};
+use crate::numerics::complementarity::Complementarity;
+use crate::numerics::polynomial::{Coefficients, MAX_ORDER, ROOM};
+use crate::numerics::powers::Powers;
+use crate::numerics::substitution::Bend;
+use crate::numerics::time_map::Clock;
 use crate::structure::{Interval, MotionSeries, Scratch, Structure};
 use serde::{Deserialize, Serialize};
 

@@ -1,12 +1,13 @@
 //! The solution over a window of a contact (see [`crate::collocation`]): reading it and following contacts through it.
 
 use super::model::Model;
-use super::roots;
 use super::state::*;
 use crate::collocation::{
     Equation, Kernel, MOST_PAIRS, NODES, Nodes, POWERS, Row, Rule, Solution, Tables, dot, fours, larger, nodes,
 };
-use crate::polynomial::{Powers, each, value_and_slope};
+use crate::numerics::polynomial::{each, value_and_slope};
+use crate::numerics::powers::Powers;
+use crate::numerics::roots;
 
 /// Share of a peak that the node next to it has at least.
 const NEARLY: f64 = 0.97;

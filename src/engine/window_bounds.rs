@@ -10,7 +10,7 @@ use super::state::*;
 use super::window::Window;
 use crate::collocation::{Ending, Kernel, MOST_PAIRS, POWERS, Solution, Tables};
 use crate::contact::Guard;
-use crate::polynomial::SECOND;
+use crate::numerics::polynomial::SECOND;
 
 /// Pieces of a window are halved so many times to show that a pair stays apart: down to a distance of rounding.
 const MOST_HALVINGS: u32 = 16;

@@ -6,7 +6,7 @@ use super::window::Window;
 use crate::collocation::{Ending, Frame, Map, Rule};
 use crate::contact::force::power;
 use crate::contact::{EpisodeForce, Force};
-use crate::quadrature::{EIGHT, gauss};
+use crate::numerics::quadrature::{EIGHT, gauss};
 
 /// Relative accuracy of a step for which windows are as long as [`longest_window`] says, and how their length goes with it.
 const USUAL: (f64, f64) = (2e-11, 0.055);

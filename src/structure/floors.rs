@@ -10,7 +10,7 @@
 
 use super::modes::{Modes, rayleigh_factors};
 use super::{FEW_BLOCKS, LANES, Lane, ModalDamping};
-use crate::polynomial::each;
+use crate::numerics::polynomial::each;
 use crate::scene::{Building, Damping, Stiffness};
 use std::ops::Range;
 

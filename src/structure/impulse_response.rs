@@ -1,7 +1,7 @@
 //! What an impulse makes of each mode: h'' + c h' + w^2 h = 0 from h = 0, h' = 1, as a power series in time.
 
 use super::{LANES, Structure};
-use crate::polynomial::{COUNT, each};
+use crate::numerics::polynomial::{COUNT, each};
 
 /// Powers of time of an impulse response.
 pub const RESPONSE_POWERS: usize = 20;

@@ -2,8 +2,9 @@
 
 use super::floors::Floors;
 use super::{LANES, Lane, Structure};
-use crate::clock::Clock;
-use crate::polynomial::{COUNT, Powers, ROOM, each};
+use crate::numerics::polynomial::{COUNT, ROOM, each};
+use crate::numerics::powers::Powers;
+use crate::numerics::time_map::Clock;
 
 /// Powers that a series may have.
 const MOST_POWERS: usize = 40;

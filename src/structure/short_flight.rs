@@ -2,7 +2,7 @@
 
 use super::series::RECIPROCAL;
 use super::{EXACT, LANES, Lane, Structure, flight_order};
-use crate::polynomial::{COUNT, ROOM};
+use crate::numerics::polynomial::{COUNT, ROOM};
 
 /// (Fastest rate) x (time) of a flight that is hardly one, and the order at which its series is exact to rounding.
 const HARDLY: f64 = 1e-6;
@@ -98,7 +98,7 @@ fn sums(terms: &[Lane]) -> (Lane, Lane) {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::polynomial::Powers;
+    use crate::numerics::powers::Powers;
     use crate::scene::Scene;
     use crate::structure::MotionSeries;
 

@@ -4,7 +4,7 @@
 
 use super::{Each, LAST, PAIRS, PairBlock, ROOT, Sloped};
 use crate::contact::force::Force;
-use crate::polynomial::{COUNT, RECIPROCAL, each};
+use crate::numerics::polynomial::{COUNT, RECIPROCAL, each};
 
 /// Which terms a force has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -2,9 +2,11 @@
 //! pairs of one kind of law side by side.
 
 use super::force::{Force, power};
-use crate::clock::{Bend, Clock};
-use crate::polynomial::{COUNT, Coefficients, Powers, RECIPROCAL, ROOM, Reading, each};
-use crate::quadrature::TWELVE_POINTS;
+use crate::numerics::polynomial::{COUNT, Coefficients, RECIPROCAL, ROOM, each};
+use crate::numerics::powers::{Powers, Reading};
+use crate::numerics::quadrature::TWELVE_POINTS;
+use crate::numerics::substitution::Bend;
+use crate::numerics::time_map::Clock;
 
 mod laws;
 

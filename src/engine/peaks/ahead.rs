@@ -21,7 +21,7 @@ use super::rows::{Block, BuildingRows};
 use crate::engine::ground::GroundMotion;
 use crate::engine::model::Model;
 use crate::engine::state::{Base, Workspace};
-use crate::polynomial::each;
+use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane};
 
 /// Segments for which bounds are worked out, where nothing swings up to its peak and otherwise.

@@ -6,7 +6,8 @@ use super::{PeakOf, Peaks, larger};
 use crate::engine::model::{Model, Pair};
 use crate::engine::state::{Base, Contact, Coordinates, Inputs, State, Step, StepKind, Workspace};
 use crate::engine::{Point, Side};
-use crate::polynomial::{Powers, value_and_slope};
+use crate::numerics::polynomial::value_and_slope;
+use crate::numerics::powers::Powers;
 use std::ops::Range;
 
 /// How far the series of a quantity may be off at the end of a step, relative to its peak, to be searched. A series is as

@@ -8,9 +8,9 @@
 use super::rows::{Block, BuildingRows};
 use super::{PeakOf, Peaks, larger};
 use crate::engine::model::Model;
-use crate::engine::roots;
 use crate::engine::state::{Base, Inputs, Workspace};
-use crate::polynomial::each;
+use crate::numerics::polynomial::each;
+use crate::numerics::roots;
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
 

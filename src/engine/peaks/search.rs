@@ -3,11 +3,12 @@
 
 use super::flight::{Flight, course_of, stays_below};
 use super::{MOST_FLOWN, PeakOf, larger};
-use crate::clock::Bend;
 use crate::engine::model::Model;
-use crate::engine::roots;
 use crate::engine::state::{Coordinates, Workspace};
-use crate::polynomial::{Coefficients, MAX_ORDER, Powers, ROOM, Reading};
+use crate::numerics::polynomial::{Coefficients, MAX_ORDER, ROOM};
+use crate::numerics::powers::{Powers, Reading};
+use crate::numerics::roots;
+use crate::numerics::substitution::Bend;
 use crate::structure::{EXACT, LANES, MotionSeries, dot, flight_order};
 
 /// (Fastest rate) x (time) that one series reaches.

@@ -1,66 +1,7 @@
-//! Polynomials of a step, c0 + c1 x + c2 x^2 + ..., evaluated by tables of powers: sums of products in a fixed order,
-//! which vectorise, where Horner's rule waits for one result after the other.
+//! The powers of one x, with which polynomials are evaluated there: in x, or in a time that a [`Clock`] makes of x.
 
-use crate::clock::Clock;
-
-/// Highest power of any series.
-pub const MAX_ORDER: usize = 30;
-
-/// Room for the powers of a series and of its derivatives, a multiple of [`BLOCK`].
-pub const ROOM: usize = 36;
-
-/// Terms that are summed side by side.
-const BLOCK: usize = 4;
-
-/// The coefficients of a polynomial; 0 or at least finite beyond its highest power.
-pub type Coefficients = [f64; ROOM];
-
-/// The powers of 1.
-pub const ALL: Coefficients = [1.0; ROOM];
-
-/// 0, 1, 2, ...
-pub const COUNT: Coefficients = {
-    let mut table = [0.0; ROOM];
-    let mut n = 0;
-    while n < ROOM {
-        table[n] = n as f64;
-        n += 1;
-    }
-    table
-};
-
-/// n (n-1).
-pub const SECOND: Coefficients = {
-    let mut table = [0.0; ROOM];
-    let mut n = 1;
-    while n < ROOM {
-        table[n] = (n * (n - 1)) as f64;
-        n += 1;
-    }
-    table
-};
-
-/// n (n-1) (n-2) (n-3).
-pub const FOURTH: Coefficients = {
-    let mut table = [0.0; ROOM];
-    let mut n = 4;
-    while n < ROOM {
-        table[n] = (n * (n - 1) * (n - 2) * (n - 3)) as f64;
-        n += 1;
-    }
-    table
-};
-
-/// 1/(n + 1), for one power more.
-pub const RECIPROCAL: [f64; ROOM + 1] = {
-    let mut table = [0.0; ROOM + 1];
-    let mut n = 0;
-    while n < ROOM + 1 {
-        table[n] = 1.0 / (n + 1) as f64;
-        n += 1;
-    }
-    table
-};
+use super::polynomial::{BLOCK, COUNT, Coefficients, FOURTH, RECIPROCAL, ROOM};
+use super::time_map::Clock;
 
 /// The powers of x up to some highest, and what their derivatives need.
 #[derive(Clone, Debug)]
@@ -218,58 +159,10 @@ fn total(block: [f64; BLOCK]) -> f64 {
     (block[0] + block[2]) + (block[1] + block[3])
 }
 
-/// As many numbers side by side as wide instructions take: unlike `std::array::from_fn` it always becomes one of these after
-/// the other.
-#[inline(always)]
-pub fn each(of: impl Fn(usize) -> f64) -> [f64; BLOCK] {
-    let mut all = [0.0; BLOCK];
-    for (i, one) in all.iter_mut().enumerate() {
-        *one = of(i);
-    }
-    all
-}
-
-/// Value and slope of a polynomial at x.
-pub fn value_and_slope(coefficients: &[f64], x: f64) -> (f64, f64) {
-    coefficients.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * x + c, slope * x + value))
-}
-
-/// x^(1/n) for x > 0 within 1 %: what the length of a step needs.
-pub fn rough_root(x: f64, n: usize) -> f64 {
-    const MANTISSA: u64 = (1 << 52) - 1;
-    let bits = x.to_bits();
-    let exponent = (bits >> 52) as i64 - 1023;
-    if !(-1022..1024).contains(&exponent) {
-        return libm::pow(x, 1.0 / n as f64);
-    }
-    // log2 of the mantissa by a parabola that is right at 1, sqrt 2 and 2; 2 to a fraction by its inverse's like.
-    let m = f64::from_bits(bits & MANTISSA | 1.0_f64.to_bits()) - 1.0;
-    let log = (exponent as f64 + m * (1.345_35 - 0.345_35 * m)) / n as f64;
-    // Towards 0 and one down for what is below it.
-    let whole = log as i64 - i64::from(log < 0.0);
-    let fraction = log - whole as f64;
-    let power = f64::from_bits(((whole.clamp(-1022, 1023) + 1023) as u64) << 52);
-    power * (1.0 + fraction * (0.656_85 + 0.343_15 * fraction))
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::polynomial::value_and_slope;
     use super::*;
-
-    #[test]
-    fn a_rough_root_is_within_one_percent() {
-        for n in [1, 2, 7, 16, 29] {
-            for exponent in -300..300 {
-                for mantissa in [1.0, 1.1, 1.25, 1.4, 1.7, 1.999_999] {
-                    let x = mantissa * libm::exp2(f64::from(exponent));
-                    let exact = libm::pow(x, 1.0 / n as f64);
-                    let error = rough_root(x, n) / exact - 1.0;
-                    assert!(error.abs() < 0.01, "{x:e}, root {n}: off by {error}");
-                }
-            }
-            assert_eq!(rough_root(0.0, n), 0.0);
-        }
-    }
 
     #[test]
     fn readings_are_those_of_horner() {

@@ -14,7 +14,7 @@ const DEPENDENT: f64 = 1e-10;
 
 /// A factor of the matrix of some pairs, and room to solve with it.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Complementarity {
+pub struct Complementarity {
     /// The pairs in question, as rows of the matrix.
     pub pairs: Vec<usize>,
     /// One per pair in question: what is known, then what is found.

@@ -1,0 +1,61 @@
+//! What both ends of a piece say about a function in between: bounds on its value, slope and curvature.
+
+/// Pieces are not halved below this fraction of the step: two roots closer than this are one touch without duration.
+pub const NARROWEST: f64 = 1e-9;
+
+/// One end of a piece.
+#[derive(Clone, Copy)]
+pub struct End {
+    pub x: f64,
+    pub value: f64,
+    pub slope: f64,
+    /// Bound on the fourth derivative over 0..=x: what happens further out says nothing about the pieces before.
+    pub fourth: f64,
+}
+
+impl End {
+    /// Upper bound over the piece that ends here.
+    pub fn ceiling_from(self, a: End) -> f64 {
+        let w = self.x - a.x;
+        ceiling((a.value, a.slope), (self.value, self.slope), w, self.fourth)
+    }
+
+    /// Bounds on the slope over a piece (that of the interpolant is off by at most sqrt(3)/216 w^3 max|f''''|).
+    pub fn slopes_from(self, a: End) -> (f64, f64) {
+        let w = self.x - a.x;
+        // Control values of the interpolant's slope: a.slope, this, b.slope.
+        let middle = 3.0 * (self.value - a.value) / w - (a.slope + self.slope);
+        let error = 0.00802 * w * w * w * self.fourth;
+        (a.slope.min(middle).min(self.slope) - error, a.slope.max(middle).max(self.slope) + error)
+    }
+
+    /// Whether the curvature is negative over a piece (that of the interpolant is off by at most w^2/12 max|f''''|).
+    pub fn is_concave_from(self, a: End) -> bool {
+        let w = self.x - a.x;
+        let secant = (self.value - a.value) / w;
+        let at_a = (6.0 * secant - 4.0 * a.slope - 2.0 * self.slope) / w;
+        let at_b = (-6.0 * secant + 2.0 * a.slope + 4.0 * self.slope) / w;
+        at_a.max(at_b) < -w * w / 12.0 * self.fourth
+    }
+}
+
+/// Upper bound over 0..=x of a polynomial from its values and slopes at both ends and the bound on its fourth derivative.
+pub fn ceiling((value, slope): (f64, f64), (end, end_slope): (f64, f64), x: f64, fourth: f64) -> f64 {
+    let [first, second] = [value + x * slope / 3.0, end - x * end_slope / 3.0];
+    value.max(first).max(second).max(end) + (x * x) * (x * x) / 384.0 * fourth
+}
+
+/// Whether a function may turn from rising to falling above `known` in 0..=x, from its values and slopes at both ends and a
+/// bound on its fourth derivative.
+pub fn may_turn_above(
+    (value, slope): (f64, f64),
+    (end, end_slope): (f64, f64),
+    (x, fourth): (f64, f64),
+    known: f64,
+) -> bool {
+    let (a, b) = (End { x: 0.0, value, slope, fourth: 0.0 }, End { x, value: end, slope: end_slope, fourth });
+    let (least, most) = b.slopes_from(a);
+    // Written so that a NaN may be anywhere.
+    let (goes_one_way, is_below) = (least > 0.0 || most < 0.0, b.ceiling_from(a) <= known);
+    !goes_one_way && !is_below
+}

@@ -1,0 +1,142 @@
+//! A polynomial in blocks of four terms, each by Horner's rule, which wide instructions evaluate abreast.
+
+use super::hermite::End;
+use crate::numerics::polynomial::{Coefficients, FOURTH, ROOM, each};
+
+/// Terms that are worked on without a question in between.
+pub const BLOCK: usize = 4;
+
+/// The terms of a polynomial, filled up with zeros to whole blocks.
+///
+/// With y = x^[`BLOCK`] it is P0(y) + x P1(y) + x^2 P2(y) + ..., which are evaluated abreast, each by Horner's rule.
+pub struct Terms {
+    pub all: Coefficients,
+    blocks: usize,
+}
+
+/// What a block of terms comes to.
+pub type Block = [f64; BLOCK];
+
+/// The powers of x up to y = x^[`BLOCK`].
+#[derive(Clone, Copy)]
+pub struct Place {
+    x: f64,
+    x2: f64,
+    x3: f64,
+    y: f64,
+}
+
+impl Place {
+    #[inline(always)]
+    pub fn at(x: f64) -> Place {
+        let x2 = x * x;
+        Place { x, x2, x3: x * x2, y: x2 * x2 }
+    }
+
+    /// P0 + x P1 + ...
+    #[inline(always)]
+    pub fn total(self, [a, b, c, d]: Block) -> f64 {
+        (a + c * self.x2) + (b * self.x + d * self.x3)
+    }
+
+    /// P1 + 2 x P2 + ...: the slope as far as y stays as it is.
+    #[inline(always)]
+    pub fn slope(self, [_, b, c, d]: Block) -> f64 {
+        (b + 3.0 * d * self.x2) + 2.0 * c * self.x
+    }
+}
+
+impl Terms {
+    pub fn of(coefficients: &[f64]) -> Terms {
+        let mut terms = Terms::empty();
+        terms.all[..coefficients.len()].copy_from_slice(coefficients);
+        terms.complete(coefficients.len());
+        terms
+    }
+
+    pub fn empty() -> Terms {
+        Terms { all: [0.0; ROOM], blocks: 0 }
+    }
+
+    /// Fills up what follows on the coefficients, of which there are `count`.
+    pub fn complete(&mut self, count: usize) {
+        self.blocks = count.div_ceil(BLOCK).min(ROOM / BLOCK);
+        self.all[count..self.blocks * BLOCK].fill(0.0);
+    }
+
+    #[inline(always)]
+    pub fn blocks(&self) -> &[Block] {
+        &self.all.as_chunks::<BLOCK>().0[..self.blocks]
+    }
+
+    /// A point of the curve.
+    pub fn at(&self, x: f64) -> End {
+        point(self.blocks(), x)
+    }
+
+    #[inline(always)]
+    pub fn value(&self, x: f64) -> f64 {
+        let at = Place::at(x);
+        let mut value = [0.0; BLOCK];
+        for block in self.blocks().iter().rev() {
+            value = each(|i| value[i] * at.y + block[i]);
+        }
+        at.total(value)
+    }
+
+    #[inline(always)]
+    pub fn value_and_slope(&self, x: f64) -> (f64, f64) {
+        value_and_slope(self.blocks(), Place::at(x))
+    }
+
+    /// Slope and curvature.
+    #[inline(always)]
+    pub fn bend(&self, x: f64) -> (f64, f64) {
+        let at = Place::at(x);
+        let (mut value, mut by_y, mut half) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
+        for block in self.blocks().iter().rev() {
+            half = each(|i| half[i] * at.y + by_y[i]);
+            by_y = each(|i| by_y[i] * at.y + value[i]);
+            value = each(|i| value[i] * at.y + block[i]);
+        }
+        // dy/dx = 4 x^3.
+        let rate = 4.0 * at.x3;
+        let bend_of_y = 12.0 * at.x2 * at.total(by_y) + 2.0 * (rate * rate) * at.total(half);
+        let own = 2.0 * value[2] + 6.0 * (value[3] * at.x);
+        let slope = at.slope(value) + rate * at.total(by_y);
+        (slope, own + 2.0 * rate * at.slope(by_y) + bend_of_y)
+    }
+
+    /// Sum of the sizes of all terms at x.
+    pub fn size(&self, x: f64) -> f64 {
+        let at = Place::at(x);
+        let mut size = [0.0; BLOCK];
+        for block in self.blocks().iter().rev() {
+            size = each(|i| size[i] * at.y + block[i].abs());
+        }
+        at.total(size)
+    }
+}
+
+#[inline(always)]
+pub fn value_and_slope(blocks: &[Block], at: Place) -> (f64, f64) {
+    let (mut value, mut by_y) = ([0.0; BLOCK], [0.0; BLOCK]);
+    for block in blocks.iter().rev() {
+        by_y = each(|i| by_y[i] * at.y + value[i]);
+        value = each(|i| value[i] * at.y + block[i]);
+    }
+    (at.total(value), at.slope(value) + 4.0 * at.x3 * at.total(by_y))
+}
+
+/// See [`Terms::at`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+pub fn point(blocks: &[Block], x: f64) -> End {
+    let at = Place::at(x);
+    let (value, slope) = value_and_slope(blocks, at);
+    let mut fourth = [0.0; BLOCK];
+    let factors = FOURTH.as_chunks::<BLOCK>().0;
+    for (block, factor) in blocks.iter().zip(factors).skip(1).rev() {
+        fourth = each(|i| fourth[i] * at.y + block[i].abs() * factor[i]);
+    }
+    End { x, value, slope, fourth: at.total(fourth) }
+}

@@ -1,0 +1,130 @@
+#![allow(clippy::unwrap_used)]
+
+use super::terms::Terms;
+use super::{first_rise, maximum_above};
+use crate::numerics::polynomial::{Coefficients, ROOM};
+use crate::numerics::powers::Powers;
+
+/// Coefficients of factor * product of (x - root).
+fn polynomial(factor: f64, roots: &[f64]) -> Vec<f64> {
+    let mut coefficients = vec![factor];
+    for root in roots {
+        let mut next = vec![0.0; coefficients.len() + 1];
+        for (n, c) in coefficients.iter().enumerate() {
+            next[n] -= root * c;
+            next[n + 1] += c;
+        }
+        coefficients = next;
+    }
+    coefficients
+}
+
+fn highest(coefficients: &[f64], known: f64) -> Option<(f64, f64)> {
+    highest_up_to(1.0, coefficients, known)
+}
+
+fn highest_up_to(end: f64, coefficients: &[f64], known: f64) -> Option<(f64, f64)> {
+    let mut room = [0.0; ROOM];
+    room[..coefficients.len()].copy_from_slice(coefficients);
+    let mut powers = Powers::default();
+    powers.set(end, coefficients.len() - 1);
+    let terms = |out: &mut Coefficients| {
+        *out = room;
+        coefficients.len()
+    };
+    maximum_above((room[0], room[1]), end, &powers.read(&room), known, terms)
+}
+
+fn rise(factor: f64, roots: &[f64]) -> Option<f64> {
+    first_rise(&mut polynomial(factor, roots), 1.0, 1e-16)
+}
+
+#[test]
+fn a_single_rise_is_found_to_rounding() {
+    for root in [1e-9, 1e-3, 0.1, 0.5, 0.999_999, 1.0 - 1e-12] {
+        let found = rise(1.0, &[root]).unwrap();
+        assert!((found - root).abs() <= 2e-16, "{found} instead of {root}");
+    }
+}
+
+#[test]
+fn a_curve_has_passed_at_its_root() {
+    // So have others that are the same: what meets at one instant is not taken for two impacts.
+    for k in 1..1000 {
+        let mut curve = polynomial(1.0, &[1e-3 * f64::from(k), 1.1 + 1e-4 * f64::from(k), 1.7, -0.3]);
+        let root = first_rise(&mut curve, 1.0, 0.0).unwrap();
+        let value = Terms::of(&curve).value(root);
+        assert!(value >= 0.0 && (root - 1e-3 * f64::from(k)).abs() < 1e-14, "{value} at {root}");
+    }
+}
+
+#[test]
+fn two_passages_between_the_ends_are_seen() {
+    // Below 0 at both ends, above 0 for a short while: what sampling misses.
+    for width in [0.3, 1e-2, 1e-4, 1e-6] {
+        let found = rise(-1.0, &[0.4, 0.4 + width]).unwrap();
+        assert!((found - 0.4).abs() < 1e-16 / width + 1e-15, "{found}, width {width}");
+    }
+}
+
+#[test]
+fn the_first_of_many_rises_is_the_one() {
+    let found = rise(1.0, &[0.2, 0.3, 0.5, 0.6, 0.9]).unwrap();
+    assert!((found - 0.2).abs() < 1e-14, "{found}");
+}
+
+#[test]
+fn what_stays_below_is_none() {
+    assert_eq!(rise(1.0, &[1.5]), None);
+    // Touches from below without passing.
+    assert_eq!(first_rise(&mut [-0.25 - 1e-9, 1.0, -1.0], 1.0, 1e-16), None);
+    assert_eq!(first_rise(&mut [-1.0, 0.0, 0.0, 0.0], 1.0, 1e-16), None);
+    assert_eq!(first_rise(&mut [0.0; 8], 1.0, 0.0), None);
+}
+
+#[test]
+fn a_start_at_0_counts_by_where_it_goes() {
+    assert_eq!(first_rise(&mut [0.0, 1.0], 1.0, 1e-16), Some(0.0));
+    assert_eq!(first_rise(&mut [0.0, -1.0, -1.0], 1.0, 1e-16), None);
+    // Leaves downwards and comes back at x = 0.5.
+    let found = first_rise(&mut [0.0, -0.5, 1.0], 1.0, 1e-16).unwrap();
+    assert!((found - 0.5).abs() < 1e-15, "{found}");
+    // A start above 0 by rounding is a start at 0.
+    assert_eq!(first_rise(&mut [1e-17, -1.0], 1.0, 1e-16), None);
+    // However high it starts: it counts as 0, leaves downwards and comes back at x = 0.001.
+    let found = first_rise(&mut [1e-3, -1e-3, 1.0], 1.0, 1e-16).unwrap();
+    assert!((found - 1e-3).abs() < 1e-15, "{found}");
+}
+
+#[test]
+fn a_rise_within_noise_is_none() {
+    assert_eq!(first_rise(&mut [-1e-18, 1e-17], 1.0, 1e-16), None);
+    assert!(first_rise(&mut [-1e-18, 1e-15], 1.0, 1e-16).is_some());
+}
+
+#[test]
+fn what_rounding_hides_is_not_searched_for() {
+    // (1 + x)^1.5 to the 17th power, far beyond where that means anything: at x = 150 it is 1e33 and so is the bound on
+    // its derivative, and a billion pieces near the start could each hide something larger than 1.
+    let (mut terms, mut binomial) = (vec![], 1.0);
+    for n in 0..18 {
+        terms.push(binomial);
+        binomial *= (1.5 - f64::from(n)) / f64::from(n + 1);
+    }
+    // Each search in vain takes a second.
+    for _ in 0..1000 {
+        let (x, value) = highest_up_to(150.0, &terms, 0.0).unwrap();
+        assert!((0.0..=150.0).contains(&x) && value >= 1.0, "{x}, {value}");
+    }
+}
+
+#[test]
+fn the_maximum_inside_is_found() {
+    // 1 - (x - 0.3)^2 (1 + x^3)
+    let (x, value) = highest(&[0.91, 0.6, -1.0, -0.09, 0.6, -1.0], 0.0).unwrap();
+    assert!((x - 0.3).abs() < 1e-9 && (value - 1.0).abs() < 1e-15, "{x}, {value}");
+    assert_eq!(highest(&[0.91, 0.6, -1.0, -0.09, 0.6, -1.0], 1.0 + 1e-12), None);
+    // The highest of several, not the first: x (x - 0.4)^2 has 0.009 at 0.13 and 0.36 at 1.
+    let (x, value) = highest(&polynomial(1.0, &[0.0, 0.4, 0.4]), 0.0).unwrap();
+    assert!(x == 1.0 && (value - 0.36).abs() < 1e-15, "{x}, {value}");
+}

@@ -1,0 +1,163 @@
+//! Turns the terms of a series in time into those of the same function in the x of a [`Clock`].
+
+use super::polynomial::{ROOM, each};
+use super::time_map::{BINOMIAL, Clock, LANES, Weights};
+
+/// What makes of the terms of a series in time those in the x of a clock.
+#[derive(Clone, Debug)]
+pub struct Bend {
+    weights: [Weights; ROOM],
+    /// What they are for.
+    known: (Clock, usize),
+}
+
+impl Default for Bend {
+    fn default() -> Bend {
+        Bend { weights: [[0.0; (ROOM / 2 + 1).next_multiple_of(LANES)]; ROOM], known: (Clock::default(), 0) }
+    }
+}
+
+impl Bend {
+    /// For a clock and series of so many terms or less.
+    pub fn set(&mut self, clock: &Clock, terms: usize) {
+        if std::mem::replace(&mut self.known, (*clock, terms)) == (*clock, terms) {
+            return;
+        }
+        let mut powers: Weights = [1.0; _];
+        for j in 1..=terms / 2 {
+            powers[j] = powers[j - 1] * clock.bend;
+        }
+        let powers = powers.as_chunks::<LANES>().0;
+        for (m, (weights, binomials)) in self.weights.iter_mut().zip(&BINOMIAL).enumerate().take(terms) {
+            let (weights, binomials) = (weights.as_chunks_mut::<LANES>().0, binomials.as_chunks::<LANES>().0);
+            let blocks = weights.iter_mut().zip(binomials).zip(powers).take(m / (2 * LANES) + 1);
+            blocks.for_each(|((weights, binomials), powers)| *weights = each(|i| binomials[i] * powers[i]));
+        }
+    }
+
+    /// Changes the terms of series that stand side by side, `width` blocks of [`LANES`] of them.
+    pub fn apply(&self, terms: &mut [[f64; LANES]], width: usize) {
+        bend_terms(terms, width, &self.weights);
+    }
+
+    /// Changes the terms of one series.
+    pub fn apply_to_one(&self, terms: &mut [f64]) {
+        for m in (2..terms.len()).rev() {
+            terms[m] += (1..=m / 2).map(|j| self.weights[m][j] * terms[m - j]).sum::<f64>();
+        }
+    }
+
+    /// The same for two series of [`LANES`] lanes each, with no more than so many terms.
+    pub fn apply_to_both(&self, terms: [&mut [[f64; LANES]; ROOM]; 2], count: usize) {
+        bend_both(terms, &self.weights, count);
+    }
+}
+
+/// See [`Bend::apply_to_both`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn bend_both(terms: [&mut [[f64; LANES]; ROOM]; 2], weights: &[Weights; ROOM], count: usize) {
+    let [first, second] = terms;
+    for (m, weights) in weights[..count.min(ROOM)].iter().enumerate().skip(2).rev() {
+        let ((known, own), (others, other)) = (first.split_at_mut(m), second.split_at_mut(m));
+        let (mut sum, mut other_sum) = (own[0], other[0]);
+        // From the newest term back.
+        let rows = known[m - m / 2..].iter().zip(&others[m - m / 2..]).rev();
+        for ((term, other), weight) in rows.zip(&weights[1..=m / 2]) {
+            for i in 0..LANES {
+                sum[i] += weight * term[i];
+                other_sum[i] += weight * other[i];
+            }
+        }
+        (own[0], other[0]) = (sum, other_sum);
+    }
+}
+
+/// See [`Bend::apply`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn bend_terms(terms: &mut [[f64; LANES]], width: usize, weights: &[Weights]) {
+    let mut first = 0;
+    while first < width {
+        first += match width - first {
+            1 if width == 1 => bend_block(terms, weights),
+            1 => bend_blocks::<1>(terms, (first, width), weights),
+            2 => bend_blocks::<2>(terms, (first, width), weights),
+            3 => bend_blocks::<3>(terms, (first, width), weights),
+            4 => bend_blocks::<4>(terms, (first, width), weights),
+            _ => bend_blocks::<5>(terms, (first, width), weights),
+        };
+    }
+}
+
+/// The same for a block alone: returns 1.
+#[inline(always)]
+fn bend_block(terms: &mut [[f64; LANES]], weights: &[Weights]) -> usize {
+    for (m, weights) in weights[..terms.len()].iter().enumerate().skip(2).rev() {
+        let (known, own) = terms.split_at_mut(m);
+        let mut sum = own[0];
+        for (row, weight) in known[m - m / 2..].iter().rev().zip(&weights[1..=m / 2]) {
+            for i in 0..LANES {
+                sum[i] += weight * row[i];
+            }
+        }
+        own[0] = sum;
+    }
+    1
+}
+
+/// The same for `N` blocks of lanes, from the `first` of each row on; returns how many that are.
+#[inline(always)]
+fn bend_blocks<const N: usize>(
+    terms: &mut [[f64; LANES]],
+    (first, width): (usize, usize),
+    weights: &[Weights],
+) -> usize {
+    for (m, weights) in weights[..terms.len() / width].iter().enumerate().skip(2).rev() {
+        let (known, own) = terms.split_at_mut(m * width);
+        let own = &mut own[first..first + N];
+        let mut sum = [[0.0; LANES]; N];
+        sum.copy_from_slice(own);
+        for (row, weight) in known.chunks_exact(width).rev().zip(&weights[1..=m / 2]) {
+            let row = &row[first..first + N];
+            for c in 0..N {
+                for i in 0..LANES {
+                    sum[c][i] += weight * row[c][i];
+                }
+            }
+        }
+        own.copy_from_slice(&sum);
+    }
+    N
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::polynomial::value_and_slope;
+    use super::*;
+
+    /// (1 + t)^3.5 has no series in t beyond 1, but one in the root of 1 + t, and there it ends with the seventh power.
+    #[test]
+    fn a_root_becomes_a_polynomial() {
+        const LENGTH: usize = 24;
+        let mut terms = [0.0; LENGTH * LANES];
+        let (mut term, scale) = (1.0, [1.0, 2.0, -1.0, 0.5]);
+        for n in 0..LENGTH {
+            for i in 0..LANES {
+                terms[n * LANES + i] = term * scale[i];
+            }
+            term *= (3.5 - n as f64) / (n + 1) as f64;
+        }
+        let clock = Clock { bend: 0.25 };
+        let mut bend = Bend::default();
+        bend.set(&clock, LENGTH);
+        bend.apply(terms.as_chunks_mut::<LANES>().0, 1);
+        for i in 0..LANES {
+            let terms: Vec<f64> = terms.chunks_exact(LANES).map(|row| row[i]).collect();
+            for x in [0.5, 2.0, 4.0] {
+                let exact = scale[i] * libm::pow(1.0 + clock.time(x), 3.5);
+                let value = value_and_slope(&terms[..8], x).0;
+                assert!((value - exact).abs() < 1e-12 * exact.abs(), "{value} instead of {exact} at {x}");
+            }
+            assert!(terms[8..].iter().all(|term| term.abs() < 1e-11), "{terms:?}");
+        }
+    }
+}
