@@ -1,81 +1,66 @@
 //! The model: everything about a scene that stays as it is during a run.
 
-use super::closed_pairs::ClosedPairs;
-use super::dismissal::{ClosingSpeeds, Watch};
-use super::ground::{GroundMotion, Segment};
-use super::input::LinearInput;
-use super::near_pairs::NearPairs;
-use super::onset_step::OnsetSeries;
-use super::open_pairs::OpenPairs;
-use super::peaks::{FloorResistance, PeakRows};
-use super::rigid::RigidPairs;
-use super::state::*;
-use super::window_step::Windows;
-use super::work_limit::{MOST_WORK, most_flights};
-use super::{Episode, contact_step};
-use crate::contact::{EpisodeForce, ImpactLaw};
+use crate::contact::EpisodeForce;
+use crate::engine::advance::budget::{MOST_WORK, most_flights};
+use crate::engine::base::clearance::Watch;
+use crate::engine::base::counters::Counters;
+use crate::engine::base::{Account, Base, Coordinates};
+use crate::engine::excitation::inputs::Inputs;
+use crate::engine::excitation::linear_input::LinearInput;
+use crate::engine::excitation::record::GroundMotion;
+use crate::engine::excitation::segment::Segment;
+use crate::engine::flight::broad_phase::ClosingSpeeds;
+use crate::engine::flight::fast_certificate::NearPairs;
+use crate::engine::onset::OnsetSeries;
+use crate::engine::pairs::pair::Pair;
+use crate::engine::pairs::rigid::RigidPairs;
+use crate::engine::peaks::{FloorResistance, PeakRows};
+use crate::engine::state::{State, Workspace};
+use crate::engine::step::{Step, StepKind};
+use crate::engine::system::tolerance;
+use crate::engine::taylor::closed_pairs::ClosedPairs;
+use crate::engine::taylor::open_pairs::OpenPairs;
+use crate::engine::window::Windows;
 use crate::numerics::polynomial::{MAX_ORDER, ROOM};
 use crate::numerics::powers::Powers;
 use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
-use crate::structure::{FEW_BLOCKS, LANES, Lane, MotionSeries, Side, Structure};
+use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, Side, Structure};
 use std::f64::consts::PI;
 
 /// Everything that stays as it is during a run.
 #[derive(Debug)]
 pub struct Model {
-    pub(super) structure: Structure,
-    pub(super) pairs: Vec<Pair>,
-    pub(super) rigid: RigidPairs,
+    pub(in crate::engine) structure: Structure,
+    pub(in crate::engine) pairs: Vec<Pair>,
+    pub(in crate::engine) rigid: RigidPairs,
     /// m/s, floor on the approach velocity where a law divides by it.
-    pub(super) least_approach: f64,
+    pub(in crate::engine) least_approach: f64,
     /// Largest |row| entry of each mode over all pairs.
-    pub(super) pair_weight: Vec<f64>,
+    pub(in crate::engine) pair_weight: Vec<f64>,
     /// Absent where the acceleration is an input.
-    pub(super) ground: Option<GroundMotion>,
+    pub(in crate::engine) ground: Option<GroundMotion>,
     /// Coordinates of soft contacts.
-    pub(super) contact_coordinates: Coordinates,
+    pub(in crate::engine) contact_coordinates: Coordinates,
     /// 1 at every floor.
     floors: Vec<f64>,
-    pub(super) floor_forces: bool,
-    pub(super) energy: bool,
+    pub(in crate::engine) floor_forces: bool,
+    pub(in crate::engine) energy: bool,
     /// Velocity error allowed to one contact step, relative to the velocity scale.
-    pub(super) step_tolerance: f64,
+    pub(in crate::engine) step_tolerance: f64,
     /// Order of the contact series.
-    pub(super) order: usize,
+    pub(in crate::engine) order: usize,
     /// The same under linear laws, where it is worth while.
-    pub(super) linear_order: usize,
-    pub(super) peak_rows: PeakRows,
-    pub(super) resistance: FloorResistance,
-    pub(super) closing: ClosingSpeeds,
-    pub(super) near: Option<NearPairs>,
-    pub(super) windows: Option<Windows>,
-    pub(super) frequencies: [Vec<f64>; 2],
+    pub(in crate::engine) linear_order: usize,
+    pub(in crate::engine) peak_rows: PeakRows,
+    pub(in crate::engine) resistance: FloorResistance,
+    pub(in crate::engine) closing: ClosingSpeeds,
+    pub(in crate::engine) near: Option<NearPairs>,
+    pub(in crate::engine) windows: Option<Windows>,
+    pub(in crate::engine) frequencies: [Vec<f64>; 2],
     initial: [Vec<f64>; 2],
     /// What one communication step may take, in flights.
-    pub(super) most_flights: f64,
-}
-
-/// Two facing floors.
-#[derive(Clone, Debug)]
-pub(super) struct Pair {
-    /// Penetration = row . q - gap; the force F loads the modes with -row F.
-    pub row: Vec<f64>,
-    /// m.
-    pub gap: f64,
-    pub law: ImpactLaw,
-    /// kg, reduced mass of the two floors.
-    pub mass: f64,
-    /// Left and right floor, counted from 0.
-    pub floors: [usize; 2],
-    /// kg, of these floors.
-    pub masses: [f64; 2],
-    /// 1/kg.
-    pub inverse_masses: [f64; 2],
-    /// Their lanes in a vector of all floors.
-    pub lanes: [usize; 2],
-    /// `row` as far as it goes, where modes are few.
-    pub first_blocks: [Lane; FEW_BLOCKS],
+    pub(in crate::engine) most_flights: f64,
 }
 
 impl Model {
@@ -97,7 +82,7 @@ impl Model {
             }
             None => None,
         };
-        let (step_tolerance, order) = contact_step::accuracy(scene.solver.relative_tolerance);
+        let (step_tolerance, order) = tolerance::accuracy(scene.solver.relative_tolerance);
         Ok(Model {
             near: NearPairs::of(&structure, &pairs),
             peak_rows: PeakRows::of(&structure, scene.peaks),
@@ -120,7 +105,7 @@ impl Model {
             ground,
             step_tolerance,
             order,
-            linear_order: contact_step::linear_order(step_tolerance, order),
+            linear_order: tolerance::linear_order(step_tolerance, order),
         })
     }
 
@@ -135,12 +120,12 @@ impl Model {
     }
 
     /// Whether the engine's steps are cut at communication points: where a master's inputs act.
-    pub(super) fn is_driven(&self) -> bool {
+    pub(in crate::engine) fn is_driven(&self) -> bool {
         self.ground.is_none() || self.floor_forces
     }
 
     /// Room to work in.
-    pub(super) fn workspace(&self) -> Workspace {
+    pub(in crate::engine) fn workspace(&self) -> Workspace {
         let pairs = self.pairs.len();
         Workspace::new(
             &self.structure,
@@ -209,7 +194,7 @@ impl Model {
     }
 
     /// The load at the base, in its coordinates and per unit of mass, and its rate until the segment's end.
-    pub(super) fn load(&self, base: &Base, inputs: &Inputs, load: &mut [f64], slope: &mut [f64]) {
+    pub(in crate::engine) fn load(&self, base: &Base, inputs: &Inputs, load: &mut [f64], slope: &mut [f64]) {
         let Base { segment, elapsed, coordinates, .. } = base;
         let (acceleration, rate) = (segment.acceleration_at(*elapsed), segment.slope);
         let (shares, _) = self.participation(*coordinates).as_chunks::<LANES>();
@@ -227,7 +212,7 @@ impl Model {
     }
 
     /// What a ground acceleration of -1 m/s^2 pushes.
-    pub(super) fn participation(&self, coordinates: Coordinates) -> &[f64] {
+    pub(in crate::engine) fn participation(&self, coordinates: Coordinates) -> &[f64] {
         match coordinates {
             Coordinates::Modes => &self.structure.participation,
             Coordinates::Floors => &self.floors,
@@ -235,7 +220,7 @@ impl Model {
     }
 
     /// Adds the external forces on the floors, or their rates, to a load per unit of mass.
-    pub(super) fn add_floor_forces(
+    pub(in crate::engine) fn add_floor_forces(
         &self,
         inputs: &Inputs,
         coordinates: Coordinates,
@@ -257,7 +242,7 @@ impl Model {
     }
 
     /// Acceleration for a given motion and load per unit of mass.
-    pub(super) fn accelerate(
+    pub(in crate::engine) fn accelerate(
         &self,
         coordinates: Coordinates,
         (q, v): (&[f64], &[f64]),
@@ -269,7 +254,14 @@ impl Model {
     }
 
     /// Subtracts from an acceleration what stiffness and `rate` times damping do.
-    pub(super) fn resist(&self, coordinates: Coordinates, q: &[f64], v: &[f64], rate: f64, acceleration: &mut [f64]) {
+    pub(in crate::engine) fn resist(
+        &self,
+        coordinates: Coordinates,
+        q: &[f64],
+        v: &[f64],
+        rate: f64,
+        acceleration: &mut [f64],
+    ) {
         match coordinates {
             Coordinates::Modes => self.structure.resist(q, v, rate, acceleration),
             Coordinates::Floors => self.structure.floors.resist(q, v, rate, acceleration),
@@ -277,7 +269,7 @@ impl Model {
     }
 
     /// Adds to a load per unit of mass what a contact force does.
-    pub(super) fn push_apart_by(&self, p: usize, coordinates: Coordinates, force: f64, load: &mut [f64]) {
+    pub(in crate::engine) fn push_apart_by(&self, p: usize, coordinates: Coordinates, force: f64, load: &mut [f64]) {
         let Pair { row, lanes: [left, right], inverse_masses, .. } = &self.pairs[p];
         match coordinates {
             Coordinates::Modes => load.iter_mut().zip(row).for_each(|(load, row)| *load -= row * force),
@@ -289,7 +281,7 @@ impl Model {
     }
 
     /// Takes the base into other coordinates.
-    pub(super) fn convert(&self, base: &mut Base, coordinates: Coordinates, room: &mut Vec<f64>) {
+    pub(in crate::engine) fn convert(&self, base: &mut Base, coordinates: Coordinates, room: &mut Vec<f64>) {
         if base.coordinates == coordinates {
             return;
         }
@@ -301,105 +293,6 @@ impl Model {
             }
             std::mem::swap(motion, room);
         }
-    }
-}
-
-impl Pair {
-    fn new(pair: &crate::scene::ContactPair, scene: &Scene, structure: &Structure) -> Pair {
-        let (left, right) = (pair.left_floor - 1, pair.right_floor - 1);
-        let mut row = vec![0.0; structure.lanes];
-        structure.add_floor_force(Side::Left, left, 1.0, &mut row);
-        structure.add_floor_force(Side::Right, right, -1.0, &mut row);
-        let (m1, m2) = (scene.left.mass[left], scene.right.mass[right]);
-        let lanes = [structure.floors.lane(0, left), structure.floors.lane(1, right)];
-        let mut first_blocks = [[0.0; LANES]; FEW_BLOCKS];
-        for (first, row) in first_blocks.as_flattened_mut().iter_mut().zip(&row) {
-            *first = *row;
-        }
-        Pair {
-            row,
-            gap: pair.gap,
-            law: pair.law,
-            mass: m1 * m2 / (m1 + m2),
-            floors: [left, right],
-            masses: [m1, m2],
-            inverse_masses: [1.0 / m1, 1.0 / m2],
-            lanes,
-            first_blocks,
-        }
-    }
-
-    /// m and m/s.
-    pub fn penetration(&self, q: &[f64], v: &[f64]) -> (f64, f64) {
-        use crate::structure::dot;
-        (dot(&self.row, q) - self.gap, dot(&self.row, v))
-    }
-
-    /// m, rounding error of a penetration that was added up from numbers of that size: a touch below it is none.
-    pub fn noise(&self, size: f64) -> f64 {
-        2.0 * f64::EPSILON * (size + self.gap.abs())
-    }
-
-    /// A pair that overlaps at the start is an episode without approach velocity.
-    fn at_start(&self, index: usize, time: f64, q: &[f64], v: &[f64]) -> Contact {
-        let (penetration, rate) = self.penetration(q, v);
-        let force = EpisodeForce::new(&self.law, self.mass, None);
-        let mut contact = Contact {
-            phase: Phase::Apart,
-            force,
-            penetration,
-            rate,
-            at_surface: penetration == 0.0,
-            carried: false,
-            let_go: false,
-            undecided: false,
-            reaction: 0.0,
-            impacts: 0,
-            impulse: 0.0,
-            work: 0.0,
-            stored_reference: 0.0,
-            peak_force: 0.0,
-            episode: Episode { contact: index, ..Episode::default() },
-            work_before: 0.0,
-            age: 0.0,
-        };
-        let noise = self.noise(crate::structure::difference(&self.row, q).1);
-        if self.law.is_rigid() {
-            // Overlaps by rounding at most: the scene is refused otherwise.
-            contact.at_surface = penetration >= -noise;
-            contact.penetration = penetration.min(0.0);
-        } else if penetration > noise {
-            contact.begin(time, 0.0);
-        } else if penetration > 0.0 {
-            (contact.penetration, contact.at_surface) = (0.0, true);
-        }
-        contact
-    }
-}
-
-impl Contact {
-    /// Begins an episode at the present penetration.
-    pub(super) fn begin(&mut self, time: f64, approach_velocity: f64) {
-        self.impacts += 1;
-        self.phase = if self.force.is_engaged(self.penetration, self.rate) { Phase::Engaged } else { Phase::Slack };
-        self.stored_reference = self.branch().stored_energy(self.penetration);
-        (self.work_before, self.age) = (self.work, 0.0);
-        let force = self.present_force();
-        // A contact that begins with a pull has not pushed yet.
-        let pushed = force.max(0.0);
-        self.peak_force = self.peak_force.max(pushed);
-        self.episode = Episode {
-            contact: self.episode.contact,
-            start: time,
-            end: None,
-            approach_velocity,
-            separation_velocity: 0.0,
-            peak_force: pushed,
-            peak_time: time,
-            peak_penetration: self.penetration,
-            impulse: 0.0,
-            dissipated_energy: 0.0,
-        };
     }
 }
 

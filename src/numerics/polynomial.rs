@@ -71,6 +71,12 @@ pub fn each(of: impl Fn(usize) -> f64) -> [f64; BLOCK] {
     all
 }
 
+/// The larger of two numbers that are not NaN: unlike `max` it does not look for one.
+#[inline(always)]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
 /// Value and slope of a polynomial at x.
 pub fn value_and_slope(coefficients: &[f64], x: f64) -> (f64, f64) {
     coefficients.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * x + c, slope * x + value))

@@ -1,7 +1,7 @@
 //! For how many segments of the record nothing can exceed its peak.
 //!
 //! With the amplitude e = sqrt(q'^2 + w^2 q^2) of each mode, which grows by no more than |participation| S in a shaking
-//! S = integral of |ground acceleration| (see `dismissal.rs`), a quantity y = A q + B q' is bounded by sums over modes:
+//! S = integral of |ground acceleration| (see `flight/broad_phase.rs`), a quantity y = A q + B q' is bounded by sums over modes:
 //!
 //! ```text
 //! |y|   <= sum of (|A| / w + |B|) e
@@ -15,13 +15,14 @@
 //! These bounds are worked out every few segments, values where they are due. They change no result, so no saved state
 //! holds them.
 
-use super::flight::ModeBounds;
-use super::larger;
-use super::rows::{Block, BuildingRows};
-use crate::engine::ground::GroundMotion;
+use crate::engine::base::Base;
+use crate::engine::excitation::record::GroundMotion;
 use crate::engine::model::Model;
-use crate::engine::state::{Base, Workspace};
+use crate::engine::peaks::flight::ModeBounds;
+use crate::engine::peaks::rows::{Block, BuildingRows};
+use crate::engine::state::Workspace;
 use crate::numerics::polynomial::each;
+use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Lane};
 
 /// Segments for which bounds are worked out, where nothing swings up to its peak and otherwise.
@@ -33,7 +34,7 @@ const MARGIN: f64 = 1e-10;
 
 /// For how long what is clear of its peak.
 #[derive(Clone, Debug, Default)]
-pub(super) struct PeakWatch {
+pub(in crate::engine) struct PeakWatch {
     /// The first segment for which the bounds do not hold.
     until: u64,
     /// The first segment in which anything may exceed its peak, as far as is known.
@@ -197,7 +198,7 @@ impl Model {
 
     /// Raises the peaks of a block to the end of the segment, of that number, that has been flown to the base; whether it may
     /// have exceeded them on the way.
-    pub(super) fn raise_to_end(
+    pub(in crate::engine) fn raise_to_end(
         &self,
         building: &BuildingRows,
         b: usize,

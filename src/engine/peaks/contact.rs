@@ -1,13 +1,21 @@
 //! Peaks over a step in contact: what its ends, its length and the largest contact forces do not rule out is searched for.
 
-use super::floors::FloorRoom;
-use super::search::{Quantity, highest};
-use super::{PeakOf, Peaks, larger};
-use crate::engine::model::{Model, Pair};
-use crate::engine::state::{Base, Contact, Coordinates, Inputs, State, Step, StepKind, Workspace};
-use crate::engine::{Point, Side};
+use crate::engine::base::contact::Contact;
+use crate::engine::base::peaks::Peaks;
+use crate::engine::base::{Base, Coordinates};
+use crate::engine::excitation::inputs::Inputs;
+use crate::engine::model::Model;
+use crate::engine::output::point::Point;
+use crate::engine::pairs::pair::Pair;
+use crate::engine::peaks::PeakOf;
+use crate::engine::peaks::floors::FloorRoom;
+use crate::engine::peaks::search::{Quantity, highest};
+use crate::engine::state::{State, Workspace};
+use crate::engine::step::{Step, StepKind};
+use crate::numerics::polynomial::larger;
 use crate::numerics::polynomial::value_and_slope;
 use crate::numerics::powers::Powers;
+use crate::structure::Side;
 use std::ops::Range;
 
 /// How far the series of a quantity may be off at the end of a step, relative to its peak, to be searched. A series is as
@@ -16,7 +24,7 @@ const TRUSTED: f64 = 1e-6;
 
 /// A step in contact, or its first part.
 #[derive(Clone, Copy)]
-pub(super) struct ContactStep<'a> {
+pub(in crate::engine) struct ContactStep<'a> {
     /// What it starts from.
     pub base: &'a Base,
     pub step: &'a Step,
@@ -70,7 +78,7 @@ impl Model {
     }
 
     /// The same for the first part of the step under way, up to what a point shows.
-    pub(super) fn raise_over_part(
+    pub(in crate::engine) fn raise_over_part(
         &self,
         state: &State,
         elapsed: f64,
@@ -94,7 +102,7 @@ impl Model {
 
     /// Raises peaks to the motion of the base under the contact forces there. What an input that has just been set does
     /// belongs to the step that begins: it has not acted yet.
-    pub(super) fn raise_to_contact(&self, base: &Base, peaks: &mut Peaks, work: &mut Workspace) {
+    pub(in crate::engine) fn raise_to_contact(&self, base: &Base, peaks: &mut Peaks, work: &mut Workspace) {
         self.note_starts(&base.contacts, work);
         work.peaks.strongest.fill(0.0);
         work.peaks.last_forces.copy_from_slice(&work.peaks.first_forces);

@@ -5,11 +5,15 @@
 //! grows, and |y''''| <= sum over modes of (|A| (w + c) + |B| (c (w + c) + w^2)) E. Where the cubic's control values and that
 //! bound stay below the peak, nothing has happened; where the slope keeps its sign, the larger end is the peak.
 
-use super::rows::{Block, BuildingRows};
-use super::{PeakOf, Peaks, larger};
+use crate::engine::base::Base;
+use crate::engine::base::peaks::Peaks;
+use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
-use crate::engine::state::{Base, Inputs, Workspace};
+use crate::engine::peaks::PeakOf;
+use crate::engine::peaks::rows::{Block, BuildingRows};
+use crate::engine::state::Workspace;
 use crate::numerics::polynomial::each;
+use crate::numerics::polynomial::larger;
 use crate::numerics::roots;
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
@@ -18,7 +22,7 @@ use std::ops::Range;
 const MARGIN: f64 = 1e-12;
 
 /// A flight of both buildings from start to end.
-pub(super) struct Flight<'a> {
+pub(in crate::engine) struct Flight<'a> {
     /// q and v of all modes.
     pub start: (&'a [f64], &'a [f64]),
     pub end: (&'a [f64], &'a [f64]),
@@ -34,7 +38,7 @@ pub(super) struct Flight<'a> {
 
 /// What is known of each mode over a flight.
 #[derive(Clone, Debug, Default)]
-pub(super) struct ModeBounds {
+pub(in crate::engine) struct ModeBounds {
     /// Accelerations relative to the ground, at the start and at the end.
     first: Vec<f64>,
     last: Vec<f64>,
@@ -66,7 +70,7 @@ impl ModeBounds {
 
 /// How the quantities of a block go over a flight: at both ends their values and slopes.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Course {
+pub(in crate::engine) struct Course {
     pub start: [Lane; 2],
     pub end: [Lane; 2],
     /// Bounds on their fourth derivatives.
@@ -75,7 +79,7 @@ pub(super) struct Course {
 
 impl Model {
     /// Raises peaks to what a flight reaches.
-    pub(super) fn check_flight(&self, flight: &Flight, peaks: &mut Peaks, work: &mut Workspace) {
+    pub(in crate::engine) fn check_flight(&self, flight: &Flight, peaks: &mut Peaks, work: &mut Workspace) {
         work.peaks.start_flight();
         for building in &self.peak_rows.buildings {
             self.bound_modes(building, flight, &mut work.peaks.bounds, &mut work.node_v);
@@ -86,7 +90,13 @@ impl Model {
     }
 
     /// The same for the blocks that have not been cleared for the segment of that number.
-    pub(super) fn check_due_blocks(&self, segment: u64, flight: &Flight, peaks: &mut Peaks, work: &mut Workspace) {
+    pub(in crate::engine) fn check_due_blocks(
+        &self,
+        segment: u64,
+        flight: &Flight,
+        peaks: &mut Peaks,
+        work: &mut Workspace,
+    ) {
         work.peaks.start_flight();
         for building in &self.peak_rows.buildings {
             let mut is_bounded = false;
@@ -104,7 +114,7 @@ impl Model {
 
     /// Raises peaks to the motion of the base, which is that of modes without contact forces. What an input that has just
     /// been set does belongs to the step that begins: it has not acted yet.
-    pub(super) fn raise_to_motion(&self, base: &Base, peaks: &mut Peaks) {
+    pub(in crate::engine) fn raise_to_motion(&self, base: &Base, peaks: &mut Peaks) {
         for building in &self.peak_rows.buildings {
             let [q, v] = [&base.q, &base.v].map(|vector| &vector[building.modes.clone()]);
             for (b, block) in building.blocks.iter().enumerate() {
@@ -119,7 +129,7 @@ impl Model {
     }
 
     /// What floor forces add to accelerations at the base, and how that changes.
-    pub(super) fn note_floor_forces(&self, base: &Base, inputs: &Inputs, direct: &mut [[f64; 2]]) {
+    pub(in crate::engine) fn note_floor_forces(&self, base: &Base, inputs: &Inputs, direct: &mut [[f64; 2]]) {
         for (place, direct) in direct.iter_mut().enumerate() {
             if let Some(PeakOf::Acceleration(side, floor)) = self.peak_rows.at(place) {
                 let force = &inputs.floor_forces[inputs.place(side, floor)];
@@ -131,7 +141,7 @@ impl Model {
     }
 
     /// How fast a building's modes are and how far they can swing over a flight.
-    pub(super) fn bound_modes(
+    pub(in crate::engine) fn bound_modes(
         &self,
         building: &BuildingRows,
         flight: &Flight,
@@ -176,7 +186,7 @@ impl Model {
         self.bound_swings(building, flight, room, is_coupled);
     }
 
-    /// How far a building's modes can swing over a flight, about where the load holds them (see `swing.rs`).
+    /// How far a building's modes can swing over a flight, about where the load holds them (see `flight/envelope.rs`).
     fn bound_swings(&self, building: &BuildingRows, flight: &Flight, room: &mut ModeBounds, is_coupled: bool) {
         let ((q, v), (load, slope)) = (flight.start, flight.loads);
         let modes = building.modes.clone();
@@ -203,7 +213,7 @@ impl Model {
         }
     }
 
-    pub(super) fn check_block(
+    pub(in crate::engine) fn check_block(
         &self,
         building: &BuildingRows,
         b: usize,
@@ -268,7 +278,7 @@ fn share(modes: &mut [f64]) {
 
 /// Whether the modes cannot swing far enough for the quantities of a block to exceed their peaks by more than rounding;
 /// `direct` is what is added to them, linear in time, over some seconds from a time on.
-pub(super) fn stays_below(
+pub(in crate::engine) fn stays_below(
     peaks: &Lane,
     block: &Block,
     (bounds, modes): (&ModeBounds, &Range<usize>),
@@ -315,7 +325,7 @@ fn swing_of(block: &Block, [held, held_end, rate, swing_q, swing]: [&[f64]; 5]) 
 }
 
 /// The course of a block over a flight.
-pub(super) fn course_of(block: &Block, flight: &Flight, bounds: &ModeBounds, modes: Range<usize>) -> Course {
+pub(in crate::engine) fn course_of(block: &Block, flight: &Flight, bounds: &ModeBounds, modes: Range<usize>) -> Course {
     let ends = [flight.start.0, flight.start.1, &bounds.first, flight.end.0, flight.end.1, &bounds.last];
     let [slow, quick] = [&bounds.slow[modes.clone()], &bounds.quick[modes.clone()]];
     sum_course(block, ends.map(|vector| &vector[modes.clone()]), [slow, quick])

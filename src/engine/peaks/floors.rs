@@ -5,9 +5,9 @@
 //! all floors and T = h^2/8 |M^-1 K| + h/2 |M^-1 C|. A <= B + T A, where B is what r is at the ends with all that pushes: so
 //! A <= B + T B + |T|^2 / (1 - |T|) max B.
 
-use super::larger;
+use crate::engine::base::Coordinates;
 use crate::engine::model::Model;
-use crate::engine::state::Coordinates;
+use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, ModalDamping, Side, Structure};
 use nalgebra::DMatrix;
 use std::ops::Range;
@@ -68,7 +68,7 @@ impl Resistance {
 
 /// The floors of both buildings at one time.
 #[derive(Clone, Debug, Default)]
-pub(super) struct FloorState {
+pub(in crate::engine) struct FloorState {
     /// m and m/s.
     pub u: Vec<f64>,
     pub v: Vec<f64>,
@@ -78,7 +78,7 @@ pub(super) struct FloorState {
 
 /// Room for a step.
 #[derive(Clone, Debug, Default)]
-pub(super) struct FloorRoom {
+pub(in crate::engine) struct FloorRoom {
     pub start: FloorState,
     pub end: FloorState,
     /// m/s2, the least and the most that contact forces may push each floor by.
@@ -132,7 +132,7 @@ impl FloorRoom {
 
 impl Model {
     /// The floors of a motion, without floor forces; `modal` is room to work in.
-    pub(super) fn find_floors(
+    pub(in crate::engine) fn find_floors(
         &self,
         coordinates: Coordinates,
         (q, v): (&[f64], &[f64]),
@@ -161,7 +161,7 @@ impl Model {
 
     /// Works out how far the floors of a building stray in a step of h seconds, and with that how fast they are at most:
     /// `largest` holds B before and A after.
-    pub(super) fn find_strays(&self, side: Side, h: f64, room: &mut FloorRoom) {
+    pub(in crate::engine) fn find_strays(&self, side: Side, h: f64, room: &mut FloorRoom) {
         let Resistance { dense, most, .. } = &self.resistance.buildings[side as usize];
         let lanes = self.structure.floors.lanes_of(side as usize);
         let factors = [0.125 * h * h, 0.5 * h];
@@ -194,7 +194,7 @@ impl Model {
     }
 
     /// N, how far a base shear strays from its chord where the floors are as fast as `largest` at most.
-    pub(super) fn shear_strays(&self, side: Side, h: f64, largest: &[f64]) -> f64 {
+    pub(in crate::engine) fn shear_strays(&self, side: Side, h: f64, largest: &[f64]) -> f64 {
         let [on_u, on_v] = &self.resistance.buildings[side as usize].shear;
         let largest = self.structure.floors.of_building(side as usize, largest);
         let terms = on_u.iter().zip(on_v).zip(largest);
@@ -202,7 +202,7 @@ impl Model {
     }
 
     /// N, the force of a building on the ground.
-    pub(super) fn shear_of(&self, side: Side, floors: &FloorState) -> f64 {
+    pub(in crate::engine) fn shear_of(&self, side: Side, floors: &FloorState) -> f64 {
         let [on_u, on_v] = &self.resistance.buildings[side as usize].shear;
         let [u, v] = [&floors.u, &floors.v].map(|vector| self.structure.floors.of_building(side as usize, vector));
         let terms = on_u.iter().zip(on_v).zip(u.iter().zip(v));

@@ -11,6 +11,7 @@
 //! way adds is worked out from its start when somebody asks. Velocities jump in an impact of `stereomechanical`: the motion
 //! before and after counts, the impulse itself, in which accelerations have no size, does not.
 
+use crate::engine::base::peaks::Peaks;
 mod ahead;
 mod contact;
 mod flight;
@@ -19,16 +20,20 @@ mod reading;
 mod rows;
 mod search;
 
-use super::model::Model;
-use super::state::*;
-use super::{Point, Side};
-use crate::structure::{LANES, Lane, Structure};
+use crate::engine::base::Base;
+use crate::engine::base::contact::Contact;
+use crate::engine::excitation::inputs::Inputs;
+use crate::engine::model::Model;
+use crate::engine::output::point::Point;
+use crate::engine::state::{State, Workspace};
+use crate::engine::step::{Step, StepKind};
+use crate::structure::Side;
+use crate::structure::{LANES, Structure};
 use flight::Flight;
-use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 
-pub(super) use floors::FloorResistance;
-pub(super) use rows::PeakRows;
+pub(in crate::engine) use floors::FloorResistance;
+pub(in crate::engine) use rows::PeakRows;
 
 /// Something whose largest magnitude so far is kept. Floors and storeys count from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,38 +57,6 @@ impl PeakOf {
     }
 }
 
-/// The peaks up to the base, in the places of [`PeakRows`].
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub(super) struct Peaks {
-    values: Vec<f64>,
-}
-
-impl Peaks {
-    fn new(rows: &PeakRows) -> Peaks {
-        Peaks { values: vec![0.0; rows.blocks() * LANES] }
-    }
-
-    /// Whether they can be peaks of the same quantities.
-    pub fn fit(&self, other: &Peaks) -> bool {
-        self.values.len() == other.values.len() && self.values.iter().all(|peak| *peak >= 0.0)
-    }
-
-    /// All numbers in it.
-    pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
-        let Peaks { values } = self;
-        values.iter().copied()
-    }
-
-    fn block(&self, block: usize) -> &Lane {
-        &self.values.as_chunks::<LANES>().0[block]
-    }
-
-    fn raise(&mut self, place: usize, value: f64) {
-        let peak = &mut self.values[place];
-        *peak = larger(*peak, value.abs());
-    }
-}
-
 /// Places of a flight that are remembered.
 const MOST_FLOWN: usize = 16;
 
@@ -98,7 +71,7 @@ struct Flown {
 /// Room to work in; between calls it means nothing but for what `floors` keeps of the end of a step and `ahead` of the time
 /// to come.
 #[derive(Clone, Debug, Default)]
-pub(super) struct PeakRoom {
+pub(in crate::engine) struct PeakRoom {
     watch: ahead::PeakWatch,
     /// Of the modes over a flight, and over a piece of one.
     bounds: flight::ModeBounds,
@@ -179,7 +152,7 @@ impl PeakRoom {
 
 /// The peaks at an observed time, worked out when one is first asked for.
 #[derive(Clone, Debug, Default)]
-pub(super) struct PointPeaks {
+pub(in crate::engine) struct PointPeaks {
     observation: u64,
     peaks: Peaks,
     work: Option<Box<Workspace>>,
@@ -187,8 +160,8 @@ pub(super) struct PointPeaks {
 
 impl Model {
     /// No peak yet.
-    pub(super) fn start_peaks(&self) -> Peaks {
-        Peaks::new(&self.peak_rows)
+    pub(in crate::engine) fn start_peaks(&self) -> Peaks {
+        Peaks::new(self.peak_rows.blocks())
     }
 
     /// The largest magnitude so far of what `of` names, 0 where the scene has no peaks; `point` is what has been observed in
@@ -249,7 +222,13 @@ impl Model {
     }
 
     /// Raises the peaks of the base over the flight that is planned.
-    pub(super) fn raise_over_flight(&self, base: &mut Base, step: &Step, inputs: &Inputs, work: &mut Workspace) {
+    pub(in crate::engine) fn raise_over_flight(
+        &self,
+        base: &mut Base,
+        step: &Step,
+        inputs: &Inputs,
+        work: &mut Workspace,
+    ) {
         let watched = self.watched_segment(base).filter(|_| self.structure.is_classical());
         if let Some((ground, segment)) = watched {
             self.watch_peaks(ground, base, segment, work);
@@ -263,7 +242,7 @@ impl Model {
     }
 
     /// Raises the peaks of the base, to which a segment of the record has been flown from a motion before.
-    pub(super) fn raise_over_segment(
+    pub(in crate::engine) fn raise_over_segment(
         &self,
         base: &mut Base,
         segment: u64,
@@ -317,11 +296,5 @@ impl Model {
     }
 }
 
-/// The larger of two numbers that are not NaN: unlike `max` it does not look for one.
-#[inline(always)]
-fn larger(a: f64, b: f64) -> f64 {
-    if b > a { b } else { a }
-}
-
 /// For [`Point`], which is read through a shared reference.
-pub(super) type PeakCell = RefCell<PointPeaks>;
+pub(in crate::engine) type PeakCell = RefCell<PointPeaks>;

@@ -1,16 +1,17 @@
 //! The largest magnitude of one quantity in a step that has no power series in time: the first one after an entry under a
 //! power law, or a window. Such a step is a part of one swing of the contact, so a few readings show every turn.
 
-use super::contact::ContactStep;
-use super::search::Quantity;
-use super::{PeakOf, larger};
 use crate::collocation::MOST_PAIRS;
 use crate::contact::onset::{MOST_TERMS, Terms, value_and_slope};
-use crate::engine::input::LinearInput;
+use crate::engine::excitation::linear_input::LinearInput;
 use crate::engine::model::Model;
-use crate::engine::onset_step::OnsetSeries;
+use crate::engine::onset::OnsetSeries;
+use crate::engine::peaks::PeakOf;
+use crate::engine::peaks::contact::ContactStep;
+use crate::engine::peaks::search::Quantity;
 use crate::engine::state::Workspace;
-use crate::engine::window::Window;
+use crate::engine::window::solution::Window;
+use crate::numerics::polynomial::larger;
 
 /// Parts that the first step after an entry, and a window, are read in.
 const PARTS_OF_ONSET: u32 = 6;
@@ -28,7 +29,7 @@ const MOST_READINGS: usize = 20;
 
 /// Vectors to read into.
 #[derive(Clone, Debug, Default)]
-pub(super) struct ReadingRoom {
+pub(in crate::engine) struct ReadingRoom {
     q: Vec<f64>,
     v: Vec<f64>,
     acceleration: Vec<f64>,
@@ -53,7 +54,7 @@ struct Reading {
 
 impl Model {
     /// The largest magnitude of a quantity in a part of the first step after an entry, or `known` if that is larger.
-    pub(super) fn highest_in_onset(&self, quantity: &Quantity, known: f64, part: &ContactStep) -> f64 {
+    pub(in crate::engine) fn highest_in_onset(&self, quantity: &Quantity, known: f64, part: &ContactStep) -> f64 {
         let ContactStep { step, length: until, .. } = part;
         let Some(series) = OnsetQuantity::of(quantity, &step.onset) else { return known };
         let whole = (START * step.length, step.length);
@@ -61,7 +62,7 @@ impl Model {
     }
 
     /// The same for a window.
-    pub(super) fn highest_in_window(
+    pub(in crate::engine) fn highest_in_window(
         &self,
         quantity: &Quantity,
         known: f64,

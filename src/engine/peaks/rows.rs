@@ -10,8 +10,8 @@
 //! base shear           A = w^2 participation                      B = participation C
 //! ```
 
-use super::PeakOf;
-use crate::engine::Side;
+use crate::engine::peaks::PeakOf;
+use crate::structure::Side;
 use crate::structure::{LANES, Lane, ModalDamping, Structure};
 use std::ops::Range;
 

@@ -1,10 +1,12 @@
 //! The largest magnitude of one quantity in the power series of a motion: of a flight, piece by piece, or of a step in
 //! contact.
 
-use super::flight::{Flight, course_of, stays_below};
-use super::{MOST_FLOWN, PeakOf, larger};
+use crate::engine::base::Coordinates;
 use crate::engine::model::Model;
-use crate::engine::state::{Coordinates, Workspace};
+use crate::engine::peaks::flight::{Flight, course_of, stays_below};
+use crate::engine::peaks::{MOST_FLOWN, PeakOf};
+use crate::engine::state::Workspace;
+use crate::numerics::polynomial::larger;
 use crate::numerics::polynomial::{Coefficients, MAX_ORDER, ROOM};
 use crate::numerics::powers::{Powers, Reading};
 use crate::numerics::roots;
@@ -30,7 +32,7 @@ struct Piece {
 }
 
 /// A quantity as rows over a motion in some coordinates.
-pub(super) struct Quantity<'a> {
+pub(in crate::engine) struct Quantity<'a> {
     pub of: PeakOf,
     /// Over the motion, and over its rate; of an acceleration, those of the floor's displacement.
     pub rows: &'a [Vec<f64>; 2],
@@ -42,7 +44,7 @@ pub(super) struct Quantity<'a> {
 
 impl Model {
     /// The largest magnitude of a quantity over the first seconds of a flight, `until` then, or `known` if that is larger.
-    pub(super) fn highest_in_flight(
+    pub(in crate::engine) fn highest_in_flight(
         &self,
         flight: &Flight,
         of: PeakOf,
@@ -182,7 +184,7 @@ impl Model {
     }
 
     /// The rows of a quantity in some coordinates; or the lanes that say the same.
-    pub(super) fn set_rows(
+    pub(in crate::engine) fn set_rows(
         &self,
         of: PeakOf,
         coordinates: Coordinates,
@@ -285,7 +287,12 @@ impl Quantity<'_> {
 }
 
 /// The largest magnitude of a polynomial over 0..=x, or `known` if that is larger; `powers` is room to work in.
-pub(super) fn highest(terms: &Coefficients, (x, order): (f64, usize), known: f64, powers: &mut Powers) -> f64 {
+pub(in crate::engine) fn highest(
+    terms: &Coefficients,
+    (x, order): (f64, usize),
+    known: f64,
+    powers: &mut Powers,
+) -> f64 {
     powers.set(x, order);
     let Reading { value, slope, fourth } = powers.read(terms);
     let mut peak = known;

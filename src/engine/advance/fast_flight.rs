@@ -1,0 +1,309 @@
+//! The common case of a run at the price of its arithmetic: whole segments of a record in which no two floors meet.
+//!
+//! Nothing here is needed for the result: `plan` and `take` do the same segment by segment, bit for bit.
+
+use crate::engine::base::counters::Counters;
+use crate::engine::base::{Base, Coordinates};
+use crate::engine::excitation::record::GroundMotion;
+use crate::engine::excitation::segment::Segment;
+use crate::engine::flight::fast_certificate::NearPairs;
+use crate::engine::model::Model;
+use crate::engine::state::{State, Workspace};
+use crate::engine::step::{Step, StepKind};
+use crate::structure::{LANES, Lane};
+use std::ops::Range;
+
+/// Most segments that are flown over without looking at what has come out.
+const MOST_AT_ONCE: u64 = 64;
+
+/// How far a glide has come.
+#[derive(Clone, Copy, Default)]
+pub(in crate::engine) struct Glide {
+    /// Segments flown over to their end.
+    pub flown: u64,
+    /// Whether the state is there, on its way through the next segment: nothing is left to do.
+    pub has_arrived: bool,
+}
+
+/// What is seen of the pairs on the way from segment to segment.
+pub(in crate::engine) trait Sight<const WIDTH: usize> {
+    /// Whether no pair meets in the next segment, from the motion at its start and at its end and from the ground's
+    /// acceleration and its slope.
+    fn stays_apart(
+        &mut self,
+        start: (&[Lane; WIDTH], &[Lane; WIDTH]),
+        end: (&[Lane; WIDTH], &[Lane; WIDTH]),
+        load: (f64, f64),
+    ) -> bool;
+}
+
+/// All pairs have been dismissed.
+struct NothingNear;
+
+impl<const WIDTH: usize> Sight<WIDTH> for NothingNear {
+    #[inline(always)]
+    fn stays_apart(
+        &mut self,
+        _: (&[Lane; WIDTH], &[Lane; WIDTH]),
+        _: (&[Lane; WIDTH], &[Lane; WIDTH]),
+        _: (f64, f64),
+    ) -> bool {
+        true
+    }
+}
+
+impl Model {
+    /// Flies over up to `most` segments of the record as far as `until`, as long as no pair has to be looked at more
+    /// closely.
+    pub(in crate::engine) fn glide(&self, state: &mut State, until: f64, most: u64) -> Glide {
+        let Some((ground, first)) = self.gliding(state) else { return Glide::default() };
+        let mut next = first;
+        let has_arrived = loop {
+            let is_planned = state.step.kind != StepKind::Unknown;
+            let is_free = state.base.watch.are_all_free(next) || !is_planned && self.look_ahead(ground, state, next);
+            let State { base, step, counters, work, .. } = &mut *state;
+            if next - first >= most || !is_free && is_planned {
+                break false;
+            }
+            if ends_after(&base.segment, until) {
+                if is_free && !is_planned {
+                    step.kind = StepKind::Glide;
+                    self.count_glide(counters, 1);
+                }
+                break is_free;
+            }
+            let end = if is_free { base.watch.due().min(next + MOST_AT_ONCE) } else { base.watch.next_look() };
+            let clear = self.watch_peaks(ground, base, next, work);
+            let is_checked = clear == next;
+            let end = end.min(if is_checked { next + 1 } else { clear });
+            let segments = next..end.min(first.saturating_add(most));
+            let wanted = segments.end - next;
+            if is_checked {
+                work.q.copy_from_slice(&base.q);
+                work.v.copy_from_slice(&base.v);
+            }
+            let flown = if is_free {
+                fly_over(self, ground, base, step, segments, until)
+            } else {
+                self.fly_over_near_pairs(ground, base, counters, segments, until)
+            };
+            if flown == 0 {
+                break false;
+            }
+            if is_free {
+                // No contact has a flag to clear: none was at the surface at the start, and one that is carried is not
+                // dismissed.
+                base.watch.move_on(flown);
+                self.count_glide(counters, flown - u64::from(is_planned));
+            }
+            if is_checked {
+                self.check_flown(base, next, work);
+            }
+            step.kind = StepKind::Unknown;
+            next += flown;
+            base.segment = ground.segment(next);
+            if !is_free && flown < wanted {
+                break false;
+            }
+        };
+        Glide { flown: next - first, has_arrived }
+    }
+
+    /// Raises peaks over the segment, of that number, that has been flown from the motion in `work` to the base.
+    #[inline(never)]
+    fn check_flown(&self, base: &mut Base, segment: u64, work: &mut Workspace) {
+        let start = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
+        self.raise_over_segment(base, segment, (&start.0, &start.1), work);
+        (work.q, work.v) = start;
+    }
+
+    /// Looks at the pairs that have not been dismissed for the base's segment, of that number; whether all are now. Seldom
+    /// needed: the loop above has no room for it.
+    #[inline(never)]
+    fn look_ahead(&self, ground: &GroundMotion, state: &mut State, segment: u64) -> bool {
+        let State { base, counters, work, .. } = state;
+        self.dismiss(ground, base, segment, counters, &mut work.node_v)
+    }
+
+    /// Flies over segments for which not all pairs have been dismissed, as long as both ends of each show that none meets;
+    /// returns how many.
+    #[inline(never)]
+    fn fly_over_near_pairs(
+        &self,
+        ground: &GroundMotion,
+        base: &mut Base,
+        counters: &mut Counters,
+        segments: Range<u64>,
+        until: f64,
+    ) -> u64 {
+        let Some(near) = &self.near else { return 0 };
+        if !ground.is_in_record(segments.start) || base.contacts.iter().any(|contact| contact.carried) {
+            return 0;
+        }
+        let flown = fly_near(self, near, ground, base, segments.clone(), until);
+        if flown > 0 {
+            counters.flight_steps += flown;
+            self.know_near_pairs(base, segments.start..segments.start + flown, counters);
+        }
+        flown
+    }
+
+    /// The record and the number of the base's segment, where the motion can glide.
+    fn gliding(&self, state: &State) -> Option<(&GroundMotion, u64)> {
+        let State { base, step, .. } = state;
+        let is_plain = matches!(step.kind, StepKind::Unknown | StepKind::Glide | StepKind::Flight)
+            && base.elapsed == 0.0
+            && base.coordinates == Coordinates::Modes
+            && base.energy.is_none()
+            && self.structure.is_classical()
+            && !base.contacts.iter().any(|contact| contact.in_contact() || contact.at_surface);
+        if is_plain { self.watched_segment(base) } else { None }
+    }
+
+    fn count_glide(&self, counters: &mut Counters, flown: u64) {
+        counters.flight_steps += flown;
+        counters.flights_dismissed += if self.pairs.is_empty() { 0 } else { flown };
+    }
+
+    /// Leaves the planned glide to be planned by other means.
+    pub(in crate::engine) fn forget_glide(&self, state: &mut State) {
+        state.step.kind = StepKind::Unknown;
+        state.counters.flight_steps -= 1;
+        state.counters.flights_dismissed -= u64::from(!self.pairs.is_empty());
+    }
+
+    /// Makes the end of a flight the base.
+    #[inline(always)]
+    fn move_base(&self, base: &mut Base, step: &mut Step) {
+        std::mem::swap(&mut base.q, &mut step.q);
+        std::mem::swap(&mut base.v, &mut step.v);
+    }
+}
+
+fn ends_after(segment: &Segment, time: f64) -> bool {
+    time - segment.start < segment.length
+}
+
+/// The loop over segments that end by `until` and for which all pairs have been dismissed; returns how many. Wide
+/// instructions are chosen where the machine has them; they do the same operations in the same order, so they give the
+/// same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn fly_over(
+    model: &Model,
+    ground: &GroundMotion,
+    base: &mut Base,
+    step: &mut Step,
+    segments: Range<u64>,
+    until: f64,
+) -> u64 {
+    let is_simple = ground.is_in_record(segments.start);
+    match model.structure.lanes / LANES {
+        1 if is_simple => fly_few::<1>(model, ground, base, NothingNear, segments, until),
+        2 if is_simple => fly_few::<2>(model, ground, base, NothingNear, segments, until),
+        3 if is_simple => fly_few::<3>(model, ground, base, NothingNear, segments, until),
+        _ => {
+            let mut flown = 0;
+            while segments.start + flown < segments.end {
+                let segment = ground.segment(segments.start + flown);
+                if ends_after(&segment, until) || !fly_segment(model, ground, &segment, base, step) {
+                    break;
+                }
+                model.move_base(base, step);
+                flown += 1;
+            }
+            flown
+        }
+    }
+}
+
+/// The same where some pairs are near, as long as their sight allows.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn fly_near(
+    model: &Model,
+    near: &NearPairs,
+    ground: &GroundMotion,
+    base: &mut Base,
+    segments: Range<u64>,
+    until: f64,
+) -> u64 {
+    match model.structure.lanes / LANES {
+        1 => fly_in_sight::<1>(model, near, ground, base, segments, until),
+        2 => fly_in_sight::<2>(model, near, ground, base, segments, until),
+        3 => fly_in_sight::<3>(model, near, ground, base, segments, until),
+        _ => 0,
+    }
+}
+
+#[inline(always)]
+fn fly_in_sight<const WIDTH: usize>(
+    model: &Model,
+    near: &NearPairs,
+    ground: &GroundMotion,
+    base: &mut Base,
+    segments: Range<u64>,
+    until: f64,
+) -> u64 {
+    let sight = near.from((&few::<WIDTH>(&base.q), &few::<WIDTH>(&base.v)), base.segment.length);
+    fly_few(model, ground, base, sight, segments, until)
+}
+
+#[inline(always)]
+fn fly_segment(model: &Model, ground: &GroundMotion, segment: &Segment, base: &Base, step: &mut Step) -> bool {
+    let Some(interval) = ground.prepared(segment) else { return false };
+    interval.fly_on_ground(
+        (&base.q, &base.v),
+        (&model.structure.participation, (segment.acceleration_at(0.0), segment.slope)),
+        (&mut step.q, &mut step.v),
+    )
+}
+
+/// The same loop within the record for a few blocks of modes, which stay in registers. It goes as far as segments are of one length, and
+/// leaves the base as it is if the motion does not stay finite: numbers that are not finite never become so again.
+#[inline(always)]
+fn fly_few<const WIDTH: usize>(
+    model: &Model,
+    ground: &GroundMotion,
+    base: &mut Base,
+    mut sight: impl Sight<WIDTH>,
+    segments: Range<u64>,
+    until: f64,
+) -> u64 {
+    let Some(interval) = ground.prepared(&ground.segment(segments.start)) else { return 0 };
+    let Some(modes) = interval.blocks::<WIDTH>() else { return 0 };
+    let participation = few::<WIDTH>(&model.structure.participation);
+    let (mut q, mut v) = (few::<WIDTH>(&base.q), few::<WIDTH>(&base.v));
+    let mut flown = 0;
+    for (start, length, load) in ground.of_record(segments) {
+        if until - start < length || length != interval.length {
+            break;
+        }
+        let (mut end_q, mut end_v) = (q, v);
+        for c in 0..WIDTH {
+            (end_q[c], end_v[c]) = modes[c].end_on_ground((&q[c], &v[c]), &participation[c], load);
+        }
+        if !sight.stays_apart((&q, &v), (&end_q, &end_v), load) {
+            break;
+        }
+        (q, v) = (end_q, end_v);
+        flown += 1;
+    }
+    let mut spoiled = [0.0; LANES];
+    for c in 0..WIDTH {
+        for i in 0..LANES {
+            spoiled[i] += 0.0 * (q[c][i] + v[c][i]);
+        }
+    }
+    if spoiled.iter().any(|spoiled| spoiled.is_nan()) {
+        return 0;
+    }
+    base.q.copy_from_slice(q.as_flattened());
+    base.v.copy_from_slice(v.as_flattened());
+    flown
+}
+
+#[inline(always)]
+fn few<const WIDTH: usize>(all: &[f64]) -> [Lane; WIDTH] {
+    let mut blocks = [[0.0; LANES]; WIDTH];
+    blocks.as_flattened_mut().copy_from_slice(&all[..WIDTH * LANES]);
+    blocks
+}

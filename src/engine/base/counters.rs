@@ -1,0 +1,25 @@
+//! How much work a run has been.
+
+use serde::{Deserialize, Serialize};
+
+/// How much work a run has been: counted, not timed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counters {
+    /// Internal flight steps.
+    pub flight_steps: u64,
+    /// Pieces of flights that were expanded into a series, or tried without one, to look for a contact.
+    pub closer_looks: u64,
+    /// Flights for which no pair had to be looked at: none can close that fast.
+    pub flights_dismissed: u64,
+    /// Evaluations of a pair's penetration for a flight.
+    pub pairs_evaluated: u64,
+    /// Internal steps in contact.
+    pub contact_steps: u64,
+    /// Contact forces that were expanded into a series or solved for over a window: one for each such step and pair whose
+    /// law acts in it.
+    pub law_evaluations: u64,
+    /// Steps, or pieces of flights, over which the terms of the energy account were integrated.
+    pub energy_steps: u64,
+    /// Entries, releases and branch changes.
+    pub events: u64,
+}

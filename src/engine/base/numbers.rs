@@ -1,0 +1,112 @@
+//! All numbers of a state, by patterns without `..`: a new field has to be thought of here.
+
+use crate::engine::base::contact::{Contact, Episode};
+use crate::engine::base::counters::Counters;
+use crate::engine::base::{Account, Base};
+use crate::engine::excitation::inputs::Inputs;
+use crate::engine::excitation::linear_input::LinearInput;
+
+impl Inputs {
+    pub(in crate::engine) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+        let Inputs { ground_acceleration, floor_forces, left_floors: _ } = self;
+        floor_forces.iter().chain([ground_acceleration]).flat_map(LinearInput::numbers)
+    }
+}
+
+impl Base {
+    pub(in crate::engine) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+        let Base {
+            segment: _, // compared as a whole
+            elapsed,
+            coordinates: _,
+            q,
+            v,
+            contacts,
+            watch: _, // counts, looked at by themselves
+            peaks,
+            energy,
+            velocity_scale,
+            last_length: _, // infinite where a series ended by itself
+            impacts: _,
+        } = self;
+        let of_motion = [q, v].into_iter().flatten().chain([elapsed, velocity_scale]).copied();
+        let of_contacts = contacts.iter().flat_map(Contact::numbers);
+        of_motion.chain(of_contacts).chain(peaks.numbers()).chain(energy.iter().flat_map(Account::numbers))
+    }
+
+    /// Displacements and velocities.
+    pub fn motion(&self) -> impl Iterator<Item = f64> + '_ {
+        let of_contacts = self.contacts.iter().flat_map(|contact| [contact.penetration, contact.rate]);
+        self.q.iter().chain(&self.v).copied().chain(of_contacts)
+    }
+}
+
+impl Contact {
+    pub(in crate::engine) fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
+        let &Contact {
+            phase: _,
+            force: _, // compared as a whole
+            penetration,
+            rate,
+            at_surface: _,
+            carried: _,
+            let_go: _,
+            undecided: _,
+            reaction,
+            impacts: _,
+            impulse,
+            work,
+            stored_reference,
+            peak_force,
+            episode,
+            work_before,
+            age,
+        } = self;
+        let so_far = [penetration, rate, reaction, impulse, work, stored_reference, peak_force, work_before, age];
+        so_far.into_iter().chain(episode.numbers())
+    }
+}
+
+impl Episode {
+    pub(in crate::engine) fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
+        let &Episode {
+            contact: _,
+            start,
+            end,
+            approach_velocity,
+            separation_velocity,
+            peak_force,
+            peak_time,
+            peak_penetration,
+            impulse,
+            dissipated_energy,
+        } = self;
+        let velocities = [approach_velocity, separation_velocity];
+        let peaks = [peak_force, peak_time, peak_penetration, impulse, dissipated_energy];
+        [start].into_iter().chain(end).chain(velocities).chain(peaks)
+    }
+}
+
+impl Account {
+    pub(in crate::engine) fn numbers(&self) -> [f64; 5] {
+        let &Account { initial, input, external, viscous, largest } = self;
+        [initial, input, external, viscous, largest]
+    }
+}
+
+impl Counters {
+    pub(in crate::engine) fn numbers(&self) -> impl Iterator<Item = u64> + use<> {
+        let &Counters {
+            flight_steps,
+            closer_looks,
+            flights_dismissed,
+            pairs_evaluated,
+            contact_steps,
+            law_evaluations,
+            events,
+            energy_steps,
+        } = self;
+        let in_flight = [flight_steps, closer_looks, flights_dismissed, pairs_evaluated];
+        in_flight.into_iter().chain([contact_steps, law_evaluations, events, energy_steps])
+    }
+}

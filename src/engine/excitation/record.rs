@@ -1,0 +1,252 @@
+//! Ground acceleration as a sequence of segments, in each of which it is linear in time.
+
+use crate::engine::excitation::segment::{Place, Segment};
+use crate::record::Record;
+use crate::structure::{Interval, Structure};
+use std::ops::Range;
+
+/// Records with up to this many different sample spacings have their exact flight prepared for each.
+const MOST_PREPARED: usize = 8;
+
+/// A scaled record, cut into segments.
+#[derive(Debug)]
+pub struct GroundMotion {
+    times: Vec<f64>,
+    accelerations: Vec<f64>,
+    /// s, typical spacing: also the length of segments outside the record.
+    spacing: f64,
+    /// s, length of each segment.
+    lengths: Vec<f64>,
+    /// Up to each sample: s, and m/s, the integral of |acceleration| (never less).
+    passed: Vec<(f64, f64)>,
+    prepared: Vec<Interval>,
+}
+
+impl GroundMotion {
+    /// Prepares a record times `factor` for a structure.
+    pub fn new(record: &Record, factor: f64, structure: &Structure) -> GroundMotion {
+        let times = record.times.clone();
+        let accelerations: Vec<f64> = record.accelerations.iter().map(|a| a * factor).collect();
+        let lengths = segment_lengths(&times);
+        let passed = passed(&lengths, &accelerations);
+        let spacing = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
+        let mut distinct: Vec<f64> = lengths.clone();
+        distinct.sort_by(f64::total_cmp);
+        distinct.dedup();
+        distinct.truncate(MOST_PREPARED);
+        let prepared = distinct.into_iter().map(|length| Interval::new(structure, length)).collect();
+        GroundMotion { times, accelerations, spacing, lengths, passed, prepared }
+    }
+
+    /// The segment that holds a time.
+    pub fn segment_at(&self, time: f64) -> Segment {
+        let first = self.times.first().copied().unwrap_or(time);
+        if time < first {
+            return Segment {
+                start: time,
+                length: self.spacing.min(first - time),
+                acceleration: 0.0,
+                slope: 0.0,
+                place: Place::Outside,
+            };
+        }
+        let sample = self.times.partition_point(|t| *t <= time) - 1;
+        if sample < self.lengths.len() {
+            return self.sample(sample);
+        }
+        let end = self.times[sample];
+        self.after(((time - end) / self.spacing).floor().max(0.0) as u64)
+    }
+
+    /// Number of segments between two times, but for those before and of the record.
+    pub fn segments_after(&self, from: f64, until: f64) -> f64 {
+        let end = self.times.last().copied().unwrap_or(from);
+        (until - from.max(end)) / self.spacing
+    }
+
+    /// Whether these are more than so many.
+    pub fn are_more_after(&self, (from, until): (f64, f64), segments: f64) -> bool {
+        until - from > segments * self.spacing && self.segments_after(from, until) > segments
+    }
+
+    /// The segment that follows one.
+    pub fn following(&self, segment: &Segment) -> Segment {
+        match self.number(segment) {
+            Some(number) => self.segment(number + 1),
+            None => self.segment_at(segment.start + segment.length),
+        }
+    }
+
+    /// The segment with a number.
+    #[inline(always)]
+    pub fn segment(&self, number: u64) -> Segment {
+        let samples = self.lengths.len() as u64;
+        if number < samples { self.sample(number as usize) } else { self.after(number - samples) }
+    }
+
+    /// Whether a number is that of a segment of the record.
+    pub fn is_in_record(&self, number: u64) -> bool {
+        number < self.lengths.len() as u64
+    }
+
+    /// Start, length, acceleration and slope of segments of the record, from a number on.
+    #[inline(always)]
+    pub fn of_record(&self, numbers: Range<u64>) -> impl Iterator<Item = (f64, f64, (f64, f64))> {
+        let samples = self.lengths.len() as u64;
+        let [first, end] = [numbers.start, numbers.end].map(|number| number.min(samples) as usize);
+        let ends = self.accelerations[first..].windows(2);
+        let segments = self.times[first..end].iter().zip(&self.lengths[first..end]).zip(ends);
+        segments.map(|((start, length), ends)| (*start, *length, (ends[0], slope([ends[0], ends[1]], *length))))
+    }
+
+    /// The exact flight over a whole segment, where it has been prepared.
+    pub fn prepared(&self, segment: &Segment) -> Option<&Interval> {
+        self.prepared.iter().find(|interval| interval.length == segment.length)
+    }
+
+    /// The number of a segment, counted on after the record's end; none before its beginning.
+    pub fn number(&self, segment: &Segment) -> Option<u64> {
+        match segment.place {
+            Place::Outside => None,
+            Place::Sample(i) => Some(i as u64),
+            Place::After(k) => Some(self.lengths.len() as u64 + k),
+        }
+    }
+
+    /// Whether a segment is one of this motion.
+    pub fn has(&self, segment: &Segment) -> bool {
+        const MOST: u64 = 1 << 53;
+        let own = match segment.place {
+            Place::Outside => self.segment_at(segment.start),
+            Place::Sample(i) if i < self.lengths.len() => self.sample(i),
+            Place::After(k) if k < MOST => self.after(k),
+            Place::Sample(_) | Place::After(_) => return false,
+        };
+        own == *segment
+    }
+
+    /// From the start of the segment with a number on.
+    pub fn ahead_of(&self, number: u64) -> Ahead<'_> {
+        let (start, before) = self.passed_at(number);
+        Ahead { ground: self, number, start, before }
+    }
+
+    /// Up to the start of a segment: s, and the integral of |acceleration|, m/s.
+    #[inline(always)]
+    fn passed_at(&self, number: u64) -> (f64, f64) {
+        match self.passed.get(number as usize) {
+            Some(passed) => *passed,
+            None => self.passed_after(number),
+        }
+    }
+
+    #[cold]
+    fn passed_after(&self, number: u64) -> (f64, f64) {
+        let last = self.lengths.len();
+        let (time, shaking) = self.passed[last];
+        (time + (number - last as u64) as f64 * self.spacing, shaking)
+    }
+
+    #[inline(always)]
+    fn sample(&self, i: usize) -> Segment {
+        let (start, length, ends) =
+            (self.times[i], self.lengths[i], [self.accelerations[i], self.accelerations[i + 1]]);
+        Segment { start, length, acceleration: ends[0], slope: slope(ends, length), place: Place::Sample(i) }
+    }
+
+    #[inline(always)]
+    fn after(&self, k: u64) -> Segment {
+        let end = self.times[self.times.len() - 1];
+        Segment {
+            start: end + k as f64 * self.spacing,
+            length: self.spacing,
+            acceleration: 0.0,
+            slope: 0.0,
+            place: Place::After(k),
+        }
+    }
+}
+
+/// What is to come from the start of a segment on.
+pub struct Ahead<'a> {
+    ground: &'a GroundMotion,
+    number: u64,
+    /// s and m/s, up to there.
+    start: f64,
+    before: f64,
+}
+
+impl Ahead<'_> {
+    /// s, the longest of so many segments.
+    pub fn longest(&self, segments: u64) -> f64 {
+        self.each(segments).fold(self.ground.spacing, |longest, (length, _)| longest.max(length))
+    }
+
+    /// The largest |ground acceleration|, m/s2, and the largest |slope|, m/s3, of so many segments.
+    pub fn largest(&self, segments: u64) -> (f64, f64) {
+        self.each(segments).fold((0.0, 0.0), |(strongest, steepest): (f64, f64), (length, [start, end])| {
+            (strongest.max(start.abs()).max(end.abs()), steepest.max(((end - start) / length).abs()))
+        })
+    }
+
+    /// Length, s, and accelerations at both ends, m/s2, of each of so many segments within the record.
+    fn each(&self, segments: u64) -> impl Iterator<Item = (f64, [f64; 2])> + '_ {
+        let GroundMotion { lengths, accelerations, .. } = self.ground;
+        let [first, end] =
+            [self.number, self.number + segments].map(|number| number.min(lengths.len() as u64) as usize);
+        let ends = accelerations[first..].windows(2).map(|ends| [ends[0], ends[1]]);
+        lengths[first..end].iter().copied().zip(ends)
+    }
+
+    /// s that so many segments last, and the integral of |acceleration| over them, m/s: never less than exact.
+    #[inline(always)]
+    pub fn over(&self, segments: u64) -> (f64, f64) {
+        const ROUNDING: f64 = 4.0 * f64::EPSILON;
+        let (end, after) = self.ground.passed_at(self.number + segments);
+        (end - self.start + ROUNDING * end, after - self.before + ROUNDING * after)
+    }
+}
+
+#[inline(always)]
+fn slope([start, end]: [f64; 2], length: f64) -> f64 {
+    (end - start) / length
+}
+
+/// Time and integral of |acceleration| up to each sample, summed without loss (Neumaier): their differences matter.
+fn passed(lengths: &[f64], accelerations: &[f64]) -> Vec<(f64, f64)> {
+    let (mut time, mut shaking) = (Sum::default(), Sum::default());
+    let mut passed = vec![(0.0, 0.0)];
+    for (length, ends) in lengths.iter().zip(accelerations.windows(2)) {
+        time.add(*length);
+        // A chord lies above |a| where a is linear.
+        shaking.add(0.5 * length * (ends[0].abs() + ends[1].abs()));
+        passed.push((time.value + time.lost, shaking.value + shaking.lost));
+    }
+    passed
+}
+
+/// A sum of positive numbers with what rounding has lost of it.
+#[derive(Default)]
+struct Sum {
+    value: f64,
+    lost: f64,
+}
+
+impl Sum {
+    fn add(&mut self, term: f64) {
+        let sum = self.value + term;
+        let (large, small) = if self.value > term { (self.value, term) } else { (term, self.value) };
+        self.lost += (large - sum) + small;
+        self.value = sum;
+    }
+}
+
+/// Differences of the sample times. Times that are a multiple of one spacing but for their rounding get that spacing,
+/// so that one prepared interval serves them all.
+fn segment_lengths(times: &[f64]) -> Vec<f64> {
+    let n = times.len() - 1;
+    let spacing = (times[n] - times[0]) / n as f64;
+    let rounding = 4.0 * f64::EPSILON * times[0].abs().max(times[n].abs());
+    let even = times.iter().enumerate().all(|(k, t)| (t - (times[0] + k as f64 * spacing)).abs() <= rounding);
+    if even { vec![spacing; n] } else { times.windows(2).map(|pair| pair[1] - pair[0]).collect() }
+}

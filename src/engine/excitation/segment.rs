@@ -1,0 +1,48 @@
+//! A stretch of time in which the ground acceleration is linear.
+
+use crate::engine::excitation::linear_input::LinearInput;
+use serde::{Deserialize, Serialize};
+
+/// A stretch of time in which the ground acceleration is linear.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Segment {
+    /// s.
+    pub start: f64,
+    /// s.
+    pub length: f64,
+    /// m/s2 at the start.
+    pub acceleration: f64,
+    /// m/s3.
+    pub slope: f64,
+    pub(in crate::engine) place: Place,
+}
+
+/// Where a segment lies relative to the record.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::engine) enum Place {
+    /// Before the first sample, or a stretch under an input.
+    Outside,
+    /// From this sample to the next.
+    Sample(usize),
+    /// This many segments after the last sample.
+    After(u64),
+}
+
+impl Segment {
+    /// A stretch under an input.
+    pub fn under_input(start: f64, length: f64, input: &LinearInput) -> Segment {
+        Segment { start, length, acceleration: input.at(start), slope: input.slope(), place: Place::Outside }
+    }
+
+    /// Whether it can be a stretch under an input.
+    pub fn is_under_input(&self) -> bool {
+        let Segment { start, length, acceleration, slope, place } = *self;
+        let numbers = [start, length, acceleration, slope];
+        place == Place::Outside && length >= 0.0 && numbers.into_iter().all(f64::is_finite)
+    }
+
+    /// m/s2 at a time since the start.
+    pub fn acceleration_at(&self, elapsed: f64) -> f64 {
+        self.acceleration + self.slope * elapsed
+    }
+}

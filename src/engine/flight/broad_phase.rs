@@ -1,0 +1,357 @@
+//! Pairs that cannot meet yet: bounds on how fast their floors can close tell for how many segments of the record they
+//! need not be looked at.
+//!
+//! Apart from contact, the amplitude e = sqrt(q'^2 + w^2 q^2) of each mode grows by no more than A, |participation| x the
+//! integral of |ground acceleration|: damping only takes from it. Without the ground's part |q''| <= (w + c) e, and that
+//! part pushes both floors of a pair alike. So with e now, after a time t
+//!
+//! ```text
+//! penetration <= penetration now + t sum over modes of |row| (e + A)
+//! penetration <= penetration now + t (rate now + t/2 sum over modes of |row| (w + c) (e + A))
+//! ```
+//!
+//! The first never falls with t and the second is convex: what lies below 0 at the end of a stretch did so all along.
+//! Where damping couples no modes, the pair's own acceleration by springs and dashpots, a = -row (c v + w^2 q), changes by
+//! no more than |a'| <= sum of |row| (k (e + A) + c |participation| |ground acceleration|) with
+//! k^2 = (w^2 + c^2)^2 + c^2 w^2, so that with S, the integral of |ground acceleration|,
+//!
+//! ```text
+//! penetration <= penetration now + t rate now + t^2/2 (a now + S sum of |row| c |participation|)
+//!                + t^3/6 sum over modes of |row| k (e + A)
+//! ```
+//!
+//! a cubic, which lies below its Bernstein coefficients.
+
+use crate::engine::base::Base;
+use crate::engine::base::clearance::MOST;
+use crate::engine::base::counters::Counters;
+use crate::engine::excitation::record::{Ahead, GroundMotion};
+use crate::engine::model::Model;
+use crate::engine::pairs::pair::Pair;
+use crate::numerics::polynomial::each;
+use crate::structure::{LANES, Lane, ModalDamping, Side, Structure};
+use std::ops::Range;
+
+/// Numbers of segments for which it is tried whether a pair stays apart, some at a time.
+const TRIED: [[u64; LANES]; 3] = [[1, 2, 3, 4], [6, 8, 12, 16], [24, 32, 48, MOST]];
+
+/// As many as a look is mostly good for where nothing is near.
+const USUAL: u64 = 8;
+
+/// Segments for which it costs less to show by both ends of each that no pair meets than to look again and again.
+const NEAR: u64 = 16;
+
+/// Margin for rounding, relative to the numbers that a penetration or a closing speed is added up from.
+const MARGIN: f64 = 1e-10;
+
+/// sqrt(2) - 1, rounded up: sqrt(a^2 + b^2) <= a + this b for a >= b >= 0.
+const CHORD: f64 = 0.414_213_562_4;
+
+/// What stays the same during a run.
+#[derive(Debug)]
+pub(in crate::engine) struct ClosingSpeeds {
+    modes: Vec<ModeBlock>,
+    /// What a shaking (integral of |ground acceleration|) of 1 m/s does to each pair.
+    pairs: Vec<Growth>,
+    /// Modes of a building in which damping couples them.
+    coupled: Vec<Range<usize>>,
+}
+
+/// What [`LANES`] modes are, side by side.
+#[derive(Clone, Copy, Debug, Default)]
+struct ModeBlock {
+    /// rad/s.
+    omega: Lane,
+    /// w + c, 1/s.
+    quickness: Lane,
+    /// k, 1/s2; infinite where damping couples the mode to others.
+    bend: Lane,
+    /// c, 1/s, and w^2, 1/s2.
+    damping: Lane,
+    omega2: Lane,
+    /// Largest |row| of all pairs.
+    weight: Lane,
+}
+
+/// What a shaking of 1 m/s does to a pair.
+#[derive(Clone, Copy, Debug)]
+struct Growth {
+    /// The sums over modes for its e.
+    sums: Sums,
+    /// To the pair's acceleration by dashpots, m/s2.
+    dragged: f64,
+}
+
+/// Sums over modes of |row| e, m/s, of |row| (w + c) e, m/s2, and of |row| k e, m/s3.
+#[derive(Clone, Copy, Debug)]
+struct Sums {
+    speed: f64,
+    change: f64,
+    bend: f64,
+}
+
+impl ClosingSpeeds {
+    pub fn of(structure: &Structure, pairs: &[Pair], weight: &[f64]) -> ClosingSpeeds {
+        let mut growth: Vec<f64> = structure.participation.iter().map(|p| p.abs()).collect();
+        let coupled = [Side::Left, Side::Right]
+            .into_iter()
+            .filter(|side| matches!(structure.modes(*side).damping, ModalDamping::Coupled(_)));
+        let coupled: Vec<Range<usize>> = coupled.map(|side| structure.range(side)).collect();
+        for range in &coupled {
+            share_amplitude(&mut growth[range.clone()]);
+        }
+        let omega: Vec<f64> = structure.omega2.iter().map(|w2| w2.sqrt()).collect();
+        let mut quickness: Vec<f64> = omega.iter().zip(&structure.damping).map(|(w, c)| w + c).collect();
+        for range in &coupled {
+            // |C| |v| + w |w q|, with the largest row sum of C.
+            quickness[range.clone()].fill(2.0 * structure.fastest);
+        }
+        let of_mode = |(w, c): (&f64, &f64)| ((w * w + c * c) * (w * w + c * c) + c * c * w * w).sqrt();
+        let mut bend: Vec<f64> = omega.iter().zip(&structure.damping).map(of_mode).collect();
+        for range in &coupled {
+            bend[range.clone()].fill(f64::INFINITY);
+        }
+        let dragged = |pair: &Pair| {
+            let of_modes = pair.row.iter().zip(&structure.damping).zip(&structure.participation);
+            of_modes.map(|((row, c), participation)| (row * c * participation).abs()).sum()
+        };
+        let growth =
+            |pair: &Pair| Growth { sums: Sums::of(&pair.row, &growth, &quickness, &bend), dragged: dragged(pair) };
+        let block = |c: usize| {
+            let lane = |all: &[f64]| -> Lane { std::array::from_fn(|i| all[c * LANES + i]) };
+            ModeBlock {
+                omega: lane(&omega),
+                quickness: lane(&quickness),
+                bend: lane(&bend),
+                damping: lane(&structure.damping),
+                omega2: lane(&structure.omega2),
+                weight: lane(weight),
+            }
+        };
+        ClosingSpeeds {
+            modes: (0..structure.lanes / LANES).map(block).collect(),
+            pairs: pairs.iter().map(growth).collect(),
+            coupled,
+        }
+    }
+}
+
+impl Model {
+    /// Looks at the pairs that have not been dismissed for the base's segment, of that number; whether all are now.
+    pub(in crate::engine) fn dismiss(
+        &self,
+        ground: &GroundMotion,
+        base: &mut Base,
+        segment: u64,
+        counters: &mut Counters,
+        amplitude: &mut [f64],
+    ) -> bool {
+        let is_free = base.watch.are_all_free(segment);
+        if is_free || segment < base.watch.next_look() {
+            return is_free;
+        }
+        look_at_all(self, ground, base, segment, counters, amplitude);
+        let due = base.watch.first_due();
+        let patience = if self.near.is_some() { NEAR } else { 1 };
+        base.watch.note(due, if due >= segment + USUAL { due } else { due.max(segment + patience) });
+        base.watch.are_all_free(segment)
+    }
+
+    /// Bounds on sqrt(v^2 + w^2 q^2) of all modes at the base. Returns a bound on what the displacements add to any
+    /// penetration, m.
+    #[inline(always)]
+    fn amplitudes(&self, base: &Base, amplitude: &mut [f64]) -> f64 {
+        let [(q, _), (v, _)] = [&base.q, &base.v].map(|vector| vector.as_chunks::<LANES>());
+        let mut size = [0.0; LANES];
+        let blocks = self.closing.modes.iter().zip(q).zip(v);
+        for (((mode, q), v), amplitude) in blocks.zip(amplitude.as_chunks_mut::<LANES>().0) {
+            let moved = each(|i| q[i].abs());
+            let (a, b) = (each(|i| v[i].abs()), each(|i| mode.omega[i] * moved[i]));
+            // Not `max` and `min`, which pass over a NaN.
+            let more = each(|i| if a[i] > b[i] { a[i] } else { b[i] });
+            let less = each(|i| if a[i] > b[i] { b[i] } else { a[i] });
+            *amplitude = each(|i| more[i] + CHORD * less[i]);
+            size = each(|i| size[i] + mode.weight[i] * moved[i]);
+        }
+        for range in &self.closing.coupled {
+            share_amplitude(&mut amplitude[range.clone()]);
+        }
+        size.iter().sum()
+    }
+}
+
+/// Coupled modes exchange energy: only the amplitude of all together never grows by itself, and any may have it.
+fn share_amplitude(modes: &mut [f64]) {
+    let whole = modes.iter().map(|e| e * e).sum::<f64>().sqrt();
+    modes.fill(whole);
+}
+
+/// Looks at each pair that has not been dismissed for a segment. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn look_at_all(
+    model: &Model,
+    ground: &GroundMotion,
+    base: &mut Base,
+    segment: u64,
+    counters: &mut Counters,
+    amplitude: &mut [f64],
+) {
+    let size = model.amplitudes(base, amplitude);
+    let (ahead, mut ends) = (ground.ahead_of(segment), [Ends::default(); TRIED.len()]);
+    for (ends, segments) in ends.iter_mut().zip(&TRIED) {
+        ends.set(&ahead, base.elapsed, segments);
+    }
+    for (p, pair) in model.pairs.iter().enumerate() {
+        if base.watch.is_free(p, segment) {
+            continue;
+        }
+        let Seen { bounds: sums, pull, moved, rate } = look(model, base, &pair.row, amplitude);
+        let contact = &mut base.contacts[p];
+        if !base.watch.is_known(p) {
+            counters.pairs_evaluated += 1;
+            (contact.penetration, contact.rate) = (moved - pair.gap, rate);
+            base.watch.set_known(p);
+        }
+        if contact.carried {
+            continue;
+        }
+        let closing = Closing {
+            start: contact.flight_start() + MARGIN * (pair.gap.abs() + size),
+            rate: contact.rate,
+            pull: pull + MARGIN * sums.change,
+            sums,
+            growth: &model.closing.pairs[p],
+        };
+        base.watch.clear(p, segment + closing.longest(&ends));
+    }
+}
+
+/// Times, s, and integrals of |ground acceleration|, m/s, up to the ends of some numbers of segments.
+#[derive(Clone, Copy, Default)]
+struct Ends {
+    time: Lane,
+    shaking: Lane,
+}
+
+impl Ends {
+    /// The ends of some numbers of segments, from the base on.
+    #[inline(always)]
+    fn set(&mut self, ahead: &Ahead, elapsed: f64, segments: &[u64; LANES]) {
+        for (i, segments) in segments.iter().enumerate() {
+            let (time, shaking) = ahead.over(*segments);
+            self.time[i] = (1.0 + MARGIN) * (time - elapsed);
+            self.shaking[i] = shaking;
+        }
+    }
+}
+
+/// What tells for how long a pair stays apart.
+struct Closing<'a> {
+    /// m and m/s.
+    start: f64,
+    rate: f64,
+    /// m/s2, by springs and dashpots.
+    pull: f64,
+    sums: Sums,
+    growth: &'a Growth,
+}
+
+impl Closing<'_> {
+    /// The most of the segments tried for which the pair stays apart, 0 if it does for none.
+    #[inline(always)]
+    fn longest(&self, ends: &[Ends; TRIED.len()]) -> u64 {
+        let mut free = 0;
+        for (segments, ends) in TRIED.iter().zip(ends) {
+            let nearest = nearest(self, ends);
+            for i in 0..LANES {
+                free = if nearest[i] < 0.0 { segments[i] } else { free };
+            }
+            if free < segments[LANES - 1] {
+                break;
+            }
+        }
+        free
+    }
+}
+
+/// The least of what the bounds say of a penetration up to some ends, m. Where it is below 0 the pair stays apart; a NaN of
+/// the cubic is passed over, any other comes out. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn nearest(closing: &Closing, Ends { time, shaking }: &Ends) -> Lane {
+    let &Closing { start, rate, pull, ref sums, growth: &Growth { sums: ref growth, dragged } } = closing;
+    let (smaller, larger) = (|a: f64, b: f64| if a < b { a } else { b }, |a: f64, b: f64| if a > b { a } else { b });
+    let mut nearest = [0.0; LANES];
+    for i in 0..LANES {
+        let (time, shaking) = (time[i], shaking[i]);
+        let speed = sums.speed + growth.speed * shaking;
+        let change = sums.change + growth.change * shaking;
+        let bend = sums.bend + growth.bend * shaking;
+        let rate = rate + MARGIN * speed;
+        let (line, parabola) = (start + time * speed, start + time * (rate + 0.5 * time * change));
+        let (first, second) = (time * rate, 0.5 * time * time * (pull + shaking * dragged));
+        let end = start + (first + second + time * time * time * (bend * (1.0 / 6.0)));
+        let inner = [3.0 * start + first, 3.0 * start + 2.0 * first + second];
+        // The end last, a NaN where anything before it is one.
+        let last = end + 0.0 * (inner[0] + inner[1]);
+        let cubic = larger(larger(larger(start, inner[0]), inner[1]), last);
+        nearest[i] = smaller(cubic, smaller(line, parabola));
+    }
+    nearest
+}
+
+/// The sums over modes of one pair: of bounds, and of what its motion is at the base.
+#[inline(always)]
+fn look(model: &Model, base: &Base, row: &[f64], amplitude: &[f64]) -> Seen {
+    let [row, amplitude, q, v] = [row, amplitude, &base.q, &base.v].map(|all| all.as_chunks::<LANES>().0);
+    // Says once that no index below leaves its table.
+    let (modes, count) = (&model.closing.modes[..], model.closing.modes.len());
+    let (row, amplitude, q, v) = (&row[..count], &amplitude[..count], &q[..count], &v[..count]);
+    let (mut speed, mut change, mut bend) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    let (mut pull, mut moved, mut rate) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    for c in 0..count {
+        let (mode, row, q, v) = (&modes[c], &row[c], &q[c], &v[c]);
+        let part = each(|i| row[i].abs() * amplitude[c][i]);
+        speed = each(|i| speed[i] + part[i]);
+        change = each(|i| change[i] + mode.quickness[i] * part[i]);
+        bend = each(|i| bend[i] + mode.bend[i] * part[i]);
+        pull = each(|i| pull[i] - row[i] * (mode.damping[i] * v[i] + mode.omega2[i] * q[i]));
+        moved = each(|i| moved[i] + row[i] * q[i]);
+        rate = each(|i| rate[i] + row[i] * v[i]);
+    }
+    let [speed, change, bend, pull, moved, rate] = totals(&[speed, change, bend, pull, moved, rate]);
+    Seen { bounds: Sums { speed, change, bend }, pull, moved, rate }
+}
+
+/// Sums over lanes, from left to right. Not inlined: else compilers add up the same lane of several sums abreast, for which
+/// they turn round every block of modes.
+#[inline(never)]
+fn totals(sums: &[Lane; 6]) -> [f64; 6] {
+    let mut totals = [0.0; 6];
+    for (total, [a, b, c, d]) in totals.iter_mut().zip(sums) {
+        *total = ((a + b) + c) + d;
+    }
+    totals
+}
+
+/// What a look at a pair tells.
+struct Seen {
+    bounds: Sums,
+    /// m/s2, acceleration by springs and dashpots, where damping couples no modes.
+    pull: f64,
+    /// m and m/s, how far and how fast the left floor has moved towards the right one.
+    moved: f64,
+    rate: f64,
+}
+
+impl Sums {
+    fn of(row: &[f64], amplitude: &[f64], quickness: &[f64], bends: &[f64]) -> Sums {
+        let (mut speed, mut change, mut bend) = (0.0, 0.0, 0.0);
+        for (((row, amplitude), quickness), own_bend) in row.iter().zip(amplitude).zip(quickness).zip(bends) {
+            let part = row.abs() * amplitude;
+            speed += part;
+            change += quickness * part;
+            bend += own_bend * part;
+        }
+        Sums { speed, change, bend }
+    }
+}

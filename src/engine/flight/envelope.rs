@@ -1,0 +1,65 @@
+//! Flights in which no swing reaches across a gap, however long they last.
+//!
+//! Under a load that is linear in time each mode swings about the place where the load would hold it,
+//!
+//! ```text
+//! q = s + h,   s = load / w^2 - c slope / w^4,   h'' + c h' + w^2 h = 0
+//! ```
+//!
+//! and R = sqrt(h^2 + (h' / w)^2) never grows. So a penetration never exceeds what s alone makes of it, which is largest
+//! at one of the ends, by more than the sum over modes of |row| R. A motion that has died out costs nothing from there
+//! on, and neither does one that goes on for ever without reaching the other floor.
+
+use crate::engine::model::Model;
+use crate::structure::Side;
+
+/// Margin for rounding, relative to the numbers that a penetration is added up from.
+const MARGIN: f64 = 1e-10;
+
+impl Model {
+    /// Whether no pair meets within `length` seconds from a modal motion on, under a load and its slope.
+    pub(in crate::engine) fn swings_stay_apart(
+        &self,
+        (q, v): (&[f64], &[f64]),
+        (load, slope): (&[f64], &[f64]),
+        length: f64,
+    ) -> bool {
+        let structure = &self.structure;
+        // Where damping couples modes, what holds them under a load that changes is not worked out here.
+        if !structure.is_classical() && slope.iter().any(|slope| *slope != 0.0) {
+            return false;
+        }
+        let of_mode = |m: usize| {
+            let (w2, c) = (structure.omega2[m], structure.damping[m]);
+            if w2 == 0.0 {
+                return [0.0; 3];
+            }
+            let drift = slope[m] / w2;
+            let held = load[m] / w2 - c * drift / w2;
+            let (h, rate) = (q[m] - held, v[m] - drift);
+            [held, drift * length, (h * h + rate * rate / w2).sqrt() + MARGIN * (held.abs() + q[m].abs())]
+        };
+        self.pairs.iter().all(|pair| {
+            let (mut start, mut change, mut swing, mut size) = (0.0, 0.0, 0.0, pair.gap.abs());
+            for side in [Side::Left, Side::Right] {
+                for m in structure.range(side) {
+                    let [held, drift, radius] = of_mode(m);
+                    let reach = if structure.is_classical() { radius } else { self.shared_radius(side, &of_mode, m) };
+                    start += pair.row[m] * held;
+                    change += pair.row[m] * drift;
+                    swing += pair.row[m].abs() * reach;
+                    size += (pair.row[m] * held).abs() + (pair.row[m] * drift).abs();
+                }
+            }
+            // Written so that a NaN never stays apart.
+            start.max(start + change) - pair.gap + swing + MARGIN * size < 0.0
+        })
+    }
+
+    /// What damping couples exchanges energy: any mode may come to have all of it.
+    fn shared_radius(&self, side: Side, of_mode: &impl Fn(usize) -> [f64; 3], mode: usize) -> f64 {
+        let w2 = &self.structure.omega2;
+        let energy: f64 = self.structure.range(side).map(|m| w2[m] * of_mode(m)[2] * of_mode(m)[2]).sum();
+        (energy / w2[mode]).sqrt()
+    }
+}

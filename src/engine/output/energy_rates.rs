@@ -1,0 +1,82 @@
+//! How fast the energies change: powers, and the rates of powers, from the motion and its derivatives.
+
+use crate::engine::base::Coordinates;
+use crate::engine::excitation::linear_input::LinearInput;
+use crate::engine::model::Model;
+use crate::engine::output::point::Point;
+use crate::engine::output::rates::{PointRates, Rates};
+use crate::engine::state::{State, Workspace};
+
+/// First and second derivatives of the energy account, W and W/s. Names as in [`super::EnergyPoint`], whose residual stays.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EnergyRates {
+    /// Of the inertia forces of the ground motion.
+    pub input: Rates,
+    /// Of the kinetic energy.
+    pub kinetic: Rates,
+    /// Of the strain energy of the storeys.
+    pub strain: Rates,
+    /// Of structural damping.
+    pub viscous: Rates,
+    /// Of the contact forces.
+    pub impact: Rates,
+    /// Of the external floor forces.
+    pub external: Rates,
+}
+
+impl Model {
+    /// The rates of the energy account at a point of which all other rates are known; none without an account.
+    ///
+    /// With <a, b> the sum of masses times a and b, and K, C per unit of mass: the kinetic energy <v, v>/2, the strain
+    /// energy <u, K u>/2, and the powers <v, C v> of damping, -<1, v> a(t) of the ground and <f, v> of floor forces f.
+    pub(in crate::engine) fn differentiate_energy(
+        &self,
+        state: &State,
+        point: &Point,
+        rates: &PointRates,
+        work: &mut Workspace,
+    ) -> Option<EnergyRates> {
+        point.energy?;
+        let coordinates = point.coordinates;
+        let (u, v) = (&point.q[..], &point.v[..]);
+        let (a, jerk) = rates.motion();
+        let inner = |x: &[f64], y: &[f64]| self.inner(coordinates, x, y);
+        let Workspace { load, slope, node_q: rest, node_v: force, .. } = work;
+        rest.fill(0.0);
+        let mut product = |u: &[f64], v: &[f64], with: &[f64]| {
+            force.fill(0.0);
+            self.resist(coordinates, u, v, 1.0, force);
+            -inner(with, force)
+        };
+        let strain = [product(u, rest, v), product(v, rest, v) + product(u, rest, a)];
+        let viscous = [product(rest, v, v), 2.0 * product(rest, a, v)];
+        load.fill(0.0);
+        slope.fill(0.0);
+        self.add_floor_forces(&state.inputs, coordinates, |force| force.at(state.time), load);
+        self.add_floor_forces(&state.inputs, coordinates, LinearInput::slope, slope);
+        let ones = self.participation(coordinates);
+        let (momentum, push) = (inner(ones, v), inner(ones, a));
+        let (ground, ground_rate) = (point.ground_acceleration, rates.ground_acceleration[0]);
+        let sum = |order: usize| rates.contacts.iter().map(|contact| contact.dissipated_energy[order]).sum();
+        Some(EnergyRates {
+            input: [-ground * momentum, -ground_rate * momentum - ground * push],
+            kinetic: [inner(v, a), jerk.map_or(0.0, |jerk| inner(a, a) + inner(v, jerk))],
+            strain,
+            viscous,
+            impact: [sum(0), sum(1)],
+            external: [inner(load, v), inner(slope, v) + inner(load, a)],
+        })
+    }
+
+    /// The sum of masses times both vectors.
+    fn inner(&self, coordinates: Coordinates, x: &[f64], y: &[f64]) -> f64 {
+        let products = x.iter().zip(y).map(|(x, y)| x * y);
+        match coordinates {
+            // Modes have the mass 1.
+            Coordinates::Modes => products.sum(),
+            Coordinates::Floors => {
+                products.zip(self.structure.floors.mass()).map(|(product, mass)| product * mass).sum()
+            }
+        }
+    }
+}

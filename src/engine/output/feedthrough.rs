@@ -1,0 +1,64 @@
+//! What answers at once to forces on the floors: accelerations, and the reactions between floors that are held together.
+//!
+//! At a given instant, with the motion as it is, both are linear in the forces as long as the same rigid pairs press.
+//! The ground's acceleration moves all floors alike: no absolute acceleration and no reaction answers to it.
+
+use crate::engine::model::Model;
+use crate::engine::output::point::Point;
+use crate::engine::pairs::pair::Pair;
+use crate::engine::state::{State, Workspace};
+use crate::structure::Side;
+
+/// The answer to some forces on the floors; everything else stays as it is.
+#[derive(Clone, Debug, Default)]
+pub struct Response {
+    /// N, reaction of each contact.
+    pub reactions: Vec<f64>,
+    /// m/s2, floor by floor.
+    accelerations: Vec<f64>,
+    work: Option<Box<Workspace>>,
+}
+
+impl Model {
+    /// Answers to no force yet.
+    pub fn clear_response(&self, response: &mut Response) {
+        for (vector, length) in
+            [(&mut response.reactions, self.pairs.len()), (&mut response.accelerations, self.structure.lanes)]
+        {
+            vector.clear();
+            vector.resize(length, 0.0);
+        }
+    }
+
+    /// Adds a force, N, on a floor by itself.
+    pub fn push_floor(&self, side: Side, floor: usize, force: f64, response: &mut Response) {
+        let floors = &self.structure.floors;
+        let lane = floors.lane(side as usize, floor);
+        response.accelerations[lane] += force * floors.inverse_mass(lane);
+    }
+
+    /// Lets the rigid pairs answer that press now, as `point` shows them: their floors stay together.
+    pub fn settle_response(&self, state: &State, point: &Point, response: &mut Response) {
+        let mut work = response.work.take().unwrap_or_else(|| Box::new(self.workspace()));
+        self.list_pressing(&state.base, point, &mut work);
+        let (rigid, accelerations) = (&mut work.rigid, &mut response.accelerations);
+        for (&k, known) in rigid.pairs.iter().zip(&mut rigid.known) {
+            let [left, right] = self.pairs[self.rigid.pairs[k]].lanes;
+            *known = accelerations[left] - accelerations[right];
+        }
+        rigid.solve();
+        for (&k, reaction) in rigid.pairs.iter().zip(&rigid.found) {
+            let p = self.rigid.pairs[k];
+            response.reactions[p] = *reaction;
+            let Pair { lanes: [left, right], inverse_masses, .. } = &self.pairs[p];
+            accelerations[*left] -= reaction * inverse_masses[0];
+            accelerations[*right] += reaction * inverse_masses[1];
+        }
+        response.work = Some(work);
+    }
+
+    /// m/s2, of a floor.
+    pub fn response_at(&self, response: &Response, side: Side, floor: usize) -> f64 {
+        response.accelerations[self.structure.floors.lane(side as usize, floor)]
+    }
+}

@@ -1,0 +1,190 @@
+//! The floors of an observed solution. A floor is worked out when it is first asked for, and so are accelerations.
+
+use crate::engine::base::Coordinates;
+use crate::engine::model::Model;
+use crate::engine::output::point::Point;
+use crate::structure::Side;
+use crate::structure::{LANES, Lane};
+use std::cell::{Cell, OnceCell, RefCell};
+
+/// Some quantities of a block of floors, and the observation that they are of.
+#[derive(Clone, Debug)]
+struct KnownBlock<const N: usize> {
+    observation: Cell<u64>,
+    numbers: [[Cell<f64>; LANES]; N],
+}
+
+/// What is known of the floors at one time.
+#[derive(Clone, Debug, Default)]
+pub(in crate::engine) struct FloorMotions {
+    /// Number of this observation, from 1 on.
+    pub observation: u64,
+    /// Displacement, m, and velocity, m/s, relative to the ground.
+    motion: Vec<KnownBlock<2>>,
+    /// m/s2, absolute.
+    acceleration: Vec<KnownBlock<1>>,
+    rows_read: Cell<u64>,
+    /// Of the floor and contact forces, per unit of mass and in the coordinates of the point; of use where `is_loaded`.
+    load: Vec<f64>,
+    is_loaded: bool,
+    accelerations: OnceCell<Accelerations>,
+    /// Memory for them.
+    room: RefCell<Accelerations>,
+}
+
+/// Accelerations in the coordinates of a point, m/s2.
+#[derive(Clone, Debug, Default)]
+pub(in crate::engine) struct Accelerations {
+    /// Relative to a ground at rest.
+    pub absolute: Vec<f64>,
+    /// The part that comes from the buildings' own stiffness and damping.
+    pub resisted: Vec<f64>,
+}
+
+impl<const N: usize> KnownBlock<N> {
+    /// Nothing is known of so many lanes.
+    fn unknown(lanes: usize) -> Vec<KnownBlock<N>> {
+        let numbers = || std::array::from_fn(|_| std::array::from_fn(|_| Cell::new(0.0)));
+        (0..lanes / LANES).map(|_| KnownBlock { observation: Cell::new(0), numbers: numbers() }).collect()
+    }
+
+    #[inline]
+    fn set(&self, observation: u64, blocks: &[Lane; N]) {
+        self.observation.set(observation);
+        for (numbers, block) in self.numbers.iter().zip(blocks) {
+            for i in 0..LANES {
+                numbers[i].set(block[i]);
+            }
+        }
+    }
+}
+
+impl FloorMotions {
+    /// Makes room for vectors of all floors of that length.
+    pub fn make_room(&mut self, lanes: usize) {
+        self.motion = KnownBlock::unknown(lanes);
+        self.acceleration = KnownBlock::unknown(lanes);
+        self.load = vec![0.0; lanes];
+        self.accelerations.take();
+        *self.room.get_mut() = Accelerations { absolute: vec![0.0; lanes], resisted: vec![0.0; lanes] };
+    }
+
+    /// Nothing is known of any floor.
+    pub fn forget(&mut self) {
+        self.observation += 1;
+        self.is_loaded = false;
+        if let Some(accelerations) = self.accelerations.take() {
+            *self.room.get_mut() = accelerations;
+        }
+    }
+
+    /// The load to add forces to.
+    pub fn start_load(&mut self) -> &mut [f64] {
+        self.is_loaded = true;
+        self.load.fill(0.0);
+        &mut self.load
+    }
+}
+
+impl Point {
+    /// Rows of the modal matrix that have been summed up, since this point was made: four at a time, that of the floor that
+    /// is asked for and those that share its block, which come with it at no cost; once for an observation where a
+    /// displacement or velocity is asked for, once for accelerations. None where the solution is that of the floors.
+    pub fn rows_read(&self) -> u64 {
+        self.floors.rows_read.get()
+    }
+}
+
+impl Model {
+    /// m, relative to the ground; floors counted from 0.
+    #[inline]
+    pub fn displacement(&self, point: &Point, side: Side, floor: usize) -> f64 {
+        self.floor_motion(point, side, floor, 0)
+    }
+
+    /// m/s, relative to the ground.
+    #[inline]
+    pub fn velocity(&self, point: &Point, side: Side, floor: usize) -> f64 {
+        self.floor_motion(point, side, floor, 1)
+    }
+
+    /// m/s2, absolute.
+    #[inline]
+    pub fn acceleration(&self, point: &Point, side: Side, floor: usize) -> f64 {
+        let FloorMotions { acceleration, observation, .. } = &point.floors;
+        let lane = self.structure.floors.lane(side as usize, floor);
+        let known = &acceleration[lane / LANES];
+        if known.observation.get() != *observation {
+            self.note_floors(point, lane / LANES, [&self.accelerations(point).absolute], known);
+        }
+        known.numbers[0][lane % LANES].get()
+    }
+
+    /// N, force of the building on the ground.
+    #[inline(never)]
+    pub fn base_shear(&self, point: &Point, side: Side) -> f64 {
+        match point.coordinates {
+            Coordinates::Modes => self.structure.base_shear(side, &point.q, &point.v),
+            Coordinates::Floors => self.structure.floors.base_shear(side as usize, &self.accelerations(point).resisted),
+        }
+    }
+
+    /// Displacement or velocity; both are worked out at once: it takes one pass over the floor's row.
+    #[inline]
+    fn floor_motion(&self, point: &Point, side: Side, floor: usize, quantity: usize) -> f64 {
+        let FloorMotions { motion, observation, .. } = &point.floors;
+        let lane = self.structure.floors.lane(side as usize, floor);
+        let known = &motion[lane / LANES];
+        if known.observation.get() != *observation {
+            self.note_floors(point, lane / LANES, [&point.q, &point.v], known);
+        }
+        known.numbers[quantity][lane % LANES].get()
+    }
+
+    /// Works out some motions of a block of floors, and notes them.
+    #[inline(never)]
+    fn note_floors<const N: usize>(&self, point: &Point, block: usize, motion: [&[f64]; N], known: &KnownBlock<N>) {
+        known.set(point.floors.observation, &self.floor_block(point, block, motion));
+    }
+
+    /// The accelerations of an observed solution.
+    pub(in crate::engine) fn accelerations<'p>(&self, point: &'p Point) -> &'p Accelerations {
+        let floors = &point.floors;
+        floors.accelerations.get_or_init(|| {
+            let mut accelerations = floors.room.take();
+            let Accelerations { absolute, resisted } = &mut accelerations;
+            resisted.fill(0.0);
+            self.resist(point.coordinates, &point.q, &point.v, 1.0, resisted);
+            // Without the ground's load these are absolute accelerations.
+            absolute.copy_from_slice(resisted);
+            if floors.is_loaded {
+                absolute.iter_mut().zip(&floors.load).for_each(|(absolute, load)| *absolute += load);
+            }
+            accelerations
+        })
+    }
+
+    /// One floor of some vectors of motion at the observed time.
+    pub(in crate::engine) fn at_floor<const N: usize>(
+        &self,
+        point: &Point,
+        side: Side,
+        floor: usize,
+        motion: [&[f64]; N],
+    ) -> [f64; N] {
+        let lane = self.structure.floors.lane(side as usize, floor);
+        self.floor_block(point, lane / LANES, motion).map(|block| block[lane % LANES])
+    }
+
+    /// A block of floors.
+    #[inline(always)]
+    fn floor_block<const N: usize>(&self, point: &Point, block: usize, motion: [&[f64]; N]) -> [Lane; N] {
+        match point.coordinates {
+            Coordinates::Modes => {
+                point.floors.rows_read.set(point.floors.rows_read.get() + LANES as u64);
+                self.structure.at_floors(block, motion)
+            }
+            Coordinates::Floors => motion.map(|motion| motion.as_chunks::<LANES>().0[block]),
+        }
+    }
+}

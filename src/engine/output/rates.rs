@@ -1,0 +1,222 @@
+//! How fast everything changes at the communication time: first and second derivatives with respect to time, from the
+//! equations of motion and from the forces' own derivatives, not from differences.
+//!
+//! They are those of the solution that goes on from here under the inputs as they have been set so far, right-hand ones:
+//! after an event, after a corner of the ground motion.
+
+use crate::contact::Force;
+use crate::engine::base::contact::Phase;
+use crate::engine::base::{Base, Coordinates};
+use crate::engine::excitation::linear_input::LinearInput;
+use crate::engine::model::Model;
+use crate::engine::output::energy_rates::EnergyRates;
+use crate::engine::output::point::Point;
+use crate::engine::state::{State, Workspace};
+use crate::structure::Side;
+
+/// What a quantity may be below its peak so far by rounding, relative to it.
+pub const PEAK_ROUNDING: f64 = 1e-12;
+
+/// First and second derivative with respect to time.
+pub type Rates = [f64; 2];
+
+/// The derivatives at one time, as floors and contacts show them.
+#[derive(Clone, Debug, Default)]
+pub struct PointRates {
+    /// m/s3 and m/s4.
+    pub ground_acceleration: Rates,
+    /// One per contact.
+    pub contacts: Vec<ContactRates>,
+    /// Of the energy account, where there is one.
+    pub energy: Option<EnergyRates>,
+    /// Second to fourth derivative of the motion relative to the ground, in the coordinates of the point.
+    acceleration: Vec<f64>,
+    jerk: Vec<f64>,
+    snap: Vec<f64>,
+    /// What stiffness and damping of the buildings add to the third and to the fourth.
+    resisted: [Vec<f64>; 2],
+    /// A contact begins at this very instant.
+    is_beginning: bool,
+    /// The force of each contact and its penetration, m; none for rigid ones.
+    forces: Vec<(Force, f64)>,
+    work: Option<Box<Workspace>>,
+}
+
+/// The derivatives of one contact. Names as in [`super::ContactPoint`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactRates {
+    /// N/s and N/s2.
+    pub force: Rates,
+    /// N/s and N/s2: those of the force while it is the largest so far and grows.
+    pub peak_force: Rates,
+    /// m/s and m/s2.
+    pub penetration: Rates,
+    /// N and N/s.
+    pub impulse: Rates,
+    /// W and W/s.
+    pub dissipated_energy: Rates,
+}
+
+impl Model {
+    /// Differentiates the solution at the present time of the state, which `point` shows; the buffers of `rates` are
+    /// reused.
+    ///
+    /// Where a contact begins at this very instant its force has no derivatives yet: they and what follows from them
+    /// read 0.
+    pub fn differentiate(&self, state: &State, point: &Point, rates: &mut PointRates) {
+        let mut work = rates.work.take().unwrap_or_else(|| Box::new(self.workspace()));
+        rates.clear(self.structure.lanes);
+        let slope = match &self.ground {
+            Some(_) => state.base.segment.slope,
+            None => state.inputs.ground_acceleration.slope(),
+        };
+        rates.ground_acceleration = [slope, 0.0];
+        let shares = self.participation(point.coordinates);
+        let absolute = &self.accelerations(point).absolute;
+        for ((relative, absolute), share) in rates.acceleration.iter_mut().zip(absolute).zip(shares) {
+            *relative = absolute - share * point.ground_acceleration;
+        }
+        rates.is_beginning = self.differentiate_penetrations(state, point, rates, &mut work);
+        self.list_pressing(&state.base, point, &mut work);
+        self.differentiate_again(0, state, point, rates, &mut work);
+        if !rates.is_beginning {
+            self.differentiate_again(1, state, point, rates, &mut work);
+        }
+        for (p, contact) in rates.contacts.iter_mut().enumerate() {
+            let shown = self.contact(state, point, p);
+            let ([v, a], force) = (contact.penetration, contact.force);
+            contact.impulse = [shown.force, force[0]];
+            contact.dissipated_energy = [shown.force * v, force[0] * v + shown.force * a];
+            let is_peak = shown.force > 0.0 && shown.force >= (1.0 - PEAK_ROUNDING) * shown.peak_force;
+            contact.peak_force = if is_peak && force[0] > 0.0 { force } else { [0.0; 2] };
+        }
+        rates.energy = self.differentiate_energy(state, point, rates, &mut work);
+        rates.work = Some(work);
+    }
+
+    /// Rates of the penetrations, and the forces that act; whether any contact is just beginning.
+    fn differentiate_penetrations(
+        &self,
+        state: &State,
+        point: &Point,
+        rates: &mut PointRates,
+        work: &mut Workspace,
+    ) -> bool {
+        let elapsed = state.since_base();
+        state.step.series.set_powers(elapsed, &mut work.powers);
+        let mut is_beginning = false;
+        for p in 0..self.pairs.len() {
+            let contact = self.contact_at(&state.base, &state.step, p, elapsed, &work.powers);
+            let relative = |motion: &[f64]| self.pairs[p].relative(point.coordinates, motion);
+            let penetration = match contact.phase {
+                Phase::Held if self.contact(state, point, p).force > 0.0 => [0.0; 2],
+                Phase::Held => [0.0, relative(&rates.acceleration)],
+                Phase::Apart => [relative(&point.v), relative(&rates.acceleration)],
+                Phase::Engaged | Phase::Slack => [contact.rate, relative(&rates.acceleration)],
+            };
+            let enters = contact.phase == Phase::Apart && contact.at_surface && contact.rate > 0.0;
+            is_beginning |= enters || contact.is_singular();
+            rates.contacts.push(ContactRates { penetration, ..ContactRates::default() });
+            rates.forces.push((contact.branch(), contact.penetration));
+        }
+        is_beginning
+    }
+
+    /// Lists the rigid pairs that press at this instant and makes them all active.
+    pub(in crate::engine) fn list_pressing(&self, base: &Base, point: &Point, work: &mut Workspace) {
+        work.rigid.clear();
+        let pressing = |p: usize| base.contacts[p].is_held() && self.contact_in(base, point, p).force > 0.0;
+        for (k, _) in self.rigid.pairs.iter().enumerate().filter(|&(_, &p)| pressing(p)) {
+            work.rigid.add(k, 0.0, 0.0);
+        }
+        work.rigid.close_all(&self.rigid.matrix);
+    }
+
+    /// The equations of motion differentiated once (`order` 0) and twice (1): third and fourth derivative of the motion,
+    /// first and second of the contact forces. Where a contact is beginning only what stiffness and damping add.
+    fn differentiate_again(
+        &self,
+        order: usize,
+        state: &State,
+        point: &Point,
+        rates: &mut PointRates,
+        work: &mut Workspace,
+    ) {
+        let coordinates = point.coordinates;
+        let PointRates { contacts, acceleration, jerk, snap, resisted, forces, ground_acceleration, .. } = rates;
+        let Workspace { load, rigid, .. } = work;
+        let resisted = &mut resisted[order];
+        let motion = if order == 0 { (&point.v, &*acceleration) } else { (&*acceleration, &*jerk) };
+        self.resist(coordinates, motion.0, motion.1, 1.0, resisted);
+        if rates.is_beginning {
+            return;
+        }
+        load.fill(0.0);
+        if order == 0 {
+            for (load, share) in load.iter_mut().zip(self.participation(coordinates)) {
+                *load = -share * ground_acceleration[0];
+            }
+            self.add_floor_forces(&state.inputs, coordinates, LinearInput::slope, load);
+        }
+        for (p, (contact, (force, d))) in contacts.iter_mut().zip(forces.iter()).enumerate() {
+            let [v, a] = contact.penetration;
+            let third = if order == 0 { 0.0 } else { self.pairs[p].relative(coordinates, jerk) };
+            contact.force[order] = force.rates([*d, v, a, third]).map_or(0.0, |rates| rates[order]);
+            self.push_apart_by(p, coordinates, contact.force[order], load);
+        }
+        let next = if order == 0 { jerk } else { snap };
+        for ((next, load), resisted) in next.iter_mut().zip(load.iter()).zip(resisted.iter()) {
+            *next = load + resisted;
+        }
+        self.hold(rigid, next);
+        for (&k, rate) in rigid.pairs.iter().zip(&rigid.found) {
+            contacts[self.rigid.pairs[k]].force[order] = *rate;
+        }
+    }
+
+    /// m/s and m/s2, of a displacement relative to the ground.
+    pub fn displacement_rates(&self, point: &Point, rates: &PointRates, side: Side, floor: usize) -> Rates {
+        self.at_floor(point, side, floor, [&point.v, &rates.acceleration])
+    }
+
+    /// m/s2 and m/s3, of a velocity relative to the ground.
+    pub fn velocity_rates(&self, point: &Point, rates: &PointRates, side: Side, floor: usize) -> Rates {
+        self.at_floor(point, side, floor, [&rates.acceleration, &rates.jerk])
+    }
+
+    /// m/s3 and m/s4, of an absolute acceleration.
+    pub fn acceleration_rates(&self, point: &Point, rates: &PointRates, side: Side, floor: usize) -> Rates {
+        let [jerk, snap] = self.at_floor(point, side, floor, [&rates.jerk, &rates.snap]);
+        [jerk + rates.ground_acceleration[0], snap]
+    }
+
+    /// N/s and N/s2, of the force of a building on the ground.
+    pub fn base_shear_rates(&self, point: &Point, rates: &PointRates, side: Side) -> Rates {
+        let PointRates { acceleration, jerk, resisted, .. } = rates;
+        let [first, second] = match point.coordinates {
+            Coordinates::Modes => [(&point.v, acceleration), (acceleration, jerk)]
+                .map(|(motion, rate)| self.structure.base_shear(side, motion, rate)),
+            Coordinates::Floors => {
+                [0, 1].map(|order| self.structure.floors.base_shear(side as usize, &resisted[order]))
+            }
+        };
+        [first, if rates.is_beginning { 0.0 } else { second }]
+    }
+}
+
+impl PointRates {
+    /// Second derivative of the motion relative to the ground, and the third if it has one.
+    pub(in crate::engine) fn motion(&self) -> (&[f64], Option<&[f64]>) {
+        (&self.acceleration, (!self.is_beginning).then_some(&self.jerk[..]))
+    }
+
+    fn clear(&mut self, lanes: usize) {
+        let [first, second] = &mut self.resisted;
+        for vector in [&mut self.acceleration, &mut self.jerk, &mut self.snap, first, second] {
+            vector.clear();
+            vector.resize(lanes, 0.0);
+        }
+        self.contacts.clear();
+        self.forces.clear();
+    }
+}

@@ -1,0 +1,3 @@
+//! Rigid contacts.
+
+pub mod impulses;

@@ -1,0 +1,466 @@
+//! The series of all pairs in contact while a step is expanded and followed.
+
+use crate::contact::series::{Any, BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
+use crate::engine::base::contact::Contact;
+use crate::engine::base::{Base, Coordinates};
+use crate::engine::pairs::packing::{Members, Place, most_blocks};
+use crate::engine::pairs::pair::Pair;
+use crate::engine::taylor::open_pairs::Course;
+use crate::engine::taylor::pair_forces::Blocks;
+use crate::numerics::polynomial::{Coefficients, each};
+use crate::numerics::powers::{Powers, Reading};
+use crate::numerics::roots;
+use crate::numerics::substitution::Bend;
+use crate::structure::MotionSeries;
+
+/// The pairs in contact, in blocks of one kind of law each.
+#[derive(Clone, Debug)]
+pub(in crate::engine) struct ClosedPairs {
+    /// The first `used` are filled. There is room for all, but memory that no contact has needed yet is not touched.
+    blocks: Vec<PairBlock>,
+    members: Vec<Members>,
+    readings: Vec<BlockReading>,
+    /// Whether a pair of the block has just entered without any speed: where its floors move alike, its penetration is
+    /// rounding.
+    at_surface: Vec<bool>,
+    /// Of each pair the earlier ones with which it shares a floor, so that each feels the other's force at once.
+    neighbours: Vec<Vec<usize>>,
+    /// The closed pairs that have been given a block and a lane, with their kinds, and in which coordinates.
+    assigned: Vec<(usize, Kind)>,
+    coordinates: Coordinates,
+    /// Lanes of the only block in which pairs that are apart ride along, all of them or none: so their penetrations come
+    /// with the others' at no cost.
+    riders: Vec<(usize, usize)>,
+    may_ride: bool,
+    /// Whether the penetrations have to wait for all forces.
+    waits: bool,
+    used: usize,
+    /// Block and lane of each contact.
+    places: Vec<(usize, usize)>,
+}
+
+/// What a block comes to at the end of a step.
+pub(in crate::engine) struct BlockEnd {
+    motion: BlockReading,
+    force: ForceReading,
+    /// Whether a force, or a penetration, may be largest in between.
+    turns: [[bool; PAIRS]; 2],
+}
+
+impl ClosedPairs {
+    /// Room for these pairs.
+    pub fn new(all: &[Pair], on_floors: bool) -> ClosedPairs {
+        let pairs = all.len();
+        let shares = |a: &Pair, b: &Pair| a.floors[0] == b.floors[0] || a.floors[1] == b.floors[1];
+        let most = most_blocks(pairs, 5, on_floors);
+        ClosedPairs {
+            blocks: Vec::with_capacity(most),
+            members: vec![Members::default(); most],
+            readings: vec![BlockReading::default(); most],
+            at_surface: vec![false; most],
+            neighbours: (0..pairs).map(|p| (0..p).filter(|&q| shares(&all[p], &all[q])).collect()).collect(),
+            assigned: Vec::with_capacity(pairs),
+            coordinates: Coordinates::default(),
+            riders: Vec::with_capacity(PAIRS),
+            may_ride: false,
+            waits: false,
+            used: 0,
+            places: vec![(0, 0); pairs],
+        }
+    }
+
+    /// Starts the series of all pairs in contact that are not held together; `scale` is the unit of time. Pairs that are
+    /// apart `may_ride` along where the motion is that of few modes.
+    pub fn start(&mut self, base: &Base, pairs: &[Pair], scale: f64, may_ride: bool) {
+        if self.may_ride != may_ride || !self.start_again(base, scale) {
+            self.may_ride = may_ride;
+            self.assign(base, pairs);
+            self.start_again(base, scale);
+        }
+    }
+
+    /// Gives each closed pair its block and lane.
+    fn assign(&mut self, base: &Base, pairs: &[Pair]) {
+        self.used = 0;
+        self.assigned.clear();
+        self.coordinates = base.coordinates;
+        let has_roots = closed(base).any(|(_, contact)| Kind::of(&contact.starting_force()) == Kind::Root);
+        for (p, contact) in closed(base) {
+            let force = contact.starting_force();
+            let kind = Kind::of(&force);
+            // A spring of that law's exponent is a root law without damping: better than a block of its own beside it.
+            let joint = if has_roots && force.is_like_root() { Kind::Root } else { kind };
+            let (b, lane) = self.room_for(joint, Place::of(&pairs[p], base.coordinates));
+            self.members[b].set(lane, p, &pairs[p], base.coordinates);
+            self.blocks[b].count = self.blocks[b].count.max(lane + 1);
+            self.places[p] = (b, lane);
+            self.assigned.push((p, kind));
+        }
+        self.riders.clear();
+        if self.may_ride && self.used == 1 && pairs.len() <= PAIRS && self.blocks[0].has_roots() {
+            self.assign_riders(base, pairs);
+        }
+    }
+
+    /// How they go up to the end of the step.
+    pub fn course_of_riders(&self) -> Course {
+        let (PairBlock { penetration: terms, .. }, end) = (&self.blocks[0], &self.readings[0]);
+        Course { start: [terms[0], terms[1]], end: [end.penetration, end.slope], fourth: end.fourth }
+    }
+
+    /// Gives the pairs that are apart the lanes that are left.
+    fn assign_riders(&mut self, base: &Base, pairs: &[Pair]) {
+        let apart = (0..pairs.len()).filter(|&p| !base.contacts[p].in_contact());
+        for (lane, p) in (self.blocks[0].count..PAIRS).zip(apart) {
+            self.members[0].set_beside(lane, &pairs[p], base.coordinates);
+            self.riders.push((lane, p));
+        }
+    }
+
+    /// Enters the closed pairs where they have been assigned; whether they are the same as then.
+    fn start_again(&mut self, base: &Base, scale: f64) -> bool {
+        self.at_surface.fill(false);
+        self.waits = false;
+        let mut assigned = self.assigned.iter();
+        for (p, contact) in closed(base) {
+            let force = contact.starting_force();
+            if assigned.next() != Some(&(p, Kind::of(&force))) {
+                return false;
+            }
+            let (b, lane) = self.places[p];
+            self.blocks[b].add(lane, &force, scale, contact.penetration, contact.rate * scale);
+            let at_surface = contact.at_surface && contact.rate == 0.0;
+            self.at_surface[b] |= at_surface;
+            self.waits |= at_surface || self.neighbours[p].iter().any(|&q| is_closed(&base.contacts[q]));
+        }
+        for &(lane, p) in &self.riders {
+            let Contact { penetration, rate, .. } = base.contacts[p];
+            self.blocks[0].ride(lane, penetration, rate * scale);
+        }
+        assigned.next().is_none() && self.coordinates == base.coordinates
+    }
+
+    /// The pairs that are apart and ride along in the first block, with their lanes: all of them, or none.
+    pub fn riders(&self) -> &[(usize, usize)] {
+        &self.riders
+    }
+
+    /// Block and lane for a pair of a kind: mostly in the newest block.
+    fn room_for(&mut self, kind: Kind, place: Place) -> (usize, usize) {
+        for b in (0..self.used).rev() {
+            if self.blocks[b].kind() == kind
+                && let Some(lane) = self.members[b].free_lane(place)
+            {
+                return (b, lane);
+            }
+        }
+        let b = self.used;
+        if b == self.blocks.len() {
+            self.blocks.push(PairBlock::default());
+        }
+        self.blocks[b].start(kind);
+        self.used += 1;
+        (b, self.members[b].start(place))
+    }
+
+    /// How many pairs have a force.
+    pub fn count_forces(&self) -> u64 {
+        self.assigned.iter().filter(|(_, kind)| *kind != Kind::None).count() as u64
+    }
+
+    /// How many pairs there are, where they fit into one block and are under linear laws.
+    pub fn count_linear(&self) -> Option<usize> {
+        (self.used == 1 && self.blocks[0].is_linear()).then(|| self.blocks[0].count)
+    }
+
+    /// The block of all pairs where they fit into one and are under linear laws: its members, whether one of them has just
+    /// entered without any speed, and whether the penetrations have to wait for all forces.
+    pub fn only_linear_block(&mut self) -> Option<(&mut PairBlock, &Members, bool, bool)> {
+        self.count_linear()?;
+        Some((&mut self.blocks[0], &self.members[0], self.at_surface[0], self.waits))
+    }
+
+    /// All blocks with their pairs, and the kind of law where that is the same for all.
+    pub fn blocks(&mut self) -> (Blocks<'_>, Option<Kind>) {
+        let (blocks, members) = (&mut self.blocks[..self.used], &self.members[..self.used]);
+        let kind = blocks.first().map(PairBlock::kind);
+        let kind = kind.filter(|kind| blocks.iter().all(|block| block.kind() == *kind));
+        ((blocks, members), kind)
+    }
+
+    /// Whether the penetrations have to wait for all forces: pairs share a floor, or have just entered without any speed.
+    pub fn waits(&self) -> bool {
+        self.waits
+    }
+
+    /// About where the first pair under a power law is released, if that is before `limit`; else infinite.
+    pub fn first_release(&self, limit: f64) -> f64 {
+        let mut first = f64::INFINITY;
+        let blocks = self.blocks[..self.used].iter().zip(&self.members);
+        for (block, members) in blocks.filter(|(block, _)| block.has_roots()) {
+            let releases = block.releases(limit);
+            first = members.lanes().fold(first, |first, (lane, _)| first.min(releases[lane]));
+        }
+        first
+    }
+
+    /// Whether any pair is released by x, as far as the first powers tell.
+    pub fn are_some_nearly_released(&self, x: f64) -> bool {
+        let parabola = |d: &[Each], lane: usize| d[0][lane] + x * (d[1][lane] + x * d[2][lane]);
+        let mut blocks = self.blocks[..self.used].iter().zip(&self.members);
+        blocks.any(|(block, members)| members.lanes().any(|(lane, _)| parabola(&block.penetration, lane) < 0.0))
+    }
+
+    /// Makes all series such in the x of a clock: of two blocks at a time where there is one series in each.
+    pub fn bend(&mut self, bend: &Bend) {
+        let mut waiting: Option<&mut PairBlock> = None;
+        for block in &mut self.blocks[..self.used] {
+            if !block.is_elastic() {
+                block.bend(bend);
+            } else if let Some(other) = waiting.take() {
+                other.bend_with(block, bend);
+            } else {
+                waiting = Some(block);
+            }
+        }
+        if let Some(block) = waiting {
+            block.bend(bend);
+        }
+    }
+
+    /// Number of blocks in use.
+    pub fn len(&self) -> usize {
+        self.used
+    }
+
+    /// Block and lane of a pair in contact.
+    pub fn of(&self, pair: usize) -> (&PairBlock, usize) {
+        let (block, lane) = self.places[pair];
+        (&self.blocks[block], lane)
+    }
+
+    /// The pairs of a block, lane by lane.
+    pub fn pairs_of(&self, block: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.members[block].lanes()
+    }
+
+    /// Reads the penetrations at the end of the step.
+    pub fn read(&mut self, end: &Powers) {
+        for (reading, block) in self.readings.iter_mut().zip(&self.blocks).take(self.used) {
+            *reading = block.read(end);
+        }
+    }
+
+    /// Penetrations of a block at the end of the step.
+    pub fn reading(&self, block: usize) -> &BlockReading {
+        &self.readings[block]
+    }
+
+    /// Which pairs of a block certainly stay in contact up to x, the end of the step.
+    pub fn stays_closed(&self, block: usize, x: f64) -> [bool; PAIRS] {
+        if self.at_surface[block] {
+            return [false; PAIRS];
+        }
+        let (PairBlock { penetration: terms, .. }, end) = (&self.blocks[block], &self.readings[block]);
+        let bound = (x * x) * (x * x) / 384.0;
+        let smaller = |a: f64, b: f64| if a < b { a } else { b };
+        // As `roots::ceiling` has it.
+        let least = each(|i| {
+            let (start, end, slope) = (terms[0][i], end.penetration[i], end.slope[i]);
+            smaller(smaller(start, end), smaller(start + x * terms[1][i] / 3.0, end - x * slope / 3.0))
+        });
+        std::array::from_fn(|i| least[i] > 0.0 && least[i] >= bound * end.fourth[i])
+    }
+
+    /// Power n of the forces, from the powers of the penetrations so far.
+    pub fn extend_forces(&mut self, n: usize) {
+        for block in &mut self.blocks[..self.used] {
+            block.extend_force::<Any>(n);
+        }
+    }
+
+    /// Calls for each pair with its number and power n of its force.
+    pub fn each_force(&self, n: usize, mut visit: impl FnMut(usize, f64)) {
+        for (block, members) in self.blocks.iter().zip(&self.members).take(self.used) {
+            for (lane, pair) in members.lanes() {
+                visit(pair, block.force[n][lane]);
+            }
+        }
+    }
+
+    /// Enters power n of the penetrations, from the members of a block, its lanes that hold pairs, and whether one of them may
+    /// have just entered without any speed.
+    pub fn set_blocks(&mut self, n: usize, mut values: impl FnMut(&Members, usize, bool) -> Each) {
+        let blocks = self.blocks.iter_mut().zip(&self.members).zip(&self.at_surface);
+        for ((block, members), at_surface) in blocks.take(self.used) {
+            let values = values(members, block.count, *at_surface);
+            block.set_penetration::<Any>(n, values);
+        }
+    }
+
+    /// The same from the number of a pair.
+    pub fn set_penetrations(&mut self, n: usize, mut term: impl FnMut(usize, bool) -> f64) {
+        self.set_blocks(n, |members, _, at_surface| {
+            let mut values = [0.0; PAIRS];
+            for (lane, pair) in members.lanes() {
+                values[lane] = term(pair, at_surface);
+            }
+            values
+        });
+    }
+
+    /// N, bounds on the sizes of the forces up to the x of the powers, one per contact.
+    pub fn bound_forces(&self, contacts: &[Contact], powers: &Powers, out: &mut [f64]) {
+        for (b, block) in self.blocks[..self.used].iter().enumerate() {
+            let depth = block.read(powers);
+            let force = (!block.is_elastic()).then(|| block.read_force(powers));
+            for (lane, pair) in self.pairs_of(b) {
+                let highest = |terms: &[Each], end: (f64, f64), fourth: f64, sign: f64| {
+                    let start = (sign * terms[0][lane], sign * terms[1][lane]);
+                    roots::ceiling(start, (sign * end.0, sign * end.1), powers.x, fourth)
+                };
+                out[pair] = match &force {
+                    None => {
+                        let end = (depth.penetration[lane], depth.slope[lane]);
+                        let deepest = highest(&block.penetration, end, depth.fourth[lane], 1.0);
+                        contacts[pair].branch().value(deepest.max(0.0), 0.0)
+                    }
+                    Some(force) => {
+                        let force = force.of(lane);
+                        let of = |sign| highest(&block.force, (force.value, force.slope), force.fourth, sign);
+                        of(1.0).max(of(-1.0))
+                    }
+                };
+            }
+        }
+    }
+
+    /// Follows the contacts to the end of the step, which has begun at `start` [s].
+    pub fn follow(&self, contacts: &mut [Contact], series: &MotionSeries, start: f64, powers: &Powers) {
+        for (b, block) in self.blocks[..self.used].iter().enumerate() {
+            let end = BlockEnd::of(block, self.readings[b], powers);
+            for (lane, pair) in self.pairs_of(b) {
+                contacts[pair].follow_lane((block, lane), &end, series, start, powers.x);
+            }
+        }
+    }
+
+    /// The same for one contact.
+    pub fn follow_one(&self, contact: &mut Contact, series: &MotionSeries, start: f64, powers: &Powers) {
+        let (block, lane) = self.of(contact.episode.contact);
+        let end = BlockEnd::of(block, block.read(powers), powers);
+        contact.follow_lane((block, lane), &end, series, start, powers.x);
+    }
+}
+
+/// The pairs that have a force, with their numbers.
+fn closed(base: &Base) -> impl Iterator<Item = (usize, &Contact)> {
+    base.contacts.iter().enumerate().filter(|(_, contact)| is_closed(contact))
+}
+
+fn is_closed(contact: &Contact) -> bool {
+    contact.in_contact() && !contact.is_held()
+}
+
+impl BlockEnd {
+    fn of(block: &PairBlock, motion: BlockReading, powers: &Powers) -> BlockEnd {
+        let (force, of_force) = match block.is_elastic() {
+            // Strongest where they are deepest.
+            true => (ForceReading { impulse: block.elastic_impulses(powers), ..Default::default() }, [false; PAIRS]),
+            false => {
+                let force = block.read_force(powers);
+                (force, may_turn(&block.force, (&force.value, &force.slope), &force.fourth, powers.x))
+            }
+        };
+        let of_motion = may_turn(&block.penetration, (&motion.penetration, &motion.slope), &motion.fourth, powers.x);
+        BlockEnd { motion, force, turns: [of_force, of_motion] }
+    }
+}
+
+/// Whether the slope of each series may pass 0 within 0..=x, by bounds as [`roots`] has them.
+#[inline(always)]
+fn may_turn(terms: &[Each], (end, slope): (&Each, &Each), fourth: &Each, x: f64) -> [bool; PAIRS] {
+    let (smaller, larger) = (|a: f64, b: f64| if a < b { a } else { b }, |a: f64, b: f64| if a > b { a } else { b });
+    let (start, first) = (&terms[0], &terms[1]);
+    let middle = each(|i| 3.0 * (end[i] - start[i]) / x - (first[i] + slope[i]));
+    let least = each(|i| smaller(middle[i], smaller(first[i], slope[i])));
+    let most = each(|i| larger(middle[i], larger(first[i], slope[i])));
+    let error = each(|i| 0.008_02 * x * x * x * fourth[i]);
+    std::array::from_fn(|i| !(least[i] > error[i] || most[i] < -error[i]))
+}
+
+/// See [`roots::maximum_above`]; only of what `turns` more than the ends has to be looked at.
+#[inline(always)]
+fn highest(
+    turns: bool,
+    first: (f64, f64),
+    x: f64,
+    end: &Reading,
+    known: f64,
+    terms: impl FnOnce(&mut Coefficients) -> usize,
+) -> Option<(f64, f64)> {
+    if turns {
+        return roots::maximum_above(first, x, end, known, terms);
+    }
+    let (at, value) = if end.value > first.0 { (x, end.value) } else { (0.0, first.0) };
+    (value > known).then_some((at, value))
+}
+
+impl Contact {
+    /// Penetration, impulse, peaks and work over a series up to x.
+    fn follow_lane(
+        &mut self,
+        (block, lane): (&PairBlock, usize),
+        end: &BlockEnd,
+        series: &MotionSeries,
+        start: f64,
+        x: f64,
+    ) {
+        let impulse = series.scale * end.force.impulse[lane];
+        self.impulse += impulse;
+        self.episode.impulse += impulse;
+        if block.is_damped() {
+            self.work += block.damping_work(
+                lane,
+                &self.branch(),
+                (&series.clock, series.scale),
+                x,
+                end.motion.penetration[lane],
+            );
+        }
+        let [force_turns, motion_turns] = end.turns.map(|turns| turns[lane]);
+        let depth = Reading {
+            value: end.motion.penetration[lane],
+            slope: end.motion.slope[lane],
+            fourth: end.motion.fourth[lane],
+        };
+        let terms = |out: &mut Coefficients| block.copy_penetration(lane, out);
+        let first = (block.penetration[0][lane], block.penetration[1][lane]);
+        let deepest = highest(motion_turns, first, x, &depth, self.episode.peak_penetration, terms);
+        if let Some((_, peak)) = deepest {
+            self.episode.peak_penetration = peak;
+        }
+        let strongest = match self.branch() {
+            force if block.is_elastic() => deepest.map(|(at, peak)| (at, force.value(peak, 0.0))),
+            _ => {
+                let terms = |out: &mut Coefficients| block.copy_force(lane, out);
+                let first = (block.force[0][lane], block.force[1][lane]);
+                highest(force_turns, first, x, &end.force.of(lane), self.episode.peak_force, terms)
+            }
+        };
+        if let Some((at, peak)) = strongest.filter(|(_, peak)| *peak > self.episode.peak_force) {
+            self.episode.peak_force = peak;
+            self.episode.peak_time = start + series.time(at);
+            self.peak_force = self.peak_force.max(peak);
+        }
+        self.penetration = depth.value;
+        self.rate = depth.slope / series.time_rate(x);
+        // The series of a damped force is truncated; what is shown is what the law makes of the motion.
+        let last = if block.is_elastic() { 0.0 } else { self.branch().value(self.penetration, self.rate) };
+        if last > self.episode.peak_force {
+            self.episode.peak_force = last;
+            self.episode.peak_time = start + series.time(x);
+            self.peak_force = self.peak_force.max(last);
+        }
+    }
+}

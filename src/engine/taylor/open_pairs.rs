@@ -1,0 +1,262 @@
+//! The pairs that are apart while others are in contact: which of them may meet within a step.
+
+use crate::contact::series::{Each, PAIRS};
+use crate::engine::base::contact::Contact;
+use crate::engine::base::planned::Event;
+use crate::engine::base::{Base, Coordinates};
+use crate::engine::model::Model;
+use crate::engine::pairs::jacobian::{Meeting, OnFewModes, OnFloors, OnModes};
+use crate::engine::pairs::packing::{Members, Place, most_blocks};
+use crate::engine::pairs::pair::Pair;
+use crate::engine::state::Workspace;
+use crate::engine::step::Step;
+use crate::numerics::polynomial::{ROOM, each};
+use crate::numerics::powers::Powers;
+use crate::numerics::roots;
+use crate::numerics::substitution::Bend;
+use crate::structure::{FEW_BLOCKS, LANES, MotionSeries};
+
+/// A block of pairs over a step, by the x of its powers.
+#[derive(Clone, Debug, Default)]
+pub(in crate::engine) struct Course {
+    /// Penetrations at the start, m, and their derivatives.
+    pub start: [Each; 2],
+    /// The same at the end.
+    pub end: [Each; 2],
+    /// Bounds on their fourth derivatives.
+    pub fourth: Each,
+}
+
+impl Course {
+    /// Of block `i` of `width`, from so many powers of their relative displacements: all of one power, then those of the
+    /// next.
+    #[inline(always)]
+    fn of(terms: &[Each], (i, width): (usize, usize), count: usize, powers: &Powers, gap: &Each) -> Course {
+        let ((values, slopes, fourths), term) = (powers.all(), |n: usize| &terms[n * width + i]);
+        let (first, rate) = (term(0), *term(1));
+        let (mut later, mut slope, mut fourth) = ([0.0; PAIRS], [0.0; PAIRS], [0.0; PAIRS]);
+        for n in 2..count.min(ROOM) {
+            let term = term(n);
+            later = each(|i| later[i] + term[i] * values[n]);
+            slope = each(|i| slope[i] + term[i] * slopes[n]);
+            fourth = each(|i| fourth[i] + term[i].abs() * fourths[n]);
+        }
+        let start = each(|i| first[i] - gap[i]);
+        let end = each(|i| start[i] + (rate[i] * powers.x + later[i]));
+        Course { start: [start, rate], end: [end, each(|i| rate[i] + slope[i])], fourth }
+    }
+
+    /// Which pairs certainly stay apart up to x: the penetration is as near to its cubic interpolant as its fourth
+    /// derivative says, and that lies between its control points (as [`roots::ceiling`] has it).
+    fn stays_apart(&self, x: f64) -> [bool; PAIRS] {
+        let ([start, rate], [end, slope]) = (&self.start, &self.end);
+        let larger = |a: f64, b: f64| if a > b { a } else { b };
+        let (third, bound) = (x / 3.0, (x * x) * (x * x) / 384.0);
+        let highest = each(|i| {
+            let control = larger(start[i] + third * rate[i], end[i] - third * slope[i]);
+            larger(larger(start[i], end[i]), control) + bound * self.fourth[i]
+        });
+        // Written so that a NaN never stays apart.
+        highest.map(|highest| highest < 0.0)
+    }
+}
+
+/// All pairs in blocks, and their series.
+#[derive(Clone, Debug)]
+pub(in crate::engine) struct OpenPairs {
+    /// Room for all; the first `used` are filled.
+    members: Vec<Members>,
+    used: usize,
+    /// What the members are made for.
+    coordinates: Option<Coordinates>,
+    /// The blocks that have a pair that is apart.
+    apart: Vec<usize>,
+    /// m, relative displacements of these: all of one power, then those of the next.
+    terms: Vec<Each>,
+    /// How these go over the step.
+    courses: Vec<Course>,
+}
+
+impl OpenPairs {
+    /// Room for these pairs.
+    pub fn new(pairs: usize, on_floors: bool) -> OpenPairs {
+        let most = most_blocks(pairs, 1, on_floors);
+        OpenPairs {
+            members: vec![Members::default(); most],
+            used: 0,
+            coordinates: None,
+            apart: Vec::with_capacity(most),
+            terms: vec![[0.0; PAIRS]; most * ROOM],
+            courses: vec![Course::default(); most],
+        }
+    }
+
+    /// Gives each pair its block and lane in some coordinates.
+    fn assign(&mut self, pairs: &[Pair], coordinates: Coordinates) {
+        if self.coordinates == Some(coordinates) {
+            return;
+        }
+        (self.coordinates, self.used) = (Some(coordinates), 0);
+        for (p, pair) in pairs.iter().enumerate() {
+            let place = Place::of(pair, coordinates);
+            let found = (0..self.used).find_map(|b| Some((b, self.members[b].free_lane(place)?)));
+            let (b, lane) = found.unwrap_or_else(|| {
+                self.used += 1;
+                (self.used - 1, self.members[self.used - 1].start(place))
+            });
+            self.members[b].set(lane, p, pair, coordinates);
+        }
+    }
+
+    /// Works out the courses of the blocks that have a pair that is apart and not too far to meet, up to the x of the
+    /// powers; `room` is for a number of each floor.
+    fn follow(
+        &mut self,
+        base: &Base,
+        pairs: &[Pair],
+        (series, bend): (&MotionSeries, &Bend),
+        powers: &Powers,
+        room: &mut [f64],
+    ) {
+        let OpenPairs { members, apart, terms, courses, .. } = self;
+        let members = &members[..self.used];
+        apart.clear();
+        let horizon = (base.coordinates == Coordinates::Floors).then(|| Horizon::of(series, powers.x, room));
+        let may_meet = |(lane, p): (usize, usize), members: &Members| {
+            let contact = &base.contacts[p];
+            let is_far = |horizon: &Horizon| horizon.is_beyond(contact, members.floors[lane], members.gap[lane]);
+            !contact.in_contact() && !horizon.as_ref().is_some_and(is_far)
+        };
+        let has_to_be_followed = |members: &Members| members.lanes().any(|of_lane| may_meet(of_lane, members));
+        apart.extend(members.iter().enumerate().filter(|(_, members)| has_to_be_followed(members)).map(|(b, _)| b));
+        let terms = &mut terms[..(series.order + 1) * apart.len()];
+        match base.coordinates {
+            Coordinates::Floors => relate(&OnFloors, series, (members, apart), terms),
+            Coordinates::Modes if base.q.len() <= FEW_BLOCKS * LANES => {
+                relate(&OnFewModes, series, (members, apart), terms)
+            }
+            Coordinates::Modes => relate(&OnModes(pairs), series, (members, apart), terms),
+        }
+        if series.clock.is_bent() {
+            bend.apply(terms, apart.len());
+        }
+        read(terms, (members, apart), series.order + 1, powers, courses);
+    }
+}
+
+/// How near floors have to be at the start of a step to meet in it.
+struct Horizon<'a> {
+    /// The displacements of all floors at the start, m, and what their velocities then make of them until x or the time
+    /// there, whichever is more.
+    start: &'a [f64],
+    carried: &'a [f64],
+    reach: f64,
+    /// m, the most that all other terms of the motion of each floor add up to.
+    wandered: &'a [f64],
+}
+
+impl<'a> Horizon<'a> {
+    /// For a step up to x. With t = x + b x^2 no term of a series in time, made one in x and cut off after its last power, is
+    /// larger than its size in time is at x + |b| x^2.
+    fn of(series: &'a MotionSeries, x: f64, wandered: &'a mut [f64]) -> Horizon<'a> {
+        let reach = x + series.clock.bend.abs() * (x * x);
+        series.sum_sizes(2, reach, wandered);
+        Horizon { start: series.term(0), carried: series.term(1), reach, wandered }
+    }
+
+    /// Whether two floors are too far from each other.
+    fn is_beyond(&self, contact: &Contact, [left, right]: [usize; 2], gap: f64) -> bool {
+        let relative = |motion: &[f64]| motion[left] - motion[right];
+        let carried = self.reach * relative(self.carried).max(0.0);
+        let nearest = relative(self.start) - gap + carried + (self.wandered[left] + self.wandered[right]);
+        // Of a pair at the surface, or next to it, more digits are known than the motion tells.
+        nearest < 0.0 && !contact.at_surface && !contact.carried
+    }
+}
+
+/// The relative displacements of some blocks, power by power. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn relate<M: Meeting>(
+    meeting: &M,
+    series: &MotionSeries,
+    (members, apart): (&[Members], &[usize]),
+    terms: &mut [Each],
+) {
+    for (i, b) in apart.iter().enumerate() {
+        let members = &members[*b];
+        let out = terms.chunks_exact_mut(apart.len()).map(|terms| &mut terms[i]);
+        meeting.relate(members, members.count(), series.rows().zip(out));
+    }
+}
+
+/// The courses of some blocks from so many powers. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn read(
+    terms: &[Each],
+    (members, apart): (&[Members], &[usize]),
+    count: usize,
+    powers: &Powers,
+    courses: &mut [Course],
+) {
+    for (i, (b, course)) in apart.iter().zip(courses).enumerate() {
+        *course = Course::of(terms, (i, apart.len()), count, powers, &members[*b].gap);
+    }
+}
+
+impl Model {
+    /// The first entry of a pair that is apart up to the end of the step.
+    pub(in crate::engine) fn first_entry(
+        &self,
+        base: &Base,
+        step: &mut Step,
+        work: &mut Workspace,
+    ) -> Option<(f64, Event)> {
+        if base.contacts.iter().all(Contact::in_contact) {
+            return None;
+        }
+        let Step { open, closed, series, end, .. } = step;
+        if !closed.riders().is_empty() {
+            let course = closed.course_of_riders();
+            return self.first_of_lanes(base, closed.riders().iter().copied(), &course, (series, end, work), None);
+        }
+        open.assign(&self.pairs, base.coordinates);
+        open.follow(base, &self.pairs, (series, &work.bend), end, &mut work.node_q);
+        let mut first = None;
+        for (block, course) in open.apart.iter().zip(&open.courses) {
+            first = self.first_of_lanes(base, open.members[*block].lanes(), course, (series, end, work), first);
+        }
+        first
+    }
+
+    /// The first entry among some lanes that hold a pair, of those that are apart, or the one that is known.
+    #[inline]
+    fn first_of_lanes(
+        &self,
+        base: &Base,
+        lanes: impl Iterator<Item = (usize, usize)>,
+        course: &Course,
+        (series, end, work): (&MotionSeries, &mut Powers, &mut Workspace),
+        mut first: Option<(f64, Event)>,
+    ) -> Option<(f64, Event)> {
+        let stays_apart = course.stays_apart(end.x);
+        // Of a pair at the surface, or next to it, more digits are known than the motion tells.
+        let is_sure = |lane: usize, contact: &Contact| stays_apart[lane] && !contact.at_surface && !contact.carried;
+        let may_meet = |&(lane, p): &(usize, usize)| {
+            let contact = &base.contacts[p];
+            !contact.in_contact() && !is_sure(lane, contact)
+        };
+        for (_, p) in lanes.filter(may_meet) {
+            let terms = &mut work.scalar[..=series.order];
+            end.set_in_time(&series.clock);
+            let size = self.project(p, base.coordinates, series, end.in_time().0, terms);
+            let contact = &base.contacts[p];
+            let noise = contact.begin_flight(terms, series.scale, self.pairs[p].noise(size));
+            if series.clock.is_bent() {
+                work.bend.apply_to_one(terms);
+            }
+            let until = first.map_or(end.x, |(x, _)| x);
+            first = roots::first_rise(terms, until, noise).map(|x| (x, Event::Entry(p))).or(first);
+        }
+        first
+    }
+}

@@ -1,0 +1,96 @@
+//! The forces of the closed pairs while a series is expanded, power by power.
+//!
+//! The usual contact comes at the price of its arithmetic: for pairs that are all under one kind of law there is code made
+//! for that, with the same operations in the same order as for any. (Few pairs under linear laws on few modes have
+//! [`super::linear_pairs`].)
+
+use crate::contact::series::{Any, PairBlock, PairLaw};
+use crate::engine::pairs::jacobian::Meeting;
+use crate::engine::pairs::packing::Members;
+use crate::engine::taylor::closed_pairs::ClosedPairs;
+use crate::numerics::polynomial::each;
+use crate::structure::{Lane, PairForces};
+use std::marker::PhantomData;
+
+/// Blocks of pairs, and which pairs stand in them.
+pub(in crate::engine) type Blocks<'a> = (&'a mut [PairBlock], &'a [Members]);
+
+/// Pairs under a law, each of which feels nothing of the others at once; `ONE` where they are one block.
+pub(in crate::engine) struct AtOnce<'a, M, L, const ONE: bool> {
+    blocks: &'a mut [PairBlock],
+    members: &'a [Members],
+    meeting: M,
+    law: PhantomData<L>,
+}
+
+impl<'a, M: Meeting, L: PairLaw, const ONE: bool> AtOnce<'a, M, L, ONE> {
+    pub fn of((blocks, members): Blocks<'a>, meeting: M, _: L) -> AtOnce<'a, M, L, ONE> {
+        AtOnce { blocks, members, meeting, law: PhantomData }
+    }
+
+    #[inline(always)]
+    fn act_by(meeting: &M, block: &mut PairBlock, members: &Members, n: usize, factor: f64, term: &mut [Lane]) {
+        let force = block.extend_force::<L>(n);
+        let relative = meeting.meet(members, block.count, &each(|i| factor * force[i]), term);
+        // What a force does to its own pair needs no detour by the motion: the next powers of the force wait for it.
+        let relative = each(|i| relative[i] - factor * members.softness[i] * force[i]);
+        block.set_penetration::<L>(n + 2, relative);
+    }
+}
+
+impl<M: Meeting, L: PairLaw, const ONE: bool> PairForces for AtOnce<'_, M, L, ONE> {
+    #[inline(always)]
+    fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
+        if ONE {
+            return Self::act_by(&self.meeting, &mut self.blocks[0], &self.members[0], n, factor, term);
+        }
+        for (block, members) in self.blocks.iter_mut().zip(self.members) {
+            Self::act_by(&self.meeting, block, members, n, factor, term);
+        }
+    }
+}
+
+/// Pairs whose penetrations have to wait for all forces.
+pub(in crate::engine) struct InTurn<'a, M> {
+    pub closed: &'a mut ClosedPairs,
+    pub meeting: M,
+}
+
+impl<M: Meeting> PairForces for InTurn<'_, M> {
+    fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
+        let ((blocks, members), _) = self.closed.blocks();
+        for (block, members) in blocks.iter_mut().zip(members) {
+            let force = block.extend_force::<Any>(n);
+            self.meeting.push(members, block.count, &force.map(|force| factor * force), term);
+        }
+        self.closed.set_blocks(n + 2, |members, count, at_surface| match at_surface {
+            true => self.meeting.difference(members, count, term),
+            false => self.meeting.relative(members, count, term),
+        });
+    }
+}
+
+/// Hands the forces of the closed pairs to an expansion: made for one of `$law`s where they are all under that, and in one
+/// block where `$one` says that this is usual.
+macro_rules! with_forces {
+    ($closed:expr, [$($law:ident),*], $one:expr, $meeting:expr, |$forces:ident| $expand:expr) => {{
+        use $crate::engine::taylor::pair_forces::{AtOnce, InTurn};
+        macro_rules! under {
+            ($blocks:expr, $is_one:expr, $any:expr) => {{
+                let $forces = &mut AtOnce::<_, _, { $is_one }>::of($blocks, $meeting, $any);
+                $expand
+            }};
+        }
+        if $closed.waits() {
+            let $forces = &mut InTurn { closed: $closed, meeting: $meeting };
+            $expand
+        } else {
+            let (blocks, kind) = $closed.blocks();
+            match kind.filter(|_| !$one || blocks.0.len() == 1) {
+                $(Some($crate::contact::series::Kind::$law) => under!(blocks, $one, $crate::contact::series::$law),)*
+                _ => under!(blocks, false, $crate::contact::series::Any),
+            }
+        }
+    }};
+}
+pub(in crate::engine) use with_forces;

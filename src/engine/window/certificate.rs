@@ -1,0 +1,281 @@
+//! Bounds that show that nothing happens within a window but the event that it ends with.
+//!
+//! Between two nodes a penetration is known at both and bends by no more than all that acts on it: what the buildings would
+//! do without contact forces, of which the power series is there; and the forces, whose size is known. One in contact must
+//! not sag below 0, so what bends it upwards counts; a force in contact pushes apart, so it never bends its own pair's
+//! penetration upwards. One apart must not swell above 0, so what bends it downwards counts: it may rise and fall again.
+
+use crate::collocation::{Ending, Kernel, MOST_PAIRS, POWERS, Solution, Tables};
+use crate::contact::Guard;
+use crate::engine::base::Base;
+use crate::engine::base::contact::{Contact, Phase};
+use crate::engine::model::Model;
+use crate::engine::state::Workspace;
+use crate::engine::step::Step;
+use crate::engine::window::solution::Window;
+use crate::numerics::polynomial::SECOND;
+
+/// Pieces of a window are halved so many times to show that a pair stays apart: down to a distance of rounding.
+const MOST_HALVINGS: u32 = 16;
+
+impl Model {
+    /// Whether nothing but its ending happens in the window of a step.
+    pub(in crate::engine) fn is_certain(&self, base: &Base, step: &Step, work: &mut Workspace, ending: Ending) -> bool {
+        let window = &*step.window;
+        let equation = &window.equation;
+        let pairs_hold = (0..equation.pairs).all(|place| {
+            let kernels = &equation.kernels[place].each_ref();
+            let way = if place < equation.closed { Way::Up } else { Way::Down };
+            let free = &equation.free[place][..equation.terms];
+            let bend = window.bend(way, free, kernels, Some(place));
+            let passage = Passage { window, place, contact: &base.contacts[window.contacts[place]], bend, ending };
+            if place < equation.closed {
+                return passage.stays_in_contact();
+            }
+            passage.stays_apart(&Approach { window, free, kernels, bend })
+        });
+        pairs_hold && self.others_stay_apart(base, step, work)
+    }
+
+    /// Whether all pairs that are not in the window stay apart.
+    fn others_stay_apart(&self, base: &Base, step: &Step, work: &mut Workspace) -> bool {
+        let Some(windows) = &self.windows else { return false };
+        let (window, series) = (&*step.window, &step.series);
+        let Window { contacts, equation, solution, .. } = window;
+        let is_other = |p: usize, contact: &Contact| !contact.in_contact() && window.place(p).is_none();
+        let mut others = base.contacts.iter().enumerate().filter(|(p, contact)| is_other(*p, contact));
+        others.all(|(p, contact)| {
+            let row = &self.pairs[p].row;
+            let terms = &mut work.scalar[..=series.order];
+            series.dot_each(row, 2, terms);
+            let (mut kernels, mut room) = ([&[0.0; POWERS]; MOST_PAIRS], [None; MOST_PAIRS]);
+            for ((kernel, room), q) in kernels.iter_mut().zip(&mut room).zip(&contacts[..equation.closed]) {
+                *kernel = windows.kernel(&self.pairs, p, *q, room);
+            }
+            let bend = |way: Way| window.bend(way, terms, &kernels, None);
+            if keeps_off(contact, bend(Way::Up), solution.length) {
+                return true;
+            }
+            let bend = bend(Way::Down);
+            (terms[0], terms[1]) = (contact.flight_start(), contact.rate * series.scale);
+            let approach = Approach { window, free: terms, kernels: &kernels, bend };
+            let end = (solution.length, approach.depth(solution.length));
+            end.1 < 0.0 && approach.stays_below((0.0, terms[0]), end, MOST_HALVINGS)
+        })
+    }
+}
+
+/// Which way a penetration bends.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    Up,
+    Down,
+}
+
+/// Whether a pair apart, whose penetration bends upwards by `bend` at most, stays so over `h` seconds.
+pub(in crate::engine) fn keeps_off(contact: &Contact, bend: f64, h: f64) -> bool {
+    let (start, rate) = (contact.flight_start(), contact.rate);
+    // Below a parabola that only falls, or one that may rise.
+    let falls = start <= 0.0 && rate + 0.5 * bend * h < 0.0;
+    falls || start + h * (rate.max(0.0) + 0.5 * bend * h) < 0.0
+}
+
+impl Window {
+    /// m/s^2, bound on what bends the penetration of a pair that way over the window: its motion without contact forces, of
+    /// which the terms are given, and what the forces do, of which the kernels are: all but what that of the pair itself,
+    /// where it has one, does at once.
+    fn bend(&self, way: Way, free: &[f64], kernels: &[&Kernel; MOST_PAIRS], itself: Option<usize>) -> f64 {
+        let Window { equation, solution, greatest, .. } = self;
+        let (x, h) = (solution.length / equation.scale, solution.length);
+        let later = sum_of_sizes(free, 3, x);
+        let at_start = if way == Way::Up { 2.0 * free[2] } else { -2.0 * free[2] };
+        let mut bend = (at_start + later * x) / (equation.scale * equation.scale);
+        for q in 0..equation.closed {
+            let at_once = if itself == Some(q) { 0.0 } else { kernels[q][1].abs() };
+            let later = sum_of_sizes(&kernels[q][..equation.powers], 2, h);
+            bend += greatest[q] * (at_once + later * h);
+        }
+        bend.max(0.0)
+    }
+}
+
+/// Sum of the sizes of the second derivatives of terms from one on, in powers of x from that one on.
+fn sum_of_sizes(terms: &[f64], first: usize, x: f64) -> f64 {
+    let last = terms.len().min(SECOND.len());
+    let terms = terms[first..last].iter().zip(&SECOND[first..last]);
+    terms.rev().fold(0.0, |sum, (c, count)| sum * x + count * c.abs())
+}
+
+/// A pair that is apart while a window is under way, whose distance can be read anywhere. However near it comes: where it
+/// does not touch the window stays as it is, so that a contact that never closes changes nothing.
+struct Approach<'a> {
+    window: &'a Window,
+    /// Terms of its motion without contact forces.
+    free: &'a [f64],
+    kernels: &'a [&'a Kernel; MOST_PAIRS],
+    /// m/s^2, see [`Window::bend`].
+    bend: f64,
+}
+
+impl Approach<'_> {
+    /// m, penetration after so many seconds.
+    fn depth(&self, elapsed: f64) -> f64 {
+        let mut room = None;
+        self.window.depth_of((self.free, self.kernels), elapsed, self.window.moments(elapsed, &mut room)).0
+    }
+
+    /// Whether it stays below 0 between two times at which it is; pieces are halved up to so many times.
+    fn stays_below(&self, (start, from): (f64, f64), (end, to): (f64, f64), halvings: u32) -> bool {
+        let gone = end - start;
+        if from.max(to) < -0.125 * self.bend * gone * gone {
+            return true;
+        }
+        let middle = start + 0.5 * gone;
+        if halvings == 0 || middle <= start || middle >= end {
+            return false;
+        }
+        let middle = (middle, self.depth(middle));
+        middle.1 < 0.0
+            && self.stays_below((start, from), middle, halvings - 1)
+            && self.stays_below(middle, (end, to), halvings - 1)
+    }
+}
+
+/// One pair on its way through a window.
+struct Passage<'a> {
+    window: &'a Window,
+    place: usize,
+    contact: &'a Contact,
+    /// m/s^2, see [`Window::bend`].
+    bend: f64,
+    ending: Ending,
+}
+
+/// From one node to the next: seconds, penetration at both, rate at the second.
+struct Piece {
+    gone: f64,
+    from: f64,
+    to: f64,
+    rate: f64,
+    is_last: bool,
+}
+
+/// Whether a penetration that is above 0 at the nodes is so between them: above the chord but for the bend. Wide
+/// instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn stays_above((theta, length): (&[f64], f64), depth: &[f64], bend: f64) -> bool {
+    let mut holds = true;
+    for ((from, to), (start, end)) in theta.iter().zip(&theta[1..]).zip(depth.iter().zip(&depth[1..])) {
+        let gone = to * length - from * length;
+        holds &= start.min(*end) > 0.25 * (0.5 * bend * gone) * gone;
+    }
+    holds
+}
+
+impl Passage<'_> {
+    /// Whether something holds for all pieces, from the start by all nodes to the end.
+    #[inline(always)]
+    fn all(&self, mut holds: impl FnMut(Piece) -> bool) -> bool {
+        let Window { solution, .. } = self.window;
+        let theta = &Tables::of(solution.map, solution.rule).theta[..solution.rule.count()];
+        let (depth, rate) = (&solution.depth[self.place], &solution.rate[self.place]);
+        let (mut time, mut from) = (0.0, self.start());
+        for ((theta, to), rate) in theta.iter().zip(depth).zip(rate) {
+            let next = theta * solution.length;
+            if !holds(Piece { gone: next - time, from, to: *to, rate: *rate, is_last: false }) {
+                return false;
+            }
+            (time, from) = (next, *to);
+        }
+        let (to, rate) = solution.end[self.place];
+        holds(Piece { gone: solution.length - time, from, to, rate, is_last: true })
+    }
+
+    /// m, penetration at the start.
+    fn start(&self) -> f64 {
+        match self.contact.in_contact() {
+            true => self.contact.penetration.max(0.0),
+            false => self.contact.flight_start(),
+        }
+    }
+
+    /// Whether the pair stays in contact, and on its side of the guard.
+    fn stays_in_contact(&self) -> bool {
+        let is_released = self.ending == Ending::Release(self.place);
+        let Solution { map, rule, length, ref depth, ref end, .. } = self.window.solution;
+        let theta = &Tables::of(map, rule).theta[..rule.count()];
+        let (depth, start, (end, _)) = (&depth[self.place][..rule.count()], self.start(), end[self.place]);
+        let (before, after) = (theta[0] * length, length - theta[theta.len() - 1] * length);
+        let sag = |gone: f64| 0.5 * self.bend * gone;
+        let begins = match start == 0.0 {
+            true => depth[0] / before > sag(before),
+            false => start.min(depth[0]) > 0.25 * sag(before) * before,
+        };
+        let last = depth[depth.len() - 1];
+        let ends = match is_released {
+            true => last / after > sag(after),
+            false => last.min(end) > 0.25 * sag(after) * after,
+        };
+        begins
+            && ends
+            && stays_above((theta, length), depth, self.bend)
+            && match self.contact.force.guard {
+                None => true,
+                Some(_) if self.contact.phase == Phase::Slack => self.recedes(),
+                Some(guard) => self.is_engaged(&guard),
+            }
+    }
+
+    /// Whether the pair stays apart.
+    fn stays_apart(&self, approach: &Approach) -> bool {
+        let touches = self.ending == Ending::Touch(self.place);
+        let mut time = 0.0;
+        self.all(|piece| {
+            let (start, end) = ((time, piece.from), (time + piece.gone, piece.to));
+            time = end.0;
+            // Below the chord but for the bend.
+            let swell = 0.5 * self.bend * piece.gone;
+            match () {
+                _ if touches && piece.is_last => -piece.from / piece.gone > swell,
+                _ if piece.from >= 0.0 => -piece.to / piece.gone > swell,
+                _ => piece.to < 0.0 && approach.stays_below(start, end, MOST_HALVINGS),
+            }
+        })
+    }
+
+    /// m, least penetration on a piece of a pair that stays in contact.
+    fn least(&self, piece: &Piece) -> f64 {
+        piece.from.min(piece.to) - 0.125 * self.bend * piece.gone * piece.gone
+    }
+
+    /// m/s^2, what the spring at a depth takes off the rate.
+    fn brake(&self, depth: f64) -> f64 {
+        self.contact.branch().value(depth.max(0.0), 0.0) * self.window.equation.kernels[self.place][self.place][1]
+    }
+
+    /// Whether the guard of an engaged pair stays positive, which it does while the pair approaches fast enough.
+    fn is_engaged(&self, guard: &Guard) -> bool {
+        let turns = self.ending == Ending::Turn(self.place);
+        self.all(|piece| {
+            // Up to a turn the depth only grows.
+            let depth = if turns { piece.from } else { self.least(&piece) };
+            let falls = || self.brake(depth) > self.bend;
+            if turns && piece.is_last {
+                return falls();
+            }
+            let is_positive = |rate: f64| guard.value(piece.to, rate) > 0.0;
+            is_positive(piece.rate - self.bend * piece.gone) || is_positive(piece.rate) && falls()
+        })
+    }
+
+    /// Whether a pair goes apart all the time, of which only penetrations are known.
+    fn recedes(&self) -> bool {
+        let mut rate = self.contact.rate;
+        self.all(|piece| {
+            let falls = || self.brake(self.least(&piece)) > self.bend;
+            let recedes = rate + self.bend * piece.gone < 0.0 || falls();
+            rate = rate.min((piece.to - piece.from) / piece.gone) + self.bend * piece.gone;
+            recedes
+        })
+    }
+}

@@ -1,0 +1,321 @@
+//! The solution over a window of a contact (see [`crate::collocation`]): reading it and following contacts through it.
+
+use crate::collocation::{
+    Equation, Kernel, MOST_PAIRS, NODES, Nodes, POWERS, Row, Rule, Solution, Tables, dot, fours, larger, nodes,
+};
+use crate::engine::base::contact::Contact;
+use crate::engine::model::Model;
+use crate::engine::step::Step;
+use crate::numerics::polynomial::{each, value_and_slope};
+use crate::numerics::powers::Powers;
+use crate::numerics::roots;
+
+/// Share of a peak that the node next to it has at least.
+const NEARLY: f64 = 0.97;
+
+/// How far a polynomial through the nodes is off at most, relative to a peak.
+const INTERPOLATED: f64 = 1e-6;
+
+/// N s^(k+1): integrals of (time left)^k times the force of each pair of a window.
+pub(in crate::engine) type Moments = [[f64; POWERS]; MOST_PAIRS];
+
+/// A window of the pairs in contact.
+#[derive(Clone, Debug, Default)]
+pub(in crate::engine) struct Window {
+    /// The contacts that are in it.
+    pub contacts: [usize; MOST_PAIRS],
+    pub equation: Equation,
+    pub solution: Solution,
+    /// N, bounds on the size of the forces, between the nodes too.
+    pub greatest: [f64; MOST_PAIRS],
+    /// Until its end.
+    whole: Moments,
+}
+
+/// The part of a window up to some time: nodes of its own, at which the forces are known.
+struct Part {
+    /// s since the start of the window.
+    times: Row,
+    /// s, for integrals over the part.
+    weights: Row,
+    /// x of the window.
+    x: Row,
+}
+
+impl Window {
+    /// Where a contact is in it.
+    pub fn place(&self, contact: usize) -> Option<usize> {
+        self.contacts[..self.equation.pairs].iter().position(|&p| p == contact)
+    }
+
+    /// The part until `elapsed`, with the nodes of a rule.
+    fn part(&self, elapsed: f64, rule: Rule) -> Part {
+        let Solution { map, length, .. } = self.solution;
+        let end = map.inverse((elapsed / length).min(1.0));
+        let nodes = nodes(rule);
+        let x = nodes.x.map(|x| x * end);
+        let mut part = Part { times: [0.0; NODES], weights: [0.0; NODES], x };
+        for (i, (x, weight)) in x.iter().zip(&nodes.weight).enumerate().take(nodes.count) {
+            let (theta, rate) = map.at(*x);
+            part.times[i] = length * theta;
+            part.weights[i] = length * rate * (end * weight);
+        }
+        part
+    }
+
+    /// Times, s, and weights for integrals until `elapsed` of what the whole motion does, which may be faster than that of
+    /// the contact: the window's own nodes, as few as the contact needs, would be too few.
+    pub fn nodes(&self, elapsed: f64) -> impl Iterator<Item = (f64, f64)> {
+        let part = self.part(elapsed, Rule::Sixteen);
+        part.times.into_iter().zip(part.weights)
+    }
+
+    /// Works out the moments until the end of a solution that has been found, and how large its forces are.
+    pub fn close(&mut self) {
+        let Equation { closed, powers, .. } = self.equation;
+        let Solution { map, rule, length, ref force, .. } = self.solution;
+        let whole = &Tables::of(map, rule).whole;
+        for ((moments, greatest), force) in self.whole.iter_mut().zip(&mut self.greatest).zip(force).take(closed) {
+            weigh_whole(&whole[..powers], force, length, moments);
+            *greatest = 2.0 * largest(force);
+        }
+    }
+
+    /// The moments until `elapsed`, for which there is `room` where they are not those until the end.
+    pub fn moments<'a>(&'a self, elapsed: f64, room: &'a mut Option<Moments>) -> &'a Moments {
+        let Equation { closed, powers, .. } = self.equation;
+        let Solution { rule, length, ref force, .. } = self.solution;
+        if elapsed == length {
+            return &self.whole;
+        }
+        let part = self.part(elapsed, rule);
+        let all = room.insert(Moments::default());
+        for (moments, force) in all.iter_mut().zip(force).take(closed) {
+            weigh(nodes(rule), force, &part, elapsed, &mut moments[..powers]);
+        }
+        all
+    }
+
+    /// N, bounds on the sizes of the forces, one per contact.
+    pub fn bound_forces(&self, contacts: &[Contact], out: &mut [f64]) {
+        for (place, &p) in self.contacts.iter().enumerate().take(self.equation.closed) {
+            // Between nodes a force is at most a little higher than at them.
+            let (d, v) = self.solution.end[place];
+            let end = contacts[p].branch().value(d, v);
+            out[p] = larger(end.abs(), largest(&self.solution.force[place]) / NEARLY);
+        }
+    }
+
+    /// Penetration, m, and rate, m/s, of a pair under these moments.
+    fn depth(&self, place: usize, elapsed: f64, moments: &Moments) -> (f64, f64) {
+        let Equation { terms, ref free, ref kernels, .. } = self.equation;
+        self.depth_of((&free[place][..terms], &kernels[place].each_ref()), elapsed, moments)
+    }
+
+    /// The same from the terms of its motion without contact forces and its kernels.
+    pub fn depth_of(
+        &self,
+        (free, kernels): (&[f64], &[&Kernel; MOST_PAIRS]),
+        elapsed: f64,
+        moments: &Moments,
+    ) -> (f64, f64) {
+        let Equation { closed, powers, scale, .. } = self.equation;
+        let (d, v) = value_and_slope(free, elapsed / scale);
+        let (mut taken, mut slowed) = (0.0, 0.0);
+        for (kernel, moments) in kernels.iter().zip(moments).take(closed) {
+            for k in (1..powers).rev() {
+                taken += kernel[k] * moments[k];
+                slowed += k as f64 * kernel[k] * moments[k - 1];
+            }
+        }
+        (d - taken, v / scale - slowed)
+    }
+}
+
+/// The largest size of a number at the nodes.
+fn largest(row: &Row) -> f64 {
+    let sizes = fours(row).iter().fold([0.0; 4], |most, row| each(|i| larger(row[i].abs(), most[i])));
+    sizes.into_iter().fold(0.0, larger)
+}
+
+/// The moments of one force over its window. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn weigh_whole(whole: &[Row], force: &Row, length: f64, moments: &mut [f64; POWERS]) {
+    let mut power = length;
+    for (moment, whole) in moments.iter_mut().zip(whole) {
+        *moment = power * dot(whole, force);
+        power *= length;
+    }
+}
+
+/// The moments of one force over a part of its window. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn weigh(nodes: &Nodes, force: &Row, part: &Part, elapsed: f64, moments: &mut [f64]) {
+    let (mut pushed, left) = (nodes.interpolant(force).at(&part.x), part.times.map(|time| elapsed - time));
+    for (pushed, weight) in pushed.iter_mut().zip(&part.weights) {
+        *pushed *= weight;
+    }
+    for moment in moments {
+        *moment = dot(&pushed, &[1.0; NODES]);
+        for (pushed, left) in pushed.iter_mut().zip(&left) {
+            *pushed *= left;
+        }
+    }
+}
+
+impl Model {
+    /// q and v, `elapsed` seconds into the window of a step.
+    pub(in crate::engine) fn read_window(
+        &self,
+        step: &Step,
+        elapsed: f64,
+        powers: &mut Powers,
+        motion: (&mut [f64], &mut [f64]),
+    ) {
+        self.read_window_and_pairs(step, elapsed, powers, motion, &mut []);
+    }
+
+    /// The same, and the penetrations, m, and rates, m/s, of as many pairs in contact as there is room for.
+    pub(in crate::engine) fn read_window_and_pairs(
+        &self,
+        step: &Step,
+        elapsed: f64,
+        powers: &mut Powers,
+        (q, v): (&mut [f64], &mut [f64]),
+        pairs: &mut [(f64, f64)],
+    ) {
+        let Some(windows) = &self.windows else { return };
+        powers.set(elapsed / step.series.scale, step.series.order);
+        step.series.evaluate(powers, q, v);
+        let window = &step.window;
+        let mut room = None;
+        let moments = window.moments(elapsed, &mut room);
+        for (p, moments) in window.contacts.iter().zip(moments).take(window.equation.closed) {
+            windows.response.push(&self.pairs[*p].row, &moments[..window.equation.powers], (q, v));
+        }
+        for (place, pair) in pairs.iter_mut().enumerate().take(window.equation.closed) {
+            *pair = window.depth(place, elapsed, moments);
+        }
+    }
+}
+
+impl Contact {
+    /// Follows the contact `elapsed` seconds into a window that has begun at `start` [s]: penetration, impulse, peaks,
+    /// work.
+    pub(in crate::engine) fn follow_window(&mut self, window: &Window, elapsed: f64, start: f64) {
+        let Some(place) = window.place(self.episode.contact) else { return };
+        let law = self.branch();
+        let solution = &window.solution;
+        let nodes = nodes(solution.rule);
+        let is_whole = elapsed == solution.length;
+        let mut room = None;
+        let moments = window.moments(elapsed, &mut room);
+        self.impulse += moments[place][0];
+        self.episode.impulse += moments[place][0];
+        let (depth, rate) = (&solution.depth[place], &solution.rate[place]);
+        if law.is_damped() {
+            let sum = |weights: &Row, d: &Row, v: &Row| dot(weights, &law.damping_powers(d, v));
+            self.work += if is_whole {
+                solution.length * sum(&Tables::of(solution.map, solution.rule).weight, depth, rate)
+            } else {
+                let part = window.part(elapsed, solution.rule);
+                let [d, v] = [depth, rate].map(|row| nodes.interpolant(row).at(&part.x));
+                sum(&part.weights, &d, &v)
+            };
+        }
+        let end = if is_whole { solution.end[place] } else { window.depth(place, elapsed, moments) };
+        let last = if is_whole { 1.0 } else { solution.map.inverse(elapsed / solution.length) };
+        let way = Way { nodes, last, rates: (self.rate, end.1) };
+        // Between nodes forces are known to fewer digits than what they do: what is read there is worked out from that.
+        let read = |x: f64| {
+            let elapsed = solution.length * solution.map.at(x).0;
+            window.depth(place, elapsed, window.moments(elapsed, &mut None))
+        };
+        let at = |x: f64| (x, if x == last { end } else { read(x) });
+        let deepest = way.highest(depth, end.0, self.episode.peak_penetration).map(at);
+        if let Some((_, (peak, _))) = deepest {
+            self.episode.peak_penetration = self.episode.peak_penetration.max(peak);
+        }
+        let strongest = match law.is_damped() {
+            // A spring pushes most where it is deepest.
+            false => deepest,
+            true => {
+                let force = law.value(end.0, end.1);
+                Way { rates: (f64::NAN, f64::NAN), ..way }
+                    .highest(&solution.force[place], force, self.episode.peak_force)
+                    .map(at)
+            }
+        };
+        if let Some((x, (d, v))) = strongest {
+            // Between nodes a force is known to fewer digits: a summit there may lie below the end.
+            let (peak, last_force) = (law.value(d, v), law.value(end.0, end.1));
+            let (x, peak) = if last_force > peak { (last, last_force) } else { (x, peak) };
+            if peak > self.episode.peak_force {
+                self.episode.peak_force = peak;
+                self.episode.peak_time = start + solution.length * solution.map.at(x).0;
+                self.peak_force = self.peak_force.max(peak);
+            }
+        }
+        (self.penetration, self.rate) = end;
+    }
+}
+
+/// How far a window is followed, and how fast what is followed goes there.
+struct Way {
+    nodes: &'static Nodes,
+    /// x.
+    last: f64,
+    /// At the start and at the end, where it is known.
+    rates: (f64, f64),
+}
+
+impl Way {
+    /// x where what has these values at the nodes and `end` at the end is largest, if it is above `known` there; at the start
+    /// it is not.
+    fn highest(&self, values: &Row, end: f64, known: f64) -> Option<f64> {
+        let (nodes, last) = (&self.nodes.x[..self.nodes.count], self.last);
+        let before = if last < 1.0 { nodes.iter().take_while(|x| **x < last).count() } else { nodes.len() };
+        let (mut best, mut at) = (end, before);
+        for (i, value) in values.iter().enumerate().take(before) {
+            if *value > best {
+                (best, at) = (*value, i);
+            }
+        }
+        // Between nodes it is at most a little higher than at them.
+        if best < NEARLY * known || at == 0 && self.rates.0 <= 0.0 {
+            return None;
+        }
+        let x_of = |i: usize| if i < before { nodes[i] } else { last };
+        let mut top = (x_of(at), best);
+        if at < before || self.rates.1 < 0.0 || self.rates.1.is_nan() {
+            let low = if at == 0 { 0.0 } else { nodes[at - 1] };
+            let found = summit(self.nodes, values, (low, x_of(at), x_of(at + 1)));
+            if let Some((x, value)) = found.filter(|found| found.1 > best) {
+                top = (roots::roughly(x), value);
+            }
+        }
+        (top.1 > known * (1.0 - INTERPOLATED)).then_some(top.0)
+    }
+}
+
+/// Where the polynomial through values at the nodes has its summit in low..high, by Newton's method from a point on. Wide
+/// instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn summit(nodes: &Nodes, values: &Row, (low, from, high): (f64, f64, f64)) -> Option<(f64, f64)> {
+    let interpolant = nodes.interpolant(values);
+    let mut x = from;
+    for _ in 0..8 {
+        let [value, slope, curvature] = interpolant.derivatives(x);
+        let step = slope / curvature;
+        // The value at the summit is flat: half of the digits of x give all of its digits.
+        if curvature < 0.0 && step.abs() < 1e-9 {
+            return Some((x, value));
+        }
+        let next = if curvature < 0.0 { (x - step).clamp(low, high) } else { return None };
+        if next == x {
+            return None;
+        }
+        x = next;
+    }
+    None
+}

@@ -1,0 +1,258 @@
+//! Which window to try first: as long as the laws in it allow, and up to the next event if that is near.
+
+use crate::collocation::{Ending, Frame, Map, Rule};
+use crate::contact::force::power;
+use crate::contact::{EpisodeForce, Force};
+use crate::engine::base::Base;
+use crate::engine::model::Model;
+use crate::engine::pairs::pair::Pair;
+use crate::engine::window::solution::Window;
+use crate::numerics::quadrature::{EIGHT, gauss};
+
+/// Relative accuracy of a step for which windows are as long as [`longest_window`] says, and how their length goes with it.
+const USUAL: (f64, f64) = (2e-11, 0.055);
+
+/// Time since an entry, in units of the contact's, until which its root is felt.
+const FRESH: f64 = 0.3;
+
+/// A dashpot helps the spring to turn a contact round.
+const DASHPOT: f64 = 0.85;
+
+/// Share of the time until a release up to which a window that does not reach it may go: its root would be felt.
+const BEFORE_RELEASE: f64 = 0.8;
+
+/// (Rate of a dashpot) x (time) x of a window that is not even tried: n sweeps leave some x^n / n! of an error, 24 at the most
+/// are made, and a window that has failed is halved four times at most: 12.5^24 / 24! is above 1.
+const TOO_STIFF: f64 = 200.0;
+
+/// (Fastest rate) x (time) that the series of a window are for.
+const MODES_REACH: f64 = 1.0;
+
+/// A window that is to be tried.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::engine) struct Draft {
+    pub map: Map,
+    /// Fewest nodes that it may have.
+    pub least: Rule,
+    /// s.
+    pub length: f64,
+    pub ending: Ending,
+    /// s, longest window that may be tried.
+    pub longest: f64,
+    /// s, what [`reach_of_fewer`] is relative to.
+    pub reach: f64,
+    /// Made shorter since nothing could be shown of a longer one.
+    pub halved: bool,
+}
+
+impl Draft {
+    /// What is to be solved.
+    pub fn frame(self) -> Frame {
+        let Draft { map, length, ending, .. } = self;
+        let [eight, twelve] = reach_of_fewer(map);
+        let rule = match length / self.reach {
+            share if share < eight => Rule::Eight,
+            share if share < twelve => Rule::Twelve,
+            _ => Rule::Sixteen,
+        };
+        Frame { map, rule: rule.max(self.least), length, ending }
+    }
+
+    /// s, longest that it may turn out.
+    pub fn room(&self) -> f64 {
+        match self.ending {
+            Ending::Given => self.length,
+            _ => self.longest.max(1.5 * self.length),
+        }
+    }
+
+    /// A window without an event, of that share of the length.
+    pub fn shorter(self, share: f64) -> Draft {
+        Draft { map: self.map.without_end(), length: share * self.length, ending: Ending::Given, ..self }
+    }
+
+    /// The same up to an event.
+    pub fn until(self, ending: Ending, length: f64) -> Draft {
+        Draft { length, ending, ..self }
+    }
+}
+
+impl Model {
+    /// What to try first within the `remaining` seconds; `None` where a contact is beyond all measure or its damping too
+    /// stiff.
+    pub(in crate::engine) fn draft(&self, base: &Base, window: &mut Window, remaining: f64) -> Option<Draft> {
+        let windows = self.windows.as_ref()?;
+        let (mut longest, mut map) = (f64::INFINITY, Map::Plain);
+        let (mut time, mut ending) = (f64::INFINITY, Ending::Given);
+        let mut dashpot = 0.0_f64;
+        for place in 0..window.equation.closed {
+            let p = window.contacts[place];
+            let (contact, force) = (&base.contacts[p], window.equation.forces[place]);
+            let d = contact.penetration.max(0.0);
+            let stored = force.stored_energy(d) / self.pairs[p].mass;
+            let prospect = windows.springs[p]?.prospect(d, contact.rate, stored)?;
+            window.equation.omega[place] = 1.0 / prospect.unit;
+            if force.is_damped() {
+                dashpot = dashpot.max(force.dashpot(d) / self.pairs[p].mass);
+            }
+            let is_root = matches!(force, Force::Root { .. });
+            let since = if contact.penetration > 0.0 { contact.age } else { 0.0 };
+            let is_fresh = since < FRESH * prospect.unit;
+            longest = longest.min(windows.patience * longest_window(&force, is_fresh) * prospect.unit);
+            if is_fresh && is_root && since > 0.0 {
+                longest = longest.min(8.0 * since);
+            }
+            map = match (is_fresh, is_root) {
+                (true, true) => Map::FourthStart,
+                (true, false) if map == Map::Plain => Map::SquareStart,
+                _ => map,
+            };
+            let event = match is_root && contact.rate > 0.0 {
+                true => (DASHPOT * prospect.turn, Ending::Turn(place)),
+                false => (prospect.release, Ending::Release(place)),
+            };
+            if event.0 < time {
+                (time, ending) = event;
+            }
+        }
+        // With fewer nodes the length goes with a higher power of the accuracy.
+        let (reach, least) = (windows.patience * longest, Rule::Eight);
+        longest = longest.min(MODES_REACH / self.structure.fastest);
+        if dashpot * time.min(longest).min(remaining) > TOO_STIFF {
+            return None;
+        }
+        let draft = Draft { map, least, length: time, ending, longest: longest.min(remaining), reach, halved: false };
+        let draft = match ending {
+            Ending::Turn(_) if time <= longest => draft,
+            Ending::Release(_) if time <= longest => Draft { map: map.with_end(), ..draft },
+            _ => draft.until(Ending::Given, (time / (time / longest).ceil().max(2.0)).min(longest)),
+        };
+        if draft.length <= remaining {
+            return Some(draft);
+        }
+        let is_before_release = matches!(ending, Ending::Release(_));
+        let length = if is_before_release { remaining.min(BEFORE_RELEASE * time) } else { remaining };
+        Some(Draft { length, ..draft.shorter(1.0) })
+    }
+}
+
+/// Longest window in units of the contact's time; half of a Hertz contact takes 1.61. Found by trying.
+fn longest_window(force: &Force, is_fresh: bool) -> f64 {
+    match (force, is_fresh) {
+        (Force::Root { .. }, true) => 0.62,
+        (Force::Root { .. }, false) => 1.0,
+        (_, true) if force.is_damped() => 0.95,
+        (_, false) if force.is_damped() => 1.3,
+        _ => 1.65,
+    }
+}
+
+/// How far eight and twelve nodes reach, relative to sixteen. Found by trying: where they turn out too few, which is so for
+/// a few windows of a hundred, the next more are taken.
+fn reach_of_fewer(map: Map) -> [f64; 2] {
+    match map {
+        Map::Plain => [0.22, 0.65],
+        Map::SquareStart => [0.09, 0.4],
+        Map::SquareEnd => [0.12, 0.43],
+        Map::FourthStart => [0.05, 0.5],
+        Map::SquareBoth | Map::FourthBoth => [0.045, 0.27],
+    }
+}
+
+/// The spring of a pair under a power law, which alone would let it swing through a contact.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::engine) struct Spring {
+    exponent: f64,
+    /// Exponent of the speed in the unit of time: (1 - n) / (n + 1).
+    power: f64,
+    /// The unit of time for a speed of 1 m/s, s.
+    unit: f64,
+    /// Largest penetration in units of time and speed.
+    deepest: f64,
+    /// [`swing`] from the surface.
+    all: f64,
+}
+
+/// When a spring alone would do what, s.
+struct Prospect {
+    /// Its time: (m V^(1-n) / k)^(1/(n+1)) for the speed V of all of its energy.
+    unit: f64,
+    /// Until it turns round.
+    turn: f64,
+    /// Until it is released.
+    release: f64,
+}
+
+impl Spring {
+    /// `None` for other laws.
+    pub fn of(pair: &Pair) -> Option<Spring> {
+        let (stiffness, n) = match EpisodeForce::new(&pair.law, pair.mass, None).engaged {
+            Force::Power { stiffness, exponent, .. } => (stiffness, exponent),
+            Force::Root { stiffness, .. } => (stiffness, 1.5),
+            Force::None | Force::Linear { .. } => return None,
+        };
+        let root = |x: f64| libm::pow(x, 1.0 / (n + 1.0));
+        Some(Spring {
+            exponent: n,
+            power: (1.0 - n) / (n + 1.0),
+            unit: root(pair.mass / stiffness),
+            deepest: root(0.5 * (n + 1.0)),
+            all: swing(n, 0.0),
+        })
+    }
+
+    /// From a penetration, m, its rate, m/s, and the energy stored per unit of mass, J/kg; `None` beyond all measure.
+    fn prospect(&self, d: f64, rate: f64, stored: f64) -> Option<Prospect> {
+        let speed = (rate * rate + 2.0 * stored).sqrt();
+        let unit = self.unit * libm::pow(speed, self.power);
+        let left = if d > 0.0 { swing(self.exponent, d / (self.deepest * unit * speed)) } else { self.all };
+        let (turn, release) = if rate >= 0.0 { (left, self.all + left) } else { (0.0, self.all - left) };
+        let time = self.deepest * unit;
+        let is_sound = unit.is_finite() && unit > 0.0 && release > 0.0;
+        is_sound.then_some(Prospect { unit, turn: turn * time, release: release * time })
+    }
+}
+
+/// Integral of 1 / sqrt(1 - u^(n+1)) over from..1, roughly: the time from a depth to the deepest.
+fn swing(n: f64, from: f64) -> f64 {
+    let width = 1.0 - from.min(1.0);
+    gauss(EIGHT, 1.0)
+        .map(|(y, weight)| {
+            let u = 1.0 - width * y * y;
+            weight * 2.0 * width * y / (1.0 - power(u, n + 1.0)).max(f64::MIN_POSITIVE).sqrt()
+        })
+        .sum()
+}
+
+/// How long windows are for an accuracy of steps, relative to the usual.
+pub(in crate::engine) fn patience(step_tolerance: f64) -> f64 {
+    libm::pow(step_tolerance / USUAL.0, USUAL.1).clamp(0.4, 1.2)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use crate::engine::base::contact::Phase;
+    use crate::engine::model::Model;
+    use crate::engine::state::State;
+    use crate::scene::Scene;
+
+    /// 1 mm deep in each other: the dashpot takes some 1e2/s for e = 0.5, and 1e14/s for 1e-12, which windows of 0.01 s cannot
+    /// be halved often enough for.
+    #[test]
+    fn no_window_is_tried_where_none_can_succeed() {
+        for (restitution, is_tried) in [(0.5, true), (1e-12, false)] {
+            let building = "mass = [1e3]\nstiffness = [1e5]\ndamping = { ratio = 0.05 }\n";
+            let scene = format!(
+                "name = \"Two\"\n[right]\n{building}[left]\n{building}initial_velocity = [0.1]\n[[contact]]\nleft_floor = 1\n\
+                 right_floor = 1\ngap = -1e-3\nlaw = \"jankowski\"\nstiffness = 1e8\nrestitution = {restitution:?}\n"
+            );
+            let model = Model::new(&Scene::from_toml(&scene).unwrap(), None).unwrap();
+            let State { base, mut step, .. } = model.start(0.0);
+            assert_eq!(base.contacts[0].phase, Phase::Engaged);
+            let equation = &mut step.window.equation;
+            (equation.closed, equation.forces[0]) = (1, base.contacts[0].branch());
+            assert_eq!(model.draft(&base, &mut step.window, 0.01).is_some(), is_tried, "{restitution}");
+        }
+    }
+}
