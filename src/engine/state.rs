@@ -1,17 +1,22 @@
 //! Everything that changes during a run: plain data, cloned to save it.
 
 use crate::collocation::Room;
+use crate::engine::base::Account;
 use crate::engine::base::Base;
+use crate::engine::base::Coordinates;
+use crate::engine::base::clearance::Watch;
 use crate::engine::base::counters::Counters;
 use crate::engine::excitation::inputs::Inputs;
+use crate::engine::excitation::linear_input::LinearInput;
+use crate::engine::excitation::segment::Segment;
 use crate::engine::flight::narrow_phase::Look;
-use crate::engine::peaks::{PeakRoom, PeakRows};
+use crate::engine::model::Model;
+use crate::engine::peaks::PeakRoom;
+use crate::engine::peaks::PeakWork;
 use crate::engine::step::Step;
-use crate::numerics::complementarity::Complementarity;
-use crate::numerics::polynomial::{Coefficients, MAX_ORDER, ROOM};
-use crate::numerics::powers::Powers;
-use crate::numerics::substitution::Bend;
-use crate::structure::{Interval, MotionSeries, Scratch, Structure};
+use crate::engine::step::StepKind;
+use crate::engine::system::buffers::Buffers;
+use crate::structure::Side;
 
 /// Everything that changes during a run.
 ///
@@ -28,65 +33,131 @@ pub struct State {
     pub(in crate::engine) work: Workspace,
 }
 
-/// Buffers; their content means nothing between calls.
-#[derive(Clone, Debug)]
-pub(in crate::engine) struct Workspace {
-    pub load: Vec<f64>,
-    pub slope: Vec<f64>,
-    /// Rates of the floor forces, N/s (on modes, per kg^1/2); empty where all are held.
-    pub force_slope: Vec<f64>,
-    pub q: Vec<f64>,
-    pub v: Vec<f64>,
-    pub scratch: Scratch,
-    pub series: MotionSeries,
-    pub interval: Interval,
-    /// Modal state at an integration node.
-    pub node_q: Vec<f64>,
-    pub node_v: Vec<f64>,
-    pub scalar: Coefficients,
-    pub powers: Powers,
-    pub bend: Box<Bend>,
-    pub rigid: Complementarity,
-    pub look: Look,
-    pub windows: Room,
-    pub peaks: PeakRoom,
-}
-
-impl Workspace {
-    /// For a structure with so many pairs, rigid pairs, and pairs that windows are for.
-    pub fn new(structure: &Structure, rows: &PeakRows, [pairs, rigid, windowed]: [usize; 3]) -> Workspace {
-        let lanes = structure.lanes;
-        let vector = || vec![0.0; lanes];
-        Workspace {
-            load: vector(),
-            slope: vector(),
-            force_slope: Vec::with_capacity(lanes),
-            q: vector(),
-            v: vector(),
-            scratch: Scratch::new(lanes),
-            series: MotionSeries::new(lanes, MAX_ORDER + 2),
-            interval: Interval::room(structure),
-            node_q: vector(),
-            node_v: vector(),
-            scalar: [0.0; ROOM],
-            powers: Powers::default(),
-            bend: Box::default(),
-            rigid: Complementarity::new(rigid),
-            look: Look::new(lanes, pairs),
-            windows: Room::new(windowed),
-            peaks: PeakRoom::new(structure, rows, pairs),
-        }
-    }
-}
-
 impl State {
     /// s, the communication time.
     pub fn time(&self) -> f64 {
         self.time
     }
 
+    /// s from the base to the present time, as far as the step under way is known.
+    pub(in crate::engine) fn since_base(&self) -> f64 {
+        match self.step.kind {
+            StepKind::Unknown => 0.0,
+            _ => (self.time - (self.base.segment.start + self.base.elapsed)).max(0.0),
+        }
+    }
+
     /// Work done so far.
     pub fn counters(&self) -> Counters {
         self.counters
+    }
+
+    /// m/s2, now; only where the scene has no record. Held from now on, unless a rate is set for the same time.
+    pub fn set_ground_acceleration(&mut self, acceleration: f64) {
+        self.inputs.ground_acceleration.set_value(acceleration, self.time);
+    }
+
+    /// m/s3, from now on until the acceleration or its rate is set again.
+    pub fn set_ground_acceleration_rate(&mut self, rate: f64) {
+        self.inputs.ground_acceleration.set_slope(rate, self.time);
+    }
+
+    /// N, now; only where the scene has floor forces. Floors counted from 0. Held from now on, unless a rate is set for
+    /// the same time.
+    pub fn set_floor_force(&mut self, side: Side, floor: usize, force: f64) {
+        let time = self.time;
+        self.change_floor_force(side, floor, |input| input.set_value(force, time));
+    }
+
+    /// N/s, from now on until the force or its rate is set again.
+    pub fn set_floor_force_rate(&mut self, side: Side, floor: usize, rate: f64) {
+        let time = self.time;
+        self.change_floor_force(side, floor, |input| input.set_slope(rate, time));
+    }
+
+    fn change_floor_force(&mut self, side: Side, floor: usize, change: impl FnOnce(&mut LinearInput)) {
+        let place = self.inputs.place(side, floor);
+        if let Some(input) = self.inputs.floor_forces.get_mut(place) {
+            change(input);
+        }
+    }
+}
+
+/// Room to work in; its content means nothing between calls.
+#[derive(Clone, Debug)]
+pub struct Workspace {
+    pub buffers: Buffers,
+    pub look: Look,
+    pub windows: Room,
+    pub peaks: PeakRoom,
+}
+
+impl Workspace {
+    /// What peaks need of it.
+    pub fn for_peaks(&mut self) -> PeakWork<'_> {
+        PeakWork { buffers: &mut self.buffers, peaks: &mut self.peaks }
+    }
+
+    fn new(model: &Model) -> Workspace {
+        let (pairs, lanes) = (model.pairs.len(), model.structure.lanes);
+        Workspace {
+            buffers: model.buffers(),
+            look: Look::new(lanes, pairs),
+            windows: Room::new(model.windows.as_ref().map_or(0, |_| pairs)),
+            peaks: PeakRoom::new(&model.structure, &model.peak_rows, pairs),
+        }
+    }
+}
+
+impl Model {
+    /// Room to work in.
+    pub(in crate::engine) fn buffers(&self) -> Buffers {
+        Buffers::new(&self.structure, self.rigid.pairs.len())
+    }
+
+    /// The initial state at a time, s.
+    pub fn start(&self, time: f64) -> State {
+        let _lanes = self.structure.lanes;
+        let [q, v] = self.initial.clone();
+        let segment = match &self.ground {
+            Some(ground) => ground.segment_at(time),
+            None => Segment::under_input(time, 0.0, &LinearInput::default()),
+        };
+        let floors = self.floors(Side::Left) + self.floors(Side::Right);
+        let mut state = State {
+            time,
+            base: Base {
+                segment,
+                elapsed: time - segment.start,
+                contacts: self.pairs.iter().enumerate().map(|(p, pair)| pair.at_start(p, time, &q, &v)).collect(),
+                watch: Watch::new(self.pairs.len()),
+                peaks: self.start_peaks(),
+                energy: self.energy.then(Account::default),
+                velocity_scale: 0.0,
+                last_length: 0.0,
+                impacts: 0,
+                coordinates: Coordinates::Modes,
+                q,
+                v,
+            },
+            step: Step::new(&self.system),
+            inputs: Inputs {
+                ground_acceleration: LinearInput::default(),
+                floor_forces: vec![LinearInput::default(); if self.floor_forces { floors } else { 0 }],
+                left_floors: self.floors(Side::Left),
+            },
+            counters: Counters::default(),
+            work: Workspace::new(self),
+        };
+        state.base.impacts = state.base.contacts.iter().map(|contact| contact.impacts).sum();
+        self.open_account(&mut state.base);
+        state
+    }
+}
+
+impl State {
+    /// Where the planned step ends, s since the start of the segment: by the `limit`, whatever rounding adds.
+    pub(in crate::engine) fn step_end(&self, limit: f64) -> f64 {
+        if self.step.planned.reaches_limit { limit } else { (self.base.elapsed + self.step.planned.length).min(limit) }
     }
 }

@@ -14,19 +14,19 @@ use crate::engine::state::State;
 use crate::structure::{Side, Structure};
 
 /// Work that one communication step may be: some ten seconds. A whole earthquake takes some thousandths of that.
-pub(in crate::engine) const MOST_WORK: f64 = 1e7;
+pub const MOST_WORK: f64 = 1e7;
 
 /// Steps that may follow each other without any time passing.
 const MOST_STEPS_AT_ONCE: u32 = 100_000;
 
 /// Flights that are as much work as so many microseconds: an internal step with a series takes as long as some twenty.
-pub(in crate::engine) fn most_flights(structure: &Structure, pairs: usize, work: f64) -> f64 {
+pub fn most_flights(structure: &Structure, pairs: usize, work: f64) -> f64 {
     let step_work = 2.0 + 0.2 * structure.lanes as f64 + 0.5 * pairs as f64;
     work / (0.05 * step_work)
 }
 
 /// What one communication step has taken so far.
-pub(in crate::engine) struct Progress {
+pub struct Progress {
     /// s, where it began.
     start: f64,
     /// The counts at its beginning.

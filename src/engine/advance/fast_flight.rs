@@ -18,7 +18,7 @@ const MOST_AT_ONCE: u64 = 64;
 
 /// How far a glide has come.
 #[derive(Clone, Copy, Default)]
-pub(in crate::engine) struct Glide {
+pub struct Glide {
     /// Segments flown over to their end.
     pub flown: u64,
     /// Whether the state is there, on its way through the next segment: nothing is left to do.
@@ -26,7 +26,7 @@ pub(in crate::engine) struct Glide {
 }
 
 /// What is seen of the pairs on the way from segment to segment.
-pub(in crate::engine) trait Sight<const WIDTH: usize> {
+pub trait Sight<const WIDTH: usize> {
     /// Whether no pair meets in the next segment, from the motion at its start and at its end and from the ground's
     /// acceleration and its slope.
     fn stays_apart(
@@ -73,14 +73,14 @@ impl Model {
                 break is_free;
             }
             let end = if is_free { base.watch.due().min(next + MOST_AT_ONCE) } else { base.watch.next_look() };
-            let clear = self.watch_peaks(ground, base, next, work);
+            let clear = self.watch_peaks(ground, base, next, &mut work.for_peaks());
             let is_checked = clear == next;
             let end = end.min(if is_checked { next + 1 } else { clear });
             let segments = next..end.min(first.saturating_add(most));
             let wanted = segments.end - next;
             if is_checked {
-                work.q.copy_from_slice(&base.q);
-                work.v.copy_from_slice(&base.v);
+                work.buffers.q.copy_from_slice(&base.q);
+                work.buffers.v.copy_from_slice(&base.v);
             }
             let flown = if is_free {
                 fly_over(self, ground, base, step, segments, until)
@@ -112,9 +112,9 @@ impl Model {
     /// Raises peaks over the segment, of that number, that has been flown from the motion in `work` to the base.
     #[inline(never)]
     fn check_flown(&self, base: &mut Base, segment: u64, work: &mut Workspace) {
-        let start = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
-        self.raise_over_segment(base, segment, (&start.0, &start.1), work);
-        (work.q, work.v) = start;
+        let start = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));
+        self.raise_over_segment(base, segment, (&start.0, &start.1), &mut work.for_peaks());
+        (work.buffers.q, work.buffers.v) = start;
     }
 
     /// Looks at the pairs that have not been dismissed for the base's segment, of that number; whether all are now. Seldom
@@ -122,7 +122,7 @@ impl Model {
     #[inline(never)]
     fn look_ahead(&self, ground: &GroundMotion, state: &mut State, segment: u64) -> bool {
         let State { base, counters, work, .. } = state;
-        self.dismiss(ground, base, segment, counters, &mut work.node_v)
+        self.flight.dismiss(&self.system, ground, base, segment, counters, &mut work.buffers.node_v)
     }
 
     /// Flies over segments for which not all pairs have been dismissed, as long as both ends of each show that none meets;
@@ -136,7 +136,7 @@ impl Model {
         segments: Range<u64>,
         until: f64,
     ) -> u64 {
-        let Some(near) = &self.near else { return 0 };
+        let Some(near) = &self.flight.near else { return 0 };
         if !ground.is_in_record(segments.start) || base.contacts.iter().any(|contact| contact.carried) {
             return 0;
         }
@@ -175,8 +175,8 @@ impl Model {
     /// Makes the end of a flight the base.
     #[inline(always)]
     fn move_base(&self, base: &mut Base, step: &mut Step) {
-        std::mem::swap(&mut base.q, &mut step.q);
-        std::mem::swap(&mut base.v, &mut step.v);
+        std::mem::swap(&mut base.q, &mut step.planned.q);
+        std::mem::swap(&mut base.v, &mut step.planned.v);
     }
 }
 
@@ -253,7 +253,7 @@ fn fly_segment(model: &Model, ground: &GroundMotion, segment: &Segment, base: &B
     interval.fly_on_ground(
         (&base.q, &base.v),
         (&model.structure.participation, (segment.acceleration_at(0.0), segment.slope)),
-        (&mut step.q, &mut step.v),
+        (&mut step.planned.q, &mut step.planned.v),
     )
 }
 

@@ -1,10 +1,13 @@
 //! Advancing: plan a step, take it, handle its event, until the communication time is reached.
 
+use crate::engine::base::planned::At;
+use crate::engine::base::planned::Planned;
+use crate::engine::excitation::inputs::Inputs;
+use crate::engine::system::buffers::Buffers;
 pub mod budget;
 pub mod fast_flight;
 
 use crate::contact::EpisodeForce;
-use crate::engine::base::contact::Contact;
 use crate::engine::base::contact::Episode;
 use crate::engine::base::planned::Event;
 use crate::engine::base::{Base, Coordinates};
@@ -13,7 +16,6 @@ use crate::engine::excitation::segment::Segment;
 use crate::engine::model::Model;
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
-use crate::numerics::powers::Powers;
 use crate::structure::LANES;
 
 impl Model {
@@ -93,105 +95,49 @@ impl Model {
         if self.is_driven() { segment.length.min(until - segment.start) } else { segment.length }
     }
 
-    /// Works out the next step, unless that has been done already.
-    pub(in crate::engine) fn plan(&self, state: &mut State, limit: f64) {
-        match state.step.kind {
-            StepKind::Unknown => {}
-            StepKind::Glide => self.forget_glide(state),
-            _ => return,
-        }
-        if state.base.contacts.iter().any(Contact::in_contact) {
-            self.plan_contact(state, limit);
-        } else {
-            self.plan_flight(state, limit);
-        }
-    }
-
     /// Takes the planned step, which ends at `end` (s since the segment's start), and handles its event.
     fn take(&self, state: &mut State, end: f64, on_episode: &mut dyn FnMut(&Episode)) {
-        self.add_work(state, state.step.length);
         let State { base, step, inputs, counters, work, .. } = state;
-        let start = base.time();
-        let is_watched = !self.peak_rows.are_none() && step.length > 0.0;
-        match step.kind {
-            StepKind::Flight if is_watched => self.raise_over_flight(base, step, inputs, work),
-            _ => self.note_starts(&base.contacts, work),
-        }
-        self.follow(&mut base.contacts, step, start);
-        if is_watched && step.kind != StepKind::Flight {
-            self.raise_over_step(base, step, inputs, end, work);
-        }
-        base.contacts.iter_mut().filter(|contact| contact.in_contact()).for_each(|contact| contact.age += step.length);
-        std::mem::swap(&mut base.q, &mut step.q);
-        std::mem::swap(&mut base.v, &mut step.v);
+        self.system.add_work(&mut At { base, inputs, counters }, step, &mut work.buffers);
+        self.follow_and_raise(base, step, inputs, end, work);
+        let Step { kind, planned, .. } = step;
+        base.contacts.iter_mut().filter(|contact| contact.in_contact()).for_each(|c| c.age += planned.length);
+        std::mem::swap(&mut base.q, &mut planned.q);
+        std::mem::swap(&mut base.v, &mut planned.v);
         base.elapsed = end;
-        base.last_length = step.next_length.unwrap_or(base.last_length);
-        self.move_contacts(base, step);
-        self.keep_together(base, work);
-        if let Some(event) = step.event {
+        base.last_length = planned.next_length.unwrap_or(base.last_length);
+        self.move_contacts(base, planned);
+        self.keep_together(base, &mut work.buffers);
+        if let Some(event) = planned.event {
             counters.events += 1;
             base.watch.restart();
             work.peaks.restart();
-            self.handle(base, event, work, on_episode);
+            self.handle(base, event, &mut work.buffers, on_episode);
         }
-        step.kind = StepKind::Unknown;
+        *kind = StepKind::Unknown;
     }
 
-    /// Follows the contacts to the end of a step, which has begun at `start` [s].
-    fn follow(&self, contacts: &mut [Contact], step: &Step, start: f64) {
-        match step.kind {
-            StepKind::Onset => {
-                let x = step.length / step.onset.scale;
-                contacts.iter_mut().filter(|c| c.in_contact()).for_each(|c| c.follow_onset(&step.onset, x, start));
-            }
-            StepKind::Window => {
-                contacts
-                    .iter_mut()
-                    .filter(|c| c.in_contact())
-                    .for_each(|c| c.follow_window(&step.window, step.length, start));
-            }
-            StepKind::Contact if step.length > 0.0 => {
-                step.closed.follow(contacts, &step.series, start, &step.end);
-                for (terms, &p) in step.reactions.iter().zip(&self.rigid.pairs) {
-                    if contacts[p].is_held() {
-                        contacts[p].follow_reaction(terms, step.reaction_order, step.series.scale, start, &step.end);
-                    }
-                }
-            }
-            _ => {}
+    /// Follows the contacts to the end of a step, and raises the peaks to what it reaches.
+    fn follow_and_raise(&self, base: &mut Base, step: &Step, inputs: &Inputs, end: f64, work: &mut Workspace) {
+        let work = &mut work.for_peaks();
+        let start = base.time();
+        let is_watched = !self.peak_rows.are_none() && step.planned.length > 0.0;
+        let is_flight = step.kind == StepKind::Flight;
+        match is_flight && is_watched {
+            true => self.raise_over_flight(base, step, inputs, work),
+            false => self.note_starts(&base.contacts, work),
         }
-    }
-
-    /// Follows one contact, `elapsed` seconds into a step that has begun at `start` [s]; for a series in time, `powers`
-    /// are those of that time.
-    pub(in crate::engine) fn follow_one(
-        &self,
-        contact: &mut Contact,
-        step: &Step,
-        elapsed: f64,
-        start: f64,
-        powers: &Powers,
-    ) {
-        let p = contact.episode.contact;
-        match step.kind {
-            StepKind::Onset => contact.follow_onset(&step.onset, elapsed / step.onset.scale, start),
-            StepKind::Window if elapsed > 0.0 => contact.follow_window(&step.window, elapsed, start),
-            StepKind::Contact if elapsed > 0.0 && contact.is_held() => {
-                let reaction = self.rigid.pairs.iter().position(|&pair| pair == p).map(|k| &step.reactions[k]);
-                if let Some(terms) = reaction {
-                    contact.follow_reaction(terms, step.reaction_order, step.series.scale, start, powers);
-                }
-            }
-            StepKind::Contact if elapsed > 0.0 => step.closed.follow_one(contact, &step.series, start, powers),
-            _ => {}
+        step.follow(&self.system, &mut base.contacts, start);
+        if is_watched && !is_flight {
+            self.raise_over_step(base, step, inputs, end, work);
         }
     }
 
     /// Penetrations and rates at the end of a step.
-    fn move_contacts(&self, base: &mut Base, step: &Step) {
-        if !step.ends.is_empty() {
+    fn move_contacts(&self, base: &mut Base, planned: &Planned) {
+        if !planned.ends.is_empty() {
             base.watch.move_on(1);
-            for (p, (contact, end)) in base.contacts.iter_mut().zip(&step.ends).enumerate() {
+            for (p, (contact, end)) in base.contacts.iter_mut().zip(&planned.ends).enumerate() {
                 contact.at_surface = false;
                 contact.let_go = false;
                 contact.carried = false;
@@ -203,14 +149,14 @@ impl Model {
             return;
         }
         // What a step without length has not moved keeps what is known of it, which may be more than its floors tell.
-        if step.length == 0.0 {
+        if planned.length == 0.0 {
             return;
         }
         base.watch.move_on(1);
         base.watch.set_all_known();
         let (coordinates, q, v) = (base.coordinates, &base.q, &base.v);
         for ((p, contact), (pair, carried)) in
-            base.contacts.iter_mut().enumerate().zip(self.pairs.iter().zip(&step.carried))
+            base.contacts.iter_mut().enumerate().zip(self.pairs.iter().zip(&planned.carried))
         {
             contact.at_surface = false;
             contact.let_go = false;
@@ -231,7 +177,7 @@ impl Model {
         }
     }
 
-    fn handle(&self, base: &mut Base, event: Event, work: &mut Workspace, on_episode: &mut dyn FnMut(&Episode)) {
+    fn handle(&self, base: &mut Base, event: Event, work: &mut Buffers, on_episode: &mut dyn FnMut(&Episode)) {
         let time = base.time();
         match event {
             Event::Entry(p) if self.pairs[p].law.is_rigid() => {
@@ -302,11 +248,4 @@ fn lanes_sum(modal: &[f64]) -> f64 {
         }
     }
     sum.iter().sum()
-}
-
-impl State {
-    /// Where the planned step ends, s since the start of the segment: by the `limit`, whatever rounding adds.
-    pub(in crate::engine) fn step_end(&self, limit: f64) -> f64 {
-        if self.step.reaches_limit { limit } else { (self.base.elapsed + self.step.length).min(limit) }
-    }
 }

@@ -7,14 +7,14 @@ use crate::engine::excitation::inputs::Inputs;
 use crate::engine::excitation::linear_input::LinearInput;
 
 impl Inputs {
-    pub(in crate::engine) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+    pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
         let Inputs { ground_acceleration, floor_forces, left_floors: _ } = self;
         floor_forces.iter().chain([ground_acceleration]).flat_map(LinearInput::numbers)
     }
 }
 
 impl Base {
-    pub(in crate::engine) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+    pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
         let Base {
             segment: _, // compared as a whole
             elapsed,
@@ -42,7 +42,7 @@ impl Base {
 }
 
 impl Contact {
-    pub(in crate::engine) fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
+    pub fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
         let &Contact {
             phase: _,
             force: _, // compared as a whole
@@ -88,7 +88,7 @@ impl Episode {
 }
 
 impl Account {
-    pub(in crate::engine) fn numbers(&self) -> [f64; 5] {
+    pub fn numbers(&self) -> [f64; 5] {
         let &Account { initial, input, external, viscous, largest } = self;
         [initial, input, external, viscous, largest]
     }

@@ -3,37 +3,32 @@
 //! Every term is integrated by itself, none is the remainder of the others, so that their sum tests the solution.
 
 use crate::engine::base::contact::Contact;
-use crate::engine::base::{Account, Base, Coordinates};
+use crate::engine::base::planned::At;
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::excitation::linear_input::LinearInput;
-use crate::engine::model::Model;
-use crate::engine::output::point::{EnergyPoint, Point};
-use crate::engine::state::{State, Workspace};
-use crate::engine::step::{Step, StepKind};
+use crate::engine::flight::accounted::MOST_PIECES;
+use crate::engine::step::Dense;
+use crate::engine::step::Step;
+use crate::engine::system::System;
+use crate::engine::system::buffers::Buffers;
+use crate::engine::taylor::solution::Solution;
+use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::ROOM;
 use crate::numerics::quadrature::{EIGHT, Rule, TWELVE, gauss, graded};
 use crate::structure::{MotionSeries, dot, flight_order};
 
-/// (Fastest rate) x (time) of a piece of a flight.
-const REACH: f64 = 1.5;
-
-/// Pieces of one flight: what is longer takes several, or none.
-const MOST_PIECES: f64 = 10_000.0;
-
-/// Share of the largest energy so far below which a motion has nothing to lose any more.
-const QUIET: f64 = 1e-20;
-
 /// Work over a stretch of time, J.
 #[derive(Clone, Copy, Debug, Default)]
-struct Work {
-    input: f64,
-    viscous: f64,
-    external: f64,
+pub struct Work {
+    pub input: f64,
+    pub viscous: f64,
+    pub external: f64,
 }
 
-impl Model {
+impl System {
     /// Kinetic and strain energy, J.
-    fn structure_energies(&self, coordinates: Coordinates, q: &[f64], v: &[f64]) -> (f64, f64) {
+    pub fn structure_energies(&self, coordinates: Coordinates, q: &[f64], v: &[f64]) -> (f64, f64) {
         match coordinates {
             Coordinates::Modes => self.structure.energies(q, v),
             Coordinates::Floors => self.structure.floors.energies(q, v),
@@ -41,7 +36,7 @@ impl Model {
     }
 
     /// Opens the account with the energy that is there at the start.
-    pub(in crate::engine) fn open_account(&self, base: &mut Base) {
+    pub fn open_account(&self, base: &mut Base) {
         let (kinetic, strain) = self.structure_energies(base.coordinates, &base.q, &base.v);
         if let Some(account) = &mut base.energy {
             account.initial = kinetic + strain;
@@ -49,16 +44,13 @@ impl Model {
         }
     }
 
-    /// Adds the work of the first `length` seconds of the planned step to the account of the base.
-    pub(in crate::engine) fn add_work(&self, state: &mut State, length: f64) {
-        let State { base, step, inputs, counters, work, .. } = state;
+    /// Adds the work of a step to the account of the base.
+    pub fn add_work(&self, At { base, inputs, counters }: &mut At, step: &Step, work: &mut Buffers) {
         if base.energy.is_none() {
             return;
         }
-        counters.energy_steps += match step.kind {
-            StepKind::Flight => self.pieces(length).min(MOST_PIECES as u64),
-            _ => 1,
-        };
+        let length = step.planned.length;
+        counters.energy_steps += if step.is_flight() { self.pieces(length).min(MOST_PIECES as u64) } else { 1 };
         let done = self.work_over(base, step, inputs, work, length);
         let impact: f64 = base.contacts.iter().map(Contact::dissipated_energy).sum();
         let (kinetic, strain) = self.structure_energies(base.coordinates, &base.q, &base.v);
@@ -71,27 +63,23 @@ impl Model {
     }
 
     /// Work from the base over `length` seconds.
-    fn work_over(&self, base: &Base, step: &Step, inputs: &Inputs, work: &mut Workspace, length: f64) -> Work {
+    pub fn work_over(&self, base: &Base, step: &Step, inputs: &Inputs, work: &mut Buffers, length: f64) -> Work {
         let mut done = Work::default();
         self.find_force_slopes(inputs, base.coordinates, work);
-        match step.kind {
+        match step.dense() {
             _ if length == 0.0 => return done,
-            StepKind::Contact => {
-                let series = &step.series;
+            Dense::Flight => self.integrate_flight(base, inputs, work, length, &mut done),
+            Dense::Taylor(Solution { series, .. }) => {
                 self.integrate_series::<12>(base, series, TWELVE, (0.0, length), work, &mut done);
                 series.set_powers(length, &mut work.powers);
                 series.evaluate(&work.powers, &mut work.q, &mut work.v);
             }
-            StepKind::Onset => {
-                let onset = &step.onset;
+            Dense::Onset(onset) => {
                 let motion = |t: f64, q: &mut [f64], v: &mut [f64]| onset.evaluate(t / onset.scale, q, v);
                 self.integrate(base, motion, graded(TWELVE, length), 0.0, work, &mut done);
                 onset.evaluate(length / onset.scale, &mut work.q, &mut work.v);
             }
-            StepKind::Window => self.integrate_window(base, step, length, work, &mut done),
-            StepKind::Flight | StepKind::Glide | StepKind::Unknown => {
-                self.integrate_flight(base, inputs, work, length, &mut done)
-            }
+            Dense::Window(window, series) => self.integrate_window(base, (window, series), length, work, &mut done),
         }
         // Of the forces as they are at the base; what they change by has its part from the quadratures.
         work.load.fill(0.0);
@@ -109,7 +97,7 @@ impl Model {
     }
 
     /// The rates of the floor forces, where there are any.
-    fn find_force_slopes(&self, inputs: &Inputs, coordinates: Coordinates, work: &mut Workspace) {
+    fn find_force_slopes(&self, inputs: &Inputs, coordinates: Coordinates, work: &mut Buffers) {
         let slope = &mut work.force_slope;
         slope.clear();
         if inputs.floor_forces.iter().all(|force| force.slope() == 0.0) {
@@ -122,41 +110,8 @@ impl Model {
         }
     }
 
-    /// Pieces of a flight of that length, s, each of which a series reaches.
-    fn pieces(&self, length: f64) -> u64 {
-        (self.structure.fastest * length / REACH).ceil().max(1.0) as u64
-    }
-
-    /// What a flight from the base over `length` seconds, under a load and its slope, is shortened to for the account:
-    /// some thousand pieces, unless nothing is left to integrate.
-    pub(in crate::engine) fn accounted_flight(&self, base: &Base, loads: (&[f64], &[f64]), length: f64) -> f64 {
-        let most = self.longest_pieces();
-        match &base.energy {
-            Some(account) if length > most && !self.is_quiet(base, loads, account.largest) => most,
-            _ => length,
-        }
-    }
-
-    /// s.
-    fn longest_pieces(&self) -> f64 {
-        MOST_PIECES * REACH / self.structure.fastest
-    }
-
-    /// Whether damping takes nothing from now on: there is none, or the motion about where the load holds the buildings
-    /// has died out.
-    fn is_quiet(&self, base: &Base, (load, slope): (&[f64], &[f64]), largest: f64) -> bool {
-        if slope.iter().any(|slope| *slope != 0.0) {
-            return false;
-        }
-        let (w2, damping) = (&self.structure.omega2, &self.structure.damping);
-        let held = |m: usize| if w2[m] > 0.0 { load[m] / w2[m] } else { base.q[m] };
-        let swing = |m: usize| w2[m] * (base.q[m] - held(m)) * (base.q[m] - held(m)) + base.v[m] * base.v[m];
-        let moving: f64 = (0..damping.len()).filter(|m| damping[*m] > 0.0).map(swing).sum();
-        moving <= QUIET * largest && self.structure.is_classical() || moving == 0.0
-    }
-
     /// A flight of any length in which damping takes nothing, under a load that is held.
-    fn integrate_quiet_flight(&self, base: &Base, work: &mut Workspace, length: f64, done: &mut Work) {
+    fn integrate_quiet_flight(&self, base: &Base, work: &mut Buffers, length: f64, done: &mut Work) {
         let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
         self.fly(base, length, work, (&mut q, &mut v));
         let moved = dot(&self.structure.participation, &q) - dot(&self.structure.participation, &base.q);
@@ -165,20 +120,28 @@ impl Model {
     }
 
     /// Along the window's own clock; leaves the end in `work.q`, `work.v`.
-    fn integrate_window(&self, base: &Base, step: &Step, length: f64, work: &mut Workspace, done: &mut Work) {
-        let nodes = step.window.nodes(length);
+    fn integrate_window(
+        &self,
+        base: &Base,
+        (window, series): (&Window, &MotionSeries),
+        length: f64,
+        work: &mut Buffers,
+        done: &mut Work,
+    ) {
+        let nodes = window.nodes(length);
         let mut powers = std::mem::take(&mut work.powers);
         let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
-        self.read_window(step, length, &mut powers, (&mut q, &mut v));
+        window.evaluate(self, series, length, &mut powers, (&mut q, &mut v));
         let room = std::cell::RefCell::new(powers);
-        let motion = |t: f64, q: &mut [f64], v: &mut [f64]| self.read_window(step, t, &mut room.borrow_mut(), (q, v));
+        let motion =
+            |t: f64, q: &mut [f64], v: &mut [f64]| window.evaluate(self, series, t, &mut room.borrow_mut(), (q, v));
         self.integrate(base, motion, nodes, 0.0, work, done);
         work.powers = room.into_inner();
         (work.q, work.v) = (q, v);
     }
 
     /// Flies in pieces that a series reaches; leaves the end in `work.q`, `work.v`.
-    fn integrate_flight(&self, base: &Base, inputs: &Inputs, work: &mut Workspace, length: f64, done: &mut Work) {
+    fn integrate_flight(&self, base: &Base, inputs: &Inputs, work: &mut Buffers, length: f64, done: &mut Work) {
         // The account needs fewer digits than the motion, which it does not feed back into.
         const REMAINDER: f64 = 1e-16;
         let pieces = self.pieces(length);
@@ -213,7 +176,7 @@ impl Model {
         series: &MotionSeries,
         rule: &Rule,
         (from, length): (f64, f64),
-        work: &mut Workspace,
+        work: &mut Buffers,
         done: &mut Work,
     ) {
         let is_plain = base.coordinates == Coordinates::Modes && work.force_slope.is_empty();
@@ -253,10 +216,10 @@ impl Model {
         motion: impl Fn(f64, &mut [f64], &mut [f64]),
         nodes: impl Iterator<Item = (f64, f64)>,
         from: f64,
-        work: &mut Workspace,
+        work: &mut Buffers,
         done: &mut Work,
     ) {
-        let Workspace { node_q: q, node_v: v, v: damped, force_slope, .. } = work;
+        let Buffers { node_q: q, node_v: v, v: damped, force_slope, .. } = work;
         for (t, weight) in nodes {
             motion(t, q, v);
             let acceleration = base.segment.acceleration_at(base.elapsed + from + t);
@@ -273,31 +236,5 @@ impl Model {
                 done.external += weight * (from + t) * dot(force_slope, v);
             }
         }
-    }
-
-    /// What the account of the base has come to at a time since it; `point` holds the motion and the contacts there.
-    #[inline(never)]
-    pub(in crate::engine) fn read_energy(
-        &self,
-        mut account: Account,
-        state: &State,
-        elapsed: f64,
-        work: &mut Workspace,
-        point: &Point,
-    ) -> EnergyPoint {
-        if elapsed > 0.0 {
-            let done = self.work_over(&state.base, &state.step, &state.inputs, work, elapsed);
-            account.input += done.input;
-            account.viscous += done.viscous;
-            account.external += done.external;
-        }
-        let (kinetic, strain) = self.structure_energies(point.coordinates, &point.q, &point.v);
-        let contacts = 0..self.pairs.len();
-        let impact = contacts.map(|p| self.contact_in(&state.base, point, p).dissipated_energy).sum();
-        account.update_largest([kinetic, strain, impact]);
-        let Account { initial, input, external, viscous, largest } = account;
-        let imbalance = initial + input + external - kinetic - strain - viscous - impact;
-        let residual = if largest > 0.0 { imbalance / largest } else { 0.0 };
-        EnergyPoint { input, kinetic, strain, viscous, impact, external, residual }
     }
 }

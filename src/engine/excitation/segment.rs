@@ -14,12 +14,12 @@ pub struct Segment {
     pub acceleration: f64,
     /// m/s3.
     pub slope: f64,
-    pub(in crate::engine) place: Place,
+    pub place: Place,
 }
 
 /// Where a segment lies relative to the record.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(in crate::engine) enum Place {
+pub enum Place {
     /// Before the first sample, or a stretch under an input.
     Outside,
     /// From this sample to the next.

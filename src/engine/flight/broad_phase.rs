@@ -26,8 +26,9 @@ use crate::engine::base::Base;
 use crate::engine::base::clearance::MOST;
 use crate::engine::base::counters::Counters;
 use crate::engine::excitation::record::{Ahead, GroundMotion};
-use crate::engine::model::Model;
+use crate::engine::flight::Flight;
 use crate::engine::pairs::pair::Pair;
+use crate::engine::system::System;
 use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane, ModalDamping, Side, Structure};
 use std::ops::Range;
@@ -49,7 +50,7 @@ const CHORD: f64 = 0.414_213_562_4;
 
 /// What stays the same during a run.
 #[derive(Debug)]
-pub(in crate::engine) struct ClosingSpeeds {
+pub struct ClosingSpeeds {
     modes: Vec<ModeBlock>,
     /// What a shaking (integral of |ground acceleration|) of 1 m/s does to each pair.
     pairs: Vec<Growth>,
@@ -136,10 +137,11 @@ impl ClosingSpeeds {
     }
 }
 
-impl Model {
+impl Flight {
     /// Looks at the pairs that have not been dismissed for the base's segment, of that number; whether all are now.
-    pub(in crate::engine) fn dismiss(
+    pub fn dismiss(
         &self,
+        system: &System,
         ground: &GroundMotion,
         base: &mut Base,
         segment: u64,
@@ -150,7 +152,7 @@ impl Model {
         if is_free || segment < base.watch.next_look() {
             return is_free;
         }
-        look_at_all(self, ground, base, segment, counters, amplitude);
+        look_at_all((self, system), ground, base, segment, counters, amplitude);
         let due = base.watch.first_due();
         let patience = if self.near.is_some() { NEAR } else { 1 };
         base.watch.note(due, if due >= segment + USUAL { due } else { due.max(segment + patience) });
@@ -189,23 +191,23 @@ fn share_amplitude(modes: &mut [f64]) {
 /// Looks at each pair that has not been dismissed for a segment. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn look_at_all(
-    model: &Model,
+    (flight, system): (&Flight, &System),
     ground: &GroundMotion,
     base: &mut Base,
     segment: u64,
     counters: &mut Counters,
     amplitude: &mut [f64],
 ) {
-    let size = model.amplitudes(base, amplitude);
+    let size = flight.amplitudes(base, amplitude);
     let (ahead, mut ends) = (ground.ahead_of(segment), [Ends::default(); TRIED.len()]);
     for (ends, segments) in ends.iter_mut().zip(&TRIED) {
         ends.set(&ahead, base.elapsed, segments);
     }
-    for (p, pair) in model.pairs.iter().enumerate() {
+    for (p, pair) in system.pairs.iter().enumerate() {
         if base.watch.is_free(p, segment) {
             continue;
         }
-        let Seen { bounds: sums, pull, moved, rate } = look(model, base, &pair.row, amplitude);
+        let Seen { bounds: sums, pull, moved, rate } = look(&flight.closing, base, &pair.row, amplitude);
         let contact = &mut base.contacts[p];
         if !base.watch.is_known(p) {
             counters.pairs_evaluated += 1;
@@ -220,7 +222,7 @@ fn look_at_all(
             rate: contact.rate,
             pull: pull + MARGIN * sums.change,
             sums,
-            growth: &model.closing.pairs[p],
+            growth: &flight.closing.pairs[p],
         };
         base.watch.clear(p, segment + closing.longest(&ends));
     }
@@ -301,10 +303,10 @@ fn nearest(closing: &Closing, Ends { time, shaking }: &Ends) -> Lane {
 
 /// The sums over modes of one pair: of bounds, and of what its motion is at the base.
 #[inline(always)]
-fn look(model: &Model, base: &Base, row: &[f64], amplitude: &[f64]) -> Seen {
+fn look(closing: &ClosingSpeeds, base: &Base, row: &[f64], amplitude: &[f64]) -> Seen {
     let [row, amplitude, q, v] = [row, amplitude, &base.q, &base.v].map(|all| all.as_chunks::<LANES>().0);
     // Says once that no index below leaves its table.
-    let (modes, count) = (&model.closing.modes[..], model.closing.modes.len());
+    let (modes, count) = (&closing.modes[..], closing.modes.len());
     let (row, amplitude, q, v) = (&row[..count], &amplitude[..count], &q[..count], &v[..count]);
     let (mut speed, mut change, mut bend) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
     let (mut pull, mut moved, mut rate) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);

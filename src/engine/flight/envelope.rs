@@ -10,20 +10,15 @@
 //! at one of the ends, by more than the sum over modes of |row| R. A motion that has died out costs nothing from there
 //! on, and neither does one that goes on for ever without reaching the other floor.
 
-use crate::engine::model::Model;
+use crate::engine::system::System;
 use crate::structure::Side;
 
 /// Margin for rounding, relative to the numbers that a penetration is added up from.
 const MARGIN: f64 = 1e-10;
 
-impl Model {
+impl System {
     /// Whether no pair meets within `length` seconds from a modal motion on, under a load and its slope.
-    pub(in crate::engine) fn swings_stay_apart(
-        &self,
-        (q, v): (&[f64], &[f64]),
-        (load, slope): (&[f64], &[f64]),
-        length: f64,
-    ) -> bool {
+    pub fn swings_stay_apart(&self, (q, v): (&[f64], &[f64]), (load, slope): (&[f64], &[f64]), length: f64) -> bool {
         let structure = &self.structure;
         // Where damping couples modes, what holds them under a load that changes is not worked out here.
         if !structure.is_classical() && slope.iter().any(|slope| *slope != 0.0) {

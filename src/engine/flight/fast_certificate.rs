@@ -13,11 +13,11 @@ use crate::structure::{LANES, Lane, Side, Structure};
 use std::ops::Range;
 
 /// Most blocks of modes that a flight keeps in registers.
-pub(in crate::engine) const MOST_BLOCKS: usize = 3;
+pub const MOST_BLOCKS: usize = 3;
 
 /// What stays the same during a run.
 #[derive(Debug)]
-pub(in crate::engine) struct NearPairs {
+pub struct NearPairs {
     modes: Vec<ModeBlock>,
     /// What each mode is to the pairs, without the padding.
     shares: Vec<Lane>,
@@ -80,7 +80,7 @@ impl NearPairs {
 }
 
 /// What is seen on the way from segment to segment.
-pub(in crate::engine) struct FromNear<'a, const WIDTH: usize> {
+pub struct FromNear<'a, const WIDTH: usize> {
     near: &'a NearPairs,
     /// s, a third of a segment's length h; and s4, h^4/384.
     third: f64,

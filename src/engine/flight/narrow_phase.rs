@@ -5,10 +5,11 @@
 
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::Event;
+use crate::engine::base::planned::Planned;
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::model::Model;
-use crate::engine::state::Workspace;
-use crate::engine::step::Step;
+use crate::engine::flight::Flight;
+use crate::engine::system::System;
+use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::ALL;
 use crate::numerics::roots;
 use crate::structure::{EXACT, flight_order};
@@ -16,40 +17,41 @@ use crate::structure::{EXACT, flight_order};
 /// (Fastest rate) x (time) that one series reaches.
 const REACH: f64 = 1.5;
 
-/// Pieces that one flight is looked at in; what is longer takes another step.
+/// Pieces that one flight is looked at in; what is longer takes another planned.
 const MOST_PIECES: u32 = 10_000;
 
 /// Between series, pieces of this many times their length and more are tried without one.
 const LONGER: u32 = 4;
 
-impl Model {
+impl Flight {
     /// Finds the first entry in the planned flight and shortens the step to it.
-    pub(in crate::engine) fn look_closer(
+    pub fn look_closer(
         &self,
+        system: &System,
         base: &Base,
-        step: &mut Step,
+        planned: &mut Planned,
         counters: &mut Counters,
-        work: &mut Workspace,
+        (look, work): (&mut Look, &mut Buffers),
     ) {
-        let remaining = step.length;
+        let remaining = planned.length;
         let mut unit =
-            if self.structure.fastest * remaining > REACH { REACH / self.structure.fastest } else { remaining };
+            if system.structure.fastest * remaining > REACH { REACH / system.structure.fastest } else { remaining };
         let is_carried = base.contacts.iter().any(|contact| contact.carried);
-        work.look.start(base, &work.load);
+        look.start(base, &work.load);
         if is_carried {
-            self.structure.accelerate(&base.q, &base.v, &work.load, &mut work.q);
-            unit = unit.min(self.bounce_horizon(base, &work.q));
+            system.structure.accelerate(&base.q, &base.v, &work.load, &mut work.q);
+            unit = unit.min(system.bounce_horizon(base, &work.q));
         }
         let (mut series_left, mut longer) = (1, f64::from(LONGER) * unit);
         for _ in 0..MOST_PIECES {
             counters.closer_looks += 1;
-            let left = remaining - work.look.from;
+            let left = remaining - look.from;
             if series_left == 0 && left > unit {
                 let length = left.min(longer);
-                if self.swings_stay_apart((&work.look.q, &work.look.v), (&work.look.load, &work.slope), left) {
+                if system.swings_stay_apart((&look.q, &look.v), (&look.load, &work.slope), left) {
                     return;
                 }
-                if !self.piece_stays_apart(base, work, length) {
+                if !self.piece_stays_apart(system, base, (look, work), length) {
                     (series_left, longer) = (LONGER, f64::from(LONGER) * unit);
                     continue;
                 }
@@ -57,47 +59,61 @@ impl Model {
             } else {
                 series_left -= u32::from(series_left > 0);
                 let length = left.min(unit);
-                let entry = self.first_rise_in(base, work, length);
+                let entry = self.first_rise_in(system, base, (look, work), length);
                 if entry.is_some() || is_carried {
-                    return self.cut_flight(base, step, work, length, entry);
+                    return self.cut_flight(system, base, planned, (look, work), length, entry);
                 }
-                self.move_look(base, work, length);
+                self.move_look(system, base, (look, work), length);
             }
-            if work.look.from >= remaining {
+            if look.from >= remaining {
                 return;
             }
         }
-        step.q.copy_from_slice(&work.look.q);
-        step.v.copy_from_slice(&work.look.v);
-        (step.length, step.reaches_limit) = (work.look.from, false);
+        planned.q.copy_from_slice(&look.q);
+        planned.v.copy_from_slice(&look.v);
+        (planned.length, planned.reaches_limit) = (look.from, false);
     }
 
     /// Ends the step at the entry that has been found in the series of a piece, or with that piece.
-    fn cut_flight(&self, base: &Base, step: &mut Step, work: &mut Workspace, length: f64, entry: Option<(f64, usize)>) {
+    fn cut_flight(
+        &self,
+        system: &System,
+        base: &Base,
+        planned: &mut Planned,
+        (look, work): (&Look, &mut Buffers),
+        length: f64,
+        entry: Option<(f64, usize)>,
+    ) {
         let x = entry.map_or(1.0, |(x, _)| x);
         work.powers.set(x, work.series.order);
-        if entry.is_some() || length < step.length {
-            work.series.evaluate(&work.powers, &mut step.q, &mut step.v);
-            step.length = work.look.from + x * length;
-            step.reaches_limit = false;
-            step.event = entry.map(|(_, p)| Event::Entry(p));
+        if entry.is_some() || length < planned.length {
+            work.series.evaluate(&work.powers, &mut planned.q, &mut planned.v);
+            planned.length = look.from + x * length;
+            planned.reaches_limit = false;
+            planned.event = entry.map(|(_, p)| Event::Entry(p));
         }
-        self.carry(base, &work.series, &work.powers, &mut work.scalar, &mut step.carried);
+        system.carry(base, &work.series, &work.powers, &mut work.scalar, &mut planned.carried);
     }
 
     /// The first entry in a piece, from its power series: where, as a share of the piece, and which pair.
-    fn first_rise_in(&self, base: &Base, work: &mut Workspace, length: f64) -> Option<(f64, usize)> {
+    fn first_rise_in(
+        &self,
+        system: &System,
+        base: &Base,
+        (look, work): (&mut Look, &mut Buffers),
+        length: f64,
+    ) -> Option<(f64, usize)> {
         let order =
-            flight_order(self.structure.fastest * length, EXACT).unwrap_or(crate::numerics::polynomial::MAX_ORDER);
-        let Look { from, q, v, load, stay_apart, .. } = &work.look;
-        work.series.expand_flight(&self.structure, (q, v), (load, &work.slope), (length, order));
+            flight_order(system.structure.fastest * length, EXACT).unwrap_or(crate::numerics::polynomial::MAX_ORDER);
+        let Look { from, q, v, load, stay_apart, .. } = &*look;
+        work.series.expand_flight(&system.structure, (q, v), (load, &work.slope), (length, order));
         let mut first: Option<(f64, usize)> = None;
-        for (p, (pair, contact)) in self.pairs.iter().zip(&base.contacts).enumerate() {
+        for (p, (pair, contact)) in system.pairs.iter().zip(&base.contacts).enumerate() {
             if stay_apart[p] {
                 continue;
             }
             let terms = &mut work.scalar[..=work.series.order];
-            let mut noise = pair.noise(self.project(p, Coordinates::Modes, &work.series, &ALL, terms));
+            let mut noise = pair.noise(system.project(p, Coordinates::Modes, &work.series, &ALL, terms));
             if *from == 0.0 {
                 noise = contact.begin_flight(terms, length, noise);
             } else {
@@ -112,43 +128,49 @@ impl Model {
     }
 
     /// Whether no pair meets in a piece, shown by both ends as for a whole flight; if so, the look has moved on.
-    fn piece_stays_apart(&self, base: &Base, work: &mut Workspace, length: f64) -> bool {
-        let Look { q, v, load, .. } = &work.look;
-        let deviation = self.deviation_from_cubic((q, v), (load, &work.slope), length, &mut work.scratch);
-        self.fly_look(base, work, length);
-        let Look { q, v, end_q, end_v, stay_apart, .. } = &work.look;
-        let stays_apart = self.pairs.iter().enumerate().all(|(p, pair)| {
+    fn piece_stays_apart(
+        &self,
+        system: &System,
+        base: &Base,
+        (look, work): (&mut Look, &mut Buffers),
+        length: f64,
+    ) -> bool {
+        let Look { q, v, load, .. } = &*look;
+        let deviation = self.deviation_from_cubic(system, (q, v), (load, &work.slope), length, &mut work.scratch);
+        self.fly_look(system, base, (look, work), length);
+        let Look { q, v, end_q, end_v, stay_apart, .. } = &*look;
+        let stays_apart = system.pairs.iter().enumerate().all(|(p, pair)| {
             let (start, end) = (pair.penetration(q, v), pair.penetration(end_q, end_v));
             stay_apart[p] || highest_of_cubic(start, end, length) + deviation < 0.0
         });
         if stays_apart {
-            work.look.move_on(length, &work.slope);
+            look.move_on(length, &work.slope);
         }
         stays_apart
     }
 
     /// Moves the look on by the exact flight.
-    fn move_look(&self, base: &Base, work: &mut Workspace, length: f64) {
-        self.fly_look(base, work, length);
-        work.look.move_on(length, &work.slope);
+    fn move_look(&self, system: &System, base: &Base, (look, work): (&mut Look, &mut Buffers), length: f64) {
+        self.fly_look(system, base, (look, work), length);
+        look.move_on(length, &work.slope);
     }
 
     /// Flies from the base to the end of a piece.
-    fn fly_look(&self, base: &Base, work: &mut Workspace, length: f64) {
-        let (mut q, mut v) = (std::mem::take(&mut work.look.end_q), std::mem::take(&mut work.look.end_v));
-        self.fly(base, work.look.from + length, work, (&mut q, &mut v));
-        (work.look.end_q, work.look.end_v) = (q, v);
+    fn fly_look(&self, system: &System, base: &Base, (look, work): (&mut Look, &mut Buffers), length: f64) {
+        let (mut q, mut v) = (std::mem::take(&mut look.end_q), std::mem::take(&mut look.end_v));
+        system.fly(base, look.from + length, work, (&mut q, &mut v));
+        (look.end_q, look.end_v) = (q, v);
     }
 }
 
 /// The largest control value of the cubic Hermite interpolant from values and rates at both ends.
-pub(in crate::engine) fn highest_of_cubic((start, rate): (f64, f64), (end, end_rate): (f64, f64), h: f64) -> f64 {
+pub fn highest_of_cubic((start, rate): (f64, f64), (end, end_rate): (f64, f64), h: f64) -> f64 {
     start.max(start + h / 3.0 * rate).max(end - h / 3.0 * end_rate).max(end)
 }
 
 /// Where a look has got to: content means nothing between calls.
 #[derive(Clone, Debug)]
-pub(in crate::engine) struct Look {
+pub struct Look {
     /// s since the base.
     from: f64,
     /// The motion there and the load.

@@ -3,20 +3,22 @@
 //! The step ends before anything else can happen - a turn, a release, an entry elsewhere -, shown by bounds on the sums
 //! of its terms, so it has no event of its own.
 
+use crate::contact::EpisodeForce;
 use crate::contact::Force;
 use crate::contact::onset::{
     Grid, GridPowers, MOST_TERMS, OnsetBlock, OnsetReading, Products, value_and_slope, values_and_slopes,
 };
 use crate::contact::series::Kind;
 use crate::engine::base::contact::Contact;
+use crate::engine::base::planned::At;
+use crate::engine::base::planned::Planned;
 use crate::engine::base::touching;
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::model::Model;
 use crate::engine::pairs::jacobian::{Meeting, OnFloors, OnModes};
 use crate::engine::pairs::packing::{Members, Place, most_blocks};
 use crate::engine::pairs::pair::Pair;
-use crate::engine::state::{State, Workspace};
-use crate::engine::step::StepKind;
+use crate::engine::system::System;
+use crate::engine::system::buffers::Buffers;
 use crate::numerics::quadrature::{TWELVE, graded};
 use crate::numerics::roots;
 use crate::structure::{LANES, Lane, Structure, sum_sizes, sum_terms};
@@ -36,7 +38,7 @@ const JUST_AFTER: f64 = 1e-6;
 
 /// The double series of the motion and of all contacts.
 #[derive(Clone, Debug, Default)]
-pub(in crate::engine) struct OnsetSeries {
+pub struct OnsetSeries {
     grid: Option<Grid>,
     /// Those of its terms, for pairs that touch and that enter, once they are known for its beta.
     products: [Products; 2],
@@ -59,10 +61,11 @@ pub(in crate::engine) struct OnsetSeries {
 
 impl OnsetSeries {
     /// Room for the largest grid; none where no law needs one.
-    pub fn new(lanes: usize, pairs: usize, needed: bool, on_floors: bool) -> OnsetSeries {
-        if !needed {
+    pub fn new(System { structure, pairs, contact_coordinates, .. }: &System) -> OnsetSeries {
+        if !has_singular_law(pairs) {
             return OnsetSeries::default();
         }
+        let (lanes, pairs, on_floors) = (structure.lanes, pairs.len(), *contact_coordinates == Coordinates::Floors);
         // Each of five kinds has one block that is not full, of pairs that enter and of pairs that touch.
         let most = most_blocks(pairs, 10, on_floors);
         OnsetSeries {
@@ -173,6 +176,11 @@ impl OnsetSeries {
     }
 }
 
+/// Whether a force has no power series at d = 0.
+fn has_singular_law(pairs: &[Pair]) -> bool {
+    pairs.iter().any(|pair| !EpisodeForce::new(&pair.law, pair.mass, None).engaged.is_regular())
+}
+
 /// All terms, row by row: u_(i+2) from the force, load, damping and stiffness terms two powers of x below. Wide
 /// instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
@@ -272,45 +280,49 @@ fn resist(
     }
 }
 
-impl Model {
-    /// Works out the first step of an episode; `false` where a plain step has to do it: entries without speed to
+impl System {
+    /// Works out the first step of an episode, under a load that is in `work`; `false` where a plain step has to do it: entries without speed to
     /// speak of, or of different laws at the same instant.
-    pub(in crate::engine) fn plan_onset(&self, state: &mut State, remaining: f64) -> bool {
-        let State { base, step, inputs, counters, work, .. } = state;
-        self.load(base, inputs, &mut work.load, &mut work.slope);
+    pub fn plan_onset(
+        &self,
+        At { base, counters, .. }: &mut At,
+        remaining: f64,
+        planned: &mut Planned,
+        onset: &mut OnsetSeries,
+        work: &mut Buffers,
+    ) -> bool {
         let Some((grid, scale)) = self.onset_grid(base, work, remaining) else { return false };
-        step.onset.start(base, &self.pairs, grid, scale);
+        onset.start(base, &self.pairs, grid, scale);
         let loads = (&work.load[..], &work.slope[..]);
         match base.coordinates {
-            Coordinates::Floors => expand(&mut step.onset, &self.structure, base.coordinates, loads, &OnFloors),
+            Coordinates::Floors => expand(onset, &self.structure, base.coordinates, loads, &OnFloors),
             Coordinates::Modes => {
-                expand(&mut step.onset, &self.structure, base.coordinates, loads, &OnModes(&self.pairs));
+                expand(onset, &self.structure, base.coordinates, loads, &OnModes(&self.pairs));
             }
         }
-        let accurate = self.onset_reach(base, &step.onset, &grid);
+        let accurate = self.onset_reach(base, onset, &grid);
         let reach = accurate.min(remaining / scale);
-        let Some(x) = self.certain_reach(base, &mut step.onset, &mut work.node_q, reach) else {
+        let Some(x) = self.certain_reach(base, onset, &mut work.node_q, reach) else {
             return false;
         };
         counters.contact_steps += 1;
         counters.law_evaluations += base.count_forces(Contact::branch);
-        step.carried.fill(None);
-        step.ends.clear();
-        step.kind = StepKind::Onset;
-        step.event = None;
-        step.reaches_limit = x * scale >= remaining;
-        step.length = if step.reaches_limit { remaining } else { x * scale };
-        step.onset.read(step.length / scale);
-        step.onset.evaluate(step.length / scale, &mut step.q, &mut step.v);
-        step.next_length = Some(step.length);
+        planned.carried.fill(None);
+        planned.ends.clear();
+        planned.event = None;
+        planned.reaches_limit = x * scale >= remaining;
+        planned.length = if planned.reaches_limit { remaining } else { x * scale };
+        onset.read(planned.length / scale);
+        onset.evaluate(planned.length / scale, &mut planned.q, &mut planned.v);
+        planned.next_length = Some(planned.length);
         true
     }
 
     /// The grid that all entering pairs share, and the time in which the quickest of them would turn round.
-    fn onset_grid(&self, base: &Base, work: &mut Workspace, remaining: f64) -> Option<(Grid, f64)> {
+    fn onset_grid(&self, base: &Base, work: &mut Buffers, remaining: f64) -> Option<(Grid, f64)> {
         let mut found: Option<Grid> = None;
         let mut scale = self.series_scale(base, remaining);
-        let allowed = self.step_tolerance * base.velocity_scale;
+        let allowed = self.tolerance.step * base.velocity_scale;
         self.accelerate(base.coordinates, (&base.q, &base.v), &work.load, &mut work.q);
         for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| contact.is_singular()) {
             let force = contact.branch();
@@ -334,7 +346,7 @@ impl Model {
     /// How far the last terms stay below the tolerance. Free masses have the terms x^(1 + beta j) only, and the last row
     /// begins up to one power of x and one of z below the highest.
     fn onset_reach(&self, base: &Base, onset: &OnsetSeries, grid: &Grid) -> f64 {
-        let allowed = self.step_tolerance * base.velocity_scale * onset.scale;
+        let allowed = self.tolerance.step * base.velocity_scale * onset.scale;
         let mut last = [0.0; MOST_TERMS];
         grid.each(|index, exponent| {
             if exponent > HIGHEST - 1.0 - grid.beta {
@@ -445,7 +457,7 @@ fn turning_time(force: &Force, mass: f64, speed: f64) -> f64 {
 
 impl Contact {
     /// Follows the contact over 0..=x of an onset step: penetration, impulse, peaks, work.
-    pub(in crate::engine) fn follow_onset(&mut self, onset: &OnsetSeries, x: f64, start: f64) {
+    pub fn follow_onset(&mut self, onset: &OnsetSeries, x: f64, start: f64) {
         let Some(grid) = &onset.grid else { return };
         let ((block, lane), scale) = (onset.places[self.episode.contact], onset.scale);
         let (block, reading) = (&onset.blocks[block], &onset.readings[block]);

@@ -5,7 +5,8 @@ use crate::engine::excitation::linear_input::LinearInput;
 use crate::engine::model::Model;
 use crate::engine::output::point::Point;
 use crate::engine::output::rates::{PointRates, Rates};
-use crate::engine::state::{State, Workspace};
+use crate::engine::state::State;
+use crate::engine::system::buffers::Buffers;
 
 /// First and second derivatives of the energy account, W and W/s. Names as in [`super::EnergyPoint`], whose residual stays.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -34,14 +35,14 @@ impl Model {
         state: &State,
         point: &Point,
         rates: &PointRates,
-        work: &mut Workspace,
+        work: &mut Buffers,
     ) -> Option<EnergyRates> {
         point.energy?;
         let coordinates = point.coordinates;
         let (u, v) = (&point.q[..], &point.v[..]);
         let (a, jerk) = rates.motion();
         let inner = |x: &[f64], y: &[f64]| self.inner(coordinates, x, y);
-        let Workspace { load, slope, node_q: rest, node_v: force, .. } = work;
+        let Buffers { load, slope, node_q: rest, node_v: force, .. } = work;
         rest.fill(0.0);
         let mut product = |u: &[f64], v: &[f64], with: &[f64]| {
             force.fill(0.0);

@@ -6,7 +6,8 @@
 use crate::engine::model::Model;
 use crate::engine::output::point::Point;
 use crate::engine::pairs::pair::Pair;
-use crate::engine::state::{State, Workspace};
+use crate::engine::state::State;
+use crate::engine::system::buffers::Buffers;
 use crate::structure::Side;
 
 /// The answer to some forces on the floors; everything else stays as it is.
@@ -16,7 +17,7 @@ pub struct Response {
     pub reactions: Vec<f64>,
     /// m/s2, floor by floor.
     accelerations: Vec<f64>,
-    work: Option<Box<Workspace>>,
+    work: Option<Box<Buffers>>,
 }
 
 impl Model {
@@ -39,7 +40,7 @@ impl Model {
 
     /// Lets the rigid pairs answer that press now, as `point` shows them: their floors stay together.
     pub fn settle_response(&self, state: &State, point: &Point, response: &mut Response) {
-        let mut work = response.work.take().unwrap_or_else(|| Box::new(self.workspace()));
+        let mut work = response.work.take().unwrap_or_else(|| Box::new(self.buffers()));
         self.list_pressing(&state.base, point, &mut work);
         let (rigid, accelerations) = (&mut work.rigid, &mut response.accelerations);
         for (&k, known) in rigid.pairs.iter().zip(&mut rigid.known) {

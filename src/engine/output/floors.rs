@@ -16,7 +16,7 @@ struct KnownBlock<const N: usize> {
 
 /// What is known of the floors at one time.
 #[derive(Clone, Debug, Default)]
-pub(in crate::engine) struct FloorMotions {
+pub struct FloorMotions {
     /// Number of this observation, from 1 on.
     pub observation: u64,
     /// Displacement, m, and velocity, m/s, relative to the ground.
@@ -34,7 +34,7 @@ pub(in crate::engine) struct FloorMotions {
 
 /// Accelerations in the coordinates of a point, m/s2.
 #[derive(Clone, Debug, Default)]
-pub(in crate::engine) struct Accelerations {
+pub struct Accelerations {
     /// Relative to a ground at rest.
     pub absolute: Vec<f64>,
     /// The part that comes from the buildings' own stiffness and damping.

@@ -1,6 +1,8 @@
 //! Reading the solution at the communication time, out of the dense solution of the step under way.
 
 use crate::engine::output::point::Known;
+use crate::engine::system::buffers::Buffers;
+pub mod energy;
 pub mod energy_rates;
 pub mod feedthrough;
 pub mod floors;
@@ -11,14 +13,11 @@ pub mod rates;
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::contact::Episode;
-use crate::engine::excitation::linear_input::LinearInput;
 use crate::engine::model::Model;
 use crate::engine::output::point::{ContactPoint, Point};
-use crate::engine::state::{State, Workspace};
-use crate::engine::step::{Step, StepKind};
+use crate::engine::state::State;
+use crate::engine::step::StepKind;
 use crate::numerics::powers::Powers;
-use crate::structure::Side;
-use crate::structure::{exact_order, fly_in_one_series};
 use std::cell::Cell;
 
 impl Model {
@@ -39,10 +38,10 @@ impl Model {
             None => inputs.ground_acceleration.at(state.time),
         };
         let elapsed = state.since_base();
-        let mut work = point.work.take().unwrap_or_else(|| Box::new(self.workspace()));
-        self.read_modes(state, elapsed, &mut work, point);
+        let mut work = point.work.take().unwrap_or_else(|| Box::new(self.buffers()));
+        step.evaluate(&self.system, (base, inputs), elapsed, &mut work, (&mut point.q, &mut point.v));
         // In a flight no contact has a force.
-        let is_flight = matches!(step.kind, StepKind::Flight | StepKind::Glide);
+        let is_flight = step.is_flight();
         if !is_flight {
             self.note_contacts(state, elapsed, &mut work, point);
         }
@@ -64,10 +63,10 @@ impl Model {
 
     /// What the pairs that are in contact show.
     #[inline(never)]
-    fn note_contacts(&self, state: &State, elapsed: f64, work: &mut Workspace, point: &Point) {
+    fn note_contacts(&self, state: &State, elapsed: f64, work: &mut Buffers, point: &Point) {
         let State { base, step, inputs, .. } = state;
         for (p, _) in base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact()) {
-            let now = self.contact_at(base, step, p, elapsed, &work.powers);
+            let now = step.contact_at(&self.system, base, p, elapsed, &work.powers);
             point.note_contact(p, self.show(&now, now.penetration));
         }
         if step.kind == StepKind::Unknown && base.contacts.iter().any(Contact::is_held) {
@@ -78,61 +77,6 @@ impl Model {
                 point.note_contact(p, ContactPoint { force, ..self.contact_in(base, point, p) });
             }
         }
-    }
-
-    /// q and v at a time since the base.
-    fn read_modes(&self, state: &State, elapsed: f64, work: &mut Workspace, point: &mut Point) {
-        let State { base, step, inputs, .. } = state;
-        match step.kind {
-            _ if elapsed == 0.0 => {
-                point.q.copy_from_slice(&base.q);
-                point.v.copy_from_slice(&base.v);
-            }
-            StepKind::Contact => {
-                step.series.set_powers(elapsed, &mut work.powers);
-                step.series.evaluate(&work.powers, &mut point.q, &mut point.v);
-            }
-            StepKind::Onset => step.onset.evaluate(elapsed / step.onset.scale, &mut point.q, &mut point.v),
-            StepKind::Window => self.read_window(step, elapsed, &mut work.powers, (&mut point.q, &mut point.v)),
-            StepKind::Flight | StepKind::Glide | StepKind::Unknown => {
-                self.load(base, inputs, &mut work.load, &mut work.slope);
-                if !self.fly_back(state, elapsed, work, (&mut point.q, &mut point.v)) {
-                    self.fly(base, elapsed, work, (&mut point.q, &mut point.v));
-                }
-            }
-        }
-    }
-
-    /// Reads a flight that is all but over from its end; whether it is one. Masters whose time differs from that of a
-    /// sample by its rounding ask for it all the time, and few terms are enough.
-    fn fly_back(&self, state: &State, elapsed: f64, work: &mut Workspace, (q, v): (&mut [f64], &mut [f64])) -> bool {
-        // Far below what a series reaches, so that what damping takes forwards is not given back as rounding.
-        const NEAR: f64 = 1e-6;
-        let State { base, step, .. } = state;
-        let length = match step.kind {
-            StepKind::Flight => step.length,
-            StepKind::Glide => base.segment.length,
-            _ => return false,
-        };
-        let left = length - elapsed;
-        let reach = self.structure.fastest * left;
-        if !(self.structure.is_classical() && left > 0.0 && reach <= NEAR) {
-            return false;
-        }
-        let Some(order) = exact_order(reach) else { return false };
-        let end = if step.kind == StepKind::Glide {
-            let (mut end_q, mut end_v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
-            self.fly(base, length, work, (&mut end_q, &mut end_v));
-            (work.q, work.v) = (end_q, end_v);
-            (&work.q[..], &work.v[..])
-        } else {
-            (&step.q[..], &step.v[..])
-        };
-        for (load, slope) in work.load.iter_mut().zip(&work.slope) {
-            *load += slope * length;
-        }
-        fly_in_one_series(&self.structure, end, (&work.load, &work.slope), (-left, order), (q, v));
-        true
     }
 
     /// The floor and contact forces as accelerations answer to them; contacts apart have none.
@@ -192,70 +136,14 @@ impl Model {
     pub fn open_episode(&self, state: &State, contact: usize) -> Option<Episode> {
         let elapsed = state.since_base();
         let mut powers = Powers::default();
-        state.step.series.set_powers(elapsed, &mut powers);
-        let contact = self.contact_at(&state.base, &state.step, contact, elapsed, &powers);
+        state.step.set_powers(elapsed, &mut powers);
+        let contact = state.step.contact_at(&self.system, &state.base, contact, elapsed, &powers);
         contact.in_contact().then(|| contact.present_episode())
-    }
-
-    /// A contact at a time since the base; for a series in time, `powers` are those of that time.
-    pub(in crate::engine) fn contact_at(
-        &self,
-        base: &Base,
-        step: &Step,
-        p: usize,
-        elapsed: f64,
-        powers: &Powers,
-    ) -> Contact {
-        let mut contact = base.contacts[p];
-        if contact.in_contact() && elapsed > 0.0 {
-            self.follow_one(&mut contact, step, elapsed, base.time(), powers);
-        }
-        contact
     }
 }
 
 impl Point {
     fn note_contact(&self, p: usize, shown: ContactPoint) {
         self.contacts[p].set(Known { observation: self.floors.observation, shown });
-    }
-}
-
-impl State {
-    /// s from the base to the present time, as far as the step under way is known.
-    pub(in crate::engine) fn since_base(&self) -> f64 {
-        match self.step.kind {
-            StepKind::Unknown => 0.0,
-            _ => (self.time - (self.base.segment.start + self.base.elapsed)).max(0.0),
-        }
-    }
-
-    /// m/s2, now; only where the scene has no record. Held from now on, unless a rate is set for the same time.
-    pub fn set_ground_acceleration(&mut self, acceleration: f64) {
-        self.inputs.ground_acceleration.set_value(acceleration, self.time);
-    }
-
-    /// m/s3, from now on until the acceleration or its rate is set again.
-    pub fn set_ground_acceleration_rate(&mut self, rate: f64) {
-        self.inputs.ground_acceleration.set_slope(rate, self.time);
-    }
-
-    /// N, now; only where the scene has floor forces. Floors counted from 0. Held from now on, unless a rate is set for
-    /// the same time.
-    pub fn set_floor_force(&mut self, side: Side, floor: usize, force: f64) {
-        let time = self.time;
-        self.change_floor_force(side, floor, |input| input.set_value(force, time));
-    }
-
-    /// N/s, from now on until the force or its rate is set again.
-    pub fn set_floor_force_rate(&mut self, side: Side, floor: usize, rate: f64) {
-        let time = self.time;
-        self.change_floor_force(side, floor, |input| input.set_slope(rate, time));
-    }
-
-    fn change_floor_force(&mut self, side: Side, floor: usize, change: impl FnOnce(&mut LinearInput)) {
-        let place = self.inputs.place(side, floor);
-        if let Some(input) = self.inputs.floor_forces.get_mut(place) {
-            change(input);
-        }
     }
 }

@@ -3,7 +3,8 @@
 use crate::engine::base::Coordinates;
 use crate::engine::output::floors::FloorMotions;
 use crate::engine::peaks::PeakCell;
-use crate::engine::state::Workspace;
+use crate::engine::system::buffers::Buffers;
+
 use std::cell::Cell;
 /// The solution at one time, as floors and contacts show it, each worked out when it is first read.
 #[derive(Clone, Debug, Default)]
@@ -24,7 +25,7 @@ pub struct Point {
     pub(in crate::engine) floors: FloorMotions,
     /// What is known of each contact.
     pub(in crate::engine) contacts: Vec<Cell<Known>>,
-    pub(in crate::engine) work: Option<Box<Workspace>>,
+    pub(in crate::engine) work: Option<Box<Buffers>>,
     pub(in crate::engine) peaks: PeakCell,
 }
 

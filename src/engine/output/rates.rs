@@ -11,7 +11,8 @@ use crate::engine::excitation::linear_input::LinearInput;
 use crate::engine::model::Model;
 use crate::engine::output::energy_rates::EnergyRates;
 use crate::engine::output::point::Point;
-use crate::engine::state::{State, Workspace};
+use crate::engine::state::State;
+use crate::engine::system::buffers::Buffers;
 use crate::structure::Side;
 
 /// What a quantity may be below its peak so far by rounding, relative to it.
@@ -39,7 +40,7 @@ pub struct PointRates {
     is_beginning: bool,
     /// The force of each contact and its penetration, m; none for rigid ones.
     forces: Vec<(Force, f64)>,
-    work: Option<Box<Workspace>>,
+    work: Option<Box<Buffers>>,
 }
 
 /// The derivatives of one contact. Names as in [`super::ContactPoint`].
@@ -64,7 +65,7 @@ impl Model {
     /// Where a contact begins at this very instant its force has no derivatives yet: they and what follows from them
     /// read 0.
     pub fn differentiate(&self, state: &State, point: &Point, rates: &mut PointRates) {
-        let mut work = rates.work.take().unwrap_or_else(|| Box::new(self.workspace()));
+        let mut work = rates.work.take().unwrap_or_else(|| Box::new(self.buffers()));
         rates.clear(self.structure.lanes);
         let slope = match &self.ground {
             Some(_) => state.base.segment.slope,
@@ -100,13 +101,13 @@ impl Model {
         state: &State,
         point: &Point,
         rates: &mut PointRates,
-        work: &mut Workspace,
+        work: &mut Buffers,
     ) -> bool {
         let elapsed = state.since_base();
-        state.step.series.set_powers(elapsed, &mut work.powers);
+        state.step.set_powers(elapsed, &mut work.powers);
         let mut is_beginning = false;
         for p in 0..self.pairs.len() {
-            let contact = self.contact_at(&state.base, &state.step, p, elapsed, &work.powers);
+            let contact = state.step.contact_at(&self.system, &state.base, p, elapsed, &work.powers);
             let relative = |motion: &[f64]| self.pairs[p].relative(point.coordinates, motion);
             let penetration = match contact.phase {
                 Phase::Held if self.contact(state, point, p).force > 0.0 => [0.0; 2],
@@ -123,7 +124,7 @@ impl Model {
     }
 
     /// Lists the rigid pairs that press at this instant and makes them all active.
-    pub(in crate::engine) fn list_pressing(&self, base: &Base, point: &Point, work: &mut Workspace) {
+    pub(in crate::engine) fn list_pressing(&self, base: &Base, point: &Point, work: &mut Buffers) {
         work.rigid.clear();
         let pressing = |p: usize| base.contacts[p].is_held() && self.contact_in(base, point, p).force > 0.0;
         for (k, _) in self.rigid.pairs.iter().enumerate().filter(|&(_, &p)| pressing(p)) {
@@ -140,11 +141,11 @@ impl Model {
         state: &State,
         point: &Point,
         rates: &mut PointRates,
-        work: &mut Workspace,
+        work: &mut Buffers,
     ) {
         let coordinates = point.coordinates;
         let PointRates { contacts, acceleration, jerk, snap, resisted, forces, ground_acceleration, .. } = rates;
-        let Workspace { load, rigid, .. } = work;
+        let Buffers { load, rigid, .. } = work;
         let resisted = &mut resisted[order];
         let motion = if order == 0 { (&point.v, &*acceleration) } else { (&*acceleration, &*jerk) };
         self.resist(coordinates, motion.0, motion.1, 1.0, resisted);

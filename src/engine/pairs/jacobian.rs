@@ -7,7 +7,7 @@ use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane, difference};
 
 /// How contact forces and the motion meet in its coordinates. `count` lanes of the members hold pairs.
-pub(in crate::engine) trait Meeting {
+pub trait Meeting {
     /// Relative motions of the pairs.
     fn relative(&self, members: &Members, count: usize, term: &[Lane]) -> Each;
     /// The same, 0 where the floors move alike but for rounding.
@@ -29,7 +29,7 @@ pub(in crate::engine) trait Meeting {
 }
 
 /// The motion is that of the floors.
-pub(in crate::engine) struct OnFloors;
+pub struct OnFloors;
 
 impl Meeting for OnFloors {
     #[inline(always)]
@@ -95,7 +95,7 @@ impl OnFloors {
 
 /// The motion is that of modes that are few enough for the members to know all of them; of use for all lanes, those of
 /// riders too.
-pub(in crate::engine) struct OnFewModes;
+pub struct OnFewModes;
 
 impl Meeting for OnFewModes {
     #[inline(always)]
@@ -124,7 +124,7 @@ impl Meeting for OnFewModes {
 }
 
 /// The motion is that of the modes.
-pub(in crate::engine) struct OnModes<'a>(pub &'a [Pair]);
+pub struct OnModes<'a>(pub &'a [Pair]);
 
 impl OnModes<'_> {
     #[inline(always)]
@@ -163,7 +163,7 @@ fn lane_by_lane(count: usize, of: impl Fn(usize) -> f64) -> Each {
 
 /// Sum of products of a row and a term.
 #[inline(always)]
-pub(in crate::engine) fn dot_blocks(row: &[Lane], term: &[Lane]) -> f64 {
+pub fn dot_blocks(row: &[Lane], term: &[Lane]) -> f64 {
     let mut sum = [0.0; LANES];
     for (row, term) in row.iter().zip(term) {
         for i in 0..LANES {

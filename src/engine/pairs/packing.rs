@@ -7,7 +7,7 @@ use crate::structure::{FEW_BLOCKS, LANES, Lane};
 
 /// Which block of a kind a pair belongs to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(in crate::engine) enum Place {
+pub enum Place {
     /// Any that has a free lane.
     #[default]
     Any,
@@ -35,7 +35,7 @@ impl Place {
 
 /// The pairs of a block, lane by lane; lanes without a pair hold what was there before.
 #[derive(Clone, Debug, Default)]
-pub(in crate::engine) struct Members {
+pub struct Members {
     /// Their numbers.
     pub pairs: [usize; PAIRS],
     /// Which lanes hold a pair.
@@ -110,7 +110,7 @@ impl Members {
 }
 
 /// Most blocks that so many pairs of some kinds fill.
-pub(in crate::engine) fn most_blocks(pairs: usize, kinds: usize, on_floors: bool) -> usize {
+pub fn most_blocks(pairs: usize, kinds: usize, on_floors: bool) -> usize {
     // Every block has at least one pair; on floors their places may keep them apart.
     if on_floors || pairs == 0 { pairs } else { pairs.min(pairs.div_ceil(PAIRS) + kinds - 1) }
 }

@@ -1,5 +1,6 @@
 //! Two facing floors.
 
+use crate::contact::Force;
 use crate::contact::{EpisodeForce, ImpactLaw};
 use crate::engine::base::Coordinates;
 use crate::engine::base::contact::{Contact, Episode, Phase};
@@ -51,6 +52,11 @@ impl Pair {
             lanes,
             first_blocks,
         }
+    }
+
+    /// Whether its force goes as a power of the penetration, but for 1 and whole laws that do not.
+    pub fn has_power_law(&self) -> bool {
+        matches!(EpisodeForce::new(&self.law, self.mass, None).engaged, Force::Power { .. } | Force::Root { .. })
     }
 
     /// m and m/s.

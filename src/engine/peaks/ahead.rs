@@ -18,9 +18,9 @@
 use crate::engine::base::Base;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::model::Model;
+use crate::engine::peaks::PeakWork;
 use crate::engine::peaks::flight::ModeBounds;
 use crate::engine::peaks::rows::{Block, BuildingRows};
-use crate::engine::state::Workspace;
 use crate::numerics::polynomial::each;
 use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Lane};
@@ -34,7 +34,7 @@ const MARGIN: f64 = 1e-10;
 
 /// For how long what is clear of its peak.
 #[derive(Clone, Debug, Default)]
-pub(in crate::engine) struct PeakWatch {
+pub struct PeakWatch {
     /// The first segment for which the bounds do not hold.
     until: u64,
     /// The first segment in which anything may exceed its peak, as far as is known.
@@ -106,7 +106,7 @@ impl Model {
         ground: &GroundMotion,
         base: &mut Base,
         segment: u64,
-        work: &mut Workspace,
+        work: &mut PeakWork,
     ) -> u64 {
         if self.peak_rows.are_none() {
             return u64::MAX;
@@ -141,7 +141,7 @@ impl Model {
 
     /// Works out bounds for some segments from the base on.
     #[inline(never)]
-    fn bound_ahead(&self, ground: &GroundMotion, base: &Base, segment: u64, work: &mut Workspace) {
+    fn bound_ahead(&self, ground: &GroundMotion, base: &Base, segment: u64, work: &mut PeakWork) {
         let ahead = ground.ahead_of(segment);
         let shaking = [SHORT, LONG].map(|segments| ahead.over(segments).1);
         let (strongest, steepest) = ahead.largest(SHORT);
@@ -204,7 +204,7 @@ impl Model {
         b: usize,
         segment: u64,
         base: &mut Base,
-        work: &mut Workspace,
+        work: &mut PeakWork,
     ) -> bool {
         let watched = &mut work.peaks.watch.blocks[building.first + b];
         if watched.clear_until > segment {

@@ -8,10 +8,14 @@ use crate::engine::model::Model;
 use crate::engine::output::point::Point;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::peaks::PeakOf;
+use crate::engine::peaks::PeakWork;
 use crate::engine::peaks::floors::FloorRoom;
+use crate::engine::peaks::reading::highest_in_onset;
 use crate::engine::peaks::search::{Quantity, highest};
-use crate::engine::state::{State, Workspace};
-use crate::engine::step::{Step, StepKind};
+use crate::engine::state::State;
+use crate::engine::step::Dense;
+use crate::engine::step::Step;
+use crate::engine::taylor::solution::Solution;
 use crate::numerics::polynomial::larger;
 use crate::numerics::polynomial::value_and_slope;
 use crate::numerics::powers::Powers;
@@ -24,7 +28,7 @@ const TRUSTED: f64 = 1e-6;
 
 /// A step in contact, or its first part.
 #[derive(Clone, Copy)]
-pub(in crate::engine) struct ContactStep<'a> {
+pub struct ContactStep<'a> {
     /// What it starts from.
     pub base: &'a Base,
     pub step: &'a Step,
@@ -45,7 +49,7 @@ impl ContactStep<'_> {
 
 impl Model {
     /// Notes the contacts at the start of a step.
-    pub(in crate::engine) fn note_starts(&self, contacts: &[Contact], work: &mut Workspace) {
+    pub(in crate::engine) fn note_starts(&self, contacts: &[Contact], work: &mut PeakWork) {
         let starts = work.peaks.first_forces.iter_mut().zip(&mut work.peaks.starts);
         for ((force, start), contact) in starts.zip(contacts) {
             *force = contact.present_force();
@@ -60,14 +64,20 @@ impl Model {
         step: &Step,
         inputs: &Inputs,
         end: f64,
-        work: &mut Workspace,
+        work: &mut PeakWork,
     ) {
         let mut peaks = std::mem::take(&mut base.peaks);
         for (force, contact) in work.peaks.last_forces.iter_mut().zip(&base.contacts) {
             *force = contact.present_force();
         }
-        self.bound_forces(&base.contacts, step, (step.length, &step.end), &mut work.peaks.strongest);
-        let part = ContactStep { base, step, inputs, length: step.length, end: (&step.q, &step.v) };
+        step.bound_forces(
+            &self.system,
+            &base.contacts,
+            (step.planned.length, step.end_powers()),
+            &mut work.peaks.strongest,
+        );
+        let part =
+            ContactStep { base, step, inputs, length: step.planned.length, end: (&step.planned.q, &step.planned.v) };
         self.check_contact_step(&part, &mut peaks, work);
         // Motions near rigid pairs change between two steps, and floor forces may.
         if self.rigid.pairs.is_empty() && !self.floor_forces {
@@ -84,16 +94,16 @@ impl Model {
         elapsed: f64,
         point: &Point,
         peaks: &mut Peaks,
-        work: &mut Workspace,
+        work: &mut PeakWork,
     ) {
         let State { base, step, inputs, .. } = state;
         let mut powers = Powers::default();
-        step.series.set_powers(elapsed, &mut powers);
+        step.set_powers(elapsed, &mut powers);
         self.note_starts(&base.contacts, work);
         for p in 0..self.pairs.len() {
-            work.peaks.last_forces[p] = self.contact_at(base, step, p, elapsed, &powers).present_force();
+            work.peaks.last_forces[p] = step.contact_at(&self.system, base, p, elapsed, &powers).present_force();
         }
-        self.bound_forces(&base.contacts, step, (elapsed, &powers), &mut work.peaks.strongest);
+        step.bound_forces(&self.system, &base.contacts, (elapsed, &powers), &mut work.peaks.strongest);
         work.peaks.floors.forget();
         let part = ContactStep { base, step, inputs, length: elapsed, end: (&point.q, &point.v) };
         self.check_contact_step(&part, peaks, work);
@@ -102,7 +112,7 @@ impl Model {
 
     /// Raises peaks to the motion of the base under the contact forces there. What an input that has just been set does
     /// belongs to the step that begins: it has not acted yet.
-    pub(in crate::engine) fn raise_to_contact(&self, base: &Base, peaks: &mut Peaks, work: &mut Workspace) {
+    pub(in crate::engine) fn raise_to_contact(&self, base: &Base, peaks: &mut Peaks, work: &mut PeakWork) {
         self.note_starts(&base.contacts, work);
         work.peaks.strongest.fill(0.0);
         work.peaks.last_forces.copy_from_slice(&work.peaks.first_forces);
@@ -128,25 +138,7 @@ impl Model {
         }
     }
 
-    /// N, bounds on the sizes of the contact forces over a step's first seconds, of which the powers of its series are given.
-    fn bound_forces(&self, contacts: &[Contact], step: &Step, (elapsed, powers): (f64, &Powers), out: &mut [f64]) {
-        out.fill(0.0);
-        match step.kind {
-            StepKind::Onset => step.onset.bound_forces(contacts, elapsed / step.onset.scale, out),
-            StepKind::Window => step.window.bound_forces(contacts, out),
-            _ => {
-                step.closed.bound_forces(contacts, powers, out);
-                for (terms, &p) in step.reactions.iter().zip(&self.rigid.pairs) {
-                    if contacts[p].is_held() {
-                        let powers = powers.all().0.iter();
-                        out[p] = terms.iter().zip(powers).take(step.reaction_order + 1).map(|(c, x)| c.abs() * x).sum();
-                    }
-                }
-            }
-        }
-    }
-
-    fn check_contact_step(&self, part: &ContactStep, peaks: &mut Peaks, work: &mut Workspace) {
+    fn check_contact_step(&self, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
         self.find_ends(part, work);
         self.find_pushes(part.base, work);
         for side in [Side::Left, Side::Right] {
@@ -156,7 +148,7 @@ impl Model {
     }
 
     /// The floors at both ends.
-    fn find_ends(&self, part: &ContactStep, work: &mut Workspace) {
+    fn find_ends(&self, part: &ContactStep, work: &mut PeakWork) {
         let ContactStep { base, length, end, .. } = *part;
         let room = &mut work.peaks.floors;
         let mut modal = std::mem::take(&mut room.modal);
@@ -178,7 +170,7 @@ impl Model {
     }
 
     /// How much contact forces push each floor: at the ends, and at the least and the most.
-    fn find_pushes(&self, base: &Base, work: &mut Workspace) {
+    fn find_pushes(&self, base: &Base, work: &mut PeakWork) {
         let room = &mut work.peaks;
         for vector in [&mut room.first_push, &mut room.last_push, &mut room.floors.least, &mut room.floors.most] {
             vector.fill(0.0);
@@ -201,7 +193,7 @@ impl Model {
     }
 
     /// How fast the floors of a building are at most.
-    fn bound_building(&self, side: Side, part: &ContactStep, work: &mut Workspace) {
+    fn bound_building(&self, side: Side, part: &ContactStep, work: &mut PeakWork) {
         let (ground, slope) = part.ground();
         let ground = larger(ground.abs(), (ground + slope * part.length).abs());
         let room = &mut work.peaks.floors;
@@ -213,7 +205,7 @@ impl Model {
     }
 
     /// Raises the peaks of a building over the step.
-    fn check_building(&self, side: Side, part: &ContactStep, peaks: &mut Peaks, work: &mut Workspace) {
+    fn check_building(&self, side: Side, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
         let lanes = self.structure.floors.lanes_of(side as usize);
         let places = [PeakOf::Displacement(side, 0), PeakOf::Drift(side, 0), PeakOf::Acceleration(side, 0)];
         let known = places.map(|of| &peaks.values[self.peak_rows.place(of)..][..lanes.len()]);
@@ -238,7 +230,7 @@ impl Model {
         (floor, lane): (usize, usize),
         part: &ContactStep,
         peaks: &mut Peaks,
-        work: &mut Workspace,
+        work: &mut PeakWork,
     ) {
         let sag = 0.125 * part.length * part.length;
         let FloorRoom { start, end, least, most, largest, strays, .. } = &work.peaks.floors;
@@ -276,7 +268,7 @@ impl Model {
         (bound, goes_on): (f64, bool),
         part: &ContactStep,
         peaks: &mut Peaks,
-        work: &mut Workspace,
+        work: &mut PeakWork,
     ) {
         let place = self.peak_rows.place(of);
         // Written so that a NaN is never below anything.
@@ -299,21 +291,22 @@ impl Model {
         of: PeakOf,
         (known, at_end): (f64, f64),
         part: &ContactStep,
-        work: &mut Workspace,
+        work: &mut PeakWork,
     ) -> f64 {
         let mut rows = std::mem::take(&mut work.peaks.rows);
         let lanes = self.set_rows(of, part.base.coordinates, &mut rows);
         let quantity = Quantity { of, rows: &rows, lanes, ground: part.ground() };
         let step = part.step;
-        let peak = match step.kind {
-            StepKind::Onset => self.highest_in_onset(&quantity, known, part),
-            StepKind::Window => self.highest_in_window(&quantity, known, part, work),
-            _ => {
-                let (terms, order) = quantity.terms(&step.series, Some(&mut work.bend));
-                let end = if part.length == step.length { step.end.x } else { step.series.place(part.length) };
+        let peak = match step.dense() {
+            Dense::Flight => known,
+            Dense::Onset(onset) => highest_in_onset(&quantity, known, onset, part),
+            Dense::Window(window, series) => self.highest_in_window(&quantity, known, (window, series), part, work),
+            Dense::Taylor(Solution { series, bend, end, .. }) => {
+                let (terms, order) = quantity.terms(series, Some(bend));
+                let end = if part.length == step.planned.length { end.x } else { series.place(part.length) };
                 let off = value_and_slope(&terms[..=order], end).0 - at_end;
                 if off.abs() <= TRUSTED * larger(known, at_end.abs()) {
-                    highest(&terms, (end, order), known, &mut work.powers)
+                    highest(&terms, (end, order), known, &mut work.buffers.powers)
                 } else {
                     known
                 }

@@ -10,8 +10,8 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
 use crate::engine::peaks::PeakOf;
+use crate::engine::peaks::PeakWork;
 use crate::engine::peaks::rows::{Block, BuildingRows};
-use crate::engine::state::Workspace;
 use crate::numerics::polynomial::each;
 use crate::numerics::polynomial::larger;
 use crate::numerics::roots;
@@ -22,7 +22,7 @@ use std::ops::Range;
 const MARGIN: f64 = 1e-12;
 
 /// A flight of both buildings from start to end.
-pub(in crate::engine) struct Flight<'a> {
+pub struct Stretch<'a> {
     /// q and v of all modes.
     pub start: (&'a [f64], &'a [f64]),
     pub end: (&'a [f64], &'a [f64]),
@@ -33,12 +33,12 @@ pub(in crate::engine) struct Flight<'a> {
     /// s.
     pub length: f64,
     /// The whole flight of which this is the first part.
-    pub whole: Option<&'a Flight<'a>>,
+    pub whole: Option<&'a Stretch<'a>>,
 }
 
 /// What is known of each mode over a flight.
 #[derive(Clone, Debug, Default)]
-pub(in crate::engine) struct ModeBounds {
+pub struct ModeBounds {
     /// Accelerations relative to the ground, at the start and at the end.
     first: Vec<f64>,
     last: Vec<f64>,
@@ -70,7 +70,7 @@ impl ModeBounds {
 
 /// How the quantities of a block go over a flight: at both ends their values and slopes.
 #[derive(Clone, Copy, Default)]
-pub(in crate::engine) struct Course {
+pub struct Course {
     pub start: [Lane; 2],
     pub end: [Lane; 2],
     /// Bounds on their fourth derivatives.
@@ -79,10 +79,10 @@ pub(in crate::engine) struct Course {
 
 impl Model {
     /// Raises peaks to what a flight reaches.
-    pub(in crate::engine) fn check_flight(&self, flight: &Flight, peaks: &mut Peaks, work: &mut Workspace) {
+    pub(in crate::engine) fn check_flight(&self, flight: &Stretch, peaks: &mut Peaks, work: &mut PeakWork) {
         work.peaks.start_flight();
         for building in &self.peak_rows.buildings {
-            self.bound_modes(building, flight, &mut work.peaks.bounds, &mut work.node_v);
+            self.bound_modes(building, flight, &mut work.peaks.bounds, &mut work.buffers.node_v);
             for b in 0..building.blocks.len() {
                 self.check_block(building, b, flight, peaks, work);
             }
@@ -93,9 +93,9 @@ impl Model {
     pub(in crate::engine) fn check_due_blocks(
         &self,
         segment: u64,
-        flight: &Flight,
+        flight: &Stretch,
         peaks: &mut Peaks,
-        work: &mut Workspace,
+        work: &mut PeakWork,
     ) {
         work.peaks.start_flight();
         for building in &self.peak_rows.buildings {
@@ -105,7 +105,7 @@ impl Model {
                     continue;
                 }
                 if !std::mem::replace(&mut is_bounded, true) {
-                    self.bound_modes(building, flight, &mut work.peaks.bounds, &mut work.node_v);
+                    self.bound_modes(building, flight, &mut work.peaks.bounds, &mut work.buffers.node_v);
                 }
                 self.check_block(building, b, flight, peaks, work);
             }
@@ -144,7 +144,7 @@ impl Model {
     pub(in crate::engine) fn bound_modes(
         &self,
         building: &BuildingRows,
-        flight: &Flight,
+        flight: &Stretch,
         room: &mut ModeBounds,
         jerk: &mut [f64],
     ) {
@@ -187,7 +187,7 @@ impl Model {
     }
 
     /// How far a building's modes can swing over a flight, about where the load holds them (see `flight/envelope.rs`).
-    fn bound_swings(&self, building: &BuildingRows, flight: &Flight, room: &mut ModeBounds, is_coupled: bool) {
+    fn bound_swings(&self, building: &BuildingRows, flight: &Stretch, room: &mut ModeBounds, is_coupled: bool) {
         let ((q, v), (load, slope)) = (flight.start, flight.loads);
         let modes = building.modes.clone();
         // Where damping couples modes, what holds them under a load that changes is not worked out: all of it may push.
@@ -217,9 +217,9 @@ impl Model {
         &self,
         building: &BuildingRows,
         b: usize,
-        flight: &Flight,
+        flight: &Stretch,
         peaks: &mut Peaks,
-        work: &mut Workspace,
+        work: &mut PeakWork,
     ) {
         let (block, modes, h) = (&building.blocks[b], building.modes.clone(), flight.length);
         let bounds = &work.peaks.bounds;
@@ -278,7 +278,7 @@ fn share(modes: &mut [f64]) {
 
 /// Whether the modes cannot swing far enough for the quantities of a block to exceed their peaks by more than rounding;
 /// `direct` is what is added to them, linear in time, over some seconds from a time on.
-pub(in crate::engine) fn stays_below(
+pub fn stays_below(
     peaks: &Lane,
     block: &Block,
     (bounds, modes): (&ModeBounds, &Range<usize>),
@@ -325,7 +325,7 @@ fn swing_of(block: &Block, [held, held_end, rate, swing_q, swing]: [&[f64]; 5]) 
 }
 
 /// The course of a block over a flight.
-pub(in crate::engine) fn course_of(block: &Block, flight: &Flight, bounds: &ModeBounds, modes: Range<usize>) -> Course {
+pub fn course_of(block: &Block, flight: &Stretch, bounds: &ModeBounds, modes: Range<usize>) -> Course {
     let ends = [flight.start.0, flight.start.1, &bounds.first, flight.end.0, flight.end.1, &bounds.last];
     let [slow, quick] = [&bounds.slow[modes.clone()], &bounds.quick[modes.clone()]];
     sum_course(block, ends.map(|vector| &vector[modes.clone()]), [slow, quick])

@@ -17,7 +17,7 @@ const FURTHEST: f64 = 0.5;
 
 /// How floors feel each other, for both buildings.
 #[derive(Debug)]
-pub(in crate::engine) struct FloorResistance {
+pub struct FloorResistance {
     buildings: [Resistance; 2],
 }
 
@@ -68,7 +68,7 @@ impl Resistance {
 
 /// The floors of both buildings at one time.
 #[derive(Clone, Debug, Default)]
-pub(in crate::engine) struct FloorState {
+pub struct FloorState {
     /// m and m/s.
     pub u: Vec<f64>,
     pub v: Vec<f64>,
@@ -78,7 +78,7 @@ pub(in crate::engine) struct FloorState {
 
 /// Room for a step.
 #[derive(Clone, Debug, Default)]
-pub(in crate::engine) struct FloorRoom {
+pub struct FloorRoom {
     pub start: FloorState,
     pub end: FloorState,
     /// m/s2, the least and the most that contact forces may push each floor by.

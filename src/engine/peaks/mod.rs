@@ -12,6 +12,7 @@
 //! before and after counts, the impulse itself, in which accelerations have no size, does not.
 
 use crate::engine::base::peaks::Peaks;
+use crate::engine::system::buffers::Buffers;
 mod ahead;
 mod contact;
 mod flight;
@@ -25,15 +26,15 @@ use crate::engine::base::contact::Contact;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
 use crate::engine::output::point::Point;
-use crate::engine::state::{State, Workspace};
+use crate::engine::state::State;
 use crate::engine::step::{Step, StepKind};
 use crate::structure::Side;
 use crate::structure::{LANES, Structure};
-use flight::Flight;
+use flight::Stretch;
 use std::cell::RefCell;
 
-pub(in crate::engine) use floors::FloorResistance;
-pub(in crate::engine) use rows::PeakRows;
+pub use floors::FloorResistance;
+pub use rows::PeakRows;
 
 /// Something whose largest magnitude so far is kept. Floors and storeys count from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,7 +72,7 @@ struct Flown {
 /// Room to work in; between calls it means nothing but for what `floors` keeps of the end of a step and `ahead` of the time
 /// to come.
 #[derive(Clone, Debug, Default)]
-pub(in crate::engine) struct PeakRoom {
+pub struct PeakRoom {
     watch: ahead::PeakWatch,
     /// Of the modes over a flight, and over a piece of one.
     bounds: flight::ModeBounds,
@@ -150,12 +151,18 @@ impl PeakRoom {
     }
 }
 
+/// Room for one call: buffers that any may use, and what is kept for peaks.
+pub struct PeakWork<'a> {
+    pub buffers: &'a mut Buffers,
+    pub peaks: &'a mut PeakRoom,
+}
+
 /// The peaks at an observed time, worked out when one is first asked for.
 #[derive(Clone, Debug, Default)]
-pub(in crate::engine) struct PointPeaks {
+pub struct PointPeaks {
     observation: u64,
     peaks: Peaks,
-    work: Option<Box<Workspace>>,
+    work: Option<Box<(Buffers, PeakRoom)>>,
 }
 
 impl Model {
@@ -183,41 +190,45 @@ impl Model {
     #[inline(never)]
     fn read_peaks(&self, state: &State, point: &Point, known: &mut PointPeaks) {
         let State { base, step, inputs, .. } = state;
-        let mut work = known.work.take().unwrap_or_else(|| Box::new(self.workspace()));
+        let mut room = known.work.take().unwrap_or_else(|| {
+            Box::new((self.buffers(), PeakRoom::new(&self.structure, &self.peak_rows, self.pairs.len())))
+        });
+        let (buffers, peaks) = &mut *room;
+        let work = &mut PeakWork { buffers, peaks };
         known.peaks.clone_from(&base.peaks);
         let elapsed = state.since_base();
         let is_in_contact = base.contacts.iter().any(Contact::in_contact);
-        match step.kind {
-            _ if elapsed == 0.0 && is_in_contact => self.raise_to_contact(base, &mut known.peaks, &mut work),
+        match () {
+            _ if elapsed == 0.0 && is_in_contact => self.raise_to_contact(base, &mut known.peaks, work),
             _ if elapsed == 0.0 => self.raise_to_motion(base, &mut known.peaks),
-            StepKind::Contact | StepKind::Onset | StepKind::Window if elapsed > 0.0 => {
-                self.raise_over_part(state, elapsed, point, &mut known.peaks, &mut work);
+            _ if elapsed > 0.0 && step.is_in_contact() => {
+                self.raise_over_part(state, elapsed, point, &mut known.peaks, work);
             }
             _ => {
-                let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
-                let length = self.end_of_flight(state, &mut work, (&mut q, &mut v));
-                self.with_flight(base, inputs, (length, &q, &v), &mut work, |whole, work| {
+                let (mut q, mut v) = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));
+                let length = self.end_of_flight(state, work, (&mut q, &mut v));
+                self.with_flight(base, inputs, (length, &q, &v), work, |whole, work| {
                     let end = (&point.q[..], &point.v[..]);
-                    let part = Flight { end, length: elapsed, whole: Some(whole), ..*whole };
+                    let part = Stretch { end, length: elapsed, whole: Some(whole), ..*whole };
                     self.check_flight(&part, &mut known.peaks, work);
                 });
-                (work.q, work.v) = (q, v);
+                (work.buffers.q, work.buffers.v) = (q, v);
             }
         }
-        known.work = Some(work);
+        known.work = Some(room);
     }
 
     /// The end of the flight under way, as planned; returns how long it lasts, s.
-    fn end_of_flight(&self, state: &State, work: &mut Workspace, (q, v): (&mut [f64], &mut [f64])) -> f64 {
+    fn end_of_flight(&self, state: &State, work: &mut PeakWork, (q, v): (&mut [f64], &mut [f64])) -> f64 {
         let State { base, step, inputs, .. } = state;
         if step.kind == StepKind::Flight {
-            q.copy_from_slice(&step.q);
-            v.copy_from_slice(&step.v);
-            return step.length;
+            q.copy_from_slice(&step.planned.q);
+            v.copy_from_slice(&step.planned.v);
+            return step.planned.length;
         }
         let length = base.segment.length;
-        self.load(base, inputs, &mut work.load, &mut work.slope);
-        self.fly(base, length, work, (q, v));
+        self.load(base, inputs, &mut work.buffers.load, &mut work.buffers.slope);
+        self.fly(base, length, work.buffers, (q, v));
         length
     }
 
@@ -227,17 +238,23 @@ impl Model {
         base: &mut Base,
         step: &Step,
         inputs: &Inputs,
-        work: &mut Workspace,
+        work: &mut PeakWork,
     ) {
         let watched = self.watched_segment(base).filter(|_| self.structure.is_classical());
         if let Some((ground, segment)) = watched {
             self.watch_peaks(ground, base, segment, work);
         }
         let mut peaks = std::mem::take(&mut base.peaks);
-        self.with_flight(base, inputs, (step.length, &step.q, &step.v), work, |flight, work| match watched {
-            Some((_, segment)) => self.check_due_blocks(segment, flight, &mut peaks, work),
-            None => self.check_flight(flight, &mut peaks, work),
-        });
+        self.with_flight(
+            base,
+            inputs,
+            (step.planned.length, &step.planned.q, &step.planned.v),
+            work,
+            |flight, work| match watched {
+                Some((_, segment)) => self.check_due_blocks(segment, flight, &mut peaks, work),
+                None => self.check_flight(flight, &mut peaks, work),
+            },
+        );
         base.peaks = peaks;
     }
 
@@ -247,14 +264,14 @@ impl Model {
         base: &mut Base,
         segment: u64,
         start: (&[f64], &[f64]),
-        work: &mut Workspace,
+        work: &mut PeakWork,
     ) {
         let ground = (base.segment.acceleration_at(0.0), base.segment.slope);
         let shares = self.structure.participation.iter();
-        for ((load, slope), share) in work.load.iter_mut().zip(&mut work.slope).zip(shares) {
+        for ((load, slope), share) in work.buffers.load.iter_mut().zip(&mut work.buffers.slope).zip(shares) {
             (*load, *slope) = (-share * ground.0, -share * ground.1);
         }
-        let (load, slope) = (std::mem::take(&mut work.load), std::mem::take(&mut work.slope));
+        let (load, slope) = (std::mem::take(&mut work.buffers.load), std::mem::take(&mut work.buffers.slope));
         work.peaks.start_flight();
         for building in &self.peak_rows.buildings {
             let mut is_bounded = false;
@@ -264,15 +281,15 @@ impl Model {
                 }
                 let mut peaks = std::mem::take(&mut base.peaks);
                 let (end, loads) = ((&base.q[..], &base.v[..]), (&load[..], &slope[..]));
-                let flight = Flight { start, end, loads, ground, length: base.segment.length, whole: None };
+                let flight = Stretch { start, end, loads, ground, length: base.segment.length, whole: None };
                 if !std::mem::replace(&mut is_bounded, true) {
-                    self.bound_modes(building, &flight, &mut work.peaks.bounds, &mut work.node_v);
+                    self.bound_modes(building, &flight, &mut work.peaks.bounds, &mut work.buffers.node_v);
                 }
                 self.check_block(building, b, &flight, &mut peaks, work);
                 base.peaks = peaks;
             }
         }
-        (work.load, work.slope) = (load, slope);
+        (work.buffers.load, work.buffers.slope) = (load, slope);
     }
 
     /// Calls with the flight from the base to an end after some seconds.
@@ -281,20 +298,20 @@ impl Model {
         base: &Base,
         inputs: &Inputs,
         (length, q, v): (f64, &[f64], &[f64]),
-        work: &mut Workspace,
-        then: impl FnOnce(&Flight, &mut Workspace),
+        work: &mut PeakWork,
+        then: impl FnOnce(&Stretch, &mut PeakWork),
     ) {
-        self.load(base, inputs, &mut work.load, &mut work.slope);
-        let (load, slope) = (std::mem::take(&mut work.load), std::mem::take(&mut work.slope));
+        self.load(base, inputs, &mut work.buffers.load, &mut work.buffers.slope);
+        let (load, slope) = (std::mem::take(&mut work.buffers.load), std::mem::take(&mut work.buffers.slope));
         if self.floor_forces {
             self.note_floor_forces(base, inputs, &mut work.peaks.direct);
         }
         let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
         let loads = (&load[..], &slope[..]);
-        then(&Flight { start: (&base.q, &base.v), end: (q, v), loads, ground, length, whole: None }, work);
-        (work.load, work.slope) = (load, slope);
+        then(&Stretch { start: (&base.q, &base.v), end: (q, v), loads, ground, length, whole: None }, work);
+        (work.buffers.load, work.buffers.slope) = (load, slope);
     }
 }
 
 /// For [`Point`], which is read through a shared reference.
-pub(in crate::engine) type PeakCell = RefCell<PointPeaks>;
+pub type PeakCell = RefCell<PointPeaks>;

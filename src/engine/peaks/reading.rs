@@ -7,11 +7,12 @@ use crate::engine::excitation::linear_input::LinearInput;
 use crate::engine::model::Model;
 use crate::engine::onset::OnsetSeries;
 use crate::engine::peaks::PeakOf;
+use crate::engine::peaks::PeakWork;
 use crate::engine::peaks::contact::ContactStep;
 use crate::engine::peaks::search::Quantity;
-use crate::engine::state::Workspace;
 use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::larger;
+use crate::structure::MotionSeries;
 
 /// Parts that the first step after an entry, and a window, are read in.
 const PARTS_OF_ONSET: u32 = 6;
@@ -29,7 +30,7 @@ const MOST_READINGS: usize = 20;
 
 /// Vectors to read into.
 #[derive(Clone, Debug, Default)]
-pub(in crate::engine) struct ReadingRoom {
+pub struct ReadingRoom {
     q: Vec<f64>,
     v: Vec<f64>,
     acceleration: Vec<f64>,
@@ -52,47 +53,55 @@ struct Reading {
     slope: f64,
 }
 
-impl Model {
-    /// The largest magnitude of a quantity in a part of the first step after an entry, or `known` if that is larger.
-    pub(in crate::engine) fn highest_in_onset(&self, quantity: &Quantity, known: f64, part: &ContactStep) -> f64 {
-        let ContactStep { step, length: until, .. } = part;
-        let Some(series) = OnsetQuantity::of(quantity, &step.onset) else { return known };
-        let whole = (START * step.length, step.length);
-        highest((known, *until), whole, PARTS_OF_ONSET, |time| series.read(time, &step.onset, quantity.ground))
-    }
+/// The largest magnitude of a quantity in a part of the first step after an entry, or `known` if that is larger.
+pub fn highest_in_onset(quantity: &Quantity, known: f64, onset: &OnsetSeries, part: &ContactStep) -> f64 {
+    let ContactStep { step, length: until, .. } = part;
+    let Some(series) = OnsetQuantity::of(quantity, onset) else { return known };
+    let whole = (START * step.planned.length, step.planned.length);
+    highest((known, *until), whole, PARTS_OF_ONSET, |time| series.read(time, onset, quantity.ground))
+}
 
-    /// The same for a window.
+impl Model {
+    /// The same for a window, with the series of the motion without contact forces.
     pub(in crate::engine) fn highest_in_window(
         &self,
         quantity: &Quantity,
         known: f64,
+        window: (&Window, &MotionSeries),
         part: &ContactStep,
-        work: &mut Workspace,
+        work: &mut PeakWork,
     ) -> f64 {
-        let whole = (0.0, part.step.length);
-        let read = |time: f64| self.read_in_window(quantity, time, part, work);
+        let whole = (0.0, part.step.planned.length);
+        let read = |time: f64| self.read_in_window(quantity, time, window, part, work);
         highest((known, part.length), whole, PARTS_OF_WINDOW, read)
     }
 
     /// Reads a quantity and its slope at a time of a window, from the equations of motion.
-    fn read_in_window(&self, quantity: &Quantity, time: f64, part: &ContactStep, work: &mut Workspace) -> Reading {
+    fn read_in_window(
+        &self,
+        quantity: &Quantity,
+        time: f64,
+        (window, series): (&Window, &MotionSeries),
+        part: &ContactStep,
+        work: &mut PeakWork,
+    ) -> Reading {
         let ContactStep { base, step, inputs, .. } = *part;
         let coordinates = base.coordinates;
         let mut room = std::mem::take(&mut work.peaks.reading);
         let ReadingRoom { q, v, acceleration, jerk } = &mut room;
         let mut pairs = [(0.0, 0.0); MOST_PAIRS];
-        let Window { contacts, equation, solution, .. } = &*step.window;
+        let Window { contacts, equation, solution, .. } = window;
         let contacts = &contacts[..equation.closed];
         if time == 0.0 {
             q.copy_from_slice(&base.q);
             v.copy_from_slice(&base.v);
             pairs.iter_mut().zip(contacts).for_each(|(pair, &p)| *pair = work.peaks.starts[p]);
-        } else if time == step.length {
-            q.copy_from_slice(&step.q);
-            v.copy_from_slice(&step.v);
+        } else if time == step.planned.length {
+            q.copy_from_slice(&step.planned.q);
+            v.copy_from_slice(&step.planned.v);
             pairs.copy_from_slice(&solution.end);
         } else {
-            self.read_window_and_pairs(step, time, &mut work.powers, (q, v), &mut pairs);
+            window.evaluate_with_pairs(&self.system, series, time, &mut work.buffers.powers, (q, v), &mut pairs);
         }
         let (ground, ground_slope) = quantity.ground;
         let ground = ground + ground_slope * time;

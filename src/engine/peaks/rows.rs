@@ -17,13 +17,13 @@ use std::ops::Range;
 
 /// The watched quantities of both buildings.
 #[derive(Debug)]
-pub(in crate::engine) struct PeakRows {
+pub struct PeakRows {
     pub buildings: [BuildingRows; 2],
 }
 
 /// Of one building: blocks of [`LANES`] quantities, first displacements and drifts, then accelerations and the base shear.
 #[derive(Debug)]
-pub(in crate::engine) struct BuildingRows {
+pub struct BuildingRows {
     /// Its modes in a modal vector.
     pub modes: Range<usize>,
     /// Number of its first block among those of both buildings.
@@ -36,7 +36,7 @@ pub(in crate::engine) struct BuildingRows {
 
 /// [`LANES`] quantities of one building.
 #[derive(Debug)]
-pub(in crate::engine) struct Block {
+pub struct Block {
     /// A, mode by mode.
     pub on_q: Vec<Lane>,
     /// B; empty where it is 0.
@@ -46,7 +46,7 @@ pub(in crate::engine) struct Block {
 
 /// What the ground adds to the bounds of `ahead.rs`.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::engine) struct Growth {
+pub struct Growth {
     /// |B participation| and |(A - B c) participation|: what a ground acceleration does at once to y' and y''.
     pub at_once: Lane,
     pub pushed: Lane,

@@ -3,9 +3,10 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::model::Model;
-use crate::engine::peaks::flight::{Flight, course_of, stays_below};
+use crate::engine::peaks::PeakWork;
+use crate::engine::peaks::flight::{Stretch, course_of, stays_below};
 use crate::engine::peaks::{MOST_FLOWN, PeakOf};
-use crate::engine::state::Workspace;
+use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::larger;
 use crate::numerics::polynomial::{Coefficients, MAX_ORDER, ROOM};
 use crate::numerics::powers::{Powers, Reading};
@@ -32,7 +33,7 @@ struct Piece {
 }
 
 /// A quantity as rows over a motion in some coordinates.
-pub(in crate::engine) struct Quantity<'a> {
+pub struct Quantity<'a> {
     pub of: PeakOf,
     /// Over the motion, and over its rate; of an acceleration, those of the floor's displacement.
     pub rows: &'a [Vec<f64>; 2],
@@ -46,10 +47,10 @@ impl Model {
     /// The largest magnitude of a quantity over the first seconds of a flight, `until` then, or `known` if that is larger.
     pub(in crate::engine) fn highest_in_flight(
         &self,
-        flight: &Flight,
+        flight: &Stretch,
         of: PeakOf,
         (known, until): (f64, f64),
-        work: &mut Workspace,
+        work: &mut PeakWork,
     ) -> f64 {
         let mut rows = std::mem::take(&mut work.peaks.rows);
         let lanes = self.set_rows(of, Coordinates::Modes, &mut rows);
@@ -65,11 +66,11 @@ impl Model {
     /// there is nothing to be found.
     fn highest_in_piece(
         &self,
-        flight: &Flight,
+        flight: &Stretch,
         quantity: &Quantity,
         piece: Piece,
         (known, until): (f64, f64),
-        work: &mut Workspace,
+        work: &mut PeakWork,
     ) -> f64 {
         let Piece { from, to, halvings } = piece;
         let reach = self.structure.fastest * (to - from);
@@ -92,26 +93,26 @@ impl Model {
         if work.peaks.expanded != Some((from, to)) {
             self.expand_piece(flight, (from, to), work);
         }
-        let (series, (ground, slope)) = (&work.series, quantity.ground);
+        let (series, (ground, slope)) = (&work.buffers.series, quantity.ground);
         let (terms, order) = Quantity { ground: (ground + slope * from, slope), ..*quantity }.terms(series, None);
         let end = if until < to { (until - from) / (to - from) } else { 1.0 };
-        highest(&terms, (end, order), known, &mut work.powers)
+        highest(&terms, (end, order), known, &mut work.buffers.powers)
     }
 
     /// Expands a piece of a flight into a power series.
-    fn expand_piece(&self, flight: &Flight, (from, to): (f64, f64), work: &mut Workspace) {
+    fn expand_piece(&self, flight: &Stretch, (from, to): (f64, f64), work: &mut PeakWork) {
         self.fly_to(flight, from, [0, 1], work);
         self.set_load(flight, from, work);
         let order = flight_order(self.structure.fastest * (to - from), EXACT).unwrap_or(MAX_ORDER);
-        let Workspace { series, peaks, .. } = work;
+        let PeakWork { buffers: Buffers { series, .. }, peaks } = work;
         let ([q, v, ..], load) = (&peaks.pieces, &peaks.load);
         series.expand_flight(&self.structure, (q, v), (load, flight.loads.1), (to - from, order));
         peaks.expanded = Some((from, to));
     }
 
     /// The motion at a time of a flight, into two vectors of the room.
-    fn fly_to(&self, flight: &Flight, time: f64, into: [usize; 2], work: &mut Workspace) {
-        let Workspace { interval, scratch, peaks, .. } = work;
+    fn fly_to(&self, flight: &Stretch, time: f64, into: [usize; 2], work: &mut PeakWork) {
+        let PeakWork { buffers: Buffers { interval, scratch, .. }, peaks } = work;
         let Ok([q, v]) = peaks.pieces.get_disjoint_mut(into) else { return };
         let known = match time {
             _ if time == 0.0 => flight.start,
@@ -134,7 +135,7 @@ impl Model {
     }
 
     /// The modal load at a time of a flight, into the room.
-    fn set_load(&self, flight: &Flight, time: f64, work: &mut Workspace) {
+    fn set_load(&self, flight: &Stretch, time: f64, work: &mut PeakWork) {
         let (start, slope) = flight.loads;
         for (load, (start, slope)) in work.peaks.load.iter_mut().zip(start.iter().zip(slope)) {
             *load = start + slope * time;
@@ -145,20 +146,20 @@ impl Model {
     /// quantity may exceed it in between.
     fn compare_ends(
         &self,
-        flight: &Flight,
+        flight: &Stretch,
         of: PeakOf,
         piece: Piece,
         (known, until): (f64, f64),
-        work: &mut Workspace,
+        work: &mut PeakWork,
     ) -> (f64, bool) {
         let Piece { from, to, .. } = piece;
         self.set_load(flight, from, work);
-        let Workspace { peaks, node_v: jerk, .. } = work;
+        let PeakWork { buffers: Buffers { node_v: jerk, .. }, peaks } = work;
         let building = &self.peak_rows.buildings[of.side() as usize];
         let place = self.peak_rows.place(of);
         let (block, lane) = (&building.blocks[place / LANES - building.first], place % LANES);
         let [q, v, end_q, end_v] = &peaks.pieces;
-        let own = Flight {
+        let own = Stretch {
             start: (q, v),
             end: (end_q, end_v),
             loads: (&peaks.load, flight.loads.1),
@@ -241,9 +242,9 @@ impl Quantity<'_> {
         }
     }
 
-    /// The power series of the quantity in the x of a motion's, and its highest power; `bend` is room for what makes it one,
-    /// where a clock does.
-    pub fn terms(&self, series: &MotionSeries, bend: Option<&mut Bend>) -> (Coefficients, usize) {
+    /// The power series of the quantity in the x of a motion's, and its highest power; `bend` makes it one where a
+    /// clock does.
+    pub fn terms(&self, series: &MotionSeries, bend: Option<&Bend>) -> (Coefficients, usize) {
         let (count, per_unit) = (series.order + 1, 1.0 / series.scale);
         let (mut of_q, mut terms) = ([0.0; ROOM], [0.0; ROOM]);
         match self.lanes {
@@ -279,7 +280,6 @@ impl Quantity<'_> {
         if series.clock.is_bent()
             && let Some(bend) = bend
         {
-            bend.set(&series.clock, count);
             bend.apply_to_one(&mut terms[..=order]);
         }
         (terms, order)
@@ -287,12 +287,7 @@ impl Quantity<'_> {
 }
 
 /// The largest magnitude of a polynomial over 0..=x, or `known` if that is larger; `powers` is room to work in.
-pub(in crate::engine) fn highest(
-    terms: &Coefficients,
-    (x, order): (f64, usize),
-    known: f64,
-    powers: &mut Powers,
-) -> f64 {
+pub fn highest(terms: &Coefficients, (x, order): (f64, usize), known: f64, powers: &mut Powers) -> f64 {
     powers.set(x, order);
     let Reading { value, slope, fourth } = powers.read(terms);
     let mut peak = known;

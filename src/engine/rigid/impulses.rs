@@ -12,10 +12,11 @@ use crate::engine::base::planned::{Carried, Event};
 use crate::engine::base::touching;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::Inputs;
-use crate::engine::model::Model;
 use crate::engine::pairs::pair::Pair;
-use crate::engine::state::Workspace;
-use crate::engine::step::Step;
+use crate::engine::system::System;
+use crate::engine::system::buffers::Buffers;
+use crate::engine::taylor::solution::Solution;
+
 use crate::numerics::complementarity::Complementarity;
 use crate::numerics::powers::Powers;
 use crate::numerics::roots;
@@ -27,15 +28,12 @@ const STILL: f64 = 3e-14;
 /// A rigid pair is carried by its own increments up to this many rounding errors of its penetration from the surface.
 const CLOSE: f64 = 1e6;
 
-impl Model {
+/// Share of the time left for which floors are held together that rounding cannot tell from free ones.
+const SHORT_WHILE: f64 = 1e-3;
+
+impl System {
     /// A rigid pair meets: an impulse, or where it has no speed left the floors stay together.
-    pub(in crate::engine) fn meet(
-        &self,
-        base: &mut Base,
-        first: usize,
-        work: &mut Workspace,
-        on_episode: &mut dyn FnMut(&Episode),
-    ) {
+    pub fn meet(&self, base: &mut Base, first: usize, work: &mut Buffers, on_episode: &mut dyn FnMut(&Episode)) {
         let (approach, still) = self.approach(base, first);
         let contact = &mut base.contacts[first];
         contact.penetration = 0.0;
@@ -56,7 +54,7 @@ impl Model {
     }
 
     /// The impulses of all rigid pairs that meet now, when one does.
-    fn collide(&self, base: &mut Base, first: usize, work: &mut Workspace, on_episode: &mut dyn FnMut(&Episode)) {
+    fn collide(&self, base: &mut Base, first: usize, work: &mut Buffers, on_episode: &mut dyn FnMut(&Episode)) {
         let rigid = &mut work.rigid;
         rigid.clear();
         for (k, &p) in self.rigid.pairs.iter().enumerate() {
@@ -151,7 +149,7 @@ impl Model {
     }
 
     /// Two rigid floors stay together from now on.
-    fn join(&self, base: &mut Base, p: usize, work: &mut Workspace) {
+    fn join(&self, base: &mut Base, p: usize, work: &mut Buffers) {
         let time = base.time();
         let contact = &mut base.contacts[p];
         contact.rate = 0.0;
@@ -167,7 +165,7 @@ impl Model {
     }
 
     /// Takes out of the motion what rounding has moved floors apart that are held together.
-    pub(in crate::engine) fn keep_together(&self, base: &mut Base, work: &mut Workspace) {
+    pub fn keep_together(&self, base: &mut Base, work: &mut Buffers) {
         if !self.rigid.pairs.iter().any(|&p| base.contacts[p].is_held()) {
             return;
         }
@@ -185,7 +183,7 @@ impl Model {
     }
 
     /// Lists the pairs that are held together and makes them all active.
-    fn select_held(&self, base: &Base, work: &mut Workspace) {
+    fn select_held(&self, base: &Base, work: &mut Buffers) {
         work.rigid.clear();
         for (k, _) in self.rigid.pairs.iter().enumerate().filter(|&(_, &p)| base.contacts[p].is_held()) {
             work.rigid.add(k, 0.0, 0.0);
@@ -195,7 +193,7 @@ impl Model {
 
     /// The modal accelerations at the base, in `work.q`, with every contact force; the reactions stay in `work.rigid`.
     /// Returns a pair that is held together but moves apart.
-    pub(in crate::engine) fn balance(&self, base: &Base, inputs: &Inputs, work: &mut Workspace) -> Option<usize> {
+    pub fn balance(&self, base: &Base, inputs: &Inputs, work: &mut Buffers) -> Option<usize> {
         self.load(base, inputs, &mut work.load, &mut work.slope);
         work.node_q.copy_from_slice(&work.load);
         for (p, contact) in touching(base) {
@@ -204,7 +202,7 @@ impl Model {
             }
         }
         self.structure.accelerate(&base.q, &base.v, &work.node_q, &mut work.q);
-        let Workspace { rigid, q: acceleration, .. } = work;
+        let Buffers { rigid, q: acceleration, .. } = work;
         rigid.clear();
         for (k, &p) in self.rigid.pairs.iter().enumerate().filter(|&(_, &p)| base.contacts[p].is_held()) {
             let (pressing, size) = difference(&self.pairs[p].row, acceleration);
@@ -222,7 +220,7 @@ impl Model {
 
     /// Keeps floors together that are held: adds the reactions' part to the modal accelerations of one power. The
     /// reactions stay in `rigid.found`.
-    pub(in crate::engine) fn hold(&self, rigid: &mut Complementarity, acceleration: &mut [f64]) {
+    pub fn hold(&self, rigid: &mut Complementarity, acceleration: &mut [f64]) {
         if rigid.pairs.is_empty() {
             return;
         }
@@ -244,7 +242,7 @@ impl Model {
 
     /// How long a step may be, s, so that the next bounce of every pair near the surface is a good part of it; with the
     /// modal accelerations at the base.
-    pub(in crate::engine) fn bounce_horizon(&self, base: &Base, acceleration: &[f64]) -> f64 {
+    pub fn bounce_horizon(&self, base: &Base, acceleration: &[f64]) -> f64 {
         let apart = base.contacts.iter().zip(&self.pairs).filter(|(contact, _)| contact.carried);
         let bounce = |(contact, pair): (&Contact, &Pair)| {
             4.0 * time_to_surface(contact.penetration, contact.rate, dot(&pair.row, acceleration))
@@ -252,8 +250,37 @@ impl Model {
         apart.map(bounce).fold(f64::INFINITY, f64::min)
     }
 
+    /// How long a step may be near rigid contacts, of the `remaining` time, s, and whether it is cut; or the release that
+    /// comes first. Leaves the pairs that are held together in `work.rigid`, all active.
+    pub fn time_for_rigid_pairs(
+        &self,
+        base: &Base,
+        inputs: &Inputs,
+        work: &mut Buffers,
+        remaining: f64,
+    ) -> Result<(f64, bool), Event> {
+        if !self.has_close_rigid_pair(base) {
+            work.rigid.clear();
+            return Ok((remaining, false));
+        }
+        if let Some(p) = self.balance(base, inputs, work) {
+            return Err(Event::Release(p));
+        }
+        work.rigid.close_all(&self.rigid.matrix);
+        let mut time = self.bounce_horizon(base, &work.q);
+        if base.contacts.iter().any(|contact| contact.undecided) {
+            time = time.min(SHORT_WHILE * remaining);
+        }
+        Ok((remaining.min(time), time < remaining))
+    }
+
+    /// Whether rigid floors are held together, or are about to meet again.
+    pub fn has_close_rigid_pair(&self, base: &Base) -> bool {
+        self.rigid.pairs.iter().any(|&p| base.contacts[p].is_held() || base.contacts[p].carried)
+    }
+
     /// Where the pairs that are carried get to at the x of the powers of a series in time.
-    pub(in crate::engine) fn carry(
+    pub fn carry(
         &self,
         base: &Base,
         series: &MotionSeries,
@@ -275,7 +302,7 @@ impl Model {
     }
 
     /// Whether a pair at this penetration, m, is still to be carried.
-    pub(in crate::engine) fn is_close(&self, p: usize, penetration: f64, coordinates: Coordinates, q: &[f64]) -> bool {
+    pub fn is_close(&self, p: usize, penetration: f64, coordinates: Coordinates, q: &[f64]) -> bool {
         penetration > -CLOSE * self.pairs[p].noise(self.pairs[p].difference(coordinates, q).1)
     }
 
@@ -290,16 +317,10 @@ impl Model {
     }
 
     /// Where the reaction of a pair that is held together falls to 0 in 0..=end of its series.
-    pub(in crate::engine) fn letting_go(
-        &self,
-        p: usize,
-        step: &Step,
-        work: &mut Workspace,
-        end: f64,
-    ) -> Option<(f64, Event)> {
+    pub fn letting_go(&self, p: usize, solution: &Solution, work: &mut Buffers, end: f64) -> Option<(f64, Event)> {
         let k = self.rigid.pairs.iter().position(|&pair| pair == p)?;
-        let noise = self.acceleration_noise(p, &step.series, end) / self.rigid.matrix[(k, k)];
-        let force = &step.reactions[k][..=step.reaction_order];
+        let noise = self.acceleration_noise(p, &solution.series, end) / self.rigid.matrix[(k, k)];
+        let force = &solution.reactions[k][..=solution.reaction_order];
         let pull = &mut work.scalar[..force.len()];
         for (pull, force) in pull.iter_mut().zip(force) {
             *pull = -force;

@@ -1,3 +1,173 @@
-//! X
+//! The buildings, their pairs and the ground: what every kind of step needs to know of a scene. It knows no step.
 
+use crate::scene::Scene;
+use crate::structure::ImpulseResponse;
+pub mod buffers;
+pub mod error_norm;
 pub mod tolerance;
+
+use crate::engine::base::{Base, Coordinates};
+use crate::engine::excitation::inputs::Inputs;
+use crate::engine::excitation::linear_input::LinearInput;
+use crate::engine::excitation::record::GroundMotion;
+use crate::engine::pairs::pair::Pair;
+use crate::engine::pairs::rigid::RigidPairs;
+use crate::engine::system::tolerance::Tolerance;
+use crate::structure::{FEW_BLOCKS, LANES, Side, Structure};
+
+/// What stays as it is during a run, but for what single kinds of step prepare for themselves.
+#[derive(Debug)]
+pub struct System {
+    pub structure: Structure,
+    pub pairs: Vec<Pair>,
+    pub rigid: RigidPairs,
+    /// Absent where the acceleration is an input.
+    pub ground: Option<GroundMotion>,
+    /// Whether a master may set forces on the floors.
+    pub floor_forces: bool,
+    pub tolerance: Tolerance,
+    /// Coordinates of soft contacts.
+    pub contact_coordinates: Coordinates,
+    /// m/s, floor on the approach velocity where a law divides by it.
+    pub least_approach: f64,
+    /// Where a law has a root, and damping couples no modes.
+    pub impulse_response: Option<ImpulseResponse>,
+    /// 1 at every floor.
+    ones: Vec<f64>,
+}
+
+impl System {
+    pub fn new(structure: Structure, pairs: Vec<Pair>, ground: Option<GroundMotion>, scene: &Scene) -> System {
+        System {
+            rigid: RigidPairs::of(&pairs),
+            floor_forces: scene.floor_forces,
+            tolerance: Tolerance::of(scene.solver.relative_tolerance),
+            contact_coordinates: contact_coordinates(&structure),
+            least_approach: scene.solver.min_approach_velocity,
+            impulse_response: if pairs.iter().any(Pair::has_power_law) {
+                ImpulseResponse::of(&structure)
+            } else {
+                None
+            },
+            ones: structure.floors.ones(),
+            structure,
+            pairs,
+            ground,
+        }
+    }
+
+    /// Whether the engine's steps are cut at communication points: where a master's inputs act.
+    pub fn is_driven(&self) -> bool {
+        self.ground.is_none() || self.floor_forces
+    }
+    /// The segment of the record at the base, and its number, where pairs can be dismissed: where nothing but the
+    /// record acts on the buildings.
+    pub fn watched_segment(&self, base: &Base) -> Option<(&GroundMotion, u64)> {
+        let ground = self.ground.as_ref().filter(|_| !self.is_driven())?;
+        Some((ground, ground.number(&base.segment)?))
+    }
+
+    /// The load at the base, in its coordinates and per unit of mass, and its rate until the segment's end.
+    pub fn load(&self, base: &Base, inputs: &Inputs, load: &mut [f64], slope: &mut [f64]) {
+        let Base { segment, elapsed, coordinates, .. } = base;
+        let (acceleration, rate) = (segment.acceleration_at(*elapsed), segment.slope);
+        let (shares, _) = self.participation(*coordinates).as_chunks::<LANES>();
+        let blocks = load.as_chunks_mut::<LANES>().0.iter_mut().zip(slope.as_chunks_mut::<LANES>().0).zip(shares);
+        for ((load, slope), share) in blocks {
+            for i in 0..LANES {
+                load[i] = -share[i] * acceleration;
+                slope[i] = -share[i] * rate;
+            }
+        }
+        if self.floor_forces {
+            self.add_floor_forces(inputs, *coordinates, |force| force.after(segment.start, *elapsed), load);
+            self.add_floor_forces(inputs, *coordinates, LinearInput::slope, slope);
+        }
+    }
+
+    /// What a ground acceleration of -1 m/s^2 pushes.
+    pub fn participation(&self, coordinates: Coordinates) -> &[f64] {
+        match coordinates {
+            Coordinates::Modes => &self.structure.participation,
+            Coordinates::Floors => &self.ones,
+        }
+    }
+
+    /// Adds the external forces on the floors, or their rates, to a load per unit of mass.
+    pub fn add_floor_forces(
+        &self,
+        inputs: &Inputs,
+        coordinates: Coordinates,
+        part: impl Fn(&LinearInput) -> f64,
+        load: &mut [f64],
+    ) {
+        let left = self.structure.floors(Side::Left);
+        let forces = inputs.floor_forces.iter().map(part).enumerate();
+        for (i, force) in forces.filter(|(_, force)| *force != 0.0) {
+            let (side, floor) = if i < left { (Side::Left, i) } else { (Side::Right, i - left) };
+            match coordinates {
+                Coordinates::Modes => self.structure.add_floor_force(side, floor, force, load),
+                Coordinates::Floors => {
+                    let lane = self.structure.floors.lane(side as usize, floor);
+                    load[lane] += force * self.structure.floors.inverse_mass(lane);
+                }
+            }
+        }
+    }
+
+    /// Acceleration for a given motion and load per unit of mass.
+    pub fn accelerate(
+        &self,
+        coordinates: Coordinates,
+        (q, v): (&[f64], &[f64]),
+        load: &[f64],
+        acceleration: &mut [f64],
+    ) {
+        acceleration.copy_from_slice(load);
+        self.resist(coordinates, q, v, 1.0, acceleration);
+    }
+
+    /// Subtracts from an acceleration what stiffness and `rate` times damping do.
+    pub fn resist(&self, coordinates: Coordinates, q: &[f64], v: &[f64], rate: f64, acceleration: &mut [f64]) {
+        match coordinates {
+            Coordinates::Modes => self.structure.resist(q, v, rate, acceleration),
+            Coordinates::Floors => self.structure.floors.resist(q, v, rate, acceleration),
+        }
+    }
+
+    /// Adds to a load per unit of mass what a contact force does.
+    pub fn push_apart_by(&self, p: usize, coordinates: Coordinates, force: f64, load: &mut [f64]) {
+        let Pair { row, lanes: [left, right], inverse_masses, .. } = &self.pairs[p];
+        match coordinates {
+            Coordinates::Modes => load.iter_mut().zip(row).for_each(|(load, row)| *load -= row * force),
+            Coordinates::Floors => {
+                load[*left] -= force * inverse_masses[0];
+                load[*right] += force * inverse_masses[1];
+            }
+        }
+    }
+
+    /// Takes the base into other coordinates.
+    pub fn convert(&self, base: &mut Base, coordinates: Coordinates, room: &mut Vec<f64>) {
+        if base.coordinates == coordinates {
+            return;
+        }
+        base.coordinates = coordinates;
+        for motion in [&mut base.q, &mut base.v] {
+            match coordinates {
+                Coordinates::Modes => self.structure.to_modes(motion, room),
+                Coordinates::Floors => self.structure.to_floors(motion, room),
+            }
+            std::mem::swap(motion, room);
+        }
+    }
+}
+
+/// Modes are cheaper where they are few, or where every floor feels every other.
+fn contact_coordinates(structure: &Structure) -> Coordinates {
+    if structure.lanes > FEW_BLOCKS * LANES && structure.floors.is_sparse() {
+        Coordinates::Floors
+    } else {
+        Coordinates::Modes
+    }
+}

@@ -7,12 +7,25 @@ use crate::numerics::polynomial::MAX_ORDER;
 /// `relative_tolerance`; with ten times as much, `hertz` is ten times worse for hardly fewer steps.
 const STEP_SHARE: f64 = 0.002;
 
-/// Velocity error of one step relative to the velocity scale, and the order of the series, for a scene's tolerance.
-pub fn accuracy(relative_tolerance: f64) -> (f64, usize) {
-    let tolerance = STEP_SHARE * relative_tolerance;
-    // 1.5 for each digit is about cheapest: with 1.2 single masses took 5 to 15 % more instructions, tall frames as many.
-    let order = (-1.5 * libm::log10(tolerance)).round().clamp(8.0, (MAX_ORDER - 2) as f64);
-    (tolerance, order as usize)
+/// How accurate a step in contact has to be, and how many powers its series have for that.
+#[derive(Clone, Copy, Debug)]
+pub struct Tolerance {
+    /// Velocity error allowed to one step, relative to the velocity scale.
+    pub step: f64,
+    /// Order of the series.
+    pub order: usize,
+    /// The same under linear laws, where it is worth while.
+    pub linear_order: usize,
+}
+
+impl Tolerance {
+    /// For that of a scene.
+    pub fn of(relative_tolerance: f64) -> Tolerance {
+        let step = STEP_SHARE * relative_tolerance;
+        // 1.5 for each digit is about cheapest: with 1.2 single masses took 5 to 15 % more instructions, tall frames as many.
+        let order = (-1.5 * libm::log10(step)).round().clamp(8.0, (MAX_ORDER - 2) as f64) as usize;
+        Tolerance { step, order, linear_order: linear_order(step, order) }
+    }
 }
 
 /// Phase of its swing, rad, that a contact under a linear law goes through from entry to release, over the share of its
@@ -21,7 +34,7 @@ const WHOLE_CONTACT: f64 = 3.5;
 
 /// The order at which one series takes a linear contact from entry to release: there each power costs a few products only,
 /// where each step costs its events and its end.
-pub fn linear_order(tolerance: f64, order: usize) -> usize {
+fn linear_order(tolerance: f64, order: usize) -> usize {
     let (mut term, mut powers) = (1.0, 0);
     while term > tolerance && powers < MAX_ORDER - 2 {
         powers += 1;

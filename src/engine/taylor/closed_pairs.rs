@@ -15,7 +15,7 @@ use crate::structure::MotionSeries;
 
 /// The pairs in contact, in blocks of one kind of law each.
 #[derive(Clone, Debug)]
-pub(in crate::engine) struct ClosedPairs {
+pub struct ClosedPairs {
     /// The first `used` are filled. There is room for all, but memory that no contact has needed yet is not touched.
     blocks: Vec<PairBlock>,
     members: Vec<Members>,
@@ -40,7 +40,7 @@ pub(in crate::engine) struct ClosedPairs {
 }
 
 /// What a block comes to at the end of a step.
-pub(in crate::engine) struct BlockEnd {
+pub struct BlockEnd {
     motion: BlockReading,
     force: ForceReading,
     /// Whether a force, or a penetration, may be largest in between.

@@ -5,9 +5,10 @@ use crate::contact::series::BlockReading;
 use crate::engine::base::contact::{Contact, Phase};
 use crate::engine::base::planned::Event;
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::model::Model;
-use crate::engine::state::Workspace;
-use crate::engine::step::Step;
+use crate::engine::system::System;
+use crate::engine::system::buffers::Buffers;
+use crate::engine::taylor::solution::Solution;
+
 use crate::engine::taylor::closed_pairs::ClosedPairs;
 use crate::numerics::polynomial::Coefficients;
 use crate::numerics::powers::Powers;
@@ -17,27 +18,22 @@ use crate::structure::MotionSeries;
 /// Share of the velocities so far below which a rate may be rounding.
 const ALIKE: f64 = 1e-12;
 
-impl Model {
+impl System {
     /// The first event of a pair in contact up to the end of the step's series.
-    pub(in crate::engine) fn first_leaving(
-        &self,
-        base: &Base,
-        step: &Step,
-        work: &mut Workspace,
-    ) -> Option<(f64, Event)> {
+    pub fn first_leaving(&self, base: &Base, solution: &Solution, work: &mut Buffers) -> Option<(f64, Event)> {
         let mut first = None;
-        for block in 0..step.closed.len() {
-            let stays = step.closed.stays_closed(block, step.end.x);
-            for (lane, p) in step.closed.pairs_of(block) {
+        for block in 0..solution.closed.len() {
+            let stays = solution.closed.stays_closed(block, solution.end.x);
+            for (lane, p) in solution.closed.pairs_of(block) {
                 if !stays[lane] || base.contacts[p].force.guard.is_some() {
-                    let reading = step.closed.reading(block);
+                    let reading = solution.closed.reading(block);
                     let place = (p, lane, stays[lane]);
-                    first = self.leaving(base, step, work, place, reading, until(first, step)).or(first);
+                    first = self.leaving(base, solution, work, place, reading, until(first, solution)).or(first);
                 }
             }
         }
         for &p in self.rigid.pairs.iter().filter(|&&p| base.contacts[p].is_held() && !base.contacts[p].undecided) {
-            first = self.letting_go(p, step, work, until(first, step)).or(first);
+            first = self.letting_go(p, solution, work, until(first, solution)).or(first);
         }
         first
     }
@@ -46,24 +42,25 @@ impl Model {
     fn leaving(
         &self,
         base: &Base,
-        step: &Step,
-        work: &mut Workspace,
+        solution: &Solution,
+        work: &mut Buffers,
         (p, lane, stays): (usize, usize, bool),
         reading: &BlockReading,
         until: f64,
     ) -> Option<(f64, Event)> {
         let contact = &base.contacts[p];
         // One that has entered without any speed, whose first terms may be rounding, leaves at that depth.
-        let depth = if contact.at_surface && contact.rate == 0.0 { self.noise_of(p, base, step, work) } else { 0.0 };
+        let depth =
+            if contact.at_surface && contact.rate == 0.0 { self.noise_of(p, base, solution, work) } else { 0.0 };
         let released = match stays {
             true => None,
-            false => released(&step.closed, (p, lane), reading, (step.end.x, until), depth, &mut work.scalar),
+            false => released(&solution.closed, (p, lane), reading, (solution.end.x, until), depth, &mut work.scalar),
         };
         let first = released.map(|x| (x, Event::Release(p)));
         let Some(guard) = contact.force.guard else { return first };
         let until = released.unwrap_or(until);
-        let noise = self.noise_of_guard(contact, &guard, base, step, work);
-        match self.passes_guard(contact, &guard, step, (lane, reading), (until, noise), &mut work.scalar) {
+        let noise = self.noise_of_guard(contact, &guard, base, solution, work);
+        match self.passes_guard(contact, &guard, solution, (lane, reading), (until, noise), &mut work.scalar) {
             Some(x) if x < until || first.is_none() => Some((x, Event::Branch(p))),
             _ => first,
         }
@@ -71,13 +68,20 @@ impl Model {
 
     /// By how much a guard has to be passed, in its unit: by more than rounding where the floors move alike but for that, else
     /// the contact would pass back and forth for ever.
-    fn noise_of_guard(&self, contact: &Contact, guard: &Guard, base: &Base, step: &Step, work: &mut Workspace) -> f64 {
+    fn noise_of_guard(
+        &self,
+        contact: &Contact,
+        guard: &Guard,
+        base: &Base,
+        solution: &Solution,
+        work: &mut Buffers,
+    ) -> f64 {
         let rate = contact.rate.abs();
         if rate > ALIKE * base.velocity_scale {
             return 0.0;
         }
-        let size = self.size_of(contact.episode.contact, base, step, work, |powers| powers.in_time().1);
-        let noise = 2.0 * f64::EPSILON * size / step.series.scale;
+        let size = self.size_of(contact.episode.contact, base, solution, work, |powers| powers.in_time().1);
+        let noise = 2.0 * f64::EPSILON * size / solution.series.scale;
         if rate <= noise { guard.damping.abs() * noise } else { 0.0 }
     }
 
@@ -86,12 +90,12 @@ impl Model {
         &self,
         contact: &Contact,
         guard: &Guard,
-        step: &Step,
+        solution: &Solution,
         (lane, reading): (usize, &BlockReading),
         (until, noise): (f64, f64),
         scalar: &mut Coefficients,
     ) -> Option<f64> {
-        let (MotionSeries { scale, clock, .. }, end) = (&step.series, step.end.x);
+        let (MotionSeries { scale, clock, .. }, end) = (&solution.series, solution.end.x);
         let sense = if contact.phase == Phase::Engaged { -1.0 } else { 1.0 };
         let (moved, stretch) = (end * (contact.rate.abs() * scale + reading.turn[lane]), clock.rate(end));
         // Of the guard times dt/dx, which changes no sign.
@@ -102,7 +106,7 @@ impl Model {
         if sense * guard.value(contact.penetration, contact.rate) + change < 0.0 {
             return None;
         }
-        let (block, lane) = step.closed.of(contact.episode.contact);
+        let (block, lane) = solution.closed.of(contact.episode.contact);
         let terms = block.copy_penetration(lane, scalar) - 2;
         let (stiffness, rate) = (sense * guard.stiffness, sense * guard.damping / scale);
         let mut previous = 0.0;
@@ -116,8 +120,8 @@ impl Model {
     }
 
     /// m, rounding error of a penetration within the step.
-    fn noise_of(&self, p: usize, base: &Base, step: &Step, work: &mut Workspace) -> f64 {
-        let size = self.size_of(p, base, step, work, |powers| powers.in_time().0);
+    fn noise_of(&self, p: usize, base: &Base, solution: &Solution, work: &mut Buffers) -> f64 {
+        let size = self.size_of(p, base, solution, work, |powers| powers.in_time().0);
         self.pairs[p].noise(size)
     }
 
@@ -127,19 +131,19 @@ impl Model {
         &self,
         p: usize,
         base: &Base,
-        step: &Step,
-        work: &mut Workspace,
+        solution: &Solution,
+        work: &mut Buffers,
         factors: impl Fn(&Powers) -> &Coefficients,
     ) -> f64 {
-        let series = &step.series;
-        work.powers.set_by(&series.clock, step.end.x, series.order);
+        let series = &solution.series;
+        work.powers.set_by(&series.clock, solution.end.x, series.order);
         work.powers.set_in_time(&series.clock);
         self.project(p, base.coordinates, series, factors(&work.powers), &mut work.scalar)
     }
 
     /// The scalar series in time of a pair's relative motion, written to `out[n]`. Returns the sum of the sizes of all that
     /// is added up, each term times its `factor`.
-    pub(in crate::engine) fn project(
+    pub fn project(
         &self,
         p: usize,
         coordinates: Coordinates,
@@ -161,8 +165,8 @@ impl Model {
 }
 
 /// How far to look: to the first event that is known, or to the end.
-fn until(first: Option<(f64, Event)>, step: &Step) -> f64 {
-    first.map_or(step.end.x, |(x, _)| x)
+fn until(first: Option<(f64, Event)>, solution: &Solution) -> f64 {
+    first.map_or(solution.end.x, |(x, _)| x)
 }
 
 /// Where a penetration is back at 0, or at -`depth`, up to `until`; its reading is that at the step's `end`.

@@ -1,19 +1,48 @@
 //! What a Taylor step does to contacts.
 
 use crate::engine::base::contact::Contact;
+use crate::engine::system::System;
+use crate::engine::taylor::solution::Solution;
 use crate::numerics::polynomial::Coefficients;
 use crate::numerics::powers::Powers;
 use crate::numerics::roots;
+impl Solution {
+    /// Follows the contacts to the end of the step, which has begun at `start` [s].
+    pub fn follow(&self, system: &System, contacts: &mut [Contact], start: f64) {
+        self.closed.follow(contacts, &self.series, start, &self.end);
+        for (terms, &p) in self.reactions.iter().zip(&system.rigid.pairs) {
+            if contacts[p].is_held() {
+                contacts[p].follow_reaction(terms, self.reaction_order, self.series.scale, start, &self.end);
+            }
+        }
+    }
+
+    /// Follows one contact to the time of the powers.
+    pub fn follow_one(&self, system: &System, contact: &mut Contact, start: f64, powers: &Powers) {
+        if !contact.is_held() {
+            return self.closed.follow_one(contact, &self.series, start, powers);
+        }
+        let p = contact.episode.contact;
+        if let Some(k) = system.rigid.pairs.iter().position(|&pair| pair == p) {
+            contact.follow_reaction(&self.reactions[k], self.reaction_order, self.series.scale, start, powers);
+        }
+    }
+
+    /// N, bounds on the sizes of the contact forces up to the x of the powers.
+    pub fn bound_forces(&self, system: &System, contacts: &[Contact], powers: &Powers, out: &mut [f64]) {
+        self.closed.bound_forces(contacts, powers, out);
+        for (terms, &p) in self.reactions.iter().zip(&system.rigid.pairs) {
+            if contacts[p].is_held() {
+                let powers = powers.all().0.iter();
+                out[p] = terms.iter().zip(powers).take(self.reaction_order + 1).map(|(c, x)| c.abs() * x).sum();
+            }
+        }
+    }
+}
+
 impl Contact {
     /// Impulse and peaks of floors that are held together, over a series up to the x of the powers.
-    pub(in crate::engine) fn follow_reaction(
-        &mut self,
-        terms: &Coefficients,
-        order: usize,
-        scale: f64,
-        start: f64,
-        powers: &Powers,
-    ) {
+    pub fn follow_reaction(&mut self, terms: &Coefficients, order: usize, scale: f64, start: f64, powers: &Powers) {
         let impulse = scale * powers.integral(terms);
         self.impulse += impulse;
         self.episode.impulse += impulse;

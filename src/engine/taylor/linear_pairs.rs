@@ -12,7 +12,7 @@ use crate::structure::{FEW_BLOCKS, LANES, Lane, PairForces, difference};
 use std::array::from_fn;
 
 /// The pairs while a series is expanded: `COUNT` of them, or as many as there are where that is [`PAIRS`].
-pub(in crate::engine) struct LinearPairs<'a, const COUNT: usize> {
+pub struct LinearPairs<'a, const COUNT: usize> {
     block: &'a mut PairBlock,
     count: usize,
     /// What each pair is to the modes.

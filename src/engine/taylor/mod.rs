@@ -7,22 +7,25 @@
 //! Under a power law the last terms tell of the root of the time since the entry, or until the release: there the terms in
 //! time are weighed as those by a [`Clock`] have them, which knows no such root and goes several times as far.
 
+use crate::engine::base::planned::At;
+use crate::engine::base::planned::Planned;
 use crate::engine::base::touching;
+use crate::engine::taylor::solution::Solution;
 pub mod closed_pairs;
 pub mod departures;
 pub mod follow;
 pub mod linear_pairs;
 pub mod open_pairs;
 pub mod pair_forces;
+pub mod solution;
 
 use crate::contact::series::PAIRS;
 use crate::engine::base::contact::{Contact, Phase};
 use crate::engine::base::planned::Event;
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::model::Model;
 use crate::engine::pairs::jacobian::{OnFewModes, OnFloors, OnModes};
-use crate::engine::state::{State, Workspace};
-use crate::engine::step::{Step, StepKind};
+use crate::engine::system::System;
+use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::closed_pairs::ClosedPairs;
 use crate::engine::taylor::linear_pairs::LinearPairs;
 use crate::engine::taylor::pair_forces::with_forces;
@@ -34,9 +37,6 @@ use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, difference, dot};
 /// Velocity that a force may cause which is left out at the singular start of a power law, as a share of a step's
 /// tolerance.
 const START_SHARE: f64 = 0.1;
-
-/// Share of the time left for which floors are held together that rounding cannot tell from free ones.
-const SHORT_WHILE: f64 = 1e-3;
 
 /// Furthest reach of a series, in units of its scale: beyond, terms that have vanished in a scale far too short would be
 /// missed, and the powers of the step overflow. The next series has a better scale.
@@ -59,130 +59,90 @@ const NEAR_ROUNDING: f64 = 1e-13;
 /// Share of the clock up to a release that a step takes then.
 const KEEPING_AWAY: f64 = 0.9;
 
-impl Model {
-    /// Works out the step in contact from the base until `limit` (s since the segment's start) or the next event.
-    pub(in crate::engine) fn plan_contact(&self, state: &mut State, limit: f64) {
-        let is_near_rigid = self.has_close_rigid_pair(&state.base);
-        let coordinates = if is_near_rigid { Coordinates::Modes } else { self.contact_coordinates };
-        self.convert(&mut state.base, coordinates, &mut state.work.q);
-        state.base.velocity_scale = state.base.velocity_scale.max(self.present_velocity(&state.base));
-        let (remaining, cut) = match self.time_for_rigid_pairs(state, limit - state.base.elapsed) {
-            Ok(time) => time,
-            Err(event) => return happen_now(state, event),
-        };
-        if let Some(p) = self.entry_at_once(&state.base) {
-            return happen_now(state, Event::Entry(p));
-        }
-        if !is_near_rigid && self.plan_window(state, remaining) {
-            return;
-        }
-        let is_singular = touching(&state.base).any(|(_, contact)| contact.is_singular());
-        if is_singular && !is_near_rigid && self.plan_onset(state, remaining) {
-            return;
-        }
-        let State { base, step, inputs, counters, work, .. } = state;
-        counters.contact_steps += 1;
-        step.ends.clear();
-        step.kind = StepKind::Contact;
-        self.load(base, inputs, &mut work.load, &mut work.slope);
+impl System {
+    /// Works out the power series from the base over `remaining` seconds at most, under a load that is in `work`, and how
+    /// far they are good for; `is_cut` where the remaining time is not all that there is.
+    pub fn plan_taylor(
+        &self,
+        at: &mut At,
+        (remaining, is_cut): (f64, bool),
+        planned: &mut Planned,
+        solution: &mut Solution,
+        work: &mut Buffers,
+    ) {
+        let base = &mut *at.base;
+        let is_singular = touching(base).any(|(_, contact)| contact.is_singular());
         let scale = self.series_scale(base, remaining);
-        self.expand(base, step, work, scale);
-        counters.law_evaluations += step.closed.count_forces();
-        let mut reach = self.accurate_reach(base, step, is_singular, remaining / scale);
-        if reach < remaining / scale && self.expand_further(base, step, work, reach) {
-            reach = self.accurate_reach(base, step, is_singular, remaining / scale);
-        }
-        if reach < remaining / scale && !is_near_rigid && !is_singular {
-            reach = self.reach_by_clock(base, step, work, (reach, remaining));
-        }
-        let whole = step.series.place(remaining) <= reach;
-        let end = if whole { step.series.place(remaining) } else { reach };
-        step.end.set_by(&step.series.clock, end, step.series.order);
-        step.closed.read(&step.end);
-        let leaving = self.first_leaving(base, step, work);
-        if let Some((x, _)) = leaving {
-            step.end.set_by(&step.series.clock, x, step.series.order);
-            step.closed.read(&step.end);
-        }
-        // Only an entry is looked for in the motion, and no further than to what ends the step anyway.
-        let entry = self.first_entry(base, step, work);
-        if let Some((x, _)) = entry {
-            step.end.set_by(&step.series.clock, x, step.series.order);
-            step.closed.read(&step.end);
-        }
-        step.end.set_in_time(&step.series.clock);
-        step.series.evaluate(&step.end, &mut step.q, &mut step.v);
-        let event = entry.or(leaving);
-        step.event = event.map(|(_, event)| event);
-        step.reaches_limit = whole && !cut && event.is_none();
-        step.length = if step.reaches_limit { remaining } else { step.series.time(step.end.x) };
-        self.carry(base, &step.series, &step.end, &mut work.scalar, &mut step.carried);
-        for (reaction, &p) in step.reactions.iter().zip(&self.rigid.pairs) {
+        self.expand(base, solution, work, scale);
+        at.counters.contact_steps += 1;
+        at.counters.law_evaluations += solution.closed.count_forces();
+        let reach = self.reach(base, solution, work, (is_singular, remaining));
+        let is_whole = solution.series.place(remaining) <= reach;
+        let end = if is_whole { solution.series.place(remaining) } else { reach };
+        let event = self.first_event(base, solution, work, end);
+        solution.end.set_in_time(&solution.series.clock);
+        solution.series.evaluate(&solution.end, &mut planned.q, &mut planned.v);
+        planned.event = event;
+        planned.reaches_limit = is_whole && !is_cut && event.is_none();
+        planned.length = if planned.reaches_limit { remaining } else { solution.series.time(solution.end.x) };
+        planned.next_length = Some(solution.series.time(reach));
+        planned.ends.clear();
+        self.carry(base, &solution.series, &solution.end, &mut work.scalar, &mut planned.carried);
+        for (reaction, &p) in solution.reactions.iter().zip(&self.rigid.pairs) {
             if base.contacts[p].is_held() {
                 base.contacts[p].reaction = reaction[0];
             }
         }
-        step.next_length = Some(step.series.time(reach));
     }
 
-    /// How long a step may be near rigid contacts, of the `remaining` time, s, and whether it is cut; or the release that
-    /// comes first. Leaves the pairs that are held together in `work.rigid`, all active.
-    fn time_for_rigid_pairs(&self, state: &mut State, remaining: f64) -> Result<(f64, bool), Event> {
-        let State { base, inputs, work, .. } = state;
-        if !self.has_close_rigid_pair(base) {
-            work.rigid.clear();
-            return Ok((remaining, false));
+    /// How far the expanded series are good for, in x: with more powers where these are cheap, by a clock where that takes them
+    /// further.
+    fn reach(
+        &self,
+        base: &Base,
+        solution: &mut Solution,
+        work: &mut Buffers,
+        (is_singular, remaining): (bool, f64),
+    ) -> f64 {
+        let whole = remaining / solution.series.scale;
+        let mut reach = self.accurate_reach(base, solution, is_singular, whole);
+        if reach < whole && self.expand_further(base, solution, work, reach) {
+            reach = self.accurate_reach(base, solution, is_singular, whole);
         }
-        if let Some(p) = self.balance(base, inputs, work) {
-            return Err(Event::Release(p));
+        if reach < whole && !self.has_close_rigid_pair(base) && !is_singular {
+            reach = self.reach_by_clock(base, solution, work, (reach, remaining));
         }
-        work.rigid.close_all(&self.rigid.matrix);
-        let mut time = self.bounce_horizon(base, &work.q);
-        if base.contacts.iter().any(|contact| contact.undecided) {
-            time = time.min(SHORT_WHILE * remaining);
+        reach
+    }
+
+    /// The first event up to an x; leaves the end of the step, which is there or at the event, in the solution.
+    fn first_event(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, end: f64) -> Option<Event> {
+        solution.end_at(end);
+        let leaving = self.first_leaving(base, solution, work);
+        if let Some((x, _)) = leaving {
+            solution.end_at(x);
         }
-        Ok((remaining.min(time), time < remaining))
-    }
-
-    /// Whether rigid floors are held together, or are about to meet again.
-    fn has_close_rigid_pair(&self, base: &Base) -> bool {
-        self.rigid.pairs.iter().any(|&p| base.contacts[p].is_held() || base.contacts[p].carried)
-    }
-
-    /// The unit of time of the next series, s: near the length of the step, so that its terms neither overflow nor
-    /// vanish. A power law's series reaches no further than to its singularity at d = 0.
-    pub(in crate::engine) fn series_scale(&self, base: &Base, remaining: f64) -> f64 {
-        let last = if base.last_length > 0.0 { base.last_length } else { remaining };
-        let reach = touching(base)
-            .filter(|(_, contact)| contact.penetration > 0.0 && !contact.branch().is_regular() && contact.rate != 0.0)
-            .map(|(_, contact)| contact.penetration / contact.rate.abs())
-            .fold(last.min(remaining), f64::min);
-        power_of_two_below(reach)
-    }
-
-    /// A pair that stands at the surface and approaches, by more than rounding: it enters now, together with another.
-    fn entry_at_once(&self, base: &Base) -> Option<usize> {
-        let at_surface = |contact: &Contact| contact.at_surface || contact.penetration >= 0.0;
-        let meets = |(p, contact): (usize, &Contact)| {
-            let stands = !contact.in_contact() && at_surface(contact) && contact.rate > 0.0;
-            stands && self.pairs[p].difference(base.coordinates, &base.v).0 > 0.0
-        };
-        base.contacts.iter().enumerate().position(meets)
+        // Only an entry is looked for in the motion, and no further than to what ends the step anyway.
+        let entry = self.first_entry(base, solution, work);
+        if let Some((x, _)) = entry {
+            solution.end_at(x);
+        }
+        entry.or(leaving).map(|(_, event)| event)
     }
 
     /// The series of the motion, of penetrations and forces from the base on.
-    fn expand(&self, base: &Base, step: &mut Step, work: &mut Workspace, scale: f64) {
-        step.series.start(scale, &base.q, &base.v);
+    fn expand(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, scale: f64) {
+        solution.series.start(scale, &base.q, &base.v);
         let are_few = base.coordinates == Coordinates::Modes && base.q.len() <= FEW_BLOCKS * LANES;
         let may_ride = are_few && self.structure.is_classical() && self.rigid.pairs.is_empty();
-        step.closed.start(base, &self.pairs, scale, may_ride);
-        self.expand_to(base, step, work, self.order + 1);
+        solution.closed.start(base, &self.pairs, scale, may_ride);
+        self.expand_to(base, solution, work, self.tolerance.order + 1);
     }
 
     /// Expands the started series to `order`, or goes on with it.
-    fn expand_to(&self, base: &Base, step: &mut Step, work: &mut Workspace, order: usize) {
+    fn expand_to(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, order: usize) {
         let (structure, loads) = (&self.structure, (&work.load[..], &work.slope[..]));
-        let Step { series, closed, .. } = step;
+        let Solution { series, closed, .. } = solution;
         match base.coordinates {
             Coordinates::Floors => {
                 with_forces!(closed, [Linear, Spring, Damped, Root], false, OnFloors, |forces| series.expand_floors(
@@ -202,8 +162,8 @@ impl Model {
                 }
             }
             Coordinates::Modes => {
-                while step.series.order < order {
-                    self.extend_together(step, (&work.load, &work.slope), &mut work.rigid);
+                while solution.series.order < order {
+                    self.extend_together(solution, (&work.load, &work.slope), &mut work.rigid);
                 }
             }
         }
@@ -211,16 +171,18 @@ impl Model {
 
     /// More powers of the series where these are cheap and it does not reach the release of any pair yet, within
     /// `reach`; whether there are more now.
-    fn expand_further(&self, base: &Base, step: &mut Step, work: &mut Workspace, reach: f64) -> bool {
+    fn expand_further(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, reach: f64) -> bool {
         let is_on_few_modes = base.coordinates == Coordinates::Modes
             && base.q.len() <= FEW_BLOCKS * LANES
             && self.structure.is_classical()
             && work.rigid.pairs.is_empty();
-        let are_cheap = is_on_few_modes && self.linear_order > self.order && step.closed.count_linear().is_some();
-        if !are_cheap || step.closed.are_some_nearly_released(reach) {
+        let are_cheap = is_on_few_modes
+            && self.tolerance.linear_order > self.tolerance.order
+            && solution.closed.count_linear().is_some();
+        if !are_cheap || solution.closed.are_some_nearly_released(reach) {
             return false;
         }
-        self.expand_to(base, step, work, self.linear_order + 1);
+        self.expand_to(base, solution, work, self.tolerance.linear_order + 1);
         true
     }
 
@@ -253,8 +215,8 @@ impl Model {
     }
 
     /// One power of the modes, where floors are held together.
-    fn extend_together(&self, step: &mut Step, (load, slope): (&[f64], &[f64]), rigid: &mut Complementarity) {
-        let Step { series, closed, reactions, reaction_order, .. } = step;
+    fn extend_together(&self, solution: &mut Solution, (load, slope): (&[f64], &[f64]), rigid: &mut Complementarity) {
+        let Solution { series, closed, reactions, reaction_order, .. } = solution;
         let n = series.order - 1;
         let scale = series.scale;
         closed.extend_forces(n);
@@ -283,24 +245,24 @@ impl Model {
     fn reach_by_clock(
         &self,
         base: &Base,
-        step: &mut Step,
-        work: &mut Workspace,
+        solution: &mut Solution,
+        work: &mut Buffers,
         (reach, remaining): (f64, f64),
     ) -> f64 {
-        let Some((clock, furthest)) = self.clock(base, step, reach) else { return reach };
-        step.bend(clock, &mut work.bend);
-        let reach = self.reach_of_rates(base, &step.series, work);
-        self.cautious(reach, furthest.min(clock.place(remaining / step.series.scale)))
+        let Some((clock, furthest)) = self.clock(base, solution, reach) else { return reach };
+        solution.bend_by(clock);
+        let reach = self.reach_of_rates(base, &solution.series, work);
+        self.cautious(reach, furthest.min(clock.place(remaining / solution.series.scale)))
     }
 
     /// The clock for series that reach so far in time, if one takes them further, and how far that is good for.
-    fn clock(&self, base: &Base, step: &Step, reach: f64) -> Option<(Clock, f64)> {
+    fn clock(&self, base: &Base, solution: &Solution, reach: f64) -> Option<(Clock, f64)> {
         let is_behind = |(_, contact): &(usize, &Contact)| {
             contact.phase == Phase::Engaged && !contact.branch().is_regular() && contact.age > 0.0
         };
         let ages = touching(base).filter(is_behind).map(|(_, contact)| contact.age);
-        let since = ages.fold(f64::INFINITY, f64::min) / step.series.scale;
-        let release = (1.0 + LATE) * step.closed.first_release(reach / NEAR);
+        let since = ages.fold(f64::INFINITY, f64::min) / solution.series.scale;
+        let release = (1.0 + LATE) * solution.closed.first_release(reach / NEAR);
         let (bend, furthest) = match () {
             // Reached or passed as it is, or in a scale far too long.
             _ if release < reach || reach > FURTHEST_FROM_ENTRY * since || reach < 1.0 / FURTHEST => return None,
@@ -314,8 +276,8 @@ impl Model {
     }
 
     /// How far, by its clock, the last two terms of the velocities of a series stay below the tolerance.
-    fn reach_of_rates(&self, base: &Base, series: &MotionSeries, work: &mut Workspace) -> f64 {
-        let allowed = self.step_tolerance * base.velocity_scale * series.scale;
+    fn reach_of_rates(&self, base: &Base, series: &MotionSeries, work: &mut Buffers) -> f64 {
+        let allowed = self.tolerance.step * base.velocity_scale * series.scale;
         let (last, before) = (&mut work.node_q, &mut work.node_v);
         let powers = series.last_rates(last, before);
         let sizes = [last, before].map(|term| self.worst_floor(base.coordinates, term));
@@ -325,7 +287,7 @@ impl Model {
 
     /// Share of the way to the end of a clock that a step may take.
     fn boldness(&self) -> f64 {
-        if self.step_tolerance < NEAR_ROUNDING { KEEPING_AWAY } else { 1.0 }
+        if self.tolerance.step < NEAR_ROUNDING { KEEPING_AWAY } else { 1.0 }
     }
 
     /// How far to go where terms show that something is accurate up to about `reach`: not quite as far, unless the rest of
@@ -338,9 +300,9 @@ impl Model {
     ///
     /// It is the velocity that is controlled: over a contact of a millisecond a displacement error is a velocity error
     /// a thousand times larger.
-    fn accurate_reach(&self, base: &Base, step: &Step, is_singular: bool, whole: f64) -> f64 {
-        let series = &step.series;
-        let mut reach = self.reach_of_terms(base, series, self.step_tolerance * base.velocity_scale * series.scale);
+    fn accurate_reach(&self, base: &Base, solution: &Solution, is_singular: bool, whole: f64) -> f64 {
+        let series = &solution.series;
+        let mut reach = self.reach_of_terms(base, series, self.tolerance.step * base.velocity_scale * series.scale);
         reach = self.cautious(reach, whole);
         if !is_singular {
             return reach.min(FURTHEST);
@@ -348,7 +310,7 @@ impl Model {
         for (p, contact) in touching(base).filter(|(_, contact)| contact.is_singular()) {
             let law = contact.branch();
             let mut terms = [0.0; ROOM];
-            let (block, lane) = step.closed.of(p);
+            let (block, lane) = solution.closed.of(p);
             block.copy_penetration(lane, &mut terms);
             let left_out = |x: f64| {
                 let (penetration, rate) =
@@ -381,7 +343,7 @@ impl Model {
         (2..last / 2)
             .map(|n| {
                 let term = n as f64 * self.worst_floor(coordinates, series.term(n));
-                libm::pow(self.step_tolerance * term / last_term, 1.0 / (last - n) as f64)
+                libm::pow(self.tolerance.step * term / last_term, 1.0 / (last - n) as f64)
             })
             .fold(0.0, f64::max)
     }
@@ -394,71 +356,11 @@ impl Model {
         let mut x = whole;
         while x > 1e-30 {
             let gained = x * (gained[0] + x * (gained[1] + x * gained[2]));
-            if left_out(x) <= START_SHARE * self.step_tolerance * (speed + gained) {
+            if left_out(x) <= START_SHARE * self.tolerance.step * (speed + gained) {
                 break;
             }
             x *= 0.5;
         }
         x
     }
-
-    /// Largest floor displacement, velocity ... of a vector of motion; of modes, that any one of them stands for.
-    pub(in crate::engine) fn worst_floor(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
-        match coordinates {
-            Coordinates::Floors => largest_of(motion, |_, size| size),
-            Coordinates::Modes => {
-                let weights = self.structure.weight.as_chunks::<LANES>().0;
-                largest_of(motion, |(c, i), size| size * weights[c][i])
-            }
-        }
-    }
-
-    /// The velocity that contact errors are measured against: of the floors, or what the springs can give them.
-    fn present_velocity(&self, base: &Base) -> f64 {
-        let floors = self.worst_floor(base.coordinates, &base.v);
-        // What is stored later comes from the motion that has been seen.
-        if base.last_length > 0.0 {
-            return floors;
-        }
-        let springs = base.contacts.iter().zip(&self.pairs).map(|(contact, pair)| {
-            (2.0 * contact.branch().stored_energy(contact.penetration.max(0.0)) / pair.mass).sqrt()
-        });
-        springs.fold(floors, f64::max)
-    }
-}
-
-/// The largest of the sizes of a motion, each as `weighed` by its block and lane.
-#[inline(always)]
-fn largest_of(motion: &[f64], weighed: impl Fn((usize, usize), f64) -> f64) -> f64 {
-    let mut largest = [0.0_f64; LANES];
-    for (c, motion) in motion.as_chunks::<LANES>().0.iter().enumerate() {
-        for i in 0..LANES {
-            // Not `max`, which has to look for a NaN in both.
-            let size = weighed((c, i), motion[i].abs());
-            largest[i] = if size > largest[i] { size } else { largest[i] };
-        }
-    }
-    largest.iter().fold(0.0, |a, b| a.max(*b))
-}
-
-/// The power of two at or below x > 0: a scale that costs no rounding.
-fn power_of_two_below(x: f64) -> f64 {
-    const MANTISSA: u64 = (1 << 52) - 1;
-    let power = f64::from_bits(x.to_bits() & !MANTISSA);
-    if power > 0.0 { power } else { x }
-}
-
-/// An event that needs no step.
-fn happen_now(state: &mut State, event: Event) {
-    let State { base, step, .. } = state;
-    step.kind = StepKind::Contact;
-    step.event = Some(event);
-    step.reaches_limit = false;
-    step.length = 0.0;
-    step.next_length = None;
-    step.series.scale = 1.0;
-    step.carried.fill(None);
-    step.ends.clear();
-    step.q.copy_from_slice(&base.q);
-    step.v.copy_from_slice(&base.v);
 }

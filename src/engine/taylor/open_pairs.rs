@@ -4,12 +4,13 @@ use crate::contact::series::{Each, PAIRS};
 use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::Event;
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::model::Model;
 use crate::engine::pairs::jacobian::{Meeting, OnFewModes, OnFloors, OnModes};
 use crate::engine::pairs::packing::{Members, Place, most_blocks};
 use crate::engine::pairs::pair::Pair;
-use crate::engine::state::Workspace;
-use crate::engine::step::Step;
+use crate::engine::system::System;
+use crate::engine::system::buffers::Buffers;
+use crate::engine::taylor::solution::Solution;
+
 use crate::numerics::polynomial::{ROOM, each};
 use crate::numerics::powers::Powers;
 use crate::numerics::roots;
@@ -18,7 +19,7 @@ use crate::structure::{FEW_BLOCKS, LANES, MotionSeries};
 
 /// A block of pairs over a step, by the x of its powers.
 #[derive(Clone, Debug, Default)]
-pub(in crate::engine) struct Course {
+pub struct Course {
     /// Penetrations at the start, m, and their derivatives.
     pub start: [Each; 2],
     /// The same at the end.
@@ -63,7 +64,7 @@ impl Course {
 
 /// All pairs in blocks, and their series.
 #[derive(Clone, Debug)]
-pub(in crate::engine) struct OpenPairs {
+pub struct OpenPairs {
     /// Room for all; the first `used` are filled.
     members: Vec<Members>,
     used: usize,
@@ -203,27 +204,28 @@ fn read(
     }
 }
 
-impl Model {
+impl System {
     /// The first entry of a pair that is apart up to the end of the step.
-    pub(in crate::engine) fn first_entry(
-        &self,
-        base: &Base,
-        step: &mut Step,
-        work: &mut Workspace,
-    ) -> Option<(f64, Event)> {
+    pub fn first_entry(&self, base: &Base, solution: &mut Solution, work: &mut Buffers) -> Option<(f64, Event)> {
         if base.contacts.iter().all(Contact::in_contact) {
             return None;
         }
-        let Step { open, closed, series, end, .. } = step;
+        let Solution { open, closed, series, end, bend, .. } = solution;
         if !closed.riders().is_empty() {
             let course = closed.course_of_riders();
-            return self.first_of_lanes(base, closed.riders().iter().copied(), &course, (series, end, work), None);
+            return self.first_of_lanes(
+                base,
+                closed.riders().iter().copied(),
+                &course,
+                ((series, bend), end, work),
+                None,
+            );
         }
         open.assign(&self.pairs, base.coordinates);
-        open.follow(base, &self.pairs, (series, &work.bend), end, &mut work.node_q);
+        open.follow(base, &self.pairs, (series, bend), end, &mut work.node_q);
         let mut first = None;
         for (block, course) in open.apart.iter().zip(&open.courses) {
-            first = self.first_of_lanes(base, open.members[*block].lanes(), course, (series, end, work), first);
+            first = self.first_of_lanes(base, open.members[*block].lanes(), course, ((series, bend), end, work), first);
         }
         first
     }
@@ -235,7 +237,7 @@ impl Model {
         base: &Base,
         lanes: impl Iterator<Item = (usize, usize)>,
         course: &Course,
-        (series, end, work): (&MotionSeries, &mut Powers, &mut Workspace),
+        ((series, bend), end, work): ((&MotionSeries, &Bend), &mut Powers, &mut Buffers),
         mut first: Option<(f64, Event)>,
     ) -> Option<(f64, Event)> {
         let stays_apart = course.stays_apart(end.x);
@@ -252,7 +254,7 @@ impl Model {
             let contact = &base.contacts[p];
             let noise = contact.begin_flight(terms, series.scale, self.pairs[p].noise(size));
             if series.clock.is_bent() {
-                work.bend.apply_to_one(terms);
+                bend.apply_to_one(terms);
             }
             let until = first.map_or(end.x, |(x, _)| x);
             first = roots::first_rise(terms, until, noise).map(|x| (x, Event::Entry(p))).or(first);

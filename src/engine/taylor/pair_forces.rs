@@ -13,10 +13,10 @@ use crate::structure::{Lane, PairForces};
 use std::marker::PhantomData;
 
 /// Blocks of pairs, and which pairs stand in them.
-pub(in crate::engine) type Blocks<'a> = (&'a mut [PairBlock], &'a [Members]);
+pub type Blocks<'a> = (&'a mut [PairBlock], &'a [Members]);
 
 /// Pairs under a law, each of which feels nothing of the others at once; `ONE` where they are one block.
-pub(in crate::engine) struct AtOnce<'a, M, L, const ONE: bool> {
+pub struct AtOnce<'a, M, L, const ONE: bool> {
     blocks: &'a mut [PairBlock],
     members: &'a [Members],
     meeting: M,
@@ -51,7 +51,7 @@ impl<M: Meeting, L: PairLaw, const ONE: bool> PairForces for AtOnce<'_, M, L, ON
 }
 
 /// Pairs whose penetrations have to wait for all forces.
-pub(in crate::engine) struct InTurn<'a, M> {
+pub struct InTurn<'a, M> {
     pub closed: &'a mut ClosedPairs,
     pub meeting: M,
 }

@@ -9,19 +9,26 @@ use crate::collocation::{Ending, Kernel, MOST_PAIRS, POWERS, Solution, Tables};
 use crate::contact::Guard;
 use crate::engine::base::Base;
 use crate::engine::base::contact::{Contact, Phase};
-use crate::engine::model::Model;
-use crate::engine::state::Workspace;
-use crate::engine::step::Step;
+use crate::engine::system::System;
+use crate::engine::system::buffers::Buffers;
+use crate::engine::window::kernels::Windows;
 use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::SECOND;
+use crate::structure::MotionSeries;
 
 /// Pieces of a window are halved so many times to show that a pair stays apart: down to a distance of rounding.
 const MOST_HALVINGS: u32 = 16;
 
-impl Model {
+impl Windows {
     /// Whether nothing but its ending happens in the window of a step.
-    pub(in crate::engine) fn is_certain(&self, base: &Base, step: &Step, work: &mut Workspace, ending: Ending) -> bool {
-        let window = &*step.window;
+    pub fn is_certain(
+        &self,
+        system: &System,
+        base: &Base,
+        (window, series): (&Window, &MotionSeries),
+        work: &mut Buffers,
+        ending: Ending,
+    ) -> bool {
         let equation = &window.equation;
         let pairs_hold = (0..equation.pairs).all(|place| {
             let kernels = &equation.kernels[place].each_ref();
@@ -34,23 +41,27 @@ impl Model {
             }
             passage.stays_apart(&Approach { window, free, kernels, bend })
         });
-        pairs_hold && self.others_stay_apart(base, step, work)
+        pairs_hold && self.others_stay_apart(system, base, (window, series), work)
     }
 
     /// Whether all pairs that are not in the window stay apart.
-    fn others_stay_apart(&self, base: &Base, step: &Step, work: &mut Workspace) -> bool {
-        let Some(windows) = &self.windows else { return false };
-        let (window, series) = (&*step.window, &step.series);
+    fn others_stay_apart(
+        &self,
+        system: &System,
+        base: &Base,
+        (window, series): (&Window, &MotionSeries),
+        work: &mut Buffers,
+    ) -> bool {
         let Window { contacts, equation, solution, .. } = window;
         let is_other = |p: usize, contact: &Contact| !contact.in_contact() && window.place(p).is_none();
         let mut others = base.contacts.iter().enumerate().filter(|(p, contact)| is_other(*p, contact));
         others.all(|(p, contact)| {
-            let row = &self.pairs[p].row;
+            let row = &system.pairs[p].row;
             let terms = &mut work.scalar[..=series.order];
             series.dot_each(row, 2, terms);
             let (mut kernels, mut room) = ([&[0.0; POWERS]; MOST_PAIRS], [None; MOST_PAIRS]);
             for ((kernel, room), q) in kernels.iter_mut().zip(&mut room).zip(&contacts[..equation.closed]) {
-                *kernel = windows.kernel(&self.pairs, p, *q, room);
+                *kernel = self.kernel(system, p, *q, room);
             }
             let bend = |way: Way| window.bend(way, terms, &kernels, None);
             if keeps_off(contact, bend(Way::Up), solution.length) {
@@ -73,7 +84,7 @@ enum Way {
 }
 
 /// Whether a pair apart, whose penetration bends upwards by `bend` at most, stays so over `h` seconds.
-pub(in crate::engine) fn keeps_off(contact: &Contact, bend: f64, h: f64) -> bool {
+pub fn keeps_off(contact: &Contact, bend: f64, h: f64) -> bool {
     let (start, rate) = (contact.flight_start(), contact.rate);
     // Below a parabola that only falls, or one that may rise.
     let falls = start <= 0.0 && rate + 0.5 * bend * h < 0.0;

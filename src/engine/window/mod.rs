@@ -4,24 +4,28 @@
 //! series need twenty steps. A window is taken only if bounds show that nothing else happens in it (see
 //! [`certificate`]). Where that cannot be shown power series in time go on.
 
+use crate::collocation::Room;
+use crate::engine::base::planned::At;
+use crate::engine::base::planned::Planned;
+use crate::engine::system::System;
+use crate::engine::window::kernels::Windows;
+use crate::structure::MotionSeries;
 pub mod certificate;
+pub mod kernels;
 pub mod solution;
 pub mod trial;
 
-use crate::collocation::{Ending, Kernel, MOST_PAIRS, Tables};
+use crate::collocation::{Ending, MOST_PAIRS, Tables};
 use crate::contact::Force;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::Event;
 use crate::engine::base::touching;
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::model::Model;
-use crate::engine::pairs::pair::Pair;
-use crate::engine::state::{State, Workspace};
-use crate::engine::step::{Step, StepKind};
+use crate::engine::system::buffers::Buffers;
 use crate::engine::window::certificate::keeps_off;
 use crate::engine::window::solution::Window;
-use crate::engine::window::trial::{Draft, Spring, patience};
-use crate::structure::{EXACT, ImpulseResponse, Structure, dot, flight_order};
+use crate::engine::window::trial::Draft;
+use crate::structure::{EXACT, dot, flight_order};
 
 /// How far a kernel may be off, relative to what one step may.
 const KERNEL_SHARE: f64 = 0.03;
@@ -33,61 +37,14 @@ const FREE_SHARE: f64 = 1e-3;
 /// How far the iteration may be off, relative to what one step may.
 const SWEEP_SHARE: f64 = 0.3;
 
-/// Error between the nodes of a window, relative to the power 2/3 of what one step may leave: at its end a Gauss rule is
-/// far better than between its nodes.
-const BETWEEN_NODES: f64 = 10.0;
-
 /// Share of a contact's force that moves it, and of its speed, below which it is at rest.
 const AT_REST: f64 = 0.1;
 
 /// Pairs with dashpots that a window is for: of two, series by a clock cost about as much; found by trying.
 const MOST_DAMPED: usize = 1;
 
-/// Pairs of which all kernels are kept: 64 kB.
-const MOST_KNOWN: usize = 20;
-
 /// Windows that are tried for one step.
 const MOST_TRIES: usize = 5;
-
-/// What windows need to know of a scene.
-#[derive(Clone, Debug)]
-pub(in crate::engine) struct Windows {
-    pub response: ImpulseResponse,
-    /// G_pq of pairs p and q, one row after the other, where they are few.
-    kernels: Vec<Kernel>,
-    /// Error between nodes that a window may have, relative to what one step may.
-    allowed: f64,
-    /// Length of windows relative to the usual.
-    pub patience: f64,
-    /// Of each pair whose law has a root.
-    pub springs: Vec<Option<Spring>>,
-}
-
-impl Windows {
-    /// `None` where no law needs them, or damping couples the modes.
-    pub fn of(structure: &Structure, pairs: &[Pair], step_tolerance: f64) -> Option<Windows> {
-        let springs: Vec<Option<Spring>> = pairs.iter().map(Spring::of).collect();
-        if springs.iter().all(Option::is_none) {
-            return None;
-        }
-        let response = ImpulseResponse::of(structure)?;
-        Tables::prepare();
-        let known = if pairs.len() <= MOST_KNOWN { pairs } else { &[] };
-        let kernels = known.iter().flat_map(|p| known.iter().map(|q| response.kernel(&p.row, &q.row))).collect();
-        let allowed = BETWEEN_NODES / libm::cbrt(step_tolerance);
-        Some(Windows { response, kernels, allowed, patience: patience(step_tolerance), springs })
-    }
-}
-
-impl Windows {
-    /// G_pq of two pairs, for which there is `room` where it is not kept.
-    pub fn kernel<'a>(&'a self, pairs: &[Pair], p: usize, q: usize, room: &'a mut Option<Kernel>) -> &'a Kernel {
-        match self.kernels.get(p * pairs.len() + q) {
-            Some(known) => known,
-            None => room.insert(self.response.kernel(&pairs[p].row, &pairs[q].row)),
-        }
-    }
-}
 
 /// What has been found of a solved window.
 enum Verdict {
@@ -99,27 +56,34 @@ enum Verdict {
     Hopeless,
 }
 
-impl Model {
-    /// Works out a window from the base on, over `remaining` seconds at most; `false` where power series have to do it.
-    pub(in crate::engine) fn plan_window(&self, state: &mut State, remaining: f64) -> bool {
-        let Some(windows) = &self.windows else { return false };
-        let State { base, step, inputs, counters, work, .. } = state;
-        if base.coordinates != Coordinates::Modes || !self.gather(base, &mut step.window) {
+impl Windows {
+    /// Works out a window from the base on, over `remaining` seconds at most and under a load that is in `work`; `false` where
+    /// power series have to do it. `series` is for the motion without contact forces.
+    pub fn plan(
+        &self,
+        system: &System,
+        at: &mut At,
+        remaining: f64,
+        planned: &mut Planned,
+        (window, series): (&mut Window, &mut MotionSeries),
+        (room, work): (&mut Room, &mut Buffers),
+    ) -> bool {
+        let base = &*at.base;
+        if base.coordinates != Coordinates::Modes || !window.gather(base) {
             return false;
         }
-        self.load(base, inputs, &mut work.load, &mut work.slope);
-        let Some(mut draft) = self.draft(base, &mut step.window, remaining) else { return false };
-        if !self.set_equation(windows, base, step, work, draft.room()) {
+        let Some(mut draft) = self.draft(system, base, window, remaining) else { return false };
+        if !self.set_equation(system, base, (window, series), work, draft.room()) {
             return false;
         }
-        if (0..step.window.equation.closed).any(|place| self.is_at_rest(base, &step.window, place)) {
+        if (0..window.equation.closed).any(|place| window.is_at_rest(system, base, place)) {
             return false;
         }
-        self.watch(windows, base, step, draft.length);
-        let tolerance = self.step_tolerance * base.velocity_scale;
+        self.watch(system, base, (window, series), draft.length);
+        let tolerance = system.tolerance.step * base.velocity_scale;
         for _ in 0..MOST_TRIES {
-            let Window { equation, solution, .. } = &mut *step.window;
-            if !solution.solve(equation, &mut work.windows, draft.frame(), SWEEP_SHARE * tolerance * draft.length) {
+            let Window { equation, solution, .. } = window;
+            if !solution.solve(equation, room, draft.frame(), SWEEP_SHARE * tolerance * draft.length) {
                 // An event that is not where it was expected may be late.
                 draft = match draft.ending {
                     Ending::Given => draft.shorter(0.5),
@@ -131,12 +95,12 @@ impl Model {
                 draft = draft.shorter(1.0).until(Ending::Given, remaining.min(equation.scale));
                 continue;
             }
-            step.window.close();
-            match self.judge(base, step, work, draft, tolerance) {
+            window.close();
+            match self.judge(system, base, (window, series), work, draft, tolerance) {
                 Verdict::Good => {
-                    counters.contact_steps += 1;
-                    counters.law_evaluations += base.count_forces(Contact::branch);
-                    self.commit_window(step, work, draft.ending, remaining);
+                    at.counters.contact_steps += 1;
+                    at.counters.law_evaluations += base.count_forces(Contact::branch);
+                    window.commit(system, series, planned, work, draft.ending, remaining);
                     return true;
                 }
                 Verdict::Another(next) => draft = next,
@@ -146,101 +110,77 @@ impl Model {
         false
     }
 
-    /// The pairs in contact, if they are few enough and of laws that windows are for.
-    fn gather(&self, base: &Base, window: &mut Window) -> bool {
-        window.equation.closed = 0;
-        for (p, contact) in touching(base) {
-            let force = contact.branch();
-            let fits = match force {
-                Force::Power { exponent, .. } => (2.0 * exponent).fract() == 0.0,
-                Force::Root { .. } => true,
-                Force::None | Force::Linear { .. } => false,
-            };
-            // An entry whose speed is rounding is for the other kinds of step.
-            let enters = contact.penetration > 0.0 || contact.rate > 0.0;
-            let place = window.equation.closed;
-            if place == MOST_PAIRS || contact.is_held() || !fits || !enters {
-                return false;
-            }
-            window.contacts[place] = p;
-            window.equation.forces[place] = force;
-            window.equation.closed += 1;
-        }
-        let closed = window.equation.closed;
-        window.equation.pairs = closed;
-        closed <= MOST_DAMPED || window.equation.forces[..closed].iter().all(|force| !force.is_damped())
-    }
-
     /// Fills in the free motion and the kernels for windows up to `longest`, s; whether series reach that far.
-    fn set_equation(&self, windows: &Windows, base: &Base, step: &mut Step, work: &Workspace, longest: f64) -> bool {
-        let Step { window, series, .. } = step;
+    fn set_equation(
+        &self,
+        system: &System,
+        base: &Base,
+        (window, series): (&mut Window, &mut MotionSeries),
+        work: &Buffers,
+        longest: f64,
+    ) -> bool {
+        let System { structure, tolerance, impulse_response, .. } = system;
         let equation = &mut window.equation;
-        let remainder = (KERNEL_SHARE * self.step_tolerance).max(1e-17);
-        let powers = windows.response.powers(longest, remainder);
-        let exact = (FREE_SHARE * self.step_tolerance).max(EXACT);
-        let (Some(powers), Some(order)) = (powers, flight_order(self.structure.fastest * longest, exact)) else {
+        let remainder = (KERNEL_SHARE * tolerance.step).max(1e-17);
+        let powers = impulse_response.as_ref().and_then(|response| response.powers(longest, remainder));
+        let exact = (FREE_SHARE * tolerance.step).max(EXACT);
+        let (Some(powers), Some(order)) = (powers, flight_order(structure.fastest * longest, exact)) else {
             return false;
         };
-        series.expand_flight(&self.structure, (&base.q, &base.v), (&work.load, &work.slope), (longest, order));
+        series.expand_flight(structure, (&base.q, &base.v), (&work.load, &work.slope), (longest, order));
         equation.remainder = remainder;
         (equation.scale, equation.powers, equation.terms) = (longest, powers, series.order + 1);
         for place in 0..equation.closed {
-            self.set_pair(windows, base, step, place);
+            self.set_pair(system, base, (window, series), place);
         }
         true
     }
 
     /// Fills in what belongs to one pair of the window.
-    fn set_pair(&self, windows: &Windows, base: &Base, step: &mut Step, place: usize) {
-        let Step { window, series, .. } = step;
-        let Window { equation, contacts, .. } = &mut **window;
+    fn set_pair(&self, system: &System, base: &Base, (window, series): (&mut Window, &MotionSeries), place: usize) {
+        let Window { equation, contacts, .. } = window;
         let p = contacts[place];
-        let (contact, row) = (&base.contacts[p], &self.pairs[p].row);
+        let (contact, row) = (&base.contacts[p], &system.pairs[p].row);
         let free = &mut equation.free[place];
         free[0] = if contact.in_contact() { contact.penetration.max(0.0) } else { contact.flight_start() };
         free[1] = contact.rate * equation.scale;
         series.dot_each(row, 2, free);
-        equation.kernels[place][place] = *windows.kernel(&self.pairs, p, p, &mut None);
+        equation.kernels[place][place] = *self.kernel(system, p, p, &mut None);
         for (other, q) in contacts.iter().enumerate().take(equation.closed).filter(|(other, _)| *other != place) {
-            equation.kernels[place][other] = *windows.kernel(&self.pairs, p, *q, &mut None);
+            equation.kernels[place][other] = *self.kernel(system, p, *q, &mut None);
         }
     }
 
-    /// Whether a pair leans on another without moving much: its force and all that it holds off cancel, and a window adds
-    /// them up apart, over and over; a power series adds up what is left of them.
-    fn is_at_rest(&self, base: &Base, window: &Window, place: usize) -> bool {
-        let Window { equation, contacts, .. } = window;
-        let (p, force) = (contacts[place], equation.forces[place]);
-        let (d, rate) = (base.contacts[p].penetration, base.contacts[p].rate);
-        let pushed = equation.kernels[place][place][1] * force.value(d, rate);
-        let left = 2.0 * equation.free[place][2] / (equation.scale * equation.scale) - pushed;
-        let stored = force.stored_energy(d) / self.pairs[p].mass;
-        left.abs() < AT_REST * pushed && 0.5 * rate * rate < AT_REST * AT_REST * stored
-    }
-
     /// Adds the pairs that may come into contact over `length` seconds, as far as there is room.
-    fn watch(&self, windows: &Windows, base: &Base, step: &mut Step, length: f64) {
+    fn watch(&self, system: &System, base: &Base, (window, series): (&mut Window, &MotionSeries), length: f64) {
         for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| !contact.in_contact()) {
-            let place = step.window.equation.pairs;
-            if place == MOST_PAIRS || self.pairs[p].law.is_rigid() {
+            let place = window.equation.pairs;
+            if place == MOST_PAIRS || system.pairs[p].law.is_rigid() {
                 return;
             }
-            let (row, scale) = (&self.pairs[p].row, step.series.scale);
-            let bend = 2.0 * dot(row, step.series.term(2)).max(0.0) / (scale * scale);
+            let (row, scale) = (&system.pairs[p].row, series.scale);
+            let bend = 2.0 * dot(row, series.term(2)).max(0.0) / (scale * scale);
             if keeps_off(contact, 2.0 * bend, length) {
                 continue;
             }
-            step.window.contacts[place] = p;
-            step.window.equation.pairs += 1;
-            self.set_pair(windows, base, step, place);
+            window.contacts[place] = p;
+            window.equation.pairs += 1;
+            self.set_pair(system, base, (window, series), place);
         }
     }
 
     /// Whether a solved window is right and certain, or what to try instead.
-    fn judge(&self, base: &Base, step: &Step, work: &mut Workspace, draft: Draft, tolerance: f64) -> Verdict {
-        let Some(windows) = &self.windows else { return Verdict::Hopeless };
-        let Window { equation, solution, .. } = &*step.window;
-        if let Some(next) = step.window.passed(draft) {
+    fn judge(
+        &self,
+        system: &System,
+        base: &Base,
+        (window, series): (&Window, &MotionSeries),
+        work: &mut Buffers,
+        draft: Draft,
+        tolerance: f64,
+    ) -> Verdict {
+        let Window { equation, solution, .. } = window;
+        if let Some(next) = window.passed(draft) {
             return Verdict::Another(next);
         }
         // What still approaches is not released: its depth is below what the iteration leaves open.
@@ -250,7 +190,7 @@ impl Model {
             return Verdict::Hopeless;
         }
         let error = solution.velocity_error(equation) / tolerance;
-        let allowed = windows.allowed;
+        let allowed = self.allowed;
         if error > allowed {
             if let Some(least) = solution.rule.next() {
                 return Verdict::Another(Draft { least, ..draft });
@@ -258,31 +198,12 @@ impl Model {
             let share = libm::pow(allowed / error, 0.1);
             return Verdict::Another(draft.shorter((0.9 * share).max(0.3)));
         }
-        match self.is_certain(base, step, work, draft.ending) {
+        match self.is_certain(system, base, (window, series), work, draft.ending) {
             true => Verdict::Good,
             // Near an event that bounds cannot tell: power series find it.
             false if draft.ending != Ending::Given || draft.halved => Verdict::Hopeless,
             false => Verdict::Another(Draft { halved: true, ..draft.shorter(0.5) }),
         }
-    }
-
-    fn commit_window(&self, step: &mut Step, work: &mut Workspace, ending: Ending, remaining: f64) {
-        let (length, contacts) = (step.window.solution.length, step.window.contacts);
-        step.kind = StepKind::Window;
-        step.carried.fill(None);
-        step.ends.clear();
-        step.length = length;
-        step.reaches_limit = length == remaining && ending == Ending::Given;
-        step.event = match ending {
-            Ending::Given => None,
-            Ending::Release(place) => Some(Event::Release(contacts[place])),
-            Ending::Turn(place) => Some(Event::Branch(contacts[place])),
-            Ending::Touch(place) => Some(Event::Entry(contacts[place])),
-        };
-        let (mut q, mut v) = (std::mem::take(&mut step.q), std::mem::take(&mut step.v));
-        self.read_window(step, length, &mut work.powers, (&mut q, &mut v));
-        (step.q, step.v) = (q, v);
-        step.next_length = Some(length);
     }
 }
 
@@ -300,6 +221,68 @@ fn first_node(at_nodes: &[f64], end: f64, is_it: impl Fn(f64) -> bool) -> Option
 }
 
 impl Window {
+    /// The pairs in contact, if they are few enough and of laws that windows are for.
+    fn gather(&mut self, base: &Base) -> bool {
+        self.equation.closed = 0;
+        for (p, contact) in touching(base) {
+            let force = contact.branch();
+            let fits = match force {
+                Force::Power { exponent, .. } => (2.0 * exponent).fract() == 0.0,
+                Force::Root { .. } => true,
+                Force::None | Force::Linear { .. } => false,
+            };
+            // An entry whose speed is rounding is for the other kinds of step.
+            let enters = contact.penetration > 0.0 || contact.rate > 0.0;
+            let place = self.equation.closed;
+            if place == MOST_PAIRS || contact.is_held() || !fits || !enters {
+                return false;
+            }
+            self.contacts[place] = p;
+            self.equation.forces[place] = force;
+            self.equation.closed += 1;
+        }
+        let closed = self.equation.closed;
+        self.equation.pairs = closed;
+        closed <= MOST_DAMPED || self.equation.forces[..closed].iter().all(|force| !force.is_damped())
+    }
+
+    /// Whether a pair leans on another without moving much: its force and all that it holds off cancel, and a window adds
+    /// them up apart, over and over; a power series adds up what is left of them.
+    fn is_at_rest(&self, system: &System, base: &Base, place: usize) -> bool {
+        let Window { equation, contacts, .. } = self;
+        let (p, force) = (contacts[place], equation.forces[place]);
+        let (d, rate) = (base.contacts[p].penetration, base.contacts[p].rate);
+        let pushed = equation.kernels[place][place][1] * force.value(d, rate);
+        let left = 2.0 * equation.free[place][2] / (equation.scale * equation.scale) - pushed;
+        let stored = force.stored_energy(d) / system.pairs[p].mass;
+        left.abs() < AT_REST * pushed && 0.5 * rate * rate < AT_REST * AT_REST * stored
+    }
+
+    /// Makes a solved window the planned planned.
+    fn commit(
+        &self,
+        system: &System,
+        series: &MotionSeries,
+        planned: &mut Planned,
+        work: &mut Buffers,
+        ending: Ending,
+        remaining: f64,
+    ) {
+        let (length, contacts) = (self.solution.length, self.contacts);
+        planned.carried.fill(None);
+        planned.ends.clear();
+        planned.length = length;
+        planned.reaches_limit = length == remaining && ending == Ending::Given;
+        planned.event = match ending {
+            Ending::Given => None,
+            Ending::Release(place) => Some(Event::Release(contacts[place])),
+            Ending::Turn(place) => Some(Event::Branch(contacts[place])),
+            Ending::Touch(place) => Some(Event::Entry(contacts[place])),
+        };
+        self.evaluate(system, series, length, &mut work.powers, (&mut planned.q, &mut planned.v));
+        planned.next_length = Some(length);
+    }
+
     /// The window up to the first event that a solved one has passed.
     fn passed(&self, draft: Draft) -> Option<Draft> {
         let Window { equation, solution, .. } = self;

@@ -4,11 +4,11 @@ use crate::collocation::{
     Equation, Kernel, MOST_PAIRS, NODES, Nodes, POWERS, Row, Rule, Solution, Tables, dot, fours, larger, nodes,
 };
 use crate::engine::base::contact::Contact;
-use crate::engine::model::Model;
-use crate::engine::step::Step;
+use crate::engine::system::System;
 use crate::numerics::polynomial::{each, value_and_slope};
 use crate::numerics::powers::Powers;
 use crate::numerics::roots;
+use crate::structure::MotionSeries;
 
 /// Share of a peak that the node next to it has at least.
 const NEARLY: f64 = 0.97;
@@ -17,11 +17,11 @@ const NEARLY: f64 = 0.97;
 const INTERPOLATED: f64 = 1e-6;
 
 /// N s^(k+1): integrals of (time left)^k times the force of each pair of a window.
-pub(in crate::engine) type Moments = [[f64; POWERS]; MOST_PAIRS];
+pub type Moments = [[f64; POWERS]; MOST_PAIRS];
 
 /// A window of the pairs in contact.
 #[derive(Clone, Debug, Default)]
-pub(in crate::engine) struct Window {
+pub struct Window {
     /// The contacts that are in it.
     pub contacts: [usize; MOST_PAIRS],
     pub equation: Equation,
@@ -163,38 +163,39 @@ fn weigh(nodes: &Nodes, force: &Row, part: &Part, elapsed: f64, moments: &mut [f
     }
 }
 
-impl Model {
-    /// q and v, `elapsed` seconds into the window of a step.
-    pub(in crate::engine) fn read_window(
+impl Window {
+    /// q and v, `elapsed` seconds into the window, from the series of the motion without contact forces.
+    pub fn evaluate(
         &self,
-        step: &Step,
+        system: &System,
+        series: &MotionSeries,
         elapsed: f64,
         powers: &mut Powers,
         motion: (&mut [f64], &mut [f64]),
     ) {
-        self.read_window_and_pairs(step, elapsed, powers, motion, &mut []);
+        self.evaluate_with_pairs(system, series, elapsed, powers, motion, &mut []);
     }
 
     /// The same, and the penetrations, m, and rates, m/s, of as many pairs in contact as there is room for.
-    pub(in crate::engine) fn read_window_and_pairs(
+    pub fn evaluate_with_pairs(
         &self,
-        step: &Step,
+        system: &System,
+        series: &MotionSeries,
         elapsed: f64,
         powers: &mut Powers,
         (q, v): (&mut [f64], &mut [f64]),
         pairs: &mut [(f64, f64)],
     ) {
-        let Some(windows) = &self.windows else { return };
-        powers.set(elapsed / step.series.scale, step.series.order);
-        step.series.evaluate(powers, q, v);
-        let window = &step.window;
+        let Some(response) = &system.impulse_response else { return };
+        powers.set(elapsed / series.scale, series.order);
+        series.evaluate(powers, q, v);
         let mut room = None;
-        let moments = window.moments(elapsed, &mut room);
-        for (p, moments) in window.contacts.iter().zip(moments).take(window.equation.closed) {
-            windows.response.push(&self.pairs[*p].row, &moments[..window.equation.powers], (q, v));
+        let moments = self.moments(elapsed, &mut room);
+        for (p, moments) in self.contacts.iter().zip(moments).take(self.equation.closed) {
+            response.push(&system.pairs[*p].row, &moments[..self.equation.powers], (q, v));
         }
-        for (place, pair) in pairs.iter_mut().enumerate().take(window.equation.closed) {
-            *pair = window.depth(place, elapsed, moments);
+        for (place, pair) in pairs.iter_mut().enumerate().take(self.equation.closed) {
+            *pair = self.depth(place, elapsed, moments);
         }
     }
 }
@@ -202,7 +203,7 @@ impl Model {
 impl Contact {
     /// Follows the contact `elapsed` seconds into a window that has begun at `start` [s]: penetration, impulse, peaks,
     /// work.
-    pub(in crate::engine) fn follow_window(&mut self, window: &Window, elapsed: f64, start: f64) {
+    pub fn follow_window(&mut self, window: &Window, elapsed: f64, start: f64) {
         let Some(place) = window.place(self.episode.contact) else { return };
         let law = self.branch();
         let solution = &window.solution;

@@ -4,8 +4,9 @@ use crate::collocation::{Ending, Frame, Map, Rule};
 use crate::contact::force::power;
 use crate::contact::{EpisodeForce, Force};
 use crate::engine::base::Base;
-use crate::engine::model::Model;
 use crate::engine::pairs::pair::Pair;
+use crate::engine::system::System;
+use crate::engine::window::kernels::Windows;
 use crate::engine::window::solution::Window;
 use crate::numerics::quadrature::{EIGHT, gauss};
 
@@ -30,7 +31,7 @@ const MODES_REACH: f64 = 1.0;
 
 /// A window that is to be tried.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::engine) struct Draft {
+pub struct Draft {
     pub map: Map,
     /// Fewest nodes that it may have.
     pub least: Rule,
@@ -77,11 +78,10 @@ impl Draft {
     }
 }
 
-impl Model {
+impl Windows {
     /// What to try first within the `remaining` seconds; `None` where a contact is beyond all measure or its damping too
     /// stiff.
-    pub(in crate::engine) fn draft(&self, base: &Base, window: &mut Window, remaining: f64) -> Option<Draft> {
-        let windows = self.windows.as_ref()?;
+    pub fn draft(&self, system: &System, base: &Base, window: &mut Window, remaining: f64) -> Option<Draft> {
         let (mut longest, mut map) = (f64::INFINITY, Map::Plain);
         let (mut time, mut ending) = (f64::INFINITY, Ending::Given);
         let mut dashpot = 0.0_f64;
@@ -89,16 +89,16 @@ impl Model {
             let p = window.contacts[place];
             let (contact, force) = (&base.contacts[p], window.equation.forces[place]);
             let d = contact.penetration.max(0.0);
-            let stored = force.stored_energy(d) / self.pairs[p].mass;
-            let prospect = windows.springs[p]?.prospect(d, contact.rate, stored)?;
+            let stored = force.stored_energy(d) / system.pairs[p].mass;
+            let prospect = self.springs[p]?.prospect(d, contact.rate, stored)?;
             window.equation.omega[place] = 1.0 / prospect.unit;
             if force.is_damped() {
-                dashpot = dashpot.max(force.dashpot(d) / self.pairs[p].mass);
+                dashpot = dashpot.max(force.dashpot(d) / system.pairs[p].mass);
             }
             let is_root = matches!(force, Force::Root { .. });
             let since = if contact.penetration > 0.0 { contact.age } else { 0.0 };
             let is_fresh = since < FRESH * prospect.unit;
-            longest = longest.min(windows.patience * longest_window(&force, is_fresh) * prospect.unit);
+            longest = longest.min(self.patience * longest_window(&force, is_fresh) * prospect.unit);
             if is_fresh && is_root && since > 0.0 {
                 longest = longest.min(8.0 * since);
             }
@@ -116,8 +116,8 @@ impl Model {
             }
         }
         // With fewer nodes the length goes with a higher power of the accuracy.
-        let (reach, least) = (windows.patience * longest, Rule::Eight);
-        longest = longest.min(MODES_REACH / self.structure.fastest);
+        let (reach, least) = (self.patience * longest, Rule::Eight);
+        longest = longest.min(MODES_REACH / system.structure.fastest);
         if dashpot * time.min(longest).min(remaining) > TOO_STIFF {
             return None;
         }
@@ -161,7 +161,7 @@ fn reach_of_fewer(map: Map) -> [f64; 2] {
 
 /// The spring of a pair under a power law, which alone would let it swing through a contact.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::engine) struct Spring {
+pub struct Spring {
     exponent: f64,
     /// Exponent of the speed in the unit of time: (1 - n) / (n + 1).
     power: f64,
@@ -225,7 +225,7 @@ fn swing(n: f64, from: f64) -> f64 {
 }
 
 /// How long windows are for an accuracy of steps, relative to the usual.
-pub(in crate::engine) fn patience(step_tolerance: f64) -> f64 {
+pub fn patience(step_tolerance: f64) -> f64 {
     libm::pow(step_tolerance / USUAL.0, USUAL.1).clamp(0.4, 1.2)
 }
 
@@ -248,11 +248,12 @@ mod tests {
                  right_floor = 1\ngap = -1e-3\nlaw = \"jankowski\"\nstiffness = 1e8\nrestitution = {restitution:?}\n"
             );
             let model = Model::new(&Scene::from_toml(&scene).unwrap(), None).unwrap();
-            let State { base, mut step, .. } = model.start(0.0);
+            let (State { base, .. }, mut window) = (model.start(0.0), Window::default());
             assert_eq!(base.contacts[0].phase, Phase::Engaged);
-            let equation = &mut step.window.equation;
+            let windows = model.windows.as_ref().unwrap();
+            let equation = &mut window.equation;
             (equation.closed, equation.forces[0]) = (1, base.contacts[0].branch());
-            assert_eq!(model.draft(&base, &mut step.window, 0.01).is_some(), is_tried, "{restitution}");
+            assert_eq!(windows.draft(&model.system, &base, &mut window, 0.01).is_some(), is_tried, "{restitution}");
         }
     }
 }

@@ -1,0 +1,35 @@
+//! The energy account at the communication time.
+
+use crate::engine::base::Account;
+use crate::engine::model::Model;
+use crate::engine::output::point::EnergyPoint;
+use crate::engine::output::point::Point;
+use crate::engine::state::State;
+use crate::engine::system::buffers::Buffers;
+impl Model {
+    /// What the account of the base has come to at a time since it; `point` holds the motion and the contacts there.
+    #[inline(never)]
+    pub(in crate::engine) fn read_energy(
+        &self,
+        mut account: Account,
+        state: &State,
+        elapsed: f64,
+        work: &mut Buffers,
+        point: &Point,
+    ) -> EnergyPoint {
+        if elapsed > 0.0 {
+            let done = self.work_over(&state.base, &state.step, &state.inputs, work, elapsed);
+            account.input += done.input;
+            account.viscous += done.viscous;
+            account.external += done.external;
+        }
+        let (kinetic, strain) = self.structure_energies(point.coordinates, &point.q, &point.v);
+        let contacts = 0..self.pairs.len();
+        let impact = contacts.map(|p| self.contact_in(&state.base, point, p).dissipated_energy).sum();
+        account.update_largest([kinetic, strain, impact]);
+        let Account { initial, input, external, viscous, largest } = account;
+        let imbalance = initial + input + external - kinetic - strain - viscous - impact;
+        let residual = if largest > 0.0 { imbalance / largest } else { 0.0 };
+        EnergyPoint { input, kinetic, strain, viscous, impact, external, residual }
+    }
+}

@@ -1,0 +1,93 @@
+//! Which kind of step comes next.
+
+use crate::engine::base::Base;
+use crate::engine::base::Coordinates;
+use crate::engine::base::contact::Contact;
+use crate::engine::base::planned::At;
+use crate::engine::base::planned::Event;
+use crate::engine::base::planned::Planned;
+use crate::engine::base::touching;
+use crate::engine::model::Model;
+use crate::engine::state::State;
+use crate::engine::state::Workspace;
+use crate::engine::step::Step;
+use crate::engine::step::StepKind;
+use crate::engine::taylor::solution::Solution;
+impl Model {
+    /// Works out the next step, up to `limit` (s since the segment's start) or the next event, unless that has been done already.
+    pub fn plan(&self, state: &mut State, limit: f64) {
+        match state.step.kind {
+            StepKind::Unknown => {}
+            StepKind::Glide => self.forget_glide(state),
+            _ => return,
+        }
+        let State { base, step, inputs, counters, work, .. } = state;
+        let mut at = At { base, inputs, counters };
+        step.kind = match at.base.contacts.iter().any(Contact::in_contact) {
+            true => self.plan_contact(&mut at, step, work, limit),
+            false => self.plan_flight(&mut at, step, work, limit),
+        };
+    }
+
+    /// Apart: the exact motion, until the limit or the first entry.
+    fn plan_flight(&self, at: &mut At, step: &mut Step, work: &mut Workspace, limit: f64) -> StepKind {
+        let Workspace { buffers, look, .. } = work;
+        self.convert(at.base, Coordinates::Modes, &mut buffers.q);
+        self.load(at.base, at.inputs, &mut buffers.load, &mut buffers.slope);
+        let whole = limit - at.base.elapsed;
+        let longest = self.accounted_flight(at.base, (&buffers.load, &buffers.slope), whole);
+        step.planned.reaches_limit = longest >= whole;
+        self.flight.plan(&self.system, at, longest, &mut step.planned, look, buffers);
+        StepKind::Flight
+    }
+
+    /// In contact: a window if bounds allow one, else the double series just after an entry, else power series in time.
+    fn plan_contact(&self, at: &mut At, step: &mut Step, work: &mut Workspace, limit: f64) -> StepKind {
+        let Workspace { buffers, windows: room, .. } = work;
+        let Step { planned, taylor, onset, window, .. } = step;
+        let is_near_rigid = self.has_close_rigid_pair(at.base);
+        let coordinates = if is_near_rigid { Coordinates::Modes } else { self.contact_coordinates };
+        self.convert(at.base, coordinates, &mut buffers.q);
+        at.base.velocity_scale = at.base.velocity_scale.max(self.present_velocity(at.base));
+        let (remaining, is_cut) = match self.time_for_rigid_pairs(at.base, at.inputs, buffers, limit - at.base.elapsed)
+        {
+            Ok(time) => time,
+            Err(event) => return happen_now(at.base, planned, taylor, event),
+        };
+        if let Some(p) = self.entry_at_once(at.base) {
+            return happen_now(at.base, planned, taylor, Event::Entry(p));
+        }
+        self.load(at.base, at.inputs, &mut buffers.load, &mut buffers.slope);
+        if !is_near_rigid {
+            if let Some(windows) = &self.windows
+                && windows.plan(&self.system, at, remaining, planned, (window, &mut taylor.series), (room, buffers))
+            {
+                return StepKind::Window;
+            }
+            if touching(at.base).any(|(_, contact)| contact.is_singular())
+                && self.plan_onset(at, remaining, planned, onset, buffers)
+            {
+                return StepKind::Onset;
+            }
+        }
+        self.plan_taylor(at, (remaining, is_cut), planned, taylor, buffers);
+        StepKind::Contact
+    }
+
+    /// A pair that stands at the surface and approaches, by more than rounding: it enters now, together with another.
+    fn entry_at_once(&self, base: &Base) -> Option<usize> {
+        let at_surface = |contact: &Contact| contact.at_surface || contact.penetration >= 0.0;
+        let meets = |(p, contact): (usize, &Contact)| {
+            let stands = !contact.in_contact() && at_surface(contact) && contact.rate > 0.0;
+            stands && self.pairs[p].difference(base.coordinates, &base.v).0 > 0.0
+        };
+        base.contacts.iter().enumerate().position(meets)
+    }
+}
+
+/// An event that needs no step: a Taylor step without length.
+fn happen_now(base: &Base, planned: &mut Planned, taylor: &mut Solution, event: Event) -> StepKind {
+    planned.happen_now(base, event);
+    taylor.series.scale = 1.0;
+    StepKind::Contact
+}

@@ -1,0 +1,50 @@
+//! What windows need to know of a scene.
+
+use crate::collocation::Kernel;
+use crate::collocation::POWERS;
+use crate::collocation::Tables;
+use crate::engine::system::System;
+use crate::engine::window::trial::{Spring, patience};
+
+/// Error between the nodes of a window, relative to the power 2/3 of what one step may leave: at its end a Gauss rule is
+/// far better than between its nodes.
+const BETWEEN_NODES: f64 = 10.0;
+
+/// Pairs of which all kernels are kept: 64 kB.
+const MOST_KNOWN: usize = 20;
+
+/// What windows need to know of a scene.
+#[derive(Clone, Debug)]
+pub struct Windows {
+    /// G_pq of pairs p and q, one row after the other, where they are few.
+    kernels: Vec<Kernel>,
+    /// Error between nodes that a window may have, relative to what one step may.
+    pub allowed: f64,
+    /// Length of windows relative to the usual.
+    pub patience: f64,
+    /// Of each pair whose law has a root.
+    pub springs: Vec<Option<Spring>>,
+}
+
+impl Windows {
+    /// `None` where no law needs them, or damping couples the modes.
+    pub fn of(System { impulse_response, pairs, tolerance, .. }: &System) -> Option<Windows> {
+        let response = impulse_response.as_ref()?;
+        Tables::prepare();
+        let known = if pairs.len() <= MOST_KNOWN { &pairs[..] } else { &[] };
+        let kernels = known.iter().flat_map(|p| known.iter().map(|q| response.kernel(&p.row, &q.row))).collect();
+        let allowed = BETWEEN_NODES / libm::cbrt(tolerance.step);
+        let springs = pairs.iter().map(Spring::of).collect();
+        Some(Windows { kernels, allowed, patience: patience(tolerance.step), springs })
+    }
+
+    /// G_pq of two pairs, for which there is `room` where it is not kept.
+    pub fn kernel<'a>(&'a self, system: &System, p: usize, q: usize, room: &'a mut Option<Kernel>) -> &'a Kernel {
+        let pairs = &system.pairs;
+        match (self.kernels.get(p * pairs.len() + q), &system.impulse_response) {
+            (Some(known), _) => known,
+            (None, Some(response)) => room.insert(response.kernel(&pairs[p].row, &pairs[q].row)),
+            (None, None) => room.insert([0.0; POWERS]),
+        }
+    }
+}
