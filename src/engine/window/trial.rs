@@ -235,6 +235,7 @@ mod tests {
     use crate::engine::base::contact::Phase;
     use crate::engine::model::Model;
     use crate::engine::state::State;
+    use crate::engine::window::solution::Window;
     use crate::scene::Scene;
 
     /// 1 mm deep in each other: the dashpot takes some 1e2/s for e = 0.5, and 1e14/s for 1e-12, which windows of 0.01 s cannot
