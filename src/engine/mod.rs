@@ -43,6 +43,8 @@
 
 mod advance;
 mod base;
+mod budget;
+mod diagnosis;
 mod energy;
 mod error;
 mod excitation;
@@ -65,11 +67,10 @@ pub use crate::engine::base::counters::Counters;
 pub use crate::engine::error::EngineError;
 pub use crate::engine::excitation::linear_input::LinearInput;
 pub use crate::engine::model::Model;
-pub use crate::engine::output::energy_rates::EnergyRates;
 pub use crate::engine::output::feedthrough::Response;
 pub use crate::engine::output::point::{ContactPoint, EnergyPoint, Point};
-pub use crate::engine::output::rates::{ContactRates, PEAK_ROUNDING, PointRates, Rates};
-pub use crate::engine::peaks::PeakOf;
+pub use crate::engine::output::point_rates::{ContactRates, EnergyRates, PEAK_ROUNDING, PointRates, Rates};
+pub use crate::engine::peaks::rows::PeakOf;
 pub use crate::engine::saved::SavedState;
 pub use crate::engine::state::State;
 pub use crate::structure::Side;

@@ -1,10 +1,11 @@
 //! The model: everything about a scene that stays as it is during a run.
 
-use crate::engine::advance::budget::{MOST_WORK, most_flights};
+use crate::engine::budget::{MOST_WORK, most_flights};
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::flight::Flight;
 use crate::engine::pairs::pair::Pair;
-use crate::engine::peaks::{FloorResistance, PeakRows};
+use crate::engine::peaks::resistance::FloorResistance;
+use crate::engine::peaks::rows::PeakRows;
 use crate::engine::system::System;
 use crate::engine::window::kernels::Windows;
 use crate::record::Record;

@@ -7,6 +7,7 @@ use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::excitation::segment::Segment;
 use crate::engine::flight::fast_certificate::NearPairs;
+use crate::engine::flight::fast_certificate::Sight;
 use crate::engine::model::Model;
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
@@ -23,18 +24,6 @@ pub struct Glide {
     pub flown: u64,
     /// Whether the state is there, on its way through the next segment: nothing is left to do.
     pub has_arrived: bool,
-}
-
-/// What is seen of the pairs on the way from segment to segment.
-pub trait Sight<const WIDTH: usize> {
-    /// Whether no pair meets in the next segment, from the motion at its start and at its end and from the ground's
-    /// acceleration and its slope.
-    fn stays_apart(
-        &mut self,
-        start: (&[Lane; WIDTH], &[Lane; WIDTH]),
-        end: (&[Lane; WIDTH], &[Lane; WIDTH]),
-        load: (f64, f64),
-    ) -> bool;
 }
 
 /// All pairs have been dismissed.
@@ -146,6 +135,22 @@ impl Model {
             self.know_near_pairs(base, segments.start..segments.start + flown, counters);
         }
         flown
+    }
+
+    /// Counts the pairs that planned flights over some segments would have evaluated, and leaves those at the base known
+    /// that the last of these would have left known.
+    fn know_near_pairs(&self, base: &mut Base, segments: Range<u64>, counters: &mut Counters) {
+        for p in 0..self.pairs.len() {
+            counters.pairs_evaluated += base.watch.evaluations(p, &segments);
+        }
+        base.watch.move_on(segments.end - segments.start);
+        for (p, pair) in self.pairs.iter().enumerate() {
+            if !base.watch.is_free(p, segments.end - 1) {
+                let contact = &mut base.contacts[p];
+                (contact.penetration, contact.rate) = pair.penetration(&base.q, &base.v);
+                base.watch.set_known(p);
+            }
+        }
     }
 
     /// The record and the number of the base's segment, where the motion can glide.

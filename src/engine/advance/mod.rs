@@ -4,7 +4,6 @@ use crate::engine::base::planned::At;
 use crate::engine::base::planned::Planned;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::system::buffers::Buffers;
-pub mod budget;
 pub mod fast_flight;
 
 use crate::contact::EpisodeForce;
@@ -16,7 +15,6 @@ use crate::engine::excitation::segment::Segment;
 use crate::engine::model::Model;
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
-use crate::structure::LANES;
 
 impl Model {
     /// Brings the state to a time, s, and reports each episode when it ends.
@@ -201,51 +199,4 @@ impl Model {
             Event::Branch(p) => base.contacts[p].change_branch(),
         }
     }
-
-    /// Nothing may run on without numbers.
-    fn check_numbers(&self, state: &State) -> Result<(), EngineError> {
-        let base = &state.base;
-        // A sum is finite only if all of its terms are.
-        let contacts: f64 =
-            base.contacts.iter().map(|contact| contact.impulse + contact.work + contact.peak_force).sum();
-        let account = base.energy.map_or(0.0, |account| account.largest);
-        if (lanes_sum(&base.q) + lanes_sum(&base.v) + contacts + account).is_finite() {
-            return Ok(());
-        }
-        Err(self.overflow(base))
-    }
-
-    #[cold]
-    fn overflow(&self, base: &Base) -> EngineError {
-        // Afterwards nothing has numbers: of the contacts that were closed the stiffest is the likeliest cause.
-        let closed = base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact());
-        let stiffness = |p: usize| self.pairs[p].law.stiffness;
-        let contact = closed.map(|(p, _)| p).max_by(|&p, &other| stiffness(p).total_cmp(&stiffness(other)));
-        let place = contact.map_or(String::new(), |p| {
-            let law = &self.pairs[p].law;
-            let stiffness = match law.is_rigid() {
-                true => String::new(),
-                false => format!(", whose stiffness is {:e}", law.stiffness),
-            };
-            format!(" at contact[{}]{stiffness}", p + 1)
-        });
-        EngineError {
-            message: format!(
-                "the motion exceeds what double precision can hold at t = {} s{place}; check the units of masses, \
-                 stiffnesses, gaps and ground acceleration",
-                base.time()
-            ),
-        }
-    }
-}
-
-/// Sum of a modal vector.
-fn lanes_sum(modal: &[f64]) -> f64 {
-    let mut sum = [0.0; LANES];
-    for modal in modal.as_chunks::<LANES>().0 {
-        for i in 0..LANES {
-            sum[i] += modal[i];
-        }
-    }
-    sum.iter().sum()
 }

@@ -26,7 +26,6 @@ use crate::engine::base::Base;
 use crate::engine::base::clearance::MOST;
 use crate::engine::base::counters::Counters;
 use crate::engine::excitation::record::{Ahead, GroundMotion};
-use crate::engine::flight::Flight;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
 use crate::numerics::polynomial::each;
@@ -40,7 +39,7 @@ const TRIED: [[u64; LANES]; 3] = [[1, 2, 3, 4], [6, 8, 12, 16], [24, 32, 48, MOS
 const USUAL: u64 = 8;
 
 /// Segments for which it costs less to show by both ends of each that no pair meets than to look again and again.
-const NEAR: u64 = 16;
+pub const NEAR: u64 = 16;
 
 /// Margin for rounding, relative to the numbers that a penetration or a closing speed is added up from.
 const MARGIN: f64 = 1e-10;
@@ -137,14 +136,14 @@ impl ClosingSpeeds {
     }
 }
 
-impl Flight {
+impl ClosingSpeeds {
     /// Looks at the pairs that have not been dismissed for the base's segment, of that number; whether all are now.
+    /// If not, it is not worth while to look again for `patience` segments.
     pub fn dismiss(
         &self,
         system: &System,
         ground: &GroundMotion,
-        base: &mut Base,
-        segment: u64,
+        (base, segment, patience): (&mut Base, u64, u64),
         counters: &mut Counters,
         amplitude: &mut [f64],
     ) -> bool {
@@ -154,7 +153,6 @@ impl Flight {
         }
         look_at_all((self, system), ground, base, segment, counters, amplitude);
         let due = base.watch.first_due();
-        let patience = if self.near.is_some() { NEAR } else { 1 };
         base.watch.note(due, if due >= segment + USUAL { due } else { due.max(segment + patience) });
         base.watch.are_all_free(segment)
     }
@@ -165,7 +163,7 @@ impl Flight {
     fn amplitudes(&self, base: &Base, amplitude: &mut [f64]) -> f64 {
         let [(q, _), (v, _)] = [&base.q, &base.v].map(|vector| vector.as_chunks::<LANES>());
         let mut size = [0.0; LANES];
-        let blocks = self.closing.modes.iter().zip(q).zip(v);
+        let blocks = self.modes.iter().zip(q).zip(v);
         for (((mode, q), v), amplitude) in blocks.zip(amplitude.as_chunks_mut::<LANES>().0) {
             let moved = each(|i| q[i].abs());
             let (a, b) = (each(|i| v[i].abs()), each(|i| mode.omega[i] * moved[i]));
@@ -175,7 +173,7 @@ impl Flight {
             *amplitude = each(|i| more[i] + CHORD * less[i]);
             size = each(|i| size[i] + mode.weight[i] * moved[i]);
         }
-        for range in &self.closing.coupled {
+        for range in &self.coupled {
             share_amplitude(&mut amplitude[range.clone()]);
         }
         size.iter().sum()
@@ -191,14 +189,14 @@ fn share_amplitude(modes: &mut [f64]) {
 /// Looks at each pair that has not been dismissed for a segment. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn look_at_all(
-    (flight, system): (&Flight, &System),
+    (closing, system): (&ClosingSpeeds, &System),
     ground: &GroundMotion,
     base: &mut Base,
     segment: u64,
     counters: &mut Counters,
     amplitude: &mut [f64],
 ) {
-    let size = flight.amplitudes(base, amplitude);
+    let size = closing.amplitudes(base, amplitude);
     let (ahead, mut ends) = (ground.ahead_of(segment), [Ends::default(); TRIED.len()]);
     for (ends, segments) in ends.iter_mut().zip(&TRIED) {
         ends.set(&ahead, base.elapsed, segments);
@@ -207,7 +205,7 @@ fn look_at_all(
         if base.watch.is_free(p, segment) {
             continue;
         }
-        let Seen { bounds: sums, pull, moved, rate } = look(&flight.closing, base, &pair.row, amplitude);
+        let Seen { bounds: sums, pull, moved, rate } = look(closing, base, &pair.row, amplitude);
         let contact = &mut base.contacts[p];
         if !base.watch.is_known(p) {
             counters.pairs_evaluated += 1;
@@ -222,7 +220,7 @@ fn look_at_all(
             rate: contact.rate,
             pull: pull + MARGIN * sums.change,
             sums,
-            growth: &flight.closing.pairs[p],
+            growth: &closing.pairs[p],
         };
         base.watch.clear(p, segment + closing.longest(&ends));
     }

@@ -3,14 +3,9 @@
 //! What [`super::flight`] asks of a planned flight, for all pairs of a scene abreast and without a stop between segments,
 //! where modes and pairs are few. It is never surer than that: what is flown over here would be certified there.
 
-use crate::engine::advance::fast_flight::Sight;
-use crate::engine::base::Base;
-use crate::engine::base::counters::Counters;
-use crate::engine::model::Model;
 use crate::engine::pairs::pair::Pair;
 use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane, Side, Structure};
-use std::ops::Range;
 
 /// Most blocks of modes that a flight keeps in registers.
 pub const MOST_BLOCKS: usize = 3;
@@ -79,6 +74,18 @@ impl NearPairs {
     }
 }
 
+/// What is seen of the pairs on the way from segment to segment.
+pub trait Sight<const WIDTH: usize> {
+    /// Whether no pair meets in the next segment, from the motion at its start and at its end and from the ground's
+    /// acceleration and its slope.
+    fn stays_apart(
+        &mut self,
+        start: (&[Lane; WIDTH], &[Lane; WIDTH]),
+        end: (&[Lane; WIDTH], &[Lane; WIDTH]),
+        load: (f64, f64),
+    ) -> bool;
+}
+
 /// What is seen on the way from segment to segment.
 pub struct FromNear<'a, const WIDTH: usize> {
     near: &'a NearPairs,
@@ -133,23 +140,5 @@ impl<const WIDTH: usize> Sight<WIDTH> for FromNear<'_, WIDTH> {
         let higher = |a: Lane, b: Lane| -> Lane { each(|p| if a[p] < b[p] { b[p] } else { a[p] }) };
         let highest = higher(higher(start, controls[0]), higher(controls[1], end));
         each(|p| highest[p] + self.share * fourth[p]).iter().all(|ceiling| *ceiling < 0.0)
-    }
-}
-
-impl Model {
-    /// Counts the pairs that planned flights over some segments would have evaluated, and leaves those at the base known
-    /// that the last of these would have left known.
-    pub(in crate::engine) fn know_near_pairs(&self, base: &mut Base, segments: Range<u64>, counters: &mut Counters) {
-        for p in 0..self.pairs.len() {
-            counters.pairs_evaluated += base.watch.evaluations(p, &segments);
-        }
-        base.watch.move_on(segments.end - segments.start);
-        for (p, pair) in self.pairs.iter().enumerate() {
-            if !base.watch.is_free(p, segments.end - 1) {
-                let contact = &mut base.contacts[p];
-                (contact.penetration, contact.rate) = pair.penetration(&base.q, &base.v);
-                base.watch.set_known(p);
-            }
-        }
     }
 }

@@ -4,26 +4,10 @@ use crate::engine::base::Coordinates;
 use crate::engine::excitation::linear_input::LinearInput;
 use crate::engine::model::Model;
 use crate::engine::output::point::Point;
-use crate::engine::output::rates::{PointRates, Rates};
+use crate::engine::output::point_rates::EnergyRates;
+use crate::engine::output::point_rates::PointRates;
 use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
-
-/// First and second derivatives of the energy account, W and W/s. Names as in [`super::EnergyPoint`], whose residual stays.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct EnergyRates {
-    /// Of the inertia forces of the ground motion.
-    pub input: Rates,
-    /// Of the kinetic energy.
-    pub kinetic: Rates,
-    /// Of the strain energy of the storeys.
-    pub strain: Rates,
-    /// Of structural damping.
-    pub viscous: Rates,
-    /// Of the contact forces.
-    pub impact: Rates,
-    /// Of the external floor forces.
-    pub external: Rates,
-}
 
 impl Model {
     /// The rates of the energy account at a point of which all other rates are known; none without an account.

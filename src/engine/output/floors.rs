@@ -2,89 +2,12 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::model::Model;
+use crate::engine::output::known::Accelerations;
+use crate::engine::output::known::FloorMotions;
+use crate::engine::output::known::KnownBlock;
 use crate::engine::output::point::Point;
 use crate::structure::Side;
 use crate::structure::{LANES, Lane};
-use std::cell::{Cell, OnceCell, RefCell};
-
-/// Some quantities of a block of floors, and the observation that they are of.
-#[derive(Clone, Debug)]
-struct KnownBlock<const N: usize> {
-    observation: Cell<u64>,
-    numbers: [[Cell<f64>; LANES]; N],
-}
-
-/// What is known of the floors at one time.
-#[derive(Clone, Debug, Default)]
-pub struct FloorMotions {
-    /// Number of this observation, from 1 on.
-    pub observation: u64,
-    /// Displacement, m, and velocity, m/s, relative to the ground.
-    motion: Vec<KnownBlock<2>>,
-    /// m/s2, absolute.
-    acceleration: Vec<KnownBlock<1>>,
-    rows_read: Cell<u64>,
-    /// Of the floor and contact forces, per unit of mass and in the coordinates of the point; of use where `is_loaded`.
-    load: Vec<f64>,
-    is_loaded: bool,
-    accelerations: OnceCell<Accelerations>,
-    /// Memory for them.
-    room: RefCell<Accelerations>,
-}
-
-/// Accelerations in the coordinates of a point, m/s2.
-#[derive(Clone, Debug, Default)]
-pub struct Accelerations {
-    /// Relative to a ground at rest.
-    pub absolute: Vec<f64>,
-    /// The part that comes from the buildings' own stiffness and damping.
-    pub resisted: Vec<f64>,
-}
-
-impl<const N: usize> KnownBlock<N> {
-    /// Nothing is known of so many lanes.
-    fn unknown(lanes: usize) -> Vec<KnownBlock<N>> {
-        let numbers = || std::array::from_fn(|_| std::array::from_fn(|_| Cell::new(0.0)));
-        (0..lanes / LANES).map(|_| KnownBlock { observation: Cell::new(0), numbers: numbers() }).collect()
-    }
-
-    #[inline]
-    fn set(&self, observation: u64, blocks: &[Lane; N]) {
-        self.observation.set(observation);
-        for (numbers, block) in self.numbers.iter().zip(blocks) {
-            for i in 0..LANES {
-                numbers[i].set(block[i]);
-            }
-        }
-    }
-}
-
-impl FloorMotions {
-    /// Makes room for vectors of all floors of that length.
-    pub fn make_room(&mut self, lanes: usize) {
-        self.motion = KnownBlock::unknown(lanes);
-        self.acceleration = KnownBlock::unknown(lanes);
-        self.load = vec![0.0; lanes];
-        self.accelerations.take();
-        *self.room.get_mut() = Accelerations { absolute: vec![0.0; lanes], resisted: vec![0.0; lanes] };
-    }
-
-    /// Nothing is known of any floor.
-    pub fn forget(&mut self) {
-        self.observation += 1;
-        self.is_loaded = false;
-        if let Some(accelerations) = self.accelerations.take() {
-            *self.room.get_mut() = accelerations;
-        }
-    }
-
-    /// The load to add forces to.
-    pub fn start_load(&mut self) -> &mut [f64] {
-        self.is_loaded = true;
-        self.load.fill(0.0);
-        &mut self.load
-    }
-}
 
 impl Point {
     /// Rows of the modal matrix that have been summed up, since this point was made: four at a time, that of the floor that

@@ -7,7 +7,10 @@ pub mod energy_rates;
 pub mod feedthrough;
 pub mod floors;
 pub mod frequencies;
+pub mod known;
+pub mod peaks;
 pub mod point;
+pub mod point_rates;
 pub mod rates;
 
 use crate::engine::base::Base;

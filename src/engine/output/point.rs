@@ -1,8 +1,8 @@
 //! The solution at one time, as floors and contacts show it.
 
 use crate::engine::base::Coordinates;
-use crate::engine::output::floors::FloorMotions;
-use crate::engine::peaks::PeakCell;
+use crate::engine::output::known::FloorMotions;
+use crate::engine::output::known::PeakCell;
 use crate::engine::system::buffers::Buffers;
 
 use std::cell::Cell;

@@ -4,59 +4,18 @@
 //! They are those of the solution that goes on from here under the inputs as they have been set so far, right-hand ones:
 //! after an event, after a corner of the ground motion.
 
-use crate::contact::Force;
 use crate::engine::base::contact::Phase;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::linear_input::LinearInput;
 use crate::engine::model::Model;
-use crate::engine::output::energy_rates::EnergyRates;
 use crate::engine::output::point::Point;
+use crate::engine::output::point_rates::ContactRates;
+use crate::engine::output::point_rates::PEAK_ROUNDING;
+use crate::engine::output::point_rates::PointRates;
+use crate::engine::output::point_rates::Rates;
 use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
 use crate::structure::Side;
-
-/// What a quantity may be below its peak so far by rounding, relative to it.
-pub const PEAK_ROUNDING: f64 = 1e-12;
-
-/// First and second derivative with respect to time.
-pub type Rates = [f64; 2];
-
-/// The derivatives at one time, as floors and contacts show them.
-#[derive(Clone, Debug, Default)]
-pub struct PointRates {
-    /// m/s3 and m/s4.
-    pub ground_acceleration: Rates,
-    /// One per contact.
-    pub contacts: Vec<ContactRates>,
-    /// Of the energy account, where there is one.
-    pub energy: Option<EnergyRates>,
-    /// Second to fourth derivative of the motion relative to the ground, in the coordinates of the point.
-    acceleration: Vec<f64>,
-    jerk: Vec<f64>,
-    snap: Vec<f64>,
-    /// What stiffness and damping of the buildings add to the third and to the fourth.
-    resisted: [Vec<f64>; 2],
-    /// A contact begins at this very instant.
-    is_beginning: bool,
-    /// The force of each contact and its penetration, m; none for rigid ones.
-    forces: Vec<(Force, f64)>,
-    work: Option<Box<Buffers>>,
-}
-
-/// The derivatives of one contact. Names as in [`super::ContactPoint`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ContactRates {
-    /// N/s and N/s2.
-    pub force: Rates,
-    /// N/s and N/s2: those of the force while it is the largest so far and grows.
-    pub peak_force: Rates,
-    /// m/s and m/s2.
-    pub penetration: Rates,
-    /// N and N/s.
-    pub impulse: Rates,
-    /// W and W/s.
-    pub dissipated_energy: Rates,
-}
 
 impl Model {
     /// Differentiates the solution at the present time of the state, which `point` shows; the buffers of `rates` are

@@ -18,8 +18,9 @@
 use crate::engine::base::Base;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::model::Model;
-use crate::engine::peaks::PeakWork;
-use crate::engine::peaks::flight::ModeBounds;
+use crate::engine::peaks::room::ModeBounds;
+use crate::engine::peaks::room::PeakWork;
+use crate::engine::peaks::room::WatchedBlock;
 use crate::engine::peaks::rows::{Block, BuildingRows};
 use crate::numerics::polynomial::each;
 use crate::numerics::polynomial::larger;
@@ -31,52 +32,6 @@ const SHORT: u64 = 16;
 
 /// Margin for rounding, relative to bounds.
 const MARGIN: f64 = 1e-10;
-
-/// For how long what is clear of its peak.
-#[derive(Clone, Debug, Default)]
-pub struct PeakWatch {
-    /// The first segment for which the bounds do not hold.
-    until: u64,
-    /// The first segment in which anything may exceed its peak, as far as is known.
-    due: u64,
-    /// s, the longest segment until then.
-    longest: f64,
-    blocks: Vec<WatchedBlock>,
-}
-
-#[derive(Clone, Debug, Default)]
-struct WatchedBlock {
-    clear_until: u64,
-    /// The values at the start of a segment.
-    value: Lane,
-    known_at: Option<u64>,
-    /// Bounds on |y'|, and on how far it bends away from the chord of a segment: h^2/8 |y''|.
-    rate: Lane,
-    sag: Lane,
-}
-
-impl PeakWatch {
-    pub fn new(blocks: usize) -> PeakWatch {
-        PeakWatch { blocks: vec![WatchedBlock::default(); blocks], ..PeakWatch::default() }
-    }
-
-    /// Forgets all: the motion is another one, or a contact force or an impulse has acted.
-    pub fn restart(&mut self) {
-        (self.until, self.due) = (0, 0);
-        for block in &mut self.blocks {
-            (block.clear_until, block.known_at) = (0, None);
-        }
-    }
-
-    /// Whether it knows anything of the time to come.
-    pub fn looks_ahead(&self) -> bool {
-        self.until > 0
-    }
-
-    pub fn is_clear(&self, block: usize, segment: u64) -> bool {
-        self.blocks[block].clear_until > segment
-    }
-}
 
 /// What a building's modes have at the base.
 struct Amplitudes<'a> {

@@ -5,14 +5,13 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
-use crate::engine::output::point::Point;
 use crate::engine::pairs::pair::Pair;
-use crate::engine::peaks::PeakOf;
-use crate::engine::peaks::PeakWork;
-use crate::engine::peaks::floors::FloorRoom;
+use crate::engine::peaks::reading::ContactStep;
 use crate::engine::peaks::reading::highest_in_onset;
+use crate::engine::peaks::room::FloorRoom;
+use crate::engine::peaks::room::PeakWork;
+use crate::engine::peaks::rows::PeakOf;
 use crate::engine::peaks::search::{Quantity, highest};
-use crate::engine::state::State;
 use crate::engine::step::Dense;
 use crate::engine::step::Step;
 use crate::engine::taylor::solution::Solution;
@@ -25,27 +24,6 @@ use std::ops::Range;
 /// How far the series of a quantity may be off at the end of a step, relative to its peak, to be searched. A series is as
 /// long as velocities allow: in a step of next to no time an acceleration may be off by any amount, and its ends say all.
 const TRUSTED: f64 = 1e-6;
-
-/// A step in contact, or its first part.
-#[derive(Clone, Copy)]
-pub struct ContactStep<'a> {
-    /// What it starts from.
-    pub base: &'a Base,
-    pub step: &'a Step,
-    pub inputs: &'a Inputs,
-    /// s.
-    pub length: f64,
-    /// q and v at the end, in the coordinates of the base.
-    pub end: (&'a [f64], &'a [f64]),
-}
-
-impl ContactStep<'_> {
-    /// m/s2 and m/s3, of the ground at the start.
-    pub fn ground(&self) -> (f64, f64) {
-        let Base { segment, elapsed, .. } = self.base;
-        (segment.acceleration_at(*elapsed), segment.slope)
-    }
-}
 
 impl Model {
     /// Notes the contacts at the start of a step.
@@ -87,16 +65,15 @@ impl Model {
         base.peaks = peaks;
     }
 
-    /// The same for the first part of the step under way, up to what a point shows.
+    /// The same for the first part of the step under way, up to a motion some seconds
+    /// after the base.
     pub(in crate::engine) fn raise_over_part(
         &self,
-        state: &State,
-        elapsed: f64,
-        point: &Point,
+        (base, step, inputs): (&Base, &Step, &Inputs),
+        (elapsed, end): (f64, (&[f64], &[f64])),
         peaks: &mut Peaks,
         work: &mut PeakWork,
     ) {
-        let State { base, step, inputs, .. } = state;
         let mut powers = Powers::default();
         step.set_powers(elapsed, &mut powers);
         self.note_starts(&base.contacts, work);
@@ -105,7 +82,7 @@ impl Model {
         }
         step.bound_forces(&self.system, &base.contacts, (elapsed, &powers), &mut work.peaks.strongest);
         work.peaks.floors.forget();
-        let part = ContactStep { base, step, inputs, length: elapsed, end: (&point.q, &point.v) };
+        let part = ContactStep { base, step, inputs, length: elapsed, end };
         self.check_contact_step(&part, peaks, work);
         work.peaks.floors.forget();
     }

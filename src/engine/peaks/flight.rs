@@ -9,8 +9,9 @@ use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
-use crate::engine::peaks::PeakOf;
-use crate::engine::peaks::PeakWork;
+use crate::engine::peaks::room::ModeBounds;
+use crate::engine::peaks::room::PeakWork;
+use crate::engine::peaks::rows::PeakOf;
 use crate::engine::peaks::rows::{Block, BuildingRows};
 use crate::numerics::polynomial::each;
 use crate::numerics::polynomial::larger;
@@ -34,38 +35,6 @@ pub struct Stretch<'a> {
     pub length: f64,
     /// The whole flight of which this is the first part.
     pub whole: Option<&'a Stretch<'a>>,
-}
-
-/// What is known of each mode over a flight.
-#[derive(Clone, Debug, Default)]
-pub struct ModeBounds {
-    /// Accelerations relative to the ground, at the start and at the end.
-    first: Vec<f64>,
-    last: Vec<f64>,
-    /// How far each mode can swing in q' and in q, about where the load holds it: q at the start and at the end, and q'.
-    pub swing: Vec<f64>,
-    pub swing_q: Vec<f64>,
-    held: [Vec<f64>; 2],
-    held_rate: Vec<f64>,
-    /// What |A| and |B| are multiplied by in the bound on a fourth derivative (in the look ahead: on a first and a second).
-    pub slow: Vec<f64>,
-    pub quick: Vec<f64>,
-}
-
-impl ModeBounds {
-    pub fn new(lanes: usize) -> ModeBounds {
-        let vector = || vec![0.0; lanes];
-        ModeBounds {
-            first: vector(),
-            last: vector(),
-            swing: vector(),
-            swing_q: vector(),
-            held: [vector(), vector()],
-            held_rate: vector(),
-            slow: vector(),
-            quick: vector(),
-        }
-    }
 }
 
 /// How the quantities of a block go over a flight: at both ends their values and slopes.

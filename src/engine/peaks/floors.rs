@@ -7,128 +7,14 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::model::Model;
+use crate::engine::peaks::resistance::Resistance;
+use crate::engine::peaks::room::FloorRoom;
+use crate::engine::peaks::room::FloorState;
 use crate::numerics::polynomial::larger;
-use crate::structure::{LANES, ModalDamping, Side, Structure};
-use nalgebra::DMatrix;
-use std::ops::Range;
+use crate::structure::{LANES, Side};
 
 /// |T| up to which the bound says anything.
 const FURTHEST: f64 = 0.5;
-
-/// How floors feel each other, for both buildings.
-#[derive(Debug)]
-pub struct FloorResistance {
-    buildings: [Resistance; 2],
-}
-
-#[derive(Debug)]
-struct Resistance {
-    /// |M^-1 K| and |M^-1 C|, where a floor feels more than its neighbours.
-    dense: Option<[DMatrix<f64>; 2]>,
-    /// Their largest sums over a row, 1/s2 and 1/s.
-    most: [f64; 2],
-    /// Sums over the columns of K and C, N/m and N s/m: the base shear.
-    shear: [Vec<f64>; 2],
-}
-
-impl FloorResistance {
-    pub fn of(structure: &Structure) -> FloorResistance {
-        FloorResistance { buildings: [Side::Left, Side::Right].map(|side| Resistance::of(structure, side)) }
-    }
-
-    /// The rows of a base shear over displacements and velocities of all floors, of which the building has some lanes.
-    pub fn set_shear_rows(&self, side: usize, lanes: Range<usize>, row: &mut [f64], row_v: &mut [f64]) {
-        let [on_u, on_v] = &self.buildings[side].shear;
-        row[lanes.clone()].copy_from_slice(on_u);
-        row_v[lanes].copy_from_slice(on_v);
-    }
-}
-
-impl Resistance {
-    fn of(structure: &Structure, side: Side) -> Resistance {
-        let modes = structure.modes(side);
-        let (shape, n) = (&modes.shape, modes.omega.len());
-        let mass = structure.floors.of_building(side as usize, structure.floors.mass());
-        let stiffness = DMatrix::from_fn(n, n, |i, m| shape[(i, m)] * modes.omega[m] * modes.omega[m]);
-        let damping = match &modes.damping {
-            ModalDamping::Diagonal(c) => DMatrix::from_fn(n, n, |i, m| shape[(i, m)] * c[m]),
-            ModalDamping::Coupled(c) => shape * c,
-        };
-        let [stiffness, damping] = [stiffness, damping].map(|of_modes| {
-            let back = DMatrix::from_fn(n, n, |m, j| shape[(j, m)] * mass[j]);
-            of_modes * back
-        });
-        let shear = [&stiffness, &damping]
-            .map(|matrix| (0..n).map(|j| (0..n).map(|i| mass[i] * matrix[(i, j)]).sum()).collect());
-        let sizes = [stiffness.abs(), damping.abs()];
-        let most = sizes.each_ref().map(|matrix| matrix.column_sum().max());
-        Resistance { dense: (!structure.floors.is_sparse()).then_some(sizes), most, shear }
-    }
-}
-
-/// The floors of both buildings at one time.
-#[derive(Clone, Debug, Default)]
-pub struct FloorState {
-    /// m and m/s.
-    pub u: Vec<f64>,
-    pub v: Vec<f64>,
-    /// m/s2, by stiffness and damping of the buildings and by floor forces.
-    pub resisted: Vec<f64>,
-}
-
-/// Room for a step.
-#[derive(Clone, Debug, Default)]
-pub struct FloorRoom {
-    pub start: FloorState,
-    pub end: FloorState,
-    /// m/s2, the least and the most that contact forces may push each floor by.
-    pub least: Vec<f64>,
-    pub most: Vec<f64>,
-    /// B, and how far r strays from its chord, m/s2; at last A.
-    pub largest: Vec<f64>,
-    pub strays: Vec<f64>,
-    /// By how much a peak may be exceeded.
-    pub excess: Vec<f64>,
-    pub modal: Vec<f64>,
-    /// The time that `end` is of, as the start of a segment and the time since then.
-    known: Option<[u64; 2]>,
-}
-
-impl FloorRoom {
-    pub fn new(lanes: usize) -> FloorRoom {
-        let vector = || vec![0.0; lanes];
-        let state = || FloorState { u: vector(), v: vector(), resisted: vector() };
-        FloorRoom {
-            start: state(),
-            end: state(),
-            least: vector(),
-            most: vector(),
-            largest: vector(),
-            strays: vector(),
-            excess: vector(),
-            modal: vector(),
-            known: None,
-        }
-    }
-
-    pub fn forget(&mut self) {
-        self.known = None;
-    }
-
-    /// Goes on from the end of the step before, if it is at that time; whether it is.
-    pub fn go_on(&mut self, time: [f64; 2]) -> bool {
-        let goes_on = self.known == Some(time.map(f64::to_bits));
-        if goes_on {
-            std::mem::swap(&mut self.start, &mut self.end);
-        }
-        goes_on
-    }
-
-    /// The end is that of a time.
-    pub fn keep(&mut self, time: [f64; 2]) {
-        self.known = Some(time.map(f64::to_bits));
-    }
-}
 
 impl Model {
     /// The floors of a motion, without floor forces; `modal` is room to work in.

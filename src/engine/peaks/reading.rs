@@ -3,13 +3,16 @@
 
 use crate::collocation::MOST_PAIRS;
 use crate::contact::onset::{MOST_TERMS, Terms, value_and_slope};
+use crate::engine::base::Base;
+use crate::engine::excitation::inputs::Inputs;
 use crate::engine::excitation::linear_input::LinearInput;
 use crate::engine::model::Model;
 use crate::engine::onset::OnsetSeries;
-use crate::engine::peaks::PeakOf;
-use crate::engine::peaks::PeakWork;
-use crate::engine::peaks::contact::ContactStep;
+use crate::engine::peaks::room::PeakWork;
+use crate::engine::peaks::room::ReadingRoom;
+use crate::engine::peaks::rows::PeakOf;
 use crate::engine::peaks::search::Quantity;
+use crate::engine::step::Step;
 use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::larger;
 use crate::structure::MotionSeries;
@@ -28,19 +31,24 @@ const NEARLY: f64 = 0.95;
 const CLOSE: f64 = 1e-13;
 const MOST_READINGS: usize = 20;
 
-/// Vectors to read into.
-#[derive(Clone, Debug, Default)]
-pub struct ReadingRoom {
-    q: Vec<f64>,
-    v: Vec<f64>,
-    acceleration: Vec<f64>,
-    jerk: Vec<f64>,
+/// A step in contact, or its first part.
+#[derive(Clone, Copy)]
+pub struct ContactStep<'a> {
+    /// What it starts from.
+    pub base: &'a Base,
+    pub step: &'a Step,
+    pub inputs: &'a Inputs,
+    /// s.
+    pub length: f64,
+    /// q and v at the end, in the coordinates of the base.
+    pub end: (&'a [f64], &'a [f64]),
 }
 
-impl ReadingRoom {
-    pub fn new(lanes: usize) -> ReadingRoom {
-        let vector = || vec![0.0; lanes];
-        ReadingRoom { q: vector(), v: vector(), acceleration: vector(), jerk: vector() }
+impl ContactStep<'_> {
+    /// m/s2 and m/s3, of the ground at the start.
+    pub fn ground(&self) -> (f64, f64) {
+        let Base { segment, elapsed, .. } = self.base;
+        (segment.acceleration_at(*elapsed), segment.slope)
     }
 }
 

@@ -10,10 +10,31 @@
 //! base shear           A = w^2 participation                      B = participation C
 //! ```
 
-use crate::engine::peaks::PeakOf;
 use crate::structure::Side;
 use crate::structure::{LANES, Lane, ModalDamping, Structure};
 use std::ops::Range;
+
+/// Something whose largest magnitude so far is kept. Floors and storeys count from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PeakOf {
+    /// m, of a floor relative to the ground.
+    Displacement(Side, usize),
+    /// m, of a storey: of its upper floor relative to its lower one.
+    Drift(Side, usize),
+    /// m/s2, of a floor, absolute.
+    Acceleration(Side, usize),
+    /// N, force of the building on the ground.
+    BaseShear(Side),
+}
+
+impl PeakOf {
+    pub(in crate::engine) fn side(self) -> Side {
+        match self {
+            PeakOf::Displacement(side, _) | PeakOf::Drift(side, _) | PeakOf::Acceleration(side, _) => side,
+            PeakOf::BaseShear(side) => side,
+        }
+    }
+}
 
 /// The watched quantities of both buildings.
 #[derive(Debug)]

@@ -3,9 +3,10 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::model::Model;
-use crate::engine::peaks::PeakWork;
 use crate::engine::peaks::flight::{Stretch, course_of, stays_below};
-use crate::engine::peaks::{MOST_FLOWN, PeakOf};
+use crate::engine::peaks::room::MOST_FLOWN;
+use crate::engine::peaks::room::PeakWork;
+use crate::engine::peaks::rows::PeakOf;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::larger;
 use crate::numerics::polynomial::{Coefficients, MAX_ORDER, ROOM};

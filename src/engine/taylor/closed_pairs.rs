@@ -6,7 +6,6 @@ use crate::engine::base::{Base, Coordinates};
 use crate::engine::pairs::packing::{Members, Place, most_blocks};
 use crate::engine::pairs::pair::Pair;
 use crate::engine::taylor::open_pairs::Course;
-use crate::engine::taylor::pair_forces::Blocks;
 use crate::numerics::polynomial::{Coefficients, each};
 use crate::numerics::powers::{Powers, Reading};
 use crate::numerics::roots;
@@ -38,6 +37,9 @@ pub struct ClosedPairs {
     /// Block and lane of each contact.
     places: Vec<(usize, usize)>,
 }
+
+/// Blocks of pairs, and which pairs stand in them.
+pub type Blocks<'a> = (&'a mut [PairBlock], &'a [Members]);
 
 /// What a block comes to at the end of a step.
 pub struct BlockEnd {

@@ -13,6 +13,7 @@ use crate::engine::base::touching;
 use crate::engine::taylor::solution::Solution;
 pub mod closed_pairs;
 pub mod departures;
+pub mod entries;
 pub mod follow;
 pub mod linear_pairs;
 pub mod open_pairs;

@@ -2,18 +2,13 @@
 
 use crate::contact::series::{Each, PAIRS};
 use crate::engine::base::contact::Contact;
-use crate::engine::base::planned::Event;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::pairs::jacobian::{Meeting, OnFewModes, OnFloors, OnModes};
 use crate::engine::pairs::packing::{Members, Place, most_blocks};
 use crate::engine::pairs::pair::Pair;
-use crate::engine::system::System;
-use crate::engine::system::buffers::Buffers;
-use crate::engine::taylor::solution::Solution;
 
 use crate::numerics::polynomial::{ROOM, each};
 use crate::numerics::powers::Powers;
-use crate::numerics::roots;
 use crate::numerics::substitution::Bend;
 use crate::structure::{FEW_BLOCKS, LANES, MotionSeries};
 
@@ -49,7 +44,7 @@ impl Course {
 
     /// Which pairs certainly stay apart up to x: the penetration is as near to its cubic interpolant as its fourth
     /// derivative says, and that lies between its control points (as [`roots::ceiling`] has it).
-    fn stays_apart(&self, x: f64) -> [bool; PAIRS] {
+    pub fn stays_apart(&self, x: f64) -> [bool; PAIRS] {
         let ([start, rate], [end, slope]) = (&self.start, &self.end);
         let larger = |a: f64, b: f64| if a > b { a } else { b };
         let (third, bound) = (x / 3.0, (x * x) * (x * x) / 384.0);
@@ -66,16 +61,16 @@ impl Course {
 #[derive(Clone, Debug)]
 pub struct OpenPairs {
     /// Room for all; the first `used` are filled.
-    members: Vec<Members>,
-    used: usize,
+    pub members: Vec<Members>,
+    pub used: usize,
     /// What the members are made for.
-    coordinates: Option<Coordinates>,
+    pub coordinates: Option<Coordinates>,
     /// The blocks that have a pair that is apart.
-    apart: Vec<usize>,
+    pub apart: Vec<usize>,
     /// m, relative displacements of these: all of one power, then those of the next.
-    terms: Vec<Each>,
+    pub terms: Vec<Each>,
     /// How these go over the step.
-    courses: Vec<Course>,
+    pub courses: Vec<Course>,
 }
 
 impl OpenPairs {
@@ -93,7 +88,7 @@ impl OpenPairs {
     }
 
     /// Gives each pair its block and lane in some coordinates.
-    fn assign(&mut self, pairs: &[Pair], coordinates: Coordinates) {
+    pub fn assign(&mut self, pairs: &[Pair], coordinates: Coordinates) {
         if self.coordinates == Some(coordinates) {
             return;
         }
@@ -111,7 +106,7 @@ impl OpenPairs {
 
     /// Works out the courses of the blocks that have a pair that is apart and not too far to meet, up to the x of the
     /// powers; `room` is for a number of each floor.
-    fn follow(
+    pub fn follow(
         &mut self,
         base: &Base,
         pairs: &[Pair],
@@ -201,64 +196,5 @@ fn read(
 ) {
     for (i, (b, course)) in apart.iter().zip(courses).enumerate() {
         *course = Course::of(terms, (i, apart.len()), count, powers, &members[*b].gap);
-    }
-}
-
-impl System {
-    /// The first entry of a pair that is apart up to the end of the step.
-    pub fn first_entry(&self, base: &Base, solution: &mut Solution, work: &mut Buffers) -> Option<(f64, Event)> {
-        if base.contacts.iter().all(Contact::in_contact) {
-            return None;
-        }
-        let Solution { open, closed, series, end, bend, .. } = solution;
-        if !closed.riders().is_empty() {
-            let course = closed.course_of_riders();
-            return self.first_of_lanes(
-                base,
-                closed.riders().iter().copied(),
-                &course,
-                ((series, bend), end, work),
-                None,
-            );
-        }
-        open.assign(&self.pairs, base.coordinates);
-        open.follow(base, &self.pairs, (series, bend), end, &mut work.node_q);
-        let mut first = None;
-        for (block, course) in open.apart.iter().zip(&open.courses) {
-            first = self.first_of_lanes(base, open.members[*block].lanes(), course, ((series, bend), end, work), first);
-        }
-        first
-    }
-
-    /// The first entry among some lanes that hold a pair, of those that are apart, or the one that is known.
-    #[inline]
-    fn first_of_lanes(
-        &self,
-        base: &Base,
-        lanes: impl Iterator<Item = (usize, usize)>,
-        course: &Course,
-        ((series, bend), end, work): ((&MotionSeries, &Bend), &mut Powers, &mut Buffers),
-        mut first: Option<(f64, Event)>,
-    ) -> Option<(f64, Event)> {
-        let stays_apart = course.stays_apart(end.x);
-        // Of a pair at the surface, or next to it, more digits are known than the motion tells.
-        let is_sure = |lane: usize, contact: &Contact| stays_apart[lane] && !contact.at_surface && !contact.carried;
-        let may_meet = |&(lane, p): &(usize, usize)| {
-            let contact = &base.contacts[p];
-            !contact.in_contact() && !is_sure(lane, contact)
-        };
-        for (_, p) in lanes.filter(may_meet) {
-            let terms = &mut work.scalar[..=series.order];
-            end.set_in_time(&series.clock);
-            let size = self.project(p, base.coordinates, series, end.in_time().0, terms);
-            let contact = &base.contacts[p];
-            let noise = contact.begin_flight(terms, series.scale, self.pairs[p].noise(size));
-            if series.clock.is_bent() {
-                bend.apply_to_one(terms);
-            }
-            let until = first.map_or(end.x, |(x, _)| x);
-            first = roots::first_rise(terms, until, noise).map(|x| (x, Event::Entry(p))).or(first);
-        }
-        first
     }
 }

@@ -7,14 +7,10 @@
 use crate::contact::series::{Any, PairBlock, PairLaw};
 use crate::engine::pairs::jacobian::Meeting;
 use crate::engine::pairs::packing::Members;
-use crate::engine::taylor::closed_pairs::ClosedPairs;
+use crate::engine::taylor::closed_pairs::{Blocks, ClosedPairs};
 use crate::numerics::polynomial::each;
 use crate::structure::{Lane, PairForces};
 use std::marker::PhantomData;
-
-/// Blocks of pairs, and which pairs stand in them.
-pub type Blocks<'a> = (&'a mut [PairBlock], &'a [Members]);
-
 /// Pairs under a law, each of which feels nothing of the others at once; `ONE` where they are one block.
 pub struct AtOnce<'a, M, L, const ONE: bool> {
     blocks: &'a mut [PairBlock],

@@ -4,7 +4,10 @@ use crate::collocation::Kernel;
 use crate::collocation::POWERS;
 use crate::collocation::Tables;
 use crate::engine::system::System;
-use crate::engine::window::trial::{Spring, patience};
+use crate::engine::window::spring::Spring;
+
+/// Relative accuracy of a step for which windows are as long as [`longest_window`] says, and how their length goes with it.
+const USUAL: (f64, f64) = (2e-11, 0.055);
 
 /// Error between the nodes of a window, relative to the power 2/3 of what one step may leave: at its end a Gauss rule is
 /// far better than between its nodes.
@@ -47,4 +50,9 @@ impl Windows {
             (None, None) => room.insert([0.0; POWERS]),
         }
     }
+}
+
+/// How long windows are for an accuracy of steps, relative to the usual.
+pub fn patience(step_tolerance: f64) -> f64 {
+    libm::pow(step_tolerance / USUAL.0, USUAL.1).clamp(0.4, 1.2)
 }

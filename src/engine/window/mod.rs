@@ -13,6 +13,7 @@ use crate::structure::MotionSeries;
 pub mod certificate;
 pub mod kernels;
 pub mod solution;
+pub mod spring;
 pub mod trial;
 
 use crate::collocation::{Ending, MOST_PAIRS, Tables};

@@ -1,17 +1,11 @@
 //! Which window to try first: as long as the laws in it allow, and up to the next event if that is near.
 
 use crate::collocation::{Ending, Frame, Map, Rule};
-use crate::contact::force::power;
-use crate::contact::{EpisodeForce, Force};
+use crate::contact::Force;
 use crate::engine::base::Base;
-use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
 use crate::engine::window::kernels::Windows;
 use crate::engine::window::solution::Window;
-use crate::numerics::quadrature::{EIGHT, gauss};
-
-/// Relative accuracy of a step for which windows are as long as [`longest_window`] says, and how their length goes with it.
-const USUAL: (f64, f64) = (2e-11, 0.055);
 
 /// Time since an entry, in units of the contact's, until which its root is felt.
 const FRESH: f64 = 0.3;
@@ -159,83 +153,12 @@ fn reach_of_fewer(map: Map) -> [f64; 2] {
     }
 }
 
-/// The spring of a pair under a power law, which alone would let it swing through a contact.
-#[derive(Clone, Copy, Debug)]
-pub struct Spring {
-    exponent: f64,
-    /// Exponent of the speed in the unit of time: (1 - n) / (n + 1).
-    power: f64,
-    /// The unit of time for a speed of 1 m/s, s.
-    unit: f64,
-    /// Largest penetration in units of time and speed.
-    deepest: f64,
-    /// [`swing`] from the surface.
-    all: f64,
-}
-
-/// When a spring alone would do what, s.
-struct Prospect {
-    /// Its time: (m V^(1-n) / k)^(1/(n+1)) for the speed V of all of its energy.
-    unit: f64,
-    /// Until it turns round.
-    turn: f64,
-    /// Until it is released.
-    release: f64,
-}
-
-impl Spring {
-    /// `None` for other laws.
-    pub fn of(pair: &Pair) -> Option<Spring> {
-        let (stiffness, n) = match EpisodeForce::new(&pair.law, pair.mass, None).engaged {
-            Force::Power { stiffness, exponent, .. } => (stiffness, exponent),
-            Force::Root { stiffness, .. } => (stiffness, 1.5),
-            Force::None | Force::Linear { .. } => return None,
-        };
-        let root = |x: f64| libm::pow(x, 1.0 / (n + 1.0));
-        Some(Spring {
-            exponent: n,
-            power: (1.0 - n) / (n + 1.0),
-            unit: root(pair.mass / stiffness),
-            deepest: root(0.5 * (n + 1.0)),
-            all: swing(n, 0.0),
-        })
-    }
-
-    /// From a penetration, m, its rate, m/s, and the energy stored per unit of mass, J/kg; `None` beyond all measure.
-    fn prospect(&self, d: f64, rate: f64, stored: f64) -> Option<Prospect> {
-        let speed = (rate * rate + 2.0 * stored).sqrt();
-        let unit = self.unit * libm::pow(speed, self.power);
-        let left = if d > 0.0 { swing(self.exponent, d / (self.deepest * unit * speed)) } else { self.all };
-        let (turn, release) = if rate >= 0.0 { (left, self.all + left) } else { (0.0, self.all - left) };
-        let time = self.deepest * unit;
-        let is_sound = unit.is_finite() && unit > 0.0 && release > 0.0;
-        is_sound.then_some(Prospect { unit, turn: turn * time, release: release * time })
-    }
-}
-
-/// Integral of 1 / sqrt(1 - u^(n+1)) over from..1, roughly: the time from a depth to the deepest.
-fn swing(n: f64, from: f64) -> f64 {
-    let width = 1.0 - from.min(1.0);
-    gauss(EIGHT, 1.0)
-        .map(|(y, weight)| {
-            let u = 1.0 - width * y * y;
-            weight * 2.0 * width * y / (1.0 - power(u, n + 1.0)).max(f64::MIN_POSITIVE).sqrt()
-        })
-        .sum()
-}
-
-/// How long windows are for an accuracy of steps, relative to the usual.
-pub fn patience(step_tolerance: f64) -> f64 {
-    libm::pow(step_tolerance / USUAL.0, USUAL.1).clamp(0.4, 1.2)
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
     use crate::engine::base::contact::Phase;
     use crate::engine::model::Model;
     use crate::engine::state::State;
-    use crate::engine::window::solution::Window;
     use crate::scene::Scene;
 
     /// 1 mm deep in each other: the dashpot takes some 1e2/s for e = 0.5, and 1e14/s for 1e-12, which windows of 0.01 s cannot
@@ -249,7 +172,8 @@ mod tests {
                  right_floor = 1\ngap = -1e-3\nlaw = \"jankowski\"\nstiffness = 1e8\nrestitution = {restitution:?}\n"
             );
             let model = Model::new(&Scene::from_toml(&scene).unwrap(), None).unwrap();
-            let (State { base, .. }, mut window) = (model.start(0.0), Window::default());
+            let (State { base, .. }, mut window) =
+                (model.start(0.0), crate::engine::window::solution::Window::default());
             assert_eq!(base.contacts[0].phase, Phase::Engaged);
             let windows = model.windows.as_ref().unwrap();
             let equation = &mut window.equation;

@@ -1,66 +1,55 @@
-//! How much work one communication step may be, and what to say where that is not enough.
-//!
-//! Work is counted, not timed: the same step is given up at the same place on every machine. What is said names the
-//! contact or the building that makes the steps short, or meets so often, and the key of the scene to change.
+//! What to say where the work of a communication step is not enough, or numbers overflow: which contact or building it is, and
+//! the key of the scene to change.
 
 use crate::contact::LawKey;
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::counters::Counters;
+use crate::engine::budget::{MOST_STEPS_AT_ONCE, Progress, most_flights};
 use crate::engine::error::EngineError;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::model::Model;
 use crate::engine::state::State;
-use crate::structure::{Side, Structure};
-
-/// Work that one communication step may be: some ten seconds. A whole earthquake takes some thousandths of that.
-pub const MOST_WORK: f64 = 1e7;
-
-/// Steps that may follow each other without any time passing.
-const MOST_STEPS_AT_ONCE: u32 = 100_000;
-
-/// Flights that are as much work as so many microseconds: an internal step with a series takes as long as some twenty.
-pub fn most_flights(structure: &Structure, pairs: usize, work: f64) -> f64 {
-    let step_work = 2.0 + 0.2 * structure.lanes as f64 + 0.5 * pairs as f64;
-    work / (0.05 * step_work)
-}
-
-/// What one communication step has taken so far.
-pub struct Progress {
-    /// s, where it began.
-    start: f64,
-    /// The counts at its beginning.
-    before: Counters,
-    impacts_before: u64,
-    /// Steps in a row without any time passing.
-    stalled: u32,
-    /// What it may take, in flights.
-    most: u64,
-}
-
-impl Progress {
-    /// Work of a communication step so far, in that of flights.
-    fn work(&self, counters: &Counters) -> u64 {
-        let before = &self.before;
-        let with_series = counters.contact_steps - before.contact_steps;
-        let looked = counters.closer_looks - before.closer_looks;
-        let flown = counters.flight_steps - before.flight_steps;
-        let accounted = counters.energy_steps - before.energy_steps;
-        20 * with_series + 10 * looked + 6 * accounted + flown
-    }
-
-    /// Flights that may be taken without looking at the work again.
-    pub fn flights_left(&self, counters: &Counters) -> u64 {
-        self.most.saturating_sub(self.work(counters))
-    }
-
-    /// Notes whether a step takes any time.
-    pub fn note(&mut self, takes_time: bool) {
-        self.stalled = if takes_time { 0 } else { self.stalled + 1 };
-    }
-}
+use crate::structure::LANES;
+use crate::structure::Side;
 
 impl Model {
+    /// Nothing may run on without numbers.
+    pub(in crate::engine) fn check_numbers(&self, state: &State) -> Result<(), EngineError> {
+        let base = &state.base;
+        // A sum is finite only if all of its terms are.
+        let contacts: f64 =
+            base.contacts.iter().map(|contact| contact.impulse + contact.work + contact.peak_force).sum();
+        let account = base.energy.map_or(0.0, |account| account.largest);
+        if (lanes_sum(&base.q) + lanes_sum(&base.v) + contacts + account).is_finite() {
+            return Ok(());
+        }
+        Err(self.overflow(base))
+    }
+
+    #[cold]
+    fn overflow(&self, base: &Base) -> EngineError {
+        // Afterwards nothing has numbers: of the contacts that were closed the stiffest is the likeliest cause.
+        let closed = base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact());
+        let stiffness = |p: usize| self.pairs[p].law.stiffness;
+        let contact = closed.map(|(p, _)| p).max_by(|&p, &other| stiffness(p).total_cmp(&stiffness(other)));
+        let place = contact.map_or(String::new(), |p| {
+            let law = &self.pairs[p].law;
+            let stiffness = match law.is_rigid() {
+                true => String::new(),
+                false => format!(", whose stiffness is {:e}", law.stiffness),
+            };
+            format!(" at contact[{}]{stiffness}", p + 1)
+        });
+        EngineError {
+            message: format!(
+                "the motion exceeds what double precision can hold at t = {} s{place}; check the units of masses, \
+                 stiffnesses, gaps and ground acceleration",
+                base.time()
+            ),
+        }
+    }
+
     /// Limits the work of each communication step to so many seconds, as far as they can be told beforehand (on a core
     /// of 2020, within a factor of a few). Ten where nothing is said.
     pub fn limit_work(&mut self, seconds: f64) {
@@ -214,4 +203,15 @@ impl Model {
             ),
         }
     }
+}
+
+/// Sum of a modal vector.
+fn lanes_sum(modal: &[f64]) -> f64 {
+    let mut sum = [0.0; LANES];
+    for modal in modal.as_chunks::<LANES>().0 {
+        for i in 0..LANES {
+            sum[i] += modal[i];
+        }
+    }
+    sum.iter().sum()
 }

@@ -1,0 +1,82 @@
+//! No pair meets in a flight, shown by both ends of it.
+//!
+//! A penetration differs from the cubic through its end values and slopes by at most h^4/384 max|d''''|
+//! \[BirkhoffPriver1967\], and |d''''| is bounded by an energy of the motion. Where all of that lies below 0 there is no contact.
+
+use crate::engine::base::planned::{At, Planned};
+use crate::engine::flight::workspace::Look;
+use crate::engine::pairs::pair::Pair;
+use crate::engine::system::System;
+use crate::engine::system::buffers::Buffers;
+use crate::structure::{Scratch, Structure};
+
+/// What stays the same during a run.
+#[derive(Debug)]
+pub struct Certificate {
+    /// Largest |row| entry of each mode over all pairs.
+    pub pair_weight: Vec<f64>,
+}
+
+impl Certificate {
+    /// For the pairs of a structure.
+    pub fn of(structure: &Structure, pairs: &[Pair]) -> Certificate {
+        let mut pair_weight = vec![0.0_f64; structure.lanes];
+        for pair in pairs {
+            for (weight, row) in pair_weight.iter_mut().zip(&pair.row) {
+                *weight = weight.max(row.abs());
+            }
+        }
+        Certificate { pair_weight }
+    }
+
+    /// Whether no pair meets in the planned flight, shown by both ends alone; a pair that is dismissed for its segment
+    /// does not.
+    pub fn holds(
+        &self,
+        system: &System,
+        At { base, counters, .. }: &mut At,
+        planned: &mut Planned,
+        (look, work): (&mut Look, &mut Buffers),
+        segment: Option<u64>,
+    ) -> bool {
+        let h = planned.length;
+        let loads = (&work.load[..], &work.slope[..]);
+        let deviation = self.deviation(&system.structure, (&base.q, &base.v), loads, h, &mut work.scratch);
+        for (p, (pair, contact)) in system.pairs.iter().zip(&mut base.contacts).enumerate() {
+            if segment.is_some_and(|segment| base.watch.is_free(p, segment)) {
+                planned.ends.push(None);
+                look.stay_apart[p] = true;
+                continue;
+            }
+            if !base.watch.is_known(p) {
+                counters.pairs_evaluated += 1;
+                (contact.penetration, contact.rate) = pair.penetration(&base.q, &base.v);
+                base.watch.set_known(p);
+            }
+            counters.pairs_evaluated += 1;
+            let (end, end_rate) = pair.penetration(&planned.q, &planned.v);
+            planned.ends.push(Some((end, end_rate)));
+            let highest = highest_of_cubic((contact.flight_start(), contact.rate), (end, end_rate), h);
+            look.stay_apart[p] = highest + deviation < 0.0;
+        }
+        look.stay_apart.iter().all(|stays_apart| *stays_apart)
+    }
+
+    /// How far any penetration can be from its cubic interpolant over the `h` seconds that follow a modal motion: by the
+    /// largest that any |d''''| can be.
+    pub fn deviation(
+        &self,
+        structure: &Structure,
+        motion: (&[f64], &[f64]),
+        loads: (&[f64], &[f64]),
+        h: f64,
+        scratch: &mut Scratch,
+    ) -> f64 {
+        (h * h) * (h * h) / 384.0 * structure.fourth_derivative_bound(motion, loads, &self.pair_weight, scratch)
+    }
+}
+
+/// The largest control value of the cubic Hermite interpolant from values and rates at both ends.
+pub fn highest_of_cubic((start, rate): (f64, f64), (end, end_rate): (f64, f64), h: f64) -> f64 {
+    start.max(start + h / 3.0 * rate).max(end - h / 3.0 * end_rate).max(end)
+}

@@ -1,0 +1,43 @@
+//! Where the search for an entry has got to in a flight.
+
+use crate::engine::base::Base;
+
+/// Where a look has got to: content means nothing between calls.
+#[derive(Clone, Debug)]
+pub struct Look {
+    /// s since the base.
+    pub from: f64,
+    /// The motion there and the load.
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    pub load: Vec<f64>,
+    /// The motion at the end of the present piece.
+    pub end_q: Vec<f64>,
+    pub end_v: Vec<f64>,
+    /// Pairs that certainly do not meet in the whole flight.
+    pub stay_apart: Vec<bool>,
+}
+
+impl Look {
+    pub fn new(lanes: usize, pairs: usize) -> Look {
+        let vector = || vec![0.0; lanes];
+        let stay_apart = vec![false; pairs];
+        Look { from: 0.0, q: vector(), v: vector(), load: vector(), end_q: vector(), end_v: vector(), stay_apart }
+    }
+
+    pub fn start(&mut self, base: &Base, load: &[f64]) {
+        self.from = 0.0;
+        self.q.copy_from_slice(&base.q);
+        self.v.copy_from_slice(&base.v);
+        self.load.copy_from_slice(load);
+    }
+
+    pub fn move_on(&mut self, length: f64, slope: &[f64]) {
+        self.from += length;
+        std::mem::swap(&mut self.q, &mut self.end_q);
+        std::mem::swap(&mut self.v, &mut self.end_v);
+        for (load, slope) in self.load.iter_mut().zip(slope) {
+            *load += slope * length;
+        }
+    }
+}

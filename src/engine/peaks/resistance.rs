@@ -1,0 +1,56 @@
+//! How floors feel each other, as sizes.
+
+use crate::structure::{ModalDamping, Side, Structure};
+use nalgebra::DMatrix;
+use std::ops::Range;
+
+/// How floors feel each other, for both buildings.
+#[derive(Debug)]
+pub struct FloorResistance {
+    pub buildings: [Resistance; 2],
+}
+
+#[derive(Debug)]
+pub struct Resistance {
+    /// |M^-1 K| and |M^-1 C|, where a floor feels more than its neighbours.
+    pub dense: Option<[DMatrix<f64>; 2]>,
+    /// Their largest sums over a row, 1/s2 and 1/s.
+    pub most: [f64; 2],
+    /// Sums over the columns of K and C, N/m and N s/m: the base shear.
+    pub shear: [Vec<f64>; 2],
+}
+
+impl FloorResistance {
+    pub fn of(structure: &Structure) -> FloorResistance {
+        FloorResistance { buildings: [Side::Left, Side::Right].map(|side| Resistance::of(structure, side)) }
+    }
+
+    /// The rows of a base shear over displacements and velocities of all floors, of which the building has some lanes.
+    pub fn set_shear_rows(&self, side: usize, lanes: Range<usize>, row: &mut [f64], row_v: &mut [f64]) {
+        let [on_u, on_v] = &self.buildings[side].shear;
+        row[lanes.clone()].copy_from_slice(on_u);
+        row_v[lanes].copy_from_slice(on_v);
+    }
+}
+
+impl Resistance {
+    fn of(structure: &Structure, side: Side) -> Resistance {
+        let modes = structure.modes(side);
+        let (shape, n) = (&modes.shape, modes.omega.len());
+        let mass = structure.floors.of_building(side as usize, structure.floors.mass());
+        let stiffness = DMatrix::from_fn(n, n, |i, m| shape[(i, m)] * modes.omega[m] * modes.omega[m]);
+        let damping = match &modes.damping {
+            ModalDamping::Diagonal(c) => DMatrix::from_fn(n, n, |i, m| shape[(i, m)] * c[m]),
+            ModalDamping::Coupled(c) => shape * c,
+        };
+        let [stiffness, damping] = [stiffness, damping].map(|of_modes| {
+            let back = DMatrix::from_fn(n, n, |m, j| shape[(j, m)] * mass[j]);
+            of_modes * back
+        });
+        let shear = [&stiffness, &damping]
+            .map(|matrix| (0..n).map(|j| (0..n).map(|i| mass[i] * matrix[(i, j)]).sum()).collect());
+        let sizes = [stiffness.abs(), damping.abs()];
+        let most = sizes.each_ref().map(|matrix| matrix.column_sum().max());
+        Resistance { dense: (!structure.floors.is_sparse()).then_some(sizes), most, shear }
+    }
+}

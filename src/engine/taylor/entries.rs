@@ -1,0 +1,72 @@
+//! The first entry of a pair that is apart while others are in contact.
+
+use crate::engine::base::Base;
+use crate::engine::base::contact::Contact;
+use crate::engine::base::planned::Event;
+use crate::engine::system::System;
+use crate::engine::system::buffers::Buffers;
+use crate::engine::taylor::open_pairs::Course;
+use crate::engine::taylor::solution::Solution;
+use crate::numerics::powers::Powers;
+use crate::numerics::roots;
+use crate::numerics::substitution::Bend;
+use crate::structure::MotionSeries;
+
+impl System {
+    /// The first entry of a pair that is apart up to the end of the step.
+    pub fn first_entry(&self, base: &Base, solution: &mut Solution, work: &mut Buffers) -> Option<(f64, Event)> {
+        if base.contacts.iter().all(Contact::in_contact) {
+            return None;
+        }
+        let Solution { open, closed, series, end, bend, .. } = solution;
+        if !closed.riders().is_empty() {
+            let course = closed.course_of_riders();
+            return self.first_of_lanes(
+                base,
+                closed.riders().iter().copied(),
+                &course,
+                ((series, bend), end, work),
+                None,
+            );
+        }
+        open.assign(&self.pairs, base.coordinates);
+        open.follow(base, &self.pairs, (series, bend), end, &mut work.node_q);
+        let mut first = None;
+        for (block, course) in open.apart.iter().zip(&open.courses) {
+            first = self.first_of_lanes(base, open.members[*block].lanes(), course, ((series, bend), end, work), first);
+        }
+        first
+    }
+
+    /// The first entry among some lanes that hold a pair, of those that are apart, or the one that is known.
+    #[inline]
+    fn first_of_lanes(
+        &self,
+        base: &Base,
+        lanes: impl Iterator<Item = (usize, usize)>,
+        course: &Course,
+        ((series, bend), end, work): ((&MotionSeries, &Bend), &mut Powers, &mut Buffers),
+        mut first: Option<(f64, Event)>,
+    ) -> Option<(f64, Event)> {
+        let stays_apart = course.stays_apart(end.x);
+        // Of a pair at the surface, or next to it, more digits are known than the motion tells.
+        let is_sure = |lane: usize, contact: &Contact| stays_apart[lane] && !contact.at_surface && !contact.carried;
+        let may_meet = |&(lane, p): &(usize, usize)| {
+            let contact = &base.contacts[p];
+            !contact.in_contact() && !is_sure(lane, contact)
+        };
+        for (_, p) in lanes.filter(may_meet) {
+            let terms = &mut work.scalar[..=series.order];
+            end.set_in_time(&series.clock);
+            let size = self.project(p, base.coordinates, series, end.in_time().0, terms);
+            let contact = &base.contacts[p];
+            let noise = contact.begin_flight(terms, series.scale, self.pairs[p].noise(size));
+            if series.clock.is_bent() {
+                bend.apply_to_one(terms);
+            }
+            let until = first.map_or(end.x, |(x, _)| x);
+            first = roots::first_rise(terms, until, noise).map(|x| (x, Event::Entry(p))).or(first);
+        }
+        first
+    }
+}
