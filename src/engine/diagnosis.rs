@@ -31,10 +31,10 @@ impl Model {
     fn overflow(&self, base: &Base) -> EngineError {
         // Afterwards nothing has numbers: of the contacts that were closed the stiffest is the likeliest cause.
         let closed = base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact());
-        let stiffness = |p: usize| self.pairs[p].law.stiffness;
+        let stiffness = |p: usize| self.system.pairs[p].law.stiffness;
         let contact = closed.map(|(p, _)| p).max_by(|&p, &other| stiffness(p).total_cmp(&stiffness(other)));
         let place = contact.map_or(String::new(), |p| {
-            let law = &self.pairs[p].law;
+            let law = &self.system.pairs[p].law;
             let stiffness = match law.is_rigid() {
                 true => String::new(),
                 false => format!(", whose stiffness is {:e}", law.stiffness),
@@ -53,13 +53,13 @@ impl Model {
     /// Limits the work of each communication step to so many seconds, as far as they can be told beforehand (on a core
     /// of 2020, within a factor of a few). Ten where nothing is said.
     pub fn limit_work(&mut self, seconds: f64) {
-        self.most_flights = most_flights(&self.structure, self.pairs.len(), 1e6 * seconds);
+        self.most_flights = most_flights(&self.system.structure, self.system.pairs.len(), 1e6 * seconds);
     }
 
     /// Refuses a communication step that has more segments of the record than it may take flights.
     #[inline]
     pub(in crate::engine) fn check_segments(&self, state: &State, until: f64) -> Result<(), EngineError> {
-        match &self.ground {
+        match &self.system.ground {
             Some(ground) if ground.are_more_after((state.time, until), self.most_flights) => {
                 Err(self.too_many_segments(ground, state.time, until))
             }
@@ -126,7 +126,7 @@ impl Model {
     /// Whether there is a record that has not begun or is over.
     fn is_outside_record(&self, base: &Base) -> bool {
         let is_in = |ground: &GroundMotion| ground.number(&base.segment).is_some_and(|n| ground.is_in_record(n));
-        self.ground.as_ref().is_some_and(|ground| !is_in(ground))
+        self.system.ground.as_ref().is_some_and(|ground| !is_in(ground))
     }
 
     /// Floors that meet again and again.
@@ -134,7 +134,7 @@ impl Model {
         let most = base.contacts.iter().enumerate().max_by_key(|(_, contact)| contact.impacts);
         let Some((p, contact)) = most else { return self.quick() };
         let path = format!("contact[{}]", p + 1);
-        let law = &self.pairs[p].law;
+        let law = &self.system.pairs[p].law;
         let restitution =
             law.kind.info().keys.iter().any(|key| matches!(key, LawKey::Restitution | LawKey::ImpulseRestitution));
         let change = match restitution {
@@ -152,10 +152,10 @@ impl Model {
             (p, spring, dashpot)
         });
         let stiffest = rates.max_by(|a, b| f64::total_cmp(&a.1.max(a.2), &b.1.max(b.2)));
-        let Some((p, spring, dashpot)) = stiffest.filter(|(_, a, b)| a.max(*b) > self.structure.fastest) else {
+        let Some((p, spring, dashpot)) = stiffest.filter(|(_, a, b)| a.max(*b) > self.system.structure.fastest) else {
             return self.quick();
         };
-        let (path, law, step) = (format!("contact[{}]", p + 1), &self.pairs[p].law, base.last_length);
+        let (path, law, step) = (format!("contact[{}]", p + 1), &self.system.pairs[p].law, base.last_length);
         if dashpot <= spring {
             return format!(
                 "the spring of {path} is stiff (up to {spring:.1e} 1/s, steps of {step:.1e} s): lower {path}.stiffness \
@@ -164,8 +164,8 @@ impl Model {
             );
         }
         let approach = base.contacts[p].episode.approach_velocity;
-        let also = match approach <= self.least_approach && law.damping_formula.is_some() {
-            true => format!(" or raise solver.min_approach_velocity (now {:e})", self.least_approach),
+        let also = match approach <= self.system.least_approach && law.damping_formula.is_some() {
+            true => format!(" or raise solver.min_approach_velocity (now {:e})", self.system.least_approach),
             false => String::new(),
         };
         format!(
@@ -177,7 +177,7 @@ impl Model {
 
     /// 1/s, how fast spring and dashpot of a contact act at its deepest.
     fn contact_rates(&self, p: usize, contact: &Contact) -> (f64, f64) {
-        let (force, mass) = (contact.force.engaged, self.pairs[p].mass);
+        let (force, mass) = (contact.force.engaged, self.system.pairs[p].mass);
         let d = contact.episode.peak_penetration.max(contact.penetration);
         let spring = (force.value(2.0 * d, 0.0) - force.value(d, 0.0)) / d;
         ((spring.max(0.0) / mass).sqrt(), force.dashpot(d) / mass)
@@ -186,9 +186,10 @@ impl Model {
     /// The building with the fastest mode.
     fn quick(&self) -> String {
         let fastest = |side: Side| {
-            let range = self.structure.range(side);
-            let omega = self.structure.omega2[range.clone()].iter().fold(0.0_f64, |most, w2| most.max(w2.sqrt()));
-            (omega, self.structure.damping[range].iter().fold(0.0_f64, |most, c| most.max(*c)))
+            let range = self.system.structure.range(side);
+            let omega =
+                self.system.structure.omega2[range.clone()].iter().fold(0.0_f64, |most, w2| most.max(w2.sqrt()));
+            (omega, self.system.structure.damping[range].iter().fold(0.0_f64, |most, c| most.max(*c)))
         };
         let [left, right] = [Side::Left, Side::Right].map(fastest);
         let (name, (omega, damping)) =

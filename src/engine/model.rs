@@ -28,13 +28,6 @@ pub struct Model {
     pub(in crate::engine) most_flights: f64,
 }
 
-impl std::ops::Deref for Model {
-    type Target = System;
-    fn deref(&self) -> &System {
-        &self.system
-    }
-}
-
 impl Model {
     /// Prepares a checked scene. `record` is there when `scene.ground.record` is.
     pub fn new(scene: &Scene, record: Option<&Record>) -> Result<Model, SceneError> {
@@ -66,12 +59,12 @@ impl Model {
 
     /// Number of floors of a building.
     pub fn floors(&self, side: Side) -> usize {
-        self.structure.floors(side)
+        self.system.structure.floors(side)
     }
 
     /// Number of contacts.
     pub fn contacts(&self) -> usize {
-        self.pairs.len()
+        self.system.pairs.len()
     }
 }
 

@@ -98,9 +98,12 @@ impl Model {
         require(counters.numbers().all(|count| count <= MOST_COUNTED), "a count in it is impossible")?;
         self.check_segment(saved)?;
         self.check_contacts(base)?;
-        let number = self.ground.as_ref().and_then(|ground| ground.number(&base.segment)).unwrap_or_default();
+        let number = self.system.ground.as_ref().and_then(|ground| ground.number(&base.segment)).unwrap_or_default();
         require(base.peaks.fit(&self.start_peaks()), "the peaks in it are impossible")?;
-        require(base.watch.fits(self.pairs.len(), number, MOST_COUNTED), "what it tells of pairs apart is impossible")?;
+        require(
+            base.watch.fits(self.system.pairs.len(), number, MOST_COUNTED),
+            "what it tells of pairs apart is impossible",
+        )?;
         self.restore(saved, &mut state);
         self.check_time(saved.is_planned, &state)
     }
@@ -109,7 +112,7 @@ impl Model {
         let SavedState { base, inputs, .. } = saved;
         let fits = base.q.len() == fresh.base.q.len()
             && base.v.len() == fresh.base.v.len()
-            && base.contacts.len() == self.pairs.len()
+            && base.contacts.len() == self.system.pairs.len()
             && base.energy.is_some() == self.energy
             && inputs.floor_forces.len() == fresh.inputs.floor_forces.len()
             && inputs.left_floors == fresh.inputs.left_floors;
@@ -118,7 +121,7 @@ impl Model {
 
     fn check_segment(&self, saved: &SavedState) -> Result<(), EngineError> {
         let SavedState { time, base: Base { segment, elapsed, .. }, .. } = saved;
-        let fits = match &self.ground {
+        let fits = match &self.system.ground {
             Some(ground) => ground.has(segment),
             None => segment.is_under_input(),
         };
@@ -128,8 +131,8 @@ impl Model {
     }
 
     fn check_contacts(&self, base: &Base) -> Result<(), EngineError> {
-        for (p, (contact, pair)) in base.contacts.iter().zip(&self.pairs).enumerate() {
-            let approach = contact.episode.approach_velocity.max(self.least_approach);
+        for (p, (contact, pair)) in base.contacts.iter().zip(&self.system.pairs).enumerate() {
+            let approach = contact.episode.approach_velocity.max(self.system.least_approach);
             let is_law = |approach| contact.force == EpisodeForce::new(&pair.law, pair.mass, approach);
             let fits = match contact.phase {
                 Phase::Apart => true,

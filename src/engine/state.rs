@@ -99,12 +99,12 @@ impl Workspace {
     }
 
     fn new(model: &Model) -> Workspace {
-        let (pairs, lanes) = (model.pairs.len(), model.structure.lanes);
+        let (pairs, lanes) = (model.system.pairs.len(), model.system.structure.lanes);
         Workspace {
             buffers: model.buffers(),
             look: Look::new(lanes, pairs),
             windows: Room::new(model.windows.as_ref().map_or(0, |_| pairs)),
-            peaks: PeakRoom::new(&model.structure, &model.peak_rows, pairs),
+            peaks: PeakRoom::new(&model.system.structure, &model.peak_rows, pairs),
         }
     }
 }
@@ -112,14 +112,14 @@ impl Workspace {
 impl Model {
     /// Room to work in.
     pub(in crate::engine) fn buffers(&self) -> Buffers {
-        Buffers::new(&self.structure, self.rigid.pairs.len())
+        Buffers::new(&self.system.structure, self.system.rigid.pairs.len())
     }
 
     /// The initial state at a time, s.
     pub fn start(&self, time: f64) -> State {
-        let _lanes = self.structure.lanes;
+        let _lanes = self.system.structure.lanes;
         let [q, v] = self.initial.clone();
-        let segment = match &self.ground {
+        let segment = match &self.system.ground {
             Some(ground) => ground.segment_at(time),
             None => Segment::under_input(time, 0.0, &LinearInput::default()),
         };
@@ -129,8 +129,14 @@ impl Model {
             base: Base {
                 segment,
                 elapsed: time - segment.start,
-                contacts: self.pairs.iter().enumerate().map(|(p, pair)| pair.at_start(p, time, &q, &v)).collect(),
-                watch: Watch::new(self.pairs.len()),
+                contacts: self
+                    .system
+                    .pairs
+                    .iter()
+                    .enumerate()
+                    .map(|(p, pair)| pair.at_start(p, time, &q, &v))
+                    .collect(),
+                watch: Watch::new(self.system.pairs.len()),
                 peaks: self.start_peaks(),
                 energy: self.energy.then(Account::default),
                 velocity_scale: 0.0,
@@ -143,14 +149,14 @@ impl Model {
             step: Step::new(&self.system),
             inputs: Inputs {
                 ground_acceleration: LinearInput::default(),
-                floor_forces: vec![LinearInput::default(); if self.floor_forces { floors } else { 0 }],
+                floor_forces: vec![LinearInput::default(); if self.system.floor_forces { floors } else { 0 }],
                 left_floors: self.floors(Side::Left),
             },
             counters: Counters::default(),
             work: Workspace::new(self),
         };
         state.base.impacts = state.base.contacts.iter().map(|contact| contact.impacts).sum();
-        self.open_account(&mut state.base);
+        self.system.open_account(&mut state.base);
         state
     }
 }

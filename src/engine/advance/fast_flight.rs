@@ -140,11 +140,11 @@ impl Model {
     /// Counts the pairs that planned flights over some segments would have evaluated, and leaves those at the base known
     /// that the last of these would have left known.
     fn know_near_pairs(&self, base: &mut Base, segments: Range<u64>, counters: &mut Counters) {
-        for p in 0..self.pairs.len() {
+        for p in 0..self.system.pairs.len() {
             counters.pairs_evaluated += base.watch.evaluations(p, &segments);
         }
         base.watch.move_on(segments.end - segments.start);
-        for (p, pair) in self.pairs.iter().enumerate() {
+        for (p, pair) in self.system.pairs.iter().enumerate() {
             if !base.watch.is_free(p, segments.end - 1) {
                 let contact = &mut base.contacts[p];
                 (contact.penetration, contact.rate) = pair.penetration(&base.q, &base.v);
@@ -160,21 +160,21 @@ impl Model {
             && base.elapsed == 0.0
             && base.coordinates == Coordinates::Modes
             && base.energy.is_none()
-            && self.structure.is_classical()
+            && self.system.structure.is_classical()
             && !base.contacts.iter().any(|contact| contact.in_contact() || contact.at_surface);
-        if is_plain { self.watched_segment(base) } else { None }
+        if is_plain { self.system.watched_segment(base) } else { None }
     }
 
     fn count_glide(&self, counters: &mut Counters, flown: u64) {
         counters.flight_steps += flown;
-        counters.flights_dismissed += if self.pairs.is_empty() { 0 } else { flown };
+        counters.flights_dismissed += if self.system.pairs.is_empty() { 0 } else { flown };
     }
 
     /// Leaves the planned glide to be planned by other means.
     pub(in crate::engine) fn forget_glide(&self, state: &mut State) {
         state.step.kind = StepKind::Unknown;
         state.counters.flight_steps -= 1;
-        state.counters.flights_dismissed -= u64::from(!self.pairs.is_empty());
+        state.counters.flights_dismissed -= u64::from(!self.system.pairs.is_empty());
     }
 
     /// Makes the end of a flight the base.
@@ -202,7 +202,7 @@ fn fly_over(
     until: f64,
 ) -> u64 {
     let is_simple = ground.is_in_record(segments.start);
-    match model.structure.lanes / LANES {
+    match model.system.structure.lanes / LANES {
         1 if is_simple => fly_few::<1>(model, ground, base, NothingNear, segments, until),
         2 if is_simple => fly_few::<2>(model, ground, base, NothingNear, segments, until),
         3 if is_simple => fly_few::<3>(model, ground, base, NothingNear, segments, until),
@@ -231,7 +231,7 @@ fn fly_near(
     segments: Range<u64>,
     until: f64,
 ) -> u64 {
-    match model.structure.lanes / LANES {
+    match model.system.structure.lanes / LANES {
         1 => fly_in_sight::<1>(model, near, ground, base, segments, until),
         2 => fly_in_sight::<2>(model, near, ground, base, segments, until),
         3 => fly_in_sight::<3>(model, near, ground, base, segments, until),
@@ -257,7 +257,7 @@ fn fly_segment(model: &Model, ground: &GroundMotion, segment: &Segment, base: &B
     let Some(interval) = ground.prepared(segment) else { return false };
     interval.fly_on_ground(
         (&base.q, &base.v),
-        (&model.structure.participation, (segment.acceleration_at(0.0), segment.slope)),
+        (&model.system.structure.participation, (segment.acceleration_at(0.0), segment.slope)),
         (&mut step.planned.q, &mut step.planned.v),
     )
 }
@@ -275,7 +275,7 @@ fn fly_few<const WIDTH: usize>(
 ) -> u64 {
     let Some(interval) = ground.prepared(&ground.segment(segments.start)) else { return 0 };
     let Some(modes) = interval.blocks::<WIDTH>() else { return 0 };
-    let participation = few::<WIDTH>(&model.structure.participation);
+    let participation = few::<WIDTH>(&model.system.structure.participation);
     let (mut q, mut v) = (few::<WIDTH>(&base.q), few::<WIDTH>(&base.v));
     let mut flown = 0;
     for (start, length, load) in ground.of_record(segments) {

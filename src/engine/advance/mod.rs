@@ -3,13 +3,11 @@
 use crate::engine::base::planned::At;
 use crate::engine::base::planned::Planned;
 use crate::engine::excitation::inputs::Inputs;
-use crate::engine::system::buffers::Buffers;
+pub mod events;
 pub mod fast_flight;
 
-use crate::contact::EpisodeForce;
+use crate::engine::base::Base;
 use crate::engine::base::contact::Episode;
-use crate::engine::base::planned::Event;
-use crate::engine::base::{Base, Coordinates};
 use crate::engine::error::EngineError;
 use crate::engine::excitation::segment::Segment;
 use crate::engine::model::Model;
@@ -28,12 +26,12 @@ impl Model {
         until: f64,
         on_episode: &mut dyn FnMut(&Episode),
     ) -> Result<(), EngineError> {
-        if self.ground.is_none() {
+        if self.system.ground.is_none() {
             let input = &state.inputs.ground_acceleration;
             state.base.segment = Segment::under_input(state.time, until - state.time, input);
             state.base.elapsed = 0.0;
         }
-        if self.is_driven() {
+        if self.system.is_driven() {
             state.step.kind = StepKind::Unknown;
         }
         self.check_segments(state, until)?;
@@ -58,7 +56,7 @@ impl Model {
         loop {
             let segment = &state.base.segment;
             let limit = self.limit(segment, until);
-            if limit > state.base.elapsed || !self.is_driven() {
+            if limit > state.base.elapsed || !self.system.is_driven() {
                 self.plan(state, limit);
                 let segment = &state.base.segment;
                 let end = state.step_end(limit);
@@ -71,10 +69,10 @@ impl Model {
                 self.check_progress(state, &progress)?;
             }
             if state.base.elapsed >= state.base.segment.length {
-                let Some(ground) = &self.ground else { break };
+                let Some(ground) = &self.system.ground else { break };
                 state.base.segment = ground.following(&state.base.segment);
                 state.base.elapsed = 0.0;
-            } else if self.is_driven() && state.base.elapsed >= limit {
+            } else if self.system.is_driven() && state.base.elapsed >= limit {
                 break;
             }
             let glide = self.glide(state, until, progress.flights_left(&state.counters));
@@ -90,7 +88,7 @@ impl Model {
 
     /// Where a step has to end, s since the start of the segment.
     pub(in crate::engine) fn limit(&self, segment: &Segment, until: f64) -> f64 {
-        if self.is_driven() { segment.length.min(until - segment.start) } else { segment.length }
+        if self.system.is_driven() { segment.length.min(until - segment.start) } else { segment.length }
     }
 
     /// Takes the planned step, which ends at `end` (s since the segment's start), and handles its event.
@@ -105,7 +103,7 @@ impl Model {
         base.elapsed = end;
         base.last_length = planned.next_length.unwrap_or(base.last_length);
         self.move_contacts(base, planned);
-        self.keep_together(base, &mut work.buffers);
+        self.system.keep_together(base, &mut work.buffers);
         if let Some(event) = planned.event {
             counters.events += 1;
             base.watch.restart();
@@ -113,22 +111,6 @@ impl Model {
             self.handle(base, event, &mut work.buffers, on_episode);
         }
         *kind = StepKind::Unknown;
-    }
-
-    /// Follows the contacts to the end of a step, and raises the peaks to what it reaches.
-    fn follow_and_raise(&self, base: &mut Base, step: &Step, inputs: &Inputs, end: f64, work: &mut Workspace) {
-        let work = &mut work.for_peaks();
-        let start = base.time();
-        let is_watched = !self.peak_rows.are_none() && step.planned.length > 0.0;
-        let is_flight = step.kind == StepKind::Flight;
-        match is_flight && is_watched {
-            true => self.raise_over_flight(base, step, inputs, work),
-            false => self.note_starts(&base.contacts, work),
-        }
-        step.follow(&self.system, &mut base.contacts, start);
-        if is_watched && !is_flight {
-            self.raise_over_step(base, step, inputs, end, work);
-        }
     }
 
     /// Penetrations and rates at the end of a step.
@@ -154,7 +136,7 @@ impl Model {
         base.watch.set_all_known();
         let (coordinates, q, v) = (base.coordinates, &base.q, &base.v);
         for ((p, contact), (pair, carried)) in
-            base.contacts.iter_mut().enumerate().zip(self.pairs.iter().zip(&planned.carried))
+            base.contacts.iter_mut().enumerate().zip(self.system.pairs.iter().zip(&planned.carried))
         {
             contact.at_surface = false;
             contact.let_go = false;
@@ -165,7 +147,7 @@ impl Model {
             contact.carried = false;
             if let Some((penetration, rate)) = *carried {
                 (contact.penetration, contact.rate) = (penetration, rate);
-                contact.carried = self.is_close(p, penetration, coordinates, q);
+                contact.carried = self.system.is_close(p, penetration, coordinates, q);
                 continue;
             }
             if !contact.in_contact() {
@@ -175,28 +157,19 @@ impl Model {
         }
     }
 
-    fn handle(&self, base: &mut Base, event: Event, work: &mut Buffers, on_episode: &mut dyn FnMut(&Episode)) {
-        let time = base.time();
-        match event {
-            Event::Entry(p) if self.pairs[p].law.is_rigid() => {
-                self.convert(base, Coordinates::Modes, &mut work.q);
-                self.meet(base, p, work, on_episode);
-            }
-            Event::Entry(p) => {
-                let contact = &mut base.contacts[p];
-                contact.penetration = 0.0;
-                // What enters does not move apart but for rounding.
-                contact.rate = self.pairs[p].difference(base.coordinates, &base.v).0.max(0.0);
-                contact.at_surface = true;
-                let (pair, approach) = (&self.pairs[p], contact.rate.max(self.least_approach));
-                contact.force = EpisodeForce::new(&pair.law, pair.mass, Some(approach));
-                contact.begin(time, contact.rate);
-                base.impacts += 1;
-                // The first series of an episode finds its own scale.
-                base.last_length = 0.0;
-            }
-            Event::Release(p) => base.release(p, on_episode),
-            Event::Branch(p) => base.contacts[p].change_branch(),
+    /// Follows the contacts to the end of a step, and raises the peaks to what it reaches.
+    fn follow_and_raise(&self, base: &mut Base, step: &Step, inputs: &Inputs, end: f64, work: &mut Workspace) {
+        let work = &mut work.for_peaks();
+        let start = base.time();
+        let is_watched = !self.peak_rows.are_none() && step.planned.length > 0.0;
+        let is_flight = step.kind == StepKind::Flight;
+        match is_flight && is_watched {
+            true => self.raise_over_flight(base, step, inputs, work),
+            false => self.note_starts(&base.contacts, work),
+        }
+        step.follow(&self.system, &mut base.contacts, start);
+        if is_watched && !is_flight {
+            self.raise_over_step(base, step, inputs, end, work);
         }
     }
 }

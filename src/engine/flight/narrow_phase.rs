@@ -106,7 +106,7 @@ impl Search<'_> {
                 continue;
             }
             let terms = &mut work.scalar[..=work.series.order];
-            let mut noise = pair.noise(system.project(p, Coordinates::Modes, &work.series, &ALL, terms));
+            let mut noise = pair.noise(system.pairs[p].project(Coordinates::Modes, &work.series, &ALL, terms));
             if *from == 0.0 {
                 noise = contact.begin_flight(terms, length, noise);
             } else {

@@ -18,13 +18,13 @@ impl Model {
         point: &Point,
     ) -> EnergyPoint {
         if elapsed > 0.0 {
-            let done = self.work_over(&state.base, &state.step, &state.inputs, work, elapsed);
+            let done = self.system.work_over(&state.base, &state.step, &state.inputs, work, elapsed);
             account.input += done.input;
             account.viscous += done.viscous;
             account.external += done.external;
         }
-        let (kinetic, strain) = self.structure_energies(point.coordinates, &point.q, &point.v);
-        let contacts = 0..self.pairs.len();
+        let (kinetic, strain) = self.system.structure_energies(point.coordinates, &point.q, &point.v);
+        let contacts = 0..self.system.pairs.len();
         let impact = contacts.map(|p| self.contact_in(&state.base, point, p).dissipated_energy).sum();
         account.update_largest([kinetic, strain, impact]);
         let Account { initial, input, external, viscous, largest } = account;

@@ -30,16 +30,16 @@ impl Model {
         rest.fill(0.0);
         let mut product = |u: &[f64], v: &[f64], with: &[f64]| {
             force.fill(0.0);
-            self.resist(coordinates, u, v, 1.0, force);
+            self.system.resist(coordinates, u, v, 1.0, force);
             -inner(with, force)
         };
         let strain = [product(u, rest, v), product(v, rest, v) + product(u, rest, a)];
         let viscous = [product(rest, v, v), 2.0 * product(rest, a, v)];
         load.fill(0.0);
         slope.fill(0.0);
-        self.add_floor_forces(&state.inputs, coordinates, |force| force.at(state.time), load);
-        self.add_floor_forces(&state.inputs, coordinates, LinearInput::slope, slope);
-        let ones = self.participation(coordinates);
+        self.system.add_floor_forces(&state.inputs, coordinates, |force| force.at(state.time), load);
+        self.system.add_floor_forces(&state.inputs, coordinates, LinearInput::slope, slope);
+        let ones = self.system.participation(coordinates);
         let (momentum, push) = (inner(ones, v), inner(ones, a));
         let (ground, ground_rate) = (point.ground_acceleration, rates.ground_acceleration[0]);
         let sum = |order: usize| rates.contacts.iter().map(|contact| contact.dissipated_energy[order]).sum();
@@ -60,7 +60,7 @@ impl Model {
             // Modes have the mass 1.
             Coordinates::Modes => products.sum(),
             Coordinates::Floors => {
-                products.zip(self.structure.floors.mass()).map(|(product, mass)| product * mass).sum()
+                products.zip(self.system.structure.floors.mass()).map(|(product, mass)| product * mass).sum()
             }
         }
     }

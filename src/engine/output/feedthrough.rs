@@ -23,9 +23,10 @@ pub struct Response {
 impl Model {
     /// Answers to no force yet.
     pub fn clear_response(&self, response: &mut Response) {
-        for (vector, length) in
-            [(&mut response.reactions, self.pairs.len()), (&mut response.accelerations, self.structure.lanes)]
-        {
+        for (vector, length) in [
+            (&mut response.reactions, self.system.pairs.len()),
+            (&mut response.accelerations, self.system.structure.lanes),
+        ] {
             vector.clear();
             vector.resize(length, 0.0);
         }
@@ -33,7 +34,7 @@ impl Model {
 
     /// Adds a force, N, on a floor by itself.
     pub fn push_floor(&self, side: Side, floor: usize, force: f64, response: &mut Response) {
-        let floors = &self.structure.floors;
+        let floors = &self.system.structure.floors;
         let lane = floors.lane(side as usize, floor);
         response.accelerations[lane] += force * floors.inverse_mass(lane);
     }
@@ -44,14 +45,14 @@ impl Model {
         self.list_pressing(&state.base, point, &mut work);
         let (rigid, accelerations) = (&mut work.rigid, &mut response.accelerations);
         for (&k, known) in rigid.pairs.iter().zip(&mut rigid.known) {
-            let [left, right] = self.pairs[self.rigid.pairs[k]].lanes;
+            let [left, right] = self.system.pairs[self.system.rigid.pairs[k]].lanes;
             *known = accelerations[left] - accelerations[right];
         }
         rigid.solve();
         for (&k, reaction) in rigid.pairs.iter().zip(&rigid.found) {
-            let p = self.rigid.pairs[k];
+            let p = self.system.rigid.pairs[k];
             response.reactions[p] = *reaction;
-            let Pair { lanes: [left, right], inverse_masses, .. } = &self.pairs[p];
+            let Pair { lanes: [left, right], inverse_masses, .. } = &self.system.pairs[p];
             accelerations[*left] -= reaction * inverse_masses[0];
             accelerations[*right] += reaction * inverse_masses[1];
         }
@@ -60,6 +61,6 @@ impl Model {
 
     /// m/s2, of a floor.
     pub fn response_at(&self, response: &Response, side: Side, floor: usize) -> f64 {
-        response.accelerations[self.structure.floors.lane(side as usize, floor)]
+        response.accelerations[self.system.structure.floors.lane(side as usize, floor)]
     }
 }

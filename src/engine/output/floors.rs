@@ -35,7 +35,7 @@ impl Model {
     #[inline]
     pub fn acceleration(&self, point: &Point, side: Side, floor: usize) -> f64 {
         let FloorMotions { acceleration, observation, .. } = &point.floors;
-        let lane = self.structure.floors.lane(side as usize, floor);
+        let lane = self.system.structure.floors.lane(side as usize, floor);
         let known = &acceleration[lane / LANES];
         if known.observation.get() != *observation {
             self.note_floors(point, lane / LANES, [&self.accelerations(point).absolute], known);
@@ -47,8 +47,10 @@ impl Model {
     #[inline(never)]
     pub fn base_shear(&self, point: &Point, side: Side) -> f64 {
         match point.coordinates {
-            Coordinates::Modes => self.structure.base_shear(side, &point.q, &point.v),
-            Coordinates::Floors => self.structure.floors.base_shear(side as usize, &self.accelerations(point).resisted),
+            Coordinates::Modes => self.system.structure.base_shear(side, &point.q, &point.v),
+            Coordinates::Floors => {
+                self.system.structure.floors.base_shear(side as usize, &self.accelerations(point).resisted)
+            }
         }
     }
 
@@ -56,7 +58,7 @@ impl Model {
     #[inline]
     fn floor_motion(&self, point: &Point, side: Side, floor: usize, quantity: usize) -> f64 {
         let FloorMotions { motion, observation, .. } = &point.floors;
-        let lane = self.structure.floors.lane(side as usize, floor);
+        let lane = self.system.structure.floors.lane(side as usize, floor);
         let known = &motion[lane / LANES];
         if known.observation.get() != *observation {
             self.note_floors(point, lane / LANES, [&point.q, &point.v], known);
@@ -77,7 +79,7 @@ impl Model {
             let mut accelerations = floors.room.take();
             let Accelerations { absolute, resisted } = &mut accelerations;
             resisted.fill(0.0);
-            self.resist(point.coordinates, &point.q, &point.v, 1.0, resisted);
+            self.system.resist(point.coordinates, &point.q, &point.v, 1.0, resisted);
             // Without the ground's load these are absolute accelerations.
             absolute.copy_from_slice(resisted);
             if floors.is_loaded {
@@ -95,7 +97,7 @@ impl Model {
         floor: usize,
         motion: [&[f64]; N],
     ) -> [f64; N] {
-        let lane = self.structure.floors.lane(side as usize, floor);
+        let lane = self.system.structure.floors.lane(side as usize, floor);
         self.floor_block(point, lane / LANES, motion).map(|block| block[lane % LANES])
     }
 
@@ -105,7 +107,7 @@ impl Model {
         match point.coordinates {
             Coordinates::Modes => {
                 point.floors.rows_read.set(point.floors.rows_read.get() + LANES as u64);
-                self.structure.at_floors(block, motion)
+                self.system.structure.at_floors(block, motion)
             }
             Coordinates::Floors => motion.map(|motion| motion.as_chunks::<LANES>().0[block]),
         }

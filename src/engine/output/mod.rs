@@ -28,7 +28,7 @@ impl Model {
     ///
     /// Floors, accelerations and contacts apart are not computed here but when one is asked for.
     pub fn observe(&self, state: &State, point: &mut Point) {
-        if point.q.len() != self.structure.lanes || point.contacts.len() != self.pairs.len() {
+        if point.q.len() != self.system.structure.lanes || point.contacts.len() != self.system.pairs.len() {
             self.make_room(point);
         }
         point.floors.forget();
@@ -36,7 +36,7 @@ impl Model {
         point.coordinates = state.base.coordinates;
         point.impacts = state.base.impacts;
         let State { base, step, inputs, .. } = state;
-        point.ground_acceleration = match &self.ground {
+        point.ground_acceleration = match &self.system.ground {
             Some(_) => base.segment.acceleration_at(state.time - base.segment.start),
             None => inputs.ground_acceleration.at(state.time),
         };
@@ -48,7 +48,7 @@ impl Model {
         if !is_flight {
             self.note_contacts(state, elapsed, &mut work, point);
         }
-        if !is_flight || self.floor_forces {
+        if !is_flight || self.system.floor_forces {
             self.read_load(state, point);
         }
         point.energy = base.energy.map(|account| self.read_energy(account, state, elapsed, &mut work, point));
@@ -57,9 +57,9 @@ impl Model {
 
     #[cold]
     fn make_room(&self, point: &mut Point) {
-        let lanes = self.structure.lanes;
+        let lanes = self.system.structure.lanes;
         (point.q, point.v) = (vec![0.0; lanes], vec![0.0; lanes]);
-        point.contacts = vec![Cell::default(); self.pairs.len()];
+        point.contacts = vec![Cell::default(); self.system.pairs.len()];
         point.floors.make_room(lanes);
         point.work = None;
     }
@@ -74,9 +74,9 @@ impl Model {
         }
         if step.kind == StepKind::Unknown && base.contacts.iter().any(Contact::is_held) {
             // An input that has just been set changes reactions at once.
-            self.balance(base, inputs, work);
+            self.system.balance(base, inputs, work);
             for (&k, &force) in work.rigid.pairs.iter().zip(&work.rigid.found) {
-                let p = self.rigid.pairs[k];
+                let p = self.system.rigid.pairs[k];
                 point.note_contact(p, ContactPoint { force, ..self.contact_in(base, point, p) });
             }
         }
@@ -89,10 +89,10 @@ impl Model {
             let closed = state.base.contacts.iter().zip(&*contacts).enumerate().filter(|(_, (c, _))| c.in_contact());
             closed.map(|(p, (_, known))| (p, known.get().shown.force)).filter(|(_, force)| *force != 0.0)
         };
-        if self.floor_forces || forces().next().is_some() {
+        if self.system.floor_forces || forces().next().is_some() {
             let load = floors.start_load();
-            self.add_floor_forces(&state.inputs, *coordinates, |force| force.at(state.time), load);
-            forces().for_each(|(p, force)| self.push_apart_by(p, *coordinates, force, load));
+            self.system.add_floor_forces(&state.inputs, *coordinates, |force| force.at(state.time), load);
+            forces().for_each(|(p, force)| self.system.push_apart_by(p, *coordinates, force, load));
         }
     }
 
@@ -111,7 +111,7 @@ impl Model {
 
     #[inline(never)]
     fn note_contact_apart(&self, base: &Base, point: &Point, p: usize) -> ContactPoint {
-        let penetration = self.pairs[p].relative(point.coordinates, &point.q) - self.pairs[p].gap;
+        let penetration = self.system.pairs[p].relative(point.coordinates, &point.q) - self.system.pairs[p].gap;
         let shown = self.show(&base.contacts[p], penetration);
         point.note_contact(p, shown);
         shown
@@ -128,7 +128,7 @@ impl Model {
             dissipated_energy: contact.dissipated_energy(),
             approach_velocity: contact.episode.approach_velocity.max(0.0), // a touch may have none but its rounding
         };
-        if !self.pairs[contact.episode.contact].law.kind.info().pulls {
+        if !self.system.pairs[contact.episode.contact].law.kind.info().pulls {
             // All but 0 where a contact begins or ends, rounding decides on the sign.
             (shown.force, shown.impulse) = (shown.force.max(0.0), shown.impulse.max(0.0));
         }

@@ -32,7 +32,7 @@ impl Model {
     fn read_peaks(&self, state: &State, point: &Point, known: &mut PointPeaks) {
         let State { base, step, inputs, .. } = state;
         let mut room = known.work.take().unwrap_or_else(|| {
-            Box::new((self.buffers(), PeakRoom::new(&self.structure, &self.peak_rows, self.pairs.len())))
+            Box::new((self.buffers(), PeakRoom::new(&self.system.structure, &self.peak_rows, self.system.pairs.len())))
         });
         let (buffers, peaks) = &mut *room;
         let work = &mut PeakWork { buffers, peaks };
@@ -68,8 +68,8 @@ impl Model {
             return step.planned.length;
         }
         let length = base.segment.length;
-        self.load(base, inputs, &mut work.buffers.load, &mut work.buffers.slope);
-        self.fly(base, length, work.buffers, (q, v));
+        self.system.load(base, inputs, &mut work.buffers.load, &mut work.buffers.slope);
+        self.system.fly(base, length, work.buffers, (q, v));
         length
     }
 }

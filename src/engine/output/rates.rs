@@ -25,13 +25,13 @@ impl Model {
     /// read 0.
     pub fn differentiate(&self, state: &State, point: &Point, rates: &mut PointRates) {
         let mut work = rates.work.take().unwrap_or_else(|| Box::new(self.buffers()));
-        rates.clear(self.structure.lanes);
-        let slope = match &self.ground {
+        rates.clear(self.system.structure.lanes);
+        let slope = match &self.system.ground {
             Some(_) => state.base.segment.slope,
             None => state.inputs.ground_acceleration.slope(),
         };
         rates.ground_acceleration = [slope, 0.0];
-        let shares = self.participation(point.coordinates);
+        let shares = self.system.participation(point.coordinates);
         let absolute = &self.accelerations(point).absolute;
         for ((relative, absolute), share) in rates.acceleration.iter_mut().zip(absolute).zip(shares) {
             *relative = absolute - share * point.ground_acceleration;
@@ -65,9 +65,9 @@ impl Model {
         let elapsed = state.since_base();
         state.step.set_powers(elapsed, &mut work.powers);
         let mut is_beginning = false;
-        for p in 0..self.pairs.len() {
+        for p in 0..self.system.pairs.len() {
             let contact = state.step.contact_at(&self.system, &state.base, p, elapsed, &work.powers);
-            let relative = |motion: &[f64]| self.pairs[p].relative(point.coordinates, motion);
+            let relative = |motion: &[f64]| self.system.pairs[p].relative(point.coordinates, motion);
             let penetration = match contact.phase {
                 Phase::Held if self.contact(state, point, p).force > 0.0 => [0.0; 2],
                 Phase::Held => [0.0, relative(&rates.acceleration)],
@@ -86,10 +86,10 @@ impl Model {
     pub(in crate::engine) fn list_pressing(&self, base: &Base, point: &Point, work: &mut Buffers) {
         work.rigid.clear();
         let pressing = |p: usize| base.contacts[p].is_held() && self.contact_in(base, point, p).force > 0.0;
-        for (k, _) in self.rigid.pairs.iter().enumerate().filter(|&(_, &p)| pressing(p)) {
+        for (k, _) in self.system.rigid.pairs.iter().enumerate().filter(|&(_, &p)| pressing(p)) {
             work.rigid.add(k, 0.0, 0.0);
         }
-        work.rigid.close_all(&self.rigid.matrix);
+        work.rigid.close_all(&self.system.rigid.matrix);
     }
 
     /// The equations of motion differentiated once (`order` 0) and twice (1): third and fourth derivative of the motion,
@@ -107,30 +107,30 @@ impl Model {
         let Buffers { load, rigid, .. } = work;
         let resisted = &mut resisted[order];
         let motion = if order == 0 { (&point.v, &*acceleration) } else { (&*acceleration, &*jerk) };
-        self.resist(coordinates, motion.0, motion.1, 1.0, resisted);
+        self.system.resist(coordinates, motion.0, motion.1, 1.0, resisted);
         if rates.is_beginning {
             return;
         }
         load.fill(0.0);
         if order == 0 {
-            for (load, share) in load.iter_mut().zip(self.participation(coordinates)) {
+            for (load, share) in load.iter_mut().zip(self.system.participation(coordinates)) {
                 *load = -share * ground_acceleration[0];
             }
-            self.add_floor_forces(&state.inputs, coordinates, LinearInput::slope, load);
+            self.system.add_floor_forces(&state.inputs, coordinates, LinearInput::slope, load);
         }
         for (p, (contact, (force, d))) in contacts.iter_mut().zip(forces.iter()).enumerate() {
             let [v, a] = contact.penetration;
-            let third = if order == 0 { 0.0 } else { self.pairs[p].relative(coordinates, jerk) };
+            let third = if order == 0 { 0.0 } else { self.system.pairs[p].relative(coordinates, jerk) };
             contact.force[order] = force.rates([*d, v, a, third]).map_or(0.0, |rates| rates[order]);
-            self.push_apart_by(p, coordinates, contact.force[order], load);
+            self.system.push_apart_by(p, coordinates, contact.force[order], load);
         }
         let next = if order == 0 { jerk } else { snap };
         for ((next, load), resisted) in next.iter_mut().zip(load.iter()).zip(resisted.iter()) {
             *next = load + resisted;
         }
-        self.hold(rigid, next);
+        self.system.hold(rigid, next);
         for (&k, rate) in rigid.pairs.iter().zip(&rigid.found) {
-            contacts[self.rigid.pairs[k]].force[order] = *rate;
+            contacts[self.system.rigid.pairs[k]].force[order] = *rate;
         }
     }
 
@@ -155,9 +155,9 @@ impl Model {
         let PointRates { acceleration, jerk, resisted, .. } = rates;
         let [first, second] = match point.coordinates {
             Coordinates::Modes => [(&point.v, acceleration), (acceleration, jerk)]
-                .map(|(motion, rate)| self.structure.base_shear(side, motion, rate)),
+                .map(|(motion, rate)| self.system.structure.base_shear(side, motion, rate)),
             Coordinates::Floors => {
-                [0, 1].map(|order| self.structure.floors.base_shear(side as usize, &resisted[order]))
+                [0, 1].map(|order| self.system.structure.floors.base_shear(side as usize, &resisted[order]))
             }
         };
         [first, if rates.is_beginning { 0.0 } else { second }]

@@ -1,6 +1,26 @@
 //! The power series of one penetration, and how far it is off by rounding.
 
+use crate::engine::base::Coordinates;
 use crate::engine::base::contact::Contact;
+use crate::engine::pairs::pair::Pair;
+use crate::structure::MotionSeries;
+
+impl Pair {
+    /// The scalar series in time of a pair's relative motion, written to `out[n]`. Returns the sum of the sizes of all that
+    /// is added up, each term times its `factor`.
+    pub fn project(&self, coordinates: Coordinates, series: &MotionSeries, factors: &[f64], out: &mut [f64]) -> f64 {
+        if coordinates == Coordinates::Modes {
+            return series.project(&self.row, factors, out);
+        }
+        let mut sum = 0.0;
+        for (n, (out, factor)) in out.iter_mut().zip(factors).enumerate().take(series.order + 1) {
+            let (value, size) = self.difference(coordinates, series.term(n));
+            *out = value;
+            sum += size * factor.abs();
+        }
+        sum
+    }
+}
 
 impl Contact {
     /// Makes the first terms of the penetration's series, for a pair that is apart, those that are known best; returns

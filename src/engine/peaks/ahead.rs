@@ -135,18 +135,18 @@ impl Model {
     /// Amplitudes of a building's modes at the base.
     fn find_amplitudes(&self, building: &BuildingRows, base: &Base, bounds: &mut ModeBounds) {
         for m in building.modes.clone() {
-            let (q, v, w2) = (base.q[m], base.v[m], self.structure.omega2[m]);
+            let (q, v, w2) = (base.q[m], base.v[m], self.system.structure.omega2[m]);
             let amplitude = (v * v + w2 * q * q).sqrt();
             bounds.swing[m] = amplitude;
             bounds.swing_q[m] = amplitude / w2.sqrt();
-            bounds.slow[m] = self.structure.quickness[m] * amplitude;
+            bounds.slow[m] = self.system.structure.quickness[m] * amplitude;
             bounds.quick[m] = w2 * amplitude;
         }
     }
 
     fn amplitudes_of<'a>(&'a self, building: &BuildingRows, bounds: &'a ModeBounds) -> Amplitudes<'a> {
         let [own, over_w, quick, bent, damping] =
-            [&bounds.swing, &bounds.swing_q, &bounds.slow, &bounds.quick, &self.structure.damping]
+            [&bounds.swing, &bounds.swing_q, &bounds.slow, &bounds.quick, &self.system.structure.damping]
                 .map(|all| &all[building.modes.clone()]);
         Amplitudes { own, over_w, quick, bent, damping }
     }

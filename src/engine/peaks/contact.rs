@@ -58,7 +58,7 @@ impl Model {
             ContactStep { base, step, inputs, length: step.planned.length, end: (&step.planned.q, &step.planned.v) };
         self.check_contact_step(&part, &mut peaks, work);
         // Motions near rigid pairs change between two steps, and floor forces may.
-        if self.rigid.pairs.is_empty() && !self.floor_forces {
+        if self.system.rigid.pairs.is_empty() && !self.system.floor_forces {
             work.peaks.floors.keep([base.segment.start, end]);
         }
         work.peaks.restart();
@@ -77,7 +77,7 @@ impl Model {
         let mut powers = Powers::default();
         step.set_powers(elapsed, &mut powers);
         self.note_starts(&base.contacts, work);
-        for p in 0..self.pairs.len() {
+        for p in 0..self.system.pairs.len() {
             work.peaks.last_forces[p] = step.contact_at(&self.system, base, p, elapsed, &powers).present_force();
         }
         step.bound_forces(&self.system, &base.contacts, (elapsed, &powers), &mut work.peaks.strongest);
@@ -100,7 +100,7 @@ impl Model {
         room.modal = modal;
         for side in [Side::Left, Side::Right] {
             let FloorRoom { start, .. } = &work.peaks.floors;
-            for (floor, lane) in self.structure.floors.lanes_of(side as usize).enumerate() {
+            for (floor, lane) in self.system.structure.floors.lanes_of(side as usize).enumerate() {
                 let below = if floor == 0 { 0.0 } else { start.u[lane - 1] };
                 let now = [
                     (PeakOf::Displacement(side, floor), start.u[lane]),
@@ -108,7 +108,7 @@ impl Model {
                     (PeakOf::Acceleration(side, floor), start.resisted[lane] + work.peaks.first_push[lane]),
                 ];
                 // Floor forces are part of an acceleration.
-                let known = if self.floor_forces { &now[..2] } else { &now };
+                let known = if self.system.floor_forces { &now[..2] } else { &now };
                 known.iter().for_each(|&(of, value)| peaks.raise(self.peak_rows.place(of), value));
             }
             peaks.raise(self.peak_rows.place(PeakOf::BaseShear(side)), self.shear_of(side, start));
@@ -134,7 +134,7 @@ impl Model {
         }
         self.find_floors(base.coordinates, end, &mut room.end, &mut modal);
         room.modal = modal;
-        if self.floor_forces {
+        if self.system.floor_forces {
             self.add_forces((base, part.inputs), 0.0, &mut room.start.resisted);
             self.add_forces((base, part.inputs), length, &mut room.end.resisted);
         }
@@ -143,7 +143,12 @@ impl Model {
     /// Adds what floor forces do some seconds after the base.
     fn add_forces(&self, (base, inputs): (&Base, &Inputs), time: f64, resisted: &mut [f64]) {
         let at = base.elapsed + time;
-        self.add_floor_forces(inputs, Coordinates::Floors, |force| force.after(base.segment.start, at), resisted);
+        self.system.add_floor_forces(
+            inputs,
+            Coordinates::Floors,
+            |force| force.after(base.segment.start, at),
+            resisted,
+        );
     }
 
     /// How much contact forces push each floor: at the ends, and at the least and the most.
@@ -152,7 +157,7 @@ impl Model {
         for vector in [&mut room.first_push, &mut room.last_push, &mut room.floors.least, &mut room.floors.most] {
             vector.fill(0.0);
         }
-        for (p, pair) in self.pairs.iter().enumerate().filter(|(p, _)| base.contacts[*p].in_contact()) {
+        for (p, pair) in self.system.pairs.iter().enumerate().filter(|(p, _)| base.contacts[*p].in_contact()) {
             let Pair { lanes: [left, right], inverse_masses: [of_left, of_right], .. } = pair;
             let (strongest, pulls) = (room.strongest[p], pair.law.kind.info().pulls);
             let pulled = if pulls { strongest } else { 0.0 };
@@ -174,7 +179,7 @@ impl Model {
         let (ground, slope) = part.ground();
         let ground = larger(ground.abs(), (ground + slope * part.length).abs());
         let room = &mut work.peaks.floors;
-        for lane in self.structure.floors.lanes_of(side as usize) {
+        for lane in self.system.structure.floors.lanes_of(side as usize) {
             let resisted = larger(room.start.resisted[lane].abs(), room.end.resisted[lane].abs());
             room.largest[lane] = resisted + larger(room.most[lane], -room.least[lane]) + ground;
         }
@@ -183,7 +188,7 @@ impl Model {
 
     /// Raises the peaks of a building over the step.
     fn check_building(&self, side: Side, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
-        let lanes = self.structure.floors.lanes_of(side as usize);
+        let lanes = self.system.structure.floors.lanes_of(side as usize);
         let places = [PeakOf::Displacement(side, 0), PeakOf::Drift(side, 0), PeakOf::Acceleration(side, 0)];
         let known = places.map(|of| &peaks.values[self.peak_rows.place(of)..][..lanes.len()]);
         find_excess(&mut work.peaks.floors, lanes.clone(), part.length, known);

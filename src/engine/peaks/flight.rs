@@ -89,7 +89,8 @@ impl Model {
             for (b, block) in building.blocks.iter().enumerate() {
                 for (i, value) in block.values(q, v).into_iter().enumerate() {
                     let place = (building.first + b) * LANES + i;
-                    if !(self.floor_forces && matches!(self.peak_rows.at(place), Some(PeakOf::Acceleration(..)))) {
+                    if !(self.system.floor_forces && matches!(self.peak_rows.at(place), Some(PeakOf::Acceleration(..))))
+                    {
                         peaks.raise(place, value);
                     }
                 }
@@ -102,7 +103,8 @@ impl Model {
         for (place, direct) in direct.iter_mut().enumerate() {
             if let Some(PeakOf::Acceleration(side, floor)) = self.peak_rows.at(place) {
                 let force = &inputs.floor_forces[inputs.place(side, floor)];
-                let inverse = self.structure.floors.inverse_mass(self.structure.floors.lane(side as usize, floor));
+                let inverse =
+                    self.system.structure.floors.inverse_mass(self.system.structure.floors.lane(side as usize, floor));
                 let (start, elapsed) = (base.segment.start, base.elapsed);
                 *direct = [force.after(start, elapsed) * inverse, force.slope() * inverse];
             }
@@ -117,7 +119,7 @@ impl Model {
         room: &mut ModeBounds,
         jerk: &mut [f64],
     ) {
-        let structure = &self.structure;
+        let structure = &self.system.structure;
         let (modes, h) = (building.modes.clone(), flight.length);
         let ((q, v), (end_q, end_v), (load, slope)) = (flight.start, flight.end, flight.loads);
         for m in modes.clone() {
@@ -163,7 +165,7 @@ impl Model {
         let is_pushed = is_coupled && slope[modes.clone()].iter().any(|slope| *slope != 0.0);
         let [held, held_end] = &mut room.held;
         for m in modes.clone() {
-            let (w2, c) = (self.structure.omega2[m], self.structure.damping[m]);
+            let (w2, c) = (self.system.structure.omega2[m], self.system.structure.damping[m]);
             let rate = if is_pushed { 0.0 } else { slope[m] / w2 };
             held[m] = if is_pushed { 0.0 } else { load[m] / w2 - c * rate / w2 };
             (room.held_rate[m], held_end[m]) = (rate, held[m] + rate * flight.length);
@@ -178,7 +180,7 @@ impl Model {
                 let end = load[m] + slope[m] * flight.length;
                 room.swing[m] += flight.length * larger(load[m].abs(), end.abs());
             }
-            room.swing_q[m] = room.swing[m] / self.structure.omega2[m].sqrt();
+            room.swing_q[m] = room.swing[m] / self.system.structure.omega2[m].sqrt();
         }
     }
 
@@ -195,11 +197,11 @@ impl Model {
         let place = (building.first + b) * LANES;
         let direct = &work.peaks.direct[place..];
         let known = *peaks.block(building.first + b);
-        if stays_below(&known, block, (bounds, &modes), self.floor_forces.then_some((direct, 0.0, h))) {
+        if stays_below(&known, block, (bounds, &modes), self.system.floor_forces.then_some((direct, 0.0, h))) {
             return;
         }
         let mut course = course_of(block, flight, bounds, modes);
-        if self.floor_forces {
+        if self.system.floor_forces {
             course.add(&work.peaks.direct[place..], 0.0, h);
         }
         let highest = course.highest(h);

@@ -25,7 +25,7 @@ impl Model {
         out: &mut FloorState,
         modal: &mut [f64],
     ) {
-        let structure = &self.structure;
+        let structure = &self.system.structure;
         match coordinates {
             Coordinates::Floors => {
                 out.u.copy_from_slice(q);
@@ -49,7 +49,7 @@ impl Model {
     /// `largest` holds B before and A after.
     pub(in crate::engine) fn find_strays(&self, side: Side, h: f64, room: &mut FloorRoom) {
         let Resistance { dense, most, .. } = &self.resistance.buildings[side as usize];
-        let lanes = self.structure.floors.lanes_of(side as usize);
+        let lanes = self.system.structure.floors.lanes_of(side as usize);
         let factors = [0.125 * h * h, 0.5 * h];
         let norm = factors[0] * most[0] + factors[1] * most[1];
         let FloorRoom { largest, strays, .. } = room;
@@ -61,7 +61,7 @@ impl Model {
         }
         strays[lanes.clone()].fill(0.0);
         match dense {
-            None => self.structure.floors.add_sizes(side as usize, factors, largest, strays),
+            None => self.system.structure.floors.add_sizes(side as usize, factors, largest, strays),
             Some([stiffness, damping]) => {
                 for (j, from) in lanes.clone().enumerate() {
                     for (i, to) in lanes.clone().enumerate() {
@@ -82,7 +82,7 @@ impl Model {
     /// N, how far a base shear strays from its chord where the floors are as fast as `largest` at most.
     pub(in crate::engine) fn shear_strays(&self, side: Side, h: f64, largest: &[f64]) -> f64 {
         let [on_u, on_v] = &self.resistance.buildings[side as usize].shear;
-        let largest = self.structure.floors.of_building(side as usize, largest);
+        let largest = self.system.structure.floors.of_building(side as usize, largest);
         let terms = on_u.iter().zip(on_v).zip(largest);
         terms.map(|((k, c), a)| (0.125 * h * h * k.abs() + 0.5 * h * c.abs()) * a).sum()
     }
@@ -90,7 +90,8 @@ impl Model {
     /// N, the force of a building on the ground.
     pub(in crate::engine) fn shear_of(&self, side: Side, floors: &FloorState) -> f64 {
         let [on_u, on_v] = &self.resistance.buildings[side as usize].shear;
-        let [u, v] = [&floors.u, &floors.v].map(|vector| self.structure.floors.of_building(side as usize, vector));
+        let [u, v] =
+            [&floors.u, &floors.v].map(|vector| self.system.structure.floors.of_building(side as usize, vector));
         let terms = on_u.iter().zip(on_v).zip(u.iter().zip(v));
         terms.map(|((k, c), (u, v))| k * u + c * v).sum()
     }

@@ -43,7 +43,7 @@ impl Model {
         inputs: &Inputs,
         work: &mut PeakWork,
     ) {
-        let watched = self.watched_segment(base).filter(|_| self.structure.is_classical());
+        let watched = self.system.watched_segment(base).filter(|_| self.system.structure.is_classical());
         if let Some((ground, segment)) = watched {
             self.watch_peaks(ground, base, segment, work);
         }
@@ -70,7 +70,7 @@ impl Model {
         work: &mut PeakWork,
     ) {
         let ground = (base.segment.acceleration_at(0.0), base.segment.slope);
-        let shares = self.structure.participation.iter();
+        let shares = self.system.structure.participation.iter();
         for ((load, slope), share) in work.buffers.load.iter_mut().zip(&mut work.buffers.slope).zip(shares) {
             (*load, *slope) = (-share * ground.0, -share * ground.1);
         }
@@ -104,9 +104,9 @@ impl Model {
         work: &mut PeakWork,
         then: impl FnOnce(&Stretch, &mut PeakWork),
     ) {
-        self.load(base, inputs, &mut work.buffers.load, &mut work.buffers.slope);
+        self.system.load(base, inputs, &mut work.buffers.load, &mut work.buffers.slope);
         let (load, slope) = (std::mem::take(&mut work.buffers.load), std::mem::take(&mut work.buffers.slope));
-        if self.floor_forces {
+        if self.system.floor_forces {
             self.note_floor_forces(base, inputs, &mut work.peaks.direct);
         }
         let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);

@@ -7,7 +7,7 @@ use crate::engine::base::Base;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::excitation::linear_input::LinearInput;
 use crate::engine::model::Model;
-use crate::engine::onset::OnsetSeries;
+use crate::engine::onset::series::OnsetSeries;
 use crate::engine::peaks::room::PeakWork;
 use crate::engine::peaks::room::ReadingRoom;
 use crate::engine::peaks::rows::PeakOf;
@@ -113,21 +113,21 @@ impl Model {
         }
         let (ground, ground_slope) = quantity.ground;
         let ground = ground + ground_slope * time;
-        for (lane, share) in self.participation(coordinates).iter().enumerate() {
+        for (lane, share) in self.system.participation(coordinates).iter().enumerate() {
             (acceleration[lane], jerk[lane]) = (-share * ground, -share * ground_slope);
         }
         let at = base.elapsed + time;
-        self.add_floor_forces(inputs, coordinates, |force| force.after(base.segment.start, at), acceleration);
-        self.add_floor_forces(inputs, coordinates, LinearInput::slope, jerk);
-        self.resist(coordinates, q, v, 1.0, acceleration);
+        self.system.add_floor_forces(inputs, coordinates, |force| force.after(base.segment.start, at), acceleration);
+        self.system.add_floor_forces(inputs, coordinates, LinearInput::slope, jerk);
+        self.system.resist(coordinates, q, v, 1.0, acceleration);
         for ((d, rate), &p) in pairs.iter().zip(contacts) {
-            self.push_apart_by(p, coordinates, base.contacts[p].branch().value(*d, *rate), acceleration);
+            self.system.push_apart_by(p, coordinates, base.contacts[p].branch().value(*d, *rate), acceleration);
         }
-        self.resist(coordinates, v, acceleration, 1.0, jerk);
+        self.system.resist(coordinates, v, acceleration, 1.0, jerk);
         for ((d, rate), &p) in pairs.iter().zip(contacts) {
-            let bend = self.pairs[p].relative(coordinates, acceleration);
+            let bend = self.system.pairs[p].relative(coordinates, acceleration);
             let rates = base.contacts[p].branch().rates([*d, *rate, bend, 0.0]);
-            self.push_apart_by(p, coordinates, rates.map_or(0.0, |[first, _]| first), jerk);
+            self.system.push_apart_by(p, coordinates, rates.map_or(0.0, |[first, _]| first), jerk);
         }
         let (value, slope) = match quantity.of {
             PeakOf::Acceleration(..) => {

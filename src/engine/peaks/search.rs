@@ -74,7 +74,7 @@ impl Model {
         work: &mut PeakWork,
     ) -> f64 {
         let Piece { from, to, halvings } = piece;
-        let reach = self.structure.fastest * (to - from);
+        let reach = self.system.structure.fastest * (to - from);
         if from >= until || work.peaks.pieces_left == 0 {
             return known;
         }
@@ -104,10 +104,10 @@ impl Model {
     fn expand_piece(&self, flight: &Stretch, (from, to): (f64, f64), work: &mut PeakWork) {
         self.fly_to(flight, from, [0, 1], work);
         self.set_load(flight, from, work);
-        let order = flight_order(self.structure.fastest * (to - from), EXACT).unwrap_or(MAX_ORDER);
+        let order = flight_order(self.system.structure.fastest * (to - from), EXACT).unwrap_or(MAX_ORDER);
         let PeakWork { buffers: Buffers { series, .. }, peaks } = work;
         let ([q, v, ..], load) = (&peaks.pieces, &peaks.load);
-        series.expand_flight(&self.structure, (q, v), (load, flight.loads.1), (to - from, order));
+        series.expand_flight(&self.system.structure, (q, v), (load, flight.loads.1), (to - from, order));
         peaks.expanded = Some((from, to));
     }
 
@@ -123,7 +123,7 @@ impl Model {
                     let place = peaks.next_flown;
                     peaks.next_flown = (place + 1) % MOST_FLOWN;
                     let flown = &mut peaks.flown[place];
-                    interval.prepare(&self.structure, time);
+                    interval.prepare(&self.system.structure, time);
                     interval.fly(flight.start, flight.loads, (&mut flown.q, &mut flown.v), scratch);
                     flown.time = time;
                     place
@@ -172,12 +172,12 @@ impl Model {
         let direct = &peaks.direct[place - lane..];
         let (known_lane, modes) =
             (std::array::from_fn(|i| if i == lane { known } else { f64::INFINITY }), &building.modes);
-        let added = self.floor_forces.then_some((direct, from, own.length));
+        let added = self.system.floor_forces.then_some((direct, from, own.length));
         if stays_below(&known_lane, block, (&peaks.piece, modes), added) {
             return (known, false);
         }
         let mut course = course_of(block, &own, &peaks.piece, building.modes.clone());
-        if self.floor_forces {
+        if self.system.floor_forces {
             course.add(direct, from, own.length);
         }
         let end = if to <= until { course.end[0][lane].abs() } else { 0.0 };
@@ -192,7 +192,7 @@ impl Model {
         coordinates: Coordinates,
         rows: &mut [Vec<f64>; 2],
     ) -> Option<(usize, Option<usize>)> {
-        let structure = &self.structure;
+        let structure = &self.system.structure;
         let side = of.side() as usize;
         if coordinates == Coordinates::Floors {
             let lane = |floor| structure.floors.lane(side, floor);

@@ -5,7 +5,7 @@ use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::Planned;
 use crate::engine::excitation::inputs::Inputs;
-use crate::engine::onset::OnsetSeries;
+use crate::engine::onset::series::OnsetSeries;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;

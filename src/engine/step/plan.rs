@@ -32,10 +32,10 @@ impl Model {
     /// Apart: the exact motion, until the limit or the first entry.
     fn plan_flight(&self, at: &mut At, step: &mut Step, work: &mut Workspace, limit: f64) -> StepKind {
         let Workspace { buffers, look, .. } = work;
-        self.convert(at.base, Coordinates::Modes, &mut buffers.q);
-        self.load(at.base, at.inputs, &mut buffers.load, &mut buffers.slope);
+        self.system.convert(at.base, Coordinates::Modes, &mut buffers.q);
+        self.system.load(at.base, at.inputs, &mut buffers.load, &mut buffers.slope);
         let whole = limit - at.base.elapsed;
-        let longest = self.accounted_flight(at.base, (&buffers.load, &buffers.slope), whole);
+        let longest = self.system.accounted_flight(at.base, (&buffers.load, &buffers.slope), whole);
         step.planned.reaches_limit = longest >= whole;
         self.flight.plan(&self.system, at, longest, &mut step.planned, look, buffers);
         StepKind::Flight
@@ -45,19 +45,19 @@ impl Model {
     fn plan_contact(&self, at: &mut At, step: &mut Step, work: &mut Workspace, limit: f64) -> StepKind {
         let Workspace { buffers, windows: room, .. } = work;
         let Step { planned, taylor, onset, window, .. } = step;
-        let is_near_rigid = self.has_close_rigid_pair(at.base);
-        let coordinates = if is_near_rigid { Coordinates::Modes } else { self.contact_coordinates };
-        self.convert(at.base, coordinates, &mut buffers.q);
-        at.base.velocity_scale = at.base.velocity_scale.max(self.present_velocity(at.base));
-        let (remaining, is_cut) = match self.time_for_rigid_pairs(at.base, at.inputs, buffers, limit - at.base.elapsed)
-        {
-            Ok(time) => time,
-            Err(event) => return happen_now(at.base, planned, taylor, event),
-        };
+        let is_near_rigid = self.system.has_close_rigid_pair(at.base);
+        let coordinates = if is_near_rigid { Coordinates::Modes } else { self.system.contact_coordinates };
+        self.system.convert(at.base, coordinates, &mut buffers.q);
+        at.base.velocity_scale = at.base.velocity_scale.max(self.system.present_velocity(at.base));
+        let (remaining, is_cut) =
+            match self.system.time_for_rigid_pairs(at.base, at.inputs, buffers, limit - at.base.elapsed) {
+                Ok(time) => time,
+                Err(event) => return happen_now(at.base, planned, taylor, event),
+            };
         if let Some(p) = self.entry_at_once(at.base) {
             return happen_now(at.base, planned, taylor, Event::Entry(p));
         }
-        self.load(at.base, at.inputs, &mut buffers.load, &mut buffers.slope);
+        self.system.load(at.base, at.inputs, &mut buffers.load, &mut buffers.slope);
         if !is_near_rigid {
             if let Some(windows) = &self.windows
                 && windows.plan(&self.system, at, remaining, planned, (window, &mut taylor.series), (room, buffers))
@@ -65,12 +65,12 @@ impl Model {
                 return StepKind::Window;
             }
             if touching(at.base).any(|(_, contact)| contact.is_singular())
-                && self.plan_onset(at, remaining, planned, onset, buffers)
+                && self.system.plan_onset(at, remaining, planned, onset, buffers)
             {
                 return StepKind::Onset;
             }
         }
-        self.plan_taylor(at, (remaining, is_cut), planned, taylor, buffers);
+        self.system.plan_taylor(at, (remaining, is_cut), planned, taylor, buffers);
         StepKind::Contact
     }
 
@@ -79,7 +79,7 @@ impl Model {
         let at_surface = |contact: &Contact| contact.at_surface || contact.penetration >= 0.0;
         let meets = |(p, contact): (usize, &Contact)| {
             let stands = !contact.in_contact() && at_surface(contact) && contact.rate > 0.0;
-            stands && self.pairs[p].difference(base.coordinates, &base.v).0 > 0.0
+            stands && self.system.pairs[p].difference(base.coordinates, &base.v).0 > 0.0
         };
         base.contacts.iter().enumerate().position(meets)
     }

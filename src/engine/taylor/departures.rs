@@ -2,12 +2,13 @@
 
 use crate::contact::Guard;
 use crate::contact::series::BlockReading;
+use crate::engine::base::Base;
 use crate::engine::base::contact::{Contact, Phase};
 use crate::engine::base::planned::Event;
-use crate::engine::base::{Base, Coordinates};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
+use crate::structure::difference;
 
 use crate::engine::taylor::closed_pairs::ClosedPairs;
 use crate::numerics::polynomial::Coefficients;
@@ -125,6 +126,28 @@ impl System {
         self.pairs[p].noise(size)
     }
 
+    /// m/s2, rounding error of a pair's relative acceleration in 0..=x of a series.
+    fn acceleration_noise(&self, p: usize, series: &MotionSeries, x: f64) -> f64 {
+        let (mut sum, mut power) = (0.0, 1.0 / (series.scale * series.scale));
+        for n in 2..=series.order {
+            sum += (n * (n - 1)) as f64 * difference(&self.pairs[p].row, series.term(n)).1 * power;
+            power *= x;
+        }
+        8.0 * f64::EPSILON * sum
+    }
+
+    /// Where the reaction of a pair that is held together falls to 0 in 0..=end of its series.
+    fn letting_go(&self, p: usize, solution: &Solution, work: &mut Buffers, end: f64) -> Option<(f64, Event)> {
+        let k = self.rigid.pairs.iter().position(|&pair| pair == p)?;
+        let noise = self.acceleration_noise(p, &solution.series, end) / self.rigid.matrix[(k, k)];
+        let force = &solution.reactions[k][..=solution.reaction_order];
+        let pull = &mut work.scalar[..force.len()];
+        for (pull, force) in pull.iter_mut().zip(force) {
+            *pull = -force;
+        }
+        roots::first_rise(pull, end, noise).map(|x| (x, Event::Release(p)))
+    }
+
     /// The sum of the sizes of all that a pair's relative motion is added up from, each term times its factor at the end of
     /// the step.
     fn size_of(
@@ -138,29 +161,7 @@ impl System {
         let series = &solution.series;
         work.powers.set_by(&series.clock, solution.end.x, series.order);
         work.powers.set_in_time(&series.clock);
-        self.project(p, base.coordinates, series, factors(&work.powers), &mut work.scalar)
-    }
-
-    /// The scalar series in time of a pair's relative motion, written to `out[n]`. Returns the sum of the sizes of all that
-    /// is added up, each term times its `factor`.
-    pub fn project(
-        &self,
-        p: usize,
-        coordinates: Coordinates,
-        series: &MotionSeries,
-        factors: &[f64],
-        out: &mut [f64],
-    ) -> f64 {
-        if coordinates == Coordinates::Modes {
-            return series.project(&self.pairs[p].row, factors, out);
-        }
-        let mut sum = 0.0;
-        for (n, (out, factor)) in out.iter_mut().zip(factors).enumerate().take(series.order + 1) {
-            let (value, size) = self.pairs[p].difference(coordinates, series.term(n));
-            *out = value;
-            sum += size * factor.abs();
-        }
-        sum
+        self.pairs[p].project(base.coordinates, series, factors(&work.powers), &mut work.scalar)
     }
 }
 

@@ -58,7 +58,7 @@ impl System {
         for (_, p) in lanes.filter(may_meet) {
             let terms = &mut work.scalar[..=series.order];
             end.set_in_time(&series.clock);
-            let size = self.project(p, base.coordinates, series, end.in_time().0, terms);
+            let size = self.pairs[p].project(base.coordinates, series, end.in_time().0, terms);
             let contact = &base.contacts[p];
             let noise = contact.begin_flight(terms, series.scale, self.pairs[p].noise(size));
             if series.clock.is_bent() {

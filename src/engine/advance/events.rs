@@ -1,0 +1,35 @@
+//! What follows an event. Entry, release and branch change end a step (they are terminal events); peaks do not.
+
+use crate::contact::EpisodeForce;
+use crate::engine::base::Base;
+use crate::engine::base::Coordinates;
+use crate::engine::base::contact::Episode;
+use crate::engine::base::planned::Event;
+use crate::engine::model::Model;
+use crate::engine::system::buffers::Buffers;
+impl Model {
+    pub(in crate::engine) fn handle(&self, base: &mut Base, event: Event, work: &mut Buffers, on_episode: &mut dyn FnMut(&Episode)) {
+        let time = base.time();
+        match event {
+            Event::Entry(p) if self.system.pairs[p].law.is_rigid() => {
+                self.system.convert(base, Coordinates::Modes, &mut work.q);
+                self.system.meet(base, p, work, on_episode);
+            }
+            Event::Entry(p) => {
+                let contact = &mut base.contacts[p];
+                contact.penetration = 0.0;
+                // What enters does not move apart but for rounding.
+                contact.rate = self.system.pairs[p].difference(base.coordinates, &base.v).0.max(0.0);
+                contact.at_surface = true;
+                let (pair, approach) = (&self.system.pairs[p], contact.rate.max(self.system.least_approach));
+                contact.force = EpisodeForce::new(&pair.law, pair.mass, Some(approach));
+                contact.begin(time, contact.rate);
+                base.impacts += 1;
+                // The first series of an episode finds its own scale.
+                base.last_length = 0.0;
+            }
+            Event::Release(p) => base.release(p, on_episode),
+            Event::Branch(p) => base.contacts[p].change_branch(),
+        }
+    }
+}

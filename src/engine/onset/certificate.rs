@@ -1,0 +1,88 @@
+//! How far an onset step may go: nothing happens to any contact in it, shown by bounds on the sums of its terms.
+
+use crate::engine::base::Base;
+use crate::engine::base::Coordinates;
+use crate::engine::base::contact::Contact;
+use crate::engine::onset::series::OnsetSeries;
+use crate::engine::pairs::pair::Pair;
+use crate::engine::system::System;
+use crate::structure::sum_sizes;
+impl System {
+    /// How far it is certain, up to `reach`, that no contact changes its state; `sizes` is room to work in.
+    pub fn certain_reach(&self, base: &Base, onset: &mut OnsetSeries, sizes: &mut [f64], reach: f64) -> Option<f64> {
+        let grid = onset.grid?;
+        let mut x = reach;
+        for _ in 0..=60 {
+            onset.powers.set(&grid, x);
+            if self.stays_touching(base, onset) && self.stays_free(base, onset, sizes) {
+                return Some(x);
+            }
+            x *= 0.7;
+        }
+        None
+    }
+
+    /// Whether all pairs that touch go on to do so, on the same branch, up to the x of the powers.
+    fn stays_touching(&self, base: &Base, onset: &OnsetSeries) -> bool {
+        (0..onset.used).all(|b| {
+            let [moved, turned] = onset.blocks[b].room(&onset.powers);
+            onset.pairs_of(b).all(|(lane, p)| {
+                let room = Room { x: onset.powers.x, scale: onset.scale, moved: moved[lane], turned: turned[lane] };
+                room.holds(&base.contacts[p])
+            })
+        })
+    }
+
+    /// Whether all pairs that are apart stay so: by how far each floor can get, or else by the pair's own terms.
+    fn stays_free(&self, base: &Base, onset: &OnsetSeries, sizes: &mut [f64]) -> bool {
+        let mut apart = base.contacts.iter().enumerate().filter(|(_, contact)| !contact.in_contact()).peekable();
+        if apart.peek().is_none() {
+            return true;
+        }
+        let (powers, _) = onset.powers.all();
+        let beyond = &powers[2..];
+        let sizes = &mut sizes[..onset.lanes];
+        sum_sizes(&onset.terms[2 * onset.lanes..powers.len() * onset.lanes], beyond, sizes);
+        apart.all(|(p, contact)| {
+            let Pair { row, lanes: [left, right], .. } = &self.pairs[p];
+            let most = match base.coordinates {
+                Coordinates::Floors => sizes[*left] + sizes[*right],
+                Coordinates::Modes => row.iter().zip(&*sizes).map(|(row, size)| row.abs() * size).sum(),
+            };
+            let stays = |moved| Room { x: onset.powers.x, scale: onset.scale, moved, turned: 0.0 }.holds(contact);
+            let own = |(power, n)| self.pairs[p].relative(base.coordinates, onset.term(n)).abs() * power;
+            stays(most) || stays(beyond.iter().zip(2..).map(own).sum())
+        })
+    }
+}
+
+/// How far a penetration and its derivative by x can get over 0..=x by their terms from x^2 on.
+struct Room {
+    x: f64,
+    scale: f64,
+    moved: f64,
+    turned: f64,
+}
+
+impl Room {
+    /// Whether there is no room for an entry, a release or a change of branch within 0..=x.
+    fn holds(&self, contact: &Contact) -> bool {
+        let &Room { x, scale, moved, turned } = self;
+        let d = contact.penetration;
+        let step_rate = contact.rate * scale;
+        if !contact.in_contact() {
+            let d = if contact.at_surface { 0.0 } else { d.min(0.0) };
+            return if d == 0.0 { step_rate * x + moved < 0.0 } else { d + x * step_rate.max(0.0) + moved < 0.0 };
+        }
+        if d <= 0.0 {
+            // Entered now: it goes on deeper, which is also the engaged side of every guard.
+            return step_rate > turned;
+        }
+        let inside = d + x * step_rate.min(0.0) - moved > 0.0;
+        inside
+            && contact.force.guard.is_none_or(|guard| {
+                let change = guard.stiffness * (x * step_rate.abs() + moved) + guard.damping * turned / scale;
+                guard.value(d, contact.rate).abs() > change
+            })
+    }
+}

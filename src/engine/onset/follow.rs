@@ -1,0 +1,112 @@
+//! What an onset step does to contacts.
+
+use crate::contact::onset::GridPowers;
+use crate::contact::onset::value_and_slope;
+use crate::contact::onset::values_and_slopes;
+use crate::engine::base::contact::Contact;
+use crate::engine::onset::series::OnsetSeries;
+use crate::numerics::quadrature::TWELVE;
+use crate::numerics::quadrature::graded;
+use crate::numerics::roots;
+/// Most places at which a slope is looked at for where it passes 0: it takes some ten.
+const MOST_TURNS: usize = 60;
+
+/// Share of a peak that the series of a force has to reach for the law to be asked: it is truncated.
+const NEARLY: f64 = 0.999;
+
+/// Share of a step after which the slope of a force is looked at for where it goes from the start: what turns before that
+/// is within the square of this of its peak at the start.
+const JUST_AFTER: f64 = 1e-6;
+
+impl Contact {
+    /// Follows the contact over 0..=x of an onset step: penetration, impulse, peaks, work.
+    pub fn follow_onset(&mut self, onset: &OnsetSeries, x: f64, start: f64) {
+        let Some(grid) = &onset.grid else { return };
+        let ((block, lane), scale) = (onset.places[self.episode.contact], onset.scale);
+        let (block, reading) = (&onset.blocks[block], &onset.readings[block]);
+        let end = if onset.powers.x == x { *reading } else { block.read(&GridPowers::at(grid, x)) };
+        let law = self.branch();
+        let impulse = end.impulse[lane] * scale;
+        self.impulse += impulse;
+        self.episode.impulse += impulse;
+        if law.is_damped() {
+            let (mut at, mut weights) = ([0.0; 12], [0.0; 12]);
+            for ((at, weight), node) in at.iter_mut().zip(&mut weights).zip(graded(TWELVE, x)) {
+                (*at, *weight) = node;
+            }
+            let (depths, rates) = values_and_slopes(grid, &block.copy_penetration(grid, lane), &at);
+            let powers = law.damping_powers(&depths, &rates.map(|rate| rate / scale));
+            self.work += scale * weights.iter().zip(&powers).map(|(weight, power)| weight * power).sum::<f64>();
+        }
+        // The stored force terms are those of F x.
+        let force = || {
+            let terms = block.copy_force(grid, lane);
+            move |x: f64| {
+                let (product, slope) = value_and_slope(grid, &terms, x);
+                (product / x, (slope - product / x) / x)
+            }
+        };
+        let last = (end.force[lane], end.force_slope[lane]);
+        if let Some((at, _)) = highest(force, x, last, NEARLY * self.episode.peak_force) {
+            // The series of the force tells where; how much is what the law makes of the motion there, as it is shown.
+            let (d, slope) = value_and_slope(grid, &block.copy_penetration(grid, lane), at);
+            let (peak, last) = (law.value(d, slope / scale), law.value(end.penetration[lane], end.slope[lane] / scale));
+            let (at, peak) = if last > peak { (x, last) } else { (at, peak) };
+            if peak > self.episode.peak_force {
+                self.episode.peak_force = peak;
+                self.episode.peak_time = start + at * scale;
+                self.peak_force = self.peak_force.max(peak);
+            }
+        }
+        let penetration = || {
+            let terms = block.copy_penetration(grid, lane);
+            move |x: f64| value_and_slope(grid, &terms, x)
+        };
+        let last = (end.penetration[lane], end.slope[lane]);
+        if let Some((_, peak)) = highest(penetration, x, last, self.episode.peak_penetration) {
+            self.episode.peak_penetration = peak;
+        }
+        (self.penetration, self.rate) = (last.0, last.1 / scale);
+    }
+}
+
+/// The largest value of a smooth single-peaked curve of (value, slope) over 0..=end, where it is `last`, if above `known`.
+fn highest<C: Fn(f64) -> (f64, f64)>(
+    curve: impl FnOnce() -> C,
+    end: f64,
+    last: (f64, f64),
+    known: f64,
+) -> Option<(f64, f64)> {
+    let (mut at, (mut value, slope)) = (end, last);
+    if slope < 0.0 {
+        let (curve, start) = (curve(), JUST_AFTER * end);
+        let first = curve(start).1;
+        if first > 0.0 {
+            at = turning_point(|x| curve(x).1, (start, first), (end, slope));
+            value = curve(roots::roughly(at)).0;
+        }
+    }
+    (value > known).then_some((at, value))
+}
+
+/// Where a slope passes 0 downwards between two places with their slopes, by false position; a slope that stays is halved,
+/// so that both ends close in (Illinois).
+fn turning_point(slope: impl Fn(f64) -> f64, mut low: (f64, f64), mut high: (f64, f64)) -> f64 {
+    let (close, mut last) = (1e-9 * high.0, f64::INFINITY);
+    for _ in 0..MOST_TURNS {
+        let at = low.0 + (high.0 - low.0) * (low.1 / (low.1 - high.1));
+        if (at - last).abs() <= close {
+            return at;
+        }
+        let here = slope(at);
+        if here > 0.0 {
+            high.1 *= if last == low.0 { 0.5 } else { 1.0 };
+            low = (at, here);
+        } else {
+            low.1 *= if last == high.0 { 0.5 } else { 1.0 };
+            high = (at, here);
+        }
+        last = at;
+    }
+    last
+}

@@ -1,0 +1,268 @@
+//! The double power series of the motion and of all contacts after an entry: a fractional (Frobenius) series, whose exponents
+//! are i + beta j.
+
+use crate::contact::EpisodeForce;
+use crate::contact::onset::Grid;
+use crate::contact::onset::GridPowers;
+use crate::contact::onset::MOST_TERMS;
+use crate::contact::onset::OnsetBlock;
+use crate::contact::onset::OnsetReading;
+use crate::contact::onset::Products;
+use crate::contact::series::Kind;
+use crate::engine::base::Base;
+use crate::engine::base::Coordinates;
+use crate::engine::base::contact::Contact;
+use crate::engine::base::touching;
+use crate::engine::pairs::jacobian::Meeting;
+use crate::engine::pairs::packing::Members;
+use crate::engine::pairs::packing::Place;
+use crate::engine::pairs::packing::most_blocks;
+use crate::engine::pairs::pair::Pair;
+use crate::engine::system::System;
+use crate::structure::LANES;
+use crate::structure::Lane;
+use crate::structure::Structure;
+use crate::structure::sum_terms;
+/// The double series of the motion and of all contacts.
+#[derive(Clone, Debug, Default)]
+pub struct OnsetSeries {
+    pub grid: Option<Grid>,
+    /// Those of its terms, for pairs that touch and that enter, once they are known for its beta.
+    pub products: [Products; 2],
+    pub beta: f64,
+    pub lanes: usize,
+    pub terms: Vec<f64>,
+    /// The pairs in contact, in blocks of one kind each; the first `used` are filled. There is room for all, but memory
+    /// that no contact has needed yet is not touched.
+    pub blocks: Vec<OnsetBlock>,
+    pub members: Vec<Members>,
+    pub used: usize,
+    /// Block and lane of each contact.
+    pub places: Vec<(usize, usize)>,
+    /// s.
+    pub scale: f64,
+    /// Powers of the x that was looked at last, and the blocks there.
+    pub powers: GridPowers,
+    pub readings: Vec<OnsetReading>,
+}
+
+impl OnsetSeries {
+    /// Room for the largest grid; none where no law needs one.
+    pub fn new(System { structure, pairs, contact_coordinates, .. }: &System) -> OnsetSeries {
+        if !has_singular_law(pairs) {
+            return OnsetSeries::default();
+        }
+        let (lanes, pairs, on_floors) = (structure.lanes, pairs.len(), *contact_coordinates == Coordinates::Floors);
+        // Each of five kinds has one block that is not full, of pairs that enter and of pairs that touch.
+        let most = most_blocks(pairs, 10, on_floors);
+        OnsetSeries {
+            grid: None,
+            products: [Products::room(), Products::room()],
+            beta: 0.0,
+            lanes,
+            terms: vec![0.0; MOST_TERMS * lanes],
+            blocks: Vec::with_capacity(most),
+            members: vec![Members::default(); most],
+            used: 0,
+            places: vec![(0, 0); pairs],
+            scale: 1.0,
+            powers: GridPowers::default(),
+            readings: vec![OnsetReading::default(); most],
+        }
+    }
+
+    /// The exponents of its terms, once it has been started.
+    pub fn grid(&self) -> Option<&Grid> {
+        self.grid.as_ref()
+    }
+
+    /// The motion's term with an index of the grid.
+    pub fn term(&self, index: usize) -> &[f64] {
+        &self.terms[index * self.lanes..(index + 1) * self.lanes]
+    }
+
+    /// Starts from the state of the base; `scale` is the unit of time, s.
+    pub fn start(&mut self, base: &Base, pairs: &[Pair], grid: Grid, scale: f64) {
+        (self.grid, self.scale, self.used) = (Some(grid), scale, 0);
+        if grid.beta != self.beta {
+            self.beta = grid.beta;
+            self.products[0].set(&grid, false);
+            self.products[1].set(&grid, true);
+        }
+        let (first, rest) = self.terms.split_at_mut(self.lanes);
+        first.copy_from_slice(&base.q);
+        rest.iter_mut().zip(&base.v).for_each(|(term, v)| *term = v * scale);
+        for j in 1..grid.rows {
+            self.terms[grid.index(0, j) * self.lanes..][..self.lanes].fill(0.0);
+        }
+        for (p, contact) in touching(base) {
+            let force = contact.branch();
+            let place = Place::of(&pairs[p], base.coordinates);
+            let (b, lane) = self.room_for(&grid, Kind::of(&force), contact.is_singular(), place);
+            self.blocks[b].add(lane, &force, scale, contact.penetration, contact.rate * scale);
+            self.members[b].set(lane, p, &pairs[p], base.coordinates);
+            self.places[p] = (b, lane);
+        }
+    }
+
+    /// Block and lane for a pair of a kind.
+    fn room_for(&mut self, grid: &Grid, kind: Kind, enters: bool, place: Place) -> (usize, usize) {
+        for b in (0..self.used).rev() {
+            if self.blocks[b].is_of(kind, enters)
+                && let Some(lane) = self.members[b].free_lane(place)
+            {
+                return (b, lane);
+            }
+        }
+        let b = self.used;
+        if b == self.blocks.len() {
+            self.blocks.push(OnsetBlock::default());
+        }
+        self.blocks[b].start(grid, kind, enters);
+        self.used += 1;
+        (b, self.members[b].start(place))
+    }
+
+    /// The pairs of a block, lane by lane.
+    pub fn pairs_of(&self, block: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.members[block].lanes()
+    }
+
+    /// Takes the readings of all blocks at x.
+    pub fn read(&mut self, x: f64) {
+        let Some(grid) = &self.grid else { return };
+        self.powers.set(grid, x);
+        for (reading, block) in self.readings.iter_mut().zip(&self.blocks).take(self.used) {
+            *reading = block.read(&self.powers);
+        }
+    }
+
+    /// N, bounds on the sizes of the forces up to x, one per contact.
+    pub fn bound_forces(&self, contacts: &[Contact], x: f64, out: &mut [f64]) {
+        let Some(grid) = &self.grid else { return };
+        for (p, out) in out.iter_mut().enumerate().filter(|(p, _)| contacts[*p].in_contact()) {
+            let (block, lane) = self.places[p];
+            // The stored force terms are those of F x.
+            let terms = self.blocks[block].copy_force(grid, lane).map(f64::abs);
+            *out = grid.sum(&terms, x) / x;
+        }
+    }
+
+    /// u and v at x > 0.
+    pub fn evaluate(&self, x: f64, q: &mut [f64], v: &mut [f64]) {
+        let Some(grid) = &self.grid else { return };
+        let other;
+        let powers = if self.powers.x == x {
+            &self.powers
+        } else {
+            other = GridPowers::at(grid, x);
+            &other
+        };
+        let terms = &self.terms[..grid.terms() * self.lanes];
+        sum_terms(terms, powers.all(), 1.0 / self.scale, &mut q[..self.lanes], &mut v[..self.lanes]);
+    }
+}
+
+/// Whether a force has no power series at d = 0.
+fn has_singular_law(pairs: &[Pair]) -> bool {
+    pairs.iter().any(|pair| !EpisodeForce::new(&pair.law, pair.mass, None).engaged.is_regular())
+}
+
+/// All terms, row by row: u_(i+2) from the force, load, damping and stiffness terms two powers of x below. Wide
+/// instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+pub fn expand<M: Meeting>(
+    onset: &mut OnsetSeries,
+    structure: &Structure,
+    coordinates: Coordinates,
+    loads: (&[f64], &[f64]),
+    meeting: &M,
+) {
+    let Some(grid) = onset.grid else { return };
+    for j in 0..grid.rows {
+        for block in onset.blocks[..onset.used].iter_mut().filter(|block| block.enters) {
+            block.extend_entering_row(&grid, &onset.products[1], j);
+        }
+        let first = if j == 0 { 2 } else { 1 };
+        for i in first..=grid.last(j) {
+            extend(onset, structure, coordinates, loads, meeting, &grid, (i, j));
+        }
+    }
+}
+
+/// One term x^(i + beta j) of the motion.
+#[inline(always)]
+fn extend<M: Meeting>(
+    onset: &mut OnsetSeries,
+    structure: &Structure,
+    coordinates: Coordinates,
+    (load, slope): (&[f64], &[f64]),
+    meeting: &M,
+    grid: &Grid,
+    (i, j): (usize, usize),
+) {
+    let (lanes, scale) = (onset.lanes, onset.scale);
+    let here = grid.index(i, j);
+    let exponent = grid.exponent(i, j);
+    let blocks = &mut onset.blocks[..onset.used];
+    let (known, rest) = onset.terms.split_at_mut(here * lanes);
+    let next = &mut rest[..lanes];
+    if i >= 2 {
+        // A loop: what an iterator's `for_each` calls would not have the wide instructions.
+        for block in blocks.iter_mut().filter(|block| !block.enters) {
+            block.extend_touching(grid, &onset.products[0], (i - 2, j));
+        }
+    }
+    let factor = scale * scale / (exponent * (exponent - 1.0));
+    let (next, _) = next.as_chunks_mut::<LANES>();
+    if i >= 2 {
+        let load = match (i, j) {
+            (2, 0) => Some((load, 1.0)),
+            (3, 0) => Some((slope, scale)),
+            _ => None,
+        };
+        let (moved, moving) = known[(here - 2) * lanes..].split_at(lanes);
+        resist(structure, coordinates, (moved, moving), ((exponent - 1.0) / scale, factor), load, next);
+    } else {
+        // Nothing moves as x^(beta j) alone.
+        next.fill([0.0; LANES]);
+    }
+    for (block, members) in blocks.iter().zip(&onset.members) {
+        meeting.push(members, block.count, &block.force[here - 1].map(|force| factor * force), next);
+    }
+    for (block, members) in blocks.iter_mut().zip(&onset.members) {
+        let values = meeting.relative(members, block.count, next);
+        block.set_penetration(grid, i, j, values);
+    }
+}
+
+/// A term of the motion from two before it and some load, each times a factor, without the forces of contacts.
+#[inline(always)]
+fn resist(
+    structure: &Structure,
+    coordinates: Coordinates,
+    (moved, moving): (&[f64], &[f64]),
+    (rate, factor): (f64, f64),
+    load: Option<(&[f64], f64)>,
+    next: &mut [Lane],
+) {
+    let term = next.as_flattened_mut();
+    match load {
+        Some((load, unit)) => term.iter_mut().zip(load).for_each(|(term, load)| *term = load * unit),
+        None if coordinates == Coordinates::Modes => term.fill(0.0),
+        None => {}
+    }
+    match (coordinates, load) {
+        (Coordinates::Modes, _) => {
+            structure.resist(moved, moving, rate, term);
+            term.iter_mut().for_each(|term| *term *= factor);
+        }
+        (Coordinates::Floors, Some(_)) => {
+            structure.floors.enter_resistance(moved, moving, rate, next, |load, own| (load - own) * factor);
+        }
+        (Coordinates::Floors, None) => {
+            let pull = -factor;
+            structure.floors.enter_resistance(moved, moving, rate, next, |_, own| pull * own);
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! Rigid floors that are held together: the reactions that keep their relative acceleration 0, and who is let go.
+
+use crate::engine::base::Base;
+use crate::engine::base::touching;
+use crate::engine::excitation::inputs::Inputs;
+use crate::engine::system::System;
+use crate::engine::system::buffers::Buffers;
+use crate::numerics::complementarity::Complementarity;
+use crate::structure::difference;
+use crate::structure::dot;
+impl System {
+    /// Takes out of the motion what rounding has moved floors apart that are held together.
+    pub fn keep_together(&self, base: &mut Base, work: &mut Buffers) {
+        if !self.rigid.pairs.iter().any(|&p| base.contacts[p].is_held()) {
+            return;
+        }
+        let gap = |p: usize| self.pairs[p].gap;
+        self.select_held(base, work);
+        for (motion, is_displacement) in [(&mut base.q, true), (&mut base.v, false)] {
+            let rigid = &mut work.rigid;
+            for (&k, known) in rigid.pairs.iter().zip(&mut rigid.known) {
+                let p = self.rigid.pairs[k];
+                *known = dot(&self.pairs[p].row, motion) - if is_displacement { gap(p) } else { 0.0 };
+            }
+            rigid.solve();
+            self.push_apart(rigid, motion);
+        }
+    }
+
+    /// Lists the pairs that are held together and makes them all active.
+    fn select_held(&self, base: &Base, work: &mut Buffers) {
+        work.rigid.clear();
+        for (k, _) in self.rigid.pairs.iter().enumerate().filter(|&(_, &p)| base.contacts[p].is_held()) {
+            work.rigid.add(k, 0.0, 0.0);
+        }
+        work.rigid.close_all(&self.rigid.matrix);
+    }
+
+    /// The modal accelerations at the base, in `work.q`, with every contact force; the reactions stay in `work.rigid`.
+    /// Returns a pair that is held together but moves apart.
+    pub fn balance(&self, base: &Base, inputs: &Inputs, work: &mut Buffers) -> Option<usize> {
+        self.load(base, inputs, &mut work.load, &mut work.slope);
+        work.node_q.copy_from_slice(&work.load);
+        for (p, contact) in touching(base) {
+            if !contact.is_held() {
+                self.push_apart_by(p, base.coordinates, contact.present_force(), &mut work.node_q);
+            }
+        }
+        self.structure.accelerate(&base.q, &base.v, &work.node_q, &mut work.q);
+        let Buffers { rigid, q: acceleration, .. } = work;
+        rigid.clear();
+        for (k, &p) in self.rigid.pairs.iter().enumerate().filter(|&(_, &p)| base.contacts[p].is_held()) {
+            let (pressing, size) = difference(&self.pairs[p].row, acceleration);
+            rigid.add(k, pressing, 8.0 * f64::EPSILON * size);
+        }
+        rigid.push(&self.rigid.matrix);
+        self.push_apart(rigid, acceleration);
+        let apart = (0..rigid.pairs.len()).find(|&i| {
+            let p = self.rigid.pairs[rigid.pairs[i]];
+            let moves_apart = dot(&self.pairs[p].row, acceleration) < -rigid.noise[i];
+            rigid.found[i] == 0.0 && moves_apart && !base.contacts[p].undecided
+        })?;
+        Some(self.rigid.pairs[rigid.pairs[apart]])
+    }
+
+    /// Keeps floors together that are held: adds the reactions' part to the modal accelerations of one power. The
+    /// reactions stay in `rigid.found`.
+    pub fn hold(&self, rigid: &mut Complementarity, acceleration: &mut [f64]) {
+        if rigid.pairs.is_empty() {
+            return;
+        }
+        for (&k, known) in rigid.pairs.iter().zip(&mut rigid.known) {
+            *known = difference(&self.pairs[self.rigid.pairs[k]].row, acceleration).0;
+        }
+        rigid.solve();
+        self.push_apart(rigid, acceleration);
+    }
+
+    /// What the forces (impulses, shifts) that have been found do to the modal accelerations (velocities, displacements).
+    pub fn push_apart(&self, rigid: &Complementarity, modal: &mut [f64]) {
+        for (&k, found) in rigid.pairs.iter().zip(&rigid.found) {
+            for (modal, row) in modal.iter_mut().zip(&self.pairs[self.rigid.pairs[k]].row) {
+                *modal -= row * found;
+            }
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! Rigid pairs near the surface: how long a step may be until the next rebound, and where they get to in it.
+
+use crate::engine::base::Base;
+use crate::engine::base::Coordinates;
+use crate::engine::base::contact::Contact;
+use crate::engine::base::planned::Carried;
+use crate::engine::base::planned::Event;
+use crate::engine::excitation::inputs::Inputs;
+use crate::engine::pairs::pair::Pair;
+use crate::engine::system::System;
+use crate::engine::system::buffers::Buffers;
+use crate::numerics::powers::Powers;
+use crate::structure::MotionSeries;
+use crate::structure::dot;
+/// A rigid pair is carried by its own increments up to this many rounding errors of its penetration from the surface.
+const CLOSE: f64 = 1e6;
+
+/// Share of the time left for which floors are held together that rounding cannot tell from free ones.
+const SHORT_WHILE: f64 = 1e-3;
+
+impl System {
+    /// How long a step may be, s, so that the next bounce of every pair near the surface is a good part of it; with the
+    /// modal accelerations at the base.
+    pub fn bounce_horizon(&self, base: &Base, acceleration: &[f64]) -> f64 {
+        let apart = base.contacts.iter().zip(&self.pairs).filter(|(contact, _)| contact.carried);
+        let bounce = |(contact, pair): (&Contact, &Pair)| {
+            4.0 * time_to_surface(contact.penetration, contact.rate, dot(&pair.row, acceleration))
+        };
+        apart.map(bounce).fold(f64::INFINITY, f64::min)
+    }
+
+    /// How long a step may be near rigid contacts, of the `remaining` time, s, and whether it is cut; or the release that
+    /// comes first. Leaves the pairs that are held together in `work.rigid`, all active.
+    pub fn time_for_rigid_pairs(
+        &self,
+        base: &Base,
+        inputs: &Inputs,
+        work: &mut Buffers,
+        remaining: f64,
+    ) -> Result<(f64, bool), Event> {
+        if !self.has_close_rigid_pair(base) {
+            work.rigid.clear();
+            return Ok((remaining, false));
+        }
+        if let Some(p) = self.balance(base, inputs, work) {
+            return Err(Event::Release(p));
+        }
+        work.rigid.close_all(&self.rigid.matrix);
+        let mut time = self.bounce_horizon(base, &work.q);
+        if base.contacts.iter().any(|contact| contact.undecided) {
+            time = time.min(SHORT_WHILE * remaining);
+        }
+        Ok((remaining.min(time), time < remaining))
+    }
+
+    /// Whether rigid floors are held together, or are about to meet again.
+    pub fn has_close_rigid_pair(&self, base: &Base) -> bool {
+        self.rigid.pairs.iter().any(|&p| base.contacts[p].is_held() || base.contacts[p].carried)
+    }
+
+    /// Where the pairs that are carried get to at the x of the powers of a series in time.
+    pub fn carry(
+        &self,
+        base: &Base,
+        series: &MotionSeries,
+        powers: &Powers,
+        scalar: &mut [f64],
+        carried: &mut Carried,
+    ) {
+        carried.fill(None);
+        for &p in &self.rigid.pairs {
+            let (contact, pair) = (&base.contacts[p], &self.pairs[p]);
+            carried[p] = contact.carried.then(|| {
+                let terms = &mut scalar[..=series.order];
+                let noise = pair.noise(pair.project(base.coordinates, series, powers.in_time().0, terms));
+                contact.begin_flight(terms, series.scale, noise);
+                let (penetration, slope) = crate::numerics::polynomial::value_and_slope(terms, powers.x);
+                (penetration, slope / series.scale)
+            });
+        }
+    }
+
+    /// Whether a pair at this penetration, m, is still to be carried.
+    pub fn is_close(&self, p: usize, penetration: f64, coordinates: Coordinates, q: &[f64]) -> bool {
+        penetration > -CLOSE * self.pairs[p].noise(self.pairs[p].difference(coordinates, q).1)
+    }
+}
+
+/// s until d + v t + a t^2 / 2 is 0 for t > 0, from d <= 0.
+fn time_to_surface(d: f64, v: f64, a: f64) -> f64 {
+    let square = v * v - 2.0 * a * d;
+    let time = match () {
+        _ if square < 0.0 => f64::INFINITY,
+        _ if v > 0.0 => -2.0 * d / (v + square.sqrt()),
+        _ if a > 0.0 => (square.sqrt() - v) / a,
+        _ => f64::INFINITY,
+    };
+    if time > 0.0 { time } else { f64::INFINITY }
+}

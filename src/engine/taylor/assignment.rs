@@ -1,0 +1,103 @@
+//! Which pair in contact stands in which block and lane.
+
+use crate::contact::series::Kind;
+use crate::contact::series::PAIRS;
+use crate::contact::series::PairBlock;
+use crate::engine::base::Base;
+use crate::engine::base::contact::Contact;
+use crate::engine::pairs::packing::Place;
+use crate::engine::pairs::pair::Pair;
+use crate::engine::taylor::closed_pairs::ClosedPairs;
+impl ClosedPairs {
+    /// Starts the series of all pairs in contact that are not held together; `scale` is the unit of time. Pairs that are
+    /// apart `may_ride` along where the motion is that of few modes.
+    pub fn start(&mut self, base: &Base, pairs: &[Pair], scale: f64, may_ride: bool) {
+        if self.may_ride != may_ride || !self.start_again(base, scale) {
+            self.may_ride = may_ride;
+            self.assign(base, pairs);
+            self.start_again(base, scale);
+        }
+    }
+
+    /// Gives each closed pair its block and lane.
+    fn assign(&mut self, base: &Base, pairs: &[Pair]) {
+        self.used = 0;
+        self.assigned.clear();
+        self.coordinates = base.coordinates;
+        let has_roots = closed(base).any(|(_, contact)| Kind::of(&contact.starting_force()) == Kind::Root);
+        for (p, contact) in closed(base) {
+            let force = contact.starting_force();
+            let kind = Kind::of(&force);
+            // A spring of that law's exponent is a root law without damping: better than a block of its own beside it.
+            let joint = if has_roots && force.is_like_root() { Kind::Root } else { kind };
+            let (b, lane) = self.room_for(joint, Place::of(&pairs[p], base.coordinates));
+            self.members[b].set(lane, p, &pairs[p], base.coordinates);
+            self.blocks[b].count = self.blocks[b].count.max(lane + 1);
+            self.places[p] = (b, lane);
+            self.assigned.push((p, kind));
+        }
+        self.riders.clear();
+        if self.may_ride && self.used == 1 && pairs.len() <= PAIRS && self.blocks[0].has_roots() {
+            self.assign_riders(base, pairs);
+        }
+    }
+
+    /// Gives the pairs that are apart the lanes that are left.
+    fn assign_riders(&mut self, base: &Base, pairs: &[Pair]) {
+        let apart = (0..pairs.len()).filter(|&p| !base.contacts[p].in_contact());
+        for (lane, p) in (self.blocks[0].count..PAIRS).zip(apart) {
+            self.members[0].set_beside(lane, &pairs[p], base.coordinates);
+            self.riders.push((lane, p));
+        }
+    }
+
+    /// Enters the closed pairs where they have been assigned; whether they are the same as then.
+    fn start_again(&mut self, base: &Base, scale: f64) -> bool {
+        self.at_surface.fill(false);
+        self.waits = false;
+        let mut assigned = self.assigned.iter();
+        for (p, contact) in closed(base) {
+            let force = contact.starting_force();
+            if assigned.next() != Some(&(p, Kind::of(&force))) {
+                return false;
+            }
+            let (b, lane) = self.places[p];
+            self.blocks[b].add(lane, &force, scale, contact.penetration, contact.rate * scale);
+            let at_surface = contact.at_surface && contact.rate == 0.0;
+            self.at_surface[b] |= at_surface;
+            self.waits |= at_surface || self.neighbours[p].iter().any(|&q| is_closed(&base.contacts[q]));
+        }
+        for &(lane, p) in &self.riders {
+            let Contact { penetration, rate, .. } = base.contacts[p];
+            self.blocks[0].ride(lane, penetration, rate * scale);
+        }
+        assigned.next().is_none() && self.coordinates == base.coordinates
+    }
+
+    /// Block and lane for a pair of a kind: mostly in the newest block.
+    fn room_for(&mut self, kind: Kind, place: Place) -> (usize, usize) {
+        for b in (0..self.used).rev() {
+            if self.blocks[b].kind() == kind
+                && let Some(lane) = self.members[b].free_lane(place)
+            {
+                return (b, lane);
+            }
+        }
+        let b = self.used;
+        if b == self.blocks.len() {
+            self.blocks.push(PairBlock::default());
+        }
+        self.blocks[b].start(kind);
+        self.used += 1;
+        (b, self.members[b].start(place))
+    }
+}
+
+/// The pairs that have a force, with their numbers.
+fn closed(base: &Base) -> impl Iterator<Item = (usize, &Contact)> {
+    base.contacts.iter().enumerate().filter(|(_, contact)| is_closed(contact))
+}
+
+fn is_closed(contact: &Contact) -> bool {
+    contact.in_contact() && !contact.is_held()
+}

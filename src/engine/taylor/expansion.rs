@@ -1,0 +1,131 @@
+//! Expands motion and contact forces together, power by power.
+
+use crate::contact::series::PAIRS;
+use crate::engine::base::Base;
+use crate::engine::base::Coordinates;
+use crate::engine::pairs::jacobian::OnFewModes;
+use crate::engine::pairs::jacobian::OnFloors;
+use crate::engine::pairs::jacobian::OnModes;
+use crate::engine::system::System;
+use crate::engine::system::buffers::Buffers;
+use crate::engine::taylor::closed_pairs::ClosedPairs;
+use crate::engine::taylor::linear_pairs::LinearPairs;
+use crate::engine::taylor::pair_forces::with_forces;
+use crate::engine::taylor::solution::Solution;
+use crate::numerics::complementarity::Complementarity;
+use crate::structure::FEW_BLOCKS;
+use crate::structure::LANES;
+use crate::structure::MotionSeries;
+use crate::structure::difference;
+use crate::structure::dot;
+impl System {
+    /// The series of the motion, of penetrations and forces from the base on.
+    pub fn expand(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, scale: f64) {
+        solution.series.start(scale, &base.q, &base.v);
+        let are_few = base.coordinates == Coordinates::Modes && base.q.len() <= FEW_BLOCKS * LANES;
+        let may_ride = are_few && self.structure.is_classical() && self.rigid.pairs.is_empty();
+        solution.closed.start(base, &self.pairs, scale, may_ride);
+        self.expand_to(base, solution, work, self.tolerance.order + 1);
+    }
+
+    /// Expands the started series to `order`, or goes on with it.
+    fn expand_to(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, order: usize) {
+        let (structure, loads) = (&self.structure, (&work.load[..], &work.slope[..]));
+        let Solution { series, closed, .. } = solution;
+        match base.coordinates {
+            Coordinates::Floors => {
+                with_forces!(closed, [Linear, Spring, Damped, Root], false, OnFloors, |forces| series.expand_floors(
+                    &structure.floors,
+                    order,
+                    loads,
+                    forces
+                ));
+            }
+            Coordinates::Modes if structure.is_classical() && work.rigid.pairs.is_empty() => {
+                if base.q.len() > FEW_BLOCKS * LANES {
+                    with_forces!(closed, [], false, OnModes(&self.pairs), |forces| series
+                        .expand_modes(structure, order, loads, forces));
+                } else if !self.expand_linear(series, closed, order, loads) {
+                    with_forces!(closed, [Spring, Damped, Root], true, OnFewModes, |forces| series
+                        .expand_few_modes(structure, order, loads, forces));
+                }
+            }
+            Coordinates::Modes => {
+                while solution.series.order < order {
+                    self.extend_together(solution, (&work.load, &work.slope), &mut work.rigid);
+                }
+            }
+        }
+    }
+
+    /// More powers of the series where these are cheap and it does not reach the release of any pair yet, within
+    /// `reach`; whether there are more now.
+    pub fn expand_further(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, reach: f64) -> bool {
+        let is_on_few_modes = base.coordinates == Coordinates::Modes
+            && base.q.len() <= FEW_BLOCKS * LANES
+            && self.structure.is_classical()
+            && work.rigid.pairs.is_empty();
+        let are_cheap = is_on_few_modes
+            && self.tolerance.linear_order > self.tolerance.order
+            && solution.closed.count_linear().is_some();
+        if !are_cheap || solution.closed.are_some_nearly_released(reach) {
+            return false;
+        }
+        self.expand_to(base, solution, work, self.tolerance.linear_order + 1);
+        true
+    }
+
+    /// Expands a started series of few modes to `order`, or goes on with it, where all pairs are under linear laws;
+    /// whether they are.
+    fn expand_linear(
+        &self,
+        series: &mut MotionSeries,
+        closed: &mut ClosedPairs,
+        order: usize,
+        loads: (&[f64], &[f64]),
+    ) -> bool {
+        match closed.count_linear() {
+            None => false,
+            Some(1) => self.expand_linear_pairs::<1>(series, closed, order, loads),
+            Some(2) => self.expand_linear_pairs::<2>(series, closed, order, loads),
+            Some(_) => self.expand_linear_pairs::<PAIRS>(series, closed, order, loads),
+        }
+    }
+
+    fn expand_linear_pairs<const COUNT: usize>(
+        &self,
+        series: &mut MotionSeries,
+        closed: &mut ClosedPairs,
+        order: usize,
+        loads: (&[f64], &[f64]),
+    ) -> bool {
+        let forces = LinearPairs::<COUNT>::of(closed, &self.pairs, series.order - 1);
+        forces.map(|mut forces| series.expand_few_modes(&self.structure, order, loads, &mut forces)).is_some()
+    }
+
+    /// One power of the modes, where floors are held together.
+    fn extend_together(&self, solution: &mut Solution, (load, slope): (&[f64], &[f64]), rigid: &mut Complementarity) {
+        let Solution { series, closed, reactions, reaction_order, .. } = solution;
+        let n = series.order - 1;
+        let scale = series.scale;
+        closed.extend_forces(n);
+        let load_of_power = |out: &mut [f64]| {
+            match n {
+                0 => out.copy_from_slice(load),
+                1 => out.iter_mut().zip(slope).for_each(|(out, slope)| *out = slope * scale),
+                _ => {}
+            }
+            closed.each_force(n, |p, force| self.push_apart_by(p, Coordinates::Modes, force, out));
+        };
+        series.extend(&self.structure, load_of_power, |acceleration| self.hold(rigid, acceleration));
+        for (&k, reaction) in rigid.pairs.iter().zip(&rigid.found) {
+            reactions[k][n] = *reaction;
+        }
+        *reaction_order = n;
+        let term = series.term(n + 2);
+        closed.set_penetrations(n + 2, |p, at_surface| {
+            let row = &self.pairs[p].row;
+            if at_surface { difference(row, term).0 } else { dot(row, term) }
+        });
+    }
+}

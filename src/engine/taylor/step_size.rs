@@ -1,0 +1,105 @@
+//! How far a Taylor step reaches: the last two terms of its velocities stay below the tolerance \[JorbaZou2005\].
+
+use crate::engine::base::Base;
+use crate::engine::base::Coordinates;
+use crate::engine::base::touching;
+use crate::engine::system::System;
+use crate::engine::taylor::solution::Solution;
+use crate::numerics::polynomial::ROOM;
+use crate::numerics::polynomial::rough_root;
+use crate::structure::MotionSeries;
+/// Velocity that a force may cause which is left out at the singular start of a power law, as a share of a step's
+/// tolerance.
+const START_SHARE: f64 = 0.1;
+
+/// Furthest reach of a series, in units of its scale: beyond, terms that have vanished in a scale far too short would be
+/// missed, and the powers of the step overflow. The next series has a better scale.
+pub const FURTHEST: f64 = 1e9;
+
+/// Tolerance of a step below which it keeps away from the end of a clock and of its reach: there the rounding of terms in
+/// time weighs a thousand times as much in series of as high an order.
+const NEAR_ROUNDING: f64 = 1e-13;
+
+/// Share of the clock up to a release that a step takes then.
+const KEEPING_AWAY: f64 = 0.9;
+
+impl System {
+    /// Share of the way to the end of a clock that a step may take.
+    pub fn boldness(&self) -> f64 {
+        if self.tolerance.step < NEAR_ROUNDING { KEEPING_AWAY } else { 1.0 }
+    }
+
+    /// How far to go where terms show that something is accurate up to about `reach`: not quite as far, unless the rest of
+    /// the way is within reach too.
+    pub fn cautious(&self, reach: f64, whole: f64) -> f64 {
+        if self.boldness() * reach >= whole { whole } else { 0.9 * reach }
+    }
+
+    /// How far, in units of the series' scale, its last two terms stay below the tolerance.
+    ///
+    /// It is the velocity that is controlled: over a contact of a millisecond a displacement error is a velocity error
+    /// a thousand times larger.
+    pub fn accurate_reach(&self, base: &Base, solution: &Solution, is_singular: bool, whole: f64) -> f64 {
+        let series = &solution.series;
+        let mut reach = self.reach_of_terms(base, series, self.tolerance.step * base.velocity_scale * series.scale);
+        reach = self.cautious(reach, whole);
+        if !is_singular {
+            return reach.min(FURTHEST);
+        }
+        for (p, contact) in touching(base).filter(|(_, contact)| contact.is_singular()) {
+            let law = contact.branch();
+            let mut terms = [0.0; ROOM];
+            let (block, lane) = solution.closed.of(p);
+            block.copy_penetration(lane, &mut terms);
+            let left_out = |x: f64| {
+                let (penetration, rate) =
+                    terms.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * x + c.abs(), slope * x + value));
+                law.value(penetration, rate / series.scale) * x * series.scale / self.pairs[p].mass
+            };
+            reach = reach.min(self.forceless_reach(left_out, base, series, whole));
+        }
+        reach.min(FURTHEST)
+    }
+
+    /// How far the last two terms stay below what is `allowed`, m.
+    fn reach_of_terms(&self, base: &Base, series: &MotionSeries, allowed: f64) -> f64 {
+        let mut reach = f64::INFINITY;
+        for n in [series.order - 1, series.order] {
+            let term = n as f64 * self.worst_floor(base.coordinates, series.term(n));
+            if term > 0.0 {
+                reach = reach.min(match allowed {
+                    0.0 => self.reach_from_rest(base.coordinates, series, n, term),
+                    _ => rough_root(allowed / term, n - 1),
+                });
+            }
+        }
+        reach
+    }
+
+    /// How far a last term stays below the tolerance where nothing has moved yet: relative to the velocity that any of
+    /// the terms before it brings about by then.
+    fn reach_from_rest(&self, coordinates: Coordinates, series: &MotionSeries, last: usize, last_term: f64) -> f64 {
+        (2..last / 2)
+            .map(|n| {
+                let term = n as f64 * self.worst_floor(coordinates, series.term(n));
+                libm::pow(self.tolerance.step * term / last_term, 1.0 / (last - n) as f64)
+            })
+            .fold(0.0, f64::max)
+    }
+
+    /// How far a power law's force may be left out after an entry: the velocity that it would have caused, m/s, stays a
+    /// small share of what there is and what the step brings about.
+    fn forceless_reach(&self, left_out: impl Fn(f64) -> f64, base: &Base, series: &MotionSeries, whole: f64) -> f64 {
+        let (speed, coordinates) = (base.velocity_scale, base.coordinates);
+        let gained = [2, 3, 4].map(|n| n as f64 * self.worst_floor(coordinates, series.term(n)) / series.scale);
+        let mut x = whole;
+        while x > 1e-30 {
+            let gained = x * (gained[0] + x * (gained[1] + x * gained[2]));
+            if left_out(x) <= START_SHARE * self.tolerance.step * (speed + gained) {
+                break;
+            }
+            x *= 0.5;
+        }
+        x
+    }
+}
