@@ -1,5 +1,5 @@
 //! Pairs that cannot meet yet: bounds on how fast their floors can close tell for how many segments of the record they
-//! need not be looked at.
+//! need not be looked at: conservative advancement \[Mirtich1996\] with bounds of structural dynamics.
 //!
 //! Apart from contact, the amplitude e = sqrt(q'^2 + w^2 q^2) of each mode grows by no more than A, |participation| x the
 //! integral of |ground acceleration|: damping only takes from it. Without the ground's part |q''| <= (w + c) e, and that

@@ -90,7 +90,7 @@ fn highest<C: Fn(f64) -> (f64, f64)>(
 }
 
 /// Where a slope passes 0 downwards between two places with their slopes, by false position; a slope that stays is halved,
-/// so that both ends close in (Illinois).
+/// so that both ends close in (the Illinois method \[DowellJarratt1971\]).
 fn turning_point(slope: impl Fn(f64) -> f64, mut low: (f64, f64), mut high: (f64, f64)) -> f64 {
     let (close, mut last) = (1e-9 * high.0, f64::INFINITY);
     for _ in 0..MOST_TURNS {
