@@ -8,8 +8,8 @@
 //! M u'' + C u' + K u = -M 1 ground acceleration + floor forces - contact forces
 //! ```
 
-use super::modes::{Modes, rayleigh_factors};
-use super::{FEW_BLOCKS, LANES, Lane, ModalDamping};
+use super::lanes::{FEW_BLOCKS, LANES, Lane};
+use super::modes::{ModalDamping, Modes, rayleigh_factors};
 use crate::polynomial::each;
 use crate::scene::{Building, Damping, Stiffness};
 use std::ops::Range;
@@ -306,7 +306,7 @@ impl Shear {
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::structure::Structure;
+    use crate::structure::{Side, Structure};
     use nalgebra::{DMatrix, DVector};
 
     const SHEAR: &str = r#"
@@ -378,7 +378,7 @@ mod tests {
         let (mut strain, mut viscous, mut damped) = (0.0, 0.0, vec![0.0; u.len()]);
         for (side, building) in [&scene.left, &scene.right].into_iter().enumerate() {
             let [u, v] = [&u, &v].map(|vector| DVector::from_column_slice(floors.of_building(side, vector)));
-            let (k, c) = (stiffness(building), damping(building, &structure.buildings[side]));
+            let (k, c) = (stiffness(building), damping(building, structure.modes([Side::Left, Side::Right][side])));
             let force = &k * &u + 0.7 * (&c * &v);
             let got = floors.of_building(side, &resisted);
             for ((f, mass), got) in force.iter().zip(&building.mass).zip(got) {

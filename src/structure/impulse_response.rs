@@ -1,6 +1,7 @@
 //! What an impulse makes of each mode: h'' + c h' + w^2 h = 0 from h = 0, h' = 1, as a power series in time.
 
-use super::{LANES, Structure};
+use super::equations::Structure;
+use super::lanes::LANES;
 use crate::polynomial::{COUNT, each};
 
 /// Powers of time of an impulse response.

@@ -1,6 +1,9 @@
 //! The exact flight of all modes over one interval of time.
 
-use super::{CoupledIncrement, LANES, Lane, ModalDamping, ModeIncrement, Scratch, Side, Structure};
+use super::equations::{Scratch, Side, Structure};
+use super::lanes::{LANES, Lane};
+use super::modes::ModalDamping;
+use super::propagator::{CoupledIncrement, ModeIncrement};
 
 /// The increments of [`LANES`] modes side by side.
 #[derive(Clone, Copy, Debug, Default)]

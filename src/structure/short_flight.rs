@@ -1,7 +1,8 @@
 //! A flight that one power series reaches over, straight to its end.
 
-use super::series::RECIPROCAL;
-use super::{EXACT, LANES, Lane, Structure, flight_order};
+use super::equations::Structure;
+use super::lanes::{LANES, Lane};
+use super::series::expand::{EXACT, RECIPROCAL, flight_order};
 use crate::polynomial::{COUNT, ROOM};
 
 /// (Fastest rate) x (time) of a flight that is hardly one, and the order at which its series is exact to rounding.
