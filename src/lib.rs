@@ -16,10 +16,10 @@
 //! | rigid contact (`stereomechanical`): impulse p = (1 + e) m V; floors held together by a reaction | `engine/rigid.rs`, `engine/complementarity.rs` | \[Goldsmith1960\], [BarrosKhatami2013, eqs. 1, 2], \[Moreau1988\], \[LawsonHanson1974\] |
 //! | contact force F(d, v): one file per law, with its source, range and defect | `contact/laws/` | in each file |
 //! | a(e) of `hertz_damped` | `contact/damping_formula.rs` | at each formula |
-//! | motion in contact as a power series in time | `engine/contact_step.rs`, `structure/series/mod.rs`, `contact/series/mod.rs` | |
+//! | motion in contact as a power series in time | `engine/contact_step.rs`, `structure/series/mod.rs`, `contact/taylor/mod.rs` | |
 //! | a variable in which the motion near entries and releases is smooth | `clock.rs` | |
 //! | contact forces over a whole window from an integral equation, at Gauss nodes | `collocation/`, `engine/window_step.rs`, `structure/impulse_response.rs` | \[Brunner2004\] |
-//! | motion just after an entry, powers i + beta j of time | `engine/onset_step.rs`, `contact/onset.rs` | |
+//! | motion just after an entry, powers i + beta j of time | `engine/onset_step.rs`, `contact/onset/mod.rs` | |
 //! | bounds of a curve by its cubic Hermite interpolant: no contact, first root, largest value | `engine/flight.rs`, `engine/roots.rs` | \[BirkhoffPriver1967\] |
 //! | energy account; impulse, work and peak force of a contact | `engine/energy.rs`, `engine/advance.rs` | |
 //! | largest displacements, drifts, accelerations and base shears in continuous time | `engine/peaks/mod.rs` | \[BirkhoffPriver1967\] |

@@ -1,7 +1,6 @@
 //! The contact force as the engine integrates it: each law, with its episode's numbers filled in, is one of a few
 //! analytic [`Force`]s on either side of a [`Guard`].
 
-use super::ImpactLaw;
 use serde::{Deserialize, Serialize};
 
 /// One analytic piece of a contact force. d is the penetration, m, v its rate, m/s.
@@ -109,6 +108,35 @@ impl Force {
     }
 }
 
+/// Which terms a force has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kind {
+    /// No force.
+    #[default]
+    None,
+    /// [`Force::Linear`].
+    Linear,
+    /// [`Force::Power`] without damping.
+    Spring,
+    /// [`Force::Power`] with damping.
+    Damped,
+    /// [`Force::Root`].
+    Root,
+}
+
+impl Kind {
+    /// Of a force.
+    pub fn of(force: &Force) -> Kind {
+        match *force {
+            Force::None => Kind::None,
+            Force::Linear { .. } => Kind::Linear,
+            Force::Power { damping: 0.0, .. } => Kind::Spring,
+            Force::Power { .. } => Kind::Damped,
+            Force::Root { .. } => Kind::Root,
+        }
+    }
+}
+
 /// d^n for d >= 0, from the same function on every platform.
 pub fn power(d: f64, exponent: f64) -> f64 {
     if d <= 0.0 {
@@ -165,13 +193,6 @@ pub struct EpisodeForce {
 }
 
 impl EpisodeForce {
-    /// The force of a law between floors of reduced mass `mass`, kg, m_left m_right / (m_left + m_right), entered at
-    /// the approach velocity `approach`, m/s; `None` for a pair that overlaps from the start, which has no damping in
-    /// the laws that divide by it.
-    pub fn new(law: &ImpactLaw, mass: f64, approach: Option<f64>) -> EpisodeForce {
-        (law.kind.info().episode)(law, mass, approach)
-    }
-
     /// A law of one piece.
     pub const fn always(force: Force) -> EpisodeForce {
         EpisodeForce { engaged: force, slack: Force::None, guard: None }

@@ -7,7 +7,7 @@ use super::pair_forces::Blocks;
 use super::roots;
 use super::state::*;
 use crate::clock::Bend;
-use crate::contact::series::{Any, BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
+use crate::contact::taylor::{Any, BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
 use crate::polynomial::{Coefficients, Powers, Reading, each};
 use crate::structure::MotionSeries;
 

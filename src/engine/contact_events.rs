@@ -5,7 +5,7 @@ use super::model::Model;
 use super::roots;
 use super::state::*;
 use crate::contact::Guard;
-use crate::contact::series::BlockReading;
+use crate::contact::taylor::BlockReading;
 use crate::polynomial::{Coefficients, Powers};
 use crate::structure::MotionSeries;
 

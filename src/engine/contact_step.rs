@@ -16,7 +16,7 @@ use super::pair_forces::with_forces;
 use super::state::*;
 use crate::clock::Clock;
 use crate::contact::Force;
-use crate::contact::series::PAIRS;
+use crate::contact::taylor::PAIRS;
 use crate::polynomial::{MAX_ORDER, ROOM, rough_root};
 use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, difference, dot};
 

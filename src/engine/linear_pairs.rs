@@ -6,7 +6,7 @@
 use super::closed_pairs::ClosedPairs;
 use super::meeting::dot_blocks;
 use super::model::Pair;
-use crate::contact::series::{Each, PAIRS, PairBlock};
+use crate::contact::taylor::{Each, PAIRS, PairBlock};
 use crate::polynomial::COUNT as POWER;
 use crate::structure::{FEW_BLOCKS, LANES, Lane, PairForces, difference};
 use std::array::from_fn;

@@ -3,7 +3,7 @@
 use super::members::Members;
 use super::model::Pair;
 use super::state::Coordinates;
-use crate::contact::series::{Each, PAIRS};
+use crate::contact::taylor::{Each, PAIRS};
 use crate::polynomial::each;
 use crate::structure::{LANES, Lane, difference};
 

@@ -2,7 +2,7 @@
 
 use super::model::Pair;
 use super::state::Coordinates;
-use crate::contact::series::{Each, PAIRS};
+use crate::contact::taylor::{Each, PAIRS};
 use crate::structure::{FEW_BLOCKS, LANES, Lane};
 
 /// Which block of a kind a pair belongs to.

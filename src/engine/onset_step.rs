@@ -13,7 +13,7 @@ use crate::contact::Force;
 use crate::contact::onset::{
     Grid, GridPowers, MOST_TERMS, OnsetBlock, OnsetReading, Products, value_and_slope, values_and_slopes,
 };
-use crate::contact::series::Kind;
+use crate::contact::taylor::Kind;
 use crate::quadrature::{TWELVE, graded};
 use crate::structure::{LANES, Lane, Structure, sum_sizes, sum_terms};
 

@@ -6,7 +6,7 @@ use super::model::{Model, Pair};
 use super::roots;
 use super::state::*;
 use crate::clock::Bend;
-use crate::contact::series::{Each, PAIRS};
+use crate::contact::taylor::{Each, PAIRS};
 use crate::polynomial::{Powers, ROOM, each};
 use crate::structure::{FEW_BLOCKS, LANES, MotionSeries};
 

@@ -7,7 +7,7 @@
 use super::closed_pairs::ClosedPairs;
 use super::meeting::Meeting;
 use super::members::Members;
-use crate::contact::series::{Any, PairBlock, PairLaw};
+use crate::contact::taylor::{Any, PairBlock, PairLaw};
 use crate::polynomial::each;
 use crate::structure::{Lane, PairForces};
 use std::marker::PhantomData;
@@ -87,8 +87,8 @@ macro_rules! with_forces {
         } else {
             let (blocks, kind) = $closed.blocks();
             match kind.filter(|_| !$one || blocks.0.len() == 1) {
-                $(Some($crate::contact::series::Kind::$law) => under!(blocks, $one, $crate::contact::series::$law),)*
-                _ => under!(blocks, false, $crate::contact::series::Any),
+                $(Some($crate::contact::taylor::Kind::$law) => under!(blocks, $one, $crate::contact::taylor::$law),)*
+                _ => under!(blocks, false, $crate::contact::taylor::Any),
             }
         }
     }};

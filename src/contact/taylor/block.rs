@@ -1,0 +1,175 @@
+//! The series of some pairs in contact: [`PAIRS`] pairs of one kind of law side by side.
+
+use crate::clock::Bend;
+use crate::contact::force::{Force, Kind, power};
+use crate::polynomial::{COUNT, ROOM};
+
+/// Pairs that are worked on together: as many as today's machines take in one instruction.
+pub const PAIRS: usize = 4;
+
+/// One number of each pair.
+pub type Each = [f64; PAIRS];
+
+/// A series of each pair.
+type Rows = [Each; ROOM];
+
+/// A series of each pair with n times its term n beside it.
+pub(super) type Sloped = [[Each; 2]; ROOM];
+
+/// Exponent of the power whose rate damps in a root law.
+pub const ROOT: f64 = 1.25;
+
+/// Where a series that is kept backwards begins.
+pub(super) const LAST: usize = ROOM - 1;
+
+/// The scalar series of up to [`PAIRS`] contacts over a step, in powers of x = t / scale or as a clock has it.
+#[derive(Clone, Debug)]
+pub struct PairBlock {
+    pub(super) kind: Kind,
+    /// Lanes up to the last one that holds a pair.
+    pub count: usize,
+    /// k of the law.
+    pub(super) stiffness: Each,
+    /// Damping factor of the law divided by the scale.
+    pub(super) damping: Each,
+    pub(super) exponent: Each,
+    /// 1/d_0, 1/m.
+    pub(super) inverse: Each,
+    /// exponent d_0^(exponent - 1) of the power and of the root.
+    pub(super) lead: [Each; 2],
+    /// Penetration, m.
+    pub penetration: Rows,
+    /// The same backwards, term 0 at [`LAST`]: a product of series then goes through memory in one direction.
+    pub(super) backwards: Rows,
+    /// n times term n of the penetration, backwards; of [`Kind::Damped`] only.
+    pub(super) slope: Rows,
+    /// Force, N.
+    pub force: Rows,
+    /// d^n of a power law, d^1.5 of a root law.
+    pub(super) power: Sloped,
+    /// d^1.25 of a root law.
+    pub(super) root: Sloped,
+    /// Powers of the force that are filled, the last one; the penetration has two more.
+    pub order: usize,
+}
+
+impl Default for PairBlock {
+    fn default() -> Self {
+        let (lane, rows, sloped) = ([0.0; PAIRS], [[0.0; PAIRS]; ROOM], [[[0.0; PAIRS]; 2]; ROOM]);
+        PairBlock {
+            kind: Kind::None,
+            count: 0,
+            stiffness: lane,
+            damping: lane,
+            exponent: lane,
+            inverse: lane,
+            lead: [lane; 2],
+            penetration: rows,
+            backwards: rows,
+            slope: rows,
+            force: rows,
+            power: sloped,
+            root: sloped,
+            order: 0,
+        }
+    }
+}
+
+impl PairBlock {
+    /// Starts a block of one kind, with no pair in it yet: springs without stiffness, whose powers vanish.
+    pub fn start(&mut self, kind: Kind) {
+        let zeros = [0.0; PAIRS];
+        self.kind = kind;
+        self.count = 0;
+        (self.stiffness, self.damping, self.exponent) = (zeros, zeros, zeros);
+        (self.inverse, self.lead) = (zeros, [zeros; 2]);
+        (self.power[0], self.root[0]) = ([zeros; 2], [zeros; 2]);
+        for rows in [&mut self.penetration[..2], &mut self.backwards[LAST - 1..], &mut self.slope[LAST - 1..]] {
+            rows.fill(zeros);
+        }
+    }
+
+    /// Adds a pair in a lane from its penetration and its rate per unit of x, both m.
+    pub fn add(&mut self, lane: usize, force: &Force, scale: f64, penetration: f64, step_rate: f64) {
+        self.count = self.count.max(lane + 1);
+        (self.stiffness[lane], self.exponent[lane], self.damping[lane]) = force.in_units_of(scale);
+        let inverse = 1.0 / penetration;
+        self.inverse[lane] = inverse;
+        if !force.is_regular() {
+            let (exponent, value) = (self.exponent[lane], power(penetration, self.exponent[lane]));
+            (self.power[0][0][lane], self.lead[0][lane]) = (value, exponent * value * inverse);
+        }
+        if self.kind == Kind::Root {
+            let value = power(penetration, ROOT);
+            (self.root[0][0][lane], self.lead[1][lane]) = (value, ROOT * value * inverse);
+        }
+        self.ride(lane, penetration, step_rate);
+    }
+
+    /// Adds a pair that has no force, whose penetration is followed along with the others'.
+    pub fn ride(&mut self, lane: usize, penetration: f64, step_rate: f64) {
+        for (n, value) in [penetration, step_rate].into_iter().enumerate() {
+            self.penetration[n][lane] = value;
+            self.backwards[LAST - n][lane] = value;
+            self.slope[LAST - n][lane] = COUNT[n] * value;
+        }
+    }
+
+    /// Whether its forces follow from the penetrations alone.
+    pub fn is_elastic(&self) -> bool {
+        match self.kind {
+            Kind::None | Kind::Spring => true,
+            Kind::Linear => self.damping == [0.0; PAIRS],
+            Kind::Damped | Kind::Root => false,
+        }
+    }
+
+    /// Whether its forces may have a damping part.
+    pub fn is_damped(&self) -> bool {
+        !matches!(self.kind, Kind::None | Kind::Spring)
+    }
+
+    /// What its pairs are of.
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// Stiffness and damping of linear forces.
+    pub fn linear_factors(&self) -> [&Each; 2] {
+        [&self.stiffness, &self.damping]
+    }
+
+    /// Enters power n of the first linear forces and the power n + 2 of the penetrations that follows from it.
+    #[inline(always)]
+    pub fn enter_linear(&mut self, n: usize, force: &[f64], penetration: &[f64]) {
+        if n + 2 < ROOM {
+            self.force[n][..force.len()].copy_from_slice(force);
+            self.penetration[n + 2][..penetration.len()].copy_from_slice(penetration);
+            self.order = n;
+        }
+    }
+
+    /// Whether all forces are linear.
+    pub fn is_linear(&self) -> bool {
+        self.kind == Kind::Linear
+    }
+
+    /// Whether its forces have a root at d = 0.
+    pub fn has_roots(&self) -> bool {
+        matches!(self.kind, Kind::Spring | Kind::Damped | Kind::Root)
+    }
+
+    /// Makes the series of penetrations such in the x of a clock, and those of forces, unless they are elastic.
+    pub fn bend(&mut self, bend: &Bend) {
+        let terms = self.order + 3;
+        match self.is_elastic() {
+            true => bend.apply(&mut self.penetration[..terms], 1),
+            false => bend.apply_to_both([&mut self.penetration, &mut self.force], terms),
+        }
+    }
+
+    /// The same for two blocks of elastic forces.
+    pub fn bend_with(&mut self, other: &mut PairBlock, bend: &Bend) {
+        bend.apply_to_both([&mut self.penetration, &mut other.penetration], self.order + 3);
+    }
+}

@@ -1,0 +1,147 @@
+//! What the series of pairs come to: at the end of a step, and until a pair is released.
+
+use super::block::{Each, PAIRS, PairBlock};
+use crate::polynomial::{Coefficients, Powers, RECIPROCAL, Reading, each};
+
+/// The penetrations of a block at the end of a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BlockReading {
+    /// Penetration, m.
+    pub penetration: Each,
+    /// Its derivative by x.
+    pub slope: Each,
+    /// Bound on its fourth derivative.
+    pub fourth: Each,
+    /// Bound on how far the slope gets from where it starts.
+    pub turn: Each,
+}
+
+/// The forces of a block at the end of a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ForceReading {
+    /// N.
+    pub value: Each,
+    /// Its derivative by x.
+    pub slope: Each,
+    /// Bound on its fourth derivative.
+    pub fourth: Each,
+    /// Its integral over x.
+    pub impulse: Each,
+}
+
+impl ForceReading {
+    /// Of one pair.
+    pub fn of(&self, lane: usize) -> Reading {
+        Reading { value: self.value[lane], slope: self.slope[lane], fourth: self.fourth[lane] }
+    }
+}
+
+impl PairBlock {
+    /// About where each pair is released, if that is before `limit`; else infinite.
+    pub fn releases(&self, limit: f64) -> Each {
+        releases(&self.penetration[..self.order + 3], limit)
+    }
+
+    /// Penetrations and their bounds at the x of the powers.
+    pub fn read(&self, powers: &Powers) -> BlockReading {
+        read(&self.penetration[..self.order + 3], powers)
+    }
+
+    /// Forces at the x of the powers, and their integral over 0..=x, N s per unit of the scale.
+    pub fn read_force(&self, powers: &Powers) -> ForceReading {
+        read_force(&self.force[..=self.order], powers)
+    }
+
+    /// Integrals of elastic forces over time up to that of the powers, N s per unit of the scale.
+    pub fn elastic_impulses(&self, powers: &Powers) -> Each {
+        elastic_impulses(&self.force[..=self.order], powers.integral_in_time())
+    }
+
+    /// The penetration of one pair, copied; returns the number of its terms.
+    pub fn copy_penetration(&self, lane: usize, out: &mut Coefficients) -> usize {
+        copy(&self.penetration[..self.order + 3], lane, out)
+    }
+
+    /// The force of one pair, copied; returns the number of its terms.
+    pub fn copy_force(&self, lane: usize, out: &mut Coefficients) -> usize {
+        copy(&self.force[..=self.order], lane, out)
+    }
+}
+
+fn copy(rows: &[Each], lane: usize, out: &mut Coefficients) -> usize {
+    for (out, row) in out.iter_mut().zip(rows) {
+        *out = row[lane];
+    }
+    rows.len()
+}
+
+/// See [`PairBlock::read`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn read(terms: &[Each], powers: &Powers) -> BlockReading {
+    let (value, slope, fourth) = powers.all();
+    let [mut values, mut slopes, mut fourths, mut turns] = [[0.0; PAIRS]; 4];
+    for (n, term) in terms.iter().enumerate().skip(2) {
+        for i in 0..PAIRS {
+            values[i] += term[i] * value[n];
+            slopes[i] += term[i] * slope[n];
+            turns[i] += term[i].abs() * slope[n];
+            fourths[i] += term[i].abs() * fourth[n];
+        }
+    }
+    let (first, second) = (&terms[0], &terms[1]);
+    let penetration = each(|i| first[i] + (second[i] * powers.x + values[i]));
+    BlockReading { penetration, slope: each(|i| second[i] + slopes[i]), fourth: fourths, turn: turns }
+}
+
+/// See [`PairBlock::releases`]: from where the parabola of the first terms has its root. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn releases(terms: &[Each], limit: f64) -> Each {
+    let [start, first, half] = [0, 1, 2].map(|n| terms[n]);
+    let square = each(|i| first[i] * first[i] - 4.0 * start[i] * half[i]);
+    let guess = each(|i| 2.0 * start[i] / (square[i].sqrt() - first[i]));
+    let is_near = |i: usize| guess[i] > 0.0 && guess[i] < 1.5 * limit;
+    if !(0..PAIRS).any(is_near) {
+        return [f64::INFINITY; PAIRS];
+    }
+    let mut x = guess;
+    for _ in 0..3 {
+        let (mut value, mut slope) = ([0.0; PAIRS], [0.0; PAIRS]);
+        for term in terms.iter().rev() {
+            slope = each(|i| slope[i] * x[i] + value[i]);
+            value = each(|i| value[i] * x[i] + term[i]);
+        }
+        x = each(|i| x[i] - value[i] / slope[i]);
+    }
+    let is_one = |i: usize| is_near(i) && x[i] > 0.0 && x[i] < limit;
+    each(|i| if is_one(i) { x[i] } else { f64::INFINITY })
+}
+
+/// See [`PairBlock::read_force`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn read_force(terms: &[Each], powers: &Powers) -> ForceReading {
+    let ((value, slope, fourth), stretch) = (powers.all(), powers.stretch());
+    let [mut values, mut slopes, mut fourths, mut integrals] = [[0.0; PAIRS]; 4];
+    for (n, term) in terms.iter().enumerate() {
+        // Of the integral over time: dt = (1 + stretch for the whole x) dx.
+        let weight = (RECIPROCAL[n] + stretch * RECIPROCAL[n + 1]) * value[n];
+        for i in 0..PAIRS {
+            values[i] += term[i] * value[n];
+            slopes[i] += term[i] * slope[n];
+            fourths[i] += term[i].abs() * fourth[n];
+            integrals[i] += term[i] * weight;
+        }
+    }
+    ForceReading { value: values, slope: slopes, fourth: fourths, impulse: each(|i| powers.x * integrals[i]) }
+}
+
+/// See [`PairBlock::elastic_impulses`]. Wide instructions give the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn elastic_impulses(terms: &[Each], factors: &Coefficients) -> Each {
+    let mut impulses = [0.0; PAIRS];
+    for (term, factor) in terms.iter().zip(factors) {
+        for i in 0..PAIRS {
+            impulses[i] += term[i] * factor;
+        }
+    }
+    impulses
+}
