@@ -1,6 +1,6 @@
 //! The integral equation of a window: what is known of it, and its matrices for a length.
 
-use super::economy::economize;
+use super::economization::economize;
 use super::nodes::{Matrix, NODES, Row};
 use super::rows::{NOTHING, combine, combined, fours, value, values};
 use super::tables::{POWERS, Tables};

@@ -11,7 +11,7 @@
 //! and for all. So the forces at the nodes, eight to sixteen times, are all that is unknown, however many storeys there
 //! are. The time is mapped, t = h theta(x), so that roots of the time since an entry or until a release are polynomials in x.
 
-mod economy;
+mod economization;
 mod equation;
 mod nodes;
 mod rows;
