@@ -1,10 +1,10 @@
 //! Masses, stiffnesses, damping and initial motion of each building.
 
 use super::facts::{Facts, Pace, median, name, opposite, stiffness_key};
-use super::{Found, excerpt, number, numbers};
+use super::found::Found;
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
-use crate::scene::{Building, Damping, Stiffness};
+use crate::scene::{Building, Damping, Stiffness, excerpt, number, numbers};
 use crate::structure::Side;
 use std::f64::consts::PI;
 

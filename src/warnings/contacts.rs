@@ -1,7 +1,7 @@
 //! Gaps and the numbers of the laws. What several contacts have in common is one slip, told of the first of them.
 
-use super::Found;
 use super::facts::{Facts, Pace, median};
+use super::found::Found;
 use super::touch::{Touch, exponent};
 use crate::contact::LawKey;
 use crate::figures::short;

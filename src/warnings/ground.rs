@@ -1,7 +1,7 @@
 //! The record, its scaling, and when the run stops.
 
-use super::Found;
 use super::facts::{Facts, Pace};
+use super::found::Found;
 use crate::figures::short;
 use crate::record::{Format, Record, STANDARD_GRAVITY};
 use crate::scene::Scaling;
