@@ -1,8 +1,8 @@
 //! Scenes with their records: as a user keeps them, and as they lie in the `resources` folder of an FMU.
 
+use super::data::{Scaling, Scene};
 use super::problem::{Problem, SceneError, quoted};
 use super::read::Draft;
-use super::{Scaling, Scene};
 use crate::record::{Format, Record, RecordError};
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! Rules about the matrices of a building.
 
-use super::check::Checker;
+use super::checker::Checker;
 use super::problem::{count, excerpt, number, numbers};
 use super::rule;
 use nalgebra::{DMatrix, SymmetricEigen};

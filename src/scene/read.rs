@@ -1,10 +1,21 @@
 //! The keys of a scene file, one after the other.
 
+use super::data::{Building, ContactPair, Damping, Ground, Scaling, Scene, Solver, Stiffness};
 use super::document::{self, Document, Item, Place, Section, one_of};
 use super::problem::{Problem, SceneError, excerpt};
-use super::{Building, ContactPair, Damping, Ground, Scaling, Scene, Solver, Stiffness, check, law_key, rule};
+use super::{check, law_key, rule};
 use crate::contact::{DampingFormula, ImpactLaw, LawKind};
 use std::collections::HashMap;
+
+impl Scene {
+    /// Reads a scene from TOML text. The record file is not touched: see [`super::load`].
+    ///
+    /// # Errors
+    /// All problems of the scene in the order of the text; a single one, with line and column, where the text is not TOML.
+    pub fn from_toml(text: &str) -> Result<Scene, SceneError> {
+        Draft::read(text)?.finish()
+    }
+}
 
 /// A scene as far as it could be read, with what is wrong with it.
 pub(super) struct Draft<'t> {

@@ -1,6 +1,8 @@
 //! Derivatives of what a slot stands for: with respect to time, and with respect to inputs and parameters.
 
-use super::{ContactOutput, EnergyOutput, Input, Instant, Output, Parameter, Slot, at_start};
+use super::initial_dependencies::at_start;
+use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot};
+use super::values::Instant;
 use crate::engine::{EnergyRates, Model, PEAK_ROUNDING, PeakOf, PointRates, Rates, Response};
 use crate::scene::Scene;
 

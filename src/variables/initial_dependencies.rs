@@ -5,7 +5,7 @@
 //! Whether floors overlap at the start is up to the gaps, which are parameters.
 
 use super::dependencies::floors;
-use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot, building};
+use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot, building};
 use crate::contact::EpisodeForce;
 use crate::engine::{PeakOf, Side};
 use crate::scene::{Building, Damping, Scene, Stiffness};

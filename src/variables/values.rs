@@ -1,6 +1,7 @@
 //! Reading and writing what a slot stands for: each one match over all slots.
 
-use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, Row, Slot, Table, building};
+use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot, building};
+use super::table::{Row, Table};
 use crate::engine::{ContactPoint, EnergyPoint, LinearInput, Model, Point, SavedState, Side, State};
 use crate::record::{KnownRecords, Record};
 use crate::scene::{Building, Damping, Scaling, Scene, SceneError, Stiffness, read_record_file, record_problems};
