@@ -12,9 +12,11 @@
 //! The checksum is against accidents. Who means to can forge it, so the body is not trusted either: what a model could
 //! trip over is refused before it meets the model.
 
+use super::instance::{Slave, is_time};
+use super::sequence::Phase;
 use super::simulation::{SavedRun, model};
 use super::snapshots::Snapshot;
-use super::{Phase, Refusal, Slave, is_time};
+use super::status::Refusal;
 use crate::description::guid;
 use crate::engine::SavedState;
 use crate::variables::{Changes, Inputs, Settings};

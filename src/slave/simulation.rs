@@ -1,6 +1,6 @@
 //! A run: the model of the present settings, its state, and what is read out of it.
 
-use super::Refusal;
+use super::status::Refusal;
 use crate::engine::{Episode, Model, Point, PointRates, Response, SavedState, State};
 use crate::variables::{Input, Inputs, Instant, Settings, Slot, Table};
 use std::sync::Arc;
