@@ -71,46 +71,53 @@ pub struct Free {
     pub end: (f64, f64),
 }
 
-/// Room to solve in.
+/// What a window is solved with.
 #[derive(Clone, Debug)]
-pub struct Room {
-    /// Pair by pair, see [`Room::response`], for a window of length `assembled`.
+pub struct Workspace {
+    /// Pair by pair, see [`Workspace::response`], for a window of length `assembled`.
     responses: Vec<Response>,
     pub assembled: f64,
     /// How far they may be off, relative to G_pp.
     pub accuracy: f64,
-    /// See [`Equation::ways`].
-    way: f64,
-    bent: f64,
+    /// See [`Equation::error_scales`].
+    error_scale: f64,
+    error_rate: f64,
     pub free: [Free; MOST_PAIRS],
 }
 
-impl Room {
+impl Workspace {
     /// For scenes with that many pairs.
-    pub fn new(pairs: usize) -> Room {
+    pub fn new(pairs: usize) -> Workspace {
         let (row, matrix) = ([0.0; NODES], [[0.0; NODES]; NODES]);
         let response = Response { between: matrix, depth_end: row, rate_end: row };
         let free = Free { depth: row, rate: row, end: (0.0, 0.0) };
         let most = pairs.min(MOST_PAIRS);
         let responses = vec![response; most * (most + 1) / 2];
-        Room { responses, assembled: 0.0, accuracy: 0.0, way: 0.0, bent: 0.0, free: [free; MOST_PAIRS] }
+        Workspace {
+            responses,
+            assembled: 0.0,
+            accuracy: 0.0,
+            error_scale: 0.0,
+            error_rate: 0.0,
+            free: [free; MOST_PAIRS],
+        }
     }
 
     /// m, roughly: how far off penetrations are by responses that were made for another length of the window, which follow
     /// its change in their first power only, and by responses that are rough.
     pub fn errors(&self, length: f64) -> (f64, f64) {
-        (self.bent * (length - self.assembled).abs(), self.way * self.accuracy)
+        (self.error_rate * (length - self.assembled).abs(), self.error_scale * self.accuracy)
     }
 
     /// Where the response of two pairs is: in the rows of a triangle.
-    fn place(p: usize, q: usize) -> usize {
+    fn index(p: usize, q: usize) -> usize {
         let (later, earlier) = (p.max(q), p.min(q));
         later * (later + 1) / 2 + earlier
     }
 
     /// What two pairs do to each other.
     pub fn response(&self, p: usize, q: usize) -> &Response {
-        &self.responses[Room::place(p, q)]
+        &self.responses[Workspace::index(p, q)]
     }
 }
 
@@ -150,15 +157,15 @@ impl Equation {
 
     /// The responses over a window of that length, within an accuracy relative to G_pp.
     #[inline(always)]
-    pub fn assemble<const N: usize>(&self, tables: &Tables, length: f64, accuracy: f64, room: &mut Room) {
-        (room.assembled, room.accuracy) = (length, accuracy);
-        (room.way, room.bent) = self.ways(length);
+    pub fn assemble<const N: usize>(&self, tables: &Tables, length: f64, accuracy: f64, work: &mut Workspace) {
+        (work.assembled, work.accuracy) = (length, accuracy);
+        (work.error_scale, work.error_rate) = self.error_scales(length);
         let by_rates = self.by_rates();
         for p in 0..self.pairs {
             for q in 0..self.closed.min(p + 1) {
                 let (mut depth, mut rate) = self.factors(p, q, length);
                 let count = self.count_over(p, &depth, length, self.remainder);
-                let response = &mut room.responses[Room::place(p, q)];
+                let response = &mut work.responses[Workspace::index(p, q)];
                 response.depth_end = combined::<N>(&tables.whole[1..], &depth[..count]);
                 response.rate_end = combined::<N>(&tables.whole, &rate[..count]);
                 if p < self.closed {
@@ -176,14 +183,14 @@ impl Equation {
 
     /// The motion without contact forces over a window of that length: rates where they are asked for, and the end.
     #[inline(always)]
-    pub fn fly<const N: usize>(&self, tables: &Tables, length: f64, room: &mut Room) {
+    pub fn fly<const N: usize>(&self, tables: &Tables, length: f64, work: &mut Workspace) {
         let x = length / self.scale;
         let mut at = NOTHING;
         for (at, theta) in at.iter_mut().zip(fours(&tables.theta)).take(N / 4) {
             *at = each(|i| theta[i] * x);
         }
         let by_rates = self.by_rates();
-        for (free, terms) in room.free.iter_mut().zip(&self.free).take(self.pairs) {
+        for (free, terms) in work.free.iter_mut().zip(&self.free).take(self.pairs) {
             let terms = &terms[..self.terms.min(ROOM)];
             match by_rates {
                 true => (free.depth, free.rate) = values::<N>(terms, &at, self.scale),
@@ -197,16 +204,16 @@ impl Equation {
     /// What pairs would move without contact forces over the longest window, m, roughly: all of them, and each with how its
     /// responses over that length go with the length but for their first power, 1/s.
     #[inline(always)]
-    fn ways(&self, length: f64) -> (f64, f64) {
-        let (mut way, mut bent) = (0.0, 0.0);
+    fn error_scales(&self, length: f64) -> (f64, f64) {
+        let (mut error_scale, mut error_rate) = (0.0, 0.0);
         for p in 0..self.closed {
             let (free, kernel) = (&self.free[p], &self.kernels[p][p]);
             let of_pair = free[0].abs() + free[1].abs();
             let last = self.powers.min(POWERS);
             let later = (2..last).rev().fold(0.0, |sum, k| sum * length + COUNT[k - 1] * kernel[k].abs());
-            way += of_pair;
-            bent += of_pair * later / kernel[1];
+            error_scale += of_pair;
+            error_rate += of_pair * later / kernel[1];
         }
-        (way, bent)
+        (error_scale, error_rate)
     }
 }

@@ -18,7 +18,7 @@ mod rows;
 mod solve;
 mod tables;
 
-pub use equation::{Equation, MOST_PAIRS, Room};
+pub use equation::{Equation, MOST_PAIRS, Workspace};
 pub use nodes::{NODES, Nodes, Row, Rule, dot, nodes};
 pub use rows::{fours, larger};
 pub use solve::{Ending, Frame, Solution};

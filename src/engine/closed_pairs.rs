@@ -133,7 +133,7 @@ impl ClosedPairs {
         }
         for &(lane, p) in &self.riders {
             let Contact { penetration, rate, .. } = base.contacts[p];
-            self.blocks[0].ride(lane, penetration, rate * scale);
+            self.blocks[0].add_open_pair(lane, penetration, rate * scale);
         }
         assigned.next().is_none() && self.coordinates == base.coordinates
     }

@@ -12,7 +12,7 @@ use super::peaks::{PeakRoom, PeakRows, Peaks};
 use super::window::Window;
 use super::{Episode, Side};
 use crate::clock::{Bend, Clock};
-use crate::collocation::Room;
+use crate::collocation::Workspace as WindowWorkspace;
 use crate::contact::{EpisodeForce, Force};
 use crate::polynomial::{Coefficients, MAX_ORDER, Powers, ROOM};
 use crate::structure::{Interval, MotionSeries, Scratch, Structure};
@@ -306,7 +306,7 @@ pub(super) struct Workspace {
     pub bend: Box<Bend>,
     pub rigid: Complementarity,
     pub look: Look,
-    pub windows: Room,
+    pub windows: WindowWorkspace,
     pub peaks: PeakRoom,
 }
 
@@ -331,7 +331,7 @@ impl Workspace {
             bend: Box::default(),
             rigid: Complementarity::new(rigid),
             look: Look::new(lanes, pairs),
-            windows: Room::new(windowed),
+            windows: WindowWorkspace::new(windowed),
             peaks: PeakRoom::new(structure, rows, pairs),
         }
     }

@@ -1,7 +1,7 @@
 //! The keys of a scene file, one after the other.
 
 use super::data::{Building, ContactPair, Damping, Ground, Scaling, Scene, Solver, Stiffness};
-use super::document::{self, Document, Item, Place, Section, one_of};
+use super::document::{self, Document, Item, Section, Span, one_of};
 use super::problem::{Problem, SceneError, excerpt};
 use super::{check, law_key, rule};
 use crate::contact::{DampingFormula, ImpactLaw, LawKind};
@@ -33,7 +33,7 @@ impl<'t> Draft<'t> {
         let mut problems = document.into_problems();
         // A value that does not fit is represented in the scene by a neutral one, about which there is nothing to say.
         let mut wrong_values = check::problems(&scene);
-        write_as_found(&mut wrong_values, text, &document::places(&table));
+        write_as_found(&mut wrong_values, text, &document::spans(&table));
         wrong_values.retain(|wrong| !problems.iter().any(|unfit| unfit.covers(&wrong.path)));
         problems.append(&mut wrong_values);
         Ok(Draft { text, scene, problems })
@@ -52,25 +52,25 @@ impl<'t> Draft<'t> {
             return Ok(self.scene);
         }
         let mut problems = self.problems;
-        let places = document::places(&document::parse(self.text)?);
-        problems.sort_by_cached_key(|problem| position(&problem.path, &places));
+        let spans = document::spans(&document::parse(self.text)?);
+        problems.sort_by_cached_key(|problem| position(&problem.path, &spans));
         Err(SceneError { problems })
     }
 }
 
 /// Where a path stands in the text; what is missing stands where that stands which it is missing from.
-fn position(path: &str, places: &HashMap<String, Place>) -> usize {
+fn position(path: &str, spans: &HashMap<String, Span>) -> usize {
     let ends = path.char_indices().rev().filter(|&(_, c)| matches!(c, '.' | '[')).map(|(end, _)| end);
     let mut from_whole_to_root = std::iter::once(path.len()).chain(ends).filter_map(|end| path.get(..end));
-    from_whole_to_root.find_map(|part| Some(places.get(part)?.start)).unwrap_or_default()
+    from_whole_to_root.find_map(|part| Some(spans.get(part)?.start)).unwrap_or_default()
 }
 
 /// Values that reading has changed as the file has them: an entry that is no number has been read as NaN, one of hundreds
 /// of digits as infinite.
-fn write_as_found(problems: &mut [Problem], text: &str, places: &HashMap<String, Place>) {
+fn write_as_found(problems: &mut [Problem], text: &str, spans: &HashMap<String, Span>) {
     let is_changed = |problem: &&mut Problem| problem.found.contains("nan") || problem.found.contains("inf");
     for problem in problems.iter_mut().filter(is_changed) {
-        let range = places.get(&problem.path).and_then(|place| place.value.clone());
+        let range = spans.get(&problem.path).and_then(|span| span.value.clone());
         if let Some(found) = range.and_then(|range| text.get(range)) {
             problem.found = excerpt(found);
         }

@@ -7,7 +7,7 @@ use super::propagator::{CoupledIncrement, ModeIncrement};
 
 /// The increments of [`LANES`] modes side by side.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct ModeBlock {
+pub struct ModeIncrements {
     dqq: [f64; LANES],
     dqv: [f64; LANES],
     dvq: [f64; LANES],
@@ -18,7 +18,7 @@ pub struct ModeBlock {
     rv1: [f64; LANES],
 }
 
-impl ModeBlock {
+impl ModeIncrements {
     fn set(&mut self, i: usize, mode: &ModeIncrement) {
         self.dqq[i] = mode.dqq;
         self.dqv[i] = mode.dqv;
@@ -67,7 +67,7 @@ impl ModeBlock {
 pub struct Interval {
     /// s.
     pub length: f64,
-    modes: Vec<ModeBlock>,
+    modes: Vec<ModeIncrements>,
     coupled: Vec<(usize, CoupledIncrement)>,
 }
 
@@ -81,7 +81,7 @@ impl Interval {
 
     /// Room to prepare a flight in.
     pub fn room(structure: &Structure) -> Interval {
-        let modes = vec![ModeBlock::default(); structure.lanes / LANES];
+        let modes = vec![ModeIncrements::default(); structure.lanes / LANES];
         Interval { length: f64::NAN, modes, coupled: Vec::new() }
     }
 
@@ -107,7 +107,7 @@ impl Interval {
     }
 
     /// The increments of all modes, where they are so many blocks of them and damping couples none.
-    pub fn blocks<const WIDTH: usize>(&self) -> Option<&[ModeBlock; WIDTH]> {
+    pub fn blocks<const WIDTH: usize>(&self) -> Option<&[ModeIncrements; WIDTH]> {
         self.modes.as_slice().try_into().ok().filter(|_| self.coupled.is_empty())
     }
 
@@ -168,7 +168,7 @@ impl Interval {
 /// The end of all modes from q, v, load and slope, as if damping coupled none. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn fly_modes(
-    modes: &[ModeBlock],
+    modes: &[ModeIncrements],
     (q, v): (&[f64], &[f64]),
     (load, slope): (&[f64], &[f64]),
     (end_q, end_v): (&mut [f64], &mut [f64]),

@@ -24,7 +24,7 @@ pub use equations::{Scratch, Side, Structure};
 pub use first_mode::FirstMode;
 pub use floors::Floors;
 pub use impulse_response::{ImpulseResponse, RESPONSE_POWERS};
-pub use interval::{Interval, ModeBlock};
+pub use interval::{Interval, ModeIncrements};
 pub use lanes::{FEW_BLOCKS, LANES, Lane, difference, dot};
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
 pub use propagator::{CoupledIncrement, ModeIncrement};

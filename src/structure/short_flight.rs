@@ -2,18 +2,18 @@
 
 use super::equations::Structure;
 use super::lanes::{LANES, Lane};
-use super::series::expand::{EXACT, RECIPROCAL, flight_order};
+use super::series::expand::{EXACT, SECOND_RECIPROCAL, flight_order};
 use crate::polynomial::{COUNT, ROOM};
 
 /// (Fastest rate) x (time) of a flight that is hardly one, and the order at which its series is exact to rounding.
-const HARDLY: f64 = 1e-6;
-const HARDLY_ORDER: usize = 4;
+const TINY_REACH: f64 = 1e-6;
+const TINY_REACH_ORDER: usize = 4;
 
 /// Order at which the series of a flight over `reach` = (fastest rate) x (time) is exact to rounding; `None` where it is too
 /// long for one.
 #[inline]
 pub fn exact_order(reach: f64) -> Option<usize> {
-    if reach <= HARDLY { Some(HARDLY_ORDER) } else { flight_order(reach, EXACT) }
+    if reach <= TINY_REACH { Some(TINY_REACH_ORDER) } else { flight_order(reach, EXACT) }
 }
 
 /// Flies `q`, `v` over `h`, s, under a modal load and its slope, where damping couples no modes, by a series of at least
@@ -27,9 +27,9 @@ pub fn fly_in_one_series(
     (h, order): (f64, usize),
     end: (&mut [f64], &mut [f64]),
 ) {
-    if order <= HARDLY_ORDER {
+    if order <= TINY_REACH_ORDER {
         // Terms whose number is known stay in registers.
-        fly::<{ HARDLY_ORDER + 1 }>(structure, motion, loads, (h, HARDLY_ORDER), end);
+        fly::<{ TINY_REACH_ORDER + 1 }>(structure, motion, loads, (h, TINY_REACH_ORDER), end);
     } else {
         fly::<ROOM>(structure, motion, loads, (h, order), end);
     }
@@ -71,7 +71,7 @@ fn fly<const TERMS: usize>(
 #[inline(always)]
 fn expand(terms: &mut [Lane], loads: [Lane; 2], (damping, omega2): (Lane, Lane)) {
     let (mut before, mut last) = (terms[0], terms[1]);
-    let each = terms[2..].iter_mut().zip(&COUNT[1..]).zip(&RECIPROCAL).enumerate();
+    let each = terms[2..].iter_mut().zip(&COUNT[1..]).zip(&SECOND_RECIPROCAL).enumerate();
     for (n, ((term, count), factor)) in each {
         let mut next = loads.get(n).copied().unwrap_or_default();
         for i in 0..LANES {
@@ -105,7 +105,8 @@ mod tests {
 
     #[test]
     fn the_order_of_what_is_hardly_a_flight_is_that_of_any_other() {
-        for reach in [0.0, 1e-300, 1e-17, 1e-9, 0.999 * HARDLY, HARDLY, 1.001 * HARDLY, 1e-3, 0.7, 2.0, 2.1] {
+        for reach in [0.0, 1e-300, 1e-17, 1e-9, 0.999 * TINY_REACH, TINY_REACH, 1.001 * TINY_REACH, 1e-3, 0.7, 2.0, 2.1]
+        {
             assert_eq!(exact_order(reach), flight_order(reach, EXACT), "{reach}");
         }
     }

@@ -27,8 +27,8 @@ impl OnsetBlock {
     }
 
     /// Bounds, over 0..=x, on what the terms from x^2 on change the penetrations and their derivatives by x by.
-    pub fn room(&self, powers: &GridPowers) -> [Each; 2] {
-        room(&self.penetration[..powers.terms], powers)
+    pub fn bounds(&self, powers: &GridPowers) -> [Each; 2] {
+        bounds(&self.penetration[..powers.terms], powers)
     }
 
     /// The penetration of one pair, copied.
@@ -69,9 +69,9 @@ fn read(penetration: &[Each], force: &[Each], powers: &GridPowers) -> OnsetReadi
     OnsetReading { penetration: value, slope, force, force_slope, impulse }
 }
 
-/// See [`OnsetBlock::room`]. Wide instructions give the same bits.
+/// See [`OnsetBlock::bounds`]. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn room(penetration: &[Each], powers: &GridPowers) -> [Each; 2] {
+fn bounds(penetration: &[Each], powers: &GridPowers) -> [Each; 2] {
     let (mut moved, mut turned) = ([0.0; PAIRS], [0.0; PAIRS]);
     for (d, (power, rate)) in penetration.iter().zip(powers.value.iter().zip(&powers.slope)).skip(2) {
         for k in 0..PAIRS {

@@ -103,11 +103,11 @@ impl PairBlock {
             let value = power(penetration, ROOT);
             (self.root[0][0][lane], self.lead[1][lane]) = (value, ROOT * value * inverse);
         }
-        self.ride(lane, penetration, step_rate);
+        self.add_open_pair(lane, penetration, step_rate);
     }
 
     /// Adds a pair that has no force, whose penetration is followed along with the others'.
-    pub fn ride(&mut self, lane: usize, penetration: f64, step_rate: f64) {
+    pub fn add_open_pair(&mut self, lane: usize, penetration: f64, step_rate: f64) {
         for (n, value) in [penetration, step_rate].into_iter().enumerate() {
             self.penetration[n][lane] = value;
             self.backwards[LAST - n][lane] = value;

@@ -11,7 +11,7 @@ use crate::structure::lanes::{FEW_BLOCKS, LANES, Lane};
 const MOST_POWERS: usize = 40;
 
 /// 1 / ((n + 1) (n + 2)).
-pub const RECIPROCAL: [f64; MOST_POWERS] = {
+pub const SECOND_RECIPROCAL: [f64; MOST_POWERS] = {
     let mut table = [0.0; MOST_POWERS];
     let mut n = 0;
     while n < MOST_POWERS {
@@ -107,8 +107,8 @@ impl MotionSeries {
                 1 => next.iter_mut().zip(slope).for_each(|(next, slope)| *next = slope * self.scale),
                 _ => next.fill(0.0),
             }
-            let factor = self.scale * self.scale * RECIPROCAL[n];
-            let rate = (n + 1) as f64 * (self.scale * RECIPROCAL[n]);
+            let factor = self.scale * self.scale * SECOND_RECIPROCAL[n];
+            let rate = (n + 1) as f64 * (self.scale * SECOND_RECIPROCAL[n]);
             for m in 0..lanes {
                 let pulled = (factor * structure.omega2[m]) * before[m];
                 next[m] = (factor * next[m] - pulled) - (rate * structure.damping[m]) * last[m];
@@ -183,11 +183,11 @@ fn expand_single_modes(
         terms[c] = before;
         terms[width + c] = last;
         for (n, load) in [load[c].map(|l| l * scale2), slope[c].map(|l| l * (scale2 * scale))].iter().enumerate() {
-            (before, last) = (last, next_of(COUNT[n + 1], RECIPROCAL[n], load, &before, &last));
+            (before, last) = (last, next_of(COUNT[n + 1], SECOND_RECIPROCAL[n], load, &before, &last));
             terms[(n + 2) * width + c] = last;
         }
         let rows = terms[4 * width..(series.order + 1) * width].chunks_exact_mut(width);
-        for ((row, count), factor) in rows.zip(&COUNT[3..]).zip(&RECIPROCAL[2..]) {
+        for ((row, count), factor) in rows.zip(&COUNT[3..]).zip(&SECOND_RECIPROCAL[2..]) {
             (before, last) = (last, next_of(*count, *factor, &[0.0; LANES], &before, &last));
             row[c] = last;
         }
@@ -208,7 +208,7 @@ fn expand_blocks<const WIDTH: usize, F: PairForces>(
     let (terms, _) = series.coefficients.as_chunks_mut::<LANES>().0.as_chunks_mut::<WIDTH>();
     let first = series.order - 1;
     let (mut before, mut last) = (terms[first], terms[first + 1]);
-    for ((n, reciprocal), term) in RECIPROCAL.iter().enumerate().skip(first).zip(&mut terms[first + 2..=order]) {
+    for ((n, reciprocal), term) in SECOND_RECIPROCAL.iter().enumerate().skip(first).zip(&mut terms[first + 2..=order]) {
         let mut next = match n {
             0 => load,
             1 => slope.map(|slope| slope.map(|slope| slope * series.scale)),
@@ -250,7 +250,7 @@ fn expand_floors<F: PairForces>(
         let (u, v) = known[n * lanes..].split_at(lanes);
         let (next, _) = rest[..lanes].as_chunks_mut::<LANES>();
         let rate = COUNT[n + 1] * inverse;
-        let factor = scale2 * RECIPROCAL[n];
+        let factor = scale2 * SECOND_RECIPROCAL[n];
         if n < 2 {
             let unit = if n == 0 { 1.0 } else { series.scale };
             floors.enter_resistance(u, v, rate, next, |load, resistance| (load * unit - resistance) * factor);
