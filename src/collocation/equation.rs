@@ -1,4 +1,4 @@
-//! The integral equation of a window: what is known of it, and its matrices for a length.
+//! The integral equation of a window, and its matrices for a length.
 
 use super::economization::economize;
 use super::nodes::{Matrix, NODES, Row};
@@ -10,7 +10,7 @@ use crate::polynomial::{COUNT, Coefficients, ROOM, each, value_and_slope};
 /// Pairs that a window is solved for at once: those in contact, and those that may come into contact.
 pub const MOST_PAIRS: usize = 4;
 
-/// What is known before a window is solved.
+/// All that is known before a window is solved.
 #[derive(Clone, Debug)]
 pub struct Equation {
     /// Number of pairs.
@@ -27,11 +27,11 @@ pub struct Equation {
     pub scale: f64,
     /// G_pq in powers of t: m per N s at t; from t^0, which is 0.
     pub kernels: [[[f64; POWERS]; MOST_PAIRS]; MOST_PAIRS],
-    /// Powers of these that matter over the longest window.
+    /// Number of powers of the kernels that matter over the longest window.
     pub powers: usize,
-    /// How far a kernel may be off, relative to G_pp.
+    /// Error that a kernel may have, relative to G_pp.
     pub remainder: f64,
-    /// 1/s, what a first guess takes for the speed of each contact.
+    /// Angular frequency of the oscillation that the first guess takes each contact for, rad/s.
     pub omega: [f64; MOST_PAIRS],
 }
 
@@ -52,7 +52,7 @@ impl Default for Equation {
     }
 }
 
-/// What the force of one pair does to the penetration of another, and as much the other way round.
+/// The response of the penetration of one pair to the force of another, which is the same in both directions.
 #[derive(Clone, Copy, Debug)]
 pub struct Response {
     /// From node to node, of pairs in contact: on the penetration, m/N, or on its rate, m/(N s), see
@@ -77,7 +77,7 @@ pub struct Workspace {
     /// Pair by pair, see [`Workspace::response`], for a window of length `assembled`.
     responses: Vec<Response>,
     pub assembled: f64,
-    /// How far they may be off, relative to G_pp.
+    /// Error that the responses may have, relative to G_pp.
     pub accuracy: f64,
     /// See [`Equation::error_scales`].
     error_scale: f64,
@@ -103,26 +103,27 @@ impl Workspace {
         }
     }
 
-    /// m, roughly: how far off penetrations are by responses that were made for another length of the window, which follow
-    /// its change in their first power only, and by responses that are rough.
+    /// Estimated errors of the penetrations, m: by responses assembled for another length of the window, of which only
+    /// the first power follows its change, and by the accuracy with which they were assembled.
     pub fn errors(&self, length: f64) -> (f64, f64) {
         (self.error_rate * (length - self.assembled).abs(), self.error_scale * self.accuracy)
     }
 
-    /// Where the response of two pairs is: in the rows of a triangle.
+    /// Index of the response of two pairs: a triangular matrix row by row.
     fn index(p: usize, q: usize) -> usize {
         let (later, earlier) = (p.max(q), p.min(q));
         later * (later + 1) / 2 + earlier
     }
 
-    /// What two pairs do to each other.
+    /// The response of two pairs to each other.
     pub fn response(&self, p: usize, q: usize) -> &Response {
         &self.responses[Workspace::index(p, q)]
     }
 }
 
 impl Equation {
-    /// What the powers of a kernel, from the first on, come to over a window of that length, for penetrations and for rates.
+    /// The factors of the tables over a window of that length, for penetrations and for rates: each power of a kernel,
+    /// from the first on, times that power of the length.
     #[inline(always)]
     pub fn factors(&self, p: usize, q: usize, length: f64) -> ([f64; POWERS], [f64; POWERS]) {
         let mut reach = [0.0; POWERS];
@@ -201,8 +202,8 @@ impl Equation {
         }
     }
 
-    /// What pairs would move without contact forces over the longest window, m, roughly: all of them, and each with how its
-    /// responses over that length go with the length but for their first power, 1/s.
+    /// Two error scales: the free motion of all pairs over the longest window, m, and the same times the relative
+    /// change of their responses with the length beyond the first power, m/s.
     #[inline(always)]
     fn error_scales(&self, length: f64) -> (f64, f64) {
         let (mut error_scale, mut error_rate) = (0.0, 0.0);

@@ -29,7 +29,7 @@ pub enum Ending {
 }
 
 impl Ending {
-    /// Whose event it is.
+    /// The pair whose event it is.
     fn pair(self) -> Option<usize> {
         match self {
             Ending::Given => None,
@@ -38,7 +38,7 @@ impl Ending {
     }
 }
 
-/// What a window is to be.
+/// The map, nodes, length and end that a window is to have.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     pub map: Map,
@@ -100,7 +100,7 @@ impl Solution {
         self.length = length;
     }
 
-    /// s, by how much the window is too long, and m/s, what that is weighed with.
+    /// By how much the window is too long, s, and the speed by which that becomes an error of a penetration, m/s.
     fn lateness(&self, equation: &Equation, ending: Ending) -> (f64, f64) {
         match ending {
             Ending::Given => (0.0, 0.0),
@@ -116,7 +116,8 @@ impl Solution {
         }
     }
 
-    /// Forces of an oscillation as quick as the contact, about the depth from which it begins with the right acceleration.
+    /// First guess: the forces of an oscillation at the angular frequency of the contact that begins with the right
+    /// penetration, rate and acceleration.
     #[inline(always)]
     fn guess<const N: usize>(&mut self, equation: &Equation, tables: &Tables) {
         let theta = &tables.theta;
@@ -141,7 +142,7 @@ impl Solution {
     /// Penetrations from forces, pair by pair, and forces from these; the largest change of a penetration, m.
     #[inline(always)]
     fn sweep<const N: usize>(&mut self, equation: &Equation, tables: &Tables, work: &Workspace) -> f64 {
-        // A little longer or shorter than when the responses were made: they go as t^2 and t.
+        // The length may have changed since the responses were assembled: they go as its square and as itself.
         let ratio = self.length / work.assembled;
         let mut changes = [0.0; 4];
         for p in 0..equation.closed {
@@ -205,7 +206,7 @@ impl Solution {
         }
     }
 
-    /// m/s, what the forces between the nodes may leave open: from the last terms of their Legendre series.
+    /// Estimated error of the velocities, m/s: from the last terms of the Legendre series of the forces.
     pub fn velocity_error(&self, equation: &Equation) -> f64 {
         let nodes = nodes(self.rule);
         let of_pair = |p: usize| {
@@ -217,7 +218,7 @@ impl Solution {
     }
 }
 
-/// See [`Solution::solve`]. Wide instructions give the same bits.
+/// See [`Solution::solve`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn iterate_by_rule(
     solution: &mut Solution,
@@ -250,7 +251,7 @@ fn iterate<const N: usize>(
     let mut last_change = f64::INFINITY;
     for sweep in 1..=MOST_SWEEPS {
         let change = solution.sweep::<N>(equation, tables, work);
-        // Each sweep takes off more than the one before.
+        // Convergence gets faster: the next change is smaller than this one by at least the last ratio.
         let left = if last_change.is_finite() { change * (change / last_change).min(1.0) } else { change };
         last_change = change;
         if sweep < 3 && left > tolerance {

@@ -66,8 +66,8 @@ impl Force {
         }
     }
 
-    /// k, n, and the factor of what damping multiplies with the rate's series in powers of t / `scale`; of
-    /// [`Force::Root`], that of the derivative of d^1.25.
+    /// Stiffness k, exponent n and damping factor for series in powers of t / `scale`: the factor multiplies the
+    /// derivative by t / `scale` of d, or of d^1.25 under [`Force::Root`].
     pub fn in_units_of(&self, scale: f64) -> (f64, f64, f64) {
         match *self {
             Force::None => (0.0, 1.0, 0.0),
@@ -188,7 +188,7 @@ pub struct EpisodeForce {
     pub engaged: Force,
     /// While the guard is not positive.
     pub slack: Force,
-    /// What decides between the two.
+    /// The condition that decides between the two.
     pub guard: Option<Guard>,
 }
 

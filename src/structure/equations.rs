@@ -27,13 +27,13 @@ pub struct Structure {
     pub omega2: Vec<f64>,
     /// Damping of each mode by its own velocity, 1/s.
     pub damping: Vec<f64>,
-    /// w + c, 1/s.
+    /// w + c of each mode, 1/s: bounds how fast its motion changes.
     pub quickness: Vec<f64>,
-    /// kg^1/2.
+    /// Participation factor of each mode for the acceleration of the ground, shape' M 1, kg^1/2.
     pub participation: Vec<f64>,
-    /// Largest entry of each mode's shape, kg^-1/2: turns a modal error into the worst floor's.
+    /// Largest entry of each mode's shape, kg^-1/2: an error of the mode times it bounds the error at every floor.
     pub weight: Vec<f64>,
-    /// Largest w or c of all modes, 1/s: the fastest thing that the structure does.
+    /// Largest w or c of all modes, 1/s: the highest rate in the structure.
     pub fastest: f64,
     coupling: Vec<Coupling>,
     /// The buildings floor by floor.
@@ -169,7 +169,7 @@ impl Structure {
         }
     }
 
-    /// Adds what a force, N, on one floor does to each mode.
+    /// Adds the modal load of a force, N, on one floor.
     pub fn add_floor_force(&self, side: Side, floor: usize, force: f64, load: &mut [f64]) {
         let offset = self.offset(side);
         for (shape, load) in self.modes(side).shape.row(floor).iter().zip(&mut load[offset..]) {

@@ -79,7 +79,7 @@ impl Interval {
         interval
     }
 
-    /// Room to prepare a flight in.
+    /// An interval without a length yet, for [`Interval::prepare`].
     pub fn room(structure: &Structure) -> Interval {
         let modes = vec![ModeIncrements::default(); structure.lanes / LANES];
         Interval { length: f64::NAN, modes, coupled: Vec::new() }
@@ -149,7 +149,7 @@ impl Interval {
         let [(q0, _), (v0, _), (participation, _)] = [q, v, participation].map(<[f64]>::as_chunks::<LANES>);
         let [(q1, _), (v1, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
         let width = self.modes.len();
-        // Says once that no index below leaves its table.
+        // Equal lengths: no bounds checks below.
         let (modes, participation) = (&self.modes[..width], &participation[..width]);
         let (q0, v0, q1, v1) = (&q0[..width], &v0[..width], &mut q1[..width], &mut v1[..width]);
         let mut sum = [0.0; LANES];
@@ -165,7 +165,7 @@ impl Interval {
     }
 }
 
-/// The end of all modes from q, v, load and slope, as if damping coupled none. Wide instructions give the same bits.
+/// The end of all modes from q, v, load and slope, as if damping coupled none.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn fly_modes(
     modes: &[ModeIncrements],
@@ -175,7 +175,7 @@ fn fly_modes(
 ) {
     let [(q, _), (v, _), (load, _), (slope, _)] = [q, v, load, slope].map(<[f64]>::as_chunks::<LANES>);
     let [(end_q, _), (end_v, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
-    // Says once that no index below leaves its vector.
+    // Equal lengths: no bounds checks below.
     let width = modes.len();
     let (q, v, load, slope) = (&q[..width], &v[..width], &load[..width], &slope[..width]);
     let (end_q, end_v) = (&mut end_q[..width], &mut end_v[..width]);

@@ -43,7 +43,7 @@ impl LaneMatrix {
     }
 }
 
-/// See [`LaneMatrix::add`]. Wide instructions give the same bits.
+/// See [`LaneMatrix::add`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn add_all(matrix: &LaneMatrix, vector: &[f64], out: &mut [Lane]) {
     for (rows, out) in matrix.entries.chunks_exact(matrix.columns).zip(&mut out[matrix.target..]) {
@@ -51,7 +51,7 @@ fn add_all(matrix: &LaneMatrix, vector: &[f64], out: &mut [Lane]) {
     }
 }
 
-/// One block of the target of two matrices: what both together make of some vectors. Wide instructions give the same bits.
+/// One block of the sum of two matrices, times each of some vectors.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn block_of_both<const N: usize>(matrices: &[LaneMatrix; 2], block: usize, vectors: [&[f64]; N]) -> [Lane; N] {
     let mut sums = [[0.0; LANES]; N];
@@ -67,14 +67,14 @@ pub fn block_of_both<const N: usize>(matrices: &[LaneMatrix; 2], block: usize, v
 #[inline(always)]
 fn add_products<const N: usize>(rows: &[Lane], vectors: &[&[f64]; N], from: usize, sums: &mut [Lane; N]) {
     let (pairs, last) = rows.as_chunks::<2>();
-    // Says once that no index below leaves its vector; a closure would have no wide instructions.
+    // Equal lengths: no bounds checks below. Without closures, whose code would not be compiled for wide instructions.
     let (count, mut firsts, mut lasts) = (pairs.len(), [&[][..]; N], [&[][..]; N]);
     for n in 0..N {
         let (first, last) = vectors[n][from..][..rows.len()].as_chunks::<2>();
         (firsts[n], lasts[n]) = (&first[..count], last);
     }
     let (mut even, mut odd) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
-    // Indices of arrays whose length is known leave the sums in registers.
+    // Loops over arrays of constant length leave the sums in registers.
     for k in 0..count {
         let [row, next] = pairs[k];
         for n in 0..N {

@@ -1,15 +1,16 @@
 //! Vectors of all modes or of all floors, in blocks of [`LANES`] numbers, and their sums of products in a fixed order.
 
-/// Modal vectors are padded to a multiple of this.
+/// Vectors of modes or floors are padded to a multiple of this.
 pub const LANES: usize = 4;
 
-/// A block of a modal vector.
+/// A block of such a vector.
 pub type Lane = [f64; LANES];
 
-/// Blocks of modes that are few.
+/// Up to so many blocks, 16 modes or floors, there is code for each number of blocks, which keeps its sums in
+/// registers.
 pub const FEW_BLOCKS: usize = 4;
 
-/// The sum of products, 0 where its terms cancel but for rounding, and the sum of their sizes.
+/// The sum of products, 0 where its terms cancel but for rounding, and the sum of the magnitudes of its terms.
 ///
 /// Two floors that move alike have a distance of 0 to rounding; the sign of that rounding must not decide what happens.
 pub fn difference(row: &[f64], modal: &[f64]) -> (f64, f64) {

@@ -7,6 +7,20 @@
 //! ```text
 //! q'' + c q' + w^2 q = load,   load = -participation * ground acceleration + shape' * floor forces - pair * contact force
 //! ```
+//!
+//! | file | holds |
+//! |---|---|
+//! | `modes.rs`, `first_mode.rs` | frequencies, shapes and damping of one building; the first mode alone |
+//! | `equations.rs` | both buildings mode by mode: equation of motion, forces, energies |
+//! | `floors.rs` | the same floor by floor, for shear buildings |
+//! | `propagator.rs`, `interval.rs` | exact response over a time, of one mode and of all |
+//! | `series/` | the motion as a power series in time: its terms, their sums |
+//! | `short_flight.rs` | a flight by one such series, without keeping the terms |
+//! | `impulse_response.rs` | the response to an impulse as a power series in time |
+//! | `lanes.rs`, `lane_matrix.rs` | vectors in blocks of four, their sums of products, matrices between them |
+//!
+//! A function marked `multiversion` is compiled twice, with wide instructions and without: the same operations in the same
+//! order, so the same bits.
 
 mod equations;
 mod first_mode;

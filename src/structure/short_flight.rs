@@ -1,11 +1,12 @@
-//! A flight that one power series reaches over, straight to its end.
+//! A flight short enough for one power series, straight to its end.
 
 use super::equations::Structure;
 use super::lanes::{LANES, Lane};
 use super::series::expand::{EXACT, SECOND_RECIPROCAL, flight_order};
 use crate::polynomial::{COUNT, ROOM};
 
-/// (Fastest rate) x (time) of a flight that is hardly one, and the order at which its series is exact to rounding.
+/// Up to this (fastest rate) x (time) a series of this order is exact to rounding: flights between instants that are
+/// the same but for rounding.
 const TINY_REACH: f64 = 1e-6;
 const TINY_REACH_ORDER: usize = 4;
 
@@ -48,7 +49,7 @@ fn fly<const TERMS: usize>(
     let [(q, _), (v, _), (load, _), (slope, _), (damping, _), (omega2, _)] =
         [q, v, load, slope, &structure.damping, &structure.omega2].map(<[f64]>::as_chunks::<LANES>);
     let [(end_q, _), (end_v, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
-    // Says once that no index below leaves its vector.
+    // Equal lengths: no bounds checks below.
     let width = structure.lanes / LANES;
     let (q, v, load, slope) = (&q[..width], &v[..width], &load[..width], &slope[..width]);
     let (damping, omega2) = (&damping[..width], &omega2[..width]);
@@ -104,7 +105,7 @@ mod tests {
     use crate::structure::MotionSeries;
 
     #[test]
-    fn the_order_of_what_is_hardly_a_flight_is_that_of_any_other() {
+    fn the_order_over_a_tiny_reach_is_that_over_any_other() {
         for reach in [0.0, 1e-300, 1e-17, 1e-9, 0.999 * TINY_REACH, TINY_REACH, 1.001 * TINY_REACH, 1e-3, 0.7, 2.0, 2.1]
         {
             assert_eq!(exact_order(reach), flight_order(reach, EXACT), "{reach}");

@@ -14,7 +14,7 @@ pub struct OnsetBlock {
     kind: Kind,
     /// Whether the pairs enter now: d = 0.
     pub enters: bool,
-    /// Lanes up to the last one that holds a pair.
+    /// Number of lanes up to the last one that holds a pair.
     pub count: usize,
     /// k of the law.
     stiffness: Each,
@@ -25,7 +25,7 @@ pub struct OnsetBlock {
     inverse: Each,
     /// m, terms of the penetration d; those of e stand one place further.
     pub(super) penetration: Rows,
-    /// Terms of what is taken to a power, e or d, each times its exponent of x; in the places of the penetration's.
+    /// Terms of the base of the power, e or d, each times its exponent of x; at the indices of the penetration's terms.
     slopes: Rows,
     /// N, terms of the force times x: row j holds the powers i - 1 + beta j.
     pub force: Rows,
@@ -54,7 +54,8 @@ impl Default for OnsetBlock {
 }
 
 impl OnsetBlock {
-    /// Starts a block with no pair in it yet: springs without stiffness, whose powers vanish.
+    /// Empties the block for pairs of one kind. Lanes without a pair hold springs without stiffness, whose series are
+    /// 0.
     pub fn start(&mut self, grid: &Grid, kind: Kind, enters: bool) {
         let zeros = [0.0; PAIRS];
         (self.kind, self.enters, self.count) = (kind, enters, 0);
@@ -108,7 +109,8 @@ impl OnsetBlock {
         for i in 0..grid.last(j - 1) {
             self.extend_power(grid, products, (i, j - 1));
         }
-        // x^n e^n (1 + b d') lands one row on, one power of x down: the same i in `force`, which is times x.
+        // x^n e^n (1 + b d') has the powers of the next row, one power of x lower; `force` holds the force times x, so
+        // that i stays.
         for i in 0..=grid.last(j) {
             let mut term = self.power[grid.index(i, j - 1)];
             if self.kind == Kind::Damped {

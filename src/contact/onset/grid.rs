@@ -83,10 +83,11 @@ impl Grid {
 /// Most products of all terms of a power: up to x^8 they are some 270 for the smallest beta, 5/4.
 const MOST_PRODUCTS: usize = 320;
 
-/// Which products of a term of e or d and one of its power make up each term of that power, but those with b_0.
+/// For each term of a power b^n of b = e or d: the products of a term of b and a term of b^n that Miller's recurrence
+/// sums, without those with b_0.
 #[derive(Clone, Debug, Default)]
 pub struct Products {
-    /// Places of both, for one term after the other.
+    /// Indices of both factors, for one term after the other.
     places: Vec<[u8; 2]>,
     /// Where each term's begin, and the end of the last.
     starts: Vec<usize>,
@@ -120,11 +121,11 @@ impl Products {
         }
     }
 
-    /// Places of the factors of the products for a term.
+    /// Indices of the factors of the products for a term.
     #[inline(always)]
     pub fn of(&self, place: usize) -> impl Iterator<Item = (usize, usize)> {
         let places = &self.places[self.starts[place]..self.starts[place + 1]];
-        // Says that no place leaves its table.
+        // The remainder keeps indices in range without a check; it changes none.
         places.iter().map(|[factor, other]| (usize::from(*factor) % MOST_TERMS, usize::from(*other) % MOST_TERMS))
     }
 }
@@ -193,7 +194,7 @@ pub fn value_and_slope(grid: &Grid, terms: &[f64], x: f64) -> (f64, f64) {
     (value, slope)
 }
 
-/// The same at some x side by side. Wide instructions give the same bits.
+/// The same at some x side by side.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn values_and_slopes<const N: usize>(grid: &Grid, terms: &[f64], x: &[f64; N]) -> ([f64; N], [f64; N]) {
     let z = x.map(|x| power(x, grid.beta));

@@ -1,4 +1,4 @@
-//! What the double series of pairs come to at some x.
+//! Values, bounds and integrals of the double series of pairs at some x.
 
 use super::block::OnsetBlock;
 use super::grid::{Grid, GridPowers, MOST_TERMS, Terms};
@@ -26,7 +26,7 @@ impl OnsetBlock {
         read(&self.penetration[..powers.terms], &self.force[..powers.terms], powers)
     }
 
-    /// Bounds, over 0..=x, on what the terms from x^2 on change the penetrations and their derivatives by x by.
+    /// Bounds over 0..=x on the sum of all terms but the first two, of the penetrations and of their derivatives by x.
     pub fn bounds(&self, powers: &GridPowers) -> [Each; 2] {
         bounds(&self.penetration[..powers.terms], powers)
     }
@@ -48,7 +48,7 @@ fn copy(rows: &[Each], lane: usize) -> Terms {
     terms
 }
 
-/// See [`OnsetBlock::read`]: from the smallest terms of each row to the largest. Wide instructions give the same bits.
+/// See [`OnsetBlock::read`]: from the smallest terms of each row to the largest.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn read(penetration: &[Each], force: &[Each], powers: &GridPowers) -> OnsetReading {
     let [mut value, mut slope, mut product, mut product_slope, mut impulse] = [[0.0; PAIRS]; 5];
@@ -69,7 +69,7 @@ fn read(penetration: &[Each], force: &[Each], powers: &GridPowers) -> OnsetReadi
     OnsetReading { penetration: value, slope, force, force_slope, impulse }
 }
 
-/// See [`OnsetBlock::bounds`]. Wide instructions give the same bits.
+/// See [`OnsetBlock::bounds`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn bounds(penetration: &[Each], powers: &GridPowers) -> [Each; 2] {
     let (mut moved, mut turned) = ([0.0; PAIRS], [0.0; PAIRS]);

@@ -22,20 +22,22 @@ pub const ROOT: f64 = 1.25;
 /// Where a series that is kept backwards begins.
 pub(super) const LAST: usize = ROOM - 1;
 
-/// The scalar series of up to [`PAIRS`] contacts over a step, in powers of x = t / scale or as a clock has it.
+/// The scalar series of up to [`PAIRS`] contacts over a step, in powers of x, where x = t / scale or that of a time
+/// map.
 #[derive(Clone, Debug)]
 pub struct PairBlock {
     pub(super) kind: Kind,
-    /// Lanes up to the last one that holds a pair.
+    /// Number of lanes up to the last one that holds a pair.
     pub count: usize,
     /// k of the law.
     pub(super) stiffness: Each,
     /// Damping factor of the law divided by the scale.
     pub(super) damping: Each,
     pub(super) exponent: Each,
-    /// 1/d_0, 1/m.
+    /// Inverse of the penetration at the start, 1/m.
     pub(super) inverse: Each,
-    /// exponent d_0^(exponent - 1) of the power and of the root.
+    /// Derivatives of powers at the start, exponent d_0^(exponent - 1): of the power law's and of the root law's
+    /// d^1.25.
     pub(super) lead: [Each; 2],
     /// Penetration, m.
     pub penetration: Rows,
@@ -49,7 +51,7 @@ pub struct PairBlock {
     pub(super) power: Sloped,
     /// d^1.25 of a root law.
     pub(super) root: Sloped,
-    /// Powers of the force that are filled, the last one; the penetration has two more.
+    /// Highest power of the force that is known; the penetration is known to two more.
     pub order: usize,
 }
 
@@ -76,7 +78,8 @@ impl Default for PairBlock {
 }
 
 impl PairBlock {
-    /// Starts a block of one kind, with no pair in it yet: springs without stiffness, whose powers vanish.
+    /// Empties the block for pairs of one kind. Lanes without a pair hold springs without stiffness, whose series are
+    /// 0.
     pub fn start(&mut self, kind: Kind) {
         let zeros = [0.0; PAIRS];
         self.kind = kind;
@@ -106,7 +109,8 @@ impl PairBlock {
         self.add_open_pair(lane, penetration, step_rate);
     }
 
-    /// Adds a pair that has no force, whose penetration is followed along with the others'.
+    /// Adds an open pair in a spare lane: it has no force, and its penetration is expanded beside the others at no
+    /// cost.
     pub fn add_open_pair(&mut self, lane: usize, penetration: f64, step_rate: f64) {
         for (n, value) in [penetration, step_rate].into_iter().enumerate() {
             self.penetration[n][lane] = value;
@@ -129,7 +133,7 @@ impl PairBlock {
         !matches!(self.kind, Kind::None | Kind::Spring)
     }
 
-    /// What its pairs are of.
+    /// The kind of law of its pairs.
     pub fn kind(&self) -> Kind {
         self.kind
     }
@@ -159,7 +163,8 @@ impl PairBlock {
         matches!(self.kind, Kind::Spring | Kind::Damped | Kind::Root)
     }
 
-    /// Makes the series of penetrations such in the x of a clock, and those of forces, unless they are elastic.
+    /// Re-expands the series of penetrations in the x of a time map, and those of the forces unless they are elastic:
+    /// elastic forces are integrated in time.
     pub fn bend(&mut self, bend: &Bend) {
         let terms = self.order + 3;
         match self.is_elastic() {

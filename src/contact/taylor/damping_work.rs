@@ -6,7 +6,8 @@ use crate::contact::force::Force;
 use crate::polynomial::COUNT;
 use crate::quadrature::TWELVE_POINTS;
 
-/// Share of its penetration that a pair has kept at the end of a step, below which the step is taken to end at a release.
+/// A step at whose end a pair has less than this share of its first penetration is integrated as one that ends with a
+/// release.
 const NEARLY_RELEASED: f64 = 0.1;
 
 impl PairBlock {
@@ -19,7 +20,8 @@ impl PairBlock {
         if let Force::Linear { damping, .. } = *force {
             return damping / scale * squared_slope(terms, lane, clock, x);
         }
-        // A power law's damping force ends with a root of the time left: even in the square root of that time.
+        // Near a release the damping force of a power law goes as a root of the time left: it is smoother in the square
+        // root of that time.
         let released = !force.is_regular() && end < NEARLY_RELEASED * terms[0][lane];
         let (mut at, mut weights) = ([0.0; 12], [0.0; 12]);
         for (i, &(node, weight)) in TWELVE_POINTS.iter().enumerate() {
@@ -29,7 +31,7 @@ impl PairBlock {
                 false => (x * node, x * weight),
             };
         }
-        // All go with the square of the rate, whose time passes at the clock's rate, as that of the integral does.
+        // The powers are those of dd/dx in place of dd/dt: (dd/dt)^2 dt = (dd/dx)^2 / (dt/dx) dx.
         if clock.is_bent() {
             weights.iter_mut().zip(&at).for_each(|(weight, at)| *weight /= clock.rate(*at));
         }
@@ -38,7 +40,7 @@ impl PairBlock {
     }
 }
 
-/// Power of the damping part of a pair's force at twelve x. Wide instructions give the same bits.
+/// Power of the damping part of a pair's force at twelve x.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn damping_powers(terms: &[Each], lane: usize, force: &Force, scale: f64, x: &[f64; 12]) -> [f64; 12] {
     let (mut d, mut rate) = ([0.0; 12], [0.0; 12]);
@@ -52,8 +54,8 @@ fn damping_powers(terms: &[Each], lane: usize, force: &Force, scale: f64, x: &[f
     force.damping_powers(&d, &rate.map(|rate| rate / scale))
 }
 
-/// Integral over 0..=x of the square of the slope of one pair's series, by the time of a clock. Wide instructions give the
-/// same bits.
+/// Integral over 0..=x of the square of the slope of one pair's series, over the time of a time map: (dd/dt)^2 dt =
+/// (dd/dx)^2 / (dt/dx) dx.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn squared_slope(terms: &[Each], lane: usize, clock: &Clock, x: f64) -> f64 {
     let (at, weights) = (TWELVE_POINTS.map(|(node, _)| x * node), TWELVE_POINTS.map(|(_, weight)| weight));

@@ -1,14 +1,14 @@
 //! The powers of forces from those of the penetrations, for each kind of law.
 //!
-//! Code that is made for one kind costs less than code that asks at every power.
+//! Code compiled for one kind costs less than code that asks for the kind at every power.
 
 use super::block::{Each, LAST, PAIRS, PairBlock, ROOT, Sloped};
 use crate::contact::force::Kind;
 use crate::polynomial::{COUNT, RECIPROCAL, ROOM, each};
 
-/// What all pairs of a block are known to be under.
+/// The kind of law of all pairs of a block, where code is compiled for it.
 pub trait PairLaw {
-    /// Whether the forces are made of the slopes of the penetrations.
+    /// Whether the forces need the series of the rates.
     #[inline(always)]
     fn needs_slopes(_: &PairBlock) -> bool {
         false
@@ -17,7 +17,7 @@ pub trait PairLaw {
     fn force(block: &mut PairBlock, n: usize) -> Each;
 }
 
-/// Any one kind: the block says which.
+/// Any kind: asks the block which one.
 pub struct Any;
 
 impl PairLaw for Any {
@@ -134,7 +134,7 @@ impl PairBlock {
     /// in turn, and returns it.
     #[inline(always)]
     pub fn extend_force<L: PairLaw>(&mut self, n: usize) -> Each {
-        // Says once that no index below leaves its table.
+        // Equal lengths: no bounds checks below.
         if n + 2 >= ROOM {
             return [0.0; PAIRS];
         }

@@ -1,4 +1,4 @@
-//! What the series of pairs come to: at the end of a step, and until a pair is released.
+//! Values, bounds and integrals of the series of pairs, and where pairs are released.
 
 use super::block::{Each, PAIRS, PairBlock};
 use crate::polynomial::{Coefficients, Powers, RECIPROCAL, Reading, each};
@@ -12,7 +12,7 @@ pub struct BlockReading {
     pub slope: Each,
     /// Bound on its fourth derivative.
     pub fourth: Each,
-    /// Bound on how far the slope gets from where it starts.
+    /// Bound on the change of the slope since the start.
     pub turn: Each,
 }
 
@@ -37,7 +37,7 @@ impl ForceReading {
 }
 
 impl PairBlock {
-    /// About where each pair is released, if that is before `limit`; else infinite.
+    /// Estimate of the x at which each pair is released, if that is before `limit`; else infinite.
     pub fn releases(&self, limit: f64) -> Each {
         releases(&self.penetration[..self.order + 3], limit)
     }
@@ -75,7 +75,7 @@ fn copy(rows: &[Each], lane: usize, out: &mut Coefficients) -> usize {
     rows.len()
 }
 
-/// See [`PairBlock::read`]. Wide instructions give the same bits.
+/// See [`PairBlock::read`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn read(terms: &[Each], powers: &Powers) -> BlockReading {
     let (value, slope, fourth) = powers.all();
@@ -93,7 +93,7 @@ fn read(terms: &[Each], powers: &Powers) -> BlockReading {
     BlockReading { penetration, slope: each(|i| second[i] + slopes[i]), fourth: fourths, turn: turns }
 }
 
-/// See [`PairBlock::releases`]: from where the parabola of the first terms has its root. Wide instructions give the same bits.
+/// See [`PairBlock::releases`]: three steps of Newton's method from the root of the parabola of the first terms.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn releases(terms: &[Each], limit: f64) -> Each {
     let [start, first, half] = [0, 1, 2].map(|n| terms[n]);
@@ -116,13 +116,13 @@ fn releases(terms: &[Each], limit: f64) -> Each {
     each(|i| if is_one(i) { x[i] } else { f64::INFINITY })
 }
 
-/// See [`PairBlock::read_force`]. Wide instructions give the same bits.
+/// See [`PairBlock::read_force`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn read_force(terms: &[Each], powers: &Powers) -> ForceReading {
     let ((value, slope, fourth), stretch) = (powers.all(), powers.stretch());
     let [mut values, mut slopes, mut fourths, mut integrals] = [[0.0; PAIRS]; 4];
     for (n, term) in terms.iter().enumerate() {
-        // Of the integral over time: dt = (1 + stretch for the whole x) dx.
+        // Weight of the integral over time, where dt = (1 + stretch x'/x) dx' at x' in 0..=x.
         let weight = (RECIPROCAL[n] + stretch * RECIPROCAL[n + 1]) * value[n];
         for i in 0..PAIRS {
             values[i] += term[i] * value[n];
@@ -134,7 +134,7 @@ fn read_force(terms: &[Each], powers: &Powers) -> ForceReading {
     ForceReading { value: values, slope: slopes, fourth: fourths, impulse: each(|i| powers.x * integrals[i]) }
 }
 
-/// See [`PairBlock::elastic_impulses`]. Wide instructions give the same bits.
+/// See [`PairBlock::elastic_impulses`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn elastic_impulses(terms: &[Each], factors: &Coefficients) -> Each {
     let mut impulses = [0.0; PAIRS];

@@ -7,7 +7,7 @@ use crate::structure::equations::Structure;
 use crate::structure::floors::Floors;
 use crate::structure::lanes::{FEW_BLOCKS, LANES, Lane};
 
-/// Powers that a series may have.
+/// Most powers of a series.
 const MOST_POWERS: usize = 40;
 
 /// 1 / ((n + 1) (n + 2)).
@@ -21,11 +21,11 @@ pub const SECOND_RECIPROCAL: [f64; MOST_POWERS] = {
     table
 };
 
-/// Remainder of a series that is exact to rounding.
+/// Relative remainder below which a truncated series is exact to rounding.
 pub const EXACT: f64 = 1e-19;
 
-/// Order at which the flight series over `reach` = (fastest rate) x (time) is good to a relative `remainder`; `None`
-/// where the interval is too long for a series.
+/// Order at which the flight series over `reach` = (fastest rate) x (time) is good to a relative `remainder`, which is
+/// estimated by reach^n / n!; `None` where the interval is too long for a series.
 pub fn flight_order(reach: f64, remainder: f64) -> Option<usize> {
     if reach > 2.0 {
         return None;
@@ -40,8 +40,8 @@ pub fn flight_order(reach: f64, remainder: f64) -> Option<usize> {
 
 /// The forces of pairs while a series is expanded, power by power.
 pub trait PairForces {
-    /// Adds what power n of the forces does, per unit of mass and times `factor`, to power n + 2 of the motion, and takes
-    /// from it the same power of the penetrations.
+    /// Adds the accelerations by power n of the forces, times `factor`, to power n + 2 of the motion, and reads power n
+    /// + 2 of the penetrations from the result.
     fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]);
 }
 
@@ -154,8 +154,8 @@ impl MotionSeries {
     }
 }
 
-/// A flight without coupling: each mode by itself, a few at a time, which then stay in registers. Wide instructions give
-/// the same bits.
+/// Expands a flight of modes that damping does not couple, one block of modes after the other: its last two terms stay
+/// in registers.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn expand_single_modes(
     series: &mut MotionSeries,
@@ -194,7 +194,7 @@ fn expand_single_modes(
     }
 }
 
-/// See [`MotionSeries::expand_few_modes`]. Wide instructions give the same bits.
+/// See [`MotionSeries::expand_few_modes`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn expand_blocks<const WIDTH: usize, F: PairForces>(
     series: &mut MotionSeries,
@@ -229,7 +229,7 @@ fn expand_blocks<const WIDTH: usize, F: PairForces>(
     series.order = order;
 }
 
-/// See [`MotionSeries::expand_floors`]. Wide instructions give the same bits.
+/// See [`MotionSeries::expand_floors`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn expand_floors<F: PairForces>(
     series: &mut MotionSeries,

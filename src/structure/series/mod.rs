@@ -10,13 +10,14 @@ use crate::polynomial::{Powers, ROOM};
 use project::{dot_each, project};
 use sums::{sum_sizes, sum_terms};
 
-/// q(t) = sum of term n times (t / scale)^n, of all modes or floors, read at t / scale or at the x of a clock.
+/// q(t) = sum of term n times (t / scale)^n, of all modes or floors, evaluated at t / scale or at the x of a time map.
 #[derive(Clone, Debug, Default)]
 pub struct MotionSeries {
     lanes: usize,
     /// s, unit of x: near the length of the step, so that the terms tell the error and never overflow.
     pub scale: f64,
-    /// What the x is that the series is read at; its terms stay those in time, in units of the scale.
+    /// The map from x to t / scale: the series is evaluated at an x, while its terms remain those of powers of t /
+    /// scale.
     pub clock: Clock,
     /// Highest power.
     pub order: usize,
@@ -96,7 +97,7 @@ impl MotionSeries {
         sum_terms(terms.0, terms.1, 1.0 / self.scale, q, v);
     }
 
-    /// What the sizes of all terms from the power `first` on add up to at x, for each mode or floor, m.
+    /// Sum of the magnitudes of all terms from power `first` on at x, for each mode or floor, m.
     pub fn sum_sizes(&self, first: usize, x: f64, sizes: &mut [f64]) {
         let mut powers = [1.0; ROOM];
         for n in 1..=self.order.min(ROOM - 1) {
@@ -106,7 +107,7 @@ impl MotionSeries {
         sum_sizes(terms, &powers[first..], &mut sizes[..self.lanes]);
     }
 
-    /// The last two terms of the velocities by its clock, m, which tell how far its x reaches; returns their powers.
+    /// The last two terms of the series of dq/dx, m, from which the step size follows; returns their powers of x.
     pub fn last_rates(&self, last: &mut [f64], before: &mut [f64]) -> [usize; 2] {
         let powers = [self.order - 1, self.order - 2];
         let [mut of_last, mut of_before] = [[0.0; ROOM]; 2];
@@ -119,19 +120,18 @@ impl MotionSeries {
         powers
     }
 
-    /// The scalar series of what `row` makes of the modes, 0 where its terms cancel but for rounding, written to `out[n]`.
-    /// Returns the sum of the sizes of all that is added up, each times its `factor`.
+    /// Writes the series of the scalar `row` . q to `out`, with 0 for each term that cancels but for rounding. Returns
+    /// the sum of the magnitudes of all products, those of term n times `factors[n]`.
     pub fn project(&self, row: &[f64], factors: &[f64], out: &mut [f64]) -> f64 {
         project(&self.coefficients[..], row, factors, &mut out[..=self.order])
     }
 
-    /// The scalar series of what `row` makes of the modes, from the power `first` on: each term as [`super::dot`] has it,
-    /// written to `out[n]`.
+    /// Writes the series of the scalar `row` . q from power `first` on to `out`, each term as [`super::dot`] has it.
     pub fn dot_each(&self, row: &[f64], first: usize, out: &mut [f64]) {
         dot_each(&self.coefficients[first * self.lanes..], row, &mut out[first..=self.order]);
     }
 
-    /// v of one mode at many places, which are told by what the terms in time are multiplied by there.
+    /// v of one mode at N instants; `rates[n]` are the factors of term n at them.
     pub fn velocities<const N: usize>(&self, mode: usize, rates: &[[f64; N]; ROOM]) -> [f64; N] {
         let mut rate = [0.0; N];
         for (n, rates) in rates.iter().enumerate().take(self.order + 1) {

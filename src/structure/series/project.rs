@@ -1,9 +1,10 @@
-//! The scalar series that a row, such as the distance of a pair of floors, makes of those of all modes.
+//! The series of a scalar row . q, such as the distance of a pair of floors, from those of all modes.
 
 use crate::polynomial::each;
 use crate::structure::lanes::{LANES, Lane, from_left_to_right};
 
-/// See [`MotionSeries::project`]: as [`difference`] has it, [`LANES`] powers abreast. Wide instructions give the same bits.
+/// See [`super::MotionSeries::project`]: each term as [`crate::structure::difference`] has it, [`LANES`] powers
+/// abreast.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn project(terms: &[f64], row: &[f64], factors: &[f64], out: &mut [f64]) -> f64 {
     let (terms, row) = (terms.as_chunks::<LANES>().0, row.as_chunks::<LANES>().0);
@@ -15,7 +16,7 @@ pub fn project(terms: &[f64], row: &[f64], factors: &[f64], out: &mut [f64]) -> 
     }
 }
 
-/// The same for `N` blocks of modes, or any number of them where that is 0.
+/// The same for `N` blocks of modes, or for any number of blocks where N is 0.
 #[inline(always)]
 fn project_blocks<const N: usize>(terms: &[Lane], row: &[Lane], factors: &[f64], out: &mut [f64]) -> f64 {
     let width = if N > 0 { N } else { row.len() };
@@ -40,7 +41,7 @@ fn project_blocks<const N: usize>(terms: &[Lane], row: &[Lane], factors: &[f64],
     whole
 }
 
-/// See [`MotionSeries::dot_each`]. Wide instructions give the same bits.
+/// See [`super::MotionSeries::dot_each`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn dot_each(terms: &[f64], row: &[f64], out: &mut [f64]) {
     let (terms, row) = (terms.as_chunks::<LANES>().0, row.as_chunks::<LANES>().0);

@@ -2,14 +2,14 @@
 
 use crate::structure::lanes::{LANES, Lane};
 
-/// Adds up terms, one vector each, times their powers and times the slopes of these: q and, times `rate`, v. From the last
-/// terms to the first, which are the largest. Wide instructions give the same bits.
+/// q = sum of terms times powers and v = `rate` times the sum of terms times slopes, each term a vector; from the last
+/// terms to the first, which are the largest.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn sum_terms(terms: &[f64], powers: (&[f64], &[f64]), rate: f64, q: &mut [f64], v: &mut [f64]) {
     let (terms, _) = terms.as_chunks::<LANES>();
     let (q, v) = (q.as_chunks_mut::<LANES>().0, v.as_chunks_mut::<LANES>().0);
     let terms = (terms, q.len());
-    // As many blocks at a time as have their sums in registers side by side.
+    // As many blocks at a time as keep their sums in registers.
     let mut first = 0;
     while first < q.len() {
         first += match q.len() - first {
@@ -59,7 +59,7 @@ fn sum_blocks<const N: usize>(
     (value, change.map(|change| change.map(|change| change * rate)))
 }
 
-/// Adds up the sizes of terms, one vector each, times some factors. Wide instructions give the same bits.
+/// Sum of the magnitudes of terms, a vector each, times a factor for each term.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn sum_sizes(terms: &[f64], factors: &[f64], out: &mut [f64]) {
     let (out, _) = out.as_chunks_mut::<LANES>();
