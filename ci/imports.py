@@ -85,7 +85,7 @@ class File:
                 self.tests |= {tokens[index - 2]} if tokens[index - 3] == "mod" else set()
             elif token == "use" and after != "<":
                 index = tokens.index(";", start)
-                for name, path in leaves(tokens[start + 1 : index]):
+                for name, path in leaves(token for token in tokens[start + 1 : index] if token != "$"):
                     path = self.note(path, lines[start], inner, before not in ("pub", ")") and name != "*")
                     self.bindings[name] = path
                     self.globs += [path] if name == "*" else []

@@ -56,6 +56,10 @@ class Imports(unittest.TestCase):
         b = "fn f<'a>(x: &'a super::a::T) -> u8 { <u8 as crate::c::Trait>::g(x, '\\'', b'\"') }"
         self.assertEqual(imported("b.rs", lib="mod a; mod b; mod c;", a="", b=b, c=""), ["a.rs", "c.rs"])
 
+    def test_paths_in_a_macro(self):
+        b = "macro_rules! m { ($x:path) => {{ use $crate::a::T; $crate::c::f($x::new()) }} }"
+        self.assertEqual(imported("b.rs", lib="mod a; mod b; mod c; mod x;", a="", b=b, c="", x=""), ["a.rs", "c.rs"])
+
     def test_a_module_counts_by_what_is_used_of_it(self):
         a = "pub mod child;\npub use child::T;\npub struct Own;"
         files = {"lib": "mod a; mod b;", "a__mod": a, "a__child": "pub struct T;"}
