@@ -5,7 +5,8 @@ use super::problem::{count, excerpt, number, numbers};
 use super::rule;
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// Relative to the largest entry or eigenvalue: what is lost when a program prints a computed matrix, and no more.
+/// Relative to the largest entry or eigenvalue: the digits that are lost when a program prints a computed matrix, and
+/// no more.
 const ROUNDING: f64 = 1e-12;
 
 /// What a matrix must be besides symmetric.

@@ -58,7 +58,7 @@ impl<'t> Draft<'t> {
     }
 }
 
-/// Where a path stands in the text; what is missing stands where that stands which it is missing from.
+/// Position of a path in the text; a missing key has the position of the table that lacks it.
 fn position(path: &str, spans: &HashMap<String, Span>) -> usize {
     let ends = path.char_indices().rev().filter(|&(_, c)| matches!(c, '.' | '[')).map(|(end, _)| end);
     let mut from_whole_to_root = std::iter::once(path.len()).chain(ends).filter_map(|end| path.get(..end));

@@ -30,7 +30,7 @@ const MAGIC: &[u8; 8] = b"pounding";
 /// Of the body. It is counted up when what [`Body`] holds changes: a test notices.
 const FORMAT: u32 = 4;
 
-/// What there is but for the body.
+/// Bytes around the body.
 const ENVELOPE: usize = MAGIC.len() + size_of::<u32>() + size_of::<Uuid>() + size_of::<u64>() + size_of::<Uuid>();
 
 /// A snapshot without what follows from the scene.

@@ -14,8 +14,8 @@ use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// What a master calls a snapshot by. No two snapshots of a process have the same, however long ago one was freed, so
-/// what is stale or of another instance is found out.
+/// The name of a snapshot towards the master. No two snapshots of a process have the same, however long ago one was
+/// freed, so that a stale handle, or one of another instance, is found out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Handle(pub NonZeroUsize);
 

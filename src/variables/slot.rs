@@ -16,7 +16,7 @@ pub enum Slot {
     Output(Output),
 }
 
-/// What a master sets at any time.
+/// An input: the master sets it at any time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input {
     /// m/s2
@@ -25,7 +25,7 @@ pub enum Input {
     Force(Side, usize),
 }
 
-/// What a master sets before the end of initialisation.
+/// A parameter: the master sets it before the end of initialisation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
     /// Factor on the record.
@@ -50,7 +50,7 @@ pub enum Parameter {
     RelativeTolerance,
 }
 
-/// What the FMU computes.
+/// A result of the FMU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Output {
     /// m/s2, of the record
@@ -73,7 +73,7 @@ pub enum Output {
     Energy(EnergyOutput),
 }
 
-/// What the FMU computes for one contact.
+/// A result for one contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContactOutput {
     /// N
