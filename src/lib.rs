@@ -8,7 +8,7 @@
 //!
 //! | equation | file | source |
 //! |---|---|---|
-//! | M u" + C u' + K u = -M 1 a(t) + forces on the floors, in modal coordinates | `structure/mod.rs` | |
+//! | M u" + C u' + K u = -M 1 a(t) + forces on the floors, in modal coordinates | `structure/equations.rs` | |
 //! | natural frequencies and shapes; damping by ratios, Rayleigh or matrix | `structure/modes.rs` | \[OgitaAishima2018\], [Chopra2001, section 11.4] |
 //! | exact response to a load that is linear in time | `structure/propagator.rs` | \[NigamJennings1969\] |
 //! | a(t), linear between the samples of the record | `engine/excitation/record.rs` | |
@@ -16,10 +16,10 @@
 //! | rigid contact (`stereomechanical`): impulse p = (1 + e) m V; floors held together by a reaction | `engine/rigid/impulses.rs`, `numerics/complementarity.rs` | \[Goldsmith1960\], [BarrosKhatami2013, eqs. 1, 2], \[Moreau1988\], \[LawsonHanson1974\] |
 //! | contact force F(d, v): one file per law, with its source, range and defect | `contact/laws/` | in each file |
 //! | a(e) of `hertz_damped` | `contact/damping_formula.rs` | at each formula |
-//! | motion in contact as a power series in time | `engine/taylor/mod.rs`, `structure/series.rs`, `contact/series/mod.rs` | |
+//! | motion in contact as a power series in time | `engine/taylor/mod.rs`, `structure/series/mod.rs`, `contact/taylor/mod.rs` | |
 //! | a variable in which the motion near entries and releases is smooth | `numerics/time_map.rs` | |
 //! | contact forces over a whole window from an integral equation, at Gauss nodes | `collocation/`, `engine/window/mod.rs`, `structure/impulse_response.rs` | \[Brunner2004\] |
-//! | motion just after an entry, powers i + beta j of time | `engine/onset/mod.rs`, `contact/onset.rs` | |
+//! | motion just after an entry, powers i + beta j of time | `engine/onset/mod.rs`, `contact/onset/mod.rs` | |
 //! | bounds of a curve by its cubic Hermite interpolant: no contact, first root, largest value | `engine/flight/mod.rs`, `numerics/roots/mod.rs` | \[BirkhoffPriver1967\] |
 //! | energy account; impulse, work and peak force of a contact | `engine/energy/mod.rs`, `engine/advance/mod.rs` | |
 //! | largest displacements, drifts, accelerations and base shears in continuous time | `engine/peaks/mod.rs` | \[BirkhoffPriver1967\] |

@@ -3,7 +3,7 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `command.rs` | arguments, exit codes |
+//! | `arguments.rs`, `command.rs` | the command line: arguments; what is done, exit codes |
 //! | `face.rs` | what differs between the two commands |
 //! | `main.rs`, `workspace.rs` | `cargo fmu`: where the checkout is; compiling the library with cargo |
 //! | `libraries.rs` | the libraries that go into an FMU, and a folder of them |
@@ -23,17 +23,18 @@
 //! | `experiment.rs` | one run of an FMU over its default experiment, through either |
 //! | `summary.rs` | what happened in that run, for a person |
 //! | `went_in.rs` | what went into it |
-//! | `trial.rs` | an FMU tried in a process of its own, for as long as it may take |
-//! | `channel.rs` | what that process reports, which the FMU's library cannot |
+//! | `trial/mod.rs` | an FMU tried in a process of its own, for as long as it may take |
+//! | `trial/channel.rs` | what that process reports, which the FMU's library cannot |
+//! | `trial/run.rs` | the run after building |
 //! | `bounded.rs` | as many texts of an FMU as a person reads |
-//! | `report.rs` | what a trial has found, for a person and for a program |
+//! | `trial/report.rs` | what a trial has found, for a person and for a program |
 //! | `check/` | the command `check`: what is wrong with an FMU |
 #![deny(unsafe_code)]
 
+pub mod arguments;
 mod bounded;
 #[allow(unsafe_code)]
 mod c_interface;
-mod channel;
 mod check;
 pub mod command;
 pub mod destination;
@@ -49,7 +50,6 @@ mod pack;
 mod progress;
 mod provenance;
 mod recipe;
-mod report;
 mod summary;
 mod trial;
 mod went_in;

@@ -3,7 +3,8 @@
 mod workspace;
 
 use clap::Parser;
-use fmu_build::command::{self, BuildArguments, Command};
+use fmu_build::arguments::{BuildArguments, Command};
+use fmu_build::command;
 use fmu_build::face::{Face, Home};
 use std::process::ExitCode;
 use workspace::Workspace;

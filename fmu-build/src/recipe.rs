@@ -1,20 +1,16 @@
 //! From a scene file to an FMU that has been seen to run, step by step.
 
-use crate::c_interface::{Binary, Instance};
-use crate::channel::Channel;
-use crate::command::BuildArguments;
+use crate::arguments::BuildArguments;
 use crate::destination::Destination;
-use crate::experiment::{self, Outcome};
+use crate::experiment::Outcome;
 use crate::face::{Face, Home};
 use crate::libraries::{Library, Shipped, move_arm_for_fmpy};
-use crate::pack::archive::{self, Unpacked};
-use crate::pack::{pack, platform};
+use crate::pack::pack;
 use crate::progress::Progress;
 use crate::provenance::Provenance;
 use crate::summary;
 use crate::trial::Trial;
 use anyhow::{Context, Result};
-use fmi::model_description::fmi2::ModelDescription;
 use pounding::description::{Category, Package};
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -89,20 +85,6 @@ fn warnings_of(package: &Package) -> Vec<String> {
 /// What the FMU has logged but for the slips, which have been told by then.
 fn besides_slips(logged: &[String]) -> Vec<String> {
     logged.iter().filter(|line| !line.starts_with(Category::StatusWarning.name())).cloned().collect()
-}
-
-/// In a process of its own: loads the FMU as an importer would and runs it.
-pub fn try_out(fmu: &Path, directory: &Path, channel: &Channel) -> Result<()> {
-    let run = || {
-        let unpacked = Unpacked::open(fmu, directory)?;
-        let description = ModelDescription::from_string(&unpacked.description()?)?;
-        let library = platform::host_library(&unpacked.names, &description.modelName);
-        let binary = Binary::load(&unpacked.path(library.context("the FMU has no library for this machine")?))?;
-        let resources = archive::resource_uri(unpacked.root());
-        let instance = Instance::new(&binary, &description.modelName, &description.guid, &resources)?;
-        experiment::run(&description, &instance)
-    };
-    channel.need("run", run)?.map_or(Ok(()), |outcome| channel.ran(outcome))
 }
 
 fn report(package: &Package, destination: &Destination, libraries: &[Library], outcome: Option<&Outcome>) -> String {

@@ -2,7 +2,8 @@
 
 use anyhow::anyhow;
 use clap::{Parser, Subcommand};
-use fmu_build::command::{self, BuildArguments, Verdict};
+use fmu_build::arguments::{self, BuildArguments};
+use fmu_build::command::{self, Verdict};
 use fmu_build::face::{Face, Home};
 use fmu_build::libraries::Shipped;
 use pyo3::prelude::*;
@@ -24,7 +25,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Commands {
     #[command(flatten)]
-    OfFmus(command::Command),
+    OfFmus(arguments::Command),
     /// Solves a scene without making an FMU of it: tables, and a page to look at.
     Simulate(pounding_simulate::Arguments),
 }

@@ -1,6 +1,6 @@
-//! The integral equation of a window: what is known of it, and its matrices for a length.
+//! The integral equation of a window, and its matrices for a length.
 
-use super::economy::economize;
+use super::economization::economize;
 use super::nodes::{Matrix, NODES, Row};
 use super::rows::{NOTHING, combine, combined, fours, value, values};
 use super::tables::{POWERS, Tables};
@@ -10,7 +10,7 @@ use crate::numerics::polynomial::{COUNT, Coefficients, ROOM, each, value_and_slo
 /// Pairs that a window is solved for at once: those in contact, and those that may come into contact.
 pub const MOST_PAIRS: usize = 4;
 
-/// What is known before a window is solved.
+/// All that is known before a window is solved.
 #[derive(Clone, Debug)]
 pub struct Equation {
     /// Number of pairs.
@@ -27,11 +27,11 @@ pub struct Equation {
     pub scale: f64,
     /// G_pq in powers of t: m per N s at t; from t^0, which is 0.
     pub kernels: [[[f64; POWERS]; MOST_PAIRS]; MOST_PAIRS],
-    /// Powers of these that matter over the longest window.
+    /// Number of powers of the kernels that matter over the longest window.
     pub powers: usize,
-    /// How far a kernel may be off, relative to G_pp.
+    /// Error that a kernel may have, relative to G_pp.
     pub remainder: f64,
-    /// 1/s, what a first guess takes for the speed of each contact.
+    /// Angular frequency of the oscillation that the first guess takes each contact for, rad/s.
     pub omega: [f64; MOST_PAIRS],
 }
 
@@ -52,7 +52,7 @@ impl Default for Equation {
     }
 }
 
-/// What the force of one pair does to the penetration of another, and as much the other way round.
+/// The response of the penetration of one pair to the force of another, which is the same in both directions.
 #[derive(Clone, Copy, Debug)]
 pub struct Response {
     /// From node to node, of pairs in contact: on the penetration, m/N, or on its rate, m/(N s), see
@@ -71,51 +71,59 @@ pub struct Free {
     pub end: (f64, f64),
 }
 
-/// Room to solve in.
+/// What a window is solved with.
 #[derive(Clone, Debug)]
-pub struct Room {
-    /// Pair by pair, see [`Room::response`], for a window of length `assembled`.
+pub struct Workspace {
+    /// Pair by pair, see [`Workspace::response`], for a window of length `assembled`.
     responses: Vec<Response>,
     pub assembled: f64,
-    /// How far they may be off, relative to G_pp.
+    /// Error that the responses may have, relative to G_pp.
     pub accuracy: f64,
-    /// See [`Equation::ways`].
-    way: f64,
-    bent: f64,
+    /// See [`Equation::error_scales`].
+    error_scale: f64,
+    error_rate: f64,
     pub free: [Free; MOST_PAIRS],
 }
 
-impl Room {
+impl Workspace {
     /// For scenes with that many pairs.
-    pub fn new(pairs: usize) -> Room {
+    pub fn new(pairs: usize) -> Workspace {
         let (row, matrix) = ([0.0; NODES], [[0.0; NODES]; NODES]);
         let response = Response { between: matrix, depth_end: row, rate_end: row };
         let free = Free { depth: row, rate: row, end: (0.0, 0.0) };
         let most = pairs.min(MOST_PAIRS);
         let responses = vec![response; most * (most + 1) / 2];
-        Room { responses, assembled: 0.0, accuracy: 0.0, way: 0.0, bent: 0.0, free: [free; MOST_PAIRS] }
+        Workspace {
+            responses,
+            assembled: 0.0,
+            accuracy: 0.0,
+            error_scale: 0.0,
+            error_rate: 0.0,
+            free: [free; MOST_PAIRS],
+        }
     }
 
-    /// m, roughly: how far off penetrations are by responses that were made for another length of the window, which follow
-    /// its change in their first power only, and by responses that are rough.
+    /// Estimated errors of the penetrations, m: by responses assembled for another length of the window, of which only
+    /// the first power follows its change, and by the accuracy with which they were assembled.
     pub fn errors(&self, length: f64) -> (f64, f64) {
-        (self.bent * (length - self.assembled).abs(), self.way * self.accuracy)
+        (self.error_rate * (length - self.assembled).abs(), self.error_scale * self.accuracy)
     }
 
-    /// Where the response of two pairs is: in the rows of a triangle.
-    fn place(p: usize, q: usize) -> usize {
+    /// Index of the response of two pairs: a triangular matrix row by row.
+    fn index(p: usize, q: usize) -> usize {
         let (later, earlier) = (p.max(q), p.min(q));
         later * (later + 1) / 2 + earlier
     }
 
-    /// What two pairs do to each other.
+    /// The response of two pairs to each other.
     pub fn response(&self, p: usize, q: usize) -> &Response {
-        &self.responses[Room::place(p, q)]
+        &self.responses[Workspace::index(p, q)]
     }
 }
 
 impl Equation {
-    /// What the powers of a kernel, from the first on, come to over a window of that length, for penetrations and for rates.
+    /// The factors of the tables over a window of that length, for penetrations and for rates: each power of a kernel,
+    /// from the first on, times that power of the length.
     #[inline(always)]
     pub fn factors(&self, p: usize, q: usize, length: f64) -> ([f64; POWERS], [f64; POWERS]) {
         let mut reach = [0.0; POWERS];
@@ -150,15 +158,15 @@ impl Equation {
 
     /// The responses over a window of that length, within an accuracy relative to G_pp.
     #[inline(always)]
-    pub fn assemble<const N: usize>(&self, tables: &Tables, length: f64, accuracy: f64, room: &mut Room) {
-        (room.assembled, room.accuracy) = (length, accuracy);
-        (room.way, room.bent) = self.ways(length);
+    pub fn assemble<const N: usize>(&self, tables: &Tables, length: f64, accuracy: f64, work: &mut Workspace) {
+        (work.assembled, work.accuracy) = (length, accuracy);
+        (work.error_scale, work.error_rate) = self.error_scales(length);
         let by_rates = self.by_rates();
         for p in 0..self.pairs {
             for q in 0..self.closed.min(p + 1) {
                 let (mut depth, mut rate) = self.factors(p, q, length);
                 let count = self.count_over(p, &depth, length, self.remainder);
-                let response = &mut room.responses[Room::place(p, q)];
+                let response = &mut work.responses[Workspace::index(p, q)];
                 response.depth_end = combined::<N>(&tables.whole[1..], &depth[..count]);
                 response.rate_end = combined::<N>(&tables.whole, &rate[..count]);
                 if p < self.closed {
@@ -176,14 +184,14 @@ impl Equation {
 
     /// The motion without contact forces over a window of that length: rates where they are asked for, and the end.
     #[inline(always)]
-    pub fn fly<const N: usize>(&self, tables: &Tables, length: f64, room: &mut Room) {
+    pub fn fly<const N: usize>(&self, tables: &Tables, length: f64, work: &mut Workspace) {
         let x = length / self.scale;
         let mut at = NOTHING;
         for (at, theta) in at.iter_mut().zip(fours(&tables.theta)).take(N / 4) {
             *at = each(|i| theta[i] * x);
         }
         let by_rates = self.by_rates();
-        for (free, terms) in room.free.iter_mut().zip(&self.free).take(self.pairs) {
+        for (free, terms) in work.free.iter_mut().zip(&self.free).take(self.pairs) {
             let terms = &terms[..self.terms.min(ROOM)];
             match by_rates {
                 true => (free.depth, free.rate) = values::<N>(terms, &at, self.scale),
@@ -194,19 +202,19 @@ impl Equation {
         }
     }
 
-    /// What pairs would move without contact forces over the longest window, m, roughly: all of them, and each with how its
-    /// responses over that length go with the length but for their first power, 1/s.
+    /// Two error scales: the free motion of all pairs over the longest window, m, and the same times the relative
+    /// change of their responses with the length beyond the first power, m/s.
     #[inline(always)]
-    fn ways(&self, length: f64) -> (f64, f64) {
-        let (mut way, mut bent) = (0.0, 0.0);
+    fn error_scales(&self, length: f64) -> (f64, f64) {
+        let (mut error_scale, mut error_rate) = (0.0, 0.0);
         for p in 0..self.closed {
             let (free, kernel) = (&self.free[p], &self.kernels[p][p]);
             let of_pair = free[0].abs() + free[1].abs();
             let last = self.powers.min(POWERS);
             let later = (2..last).rev().fold(0.0, |sum, k| sum * length + COUNT[k - 1] * kernel[k].abs());
-            way += of_pair;
-            bent += of_pair * later / kernel[1];
+            error_scale += of_pair;
+            error_rate += of_pair * later / kernel[1];
         }
-        (way, bent)
+        (error_scale, error_rate)
     }
 }

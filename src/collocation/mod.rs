@@ -11,14 +11,14 @@
 //! and for all. So the forces at the nodes, eight to sixteen times, are all that is unknown, however many storeys there
 //! are. The time is mapped, t = h theta(x), so that roots of the time since an entry or until a release are polynomials in x.
 
-mod economy;
+mod economization;
 mod equation;
 mod nodes;
 mod rows;
 mod solve;
 mod tables;
 
-pub use equation::{Equation, MOST_PAIRS, Room};
+pub use equation::{Equation, MOST_PAIRS, Workspace};
 pub use nodes::{NODES, Nodes, Row, Rule, dot, nodes};
 pub use rows::{fours, larger};
 pub use solve::{Ending, Frame, Solution};

@@ -67,14 +67,14 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (last, before)
 }
 
-/// The nodes of a rule and what it makes of values at them.
+/// The nodes of a rule, and what leads from values at them to polynomials.
 pub struct Nodes {
     pub count: usize,
     /// x of each node in 0..=1.
     pub x: Row,
     /// Its weight.
     pub weight: Row,
-    /// Row n: what the values add to the coefficient of the Legendre polynomial P_n(2 x - 1).
+    /// Row n: the factors of the values in the coefficient of the Legendre polynomial P_n(2 x - 1).
     pub legendre: [Row; NODES],
     /// The same, column by column.
     to_legendre: Matrix,

@@ -7,11 +7,11 @@ use crate::numerics::polynomial::{SECOND, each};
 /// Columns that are added up side by side.
 const ABREAST: usize = 2;
 
-/// A row by fours, as many numbers as wide instructions take: the first N / 4 of these are the first N numbers. Left to
-/// itself the compiler makes other bundles of sixteen sums, and scalars of what is left over.
+/// A row by fours, as many numbers as wide instructions take: the first N / 4 of these are the first N numbers. Without
+/// this form the compiler bundles sixteen sums in another way and does the rest one by one.
 pub type Fours = [[f64; 4]; NODES / 4];
 
-/// No sums yet.
+/// Zeros to add to.
 pub const NOTHING: Fours = [[0.0; 4]; NODES / 4];
 
 #[inline(always)]
@@ -94,7 +94,7 @@ fn add_rows<const N: usize, const FOURS: usize>(to: &mut Fours, first: usize, ma
     }
 }
 
-/// The larger of two numbers, in one instruction; the second where they are none.
+/// The larger of two numbers in one instruction; the second where either is not a number.
 #[inline(always)]
 pub fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }

@@ -3,7 +3,7 @@
 //! A sweep is an integral over time twice, so errors fall like the terms of the series of a cosine: faster and faster.
 //! Where a window ends with an event, its length is an unknown too and is corrected in between.
 
-use super::equation::{Equation, MOST_PAIRS, Room};
+use super::equation::{Equation, MOST_PAIRS, Workspace};
 use super::nodes::{NODES, Row, Rule, dot, nodes};
 use super::rows::{NOTHING, add_product, combine, forces, fours, fours_mut, larger, product, row, second_derivative};
 use super::tables::{Map, Tables};
@@ -29,8 +29,8 @@ pub enum Ending {
 }
 
 impl Ending {
-    /// Whose event it is.
-    fn place(self) -> Option<usize> {
+    /// The pair whose event it is.
+    fn pair(self) -> Option<usize> {
         match self {
             Ending::Given => None,
             Ending::Release(p) | Ending::Turn(p) | Ending::Touch(p) => Some(p),
@@ -38,7 +38,7 @@ impl Ending {
     }
 }
 
-/// What a window is to be.
+/// The map, nodes, length and end that a window is to have.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     pub map: Map,
@@ -70,12 +70,12 @@ pub struct Solution {
 impl Solution {
     /// Solves an equation over a window until penetrations are right within `tolerance`, m; whether a solution has been
     /// found.
-    pub fn solve(&mut self, equation: &Equation, room: &mut Room, frame: Frame, tolerance: f64) -> bool {
+    pub fn solve(&mut self, equation: &Equation, work: &mut Workspace, frame: Frame, tolerance: f64) -> bool {
         (self.map, self.rule, self.length) = (frame.map, frame.rule, frame.length);
         let (all, count) = (equation.pairs, frame.rule.count());
         let rows = self.depth[..all].iter_mut().chain(&mut self.rate[..all]).chain(&mut self.force[..all]);
         rows.for_each(|row| row[count..].fill(0.0));
-        iterate_by_rule(self, equation, room, frame.ending, tolerance)
+        iterate_by_rule(self, equation, work, frame.ending, tolerance)
     }
 
     /// Takes the solution to another length of the window: the same motion at the times of the new nodes.
@@ -100,7 +100,7 @@ impl Solution {
         self.length = length;
     }
 
-    /// s, by how much the window is too long, and m/s, what that is weighed with.
+    /// By how much the window is too long, s, and the speed by which that becomes an error of a penetration, m/s.
     fn lateness(&self, equation: &Equation, ending: Ending) -> (f64, f64) {
         match ending {
             Ending::Given => (0.0, 0.0),
@@ -116,7 +116,8 @@ impl Solution {
         }
     }
 
-    /// Forces of an oscillation as quick as the contact, about the depth from which it begins with the right acceleration.
+    /// First guess: the forces of an oscillation at the angular frequency of the contact that begins with the right
+    /// penetration, rate and acceleration.
     #[inline(always)]
     fn guess<const N: usize>(&mut self, equation: &Equation, tables: &Tables) {
         let theta = &tables.theta;
@@ -140,15 +141,15 @@ impl Solution {
 
     /// Penetrations from forces, pair by pair, and forces from these; the largest change of a penetration, m.
     #[inline(always)]
-    fn sweep<const N: usize>(&mut self, equation: &Equation, tables: &Tables, room: &Room) -> f64 {
-        // A little longer or shorter than when the responses were made: they go as t^2 and t.
-        let ratio = self.length / room.assembled;
+    fn sweep<const N: usize>(&mut self, equation: &Equation, tables: &Tables, work: &Workspace) -> f64 {
+        // The length may have changed since the responses were assembled: they go as its square and as itself.
+        let ratio = self.length / work.assembled;
         let mut changes = [0.0; 4];
         for p in 0..equation.closed {
-            let (free, law) = (&room.free[p], equation.forces[p]);
-            let mut taken = product::<N>(&room.response(p, 0).between, &self.force[0]);
+            let (free, law) = (&work.free[p], equation.forces[p]);
+            let mut taken = product::<N>(&work.response(p, 0).between, &self.force[0]);
             for (q, force) in self.force.iter().enumerate().take(equation.closed).skip(1) {
-                taken = add_product::<N>(&taken, &room.response(p, q).between, force);
+                taken = add_product::<N>(&taken, &work.response(p, q).between, force);
             }
             let scale = match equation.by_rates() {
                 true => {
@@ -174,23 +175,23 @@ impl Solution {
 
     /// Penetrations and rates at the end, of all pairs or of one.
     #[inline(always)]
-    fn close(&mut self, equation: &Equation, room: &Room, only: Option<usize>) {
-        let ratio = self.length / room.assembled;
+    fn close(&mut self, equation: &Equation, work: &Workspace, only: Option<usize>) {
+        let ratio = self.length / work.assembled;
         for p in only.map_or(0..equation.pairs, |p| p..p + 1) {
             let (mut d, mut v) = (0.0, 0.0);
             for (q, force) in self.force.iter().enumerate().take(equation.closed) {
-                let response = room.response(p, q);
+                let response = work.response(p, q);
                 d += dot(&response.depth_end, force);
                 v += dot(&response.rate_end, force);
             }
-            let free = room.free[p].end;
+            let free = work.free[p].end;
             self.end[p] = (free.0 - ratio * ratio * d, free.1 - ratio * v);
         }
     }
 
     /// Penetrations of the watched pairs at the nodes.
     #[inline(always)]
-    fn watch<const N: usize>(&mut self, equation: &Equation, tables: &Tables, room: &Room) {
+    fn watch<const N: usize>(&mut self, equation: &Equation, tables: &Tables, work: &Workspace) {
         for p in equation.closed..equation.pairs {
             let mut taken = NOTHING;
             for q in 0..equation.closed {
@@ -200,12 +201,12 @@ impl Solution {
                 combine::<N>(&tables.inner[1..], &factors[..count], &mut response);
                 taken = add_product::<N>(&taken, &response, &self.force[q]);
             }
-            let depths = fours_mut(&mut self.depth[p]).iter_mut().zip(fours(&room.free[p].depth)).zip(&taken);
+            let depths = fours_mut(&mut self.depth[p]).iter_mut().zip(fours(&work.free[p].depth)).zip(&taken);
             depths.take(N / 4).for_each(|((depth, free), taken)| *depth = each(|i| free[i] - taken[i]));
         }
     }
 
-    /// m/s, what the forces between the nodes may leave open: from the last terms of their Legendre series.
+    /// Estimated error of the velocities, m/s: from the last terms of the Legendre series of the forces.
     pub fn velocity_error(&self, equation: &Equation) -> f64 {
         let nodes = nodes(self.rule);
         let of_pair = |p: usize| {
@@ -217,19 +218,19 @@ impl Solution {
     }
 }
 
-/// See [`Solution::solve`]. Wide instructions give the same bits.
+/// See [`Solution::solve`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn iterate_by_rule(
     solution: &mut Solution,
     equation: &Equation,
-    room: &mut Room,
+    work: &mut Workspace,
     ending: Ending,
     tolerance: f64,
 ) -> bool {
     match solution.rule {
-        Rule::Eight => iterate::<{ Rule::Eight.count() }>(solution, equation, room, ending, tolerance),
-        Rule::Twelve => iterate::<{ Rule::Twelve.count() }>(solution, equation, room, ending, tolerance),
-        Rule::Sixteen => iterate::<{ Rule::Sixteen.count() }>(solution, equation, room, ending, tolerance),
+        Rule::Eight => iterate::<{ Rule::Eight.count() }>(solution, equation, work, ending, tolerance),
+        Rule::Twelve => iterate::<{ Rule::Twelve.count() }>(solution, equation, work, ending, tolerance),
+        Rule::Sixteen => iterate::<{ Rule::Sixteen.count() }>(solution, equation, work, ending, tolerance),
     }
 }
 
@@ -238,19 +239,19 @@ fn iterate_by_rule(
 fn iterate<const N: usize>(
     solution: &mut Solution,
     equation: &Equation,
-    room: &mut Room,
+    work: &mut Workspace,
     ending: Ending,
     tolerance: f64,
 ) -> bool {
     let tables = Tables::of(solution.map, solution.rule);
     solution.guess::<N>(equation, tables);
     let (fine, is_given) = (equation.remainder, ending == Ending::Given);
-    equation.assemble::<N>(tables, solution.length, if is_given { fine } else { ROUGH.max(fine) }, room);
-    equation.fly::<N>(tables, solution.length, room);
+    equation.assemble::<N>(tables, solution.length, if is_given { fine } else { ROUGH.max(fine) }, work);
+    equation.fly::<N>(tables, solution.length, work);
     let mut last_change = f64::INFINITY;
     for sweep in 1..=MOST_SWEEPS {
-        let change = solution.sweep::<N>(equation, tables, room);
-        // Each sweep takes off more than the one before.
+        let change = solution.sweep::<N>(equation, tables, work);
+        // Convergence gets faster: the next change is smaller than this one by at least the last ratio.
         let left = if last_change.is_finite() { change * (change / last_change).min(1.0) } else { change };
         last_change = change;
         if sweep < 3 && left > tolerance {
@@ -258,7 +259,7 @@ fn iterate<const N: usize>(
         }
         let mut missed = 0.0;
         if !is_given {
-            solution.close(equation, room, ending.place());
+            solution.close(equation, work, ending.pair());
             let (late, speed) = solution.lateness(equation, ending);
             missed = late.abs() * speed;
             if missed > tolerance && left <= (0.1 * missed).max(tolerance) {
@@ -267,19 +268,19 @@ fn iterate<const N: usize>(
                     return false;
                 }
                 solution.stretch::<N>(equation, tables, length);
-                equation.fly::<N>(tables, length, room);
+                equation.fly::<N>(tables, length, work);
             }
         }
         let is_found = left.max(missed) <= tolerance;
         let negligible = if is_found { tolerance } else { 0.1 * change.max(tolerance) };
-        let (by_length, by_accuracy) = room.errors(solution.length);
-        let is_rough = room.accuracy > fine && by_accuracy > negligible;
+        let (by_length, by_accuracy) = work.errors(solution.length);
+        let is_rough = work.accuracy > fine && by_accuracy > negligible;
         if is_rough || by_length > negligible {
-            let accuracy = if is_rough { fine } else { room.accuracy };
-            equation.assemble::<N>(tables, solution.length, accuracy, room);
+            let accuracy = if is_rough { fine } else { work.accuracy };
+            equation.assemble::<N>(tables, solution.length, accuracy, work);
         } else if is_found {
-            solution.close(equation, room, None);
-            solution.watch::<N>(equation, tables, room);
+            solution.close(equation, work, None);
+            solution.watch::<N>(equation, tables, work);
             return solution.end[..equation.pairs].iter().all(|(d, v)| (d + v).is_finite());
         }
     }

@@ -68,7 +68,7 @@ impl Map {
         }
     }
 
-    /// The same map but for the end.
+    /// The same map without square roots at the end.
     pub fn without_end(self) -> Map {
         match self {
             Map::SquareEnd => Map::Plain,
@@ -78,7 +78,7 @@ impl Map {
         }
     }
 
-    /// The same map but for the end, at which square roots of the time left are polynomials.
+    /// The same map with polynomials for square roots of the time left until the end.
     pub fn with_end(self) -> Map {
         match self {
             Map::Plain => Map::SquareEnd,
@@ -96,7 +96,7 @@ impl Map {
 pub struct Tables {
     /// theta of each node.
     pub theta: Row,
-    /// theta / (d theta / dx): what x a node lags behind where the window grows by its length.
+    /// theta / (d theta / dx): by how much x of an instant falls per relative growth of the window.
     pub lag: Row,
     /// d theta / dx there, times the weight of the node.
     pub weight: Row,

@@ -20,7 +20,7 @@ fn solved(equation: &Equation, map: Map, length: f64, ending: Ending, tolerance:
 fn solved_by(rule: Rule, equation: &Equation, map: Map, length: f64, ending: Ending, tolerance: f64) -> Solution {
     let mut solution = Solution::default();
     assert!(
-        solution.solve(equation, &mut Room::new(2), Frame { map, rule, length, ending }, tolerance),
+        solution.solve(equation, &mut Workspace::new(2), Frame { map, rule, length, ending }, tolerance),
         "{map:?} {length} {ending:?}"
     );
     solution
@@ -137,9 +137,9 @@ fn a_mass_on_a_spring_swings_as_with_both_springs() {
 fn a_window_is_as_exact_as_its_kernels() {
     for (remainder, dashpot) in [(1e-6, 0.0), (1e-6, 0.3), (1e-9, 0.0), (1e-9, 0.3)] {
         let (position, _) = beside_both_springs(remainder, dashpot);
-        let way = 0.1 + 1.5 * 0.2;
-        assert!(position < remainder * way, "{remainder}, {dashpot}: off by {position}");
-        assert!(position > 1e-4 * remainder * way, "{remainder}, {dashpot}: off by no more than {position}");
+        let scale = 0.1 + 1.5 * 0.2;
+        assert!(position < remainder * scale, "{remainder}, {dashpot}: off by {position}");
+        assert!(position > 1e-4 * remainder * scale, "{remainder}, {dashpot}: off by no more than {position}");
     }
 }
 

@@ -1,15 +1,21 @@
-//! What the lists of laws and of damping formulas have in common.
+//! What the lists of laws and of damping formulas have in common: an enum and what is known of each of its values, from one
+//! list, so that none of them can lack a line.
 
-/// Makes an enum, all of its values and what is known of each from one list, `Variant = what is known`, so that none
-/// of them can lack a line. What is known is a constant of the type named after the enum, with a `name`.
-macro_rules! catalogue {
-    ($(#[$about:meta])* $Enum:ident: $Info:ident { $($(#[$line:meta])* $Variant:ident = $info:expr,)* }) => {
+/// Makes the enum.
+macro_rules! variants {
+    ($(#[$about:meta])* $Enum:ident { $($(#[$line:meta])* $Variant:ident,)* }) => {
         $(#[$about])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum $Enum {
             $($(#[$line])* $Variant,)*
         }
+    };
+}
 
+/// Lists what is known of each value, `Variant = what is known`: a constant of the type named after the enum, with a
+/// `name`.
+macro_rules! information {
+    ($Enum:ident: $Info:ident { $($Variant:ident = $info:expr,)* }) => {
         impl $Enum {
             /// All of them, in the order in which the documentation shows them.
             pub const ALL: &'static [$Enum] = &[$($Enum::$Variant,)*];
@@ -29,4 +35,12 @@ macro_rules! catalogue {
     };
 }
 
-pub(super) use catalogue;
+/// Makes both from one list.
+macro_rules! catalogue {
+    ($(#[$about:meta])* $Enum:ident: $Info:ident { $($(#[$line:meta])* $Variant:ident = $info:expr,)* }) => {
+        $crate::contact::catalogue::variants! { $(#[$about])* $Enum { $($(#[$line])* $Variant,)* } }
+        $crate::contact::catalogue::information! { $Enum: $Info { $($Variant = $info,)* } }
+    };
+}
+
+pub(super) use {catalogue, information, variants};

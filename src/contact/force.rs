@@ -1,7 +1,6 @@
 //! The contact force as the engine integrates it: each law, with its episode's numbers filled in, is one of a few
 //! analytic [`Force`]s on either side of a [`Guard`].
 
-use super::ImpactLaw;
 use serde::{Deserialize, Serialize};
 
 /// One analytic piece of a contact force. d is the penetration, m, v its rate, m/s.
@@ -67,8 +66,8 @@ impl Force {
         }
     }
 
-    /// k, n, and the factor of what damping multiplies with the rate's series in powers of t / `scale`; of
-    /// [`Force::Root`], that of the derivative of d^1.25.
+    /// Stiffness k, exponent n and damping factor for series in powers of t / `scale`: the factor multiplies the
+    /// derivative by t / `scale` of d, or of d^1.25 under [`Force::Root`].
     pub fn in_units_of(&self, scale: f64) -> (f64, f64, f64) {
         match *self {
             Force::None => (0.0, 1.0, 0.0),
@@ -106,6 +105,35 @@ impl Force {
     /// Whether the force is a polynomial in d and v, so that nothing is singular at d = 0.
     pub fn is_regular(&self) -> bool {
         matches!(self, Force::None | Force::Linear { .. })
+    }
+}
+
+/// Which terms a force has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kind {
+    /// No force.
+    #[default]
+    None,
+    /// [`Force::Linear`].
+    Linear,
+    /// [`Force::Power`] without damping.
+    Spring,
+    /// [`Force::Power`] with damping.
+    Damped,
+    /// [`Force::Root`].
+    Root,
+}
+
+impl Kind {
+    /// Of a force.
+    pub fn of(force: &Force) -> Kind {
+        match *force {
+            Force::None => Kind::None,
+            Force::Linear { .. } => Kind::Linear,
+            Force::Power { damping: 0.0, .. } => Kind::Spring,
+            Force::Power { .. } => Kind::Damped,
+            Force::Root { .. } => Kind::Root,
+        }
     }
 }
 
@@ -160,18 +188,11 @@ pub struct EpisodeForce {
     pub engaged: Force,
     /// While the guard is not positive.
     pub slack: Force,
-    /// What decides between the two.
+    /// The condition that decides between the two.
     pub guard: Option<Guard>,
 }
 
 impl EpisodeForce {
-    /// The force of a law between floors of reduced mass `mass`, kg, m_left m_right / (m_left + m_right), entered at
-    /// the approach velocity `approach`, m/s; `None` for a pair that overlaps from the start, which has no damping in
-    /// the laws that divide by it.
-    pub fn new(law: &ImpactLaw, mass: f64, approach: Option<f64>) -> EpisodeForce {
-        (law.kind.info().episode)(law, mass, approach)
-    }
-
     /// A law of one piece.
     pub const fn always(force: Force) -> EpisodeForce {
         EpisodeForce { engaged: force, slack: Force::None, guard: None }

@@ -1,6 +1,8 @@
 //! A law with its numbers, and what the catalogue in [`super::laws`] knows of each law.
 
-use super::{DampingFormula, EpisodeForce, LawKind};
+use super::damping_formula::DampingFormula;
+use super::force::EpisodeForce;
+use super::law_kind::LawKind;
 
 /// A law with its numbers. Numbers that the law does not have keep their neutral value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,13 +17,6 @@ pub struct ImpactLaw {
     pub restitution: f64,
     /// Where the law has one.
     pub damping_formula: Option<DampingFormula>,
-}
-
-impl ImpactLaw {
-    /// Whether the floors cannot overlap: impulses and reactions instead of a force of penetration.
-    pub fn is_rigid(&self) -> bool {
-        self.kind.info().stiffness_unit.is_none()
-    }
 }
 
 /// What is known of one law: all that is particular to it stands in its file. The texts are for a person and stand in

@@ -1,6 +1,6 @@
 //! How fast a contact force changes, from how its floors move.
 
-use super::Force;
+use super::force::{Force, power};
 
 impl Force {
     /// N/s and N/s2: the first two derivatives of the force with respect to time, from the penetration and its first
@@ -28,7 +28,7 @@ impl Force {
 
 /// d^n and its first two derivatives, for d > 0.
 fn power_rates(n: f64, [d, v, a]: [f64; 3]) -> [f64; 3] {
-    let value = super::force::power(d, n);
+    let value = power(d, n);
     let (log_rate, bend) = (v / d, a / d);
     [value, n * value * log_rate, n * value * ((n - 1.0) * log_rate * log_rate + bend)]
 }

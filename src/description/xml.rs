@@ -1,12 +1,12 @@
 //! The document `modelDescription.xml`, element by element in the order of the FMI 2.0 schema.
 
-use super::{Category, Package, structure};
+use super::log_category::Category;
+use super::model_structure;
+use super::writer::{Xml, number, text};
+use crate::scene::Package;
 use crate::variables::{Causality, HIGHEST_OUTPUT_DERIVATIVE, Inputs, Row, Settings, Slot, Table, Type, Unit, Value};
 use quick_xml::Writer;
-use std::borrow::Cow;
 use std::io;
-
-pub(super) type Xml = Writer<Vec<u8>>;
 
 /// s: communication step of the default experiment. The results do not depend on it.
 const STEP_SIZE: f64 = 0.01;
@@ -38,7 +38,7 @@ fn write_document(xml: &mut Xml, package: &Package, guid: &str) -> io::Result<()
             write_log_categories(xml)?;
             write_default_experiment(xml, package)?;
             write_variables(xml, package, &table)?;
-            structure::write(xml, scene, &table)
+            model_structure::write(xml, scene, &table)
         })?;
     Ok(())
 }
@@ -177,16 +177,4 @@ fn write_type(xml: &mut Xml, row: &Row, start: Option<Value<'_>>) -> io::Result<
     }
     element.write_empty()?;
     Ok(())
-}
-
-/// The shortest decimal that reads back as the same number, whole numbers without a point.
-fn number(value: f64) -> String {
-    let text = format!("{value:?}");
-    text.strip_suffix(".0").unwrap_or(&text).to_owned()
-}
-
-/// XML 1.0 has no way to write most control characters: they become blanks.
-fn text(raw: &str) -> Cow<'_, str> {
-    let forbidden = |c: char| matches!(c, '\0'..='\u{1f}' | '\u{7f}' | '\u{fffe}' | '\u{ffff}');
-    if raw.contains(forbidden) { raw.replace(forbidden, " ").into() } else { raw.into() }
 }

@@ -1,6 +1,6 @@
 //! Everything that changes during a run: plain data, cloned to save it.
 
-use crate::collocation::Room;
+use crate::collocation::Workspace as WindowWorkspace;
 use crate::engine::base::Account;
 use crate::engine::base::Base;
 use crate::engine::base::Coordinates;
@@ -88,7 +88,7 @@ impl State {
 pub struct Workspace {
     pub buffers: Buffers,
     pub look: Look,
-    pub windows: Room,
+    pub windows: WindowWorkspace,
     pub peaks: PeakRoom,
 }
 
@@ -103,7 +103,7 @@ impl Workspace {
         Workspace {
             buffers: model.buffers(),
             look: Look::new(lanes, pairs),
-            windows: Room::new(model.windows.as_ref().map_or(0, |_| pairs)),
+            windows: WindowWorkspace::new(model.windows.as_ref().map_or(0, |_| pairs)),
             peaks: PeakRoom::new(&model.system.structure, &model.peak_rows, pairs),
         }
     }

@@ -1,11 +1,10 @@
 //! The fence between C and the slave: every call that takes a component goes through it.
 
 use super::instance::Instance;
+use super::panics::caught;
 use super::types::Component;
 use crate::slave::{Call, Refusal, Status};
-use std::any::Any;
 use std::ffi::c_int;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Checks component and call sequence, runs the body, turns its result or its panic into a status, and logs.
 ///
@@ -44,20 +43,14 @@ fn run<T: Into<Status>>(
     if instance.is_poisoned {
         return Status::Fatal;
     }
-    let outcome = catch_unwind(AssertUnwindSafe(|| {
+    let outcome = caught(|| {
         let result = instance.slave.check(call).and_then(|()| body(instance));
         instance.slave.report(call, result.map(Into::into))
-    }));
+    });
     outcome.unwrap_or_else(|panic| {
         instance.is_poisoned = true;
-        instance.slave.report_fatal(call, panic_message(&*panic))
+        instance.slave.report_fatal(call, &panic)
     })
-}
-
-/// What a panic says.
-pub fn panic_message(panic: &(dyn Any + Send)) -> &str {
-    let text = panic.downcast_ref::<&str>().copied();
-    text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("panic")
 }
 
 #[cfg(test)]

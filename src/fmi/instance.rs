@@ -1,13 +1,12 @@
 //! The life of an instance, from `fmi2Instantiate` to `fmi2FreeInstance`.
 
 use super::arguments::{boolean, bytes_in, str_in};
-use super::fence::panic_message;
 use super::logger::Logger;
+use super::panics::caught;
 use super::types::{Boolean, CO_SIMULATION, CallbackFunctions, Component, Text};
 use crate::description::Category;
 use crate::slave::{Log, Message, Refusal, Slave, instantiate};
 use std::ffi::{CStr, CString, c_int};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
 
 /// What a component points to.
@@ -49,14 +48,14 @@ pub unsafe fn create(request: &Request) -> Component {
         Logger::new(functions.logger, functions.component_environment, name)
     };
     // SAFETY: the caller's promise.
-    let outcome = catch_unwind(AssertUnwindSafe(|| unsafe { slave(request, name) }));
+    let outcome = caught(|| unsafe { slave(request, name) });
     let (category, problems) = match outcome {
         Ok(Ok(slave)) => {
             let instance = Instance { slave, logger, is_poisoned: false, strings: Vec::new() };
             return Box::into_raw(Box::new(instance)).cast();
         }
         Ok(Err(refusal)) => (Category::StatusError, refusal.problems),
-        Err(panic) => (Category::StatusFatal, vec![format!("internal failure: {}", panic_message(&*panic))]),
+        Err(panic) => (Category::StatusFatal, vec![format!("internal failure: {panic}")]),
     };
     let message = |problem| Message { category, text: format!("fmi2Instantiate: {problem}") };
     logger.send(&problems.into_iter().map(message).collect::<Vec<_>>());
@@ -98,5 +97,5 @@ pub unsafe fn free(component: Component) {
     // SAFETY: the pointer comes from `Box::into_raw` in `create`, and the caller gives it up.
     let instance = unsafe { Box::from_raw(component.cast::<Instance>()) };
     // A panic has nobody to be reported to any more, but it may not leave this library either.
-    let _ = catch_unwind(AssertUnwindSafe(|| drop(instance)));
+    let _ = caught(|| drop(instance));
 }

@@ -1,7 +1,7 @@
 //! The C interface of FMI 2.0 for co-simulation: the only unsafe code of the crate, and no physics.
 //!
 //! `life.rs`, `values.rs`, `step.rs`, `state.rs` and `derivatives.rs` hold the 34 exported functions, each of a few lines.
-//! A call runs through the fence (`fence.rs`), which checks instance and call sequence, catches panics, and sends the
+//! A call runs through the fence (`fence.rs`), which checks instance and call sequence, catches panics (`panics.rs`), and sends the
 //! messages (`logger.rs`) when nothing is borrowed any more; `arguments.rs` turns pointers into slices and strings,
 //! `instance.rs` begins and ends the life of an instance.
 //!
@@ -21,6 +21,7 @@ mod fence;
 mod instance;
 mod life;
 mod logger;
+mod panics;
 mod state;
 mod step;
 #[cfg(test)]

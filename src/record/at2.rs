@@ -1,6 +1,7 @@
 //! Records as PEER ground motion database files, `.AT2`.
 
-use super::{Reading, Record, RecordError, STANDARD_GRAVITY, excerpt, on_line};
+use super::accelerogram::{Record, RecordError, STANDARD_GRAVITY};
+use super::reading::{Reading, excerpt, on_line};
 
 const HEADER_LINES: usize = 4;
 

@@ -1,6 +1,7 @@
 //! Records as CSV: `time_s,accel_m_s2`.
 
-use super::{Reading, Record, RecordError, excerpt, on_line};
+use super::accelerogram::{Record, RecordError};
+use super::reading::{Reading, excerpt, on_line};
 use ::csv::{ByteRecord, ReaderBuilder, Trim};
 
 const COLUMNS: [&str; 2] = ["time_s", "accel_m_s2"];

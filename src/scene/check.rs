@@ -2,12 +2,23 @@
 //!
 //! Where the number of floors is unknown (no mass at all, a problem by itself) nothing is compared with it.
 
-use super::problem::{self, Problem};
-use super::rule::{self, Rule};
-use super::{Building, ContactPair, Damping, Ground, Scaling, Scene, Stiffness, identifier, law_key, matrix};
+use super::checker::Checker;
+use super::data::{Building, ContactPair, Damping, Ground, Scaling, Scene, Stiffness};
+use super::problem::{self, Problem, SceneError};
+use super::{identifier, law_key, matrix, rule};
 use crate::contact::ImpactLaw;
 use std::collections::HashMap;
-use std::fmt::Display;
+
+impl Scene {
+    /// Checks every number again, as after a parameter has been changed through the FMI.
+    ///
+    /// # Errors
+    /// All problems, with the same paths and the same words as [`Scene::from_toml`], in the order of the fields.
+    pub fn check(&self) -> Result<(), SceneError> {
+        let problems = problems(self);
+        if problems.is_empty() { Ok(()) } else { Err(SceneError { problems }) }
+    }
+}
 
 /// Everything that is wrong with the values of a scene, in the order of the fields.
 pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
@@ -27,35 +38,7 @@ pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
     check.problems
 }
 
-#[derive(Default)]
-pub(super) struct Checker {
-    problems: Vec<Problem>,
-}
-
 impl Checker {
-    pub(super) fn refuse(&mut self, path: impl Display, found: impl Into<String>, expected: impl Into<String>) {
-        self.problems.push(Problem::new(path.to_string(), found, expected));
-    }
-
-    pub(super) fn number(&mut self, path: impl Display, value: f64, rule: Rule) {
-        self.problems.extend(rule.problem(path, value));
-    }
-
-    pub(super) fn numbers(&mut self, path: impl Display, values: &[f64], rule: Rule) {
-        for (i, &value) in values.iter().enumerate() {
-            self.number(format_args!("{path}[{}]", i + 1), value, rule);
-        }
-    }
-
-    /// One number per floor, storey or mode, as `each` says.
-    pub(super) fn list(&mut self, path: impl Display, values: &[f64], rule: Rule, floors: usize, each: &str) {
-        if floors > 0 && values.len() != floors {
-            let expected = format!("{}, one per {each}, not {}", problem::count(floors, "number"), values.len());
-            self.refuse(&path, problem::excerpt(&problem::numbers(values)), expected);
-        }
-        self.numbers(path, values, rule);
-    }
-
     fn texts(&mut self, scene: &Scene) {
         if let Err(expected) = identifier::check(&scene.name) {
             self.refuse("name", problem::quoted(&scene.name), expected);

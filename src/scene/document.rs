@@ -44,7 +44,7 @@ pub(super) fn parse(text: &str) -> Result<DeTable<'_>, SceneError> {
 }
 
 /// Where a value stands in the text, in bytes.
-pub(super) struct Place {
+pub(super) struct Span {
     /// Of its key, where it has one.
     pub start: usize,
     /// Of the value, where that is a number, a text or a list: tables may be spread over the file.
@@ -52,22 +52,22 @@ pub(super) struct Place {
 }
 
 /// Where everything stands, by its path.
-pub(super) fn places(table: &DeTable<'_>) -> HashMap<String, Place> {
-    fn of_table(path: &str, table: &DeTable<'_>, places: &mut HashMap<String, Place>) {
+pub(super) fn spans(table: &DeTable<'_>) -> HashMap<String, Span> {
+    fn of_table(path: &str, table: &DeTable<'_>, spans: &mut HashMap<String, Span>) {
         for (key, value) in table.iter() {
             let path = join(path, key.get_ref());
-            of_value(&path, value, places);
-            places.insert(path, Place { start: key.span().start, value: text_of(value) });
+            of_value(&path, value, spans);
+            spans.insert(path, Span { start: key.span().start, value: text_of(value) });
         }
     }
-    fn of_value(path: &str, value: &Spanned<DeValue<'_>>, places: &mut HashMap<String, Place>) {
+    fn of_value(path: &str, value: &Spanned<DeValue<'_>>, spans: &mut HashMap<String, Span>) {
         match value.get_ref() {
-            DeValue::Table(table) => of_table(path, table, places),
+            DeValue::Table(table) => of_table(path, table, spans),
             DeValue::Array(entries) => {
                 for (i, entry) in entries.iter().enumerate() {
                     let path = format!("{path}[{}]", i + 1);
-                    of_value(&path, entry, places);
-                    places.insert(path, Place { start: entry.span().start, value: text_of(entry) });
+                    of_value(&path, entry, spans);
+                    spans.insert(path, Span { start: entry.span().start, value: text_of(entry) });
                 }
             }
             _ => {}
@@ -76,9 +76,9 @@ pub(super) fn places(table: &DeTable<'_>) -> HashMap<String, Place> {
     fn text_of(value: &Spanned<DeValue<'_>>) -> Option<Range<usize>> {
         (!matches!(value.get_ref(), DeValue::Table(_))).then(|| value.span())
     }
-    let mut places = HashMap::new();
-    of_table("", table, &mut places);
-    places
+    let mut spans = HashMap::new();
+    of_table("", table, &mut spans);
+    spans
 }
 
 impl<'t> Document<'t> {

@@ -1,8 +1,8 @@
 //! Scenes with their records: as a user keeps them, and as they lie in the `resources` folder of an FMU.
 
+use super::data::{Scaling, Scene};
 use super::problem::{Problem, SceneError, quoted};
 use super::read::Draft;
-use super::{Scaling, Scene};
 use crate::record::{Format, Record, RecordError};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 pub struct Package {
     /// The scene file, verbatim.
     pub scene_text: String,
-    /// What it says.
+    /// The scene in that text.
     pub scene: Scene,
     /// The record that `scene.ground.record` names.
     pub record: Option<PackagedRecord>,
@@ -25,7 +25,7 @@ pub struct PackagedRecord {
     pub resource_name: &'static str,
     /// The file, verbatim.
     pub bytes: Vec<u8>,
-    /// What it says, unscaled.
+    /// The record in these bytes, unscaled.
     pub record: Record,
 }
 

@@ -1,11 +1,12 @@
 //! Rules about the matrices of a building.
 
-use super::check::Checker;
+use super::checker::Checker;
 use super::problem::{count, excerpt, number, numbers};
 use super::rule;
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// Relative to the largest entry or eigenvalue: what is lost when a program prints a computed matrix, and no more.
+/// Relative to the largest entry or eigenvalue: the digits that are lost when a program prints a computed matrix, and
+/// no more.
 const ROUNDING: f64 = 1e-12;
 
 /// What a matrix must be besides symmetric.

@@ -50,10 +50,13 @@
 //! initial_velocity); did you mean mass?");
 //! ```
 //!
-//! Where things are: [`rule`] says which numbers are allowed, `check` which shapes and combinations, `read` goes through
-//! the keys of the file, `document` is the file as a tree, `syntax` knows what is often written instead of TOML, `files` loads scenes with their records.
+//! Where things are: `data` is the scene, [`rule`] says which numbers are allowed, `check` which shapes and combinations,
+//! `read` goes through the keys of the file, `document` is the file as a tree, `syntax` knows what is often written instead
+//! of TOML, `files` loads scenes with their records.
 
 mod check;
+mod checker;
+mod data;
 mod document;
 mod files;
 mod identifier;
@@ -64,169 +67,8 @@ mod read;
 pub mod rule;
 mod syntax;
 
+pub use data::{Building, ContactPair, Damping, Ground, Scaling, Scene, Solver, Stiffness};
 pub use files::{Package, PackagedRecord, load};
 pub(crate) use files::{SCENE_RESOURCE, read_record_file, record_problems};
 pub use problem::{Problem, SceneError};
 pub(crate) use problem::{excerpt, number, numbers, quoted};
-
-use crate::contact::ImpactLaw;
-use crate::record::Record;
-
-/// A scene whose numbers have been checked.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Scene {
-    /// C identifier: FMI model name and identifier.
-    pub name: String,
-    /// One line for a reader.
-    pub description: String,
-    /// s, end of the default experiment.
-    pub stop_time: Option<f64>,
-    /// The building on the left.
-    pub left: Building,
-    /// The building on the right.
-    pub right: Building,
-    /// Ground motion.
-    pub ground: Ground,
-    /// `inputs.floor_forces`: every floor gets an external force input.
-    pub floor_forces: bool,
-    /// Pairs of facing floors.
-    pub contacts: Vec<ContactPair>,
-    /// `outputs.energy`: the energy account exists.
-    pub energy: bool,
-    /// `outputs.peaks`: the largest displacements, drifts, accelerations and base shears so far exist.
-    pub peaks: bool,
-    /// Accuracy of the contact episodes.
-    pub solver: Solver,
-}
-
-/// One building: floors counted from the bottom.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Building {
-    /// kg, one per floor.
-    pub mass: Vec<f64>,
-    /// N/m.
-    pub stiffness: Stiffness,
-    /// Structural damping.
-    pub damping: Damping,
-    /// m relative to the ground, one per floor.
-    pub initial_displacement: Vec<f64>,
-    /// m/s relative to the ground, one per floor.
-    pub initial_velocity: Vec<f64>,
-}
-
-/// Stiffness of a building.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Stiffness {
-    /// Shear building: one per storey, storey i below floor i.
-    Shear(Vec<f64>),
-    /// Symmetric (within 1e-12 of the largest entry) positive definite, rows from the lowest floor.
-    Matrix(Vec<Vec<f64>>),
-}
-
-/// Damping of a building.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Damping {
-    /// The same ratio of critical damping in every mode.
-    Ratio(f64),
-    /// One ratio per mode, lowest mode first.
-    Ratios(Vec<f64>),
-    /// C = alpha M + beta K with this ratio in two modes (counted from 1).
-    Rayleigh {
-        /// Damping ratio in both modes.
-        ratio: f64,
-        /// The two modes, different, in any order.
-        modes: [usize; 2],
-    },
-    /// N s/m, symmetric (within 1e-12 of the largest entry) positive semidefinite; need not be classical.
-    Matrix(Vec<Vec<f64>>),
-}
-
-/// Ground motion of the scene.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Ground {
-    /// Record file as written in the scene; `None`: the acceleration is an FMI input.
-    pub record: Option<String>,
-    /// Factor on the record, or the peak that it is scaled to.
-    pub scaling: Scaling,
-}
-
-/// How the record is scaled.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Scaling {
-    /// Factor.
-    Scale(f64),
-    /// Peak ground acceleration, m/s2.
-    Pga(f64),
-}
-
-/// Two facing floors.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ContactPair {
-    /// Floor of the left building, counted from 1.
-    pub left_floor: usize,
-    /// Floor of the right building, counted from 1.
-    pub right_floor: usize,
-    /// m, clear distance at rest; may be 0 or negative.
-    pub gap: f64,
-    /// Force of the contact.
-    pub law: ImpactLaw,
-}
-
-/// Accuracy.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Solver {
-    /// Error of each contact episode relative to the velocities in it.
-    pub relative_tolerance: f64,
-    /// m/s, floor on the approach velocity where a law divides by it.
-    pub min_approach_velocity: f64,
-}
-
-impl Default for Solver {
-    fn default() -> Solver {
-        Solver { relative_tolerance: 1e-12, min_approach_velocity: 1e-4 }
-    }
-}
-
-impl Scene {
-    /// Reads a scene from TOML text. The record file is not touched: see [`load`].
-    ///
-    /// # Errors
-    /// All problems of the scene in the order of the text; a single one, with line and column, where the text is not TOML.
-    pub fn from_toml(text: &str) -> Result<Scene, SceneError> {
-        read::Draft::read(text)?.finish()
-    }
-
-    /// Checks every number again, as after a parameter has been changed through the FMI.
-    ///
-    /// # Errors
-    /// All problems, with the same paths and the same words as [`Scene::from_toml`], in the order of the fields.
-    pub fn check(&self) -> Result<(), SceneError> {
-        let problems = check::problems(self);
-        if problems.is_empty() { Ok(()) } else { Err(SceneError { problems }) }
-    }
-}
-
-impl Scaling {
-    /// The factor by which the samples of a record are multiplied.
-    ///
-    /// # Errors
-    /// The problem, at `ground.scale` or `ground.pga`, where there is no such factor: an all-zero record has no peak to
-    /// scale, and accelerations go up to [`rule::MOST_ACCELERATION`].
-    pub fn factor(self, record: &Record) -> Result<f64, Problem> {
-        let peak = record.peak();
-        let (path, value, factor) = match self {
-            Scaling::Scale(scale) => ("ground.scale", scale, scale),
-            Scaling::Pga(pga) => ("ground.pga", pga, pga / peak),
-        };
-        if factor.is_finite() && (factor * peak).abs() <= rule::MOST_ACCELERATION {
-            return Ok(factor);
-        }
-        let expected = if peak == 0.0 {
-            "a record with a peak, but all its accelerations are 0".to_owned()
-        } else {
-            let (peak, most) = (problem::number(peak), rule::MOST_ACCELERATION);
-            format!("accelerations up to {most:e} m/s2 from a record with a peak of {peak} m/s2")
-        };
-        Err(Problem::new(path, problem::number(value), expected))
-    }
-}

@@ -1,10 +1,21 @@
 //! The keys of a scene file, one after the other.
 
-use super::document::{self, Document, Item, Place, Section, one_of};
+use super::data::{Building, ContactPair, Damping, Ground, Scaling, Scene, Solver, Stiffness};
+use super::document::{self, Document, Item, Section, Span, one_of};
 use super::problem::{Problem, SceneError, excerpt};
-use super::{Building, ContactPair, Damping, Ground, Scaling, Scene, Solver, Stiffness, check, law_key, rule};
+use super::{check, law_key, rule};
 use crate::contact::{DampingFormula, ImpactLaw, LawKind};
 use std::collections::HashMap;
+
+impl Scene {
+    /// Reads a scene from TOML text. The record file is not touched: see [`super::load`].
+    ///
+    /// # Errors
+    /// All problems of the scene in the order of the text; a single one, with line and column, where the text is not TOML.
+    pub fn from_toml(text: &str) -> Result<Scene, SceneError> {
+        Draft::read(text)?.finish()
+    }
+}
 
 /// A scene as far as it could be read, with what is wrong with it.
 pub(super) struct Draft<'t> {
@@ -22,7 +33,7 @@ impl<'t> Draft<'t> {
         let mut problems = document.into_problems();
         // A value that does not fit is represented in the scene by a neutral one, about which there is nothing to say.
         let mut wrong_values = check::problems(&scene);
-        write_as_found(&mut wrong_values, text, &document::places(&table));
+        write_as_found(&mut wrong_values, text, &document::spans(&table));
         wrong_values.retain(|wrong| !problems.iter().any(|unfit| unfit.covers(&wrong.path)));
         problems.append(&mut wrong_values);
         Ok(Draft { text, scene, problems })
@@ -41,25 +52,25 @@ impl<'t> Draft<'t> {
             return Ok(self.scene);
         }
         let mut problems = self.problems;
-        let places = document::places(&document::parse(self.text)?);
-        problems.sort_by_cached_key(|problem| position(&problem.path, &places));
+        let spans = document::spans(&document::parse(self.text)?);
+        problems.sort_by_cached_key(|problem| position(&problem.path, &spans));
         Err(SceneError { problems })
     }
 }
 
-/// Where a path stands in the text; what is missing stands where that stands which it is missing from.
-fn position(path: &str, places: &HashMap<String, Place>) -> usize {
+/// Position of a path in the text; a missing key has the position of the table that lacks it.
+fn position(path: &str, spans: &HashMap<String, Span>) -> usize {
     let ends = path.char_indices().rev().filter(|&(_, c)| matches!(c, '.' | '[')).map(|(end, _)| end);
     let mut from_whole_to_root = std::iter::once(path.len()).chain(ends).filter_map(|end| path.get(..end));
-    from_whole_to_root.find_map(|part| Some(places.get(part)?.start)).unwrap_or_default()
+    from_whole_to_root.find_map(|part| Some(spans.get(part)?.start)).unwrap_or_default()
 }
 
 /// Values that reading has changed as the file has them: an entry that is no number has been read as NaN, one of hundreds
 /// of digits as infinite.
-fn write_as_found(problems: &mut [Problem], text: &str, places: &HashMap<String, Place>) {
+fn write_as_found(problems: &mut [Problem], text: &str, spans: &HashMap<String, Span>) {
     let is_changed = |problem: &&mut Problem| problem.found.contains("nan") || problem.found.contains("inf");
     for problem in problems.iter_mut().filter(is_changed) {
-        let range = places.get(&problem.path).and_then(|place| place.value.clone());
+        let range = spans.get(&problem.path).and_then(|span| span.value.clone());
         if let Some(found) = range.and_then(|range| text.get(range)) {
             problem.found = excerpt(found);
         }

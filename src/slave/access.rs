@@ -1,7 +1,9 @@
 //! Getting and setting values by value reference.
 
+use super::instance::Slave;
+use super::sequence::Phase;
 use super::simulation::started;
-use super::{Phase, Refusal, Slave};
+use super::status::Refusal;
 use crate::description::Category;
 use crate::scene::SceneError;
 use crate::variables::{Input, Row, Settings, Slot, Table, Value};

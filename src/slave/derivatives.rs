@@ -2,7 +2,9 @@
 //! with respect to inputs.
 
 use super::access::{unknown, wrong_type};
-use super::{Phase, Refusal, Slave};
+use super::instance::Slave;
+use super::sequence::Phase;
+use super::status::Refusal;
 use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, Slot, Type, by_parameter};
 
 impl Slave {

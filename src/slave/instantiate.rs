@@ -1,7 +1,9 @@
 //! From what a master passes to an instance, or everything that is wrong with it.
 
+use super::instance::Slave;
+use super::log::Log;
 use super::resource_location::paths;
-use super::{Log, Refusal, Slave};
+use super::status::Refusal;
 use crate::description::Package;
 use crate::scene::SCENE_RESOURCE;
 

@@ -1,12 +1,14 @@
 //! The co-simulation object, in safe Rust and without a word of C.
 //!
 //! The caller asks [`Slave::check`] before each call (`sequence.rs` has the table), reports what comes back with
-//! [`Slave::report`] and hands the messages of [`Slave::take_messages`] to the master. Values go through `access.rs`,
-//! which walks the table of variables, derivatives through `derivatives.rs`; `snapshots.rs` keeps what the master wants to
-//! come back to, `serialized.rs` turns it into bytes and back.
+//! [`Slave::report`] and hands the messages of [`Slave::take_messages`] to the master. `instance.rs` has its life and its
+//! steps. Values go through `access.rs`, which walks the table of variables, derivatives through `derivatives.rs`;
+//! `states.rs` records what the master wants to come back to, `snapshots.rs` keeps it, `serialized.rs` turns it into bytes
+//! and back.
 
 mod access;
 mod derivatives;
+mod instance;
 mod instantiate;
 mod log;
 mod resource_location;
@@ -14,258 +16,12 @@ mod sequence;
 mod serialized;
 mod simulation;
 mod snapshots;
+mod states;
 mod status;
 
+pub use instance::Slave;
 pub use instantiate::instantiate;
 pub use log::{Log, Message};
 pub use sequence::{Call, Phase};
 pub use snapshots::Handle;
 pub use status::{Refusal, Status, StatusKind};
-
-use crate::description::{Category, Package, guid};
-use crate::engine::Episode;
-use crate::figures::plain;
-use crate::scene::rule::MOST_TIME;
-use crate::variables::{Inputs, Settings, Table};
-use simulation::{Simulation, started};
-use snapshots::Snapshots;
-use std::sync::Arc;
-use uuid::Uuid;
-
-/// Communication points may differ by the rounding of the master: s, relative to their magnitude above 1 s.
-const TIME_TOLERANCE: f64 = 1e-9;
-
-/// One instance.
-#[derive(Debug)]
-pub struct Slave {
-    /// Of the FMU: its GUID.
-    fingerprint: Uuid,
-    table: Table,
-    /// The parameters as the scene gives them, for a reset.
-    defaults: Arc<Settings>,
-    settings: Arc<Settings>,
-    inputs: Inputs,
-    phase: Phase,
-    log: Log,
-    /// s, present communication point; the start time before the first step.
-    time: f64,
-    /// s, end that the master has announced.
-    stop_time: Option<f64>,
-    /// Made of the settings when something computed is asked for, dropped when they change.
-    simulation: Option<Simulation>,
-    snapshots: Snapshots,
-    has_warned_of_ground: bool,
-}
-
-impl Slave {
-    /// A fresh instance of what an FMU holds.
-    pub fn new(package: Package, log: Log) -> Slave {
-        let fingerprint = package.fingerprint();
-        let settings = Arc::new(Settings::new(package.scene, package.record.map(|packaged| packaged.record)));
-        Slave {
-            fingerprint,
-            table: Table::new(&settings.scene),
-            inputs: Inputs::new(&settings.scene),
-            defaults: Arc::clone(&settings),
-            settings,
-            phase: Phase::Instantiated,
-            log,
-            time: 0.0,
-            stop_time: None,
-            simulation: None,
-            snapshots: Snapshots::default(),
-            has_warned_of_ground: false,
-        }
-    }
-
-    /// The GUID of the FMU, as its description writes it.
-    pub fn guid(&self) -> String {
-        guid(self.fingerprint)
-    }
-
-    /// Whether the standard allows a call now.
-    pub fn check(&self, call: Call) -> Result<(), Refusal> {
-        if call.is_allowed_in(self.phase) { Ok(()) } else { Err(self.out_of_sequence(call)) }
-    }
-
-    #[cold]
-    fn out_of_sequence(&self, call: Call) -> Refusal {
-        let phases = call.rule().1.iter().map(|phase| format!("{phase:?}")).collect::<Vec<_>>();
-        let expected = if phases.is_empty() { "no phase of this FMU".to_owned() } else { phases.join(", ") };
-        Refusal::from(format!("called in phase {:?}: expected in {expected}", self.phase))
-    }
-
-    /// Turns the result of a call into its status. After an error the standard allows little but a reset.
-    pub fn report(&mut self, call: Call, result: Result<Status, Refusal>) -> Status {
-        let refusal = match result {
-            Ok(status) => return status,
-            Err(refusal) => refusal,
-        };
-        self.phase = Phase::Error;
-        for problem in refusal.problems {
-            self.log.add(Category::StatusError, format!("{}: {problem}", call.name()));
-        }
-        Status::Error
-    }
-
-    /// Logs a failure after which the instance cannot be used.
-    pub fn report_fatal(&mut self, call: Call, failure: &str) -> Status {
-        self.log.add(Category::StatusFatal, format!("{}: internal failure: {failure}", call.name()));
-        Status::Fatal
-    }
-
-    /// The messages since the last time.
-    pub fn take_messages(&mut self) -> Vec<Message> {
-        self.log.take()
-    }
-
-    /// Chooses the log categories.
-    pub fn set_debug_logging(&mut self, on: bool, categories: &[&str]) -> Result<(), Refusal> {
-        self.log.choose(on, categories).map_err(|problems| Refusal { problems })
-    }
-
-    /// Start and end, s. The tolerance is only looked at: `solver.relative_tolerance` rules the accuracy.
-    pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Result<(), Refusal> {
-        let mut problems = Vec::new();
-        if let Some(tolerance) = tolerance.filter(|tolerance| !(tolerance.is_finite() && *tolerance >= 0.0)) {
-            problems.push(format!("tolerance = {}: expected a finite number >= 0", plain(tolerance)));
-        }
-        if !is_time(start) {
-            problems
-                .push(format!("startTime = {}: expected a number from -{MOST_TIME:e} to {MOST_TIME:e}", plain(start)));
-        }
-        if let Some(stop) = stop.filter(|stop| !(stop.is_finite() && *stop >= start)) {
-            problems.push(format!(
-                "stopTime = {}: expected a finite number >= startTime = {}",
-                plain(stop),
-                plain(start)
-            ));
-        }
-        Refusal::unless_empty(problems)?;
-        (self.time, self.stop_time, self.simulation) = (start, stop, None);
-        self.inputs.begin_at(start);
-        Ok(())
-    }
-
-    /// From here on everything computed can be read.
-    pub fn enter_initialization(&mut self) -> Status {
-        self.phase = Phase::Initialization;
-        Status::Ok
-    }
-
-    /// The parameters are fixed from here on: what looks like a slip in them is said.
-    pub fn exit_initialization(&mut self) -> Result<(), Refusal> {
-        self.start()?;
-        self.phase = Phase::StepComplete;
-        if self.log.is_enabled(Category::StatusWarning) {
-            for warning in self.settings.warnings() {
-                self.log.add(Category::StatusWarning, warning.to_string());
-            }
-        }
-        if let Some(scaled) = self.settings.rescaled_record() {
-            self.log.add(Category::Events, scaled);
-        }
-        Ok(())
-    }
-
-    /// No more steps.
-    pub fn terminate(&mut self) -> Status {
-        self.phase = Phase::Terminated;
-        Status::Ok
-    }
-
-    /// As after instantiation. The logging stays as the master has chosen it, and so do the snapshots.
-    pub fn reset(&mut self) -> Status {
-        self.settings = Arc::clone(&self.defaults);
-        self.inputs = Inputs::new(&self.settings.scene);
-        (self.time, self.stop_time, self.simulation) = (0.0, None, None);
-        self.has_warned_of_ground = false;
-        self.phase = Phase::Instantiated;
-        Status::Ok
-    }
-
-    /// One communication step, s: from the last communication point, give or take the rounding of the master.
-    pub fn do_step(&mut self, current: f64, step: f64) -> Result<(), Refusal> {
-        let target = self.target(current, step)?;
-        let log_events = self.log.is_enabled(Category::Events);
-        let mut events = Vec::new();
-        let result = self.start()?.advance(target, &mut |episode| {
-            if log_events {
-                events.push(describe(episode));
-            }
-        });
-        for event in events {
-            self.log.add(Category::Events, event);
-        }
-        result?;
-        self.time = target;
-        Ok(())
-    }
-
-    /// The communication point that a step leads to, or everything that is wrong with the step.
-    fn target(&self, current: f64, step: f64) -> Result<f64, Refusal> {
-        let mut problems = Vec::new();
-        let tolerance = |time: f64| TIME_TOLERANCE * time.abs().max(1.0);
-        if !(current.is_finite() && (current - self.time).abs() <= tolerance(self.time)) {
-            let expected = format!("expected {} within {:e}", self.time, tolerance(self.time));
-            problems.push(format!("currentCommunicationPoint = {}: {expected}", plain(current)));
-        }
-        if !(step.is_finite() && step > 0.0) {
-            problems.push(format!("communicationStepSize = {}: expected a finite number > 0", plain(step)));
-        }
-        let target = current + step;
-        if let Some(stop) = self.stop_time.filter(|stop| target > stop + tolerance(*stop)) {
-            let expected = format!("expected at most stopTime = {}", plain(stop));
-            problems.push(format!("currentCommunicationPoint + communicationStepSize = {}: {expected}", plain(target)));
-        }
-        Refusal::unless_empty(problems)?;
-        if !is_time(target) {
-            return Err(Refusal::from(format!(
-                "the step leads to {} s: expected a time up to {MOST_TIME:e} s",
-                plain(target)
-            )));
-        }
-        // Only here it is known how far a line goes on.
-        if self.inputs.are_moving() {
-            let beyond = self.inputs.beyond(&self.table, target);
-            let at_end = |problem| format!("at the end of the step, {target} s, {problem}");
-            Refusal::unless_empty(beyond.into_iter().map(at_end).collect())?;
-        }
-        // A tiny step may fall short of the rounding of `current`: time stands still then, it never runs back. So it
-        // does for steps whose inverse is no number.
-        let stands_still = target - self.time < f64::MIN_POSITIVE;
-        Ok(if stands_still { self.time } else { target })
-    }
-
-    /// s, time up to which the solution is known.
-    pub fn last_successful_time(&self) -> f64 {
-        self.time
-    }
-
-    /// Status information that there is not: nothing is ever pending.
-    pub fn no_status(&mut self, call: Call, kind: StatusKind) -> Status {
-        self.log.add(Category::StatusDiscard, format!("{}: there is no {kind:?} of this type", call.name()));
-        Status::Discard
-    }
-
-    /// The solution at the present time.
-    fn start(&mut self) -> Result<&mut Simulation, Refusal> {
-        started(&mut self.simulation, &self.settings, &self.inputs, &self.table, self.time)
-    }
-}
-
-/// Whether motion can be followed at a time, s.
-fn is_time(time: f64) -> bool {
-    time.abs() <= MOST_TIME
-}
-
-/// An episode in one line, as the contacts are counted in the scene.
-fn describe(episode: &Episode) -> String {
-    let Episode { contact, start, end, approach_velocity, separation_velocity, peak_force, impulse, .. } = episode;
-    let end = end.map_or("now".to_owned(), |end| format!("{end:.9} s"));
-    format!(
-        "contact[{}] from {start:.9} s to {end}: approach {approach_velocity:.6} m/s, separation \
-         {separation_velocity:.6} m/s, peak force {peak_force:.6e} N, impulse {impulse:.6e} N s",
-        contact + 1
-    )
-}

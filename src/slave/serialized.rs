@@ -12,9 +12,11 @@
 //! The checksum is against accidents. Who means to can forge it, so the body is not trusted either: what a model could
 //! trip over is refused before it meets the model.
 
+use super::instance::{Slave, is_time};
+use super::sequence::Phase;
 use super::simulation::{SavedRun, model};
 use super::snapshots::Snapshot;
-use super::{Phase, Refusal, Slave, is_time};
+use super::status::Refusal;
 use crate::description::guid;
 use crate::engine::SavedState;
 use crate::variables::{Changes, Inputs, Settings};
@@ -28,7 +30,7 @@ const MAGIC: &[u8; 8] = b"pounding";
 /// Of the body. It is counted up when what [`Body`] holds changes: a test notices.
 const FORMAT: u32 = 4;
 
-/// What there is but for the body.
+/// Bytes around the body.
 const ENVELOPE: usize = MAGIC.len() + size_of::<u32>() + size_of::<Uuid>() + size_of::<u64>() + size_of::<Uuid>();
 
 /// A snapshot without what follows from the scene.

@@ -1,6 +1,6 @@
 //! A run: the model of the present settings, its state, and what is read out of it.
 
-use super::Refusal;
+use super::status::Refusal;
 use crate::engine::{Episode, Model, Point, PointRates, Response, SavedState, State};
 use crate::variables::{Input, Inputs, Instant, Settings, Slot, Table};
 use std::sync::Arc;
@@ -85,7 +85,7 @@ impl Simulation {
         Ok(self.model.advance(&mut self.state, until, on_episode)?)
     }
 
-    /// What has been read is old.
+    /// Outputs and derivatives must be observed again.
     fn has_changed(&mut self) {
         (self.is_observed, self.is_differentiated) = (false, false);
     }
@@ -111,7 +111,7 @@ impl Simulation {
         (Instant { model, state, point }, rates)
     }
 
-    /// Works out what answers at once to changes of inputs.
+    /// Works out the direct feedthrough of changes of inputs, at the same instant.
     pub fn respond(&mut self, changes: impl Iterator<Item = (Input, f64)>) {
         self.now();
         let Simulation { model, state, point, response, .. } = self;
@@ -120,7 +120,7 @@ impl Simulation {
         model.settle_response(state, point, response);
     }
 
-    /// What the last response has of an unknown.
+    /// The change of an unknown in the last response.
     pub fn response(&self, unknown: Slot) -> f64 {
         match unknown {
             Slot::Output(output) => output.of_response(&self.model, &self.response),
@@ -144,7 +144,7 @@ pub(super) fn started<'a>(
     }
 }
 
-/// What the parameters make of the scene.
+/// The model of the scene with these parameters.
 pub(super) fn model(settings: &Settings) -> Result<Model, Refusal> {
     Ok(Model::new(&settings.scene, settings.record())?)
 }

@@ -1,11 +1,12 @@
-//! Snapshots: what the master has had recorded and may come back to.
+//! What the master has had recorded and may come back to.
 //!
 //! A snapshot holds everything that a later call can depend on - parameters, inputs, phase, time, end and the state of
 //! the engine - but not the choice of log categories: that is the master's at any time, as over a reset. It stays until
 //! the master frees it, whatever it says about going back when it makes a step.
 
-use super::simulation::{SavedRun, Simulation};
-use super::{Phase, Refusal, Slave};
+use super::sequence::Phase;
+use super::simulation::SavedRun;
+use super::status::Refusal;
 use crate::variables::{Inputs, Settings};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -13,8 +14,8 @@ use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// What a master calls a snapshot by. No two snapshots of a process have the same, however long ago one was freed, so
-/// what is stale or of another instance is found out.
+/// The name of a snapshot towards the master. No two snapshots of a process have the same, however long ago one was
+/// freed, so that a stale handle, or one of another instance, is found out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Handle(pub NonZeroUsize);
 
@@ -36,58 +37,9 @@ pub(super) struct Snapshot {
     pub run: Option<SavedRun>,
 }
 
-impl Slave {
-    /// Records the present state: in place of an earlier snapshot, or as a new one.
-    pub fn record_state(&mut self, earlier: Option<Handle>) -> Result<Handle, Refusal> {
-        let snapshot = Snapshot {
-            settings: Arc::clone(&self.settings),
-            inputs: self.inputs.clone(),
-            phase: self.phase,
-            time: self.time,
-            stop_time: self.stop_time,
-            run: self.simulation.as_ref().map(Simulation::save),
-        };
-        self.snapshots.keep(snapshot, earlier)
-    }
-
-    /// Goes back to a snapshot, from any phase.
-    pub fn restore_state(&mut self, handle: Option<Handle>) -> Result<(), Refusal> {
-        let Snapshot { settings, inputs, phase, time, stop_time, run } = self.snapshots.get(handle)?;
-        self.settings = Arc::clone(settings);
-        self.inputs = inputs.clone();
-        (self.phase, self.time, self.stop_time) = (*phase, *time, *stop_time);
-        let present = self.simulation.take();
-        self.simulation = run.as_ref().map(|run| Simulation::restore(run, present));
-        Ok(())
-    }
-
-    /// Frees a snapshot; there may be none.
-    pub fn free_state(&mut self, handle: Option<Handle>) -> Result<(), Refusal> {
-        if let Some(handle) = handle {
-            self.snapshots.live.remove(&handle).ok_or_else(|| unknown(handle))?;
-        }
-        Ok(())
-    }
-
-    /// Number of bytes that [`Slave::serialize_state`] makes of a snapshot.
-    pub fn serialized_size(&self, handle: Option<Handle>) -> Result<usize, Refusal> {
-        Ok(self.serialize_state(handle)?.len())
-    }
-
-    /// A snapshot as bytes, to be kept anywhere.
-    pub fn serialize_state(&self, handle: Option<Handle>) -> Result<Vec<u8>, Refusal> {
-        self.serialize(self.snapshots.get(handle)?)
-    }
-
-    /// Makes a snapshot of bytes: in place of an earlier one, or as a new one. The instance itself stays as it is.
-    pub fn deserialize_state(&mut self, bytes: &[u8], earlier: Option<Handle>) -> Result<Handle, Refusal> {
-        let snapshot = self.deserialize(bytes)?;
-        self.snapshots.keep(snapshot, earlier)
-    }
-}
-
 impl Snapshots {
-    fn keep(&mut self, snapshot: Snapshot, earlier: Option<Handle>) -> Result<Handle, Refusal> {
+    /// Keeps a snapshot in place of an earlier one, or as a new one.
+    pub fn keep(&mut self, snapshot: Snapshot, earlier: Option<Handle>) -> Result<Handle, Refusal> {
         let handle = match earlier {
             Some(handle) if self.live.contains_key(&handle) => handle,
             Some(handle) => return Err(unknown(handle)),
@@ -97,9 +49,15 @@ impl Snapshots {
         Ok(handle)
     }
 
-    fn get(&self, handle: Option<Handle>) -> Result<&Snapshot, Refusal> {
+    /// The snapshot of that handle.
+    pub fn get(&self, handle: Option<Handle>) -> Result<&Snapshot, Refusal> {
         let handle = handle.ok_or_else(|| Refusal::from("FMUstate is null: expected a recorded state".to_owned()))?;
         self.live.get(&handle).ok_or_else(|| unknown(handle))
+    }
+
+    /// Forgets the snapshot of that handle.
+    pub fn free(&mut self, handle: Handle) -> Result<(), Refusal> {
+        self.live.remove(&handle).map(drop).ok_or_else(|| unknown(handle))
     }
 }
 

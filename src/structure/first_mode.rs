@@ -1,10 +1,11 @@
-//! The first mode of one building, in less work than all of them: K^-1 M x again and again leaves nothing else of x.
+//! The first mode of one building, by inverse iteration: x -> K^-1 M x converges to its shape, in less work than all
+//! modes take.
 
 use super::modes::NotPositiveDefinite;
 use crate::scene::{Building, Stiffness};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// Each iteration takes a factor of (w1/w2)^2, for most buildings 1/9, off the error.
+/// Each iteration multiplies the error by (w1/w2)^2, for most buildings 1/9.
 const MOST_ITERATIONS: usize = 100;
 const TOLERANCE: f64 = 1e-9;
 

@@ -1,5 +1,5 @@
 //! The two buildings floor by floor: the coordinates of contact, where a force acts on two floors only and, in a shear
-//! building, a floor knows nothing but its neighbours.
+//! building, each floor is coupled to its neighbours only.
 //!
 //! Both buildings' floors stand in one vector, the left building's first. Where they are many each building begins with a
 //! block of lanes, so that floors of one level stand in the same place of a block, and a building is whole blocks of its own.
@@ -8,8 +8,8 @@
 //! M u'' + C u' + K u = -M 1 ground acceleration + floor forces - contact forces
 //! ```
 
-use super::modes::{Modes, rayleigh_factors};
-use super::{FEW_BLOCKS, LANES, Lane, ModalDamping};
+use super::lanes::{FEW_BLOCKS, LANES, Lane};
+use super::modes::{ModalDamping, Modes, rayleigh_factors};
 use crate::numerics::polynomial::each;
 use crate::scene::{Building, Damping, Stiffness};
 use std::ops::Range;
@@ -29,14 +29,14 @@ pub struct Floors {
     storey: Vec<f64>,
     blocks: Vec<Block>,
     buildings: [Blocks; 2],
-    /// Floors that rest: zeros.
+    /// The displacements or velocities of floors at rest: zeros.
     pub rest: Vec<f64>,
-    /// Whether both stand in blocks of their own and are shear buildings with no more than Rayleigh damping, so that a floor
-    /// feels its neighbours only.
+    /// Whether both stand in blocks of their own and are shear buildings with no more than Rayleigh damping, so that
+    /// each floor is coupled to its neighbours only.
     is_sparse: bool,
 }
 
-/// What pulls some floors in a row towards their neighbours.
+/// Stiffness between a block of floors and their neighbours, over the masses of the floors.
 #[derive(Clone, Copy, Debug, Default)]
 struct Block {
     /// Stiffness of the storey below each floor over the floor's mass, 1/s2.
@@ -58,7 +58,8 @@ struct Blocks {
 }
 
 impl Block {
-    /// Enters the resistance of floors, from how far each storey below is strained and the one above the last.
+    /// Enters M^-1 (K u + rate C v) of a block of floors, from the drifts of the storeys below them and of the storey
+    /// above the last floor.
     #[inline(always)]
     fn enter(
         &self,
@@ -137,7 +138,7 @@ impl Floors {
         }
     }
 
-    /// Whether a floor feels its neighbours only.
+    /// Whether each floor is coupled to its neighbours only.
     pub fn is_sparse(&self) -> bool {
         self.is_sparse
     }
@@ -173,10 +174,10 @@ impl Floors {
         self.enter_resistance(u, v, rate, out.as_chunks_mut::<LANES>().0, |out, resistance| out - resistance);
     }
 
-    /// Makes of each lane of `out` what `entry` says of its value and of its M^-1 (K u + rate C v), m/s^2 for `rate` 1.
+    /// Replaces each value of `out` by `entry` of that value and of M^-1 (K u + rate C v), m/s^2 for `rate` 1.
     #[inline(always)]
     pub fn enter_resistance(&self, u: &[f64], v: &[f64], rate: f64, out: &mut [Lane], entry: impl Fn(f64, f64) -> f64) {
-        // Says once that no index below leaves its table.
+        // Equal lengths: no bounds checks below.
         let (blocks, count) = (&self.blocks[..], self.blocks.len());
         let [u, v] = [u, v].map(|vector| &vector.as_chunks::<LANES>().0[..count]);
         for building in &self.buildings {
@@ -184,8 +185,8 @@ impl Floors {
         }
     }
 
-    /// Adds |M^-1 K| x times the first factor and |M^-1 C| x times the second for one building, where it feels its
-    /// neighbours only.
+    /// Adds |M^-1 K| x times the first factor and |M^-1 C| x times the second for one building, where each floor is
+    /// coupled to its neighbours only.
     pub fn add_sizes(&self, side: usize, [by_u, by_v]: [f64; 2], x: &[f64], out: &mut [f64]) {
         let Blocks { on_mass, on_stiffness, .. } = self.buildings[side];
         let (by_storeys, by_itself) = (by_u + by_v * on_stiffness.abs(), by_v * on_mass.abs());
@@ -208,14 +209,14 @@ impl Floors {
         (0.5 * kinetic, 0.5 * strain)
     }
 
-    /// Power that structural damping takes, W; `damped` is room to work in.
+    /// Power that structural damping takes, W; `damped` is overwritten.
     pub fn viscous_power(&self, v: &[f64], damped: &mut [f64]) -> f64 {
         damped.fill(0.0);
         self.resist(&self.rest, v, 1.0, damped);
         -self.mass().iter().zip(v).zip(&*damped).map(|((m, v), a)| m * v * a).sum::<f64>()
     }
 
-    /// Force of a building on the ground, N: minus the sum of mass times what [`Floors::resist`] adds up.
+    /// Force of a building on the ground, N: minus the sum of the masses times the accelerations of [`Floors::resist`].
     pub fn base_shear(&self, side: usize, resisted: &[f64]) -> f64 {
         let mass = self.of_building(side, &self.mass);
         let resisted = self.of_building(side, resisted);
@@ -242,7 +243,7 @@ impl Blocks {
         let (on_mass, on_stiffness) = (rate * self.on_mass, rate * self.on_stiffness);
         let mut shear = Shear { on_mass, on_stiffness, ..Shear::default() };
         shear.rise(&u[self.first], &v[self.first]);
-        // As many blocks at a time as make the loop's own cost small.
+        // Up to four blocks at a time, so that the loop itself costs little.
         let mut c = self.first;
         while c + 1 < self.end {
             c += match self.end - 1 - c {
@@ -256,14 +257,14 @@ impl Blocks {
     }
 }
 
-/// What is known of a block of floors on the way up a building.
+/// What the loop over the blocks of a building, from the ground up, carries from one block to the next.
 #[derive(Default)]
 struct Shear {
     on_mass: f64,
     on_stiffness: f64,
-    /// m, how far the floors have moved, with what damping adds to it.
+    /// u + on_stiffness v of the floors, m: damping by the stiffness acts as this displacement would.
     moved: Lane,
-    /// m, how much further than the floors below them.
+    /// m, the same relative to the floor below: the drifts of the storeys.
     strain: Lane,
 }
 
@@ -279,8 +280,8 @@ impl Shear {
 
     /// Enters `N` blocks, from block `c` on, and goes on to the block above; returns how many that are.
     ///
-    /// A floor feels the storey below and the one above. Its neighbours stand in neighbouring lanes, which stay in registers:
-    /// what has just been stored cannot be read back from other places without waiting for it.
+    /// The neighbours of a floor stand in neighbouring lanes, which are shifted in registers: loading them again, one
+    /// lane further, would wait for the stores before.
     #[inline(always)]
     fn enter_next<const N: usize>(
         &mut self,
@@ -290,7 +291,7 @@ impl Shear {
         out: &mut [Lane],
         entry: impl Fn(f64, f64) -> f64,
     ) -> usize {
-        // Says once that no index below leaves its table.
+        // Equal lengths: no bounds checks below.
         let (blocks, u, v, out) = (&blocks[c..][..N], &u[c..][..N + 1], &v[c..][..N + 1], &mut out[c..][..N]);
         for k in 0..N {
             let strain = self.strain;
@@ -306,7 +307,7 @@ impl Shear {
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::structure::Structure;
+    use crate::structure::{Side, Structure};
     use nalgebra::{DMatrix, DVector};
 
     const SHEAR: &str = r#"
@@ -378,7 +379,7 @@ mod tests {
         let (mut strain, mut viscous, mut damped) = (0.0, 0.0, vec![0.0; u.len()]);
         for (side, building) in [&scene.left, &scene.right].into_iter().enumerate() {
             let [u, v] = [&u, &v].map(|vector| DVector::from_column_slice(floors.of_building(side, vector)));
-            let (k, c) = (stiffness(building), damping(building, &structure.buildings[side]));
+            let (k, c) = (stiffness(building), damping(building, structure.modes([Side::Left, Side::Right][side])));
             let force = &k * &u + 0.7 * (&c * &v);
             let got = floors.of_building(side, &resisted);
             for ((f, mass), got) in force.iter().zip(&building.mass).zip(got) {

@@ -1,6 +1,7 @@
-//! What an impulse makes of each mode: h'' + c h' + w^2 h = 0 from h = 0, h' = 1, as a power series in time.
+//! The impulse response of each mode as a power series in time: h'' + c h' + w^2 h = 0 from h = 0, h' = 1.
 
-use super::{LANES, Structure};
+use super::equations::Structure;
+use super::lanes::LANES;
 use crate::numerics::polynomial::{COUNT, each};
 
 /// Powers of time of an impulse response.
@@ -53,7 +54,8 @@ impl ImpulseResponse {
         (k < RESPONSE_POWERS).then_some(k + 1)
     }
 
-    /// G of the distance of a pair under the force of another, from their rows; m/(N s^k).
+    /// The kernel G_pq, the response of the distance of pair p to a unit impulse at pair q, in powers of t, m/(N s^k),
+    /// from the rows of both pairs.
     pub fn kernel(&self, row: &[f64], other: &[f64]) -> [f64; RESPONSE_POWERS] {
         let mut kernel = [0.0; RESPONSE_POWERS];
         for (k, kernel) in kernel.iter_mut().enumerate() {
@@ -70,14 +72,14 @@ impl ImpulseResponse {
         kernel
     }
 
-    /// Takes from a motion what a force has done by its moments, N s^(k+1): the integrals of (time left)^k F. Its terms are
-    /// added up before they meet the larger motion, from the smallest on.
+    /// Subtracts the effect of a contact force from a motion, by the moments of the force, N s^(k+1): the integrals of
+    /// (time left)^k F. The terms are summed first, from the smallest on, and meet the larger motion as one sum.
     pub fn push(&self, row: &[f64], moments: &[f64], motion: (&mut [f64], &mut [f64])) {
         push(self, row, moments, motion);
     }
 }
 
-/// See [`ImpulseResponse::push`]. Wide instructions give the same bits.
+/// See [`ImpulseResponse::push`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn push(response: &ImpulseResponse, row: &[f64], moments: &[f64], (q, v): (&mut [f64], &mut [f64])) {
     let width = response.lanes / LANES;

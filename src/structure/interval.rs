@@ -1,10 +1,13 @@
 //! The exact flight of all modes over one interval of time.
 
-use super::{CoupledIncrement, LANES, Lane, ModalDamping, ModeIncrement, Scratch, Side, Structure};
+use super::equations::{Scratch, Side, Structure};
+use super::lanes::{LANES, Lane};
+use super::modes::ModalDamping;
+use super::propagator::{CoupledIncrement, ModeIncrement};
 
 /// The increments of [`LANES`] modes side by side.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct ModeBlock {
+pub struct ModeIncrements {
     dqq: [f64; LANES],
     dqv: [f64; LANES],
     dvq: [f64; LANES],
@@ -15,7 +18,7 @@ pub struct ModeBlock {
     rv1: [f64; LANES],
 }
 
-impl ModeBlock {
+impl ModeIncrements {
     fn set(&mut self, i: usize, mode: &ModeIncrement) {
         self.dqq[i] = mode.dqq;
         self.dqv[i] = mode.dqv;
@@ -64,7 +67,7 @@ impl ModeBlock {
 pub struct Interval {
     /// s.
     pub length: f64,
-    modes: Vec<ModeBlock>,
+    modes: Vec<ModeIncrements>,
     coupled: Vec<(usize, CoupledIncrement)>,
 }
 
@@ -76,9 +79,9 @@ impl Interval {
         interval
     }
 
-    /// Room to prepare a flight in.
+    /// An interval without a length yet, for [`Interval::prepare`].
     pub fn room(structure: &Structure) -> Interval {
-        let modes = vec![ModeBlock::default(); structure.lanes / LANES];
+        let modes = vec![ModeIncrements::default(); structure.lanes / LANES];
         Interval { length: f64::NAN, modes, coupled: Vec::new() }
     }
 
@@ -104,7 +107,7 @@ impl Interval {
     }
 
     /// The increments of all modes, where they are so many blocks of them and damping couples none.
-    pub fn blocks<const WIDTH: usize>(&self) -> Option<&[ModeBlock; WIDTH]> {
+    pub fn blocks<const WIDTH: usize>(&self) -> Option<&[ModeIncrements; WIDTH]> {
         self.modes.as_slice().try_into().ok().filter(|_| self.coupled.is_empty())
     }
 
@@ -146,7 +149,7 @@ impl Interval {
         let [(q0, _), (v0, _), (participation, _)] = [q, v, participation].map(<[f64]>::as_chunks::<LANES>);
         let [(q1, _), (v1, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
         let width = self.modes.len();
-        // Says once that no index below leaves its table.
+        // Equal lengths: no bounds checks below.
         let (modes, participation) = (&self.modes[..width], &participation[..width]);
         let (q0, v0, q1, v1) = (&q0[..width], &v0[..width], &mut q1[..width], &mut v1[..width]);
         let mut sum = [0.0; LANES];
@@ -162,17 +165,17 @@ impl Interval {
     }
 }
 
-/// The end of all modes from q, v, load and slope, as if damping coupled none. Wide instructions give the same bits.
+/// The end of all modes from q, v, load and slope, as if damping coupled none.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn fly_modes(
-    modes: &[ModeBlock],
+    modes: &[ModeIncrements],
     (q, v): (&[f64], &[f64]),
     (load, slope): (&[f64], &[f64]),
     (end_q, end_v): (&mut [f64], &mut [f64]),
 ) {
     let [(q, _), (v, _), (load, _), (slope, _)] = [q, v, load, slope].map(<[f64]>::as_chunks::<LANES>);
     let [(end_q, _), (end_v, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
-    // Says once that no index below leaves its vector.
+    // Equal lengths: no bounds checks below.
     let width = modes.len();
     let (q, v, load, slope) = (&q[..width], &v[..width], &load[..width], &slope[..width]);
     let (end_q, end_v) = (&mut end_q[..width], &mut end_v[..width]);

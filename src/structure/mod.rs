@@ -7,341 +7,42 @@
 //! ```text
 //! q'' + c q' + w^2 q = load,   load = -participation * ground acceleration + shape' * floor forces - pair * contact force
 //! ```
+//!
+//! | file | holds |
+//! |---|---|
+//! | `modes.rs`, `first_mode.rs` | frequencies, shapes and damping of one building; the first mode alone |
+//! | `equations.rs` | both buildings mode by mode: equation of motion, forces, energies |
+//! | `floors.rs` | the same floor by floor, for shear buildings |
+//! | `propagator.rs`, `interval.rs` | exact response over a time, of one mode and of all |
+//! | `series/` | the motion as a power series in time: its terms, their sums |
+//! | `short_flight.rs` | a flight by one such series, without keeping the terms |
+//! | `impulse_response.rs` | the response to an impulse as a power series in time |
+//! | `lanes.rs`, `lane_matrix.rs` | vectors in blocks of four, their sums of products, matrices between them |
+//!
+//! A function marked `multiversion` is compiled twice, with wide instructions and without: the same operations in the same
+//! order, so the same bits.
 
-mod dense;
+mod equations;
 mod first_mode;
 mod floors;
 mod impulse_response;
 mod interval;
+mod lane_matrix;
+mod lanes;
 mod modes;
 mod propagator;
 mod series;
 mod short_flight;
 
+pub use equations::{Scratch, Side, Structure};
 pub use first_mode::FirstMode;
 pub use floors::Floors;
 pub use impulse_response::{ImpulseResponse, RESPONSE_POWERS};
-pub use interval::{Interval, ModeBlock};
+pub use interval::{Interval, ModeIncrements};
+pub use lanes::{FEW_BLOCKS, LANES, Lane, difference, dot};
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
 pub use propagator::{CoupledIncrement, ModeIncrement};
-pub use series::{EXACT, FEW_BLOCKS, MotionSeries, PairForces, difference, dot, flight_order, sum_sizes, sum_terms};
+pub use series::MotionSeries;
+pub use series::expand::{EXACT, PairForces, flight_order};
+pub use series::sums::{sum_sizes, sum_terms};
 pub use short_flight::{exact_order, fly_in_one_series};
-
-use dense::{Dense, block_of_both};
-
-use crate::scene::Building;
-use nalgebra::DMatrix;
-use std::ops::Range;
-
-/// Modal vectors are padded to a multiple of this.
-pub const LANES: usize = 4;
-
-/// A block of a modal vector.
-pub type Lane = [f64; LANES];
-
-/// Which building.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Side {
-    /// On the left.
-    Left,
-    /// On the right.
-    Right,
-}
-
-/// Both buildings in modal coordinates.
-#[derive(Clone, Debug)]
-pub struct Structure {
-    buildings: [Modes; 2],
-    /// Length of a modal vector.
-    pub lanes: usize,
-    /// w^2 of each mode, 1/s^2; 0 in the padding, as everywhere below.
-    pub omega2: Vec<f64>,
-    /// Damping of each mode by its own velocity, 1/s.
-    pub damping: Vec<f64>,
-    /// w + c, 1/s.
-    pub quickness: Vec<f64>,
-    /// kg^1/2.
-    pub participation: Vec<f64>,
-    /// Largest entry of each mode's shape, kg^-1/2: turns a modal error into the worst floor's.
-    pub weight: Vec<f64>,
-    /// Largest w or c of all modes, 1/s: the fastest thing that the structure does.
-    pub fastest: f64,
-    coupling: Vec<Coupling>,
-    /// The buildings floor by floor.
-    pub floors: Floors,
-    /// From modes to floors and back, for each building.
-    to_floors: [Dense; 2],
-    to_modes: [Dense; 2],
-}
-
-/// Off-diagonal damping of one building, 1/s.
-#[derive(Clone, Debug)]
-struct Coupling {
-    offset: usize,
-    matrix: DMatrix<f64>,
-}
-
-impl Structure {
-    /// Solves both eigenproblems.
-    pub fn new(left: &Building, right: &Building) -> Result<Structure, (Side, NotPositiveDefinite)> {
-        let buildings = [left, right];
-        let left = Modes::of(left).map_err(|e| (Side::Left, e))?;
-        let right = Modes::of(right).map_err(|e| (Side::Right, e))?;
-        let counts = [left.omega.len(), right.omega.len()];
-        let lanes = Floors::lanes(counts[0], counts[1]);
-        let modes = [left, right];
-        let floors = Floors::new(buildings, &modes);
-        let (first_mode, first_floor) = ([0, counts[0]], [floors.lane(0, 0), floors.lane(1, 0)]);
-        let shape = |side: usize| &modes[side].shape;
-        let to_floors = [0, 1]
-            .map(|side| Dense::new(counts[side], first_mode[side], first_floor[side], |i, m| shape(side)[(i, m)]));
-        let to_modes = [0, 1].map(|side| {
-            let weighted = |m: usize, i: usize| shape(side)[(i, m)] * buildings[side].mass[i];
-            Dense::new(counts[side], first_floor[side], first_mode[side], weighted)
-        });
-        let mut structure = Structure {
-            lanes,
-            omega2: vec![0.0; lanes],
-            damping: vec![0.0; lanes],
-            quickness: vec![0.0; lanes],
-            participation: vec![0.0; lanes],
-            weight: vec![0.0; lanes],
-            fastest: 0.0,
-            coupling: Vec::new(),
-            floors,
-            to_floors,
-            to_modes,
-            buildings: modes,
-        };
-        for side in [Side::Left, Side::Right] {
-            structure.spread(side);
-        }
-        for m in 0..lanes {
-            structure.quickness[m] = structure.omega2[m].sqrt() + structure.damping[m];
-        }
-        Ok(structure)
-    }
-
-    /// Lays one building's modes into the common vectors.
-    fn spread(&mut self, side: Side) {
-        let offset = self.offset(side);
-        let modes = &self.buildings[side as usize];
-        for (m, w) in modes.omega.iter().enumerate() {
-            self.omega2[offset + m] = w * w;
-            self.participation[offset + m] = modes.participation[m];
-            self.weight[offset + m] = modes.shape.column(m).amax();
-            self.fastest = self.fastest.max(*w);
-        }
-        match &modes.damping {
-            ModalDamping::Diagonal(c) => {
-                self.damping[offset..offset + c.len()].copy_from_slice(c);
-                self.fastest = c.iter().fold(self.fastest, |fastest, c| fastest.max(*c));
-            }
-            ModalDamping::Coupled(c) => {
-                let mut matrix = c.clone();
-                for m in 0..c.nrows() {
-                    self.damping[offset + m] = c[(m, m)];
-                    matrix[(m, m)] = 0.0;
-                }
-                self.fastest = self.fastest.max(c.abs().row_sum().max());
-                self.coupling.push(Coupling { offset, matrix });
-            }
-        }
-    }
-
-    /// The modes of one building.
-    pub fn modes(&self, side: Side) -> &Modes {
-        &self.buildings[side as usize]
-    }
-
-    /// Number of floors, which is also that of modes, of one building.
-    pub fn floors(&self, side: Side) -> usize {
-        self.modes(side).omega.len()
-    }
-
-    /// Where a building's modes begin in a modal vector.
-    pub fn offset(&self, side: Side) -> usize {
-        match side {
-            Side::Left => 0,
-            Side::Right => self.floors(Side::Left),
-        }
-    }
-
-    /// A building's modes in a modal vector.
-    pub fn range(&self, side: Side) -> Range<usize> {
-        let offset = self.offset(side);
-        offset..offset + self.floors(side)
-    }
-
-    /// Whether no mode is coupled to another by damping.
-    pub fn is_classical(&self) -> bool {
-        self.coupling.is_empty()
-    }
-
-    /// Whether damping couples the mode to others.
-    pub fn couples(&self, mode: usize) -> bool {
-        self.coupling
-            .iter()
-            .any(|coupling| (coupling.offset..coupling.offset + coupling.matrix.nrows()).contains(&mode))
-    }
-
-    /// The motions of a block of floors from as many modal vectors of displacements, velocities ...: lane by lane as in a
-    /// vector of all floors.
-    #[inline]
-    pub fn at_floors<const N: usize>(&self, block: usize, modal: [&[f64]; N]) -> [Lane; N] {
-        block_of_both(&self.to_floors, block, modal)
-    }
-
-    /// The modal vector of floor displacements or velocities: shape' M u.
-    pub fn to_modal(&self, side: Side, mass: &[f64], floors: &[f64], modal: &mut [f64]) {
-        let offset = self.offset(side);
-        for (m, column) in self.modes(side).shape.column_iter().enumerate() {
-            modal[offset + m] = column.iter().zip(mass).zip(floors).map(|((shape, m), u)| shape * m * u).sum();
-        }
-    }
-
-    /// Adds what a force, N, on one floor does to each mode.
-    pub fn add_floor_force(&self, side: Side, floor: usize, force: f64, load: &mut [f64]) {
-        let offset = self.offset(side);
-        for (shape, load) in self.modes(side).shape.row(floor).iter().zip(&mut load[offset..]) {
-            *load += shape * force;
-        }
-    }
-
-    /// The vector of all floors from a modal one.
-    pub fn to_floors(&self, modal: &[f64], floors: &mut [f64]) {
-        floors.fill(0.0);
-        for matrix in &self.to_floors {
-            matrix.add(modal, floors.as_chunks_mut::<LANES>().0);
-        }
-    }
-
-    /// The modal vector from one of all floors: shape' M u.
-    pub fn to_modes(&self, floors: &[f64], modal: &mut [f64]) {
-        modal.fill(0.0);
-        for matrix in &self.to_modes {
-            matrix.add(floors, modal.as_chunks_mut::<LANES>().0);
-        }
-    }
-
-    /// q'' for given q, q' and load per mode.
-    pub fn accelerate(&self, q: &[f64], v: &[f64], load: &[f64], acceleration: &mut [f64]) {
-        for m in 0..self.lanes {
-            acceleration[m] = load[m] - self.damping[m] * v[m] - self.omega2[m] * q[m];
-        }
-        self.subtract_coupling(v, 1.0, acceleration);
-    }
-
-    /// `out` -= w^2 q + rate * damping * v, per mode.
-    pub fn resist(&self, q: &[f64], v: &[f64], rate: f64, out: &mut [f64]) {
-        for m in 0..self.lanes {
-            out[m] -= self.omega2[m] * q[m] + rate * self.damping[m] * v[m];
-        }
-        self.subtract_coupling(v, rate, out);
-    }
-
-    /// `out` -= factor * (off-diagonal damping) * `velocity`.
-    pub fn subtract_coupling(&self, velocity: &[f64], factor: f64, out: &mut [f64]) {
-        for Coupling { offset, matrix } in &self.coupling {
-            for (j, column) in matrix.column_iter().enumerate() {
-                let v = factor * velocity[offset + j];
-                for (c, out) in column.iter().zip(&mut out[*offset..]) {
-                    *out -= c * v;
-                }
-            }
-        }
-    }
-
-    /// Force of a building on the ground, N: sum over its floors of K u + C v.
-    pub fn base_shear(&self, side: Side, q: &[f64], v: &[f64]) -> f64 {
-        let offset = self.offset(side);
-        let modes = self.modes(side);
-        let mut shear = 0.0;
-        for (m, participation) in modes.participation.iter().enumerate() {
-            let i = offset + m;
-            let mut resisting = self.omega2[i] * q[i] + self.damping[i] * v[i];
-            if let ModalDamping::Coupled(c) = &modes.damping {
-                resisting += (0..c.ncols()).filter(|j| *j != m).map(|j| c[(m, j)] * v[offset + j]).sum::<f64>();
-            }
-            shear += participation * resisting;
-        }
-        shear
-    }
-
-    /// Kinetic and strain energy, J.
-    pub fn energies(&self, q: &[f64], v: &[f64]) -> (f64, f64) {
-        let kinetic: f64 = v.iter().map(|v| v * v).sum();
-        let strain: f64 = q.iter().zip(&self.omega2).map(|(q, w2)| w2 * q * q).sum();
-        (0.5 * kinetic, 0.5 * strain)
-    }
-
-    /// Power that structural damping takes, W.
-    pub fn viscous_power(&self, v: &[f64]) -> f64 {
-        let mut lanes = [0.0; LANES];
-        for (v, c) in v.as_chunks::<LANES>().0.iter().zip(self.damping.as_chunks::<LANES>().0) {
-            for i in 0..LANES {
-                lanes[i] += c[i] * v[i] * v[i];
-            }
-        }
-        let mut power: f64 = lanes.iter().sum();
-        for Coupling { offset, matrix } in &self.coupling {
-            for (j, column) in matrix.column_iter().enumerate() {
-                power += v[offset + j] * column.iter().zip(&v[*offset..]).map(|(c, v)| c * v).sum::<f64>();
-            }
-        }
-        power
-    }
-
-    /// A bound on |q''''| of each mode over any time to come in which the load is linear in time and no contact acts.
-    ///
-    /// y = q'' then has no load: y'' + c y' + w^2 y = 0, its energy y'^2 + w^2 y^2 never grows, and
-    /// |y''| <= (w + c) sqrt(energy). `load` and `slope` are the modal load now and its rate. Returns the bounds
-    /// weighted and summed: sum of weights * |q''''|.
-    pub fn fourth_derivative_bound(
-        &self,
-        (q, v): (&[f64], &[f64]),
-        (load, slope): (&[f64], &[f64]),
-        weights: &[f64],
-        scratch: &mut Scratch,
-    ) -> f64 {
-        if self.is_classical() {
-            let mut bound = [0.0; LANES];
-            let [(q, _), (v, _), (load, _), (slope, _), (weights, _), (damping, _), (omega2, _), (quickness, _)] =
-                [q, v, load, slope, weights, &self.damping, &self.omega2, &self.quickness]
-                    .map(<[f64]>::as_chunks::<LANES>);
-            for c in 0..self.lanes / LANES {
-                for i in 0..LANES {
-                    let (w2, damping) = (omega2[c][i], damping[c][i]);
-                    let y = load[c][i] - damping * v[c][i] - w2 * q[c][i];
-                    let jerk = slope[c][i] - damping * y - w2 * v[c][i];
-                    bound[i] += weights[c][i] * quickness[c][i] * (jerk * jerk + w2 * y * y).sqrt();
-                }
-            }
-            return bound.iter().sum();
-        }
-        let Scratch { y, jerk, .. } = scratch;
-        self.accelerate(q, v, load, y);
-        for m in 0..self.lanes {
-            jerk[m] = slope[m] - self.damping[m] * y[m] - self.omega2[m] * v[m];
-        }
-        self.subtract_coupling(y, 1.0, jerk);
-        // Coupled modes exchange energy: only the whole sum never grows.
-        let energy: f64 = (0..self.lanes).map(|m| jerk[m] * jerk[m] + self.omega2[m] * y[m] * y[m]).sum();
-        2.0 * self.fastest * energy.sqrt() * weights.iter().sum::<f64>()
-    }
-}
-
-/// Modal vectors for intermediate results.
-#[derive(Clone, Debug, Default)]
-pub struct Scratch {
-    y: Vec<f64>,
-    jerk: Vec<f64>,
-    ahead: Vec<f64>,
-}
-
-impl Scratch {
-    /// For modal vectors of that length.
-    pub fn new(lanes: usize) -> Scratch {
-        Scratch { y: vec![0.0; lanes], jerk: vec![0.0; lanes], ahead: vec![0.0; 2 * lanes] }
-    }
-}

@@ -1,18 +1,20 @@
-//! A flight that one power series reaches over, straight to its end.
+//! A flight short enough for one power series, straight to its end.
 
-use super::series::RECIPROCAL;
-use super::{EXACT, LANES, Lane, Structure, flight_order};
+use super::equations::Structure;
+use super::lanes::{LANES, Lane};
+use super::series::expand::{EXACT, SECOND_RECIPROCAL, flight_order};
 use crate::numerics::polynomial::{COUNT, ROOM};
 
-/// (Fastest rate) x (time) of a flight that is hardly one, and the order at which its series is exact to rounding.
-const HARDLY: f64 = 1e-6;
-const HARDLY_ORDER: usize = 4;
+/// Up to this (fastest rate) x (time) a series of this order is exact to rounding: flights between instants that are
+/// the same but for rounding.
+const TINY_REACH: f64 = 1e-6;
+const TINY_REACH_ORDER: usize = 4;
 
 /// Order at which the series of a flight over `reach` = (fastest rate) x (time) is exact to rounding; `None` where it is too
 /// long for one.
 #[inline]
 pub fn exact_order(reach: f64) -> Option<usize> {
-    if reach <= HARDLY { Some(HARDLY_ORDER) } else { flight_order(reach, EXACT) }
+    if reach <= TINY_REACH { Some(TINY_REACH_ORDER) } else { flight_order(reach, EXACT) }
 }
 
 /// Flies `q`, `v` over `h`, s, under a modal load and its slope, where damping couples no modes, by a series of at least
@@ -26,9 +28,9 @@ pub fn fly_in_one_series(
     (h, order): (f64, usize),
     end: (&mut [f64], &mut [f64]),
 ) {
-    if order <= HARDLY_ORDER {
+    if order <= TINY_REACH_ORDER {
         // Terms whose number is known stay in registers.
-        fly::<{ HARDLY_ORDER + 1 }>(structure, motion, loads, (h, HARDLY_ORDER), end);
+        fly::<{ TINY_REACH_ORDER + 1 }>(structure, motion, loads, (h, TINY_REACH_ORDER), end);
     } else {
         fly::<ROOM>(structure, motion, loads, (h, order), end);
     }
@@ -47,7 +49,7 @@ fn fly<const TERMS: usize>(
     let [(q, _), (v, _), (load, _), (slope, _), (damping, _), (omega2, _)] =
         [q, v, load, slope, &structure.damping, &structure.omega2].map(<[f64]>::as_chunks::<LANES>);
     let [(end_q, _), (end_v, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
-    // Says once that no index below leaves its vector.
+    // Equal lengths: no bounds checks below.
     let width = structure.lanes / LANES;
     let (q, v, load, slope) = (&q[..width], &v[..width], &load[..width], &slope[..width]);
     let (damping, omega2) = (&damping[..width], &omega2[..width]);
@@ -70,7 +72,7 @@ fn fly<const TERMS: usize>(
 #[inline(always)]
 fn expand(terms: &mut [Lane], loads: [Lane; 2], (damping, omega2): (Lane, Lane)) {
     let (mut before, mut last) = (terms[0], terms[1]);
-    let each = terms[2..].iter_mut().zip(&COUNT[1..]).zip(&RECIPROCAL).enumerate();
+    let each = terms[2..].iter_mut().zip(&COUNT[1..]).zip(&SECOND_RECIPROCAL).enumerate();
     for (n, ((term, count), factor)) in each {
         let mut next = loads.get(n).copied().unwrap_or_default();
         for i in 0..LANES {
@@ -103,8 +105,9 @@ mod tests {
     use crate::structure::MotionSeries;
 
     #[test]
-    fn the_order_of_what_is_hardly_a_flight_is_that_of_any_other() {
-        for reach in [0.0, 1e-300, 1e-17, 1e-9, 0.999 * HARDLY, HARDLY, 1.001 * HARDLY, 1e-3, 0.7, 2.0, 2.1] {
+    fn the_order_over_a_tiny_reach_is_that_over_any_other() {
+        for reach in [0.0, 1e-300, 1e-17, 1e-9, 0.999 * TINY_REACH, TINY_REACH, 1.001 * TINY_REACH, 1e-3, 0.7, 2.0, 2.1]
+        {
             assert_eq!(exact_order(reach), flight_order(reach, EXACT), "{reach}");
         }
     }

@@ -1,7 +1,7 @@
 //! Which inputs an output depends on at communication points, as the model structure of the description lists them.
 //! Those at the start are in `initial_dependencies.rs`.
 
-use super::{ContactOutput, Input, Output};
+use super::slot::{ContactOutput, Input, Output};
 use crate::engine::Side;
 use crate::scene::Scene;
 

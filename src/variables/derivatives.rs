@@ -1,6 +1,8 @@
 //! Derivatives of what a slot stands for: with respect to time, and with respect to inputs and parameters.
 
-use super::{ContactOutput, EnergyOutput, Input, Instant, Output, Parameter, Slot, at_start};
+use super::initial_dependencies::at_start;
+use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot};
+use super::values::Instant;
 use crate::engine::{EnergyRates, Model, PEAK_ROUNDING, PeakOf, PointRates, Rates, Response};
 use crate::scene::Scene;
 
@@ -54,7 +56,8 @@ impl Instant<'_> {
     }
 }
 
-/// The derivatives of the largest magnitude so far, from those of what it is of.
+/// The derivatives of a peak, the largest magnitude so far, from the present value of its quantity with its
+/// derivatives.
 fn rates_of_peak(value: f64, [first, second]: Rates, peak: f64) -> Rates {
     let is_peak = value.abs() >= (1.0 - PEAK_ROUNDING) * peak && value * first > 0.0;
     if is_peak { [first * value.signum(), second * value.signum()] } else { [0.0; 2] }
@@ -74,7 +77,7 @@ fn energy_rates(rates: &EnergyRates, term: EnergyOutput) -> Rates {
 }
 
 impl Input {
-    /// Adds to a response what the change of an input does by itself.
+    /// Adds the direct effect of the change of an input to a response.
     pub fn push(self, change: f64, model: &Model, response: &mut Response) {
         match self {
             // It moves all floors alike.
@@ -85,7 +88,7 @@ impl Input {
 }
 
 impl Output {
-    /// What a response has of an output.
+    /// The change of this output in a response.
     pub fn of_response(self, model: &Model, response: &Response) -> f64 {
         match self {
             Output::Acceleration(side, floor) => model.response_at(response, side, floor),

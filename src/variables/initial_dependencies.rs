@@ -1,11 +1,11 @@
 //! Which inputs and parameters an unknown depends on at the start time, as the model structure of the description lists
 //! them.
 //!
-//! The initial displacements and velocities belong to the scene: what is multiplied by one that is 0 does not matter.
-//! Whether floors overlap at the start is up to the gaps, which are parameters.
+//! The initial displacements and velocities belong to the scene: a factor of an initial value that is 0 does not
+//! matter. Whether floors overlap at the start is up to the gaps, which are parameters.
 
 use super::dependencies::floors;
-use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot, building};
+use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot, building};
 use crate::contact::EpisodeForce;
 use crate::engine::{PeakOf, Side};
 use crate::scene::{Building, Damping, Scene, Stiffness};

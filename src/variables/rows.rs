@@ -1,8 +1,8 @@
 //! The rows of the table: which variables a scene has, and what a user reads about them.
 
-use super::{
-    ContactOutput, EnergyOutput, Input, Output, Parameter, Row, Slot, Table, Type, Unit, Variability, building,
-};
+use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot, building};
+use super::table::{Row, Table, Type, Variability};
+use super::unit::Unit;
 use crate::contact::LawKey;
 use crate::engine::{PeakOf, Side};
 use crate::scene::{Building, ContactPair, Damping, Scaling, Scene, Stiffness, rule};

@@ -1,6 +1,7 @@
 //! Reading and writing what a slot stands for: each one match over all slots.
 
-use super::{ContactOutput, EnergyOutput, Input, Output, Parameter, Row, Slot, Table, building};
+use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot, building};
+use super::table::{Row, Table};
 use crate::engine::{ContactPoint, EnergyPoint, LinearInput, Model, Point, SavedState, Side, State};
 use crate::record::{KnownRecords, Record};
 use crate::scene::{Building, Damping, Scaling, Scene, SceneError, Stiffness, read_record_file, record_problems};
@@ -283,7 +284,7 @@ impl Inputs {
         }
     }
 
-    /// What has been set so far was set for this time, s.
+    /// The values set so far hold for this time, s.
     pub fn begin_at(&mut self, time: f64) {
         let forces = self.left_force.iter_mut().chain(&mut self.right_force);
         forces.chain([&mut self.ground_acceleration]).for_each(|input| input.move_to(time));
@@ -299,7 +300,7 @@ impl Input {
         }
     }
 
-    /// What a saved run has of it.
+    /// Its line in a saved run.
     fn of_saved(self, saved: &SavedState) -> Option<&LinearInput> {
         match self {
             Input::GroundAcceleration => Some(saved.ground_acceleration()),
@@ -319,11 +320,11 @@ impl Input {
 /// The solution at one time.
 #[derive(Clone, Copy, Debug)]
 pub struct Instant<'a> {
-    /// What is solved.
+    /// The model of the scene with the present parameters.
     pub model: &'a Model,
     /// The solution.
     pub state: &'a State,
-    /// What `model` observes in `state`.
+    /// The outputs that `model` has observed in `state`.
     pub point: &'a Point,
 }
 

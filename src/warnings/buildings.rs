@@ -1,16 +1,16 @@
 //! Masses, stiffnesses, damping and initial motion of each building.
 
 use super::facts::{Facts, Pace, median, name, opposite, stiffness_key};
-use super::{Found, excerpt, number, numbers};
+use super::found::Found;
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
-use crate::scene::{Building, Damping, Stiffness};
+use crate::scene::{Building, Damping, Stiffness, excerpt, number, numbers};
 use crate::structure::Side;
 use std::f64::consts::PI;
 
-/// Of critical damping; isolators and dampers of buildings stay below.
+/// Largest damping ratio without a warning: isolators and dampers of buildings stay below.
 const MOST_DAMPING: f64 = 0.3;
-/// Below this, but above 0, not even steel.
+/// Smallest damping ratio above 0 without a warning: not even steel has less.
 const LEAST_DAMPING: f64 = 2e-4;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
@@ -55,8 +55,8 @@ fn look_at_entries(facts: &Facts<'_>, side: Side, found: &mut Found) {
     }
 }
 
-/// Entries far from what they stand beside, and by what factor: at either end of the list by 50, within it by 8 from
-/// both neighbours. Where a list steps by 200 it is the entry above the step, wherever that is.
+/// Entries far from their neighbours, and by what factor: at either end of the list by 50, within it by 8 from both
+/// neighbours. Where a list steps by 200 it is the entry above the step, wherever that is.
 fn odd_entries(values: &[f64], others: &[f64], is_meant: impl Fn((usize, f64)) -> bool) -> Vec<(usize, f64)> {
     let mut odd: Vec<(usize, f64)> = Vec::new();
     let usual = median(values.iter().copied()).unwrap_or(1.0);

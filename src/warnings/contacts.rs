@@ -1,7 +1,7 @@
 //! Gaps and the numbers of the laws. What several contacts have in common is one slip, told of the first of them.
 
-use super::Found;
 use super::facts::{Facts, Pace, median};
+use super::found::Found;
 use super::touch::{Touch, exponent};
 use crate::contact::LawKey;
 use crate::figures::short;
@@ -10,10 +10,10 @@ use crate::scene::{ContactPair, Scene, law_key};
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
-/// m; so far is nothing built, and from [`FAR_AWAY`] on it is meant to be out of reach.
+/// Widest gap of neighbouring buildings, m; from [`FAR_AWAY`] on a gap is meant to be out of reach.
 const WIDEST_GAP: f64 = 1.0;
 const FAR_AWAY: f64 = 1000.0;
-/// m/s: impacts of buildings begin at 0.1 to 1 m/s.
+/// Largest `min_approach_velocity` without a warning, m/s: impacts of buildings begin at 0.1 to 1 m/s.
 const MOST_LEAST_APPROACH: f64 = 0.02;
 
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
@@ -43,7 +43,8 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     }
 }
 
-/// Two FMUs may be coupled through their floor forces, and what starts aside or moving swings freely.
+/// A scene without contacts is sound where two FMUs are coupled through their floor forces, or where a building swings
+/// freely from its initial motion.
 fn look_for_contacts(facts: &Facts<'_>, found: &mut Found) {
     let scene = facts.scene;
     let swings_freely = scene.ground.record.is_none() && facts.starts_moving();
@@ -54,7 +55,8 @@ fn look_for_contacts(facts: &Facts<'_>, found: &mut Found) {
     }
 }
 
-/// Of two pairs the one that is higher on the left is so on the right. Told is a single pair that is in the way of that.
+/// Pairs of floors do not cross: of two pairs the one that is higher on the left is higher on the right, too. Reports a
+/// single pair that crosses others.
 fn look_for_crossed_floors(scene: &Scene, found: &mut Found) {
     const MOST: usize = 1000;
     let pairs = &scene.contacts;

@@ -87,8 +87,8 @@ impl<'a> Facts<'a> {
         }
     }
 
-    /// Whether what is too fast for a building is meant to hardly move: heavy, or one floor that is not light, beside a
-    /// building that is neither.
+    /// Whether a structure that is too fast for a building is meant as a wall: heavy, or one floor that is not light,
+    /// beside a building that is neither.
     fn is_wall(&self, side: Side, period: f64) -> bool {
         let other = opposite(side);
         let Some(other_period) = self.period(other) else { return false };

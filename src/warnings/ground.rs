@@ -1,13 +1,13 @@
 //! The record, its scaling, and when the run stops.
 
-use super::Found;
 use super::facts::{Facts, Pace};
+use super::found::Found;
 use crate::figures::short;
 use crate::record::{Format, Record, STANDARD_GRAVITY};
 use crate::scene::Scaling;
 use crate::structure::Side;
 
-/// Of g: peaks of ground motions that buildings feel, and that have been recorded.
+/// In g: the smallest peak of a ground motion that buildings feel, and the largest that has been recorded.
 const LEAST_PEAK: f64 = 0.05;
 const MOST_PEAK: f64 = 3.0;
 /// Samples from which on a record is a measured one and not a few corners drawn by hand.

@@ -29,38 +29,22 @@
 //! | `contacts.rs` | gaps and numbers of the laws |
 //! | `touch.rs` | how long a contact lasts |
 //! | `facts.rs` | what the rules share: periods, the peak of the ground |
+//! | `found.rs` | the warnings, as the rules add them |
 
 mod buildings;
 mod contacts;
 mod facts;
+mod found;
 mod ground;
 mod touch;
 
 pub use crate::figures::short;
+pub use found::Warning;
 
 use crate::record::Record;
-use crate::scene::{Scene, excerpt, number, numbers, quoted};
+use crate::scene::Scene;
 use facts::Facts;
-use std::fmt;
-
-/// One thing that looks like a slip.
-///
-/// Displayed as `path = value: text`.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Warning {
-    /// Path in the scene, such as `contact[2].gap`.
-    pub path: String,
-    /// The value found.
-    pub value: String,
-    /// What is odd, what it would mean, what may have been meant.
-    pub text: String,
-}
-
-impl fmt::Display for Warning {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} = {}: {}", self.path, self.value, self.text)
-    }
-}
+use found::Found;
 
 /// Everything in a checked scene that looks like a slip: of ground, buildings and contacts. `record` is that of
 /// `scene.ground.record`, not yet scaled. What one slip entails is not listed beside it.
@@ -78,33 +62,4 @@ pub fn of_ground_input(value: f64) -> Option<Warning> {
     let mut found = Found::default();
     ground::look_at_input(value, &mut found);
     found.0.pop()
-}
-
-/// What has been found so far.
-#[derive(Default)]
-struct Found(Vec<Warning>);
-
-impl Found {
-    fn number(&mut self, path: impl Into<String>, value: f64, text: impl Into<String>) {
-        // 2.75e9, not 2750000000.0.
-        self.add(path, if value.abs() >= 1e6 { format!("{value:e}") } else { number(value) }, text);
-    }
-
-    fn numbers(&mut self, path: impl Into<String>, values: &[f64], text: impl Into<String>) {
-        self.add(path, excerpt(&numbers(values)), text);
-    }
-
-    fn text(&mut self, path: impl Into<String>, value: &str, text: impl Into<String>) {
-        self.add(path, quoted(value), text);
-    }
-
-    fn add(&mut self, path: impl Into<String>, value: String, text: impl Into<String>) {
-        self.0.push(Warning { path: path.into(), value, text: text.into() });
-    }
-
-    /// Whether anything has been found at a path or below it.
-    fn has(&self, path: &str) -> bool {
-        let below = |rest: &str| rest.is_empty() || rest.starts_with(['.', '[']);
-        self.0.iter().any(|warning| warning.path.strip_prefix(path).is_some_and(below))
-    }
 }

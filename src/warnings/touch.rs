@@ -8,12 +8,12 @@ use crate::scene::ContactPair;
 use crate::structure::Side;
 use std::f64::consts::PI;
 
-/// m/s: sound in concrete.
+/// Speed of sound in concrete, m/s.
 const SOUND: f64 = 3500.0;
-/// kg/m2 of a storey with what stands on it.
+/// Mass of a storey with its load over its area, kg/m2.
 const AREA_MASS: f64 = 900.0;
 
-/// One contact as it lasts about.
+/// The estimated duration of one contact, and the times it is compared with.
 pub(super) struct Touch {
     /// s.
     duration: f64,
@@ -80,8 +80,8 @@ pub(super) fn exponent(law: &ImpactLaw) -> Option<f64> {
     })
 }
 
-/// m/s at which floors meet, about: what the ground gives to the slower building, or what they start with. Durations
-/// follow it with a power of -0.2 or less.
+/// Estimated speed at which floors meet, m/s: the velocity that the ground gives to the slower building, or the initial
+/// one. A duration goes with its power of -0.2 or less.
 fn speed(facts: &Facts<'_>) -> f64 {
     let shaken = facts.usual_periods().map(|(_, period)| period.min(3.0)).reduce(f64::max).map_or(0.0, |period| {
         let peak = facts.peak.filter(|peak| *peak > 0.0).unwrap_or(0.3 * STANDARD_GRAVITY);

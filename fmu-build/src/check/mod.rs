@@ -7,12 +7,12 @@
 mod behaviour;
 mod lint;
 
-use crate::channel::Channel;
 use crate::experiment;
 use crate::importer::Imported;
 use crate::inspection;
 use crate::pack::archive::Unpacked;
 use crate::pack::platform::{self, Platform};
+use crate::trial::channel::Channel;
 use anyhow::{Context, Result, bail};
 use fmi::model_description::fmi2::ModelDescription;
 pub use lint::{file_names, model_identifier, origin};

@@ -1,29 +1,36 @@
-//! The list of impact laws. A law is a file beside this one, which says all that is particular to it, and a line of the
-//! list: scene, FMU variables, force, documents and their tests read what is known of it from there.
+//! What is known of each impact law: all that is particular to one stands in its file beside this one. The list of them is
+//! in `law_kind.rs`.
 
-use super::LawInfo;
-use super::catalogue::catalogue;
+use super::catalogue::information;
+use super::force::EpisodeForce;
+use super::law::{ImpactLaw, LawInfo};
+use super::law_kind::{LawKind, for_all_laws};
 
-/// Makes a module of each file and [`LawKind`] of all.
+/// Makes a module of each file and puts together what is known of all.
 macro_rules! laws {
     ($($Variant:ident = $file:ident,)*) => {
         $(pub mod $file;)*
 
-        catalogue! {
-            /// The impact laws.
-            LawKind: LawInfo {
-                $(#[doc = concat!("That of [`", stringify!($file), "`].")] $Variant = $file::INFO,)*
-            }
+        information! {
+            LawKind: LawInfo { $($Variant = $file::INFO,)* }
         }
     };
 }
 
-laws! {
-    Stereomechanical = stereomechanical,
-    Linear = linear,
-    KelvinVoigt = kelvin_voigt,
-    KelvinVoigtNoTension = kelvin_voigt_no_tension,
-    Hertz = hertz,
-    Jankowski = jankowski,
-    HertzDamped = hertz_damped,
+for_all_laws!(laws);
+
+impl ImpactLaw {
+    /// Whether the floors cannot overlap: impulses and reactions instead of a force of penetration.
+    pub fn is_rigid(&self) -> bool {
+        self.kind.info().stiffness_unit.is_none()
+    }
+}
+
+impl EpisodeForce {
+    /// The force of a law between floors of reduced mass `mass`, kg, m_left m_right / (m_left + m_right), entered at
+    /// the approach velocity `approach`, m/s; `None` for a pair that overlaps from the start, which has no damping in
+    /// the laws that divide by it.
+    pub fn new(law: &ImpactLaw, mass: f64, approach: Option<f64>) -> EpisodeForce {
+        (law.kind.info().episode)(law, mass, approach)
+    }
 }

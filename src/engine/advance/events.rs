@@ -8,7 +8,13 @@ use crate::engine::base::planned::Event;
 use crate::engine::model::Model;
 use crate::engine::system::buffers::Buffers;
 impl Model {
-    pub(in crate::engine) fn handle(&self, base: &mut Base, event: Event, work: &mut Buffers, on_episode: &mut dyn FnMut(&Episode)) {
+    pub(in crate::engine) fn handle(
+        &self,
+        base: &mut Base,
+        event: Event,
+        work: &mut Buffers,
+        on_episode: &mut dyn FnMut(&Episode),
+    ) {
         let time = base.time();
         match event {
             Event::Entry(p) if self.system.pairs[p].law.is_rigid() => {

@@ -25,7 +25,7 @@ impl System {
     /// Whether all pairs that touch go on to do so, on the same branch, up to the x of the powers.
     fn stays_touching(&self, base: &Base, onset: &OnsetSeries) -> bool {
         (0..onset.used).all(|b| {
-            let [moved, turned] = onset.blocks[b].room(&onset.powers);
+            let [moved, turned] = onset.blocks[b].bounds(&onset.powers);
             onset.pairs_of(b).all(|(lane, p)| {
                 let room = Room { x: onset.powers.x, scale: onset.scale, moved: moved[lane], turned: turned[lane] };
                 room.holds(&base.contacts[p])

@@ -8,7 +8,7 @@ use crate::contact::onset::MOST_TERMS;
 use crate::contact::onset::OnsetBlock;
 use crate::contact::onset::OnsetReading;
 use crate::contact::onset::Products;
-use crate::contact::series::Kind;
+use crate::contact::taylor::Kind;
 use crate::engine::base::Base;
 use crate::engine::base::Coordinates;
 use crate::engine::base::contact::Contact;

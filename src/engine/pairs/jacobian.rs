@@ -1,6 +1,6 @@
 //! How contact forces and the motion meet: on floors, or on modes.
 
-use crate::contact::series::{Each, PAIRS};
+use crate::contact::taylor::{Each, PAIRS};
 use crate::engine::pairs::packing::Members;
 use crate::engine::pairs::pair::{Pair, apart};
 use crate::numerics::polynomial::each;

@@ -1,6 +1,6 @@
 //! Which pairs stand together in a block, and in which lane.
 
-use crate::contact::series::{Each, PAIRS};
+use crate::contact::taylor::{Each, PAIRS};
 use crate::engine::base::Coordinates;
 use crate::engine::pairs::pair::Pair;
 use crate::structure::{FEW_BLOCKS, LANES, Lane};

@@ -1,8 +1,8 @@
 //! Which pair in contact stands in which block and lane.
 
-use crate::contact::series::Kind;
-use crate::contact::series::PAIRS;
-use crate::contact::series::PairBlock;
+use crate::contact::taylor::Kind;
+use crate::contact::taylor::PAIRS;
+use crate::contact::taylor::PairBlock;
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
 use crate::engine::pairs::packing::Place;
@@ -69,7 +69,7 @@ impl ClosedPairs {
         }
         for &(lane, p) in &self.riders {
             let Contact { penetration, rate, .. } = base.contacts[p];
-            self.blocks[0].ride(lane, penetration, rate * scale);
+            self.blocks[0].add_open_pair(lane, penetration, rate * scale);
         }
         assigned.next().is_none() && self.coordinates == base.coordinates
     }

@@ -1,6 +1,6 @@
 //! The series of all pairs in contact while a step is expanded and followed.
 
-use crate::contact::series::{Any, BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
+use crate::contact::taylor::{Any, BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
 use crate::engine::base::Coordinates;
 use crate::engine::base::contact::Contact;
 use crate::engine::pairs::packing::{Members, most_blocks};

@@ -1,7 +1,7 @@
 //! What ends a step in contact: a release, a change of branch, an entry of another pair.
 
 use crate::contact::Guard;
-use crate::contact::series::BlockReading;
+use crate::contact::taylor::BlockReading;
 use crate::engine::base::Base;
 use crate::engine::base::contact::{Contact, Phase};
 use crate::engine::base::planned::Event;

@@ -1,6 +1,6 @@
 //! Expands motion and contact forces together, power by power.
 
-use crate::contact::series::PAIRS;
+use crate::contact::taylor::PAIRS;
 use crate::engine::base::Base;
 use crate::engine::base::Coordinates;
 use crate::engine::pairs::jacobian::OnFewModes;

@@ -3,7 +3,7 @@
 //! What [`super::pair_forces`] does for any pairs, with the same operations in the same order, but the last powers
 //! of the penetrations stay in registers.
 
-use crate::contact::series::{Each, PAIRS, PairBlock};
+use crate::contact::taylor::{Each, PAIRS, PairBlock};
 use crate::engine::pairs::jacobian::dot_blocks;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::taylor::closed_pairs::ClosedPairs;

@@ -1,6 +1,6 @@
 //! The pairs that are apart while others are in contact: which of them may meet within a step.
 
-use crate::contact::series::{Each, PAIRS};
+use crate::contact::taylor::{Each, PAIRS};
 use crate::engine::base::contact::Contact;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::pairs::jacobian::{Meeting, OnFewModes, OnFloors, OnModes};

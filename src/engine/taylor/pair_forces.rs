@@ -4,7 +4,7 @@
 //! for that, with the same operations in the same order as for any. (Few pairs under linear laws on few modes have
 //! [`super::linear_pairs`].)
 
-use crate::contact::series::{Any, PairBlock, PairLaw};
+use crate::contact::taylor::{Any, PairBlock, PairLaw};
 use crate::engine::pairs::jacobian::Meeting;
 use crate::engine::pairs::packing::Members;
 use crate::engine::taylor::closed_pairs::{Blocks, ClosedPairs};
@@ -83,8 +83,8 @@ macro_rules! with_forces {
         } else {
             let (blocks, kind) = $closed.blocks();
             match kind.filter(|_| !$one || blocks.0.len() == 1) {
-                $(Some($crate::contact::series::Kind::$law) => under!(blocks, $one, $crate::contact::series::$law),)*
-                _ => under!(blocks, false, $crate::contact::series::Any),
+                $(Some($crate::contact::taylor::Kind::$law) => under!(blocks, $one, $crate::contact::taylor::$law),)*
+                _ => under!(blocks, false, $crate::contact::taylor::Any),
             }
         }
     }};

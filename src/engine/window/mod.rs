@@ -4,7 +4,7 @@
 //! series need twenty steps. A window is taken only if bounds show that nothing else happens in it (see
 //! [`certificate`]). Where that cannot be shown power series in time go on.
 
-use crate::collocation::Room;
+use crate::collocation::Workspace as WindowWorkspace;
 use crate::engine::base::planned::At;
 use crate::engine::base::planned::Planned;
 use crate::engine::system::System;
@@ -67,7 +67,7 @@ impl Windows {
         remaining: f64,
         planned: &mut Planned,
         (window, series): (&mut Window, &mut MotionSeries),
-        (room, work): (&mut Room, &mut Buffers),
+        (room, work): (&mut WindowWorkspace, &mut Buffers),
     ) -> bool {
         let base = &*at.base;
         if base.coordinates != Coordinates::Modes || !window.gather(base) {

@@ -1,6 +1,7 @@
 //! What the importer does not read: the order of the elements, units, the date.
 
-use super::{attributes, repeated};
+use super::attributes;
+use super::names::repeated;
 use anyhow::{Result, bail};
 use roxmltree::{Document, Node};
 use std::collections::HashSet;

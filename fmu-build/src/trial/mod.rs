@@ -3,14 +3,17 @@
 //!
 //! The command starts itself for that. The child reports what it finds line by line, so that nothing is lost with it.
 
+pub mod channel;
+mod report;
+mod run;
+
 use crate::bounded::Bounded;
-use crate::channel::{self, Channel, News};
 use crate::check;
 use crate::face::Face;
-use crate::recipe;
-use crate::report::Report;
 use anyhow::{Context, Result, bail};
+use channel::{Channel, News};
 use clap::ValueEnum;
+use report::Report;
 use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
 use std::process::{Child, ExitStatus, Stdio};
@@ -110,7 +113,7 @@ impl Trial {
         std::thread::spawn(move || end_with_parent(input));
         match self {
             Trial::Check => check::inspect(fmu, directory, &channel)?,
-            Trial::Run => recipe::try_out(fmu, directory, &channel)?,
+            Trial::Run => run::try_out(fmu, directory, &channel)?,
         }
         channel.tell(&News::Over(std::process::id()))
     }

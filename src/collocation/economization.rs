@@ -29,7 +29,7 @@ const SMALLEST: [[f64; POWERS]; POWERS] = {
     rows
 };
 
-/// How large each of them is.
+/// The largest magnitude of each of them on 0..=1.
 const SIZE: [f64; POWERS] = {
     let (mut sizes, mut n) = ([1.0; POWERS], 1);
     while n < POWERS {
@@ -39,7 +39,8 @@ const SIZE: [f64; POWERS] = {
     sizes
 };
 
-/// Changes the first `count` terms of a polynomial so that fewer do, which stay within `bound` of it for x in 0..=1; how many.
+/// Replaces a polynomial of `count` terms by one of fewer terms that differs from it by at most `bound` for x in 0..=1;
+/// returns how many terms are left.
 #[inline(always)]
 pub fn economize(terms: &mut [f64; POWERS], mut count: usize, bound: f64) -> usize {
     let mut left = bound;

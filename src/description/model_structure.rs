@@ -2,7 +2,7 @@
 //!
 //! Variables are named here by their position from 1, not by their value reference.
 
-use super::xml::Xml;
+use super::writer::Xml;
 use crate::scene::Scene;
 use crate::variables::{Dependence, Row, Slot, Table, at_communication_points, at_start};
 use std::io;

@@ -1,43 +1,14 @@
 //! The powers of forces from those of the penetrations, for each kind of law.
 //!
-//! Code that is made for one kind costs less than code that asks at every power.
+//! Code compiled for one kind costs less than code that asks for the kind at every power.
 
-use super::{Each, LAST, PAIRS, PairBlock, ROOT, Sloped};
-use crate::contact::force::Force;
-use crate::numerics::polynomial::{COUNT, RECIPROCAL, each};
+use super::block::{Each, LAST, PAIRS, PairBlock, ROOT, Sloped};
+use crate::contact::force::Kind;
+use crate::numerics::polynomial::{COUNT, RECIPROCAL, ROOM, each};
 
-/// Which terms a force has.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Kind {
-    /// No force.
-    #[default]
-    None,
-    /// [`Force::Linear`].
-    Linear,
-    /// [`Force::Power`] without damping.
-    Spring,
-    /// [`Force::Power`] with damping.
-    Damped,
-    /// [`Force::Root`].
-    Root,
-}
-
-impl Kind {
-    /// Of a force.
-    pub fn of(force: &Force) -> Kind {
-        match *force {
-            Force::None => Kind::None,
-            Force::Linear { .. } => Kind::Linear,
-            Force::Power { damping: 0.0, .. } => Kind::Spring,
-            Force::Power { .. } => Kind::Damped,
-            Force::Root { .. } => Kind::Root,
-        }
-    }
-}
-
-/// What all pairs of a block are known to be under.
+/// The kind of law of all pairs of a block, where code is compiled for it.
 pub trait PairLaw {
-    /// Whether the forces are made of the slopes of the penetrations.
+    /// Whether the forces need the series of the rates.
     #[inline(always)]
     fn needs_slopes(_: &PairBlock) -> bool {
         false
@@ -46,7 +17,7 @@ pub trait PairLaw {
     fn force(block: &mut PairBlock, n: usize) -> Each;
 }
 
-/// Any one kind: the block says which.
+/// Any kind: asks the block which one.
 pub struct Any;
 
 impl PairLaw for Any {
@@ -147,6 +118,31 @@ impl PairLaw for Root {
 }
 
 impl PairBlock {
+    /// Enters power n of the penetrations, of pairs under a law.
+    #[inline(always)]
+    pub fn set_penetration<L: PairLaw>(&mut self, n: usize, values: Each) {
+        if n < ROOM {
+            self.penetration[n] = values;
+            self.backwards[LAST - n] = values;
+            if L::needs_slopes(self) {
+                self.slope[LAST - n] = each(|i| COUNT[n] * values[i]);
+            }
+        }
+    }
+
+    /// Fills power n of the forces, of pairs under a law, from the powers 0..=n + 1 of the penetrations, for n = 0, 1, 2, ...
+    /// in turn, and returns it.
+    #[inline(always)]
+    pub fn extend_force<L: PairLaw>(&mut self, n: usize) -> Each {
+        // Equal lengths: no bounds checks below.
+        if n + 2 >= ROOM {
+            return [0.0; PAIRS];
+        }
+        self.order = n;
+        self.force[n] = L::force(self, n);
+        self.force[n]
+    }
+
     /// Enters term n of d^exponent.
     #[inline(always)]
     fn extend_power(&mut self, n: usize, sums: &[Each; 2]) -> Each {
@@ -204,5 +200,56 @@ fn add_all_products(sums: &mut [Each; 2], d: &[Each], terms: &[[Each; 2]]) {
     }
     if let ([d], [term]) = (last, last_term) {
         add_products(sums, d, term);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::force::Force;
+
+    /// The terms of a force for d = (1 + x)^2 and d' = 2 (1 + x): those of a sum of powers (factor, exponent) of 1 + x.
+    fn compare(force: Force, powers: &[(f64, f64)]) {
+        let mut block = PairBlock::default();
+        block.start(Kind::of(&force));
+        block.add(0, &force, 1.0, 1.0, 2.0);
+        for n in 0..12 {
+            block.set_penetration::<Any>(n + 2, [if n == 0 { 1.0 } else { 0.0 }; PAIRS]);
+            block.extend_force::<Any>(n);
+            let term = |(factor, exponent): &(f64, f64)| {
+                factor * (0..n).map(|k| (exponent - k as f64) / (k + 1) as f64).product::<f64>()
+            };
+            let expected: f64 = powers.iter().map(term).sum();
+            let got = block.force[n][0];
+            assert!((got - expected).abs() <= 1e-13 * expected.abs().max(0.1), "{force:?} {n}: {got} not {expected}");
+        }
+    }
+
+    #[test]
+    fn forces_of_a_square_are_binomial_series() {
+        compare(Force::Linear { stiffness: 3.0, damping: 0.5 }, &[(3.0, 2.0), (1.0, 1.0)]);
+        compare(Force::Power { stiffness: 3.0, exponent: 1.7, damping: 0.0 }, &[(3.0, 3.4)]);
+        compare(Force::Power { stiffness: 3.0, exponent: 1.7, damping: 0.5 }, &[(3.0, 3.4), (3.0, 4.4)]);
+        compare(Force::Root { stiffness: 3.0, damping: 0.4 }, &[(3.0, 3.0), (0.8, 1.5)]);
+    }
+
+    #[test]
+    fn lanes_do_not_disturb_each_other() {
+        let forces = [(2.0, 0.3), (1.0, 0.7)];
+        let series = |which: &[usize]| {
+            let mut block = PairBlock::default();
+            block.start(Kind::Root);
+            for (lane, &i) in which.iter().enumerate() {
+                let (stiffness, damping) = forces[i];
+                block.add(lane, &Force::Root { stiffness, damping }, 1.0, 0.5 + i as f64, -0.1);
+            }
+            for n in 0..8 {
+                block.set_penetration::<Any>(n + 2, [0.01 / (n + 1) as f64; PAIRS]);
+                block.extend_force::<Any>(n);
+            }
+            block.force.map(|row| row[which.len() - 1])
+        };
+        assert_eq!(series(&[1]), series(&[0, 1]));
+        assert_ne!(series(&[0]), series(&[1]));
     }
 }

@@ -1,10 +1,10 @@
 //! A full matrix between two vectors of lanes, laid out so that the sums of [`LANES`] rows stay in registers.
 
-use super::{LANES, Lane};
+use super::lanes::{LANES, Lane};
 
 /// A matrix whose columns and rows stand at given lanes of a source and a target vector.
 #[derive(Clone, Debug)]
-pub struct Dense {
+pub struct LaneMatrix {
     /// Lane of the source that the first column belongs to.
     source: usize,
     columns: usize,
@@ -14,9 +14,9 @@ pub struct Dense {
     entries: Vec<Lane>,
 }
 
-impl Dense {
+impl LaneMatrix {
     /// `size` rows from lane `target` on and columns from lane `source` on.
-    pub fn new(size: usize, source: usize, target: usize, entry: impl Fn(usize, usize) -> f64) -> Dense {
+    pub fn new(size: usize, source: usize, target: usize, entry: impl Fn(usize, usize) -> f64) -> LaneMatrix {
         let blocks = target / LANES..(target + size).div_ceil(LANES);
         let of_row = |lane: usize, column: usize| match lane.checked_sub(target) {
             Some(row) if row < size => entry(row, column),
@@ -27,7 +27,7 @@ impl Dense {
             .flat_map(|block| (0..size).map(move |column| (block, column)))
             .map(|(block, column)| std::array::from_fn(|i| of_row(block * LANES + i, column)))
             .collect();
-        Dense { source, columns: size, target: blocks.start, entries }
+        LaneMatrix { source, columns: size, target: blocks.start, entries }
     }
 
     /// The rows of one block of the target, where any of them is of this matrix.
@@ -43,17 +43,17 @@ impl Dense {
     }
 }
 
-/// See [`Dense::add`]. Wide instructions give the same bits.
+/// See [`LaneMatrix::add`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn add_all(matrix: &Dense, vector: &[f64], out: &mut [Lane]) {
+fn add_all(matrix: &LaneMatrix, vector: &[f64], out: &mut [Lane]) {
     for (rows, out) in matrix.entries.chunks_exact(matrix.columns).zip(&mut out[matrix.target..]) {
         add_products(rows, &[vector], matrix.source, std::array::from_mut(out));
     }
 }
 
-/// One block of the target of two matrices: what both together make of some vectors. Wide instructions give the same bits.
+/// One block of the sum of two matrices, times each of some vectors.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-pub fn block_of_both<const N: usize>(matrices: &[Dense; 2], block: usize, vectors: [&[f64]; N]) -> [Lane; N] {
+pub fn block_of_both<const N: usize>(matrices: &[LaneMatrix; 2], block: usize, vectors: [&[f64]; N]) -> [Lane; N] {
     let mut sums = [[0.0; LANES]; N];
     for matrix in matrices {
         if let Some(rows) = matrix.rows(block) {
@@ -67,14 +67,14 @@ pub fn block_of_both<const N: usize>(matrices: &[Dense; 2], block: usize, vector
 #[inline(always)]
 fn add_products<const N: usize>(rows: &[Lane], vectors: &[&[f64]; N], from: usize, sums: &mut [Lane; N]) {
     let (pairs, last) = rows.as_chunks::<2>();
-    // Says once that no index below leaves its vector; a closure would have no wide instructions.
+    // Equal lengths: no bounds checks below. Without closures, whose code would not be compiled for wide instructions.
     let (count, mut firsts, mut lasts) = (pairs.len(), [&[][..]; N], [&[][..]; N]);
     for n in 0..N {
         let (first, last) = vectors[n][from..][..rows.len()].as_chunks::<2>();
         (firsts[n], lasts[n]) = (&first[..count], last);
     }
     let (mut even, mut odd) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
-    // Indices of arrays whose length is known leave the sums in registers.
+    // Loops over arrays of constant length leave the sums in registers.
     for k in 0..count {
         let [row, next] = pairs[k];
         for n in 0..N {
@@ -106,7 +106,8 @@ mod tests {
 
     #[test]
     fn matrices_that_share_a_block_keep_their_own_rows() {
-        let matrices = [Dense::new(1, 0, 0, |_, _| 2.0), Dense::new(2, 1, 2, |i, j| [[3.0, 4.0], [5.0, 6.0]][i][j])];
+        let matrices =
+            [LaneMatrix::new(1, 0, 0, |_, _| 2.0), LaneMatrix::new(2, 1, 2, |i, j| [[3.0, 4.0], [5.0, 6.0]][i][j])];
         let vectors = [[1.0, 10.0, 100.0, 0.0], [-1.0, 0.0, 1.0, 0.0]];
         let got = block_of_both(&matrices, 0, vectors.each_ref().map(|vector| &vector[..]));
         assert_eq!(got, [[2.0, 0.0, 430.0, 650.0], [-2.0, 0.0, 4.0, 6.0]]);

@@ -1,0 +1,83 @@
+//! Values, bounds and integrals of the double series of pairs at some x.
+
+use super::block::OnsetBlock;
+use super::grid::{Grid, GridPowers, MOST_TERMS, Terms};
+use crate::contact::taylor::{Each, PAIRS};
+use crate::numerics::polynomial::each;
+
+/// The contacts of a block at some x.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OnsetReading {
+    /// Penetration, m.
+    pub penetration: Each,
+    /// Its derivative by x.
+    pub slope: Each,
+    /// Force, N.
+    pub force: Each,
+    /// Its derivative by x.
+    pub force_slope: Each,
+    /// Its integral over x.
+    pub impulse: Each,
+}
+
+impl OnsetBlock {
+    /// Penetrations, forces and their integrals at the x of the powers.
+    pub fn read(&self, powers: &GridPowers) -> OnsetReading {
+        read(&self.penetration[..powers.terms], &self.force[..powers.terms], powers)
+    }
+
+    /// Bounds over 0..=x on the sum of all terms but the first two, of the penetrations and of their derivatives by x.
+    pub fn bounds(&self, powers: &GridPowers) -> [Each; 2] {
+        bounds(&self.penetration[..powers.terms], powers)
+    }
+
+    /// The penetration of one pair, copied.
+    pub fn copy_penetration(&self, grid: &Grid, lane: usize) -> Terms {
+        copy(&self.penetration[..grid.terms()], lane)
+    }
+
+    /// The force of one pair times x, copied.
+    pub fn copy_force(&self, grid: &Grid, lane: usize) -> Terms {
+        copy(&self.force[..grid.terms()], lane)
+    }
+}
+
+fn copy(rows: &[Each], lane: usize) -> Terms {
+    let mut terms = [0.0; MOST_TERMS];
+    terms.iter_mut().zip(rows).for_each(|(term, row)| *term = row[lane]);
+    terms
+}
+
+/// See [`OnsetBlock::read`]: from the smallest terms of each row to the largest.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn read(penetration: &[Each], force: &[Each], powers: &GridPowers) -> OnsetReading {
+    let [mut value, mut slope, mut product, mut product_slope, mut impulse] = [[0.0; PAIRS]; 5];
+    let tables = powers.value.iter().zip(&powers.slope).zip(&powers.primitive).take(powers.terms);
+    for ((d, force), ((power, rate), primitive)) in penetration.iter().zip(force).zip(tables).rev() {
+        for k in 0..PAIRS {
+            value[k] += d[k] * power;
+            slope[k] += d[k] * rate;
+            product[k] += force[k] * power;
+            product_slope[k] += force[k] * rate;
+            impulse[k] += force[k] * primitive;
+        }
+    }
+    // The stored force terms are those of F x.
+    let inverse = 1.0 / powers.x;
+    let force = each(|k| product[k] * inverse);
+    let force_slope = each(|k| (product_slope[k] - force[k]) * inverse);
+    OnsetReading { penetration: value, slope, force, force_slope, impulse }
+}
+
+/// See [`OnsetBlock::bounds`].
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn bounds(penetration: &[Each], powers: &GridPowers) -> [Each; 2] {
+    let (mut moved, mut turned) = ([0.0; PAIRS], [0.0; PAIRS]);
+    for (d, (power, rate)) in penetration.iter().zip(powers.value.iter().zip(&powers.slope)).skip(2) {
+        for k in 0..PAIRS {
+            moved[k] += d[k].abs() * power;
+            turned[k] += d[k].abs() * rate;
+        }
+    }
+    [moved, turned]
+}

@@ -1,0 +1,180 @@
+//! The series of some pairs in contact: [`PAIRS`] pairs of one kind of law side by side.
+
+use crate::contact::force::{Force, Kind, power};
+use crate::numerics::polynomial::{COUNT, ROOM};
+use crate::numerics::substitution::Bend;
+
+/// Pairs that are worked on together: as many as today's machines take in one instruction.
+pub const PAIRS: usize = 4;
+
+/// One number of each pair.
+pub type Each = [f64; PAIRS];
+
+/// A series of each pair.
+type Rows = [Each; ROOM];
+
+/// A series of each pair with n times its term n beside it.
+pub(super) type Sloped = [[Each; 2]; ROOM];
+
+/// Exponent of the power whose rate damps in a root law.
+pub const ROOT: f64 = 1.25;
+
+/// Where a series that is kept backwards begins.
+pub(super) const LAST: usize = ROOM - 1;
+
+/// The scalar series of up to [`PAIRS`] contacts over a step, in powers of x, where x = t / scale or that of a time
+/// map.
+#[derive(Clone, Debug)]
+pub struct PairBlock {
+    pub(super) kind: Kind,
+    /// Number of lanes up to the last one that holds a pair.
+    pub count: usize,
+    /// k of the law.
+    pub(super) stiffness: Each,
+    /// Damping factor of the law divided by the scale.
+    pub(super) damping: Each,
+    pub(super) exponent: Each,
+    /// Inverse of the penetration at the start, 1/m.
+    pub(super) inverse: Each,
+    /// Derivatives of powers at the start, exponent d_0^(exponent - 1): of the power law's and of the root law's
+    /// d^1.25.
+    pub(super) lead: [Each; 2],
+    /// Penetration, m.
+    pub penetration: Rows,
+    /// The same backwards, term 0 at [`LAST`]: a product of series then goes through memory in one direction.
+    pub(super) backwards: Rows,
+    /// n times term n of the penetration, backwards; of [`Kind::Damped`] only.
+    pub(super) slope: Rows,
+    /// Force, N.
+    pub force: Rows,
+    /// d^n of a power law, d^1.5 of a root law.
+    pub(super) power: Sloped,
+    /// d^1.25 of a root law.
+    pub(super) root: Sloped,
+    /// Highest power of the force that is known; the penetration is known to two more.
+    pub order: usize,
+}
+
+impl Default for PairBlock {
+    fn default() -> Self {
+        let (lane, rows, sloped) = ([0.0; PAIRS], [[0.0; PAIRS]; ROOM], [[[0.0; PAIRS]; 2]; ROOM]);
+        PairBlock {
+            kind: Kind::None,
+            count: 0,
+            stiffness: lane,
+            damping: lane,
+            exponent: lane,
+            inverse: lane,
+            lead: [lane; 2],
+            penetration: rows,
+            backwards: rows,
+            slope: rows,
+            force: rows,
+            power: sloped,
+            root: sloped,
+            order: 0,
+        }
+    }
+}
+
+impl PairBlock {
+    /// Empties the block for pairs of one kind. Lanes without a pair hold springs without stiffness, whose series are
+    /// 0.
+    pub fn start(&mut self, kind: Kind) {
+        let zeros = [0.0; PAIRS];
+        self.kind = kind;
+        self.count = 0;
+        (self.stiffness, self.damping, self.exponent) = (zeros, zeros, zeros);
+        (self.inverse, self.lead) = (zeros, [zeros; 2]);
+        (self.power[0], self.root[0]) = ([zeros; 2], [zeros; 2]);
+        for rows in [&mut self.penetration[..2], &mut self.backwards[LAST - 1..], &mut self.slope[LAST - 1..]] {
+            rows.fill(zeros);
+        }
+    }
+
+    /// Adds a pair in a lane from its penetration and its rate per unit of x, both m.
+    pub fn add(&mut self, lane: usize, force: &Force, scale: f64, penetration: f64, step_rate: f64) {
+        self.count = self.count.max(lane + 1);
+        (self.stiffness[lane], self.exponent[lane], self.damping[lane]) = force.in_units_of(scale);
+        let inverse = 1.0 / penetration;
+        self.inverse[lane] = inverse;
+        if !force.is_regular() {
+            let (exponent, value) = (self.exponent[lane], power(penetration, self.exponent[lane]));
+            (self.power[0][0][lane], self.lead[0][lane]) = (value, exponent * value * inverse);
+        }
+        if self.kind == Kind::Root {
+            let value = power(penetration, ROOT);
+            (self.root[0][0][lane], self.lead[1][lane]) = (value, ROOT * value * inverse);
+        }
+        self.add_open_pair(lane, penetration, step_rate);
+    }
+
+    /// Adds an open pair in a spare lane: it has no force, and its penetration is expanded beside the others at no
+    /// cost.
+    pub fn add_open_pair(&mut self, lane: usize, penetration: f64, step_rate: f64) {
+        for (n, value) in [penetration, step_rate].into_iter().enumerate() {
+            self.penetration[n][lane] = value;
+            self.backwards[LAST - n][lane] = value;
+            self.slope[LAST - n][lane] = COUNT[n] * value;
+        }
+    }
+
+    /// Whether its forces follow from the penetrations alone.
+    pub fn is_elastic(&self) -> bool {
+        match self.kind {
+            Kind::None | Kind::Spring => true,
+            Kind::Linear => self.damping == [0.0; PAIRS],
+            Kind::Damped | Kind::Root => false,
+        }
+    }
+
+    /// Whether its forces may have a damping part.
+    pub fn is_damped(&self) -> bool {
+        !matches!(self.kind, Kind::None | Kind::Spring)
+    }
+
+    /// The kind of law of its pairs.
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// Stiffness and damping of linear forces.
+    pub fn linear_factors(&self) -> [&Each; 2] {
+        [&self.stiffness, &self.damping]
+    }
+
+    /// Enters power n of the first linear forces and the power n + 2 of the penetrations that follows from it.
+    #[inline(always)]
+    pub fn enter_linear(&mut self, n: usize, force: &[f64], penetration: &[f64]) {
+        if n + 2 < ROOM {
+            self.force[n][..force.len()].copy_from_slice(force);
+            self.penetration[n + 2][..penetration.len()].copy_from_slice(penetration);
+            self.order = n;
+        }
+    }
+
+    /// Whether all forces are linear.
+    pub fn is_linear(&self) -> bool {
+        self.kind == Kind::Linear
+    }
+
+    /// Whether its forces have a root at d = 0.
+    pub fn has_roots(&self) -> bool {
+        matches!(self.kind, Kind::Spring | Kind::Damped | Kind::Root)
+    }
+
+    /// Re-expands the series of penetrations in the x of a time map, and those of the forces unless they are elastic:
+    /// elastic forces are integrated in time.
+    pub fn bend(&mut self, bend: &Bend) {
+        let terms = self.order + 3;
+        match self.is_elastic() {
+            true => bend.apply(&mut self.penetration[..terms], 1),
+            false => bend.apply_to_both([&mut self.penetration, &mut self.force], terms),
+        }
+    }
+
+    /// The same for two blocks of elastic forces.
+    pub fn bend_with(&mut self, other: &mut PairBlock, bend: &Bend) {
+        bend.apply_to_both([&mut self.penetration, &mut other.penetration], self.order + 3);
+    }
+}

@@ -1,0 +1,11 @@
+//! Power series of contact forces from those of the penetrations, term by term, while a step is expanded.
+
+mod block;
+mod damping_work;
+mod laws;
+mod reading;
+
+pub use super::force::Kind;
+pub use block::{Each, PAIRS, PairBlock, ROOT};
+pub use laws::{Any, Damped, Linear, PairLaw, Root, Spring};
+pub use reading::{BlockReading, ForceReading};

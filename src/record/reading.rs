@@ -1,0 +1,98 @@
+//! A record while its file is being read, and how problems in it are told.
+
+use super::accelerogram::{Record, RecordError};
+use crate::figures::plain;
+
+/// A file of the wrong kind has a problem in every line: nobody reads more than these.
+pub const MOST_PROBLEMS: usize = 10;
+
+/// A record while it is being read, and what is wrong with it so far.
+pub(super) struct Reading {
+    pub record: Record,
+    problems: Vec<String>,
+    /// Problems beyond the first ones.
+    more: usize,
+    /// In the file, good or bad.
+    pub samples: usize,
+}
+
+impl Reading {
+    pub fn with_capacity(samples: usize) -> Reading {
+        let record = Record { times: Vec::with_capacity(samples), accelerations: Vec::with_capacity(samples) };
+        Reading { record, problems: Vec::new(), more: 0, samples: 0 }
+    }
+
+    /// Adds a sample, or what is wrong with it; `place` says where.
+    pub fn add(&mut self, time: f64, acceleration: f64, place: impl Fn(String) -> String) {
+        self.samples += 1;
+        if !time.is_finite() {
+            self.refuse(|| place(format!("time {} s: expected a finite time", plain(time))));
+        }
+        if !acceleration.is_finite() {
+            self.refuse(|| place(format!("acceleration {} m/s2: expected a finite acceleration", plain(acceleration))));
+        }
+        if let Some(&last) = self.record.times.last()
+            && time <= last
+        {
+            self.refuse(|| {
+                place(format!("time {} s: expected more than the time before it, {} s", plain(time), plain(last)))
+            });
+        }
+        // What comes next is compared with this one, in or out of order: one wrong time is one problem, or two.
+        if time.is_finite() {
+            self.record.times.push(time);
+            self.record.accelerations.push(acceleration);
+        }
+    }
+
+    /// Notes a sample that is none.
+    pub fn skip(&mut self, problem: impl FnOnce() -> String) {
+        self.samples += 1;
+        self.refuse(problem);
+    }
+
+    pub fn refuse(&mut self, problem: impl FnOnce() -> String) {
+        if self.problems.len() < MOST_PROBLEMS {
+            self.problems.push(problem());
+        } else {
+            self.more += 1;
+        }
+    }
+
+    /// The record once its file has been read to the end.
+    pub fn complete(mut self) -> Result<Record, RecordError> {
+        match self.samples {
+            0 => self.refuse(|| "0 samples: expected at least 2".to_owned()),
+            1 => self.refuse(|| "1 sample: expected at least 2".to_owned()),
+            _ => {}
+        }
+        if self.problems.is_empty() { Ok(self.record) } else { Err(self.stop()) }
+    }
+
+    /// What has been found, where nothing behind it can be read.
+    pub fn stop(self) -> RecordError {
+        let Reading { mut problems, more, .. } = self;
+        match more {
+            0 => {}
+            1 => problems.push("there is 1 more problem".to_owned()),
+            _ => problems.push(format!("there are {more} more problems")),
+        }
+        RecordError { problems }
+    }
+}
+
+/// A problem on a line, counted from 1.
+pub(super) fn on_line(number: usize, problem: impl std::fmt::Display) -> String {
+    format!("line {number}: {problem}")
+}
+
+/// Bytes of a file as text for a message: one line, at most 40 characters.
+pub(super) fn excerpt(bytes: &[u8]) -> String {
+    let text = String::from_utf8_lossy(bytes.get(..200).unwrap_or(bytes));
+    let printable = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
+    let mut short: String = text.trim().chars().take(40).map(printable).collect();
+    if text.trim().chars().nth(40).is_some() {
+        short.push_str("...");
+    }
+    short
+}

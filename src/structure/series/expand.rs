@@ -1,0 +1,271 @@
+//! The terms of a motion from the equation of motion, power by power.
+
+use super::MotionSeries;
+use crate::numerics::polynomial::{COUNT, ROOM, each};
+use crate::numerics::time_map::Clock;
+use crate::structure::equations::Structure;
+use crate::structure::floors::Floors;
+use crate::structure::lanes::{FEW_BLOCKS, LANES, Lane};
+
+/// Most powers of a series.
+const MOST_POWERS: usize = 40;
+
+/// 1 / ((n + 1) (n + 2)).
+pub const SECOND_RECIPROCAL: [f64; MOST_POWERS] = {
+    let mut table = [0.0; MOST_POWERS];
+    let mut n = 0;
+    while n < MOST_POWERS {
+        table[n] = 1.0 / ((n + 1) * (n + 2)) as f64;
+        n += 1;
+    }
+    table
+};
+
+/// Relative remainder below which a truncated series is exact to rounding.
+pub const EXACT: f64 = 1e-19;
+
+/// Order at which the flight series over `reach` = (fastest rate) x (time) is good to a relative `remainder`, which is
+/// estimated by reach^n / n!; `None` where the interval is too long for a series.
+pub fn flight_order(reach: f64, remainder: f64) -> Option<usize> {
+    if reach > 2.0 {
+        return None;
+    }
+    let (mut term, mut order) = (1.0, 0);
+    while term > remainder || order < 4 {
+        order += 1;
+        term *= reach / order as f64;
+    }
+    Some(order)
+}
+
+/// The forces of pairs while a series is expanded, power by power.
+pub trait PairForces {
+    /// Adds the accelerations by power n of the forces, times `factor`, to power n + 2 of the motion, and reads power n
+    /// + 2 of the penetrations from the result.
+    fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]);
+}
+
+impl MotionSeries {
+    /// Appends power n + 2 from the load's power n (in 1/scale^n), by (n+1)(n+2) q_{n+2} = load_n - c (n+1) q_{n+1} - w^2 q_n.
+    ///
+    /// `load` adds the modal load of power n to its argument, which holds zeros, in units of the load itself, and
+    /// `constrain` may change the modal accelerations that follow from it.
+    pub fn extend(&mut self, structure: &Structure, load: impl FnOnce(&mut [f64]), constrain: impl FnOnce(&mut [f64])) {
+        let n = self.order - 1;
+        let lanes = self.lanes;
+        let (known, next) = self.coefficients.split_at_mut((n + 2) * lanes);
+        let (q0, q1) = (&known[n * lanes..(n + 1) * lanes], &known[(n + 1) * lanes..]);
+        let next = &mut next[..lanes];
+        next.fill(0.0);
+        load(next);
+        let (k1, k2) = ((n + 1) as f64, (n + 2) as f64);
+        let rate = k1 / self.scale;
+        for m in 0..lanes {
+            next[m] -= rate * structure.damping[m] * q1[m] + structure.omega2[m] * q0[m];
+        }
+        structure.subtract_coupling(q1, rate, next);
+        constrain(next);
+        let factor = self.scale * self.scale / (k1 * k2);
+        for value in next.iter_mut() {
+            *value *= factor;
+        }
+        self.order += 1;
+    }
+
+    /// Expands from a started series of modes that damping does not couple to `order`, or goes on with an expanded one, under
+    /// a load, its slope and the forces of some pairs; the terms of up to [`FEW_BLOCKS`] blocks of modes stay in registers.
+    pub fn expand_few_modes(
+        &mut self,
+        structure: &Structure,
+        order: usize,
+        loads: (&[f64], &[f64]),
+        forces: &mut impl PairForces,
+    ) {
+        match self.lanes / LANES {
+            1 => expand_blocks::<1, _>(self, structure, order, loads, forces),
+            2 => expand_blocks::<2, _>(self, structure, order, loads, forces),
+            3 => expand_blocks::<3, _>(self, structure, order, loads, forces),
+            _ => expand_blocks::<FEW_BLOCKS, _>(self, structure, order, loads, forces),
+        }
+    }
+
+    /// The same for any number of modes.
+    pub fn expand_modes(
+        &mut self,
+        structure: &Structure,
+        order: usize,
+        (load, slope): (&[f64], &[f64]),
+        forces: &mut impl PairForces,
+    ) {
+        let lanes = self.lanes;
+        for n in self.order - 1..order - 1 {
+            let (known, rest) = self.coefficients.split_at_mut((n + 2) * lanes);
+            let (before, last) = known[n * lanes..].split_at(lanes);
+            let next = &mut rest[..lanes];
+            match n {
+                0 => next.copy_from_slice(load),
+                1 => next.iter_mut().zip(slope).for_each(|(next, slope)| *next = slope * self.scale),
+                _ => next.fill(0.0),
+            }
+            let factor = self.scale * self.scale * SECOND_RECIPROCAL[n];
+            let rate = (n + 1) as f64 * (self.scale * SECOND_RECIPROCAL[n]);
+            for m in 0..lanes {
+                let pulled = (factor * structure.omega2[m]) * before[m];
+                next[m] = (factor * next[m] - pulled) - (rate * structure.damping[m]) * last[m];
+            }
+            forces.act(n, factor, next.as_chunks_mut::<LANES>().0);
+        }
+        self.order = order;
+    }
+
+    /// Expands from a started series of all floors to `order`, or goes on with an expanded one, under a load, its slope and
+    /// the forces of some pairs.
+    pub fn expand_floors(
+        &mut self,
+        floors: &Floors,
+        order: usize,
+        loads: (&[f64], &[f64]),
+        forces: &mut impl PairForces,
+    ) {
+        expand_floors(self, floors, order, loads, forces);
+    }
+
+    /// Expands a flight: load and slope only.
+    pub fn expand_flight(
+        &mut self,
+        structure: &Structure,
+        (q, v): (&[f64], &[f64]),
+        (load, slope): (&[f64], &[f64]),
+        (scale, order): (f64, usize),
+    ) {
+        if structure.is_classical() {
+            return expand_single_modes(self, structure, (q, v), (load, slope), (scale, order));
+        }
+        self.start(scale, q, v);
+        while self.order < order.max(2) {
+            let n = self.order - 1;
+            let load_of_power = |out: &mut [f64]| match n {
+                0 => out.copy_from_slice(load),
+                1 => out.iter_mut().zip(slope).for_each(|(out, slope)| *out = slope * scale),
+                _ => {}
+            };
+            self.extend(structure, load_of_power, |_| {});
+        }
+    }
+}
+
+/// Expands a flight of modes that damping does not couple, one block of modes after the other: its last two terms stay
+/// in registers.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn expand_single_modes(
+    series: &mut MotionSeries,
+    structure: &Structure,
+    (q, v): (&[f64], &[f64]),
+    (load, slope): (&[f64], &[f64]),
+    (scale, order): (f64, usize),
+) {
+    series.scale = scale;
+    series.clock = Clock::default();
+    series.order = order.max(3);
+    let width = series.lanes / LANES;
+    let scale2 = scale * scale;
+    let [(q, _), (v, _), (load, _), (slope, _), (damping, _), (omega2, _)] =
+        [q, v, load, slope, &structure.damping, &structure.omega2].map(|vector| vector.as_chunks::<LANES>());
+    let (terms, _) = series.coefficients.as_chunks_mut::<LANES>();
+    for c in 0..width {
+        let a = damping[c].map(|damping| damping * scale);
+        let b = omega2[c].map(|omega2| omega2 * scale2);
+        let next_of = |count: f64, factor: f64, load: &Lane, before: &Lane, last: &Lane| -> Lane {
+            each(|i| (load[i] - (count * a[i] * last[i] + b[i] * before[i])) * factor)
+        };
+        let mut before = q[c];
+        let mut last = v[c].map(|v| v * scale);
+        terms[c] = before;
+        terms[width + c] = last;
+        for (n, load) in [load[c].map(|l| l * scale2), slope[c].map(|l| l * (scale2 * scale))].iter().enumerate() {
+            (before, last) = (last, next_of(COUNT[n + 1], SECOND_RECIPROCAL[n], load, &before, &last));
+            terms[(n + 2) * width + c] = last;
+        }
+        let rows = terms[4 * width..(series.order + 1) * width].chunks_exact_mut(width);
+        for ((row, count), factor) in rows.zip(&COUNT[3..]).zip(&SECOND_RECIPROCAL[2..]) {
+            (before, last) = (last, next_of(*count, *factor, &[0.0; LANES], &before, &last));
+            row[c] = last;
+        }
+    }
+}
+
+/// See [`MotionSeries::expand_few_modes`].
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn expand_blocks<const WIDTH: usize, F: PairForces>(
+    series: &mut MotionSeries,
+    structure: &Structure,
+    order: usize,
+    (load, slope): (&[f64], &[f64]),
+    forces: &mut F,
+) {
+    let [damping, omega2, load, slope] =
+        [&structure.damping, &structure.omega2, load, slope].map(first_blocks::<WIDTH>);
+    let (terms, _) = series.coefficients.as_chunks_mut::<LANES>().0.as_chunks_mut::<WIDTH>();
+    let first = series.order - 1;
+    let (mut before, mut last) = (terms[first], terms[first + 1]);
+    for ((n, reciprocal), term) in SECOND_RECIPROCAL.iter().enumerate().skip(first).zip(&mut terms[first + 2..=order]) {
+        let mut next = match n {
+            0 => load,
+            1 => slope.map(|slope| slope.map(|slope| slope * series.scale)),
+            _ => [[0.0; LANES]; WIDTH],
+        };
+        let factor = series.scale * series.scale * reciprocal;
+        let rate = (n + 1) as f64 * (series.scale * reciprocal);
+        for c in 0..WIDTH {
+            for i in 0..LANES {
+                let pulled = (factor * omega2[c][i]) * before[c][i];
+                next[c][i] = (factor * next[c][i] - pulled) - (rate * damping[c][i]) * last[c][i];
+            }
+        }
+        forces.act(n, factor, &mut next);
+        *term = next;
+        (before, last) = (last, next);
+    }
+    series.order = order;
+}
+
+/// See [`MotionSeries::expand_floors`].
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn expand_floors<F: PairForces>(
+    series: &mut MotionSeries,
+    floors: &Floors,
+    order: usize,
+    (load, slope): (&[f64], &[f64]),
+    forces: &mut F,
+) {
+    let lanes = series.lanes;
+    let (scale2, inverse) = (series.scale * series.scale, 1.0 / series.scale);
+    let first = series.order - 1;
+    if first == 0 {
+        series.coefficients[2 * lanes..3 * lanes].copy_from_slice(&load[..lanes]);
+        series.coefficients[3 * lanes..4 * lanes].copy_from_slice(&slope[..lanes]);
+    }
+    for n in first..(order - 1).min(ROOM - 3) {
+        let (known, rest) = series.coefficients.split_at_mut((n + 2) * lanes);
+        let (u, v) = known[n * lanes..].split_at(lanes);
+        let (next, _) = rest[..lanes].as_chunks_mut::<LANES>();
+        let rate = COUNT[n + 1] * inverse;
+        let factor = scale2 * SECOND_RECIPROCAL[n];
+        if n < 2 {
+            let unit = if n == 0 { 1.0 } else { series.scale };
+            floors.enter_resistance(u, v, rate, next, |load, resistance| (load * unit - resistance) * factor);
+        } else {
+            let pull = -factor;
+            floors.enter_resistance(u, v, rate, next, |_, resistance| pull * resistance);
+        }
+        forces.act(n, factor, next);
+    }
+    series.order = order;
+}
+
+/// The first blocks of a vector that has as many.
+fn first_blocks<const WIDTH: usize>(vector: &[f64]) -> [Lane; WIDTH] {
+    let mut blocks = [[0.0; LANES]; WIDTH];
+    blocks.as_flattened_mut().copy_from_slice(&vector[..WIDTH * LANES]);
+    blocks
+}

@@ -1,0 +1,177 @@
+//! What the variables stand for.
+
+use crate::engine::{PeakOf, Side};
+use crate::scene::{Building, Scene};
+
+/// What a variable stands for. Floors, storeys and contacts are counted from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slot {
+    /// Set by the master at any time.
+    Input(Input),
+    /// Set by the master before the end of initialisation.
+    Parameter(Parameter),
+    /// Hz: natural frequency of a building alone, a calculated parameter.
+    Frequency(Side, usize),
+    /// Result.
+    Output(Output),
+}
+
+/// An input: the master sets it at any time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Input {
+    /// m/s2
+    GroundAcceleration,
+    /// N, on a floor
+    Force(Side, usize),
+}
+
+/// A parameter: the master sets it before the end of initialisation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// Factor on the record.
+    GroundScale,
+    /// Path of another record.
+    GroundRecord,
+    /// kg
+    Mass(Side, usize),
+    /// N/m, of a storey
+    Stiffness(Side, usize),
+    /// Of every mode of a building
+    DampingRatio(Side),
+    /// m
+    Gap(usize),
+    /// N/m^exponent
+    ContactStiffness(usize),
+    /// Of the penetration
+    Exponent(usize),
+    /// Of a free impact
+    Restitution(usize),
+    /// Error of a contact episode
+    RelativeTolerance,
+}
+
+/// A result of the FMU.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Output {
+    /// m/s2, of the record
+    GroundAcceleration,
+    /// m
+    Displacement(Side, usize),
+    /// m/s
+    Velocity(Side, usize),
+    /// m/s2
+    Acceleration(Side, usize),
+    /// N
+    BaseShear(Side),
+    /// The largest magnitude so far.
+    Peak(PeakOf),
+    /// One contact.
+    Contact(usize, ContactOutput),
+    /// Contact episodes so far.
+    Impacts,
+    /// One term of the energy account.
+    Energy(EnergyOutput),
+}
+
+/// A result for one contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactOutput {
+    /// N
+    Force,
+    /// m
+    Penetration,
+    /// In contact now.
+    Active,
+    /// Episodes begun so far.
+    Impacts,
+    /// N
+    PeakForce,
+    /// N s
+    Impulse,
+    /// J
+    DissipatedEnergy,
+    /// m/s
+    ApproachVelocity,
+}
+
+/// The terms of the energy account.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EnergyOutput {
+    /// J
+    Input,
+    /// J
+    Kinetic,
+    /// J
+    Strain,
+    /// J
+    Viscous,
+    /// J
+    Impact,
+    /// J
+    External,
+    /// Dimensionless
+    Residual,
+}
+
+/// FMI causality.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Causality {
+    /// `parameter`
+    Parameter,
+    /// `calculatedParameter`
+    CalculatedParameter,
+    /// `input`
+    Input,
+    /// `output`
+    Output,
+}
+
+impl Slot {
+    /// The causality that follows from what it stands for.
+    pub const fn causality(self) -> Causality {
+        match self {
+            Slot::Input(_) => Causality::Input,
+            Slot::Parameter(_) => Causality::Parameter,
+            Slot::Frequency(..) => Causality::CalculatedParameter,
+            Slot::Output(_) => Causality::Output,
+        }
+    }
+}
+
+impl From<Input> for Slot {
+    fn from(input: Input) -> Slot {
+        Slot::Input(input)
+    }
+}
+
+impl From<Parameter> for Slot {
+    fn from(parameter: Parameter) -> Slot {
+        Slot::Parameter(parameter)
+    }
+}
+
+impl From<Output> for Slot {
+    fn from(output: Output) -> Slot {
+        Slot::Output(output)
+    }
+}
+
+impl Causality {
+    /// As the description writes it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Causality::Parameter => "parameter",
+            Causality::CalculatedParameter => "calculatedParameter",
+            Causality::Input => "input",
+            Causality::Output => "output",
+        }
+    }
+}
+
+/// The building on a side.
+pub(super) fn building(scene: &Scene, side: Side) -> &Building {
+    match side {
+        Side::Left => &scene.left,
+        Side::Right => &scene.right,
+    }
+}

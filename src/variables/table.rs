@@ -1,0 +1,91 @@
+//! The table of variables: a row each.
+
+use super::slot::Slot;
+use super::unit::Unit;
+
+/// FMI variability.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variability {
+    /// `fixed`: constant after initialisation
+    Fixed,
+    /// `discrete`: constant but for events
+    Discrete,
+    /// `continuous`
+    Continuous,
+}
+
+/// FMI type of a variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Type {
+    /// `Real` in a unit, shown to people in its display unit.
+    Real(Unit),
+    /// `Integer`
+    Integer,
+    /// `Boolean`
+    Boolean,
+    /// `String`
+    String,
+}
+
+/// One variable.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Structured name, such as `contact[2].gap`.
+    pub name: String,
+    /// What it stands for.
+    pub slot: Slot,
+    /// When it changes.
+    pub variability: Variability,
+    /// Type and unit.
+    pub ty: Type,
+    /// Smallest value.
+    pub min: Option<f64>,
+    /// Largest value.
+    pub max: Option<f64>,
+    /// Typical magnitude, > 0.
+    pub nominal: Option<f64>,
+    /// One line for a user.
+    pub description: String,
+}
+
+/// All variables of a scene. The value reference of a variable is its place in `rows`.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// In the order of the description.
+    pub rows: Vec<Row>,
+}
+
+impl Variability {
+    /// As the description writes it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Variability::Fixed => "fixed",
+            Variability::Discrete => "discrete",
+            Variability::Continuous => "continuous",
+        }
+    }
+}
+
+impl Type {
+    /// Name of the element of the description.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Type::Real(_) => "Real",
+            Type::Integer => "Integer",
+            Type::Boolean => "Boolean",
+            Type::String => "String",
+        }
+    }
+}
+
+impl Table {
+    /// The row of a value reference.
+    pub fn row(&self, value_reference: u32) -> Option<&Row> {
+        self.rows.get(usize::try_from(value_reference).ok()?)
+    }
+
+    /// Each row with its value reference.
+    pub fn iter(&self) -> impl Iterator<Item = (u32, &Row)> {
+        (0u32..).zip(&self.rows)
+    }
+}

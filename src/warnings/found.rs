@@ -1,0 +1,52 @@
+//! What the rules have found.
+
+use crate::scene::{excerpt, number, numbers, quoted};
+use std::fmt;
+
+/// One thing that looks like a slip.
+///
+/// Displayed as `path = value: text`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// Path in the scene, such as `contact[2].gap`.
+    pub path: String,
+    /// The value found.
+    pub value: String,
+    /// What is odd, what it would mean, what may have been meant.
+    pub text: String,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} = {}: {}", self.path, self.value, self.text)
+    }
+}
+
+/// What has been found so far.
+#[derive(Default)]
+pub(super) struct Found(pub Vec<Warning>);
+
+impl Found {
+    pub fn number(&mut self, path: impl Into<String>, value: f64, text: impl Into<String>) {
+        // 2.75e9, not 2750000000.0.
+        self.add(path, if value.abs() >= 1e6 { format!("{value:e}") } else { number(value) }, text);
+    }
+
+    pub fn numbers(&mut self, path: impl Into<String>, values: &[f64], text: impl Into<String>) {
+        self.add(path, excerpt(&numbers(values)), text);
+    }
+
+    pub fn text(&mut self, path: impl Into<String>, value: &str, text: impl Into<String>) {
+        self.add(path, quoted(value), text);
+    }
+
+    pub fn add(&mut self, path: impl Into<String>, value: String, text: impl Into<String>) {
+        self.0.push(Warning { path: path.into(), value, text: text.into() });
+    }
+
+    /// Whether anything has been found at a path or below it.
+    pub fn has(&self, path: &str) -> bool {
+        let below = |rest: &str| rest.is_empty() || rest.starts_with(['.', '[']);
+        self.0.iter().any(|warning| warning.path.strip_prefix(path).is_some_and(below))
+    }
+}
