@@ -10,8 +10,7 @@ use crate::engine::error::EngineError;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::model::Model;
 use crate::engine::state::State;
-use crate::structure::LANES;
-use crate::structure::Side;
+use crate::structure::{LANES, Side};
 
 impl Model {
     /// Nothing may run on without numbers.

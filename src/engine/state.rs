@@ -1,20 +1,16 @@
 //! Everything that changes during a run: plain data, cloned to save it.
 
 use crate::collocation::Workspace as WindowWorkspace;
-use crate::engine::base::Account;
-use crate::engine::base::Base;
-use crate::engine::base::Coordinates;
 use crate::engine::base::clearance::Watch;
 use crate::engine::base::counters::Counters;
+use crate::engine::base::{Account, Base, Coordinates};
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::excitation::linear_input::LinearInput;
 use crate::engine::excitation::segment::Segment;
 use crate::engine::flight::workspace::Look;
 use crate::engine::model::Model;
-use crate::engine::peaks::room::PeakRoom;
-use crate::engine::peaks::room::PeakWork;
-use crate::engine::step::Step;
-use crate::engine::step::StepKind;
+use crate::engine::peaks::room::{PeakRoom, PeakWork};
+use crate::engine::step::{Step, StepKind};
 use crate::engine::system::buffers::Buffers;
 use crate::structure::Side;
 

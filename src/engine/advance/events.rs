@@ -1,12 +1,12 @@
 //! What follows an event. Entry, release and branch change end a step (they are terminal events); peaks do not.
 
 use crate::contact::EpisodeForce;
-use crate::engine::base::Base;
-use crate::engine::base::Coordinates;
 use crate::engine::base::contact::Episode;
 use crate::engine::base::planned::Event;
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::model::Model;
 use crate::engine::system::buffers::Buffers;
+
 impl Model {
     pub(in crate::engine) fn handle(
         &self,

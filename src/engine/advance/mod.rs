@@ -1,14 +1,14 @@
 //! Advancing: plan a step, take it, handle its event, until the communication time is reached.
 
-use crate::engine::base::planned::At;
-use crate::engine::base::planned::Planned;
-use crate::engine::excitation::inputs::Inputs;
 pub mod events;
 pub mod fast_flight;
+pub mod plan;
 
 use crate::engine::base::Base;
 use crate::engine::base::contact::Episode;
+use crate::engine::base::planned::{At, Planned};
 use crate::engine::error::EngineError;
+use crate::engine::excitation::inputs::Inputs;
 use crate::engine::excitation::segment::Segment;
 use crate::engine::model::Model;
 use crate::engine::state::{State, Workspace};

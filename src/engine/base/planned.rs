@@ -3,6 +3,7 @@
 use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
 use crate::engine::excitation::inputs::Inputs;
+
 /// What ends a step, at which contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {

@@ -1,17 +1,5 @@
 //! Flight: both buildings swing by themselves, exactly, until the segment ends or two floors meet.
 
-use crate::engine::base::Base;
-use crate::engine::base::counters::Counters;
-use crate::engine::base::planned::At;
-use crate::engine::base::planned::Planned;
-use crate::engine::excitation::record::GroundMotion;
-use crate::engine::flight::broad_phase::ClosingSpeeds;
-use crate::engine::flight::broad_phase::NEAR;
-use crate::engine::flight::certificate::Certificate;
-use crate::engine::flight::fast_certificate::NearPairs;
-use crate::engine::flight::narrow_phase::Search;
-use crate::engine::flight::workspace::Look;
-use crate::engine::system::System;
 pub mod accounted;
 pub mod broad_phase;
 pub mod certificate;
@@ -21,6 +9,16 @@ pub mod narrow_phase;
 pub mod propagate;
 pub mod workspace;
 
+use crate::engine::base::Base;
+use crate::engine::base::counters::Counters;
+use crate::engine::base::planned::{At, Planned};
+use crate::engine::excitation::record::GroundMotion;
+use crate::engine::flight::broad_phase::{ClosingSpeeds, NEAR};
+use crate::engine::flight::certificate::Certificate;
+use crate::engine::flight::fast_certificate::NearPairs;
+use crate::engine::flight::narrow_phase::Search;
+use crate::engine::flight::workspace::Look;
+use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 
 /// What stays the same during a run.

@@ -4,8 +4,7 @@
 //! the same whether it has been looked at or not. So it does not matter which pairs there are that never meet.
 
 use crate::engine::base::counters::Counters;
-use crate::engine::base::planned::Event;
-use crate::engine::base::planned::Planned;
+use crate::engine::base::planned::{Event, Planned};
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::flight::certificate::{Certificate, highest_of_cubic};
 use crate::engine::flight::workspace::Look;

@@ -1,12 +1,12 @@
 //! How far an onset step may go: nothing happens to any contact in it, shown by bounds on the sums of its terms.
 
-use crate::engine::base::Base;
-use crate::engine::base::Coordinates;
 use crate::engine::base::contact::Contact;
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::onset::series::OnsetSeries;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
 use crate::structure::sum_sizes;
+
 impl System {
     /// How far it is certain, up to `reach`, that no contact changes its state; `sizes` is room to work in.
     pub fn certain_reach(&self, base: &Base, onset: &mut OnsetSeries, sizes: &mut [f64], reach: f64) -> Option<f64> {

@@ -1,13 +1,11 @@
 //! What an onset step does to contacts.
 
-use crate::contact::onset::GridPowers;
-use crate::contact::onset::value_and_slope;
-use crate::contact::onset::values_and_slopes;
+use crate::contact::onset::{GridPowers, value_and_slope, values_and_slopes};
 use crate::engine::base::contact::Contact;
 use crate::engine::onset::series::OnsetSeries;
-use crate::numerics::quadrature::TWELVE;
-use crate::numerics::quadrature::graded;
+use crate::numerics::quadrature::{TWELVE, graded};
 use crate::numerics::roots;
+
 /// Most places at which a slope is looked at for where it passes 0: it takes some ten.
 const MOST_TURNS: usize = 60;
 

@@ -3,8 +3,6 @@
 //! The step ends before anything else can happen - a turn, a release, an entry elsewhere -, shown by bounds on the sums
 //! of its terms, so it has no event of its own.
 
-use crate::engine::onset::series::OnsetSeries;
-use crate::engine::onset::series::expand;
 pub mod certificate;
 pub mod follow;
 pub mod series;
@@ -12,9 +10,9 @@ pub mod series;
 use crate::contact::Force;
 use crate::contact::onset::{Grid, MOST_TERMS};
 use crate::engine::base::contact::Contact;
-use crate::engine::base::planned::At;
-use crate::engine::base::planned::Planned;
+use crate::engine::base::planned::{At, Planned};
 use crate::engine::base::{Base, Coordinates};
+use crate::engine::onset::series::{OnsetSeries, expand};
 use crate::engine::pairs::jacobian::{OnFloors, OnModes};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;

@@ -2,27 +2,16 @@
 //! exponents are i + beta j.
 
 use crate::contact::EpisodeForce;
-use crate::contact::onset::Grid;
-use crate::contact::onset::GridPowers;
-use crate::contact::onset::MOST_TERMS;
-use crate::contact::onset::OnsetBlock;
-use crate::contact::onset::OnsetReading;
-use crate::contact::onset::Products;
+use crate::contact::onset::{Grid, GridPowers, MOST_TERMS, OnsetBlock, OnsetReading, Products};
 use crate::contact::taylor::Kind;
-use crate::engine::base::Base;
-use crate::engine::base::Coordinates;
 use crate::engine::base::contact::Contact;
-use crate::engine::base::touching;
+use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::pairs::jacobian::Meeting;
-use crate::engine::pairs::packing::Members;
-use crate::engine::pairs::packing::Place;
-use crate::engine::pairs::packing::most_blocks;
+use crate::engine::pairs::packing::{Members, Place, most_blocks};
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
-use crate::structure::LANES;
-use crate::structure::Lane;
-use crate::structure::Structure;
-use crate::structure::sum_terms;
+use crate::structure::{LANES, Lane, Structure, sum_terms};
+
 /// The double series of the motion and of all contacts.
 #[derive(Clone, Debug, Default)]
 pub struct OnsetSeries {

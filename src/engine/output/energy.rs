@@ -2,10 +2,10 @@
 
 use crate::engine::base::Account;
 use crate::engine::model::Model;
-use crate::engine::output::point::EnergyPoint;
-use crate::engine::output::point::Point;
+use crate::engine::output::point::{EnergyPoint, Point};
 use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
+
 impl Model {
     /// What the account of the base has come to at a time since it; `point` holds the motion and the contacts there.
     #[inline(never)]

@@ -4,8 +4,7 @@ use crate::engine::base::Coordinates;
 use crate::engine::excitation::linear_input::LinearInput;
 use crate::engine::model::Model;
 use crate::engine::output::point::Point;
-use crate::engine::output::point_rates::EnergyRates;
-use crate::engine::output::point_rates::PointRates;
+use crate::engine::output::point_rates::{EnergyRates, PointRates};
 use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
 

@@ -2,12 +2,9 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::model::Model;
-use crate::engine::output::known::Accelerations;
-use crate::engine::output::known::FloorMotions;
-use crate::engine::output::known::KnownBlock;
+use crate::engine::output::known::{Accelerations, FloorMotions, KnownBlock};
 use crate::engine::output::point::Point;
-use crate::structure::Side;
-use crate::structure::{LANES, Lane};
+use crate::structure::{LANES, Lane, Side};
 
 impl Point {
     /// Rows of the modal matrix that have been summed up, since this point was made: four at a time, that of the floor that

@@ -1,7 +1,5 @@
 //! Reading the solution at the communication time, out of the dense solution of the step under way.
 
-use crate::engine::output::point::Known;
-use crate::engine::system::buffers::Buffers;
 pub mod energy;
 pub mod energy_rates;
 pub mod feedthrough;
@@ -14,12 +12,12 @@ pub mod point_rates;
 pub mod rates;
 
 use crate::engine::base::Base;
-use crate::engine::base::contact::Contact;
-use crate::engine::base::contact::Episode;
+use crate::engine::base::contact::{Contact, Episode};
 use crate::engine::model::Model;
-use crate::engine::output::point::{ContactPoint, Point};
+use crate::engine::output::point::{ContactPoint, Known, Point};
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
+use crate::engine::system::buffers::Buffers;
 use crate::numerics::powers::Powers;
 use std::cell::Cell;
 

@@ -1,11 +1,10 @@
 //! The solution at one time, as floors and contacts show it.
 
 use crate::engine::base::Coordinates;
-use crate::engine::output::known::FloorMotions;
-use crate::engine::output::known::PeakCell;
+use crate::engine::output::known::{FloorMotions, PeakCell};
 use crate::engine::system::buffers::Buffers;
-
 use std::cell::Cell;
+
 /// The solution at one time, as floors and contacts show it, each worked out when it is first read.
 #[derive(Clone, Debug, Default)]
 pub struct Point {

@@ -2,6 +2,7 @@
 
 use crate::contact::Force;
 use crate::engine::system::buffers::Buffers;
+
 /// What a quantity may be below its peak so far by rounding, relative to it.
 pub const PEAK_ROUNDING: f64 = 1e-12;
 

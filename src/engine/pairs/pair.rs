@@ -1,7 +1,6 @@
 //! Two facing floors.
 
-use crate::contact::Force;
-use crate::contact::{EpisodeForce, ImpactLaw};
+use crate::contact::{EpisodeForce, Force, ImpactLaw};
 use crate::engine::base::Coordinates;
 use crate::engine::base::contact::{Contact, Episode, Phase};
 use crate::scene::Scene;

@@ -18,12 +18,9 @@
 use crate::engine::base::Base;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::model::Model;
-use crate::engine::peaks::room::ModeBounds;
-use crate::engine::peaks::room::PeakWork;
-use crate::engine::peaks::room::WatchedBlock;
+use crate::engine::peaks::room::{ModeBounds, PeakWork, WatchedBlock};
 use crate::engine::peaks::rows::{Block, BuildingRows};
-use crate::numerics::polynomial::each;
-use crate::numerics::polynomial::larger;
+use crate::numerics::polynomial::{each, larger};
 use crate::structure::{LANES, Lane};
 
 /// Segments for which bounds are worked out, where nothing swings up to its peak and otherwise.

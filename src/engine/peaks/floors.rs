@@ -8,8 +8,7 @@
 use crate::engine::base::Coordinates;
 use crate::engine::model::Model;
 use crate::engine::peaks::resistance::Resistance;
-use crate::engine::peaks::room::FloorRoom;
-use crate::engine::peaks::room::FloorState;
+use crate::engine::peaks::room::{FloorRoom, FloorState};
 use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Side};
 

@@ -11,8 +11,6 @@
 //! way adds is worked out from its start when somebody asks. Velocities jump in an impact of `stereomechanical`: the motion
 //! before and after counts, the impulse itself, in which accelerations have no size, does not.
 
-use crate::engine::base::peaks::Peaks;
-use crate::engine::peaks::room::PeakWork;
 pub mod ahead;
 pub mod contact;
 pub mod flight;
@@ -24,8 +22,10 @@ pub mod rows;
 pub mod search;
 
 use crate::engine::base::Base;
+use crate::engine::base::peaks::Peaks;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
+use crate::engine::peaks::room::PeakWork;
 use crate::engine::step::Step;
 use flight::Stretch;
 

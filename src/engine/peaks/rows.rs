@@ -10,8 +10,7 @@
 //! base shear           A = w^2 participation                      B = participation C
 //! ```
 
-use crate::structure::Side;
-use crate::structure::{LANES, Lane, ModalDamping, Structure};
+use crate::structure::{LANES, Lane, ModalDamping, Side, Structure};
 use std::ops::Range;
 
 /// Something whose largest magnitude so far is kept. Floors and storeys count from 0.

@@ -4,12 +4,10 @@
 use crate::engine::base::Coordinates;
 use crate::engine::model::Model;
 use crate::engine::peaks::flight::{Stretch, course_of, stays_below};
-use crate::engine::peaks::room::MOST_FLOWN;
-use crate::engine::peaks::room::PeakWork;
+use crate::engine::peaks::room::{MOST_FLOWN, PeakWork};
 use crate::engine::peaks::rows::PeakOf;
 use crate::engine::system::buffers::Buffers;
-use crate::numerics::polynomial::larger;
-use crate::numerics::polynomial::{Coefficients, MAX_ORDER, ROOM};
+use crate::numerics::polynomial::{Coefficients, MAX_ORDER, ROOM, larger};
 use crate::numerics::powers::{Powers, Reading};
 use crate::numerics::roots;
 use crate::numerics::substitution::Bend;

@@ -7,8 +7,7 @@
 //! the floors stay together, and the reaction is what keeps their relative acceleration 0, power by power of the series.
 
 use crate::engine::base::Base;
-use crate::engine::base::contact::Episode;
-use crate::engine::base::contact::Phase;
+use crate::engine::base::contact::{Episode, Phase};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 

@@ -1,13 +1,12 @@
 //! Rigid floors that are held together: the reactions that keep their relative acceleration 0, and who is let go.
 
-use crate::engine::base::Base;
-use crate::engine::base::touching;
+use crate::engine::base::{Base, touching};
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::complementarity::Complementarity;
-use crate::structure::difference;
-use crate::structure::dot;
+use crate::structure::{difference, dot};
+
 impl System {
     /// Takes out of the motion what rounding has moved floors apart that are held together.
     pub fn keep_together(&self, base: &mut Base, work: &mut Buffers) {

@@ -1,17 +1,15 @@
 //! Rigid pairs near the surface: how long a step may be until the next rebound, and where they get to in it.
 
-use crate::engine::base::Base;
-use crate::engine::base::Coordinates;
 use crate::engine::base::contact::Contact;
-use crate::engine::base::planned::Carried;
-use crate::engine::base::planned::Event;
+use crate::engine::base::planned::{Carried, Event};
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::powers::Powers;
-use crate::structure::MotionSeries;
-use crate::structure::dot;
+use crate::structure::{MotionSeries, dot};
+
 /// A rigid pair is carried by its own increments up to this many rounding errors of its penetration from the surface.
 const CLOSE: f64 = 1e6;
 

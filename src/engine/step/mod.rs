@@ -11,20 +11,17 @@ use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
 use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
-use crate::structure::MotionSeries;
-use crate::structure::exact_order;
-use crate::structure::fly_in_one_series;
-pub mod plan;
+use crate::structure::{MotionSeries, exact_order, fly_in_one_series};
 
 /// The dense solution from the base on.
 #[derive(Clone, Debug)]
 pub struct Step {
     pub kind: StepKind,
     pub planned: Planned,
-    taylor: Solution,
-    onset: OnsetSeries,
+    pub taylor: Solution,
+    pub onset: OnsetSeries,
     /// The motion without its forces is in the series of `taylor`.
-    window: Box<Window>,
+    pub window: Box<Window>,
 }
 
 /// The kinds of step.

@@ -1,9 +1,7 @@
 //! Vectors to work in: their content means nothing between calls.
 
 use crate::numerics::complementarity::Complementarity;
-use crate::numerics::polynomial::Coefficients;
-use crate::numerics::polynomial::MAX_ORDER;
-use crate::numerics::polynomial::ROOM;
+use crate::numerics::polynomial::{Coefficients, MAX_ORDER, ROOM};
 use crate::numerics::powers::Powers;
 use crate::structure::{Interval, MotionSeries, Scratch, Structure};
 

@@ -1,7 +1,5 @@
 //! The buildings, their pairs and the ground: what every kind of step needs to know of a scene. It knows no step.
 
-use crate::scene::Scene;
-use crate::structure::ImpulseResponse;
 pub mod buffers;
 pub mod error_norm;
 pub mod tolerance;
@@ -13,7 +11,8 @@ use crate::engine::excitation::record::GroundMotion;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::pairs::rigid::RigidPairs;
 use crate::engine::system::tolerance::Tolerance;
-use crate::structure::{FEW_BLOCKS, LANES, Side, Structure};
+use crate::scene::Scene;
+use crate::structure::{FEW_BLOCKS, ImpulseResponse, LANES, Side, Structure};
 
 /// What stays as it is during a run, but for what single kinds of step prepare for themselves.
 #[derive(Debug)]

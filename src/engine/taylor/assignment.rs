@@ -1,13 +1,12 @@
 //! Which pair in contact stands in which block and lane.
 
-use crate::contact::taylor::Kind;
-use crate::contact::taylor::PAIRS;
-use crate::contact::taylor::PairBlock;
+use crate::contact::taylor::{Kind, PAIRS, PairBlock};
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
 use crate::engine::pairs::packing::Place;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::taylor::closed_pairs::ClosedPairs;
+
 impl ClosedPairs {
     /// Starts the series of all pairs in contact that are not held together; `scale` is the unit of time. Pairs that are
     /// apart `may_ride` along where the motion is that of few modes.

@@ -7,14 +7,12 @@ use crate::engine::base::contact::{Contact, Phase};
 use crate::engine::base::planned::Event;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
-use crate::engine::taylor::solution::Solution;
-use crate::structure::difference;
-
 use crate::engine::taylor::closed_pairs::ClosedPairs;
+use crate::engine::taylor::solution::Solution;
 use crate::numerics::polynomial::Coefficients;
 use crate::numerics::powers::Powers;
 use crate::numerics::roots;
-use crate::structure::MotionSeries;
+use crate::structure::{MotionSeries, difference};
 
 /// Share of the velocities so far below which a rate may be rounding.
 const ALIKE: f64 = 1e-12;

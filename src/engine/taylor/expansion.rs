@@ -1,11 +1,8 @@
 //! Expands motion and contact forces together, power by power.
 
 use crate::contact::taylor::PAIRS;
-use crate::engine::base::Base;
-use crate::engine::base::Coordinates;
-use crate::engine::pairs::jacobian::OnFewModes;
-use crate::engine::pairs::jacobian::OnFloors;
-use crate::engine::pairs::jacobian::OnModes;
+use crate::engine::base::{Base, Coordinates};
+use crate::engine::pairs::jacobian::{OnFewModes, OnFloors, OnModes};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::closed_pairs::ClosedPairs;
@@ -13,11 +10,8 @@ use crate::engine::taylor::linear_pairs::LinearPairs;
 use crate::engine::taylor::pair_forces::with_forces;
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::complementarity::Complementarity;
-use crate::structure::FEW_BLOCKS;
-use crate::structure::LANES;
-use crate::structure::MotionSeries;
-use crate::structure::difference;
-use crate::structure::dot;
+use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, difference, dot};
+
 impl System {
     /// The series of the motion, of penetrations and forces from the base on.
     pub fn expand(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, scale: f64) {

@@ -6,6 +6,7 @@ use crate::engine::taylor::solution::Solution;
 use crate::numerics::polynomial::Coefficients;
 use crate::numerics::powers::Powers;
 use crate::numerics::roots;
+
 impl Solution {
     /// Follows the contacts to the end of the step, which has begun at `start` [s].
     pub fn follow(&self, system: &System, contacts: &mut [Contact], start: f64) {

@@ -7,10 +7,6 @@
 //! Under a power law the last terms tell of the root of the time since the entry, or until the release: there the terms in
 //! time are weighed as those by a [`Clock`] have them, which knows no such root and goes several times as far.
 
-use crate::engine::base::planned::At;
-use crate::engine::base::planned::Planned;
-use crate::engine::base::touching;
-use crate::engine::taylor::solution::Solution;
 pub mod assignment;
 pub mod closed_pairs;
 pub mod departures;
@@ -24,10 +20,11 @@ pub mod solution;
 pub mod step_size;
 pub mod time_map;
 
-use crate::engine::base::Base;
-use crate::engine::base::planned::Event;
+use crate::engine::base::planned::{At, Event, Planned};
+use crate::engine::base::{Base, touching};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
+use crate::engine::taylor::solution::Solution;
 
 impl System {
     /// Works out the power series from the base over `remaining` seconds at most, under a load that is in `work`, and how

@@ -6,7 +6,6 @@ use crate::engine::base::{Base, Coordinates};
 use crate::engine::pairs::jacobian::{Meeting, OnFewModes, OnFloors, OnModes};
 use crate::engine::pairs::packing::{Members, Place, most_blocks};
 use crate::engine::pairs::pair::Pair;
-
 use crate::numerics::polynomial::{ROOM, each};
 use crate::numerics::powers::Powers;
 use crate::numerics::substitution::Bend;

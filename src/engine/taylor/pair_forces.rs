@@ -11,6 +11,7 @@ use crate::engine::taylor::closed_pairs::{Blocks, ClosedPairs};
 use crate::numerics::polynomial::each;
 use crate::structure::{Lane, PairForces};
 use std::marker::PhantomData;
+
 /// Pairs under a law, each of which feels nothing of the others at once; `ONE` where they are one block.
 pub struct AtOnce<'a, M, L, const ONE: bool> {
     blocks: &'a mut [PairBlock],

@@ -1,13 +1,11 @@
 //! How far a Taylor step reaches: the last two terms of its velocities stay below the tolerance \[JorbaZou2005\].
 
-use crate::engine::base::Base;
-use crate::engine::base::Coordinates;
-use crate::engine::base::touching;
+use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::system::System;
 use crate::engine::taylor::solution::Solution;
-use crate::numerics::polynomial::ROOM;
-use crate::numerics::polynomial::rough_root;
+use crate::numerics::polynomial::{ROOM, rough_root};
 use crate::structure::MotionSeries;
+
 /// Velocity that a force may cause which is left out at the singular start of a power law, as a share of a step's
 /// tolerance.
 const START_SHARE: f64 = 0.1;

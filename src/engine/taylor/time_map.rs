@@ -1,9 +1,7 @@
 //! How far a Taylor step reaches in a variable in which the motion near an entry or a release is smooth.
 
-use crate::engine::base::Base;
-use crate::engine::base::contact::Contact;
-use crate::engine::base::contact::Phase;
-use crate::engine::base::touching;
+use crate::engine::base::contact::{Contact, Phase};
+use crate::engine::base::{Base, touching};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
@@ -11,6 +9,7 @@ use crate::engine::taylor::step_size::FURTHEST;
 use crate::numerics::polynomial::rough_root;
 use crate::numerics::time_map::Clock;
 use crate::structure::MotionSeries;
+
 /// Share of the time to a singularity that a series reaches in time where the singularity is what limits it.
 const NEAR: f64 = 0.35;
 

@@ -1,8 +1,6 @@
 //! What windows need to know of a scene.
 
-use crate::collocation::Kernel;
-use crate::collocation::POWERS;
-use crate::collocation::Tables;
+use crate::collocation::{Kernel, POWERS, Tables};
 use crate::engine::system::System;
 use crate::engine::window::spring::Spring;
 

@@ -4,29 +4,24 @@
 //! series need twenty steps. A window is taken only if bounds show that nothing else happens in it (see
 //! [`certificate`]). Where that cannot be shown power series in time go on.
 
-use crate::collocation::Workspace as WindowWorkspace;
-use crate::engine::base::planned::At;
-use crate::engine::base::planned::Planned;
-use crate::engine::system::System;
-use crate::engine::window::kernels::Windows;
-use crate::structure::MotionSeries;
 pub mod certificate;
 pub mod kernels;
 pub mod solution;
 pub mod spring;
 pub mod trial;
 
-use crate::collocation::{Ending, MOST_PAIRS, Tables};
+use crate::collocation::{Ending, MOST_PAIRS, Tables, Workspace as WindowWorkspace};
 use crate::contact::Force;
 use crate::engine::base::contact::Contact;
-use crate::engine::base::planned::Event;
-use crate::engine::base::touching;
-use crate::engine::base::{Base, Coordinates};
+use crate::engine::base::planned::{At, Event, Planned};
+use crate::engine::base::{Base, Coordinates, touching};
+use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::window::certificate::keeps_off;
+use crate::engine::window::kernels::Windows;
 use crate::engine::window::solution::Window;
 use crate::engine::window::trial::Draft;
-use crate::structure::{EXACT, dot, flight_order};
+use crate::structure::{EXACT, MotionSeries, dot, flight_order};
 
 /// How far a kernel may be off, relative to what one step may.
 const KERNEL_SHARE: f64 = 0.03;

@@ -1,11 +1,9 @@
 //! How long the spring of a power law alone takes to turn a contact round and to release it.
 
-use crate::contact::EpisodeForce;
-use crate::contact::Force;
 use crate::contact::force::power;
+use crate::contact::{EpisodeForce, Force};
 use crate::engine::pairs::pair::Pair;
-use crate::numerics::quadrature::EIGHT;
-use crate::numerics::quadrature::gauss;
+use crate::numerics::quadrature::{EIGHT, gauss};
 
 /// The spring of a pair under a power law, which alone would let it swing through a contact.
 #[derive(Clone, Copy, Debug)]

@@ -1,18 +1,13 @@
 //! Which kind of step comes next.
 
-use crate::engine::base::Base;
-use crate::engine::base::Coordinates;
 use crate::engine::base::contact::Contact;
-use crate::engine::base::planned::At;
-use crate::engine::base::planned::Event;
-use crate::engine::base::planned::Planned;
-use crate::engine::base::touching;
+use crate::engine::base::planned::{At, Event, Planned};
+use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::model::Model;
-use crate::engine::state::State;
-use crate::engine::state::Workspace;
-use crate::engine::step::Step;
-use crate::engine::step::StepKind;
+use crate::engine::state::{State, Workspace};
+use crate::engine::step::{Step, StepKind};
 use crate::engine::taylor::solution::Solution;
+
 impl Model {
     /// Works out the next step, up to `limit` (s since the segment's start) or the next event, unless that has been done already.
     pub fn plan(&self, state: &mut State, limit: f64) {
