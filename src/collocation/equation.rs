@@ -5,7 +5,7 @@ use super::nodes::{Matrix, NODES, Row};
 use super::rows::{NOTHING, combine, combined, fours, value, values};
 use super::tables::{POWERS, Tables};
 use crate::contact::Force;
-use crate::numerics::polynomial::{COUNT, Coefficients, ROOM, each, value_and_slope};
+use crate::numerics::polynomial::{COUNT, Coefficients, MAX_TERMS, each, value_and_slope};
 
 /// Pairs that a window is solved for at once: those in contact, and those that may come into contact.
 pub const MOST_PAIRS: usize = 4;
@@ -41,7 +41,7 @@ impl Default for Equation {
             pairs: 0,
             closed: 0,
             forces: [Force::None; MOST_PAIRS],
-            free: [[0.0; ROOM]; MOST_PAIRS],
+            free: [[0.0; MAX_TERMS]; MOST_PAIRS],
             terms: 2,
             scale: 1.0,
             kernels: [[[0.0; POWERS]; MOST_PAIRS]; MOST_PAIRS],
@@ -192,7 +192,7 @@ impl Equation {
         }
         let by_rates = self.by_rates();
         for (free, terms) in work.free.iter_mut().zip(&self.free).take(self.pairs) {
-            let terms = &terms[..self.terms.min(ROOM)];
+            let terms = &terms[..self.terms.min(MAX_TERMS)];
             match by_rates {
                 true => (free.depth, free.rate) = values::<N>(terms, &at, self.scale),
                 false => free.depth = value::<N>(terms, &at),

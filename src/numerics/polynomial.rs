@@ -5,22 +5,22 @@
 pub const MAX_ORDER: usize = 30;
 
 /// Room for the powers of a series and of its derivatives, a multiple of [`BLOCK`].
-pub const ROOM: usize = 36;
+pub const MAX_TERMS: usize = 36;
 
 /// Terms that are summed side by side.
 pub const BLOCK: usize = 4;
 
 /// The coefficients of a polynomial; 0 or at least finite beyond its highest power.
-pub type Coefficients = [f64; ROOM];
+pub type Coefficients = [f64; MAX_TERMS];
 
 /// The powers of 1.
-pub const ALL: Coefficients = [1.0; ROOM];
+pub const ALL: Coefficients = [1.0; MAX_TERMS];
 
 /// 0, 1, 2, ...
 pub const COUNT: Coefficients = {
-    let mut table = [0.0; ROOM];
+    let mut table = [0.0; MAX_TERMS];
     let mut n = 0;
-    while n < ROOM {
+    while n < MAX_TERMS {
         table[n] = n as f64;
         n += 1;
     }
@@ -29,9 +29,9 @@ pub const COUNT: Coefficients = {
 
 /// n (n-1).
 pub const SECOND: Coefficients = {
-    let mut table = [0.0; ROOM];
+    let mut table = [0.0; MAX_TERMS];
     let mut n = 1;
-    while n < ROOM {
+    while n < MAX_TERMS {
         table[n] = (n * (n - 1)) as f64;
         n += 1;
     }
@@ -40,9 +40,9 @@ pub const SECOND: Coefficients = {
 
 /// n (n-1) (n-2) (n-3).
 pub const FOURTH: Coefficients = {
-    let mut table = [0.0; ROOM];
+    let mut table = [0.0; MAX_TERMS];
     let mut n = 4;
-    while n < ROOM {
+    while n < MAX_TERMS {
         table[n] = (n * (n - 1) * (n - 2) * (n - 3)) as f64;
         n += 1;
     }
@@ -50,10 +50,10 @@ pub const FOURTH: Coefficients = {
 };
 
 /// 1/(n + 1), for one power more.
-pub const RECIPROCAL: [f64; ROOM + 1] = {
-    let mut table = [0.0; ROOM + 1];
+pub const RECIPROCAL: [f64; MAX_TERMS + 1] = {
+    let mut table = [0.0; MAX_TERMS + 1];
     let mut n = 0;
-    while n < ROOM + 1 {
+    while n < MAX_TERMS + 1 {
         table[n] = 1.0 / (n + 1) as f64;
         n += 1;
     }

@@ -1,7 +1,7 @@
-//! The powers of one x, with which polynomials are evaluated there: in x, or in a time that a [`Clock`] makes of x.
+//! The powers of one x, with which polynomials are evaluated there: in x, or in a time that a [`TimeMap`] makes of x.
 
-use super::polynomial::{BLOCK, COUNT, Coefficients, FOURTH, RECIPROCAL, ROOM};
-use super::time_map::Clock;
+use super::polynomial::{BLOCK, COUNT, Coefficients, FOURTH, MAX_TERMS, RECIPROCAL};
+use super::time_map::TimeMap;
 
 /// The powers of x up to some highest, and what their derivatives need.
 #[derive(Clone, Debug)]
@@ -20,10 +20,10 @@ pub struct Powers {
     fourth: Coefficients,
     /// How much faster time passes at the x than at 0.
     stretch: f64,
-    /// Of the terms of a series in time, where x is that of a clock that is bent: see [`Clock::weigh`].
-    by_clock: [Coefficients; 3],
+    /// Of the terms of a series in time, where x is that of a time map that is curved: see [`TimeMap::weights`].
+    by_map: [Coefficients; 3],
     /// Whether it is.
-    is_bent: bool,
+    is_curved: bool,
     /// Whether what polynomials in time need has been worked out.
     is_in_time: bool,
 }
@@ -34,12 +34,12 @@ impl Default for Powers {
             x: 0.0,
             highest: 0,
             blocks: 1,
-            value: [0.0; ROOM],
-            slope: [0.0; ROOM],
-            fourth: [0.0; ROOM],
+            value: [0.0; MAX_TERMS],
+            slope: [0.0; MAX_TERMS],
+            fourth: [0.0; MAX_TERMS],
             stretch: 0.0,
-            by_clock: [[0.0; ROOM]; 3],
-            is_bent: false,
+            by_map: [[0.0; MAX_TERMS]; 3],
+            is_curved: false,
             is_in_time: false,
         }
     }
@@ -59,9 +59,9 @@ pub struct Reading {
 impl Powers {
     /// Tables for x >= 0 and polynomials with powers up to `highest`.
     pub fn set(&mut self, x: f64, highest: usize) {
-        let highest = highest.min(ROOM - 1);
+        let highest = highest.min(MAX_TERMS - 1);
         self.highest = highest;
-        (self.x, self.stretch, self.is_bent, self.is_in_time) = (x, 0.0, false, false);
+        (self.x, self.stretch, self.is_curved, self.is_in_time) = (x, 0.0, false, false);
         self.blocks = highest / BLOCK + 1;
         let square = x * x;
         let mut last = [1.0, x];
@@ -82,40 +82,40 @@ impl Powers {
         }
     }
 
-    /// The same for polynomials in the x of a clock.
-    pub fn set_by(&mut self, clock: &Clock, x: f64, highest: usize) {
+    /// The same for polynomials in the x of a time map.
+    pub fn set_by(&mut self, time_map: &TimeMap, x: f64, highest: usize) {
         self.set(x, highest);
-        self.stretch = 2.0 * clock.bend * x;
-        self.is_bent = clock.is_bent();
+        self.stretch = 2.0 * time_map.curvature * x;
+        self.is_curved = time_map.is_curved();
     }
 
     /// Goes on to what polynomials in time need, unless that has been done.
-    pub fn set_in_time(&mut self, clock: &Clock) {
+    pub fn set_in_time(&mut self, time_map: &TimeMap) {
         if std::mem::replace(&mut self.is_in_time, true) {
             return;
         }
-        if self.is_bent {
-            return clock.weigh(self.x, self.highest, self.by_clock.each_mut());
+        if self.is_curved {
+            return time_map.weights(self.x, self.highest, self.by_map.each_mut());
         }
-        let [.., integral] = &mut self.by_clock;
+        let [.., integral] = &mut self.by_map;
         let factors = integral.iter_mut().zip(&self.value).zip(&RECIPROCAL).take(self.highest);
         factors.for_each(|((factor, value), reciprocal)| *factor = reciprocal * (self.x * value));
     }
 
     /// What the terms of a polynomial in time are multiplied by for its value and for its rate, once set.
     pub fn in_time(&self) -> (&Coefficients, &Coefficients) {
-        let [value, rate, _] = &self.by_clock;
-        if self.is_bent { (value, rate) } else { (&self.value, &self.slope) }
+        let [value, rate, _] = &self.by_map;
+        if self.is_curved { (value, rate) } else { (&self.value, &self.slope) }
     }
 
-    /// How much faster time passes at the x than at 0, by the clock.
+    /// How much faster time passes at the x than at 0, by the time map.
     pub fn stretch(&self) -> f64 {
         self.stretch
     }
 
     /// What the terms of a polynomial in time, of two powers less than the highest, are multiplied by for its integral, once set.
     pub fn integral_in_time(&self) -> &Coefficients {
-        &self.by_clock[2]
+        &self.by_map[2]
     }
 
     /// x^n, n x^(n-1) and n (n-1) (n-2) (n-3) x^(n-4) for n from 0 on.
@@ -166,7 +166,7 @@ mod tests {
 
     #[test]
     fn readings_are_those_of_horner() {
-        let mut polynomial = [0.0; ROOM];
+        let mut polynomial = [0.0; MAX_TERMS];
         for (n, c) in polynomial.iter_mut().enumerate().take(18) {
             *c = 1.0 / (n as f64 - 7.3);
         }

@@ -1,31 +1,34 @@
-//! Turns the terms of a series in time into those of the same function in the x of a [`Clock`].
+//! Turns the terms of a series in time into those of the same function in the x of a [`TimeMap`].
 
-use super::polynomial::{ROOM, each};
-use super::time_map::{BINOMIAL, Clock, LANES, Weights};
+use super::polynomial::{MAX_TERMS, each};
+use super::time_map::{BINOMIAL, LANES, TimeMap, Weights};
 
-/// What makes of the terms of a series in time those in the x of a clock.
+/// What makes of the terms of a series in time those in the x of a time map.
 #[derive(Clone, Debug)]
-pub struct Bend {
-    weights: [Weights; ROOM],
+pub struct Substitution {
+    weights: [Weights; MAX_TERMS],
     /// What they are for.
-    known: (Clock, usize),
+    known: (TimeMap, usize),
 }
 
-impl Default for Bend {
-    fn default() -> Bend {
-        Bend { weights: [[0.0; (ROOM / 2 + 1).next_multiple_of(LANES)]; ROOM], known: (Clock::default(), 0) }
+impl Default for Substitution {
+    fn default() -> Substitution {
+        Substitution {
+            weights: [[0.0; (MAX_TERMS / 2 + 1).next_multiple_of(LANES)]; MAX_TERMS],
+            known: (TimeMap::default(), 0),
+        }
     }
 }
 
-impl Bend {
-    /// For a clock and series of so many terms or less.
-    pub fn set(&mut self, clock: &Clock, terms: usize) {
-        if std::mem::replace(&mut self.known, (*clock, terms)) == (*clock, terms) {
+impl Substitution {
+    /// For a time map and series of so many terms or less.
+    pub fn set(&mut self, time_map: &TimeMap, terms: usize) {
+        if std::mem::replace(&mut self.known, (*time_map, terms)) == (*time_map, terms) {
             return;
         }
         let mut powers: Weights = [1.0; _];
         for j in 1..=terms / 2 {
-            powers[j] = powers[j - 1] * clock.bend;
+            powers[j] = powers[j - 1] * time_map.curvature;
         }
         let powers = powers.as_chunks::<LANES>().0;
         for (m, (weights, binomials)) in self.weights.iter_mut().zip(&BINOMIAL).enumerate().take(terms) {
@@ -37,7 +40,7 @@ impl Bend {
 
     /// Changes the terms of series that stand side by side, `width` blocks of [`LANES`] of them.
     pub fn apply(&self, terms: &mut [[f64; LANES]], width: usize) {
-        bend_terms(terms, width, &self.weights);
+        substitute_terms(terms, width, &self.weights);
     }
 
     /// Changes the terms of one series.
@@ -48,16 +51,16 @@ impl Bend {
     }
 
     /// The same for two series of [`LANES`] lanes each, with no more than so many terms.
-    pub fn apply_to_both(&self, terms: [&mut [[f64; LANES]; ROOM]; 2], count: usize) {
-        bend_both(terms, &self.weights, count);
+    pub fn apply_to_both(&self, terms: [&mut [[f64; LANES]; MAX_TERMS]; 2], count: usize) {
+        substitute_both(terms, &self.weights, count);
     }
 }
 
-/// See [`Bend::apply_to_both`]. Wide instructions give the same bits.
+/// See [`Substitution::apply_to_both`]. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn bend_both(terms: [&mut [[f64; LANES]; ROOM]; 2], weights: &[Weights; ROOM], count: usize) {
+fn substitute_both(terms: [&mut [[f64; LANES]; MAX_TERMS]; 2], weights: &[Weights; MAX_TERMS], count: usize) {
     let [first, second] = terms;
-    for (m, weights) in weights[..count.min(ROOM)].iter().enumerate().skip(2).rev() {
+    for (m, weights) in weights[..count.min(MAX_TERMS)].iter().enumerate().skip(2).rev() {
         let ((known, own), (others, other)) = (first.split_at_mut(m), second.split_at_mut(m));
         let (mut sum, mut other_sum) = (own[0], other[0]);
         // From the newest term back.
@@ -72,25 +75,25 @@ fn bend_both(terms: [&mut [[f64; LANES]; ROOM]; 2], weights: &[Weights; ROOM], c
     }
 }
 
-/// See [`Bend::apply`]. Wide instructions give the same bits.
+/// See [`Substitution::apply`]. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn bend_terms(terms: &mut [[f64; LANES]], width: usize, weights: &[Weights]) {
+fn substitute_terms(terms: &mut [[f64; LANES]], width: usize, weights: &[Weights]) {
     let mut first = 0;
     while first < width {
         first += match width - first {
-            1 if width == 1 => bend_block(terms, weights),
-            1 => bend_blocks::<1>(terms, (first, width), weights),
-            2 => bend_blocks::<2>(terms, (first, width), weights),
-            3 => bend_blocks::<3>(terms, (first, width), weights),
-            4 => bend_blocks::<4>(terms, (first, width), weights),
-            _ => bend_blocks::<5>(terms, (first, width), weights),
+            1 if width == 1 => substitute_block(terms, weights),
+            1 => substitute_blocks::<1>(terms, (first, width), weights),
+            2 => substitute_blocks::<2>(terms, (first, width), weights),
+            3 => substitute_blocks::<3>(terms, (first, width), weights),
+            4 => substitute_blocks::<4>(terms, (first, width), weights),
+            _ => substitute_blocks::<5>(terms, (first, width), weights),
         };
     }
 }
 
 /// The same for a block alone: returns 1.
 #[inline(always)]
-fn bend_block(terms: &mut [[f64; LANES]], weights: &[Weights]) -> usize {
+fn substitute_block(terms: &mut [[f64; LANES]], weights: &[Weights]) -> usize {
     for (m, weights) in weights[..terms.len()].iter().enumerate().skip(2).rev() {
         let (known, own) = terms.split_at_mut(m);
         let mut sum = own[0];
@@ -106,7 +109,7 @@ fn bend_block(terms: &mut [[f64; LANES]], weights: &[Weights]) -> usize {
 
 /// The same for `N` blocks of lanes, from the `first` of each row on; returns how many that are.
 #[inline(always)]
-fn bend_blocks<const N: usize>(
+fn substitute_blocks<const N: usize>(
     terms: &mut [[f64; LANES]],
     (first, width): (usize, usize),
     weights: &[Weights],
@@ -146,14 +149,14 @@ mod tests {
             }
             term *= (3.5 - n as f64) / (n + 1) as f64;
         }
-        let clock = Clock { bend: 0.25 };
-        let mut bend = Bend::default();
-        bend.set(&clock, LENGTH);
-        bend.apply(terms.as_chunks_mut::<LANES>().0, 1);
+        let time_map = TimeMap { curvature: 0.25 };
+        let mut substitution = Substitution::default();
+        substitution.set(&time_map, LENGTH);
+        substitution.apply(terms.as_chunks_mut::<LANES>().0, 1);
         for i in 0..LANES {
             let terms: Vec<f64> = terms.chunks_exact(LANES).map(|row| row[i]).collect();
             for x in [0.5, 2.0, 4.0] {
-                let exact = scale[i] * libm::pow(1.0 + clock.time(x), 3.5);
+                let exact = scale[i] * libm::pow(1.0 + time_map.time(x), 3.5);
                 let value = value_and_slope(&terms[..8], x).0;
                 assert!((value - exact).abs() < 1e-12 * exact.abs(), "{value} instead of {exact} at {x}");
             }

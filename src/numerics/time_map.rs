@@ -10,29 +10,29 @@
 //! the entry a time a ago is no singularity in x, nor, with a < 0, is the release after a time of -a. The terms of a
 //! series in x follow from those in t without any more of the motion: the first n in x from the first n in t.
 
-use crate::numerics::polynomial::{COUNT, Coefficients, RECIPROCAL, ROOM};
+use crate::numerics::polynomial::{COUNT, Coefficients, MAX_TERMS, RECIPROCAL};
 
 /// Lanes that are worked on together.
 pub const LANES: usize = 4;
 
-/// Time, in units of a series' scale, as a function of x: t = x + bend x^2.
+/// Time, in units of a series' scale, as a function of x: t = x + curvature x^2.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Clock {
+pub struct TimeMap {
     /// 1 over four times the time since an entry, or minus that until a release; 0 where x is the time.
-    pub bend: f64,
+    pub curvature: f64,
 }
 
 /// Of term m - j of a series in time, for its term m in x; as many as whole blocks of lanes hold.
-pub type Weights = [f64; (ROOM / 2 + 1).next_multiple_of(LANES)];
+pub type Weights = [f64; (MAX_TERMS / 2 + 1).next_multiple_of(LANES)];
 
 /// n-th of these: (n over j).
-const CHOOSE: [Weights; ROOM] = {
-    let mut table = [[0.0; (ROOM / 2 + 1).next_multiple_of(LANES)]; ROOM];
+const CHOOSE: [Weights; MAX_TERMS] = {
+    let mut table = [[0.0; (MAX_TERMS / 2 + 1).next_multiple_of(LANES)]; MAX_TERMS];
     let mut n = 0;
-    while n < ROOM {
+    while n < MAX_TERMS {
         table[n][0] = 1.0;
         let mut j = 1;
-        while j <= n && j <= ROOM / 2 {
+        while j <= n && j <= MAX_TERMS / 2 {
             table[n][j] = table[n - 1][j - 1] + table[n - 1][j];
             j += 1;
         }
@@ -42,10 +42,10 @@ const CHOOSE: [Weights; ROOM] = {
 };
 
 /// (m - j) over j.
-pub const BINOMIAL: [Weights; ROOM] = {
-    let mut table = [[0.0; (ROOM / 2 + 1).next_multiple_of(LANES)]; ROOM];
+pub const BINOMIAL: [Weights; MAX_TERMS] = {
+    let mut table = [[0.0; (MAX_TERMS / 2 + 1).next_multiple_of(LANES)]; MAX_TERMS];
     let mut m = 0;
-    while m < ROOM {
+    while m < MAX_TERMS {
         let mut j = 0;
         while 2 * j <= m {
             table[m][j] = CHOOSE[m - j][j];
@@ -56,32 +56,32 @@ pub const BINOMIAL: [Weights; ROOM] = {
     table
 };
 
-impl Clock {
+impl TimeMap {
     /// Whether x is not the time.
-    pub fn is_bent(&self) -> bool {
-        self.bend != 0.0
+    pub fn is_curved(&self) -> bool {
+        self.curvature != 0.0
     }
 
     /// The time at x.
     pub fn time(&self, x: f64) -> f64 {
-        x + self.bend * x * x
+        x + self.curvature * x * x
     }
 
     /// dt/dx at x.
     pub fn rate(&self, x: f64) -> f64 {
-        1.0 + 2.0 * self.bend * x
+        1.0 + 2.0 * self.curvature * x
     }
 
-    /// x at a time; where the clock does not reach it, one beyond all that it reaches.
-    pub fn place(&self, time: f64) -> f64 {
-        2.0 * time / (1.0 + (1.0 + 4.0 * self.bend * time).max(0.0).sqrt())
+    /// x at a time; where the time map does not reach it, one beyond all that it reaches.
+    pub fn inverse(&self, time: f64) -> f64 {
+        2.0 * time / (1.0 + (1.0 + 4.0 * self.curvature * time).max(0.0).sqrt())
     }
 
     /// What the terms of a series in time, up to a `highest`, are multiplied by to make the value at x of its series in x with
     /// as many terms, what to make the value there of the series of its rate, and what those of a series with two terms less
-    /// to make its integral over time. The rate needs no division by that of the clock, which may stand still there.
-    pub fn weigh(&self, x: f64, highest: usize, [value, rate, integral]: [&mut Coefficients; 3]) {
-        let (y, stretch) = (self.bend * x, 1.0 + self.bend * x);
+    /// to make its integral over time. The rate needs no division by that of the time map, which may stand still there.
+    pub fn weights(&self, x: f64, highest: usize, [value, rate, integral]: [&mut Coefficients; 3]) {
+        let (y, stretch) = (self.curvature * x, 1.0 + self.curvature * x);
         (value[0], rate[0]) = (1.0, 0.0);
         // The power of x, and what of (1 + y)^n is left where the series in x ends: all of it or its first terms.
         let (mut power, mut whole) = (1.0, 1.0);
@@ -100,13 +100,13 @@ impl Clock {
     }
 
     /// What the terms of a series in time are multiplied by to make one term in x of its rate.
-    pub fn weigh_rate_term(&self, power: usize, factors: &mut Coefficients) {
+    pub fn rate_term_weights(&self, power: usize, factors: &mut Coefficients) {
         let mut bend = 1.0;
         factors[..=power + 1].fill(0.0);
         for (j, binomial) in BINOMIAL[power].iter().enumerate().take(power / 2 + 1) {
             let n = power - j + 1;
             factors[n] = n as f64 * (binomial * bend);
-            bend *= self.bend;
+            bend *= self.curvature;
         }
     }
 }
@@ -127,23 +127,27 @@ mod tests {
 
     #[test]
     fn places_and_rates_belong_to_the_time() {
-        for clock in [0.0, 0.25, -0.2].map(|bend| Clock { bend }) {
+        for time_map in [0.0, 0.25, -0.2].map(|curvature| TimeMap { curvature }) {
             for x in [0.0, 0.1, 0.5, 1.5] {
-                let (t, h) = (clock.time(x), 1e-6);
-                assert!((clock.place(t) - x).abs() <= 1e-15, "{clock:?}: {x}");
-                let slope = (clock.time(x + h) - clock.time(x - h)) / (2.0 * h);
-                assert!((clock.rate(x) - slope).abs() < 1e-9, "{clock:?}: {} and {slope} at {x}", clock.rate(x));
+                let (t, h) = (time_map.time(x), 1e-6);
+                assert!((time_map.inverse(t) - x).abs() <= 1e-15, "{time_map:?}: {x}");
+                let slope = (time_map.time(x + h) - time_map.time(x - h)) / (2.0 * h);
+                assert!(
+                    (time_map.rate(x) - slope).abs() < 1e-9,
+                    "{time_map:?}: {} and {slope} at {x}",
+                    time_map.rate(x)
+                );
             }
         }
-        let plain = Clock::default();
-        assert_eq!([plain.time(0.7), plain.place(0.7), plain.rate(0.7)], [0.7, 0.7, 1.0]);
-        let past = Clock { bend: -0.25 };
-        assert!(past.place(1.1) > past.place(1.0), "a clock that goes until 1");
+        let plain = TimeMap::default();
+        assert_eq!([plain.time(0.7), plain.inverse(0.7), plain.rate(0.7)], [0.7, 0.7, 1.0]);
+        let past = TimeMap { curvature: -0.25 };
+        assert!(past.inverse(1.1) > past.inverse(1.0), "a time_map that goes until 1");
     }
 
-    /// Terms of (1 + sign t)^3.5 + t, whose series in the x of a clock that ends, or begins, where that is 0 is short.
+    /// Terms of (1 + sign t)^3.5 + t, whose series in the x of a time map that ends, or begins, where that is 0 is short.
     fn root_terms(sign: f64) -> Coefficients {
-        let (mut terms, mut term) = ([0.0; ROOM], 1.0);
+        let (mut terms, mut term) = ([0.0; MAX_TERMS], 1.0);
         for (n, slot) in terms.iter_mut().enumerate() {
             *slot = term + f64::from(n == 1);
             term *= sign * (3.5 - n as f64) / (n + 1) as f64;
@@ -152,15 +156,15 @@ mod tests {
     }
 
     #[test]
-    fn terms_in_time_tell_value_rate_and_integral_by_a_clock_even_where_it_stands_still() {
+    fn terms_in_time_tell_value_rate_and_integral_by_a_time_map_even_where_it_stands_still() {
         const HIGHEST: usize = 17;
         for (sign, places) in [(1.0, [0.5, 2.0, 4.0]), (-1.0, [0.5, 1.7, 2.0])] {
-            let (clock, terms) = (Clock { bend: 0.25 * sign }, root_terms(sign));
+            let (time_map, terms) = (TimeMap { curvature: 0.25 * sign }, root_terms(sign));
             for x in places {
-                let mut factors = [[0.0; ROOM]; 3];
-                clock.weigh(x, HIGHEST, factors.each_mut());
+                let mut factors = [[0.0; MAX_TERMS]; 3];
+                time_map.weights(x, HIGHEST, factors.each_mut());
                 let sum = |k: usize, last: usize| (0..=last).map(|n| terms[n] * factors[k][n]).sum::<f64>();
-                let t = clock.time(x);
+                let t = time_map.time(x);
                 let root = (1.0 + sign * t).max(0.0);
                 let value = libm::pow(root, 3.5) + t;
                 let rate = sign * 3.5 * libm::pow(root, 2.5) + 1.0;
@@ -176,12 +180,12 @@ mod tests {
     /// 3.5 (1 + t)^2.5 is 3.5 (1 + x/2)^5.
     #[test]
     fn a_term_of_a_rate_follows_from_terms_in_time() {
-        let (clock, terms) = (Clock { bend: 0.25 }, root_terms(1.0));
+        let (time_map, terms) = (TimeMap { curvature: 0.25 }, root_terms(1.0));
         for (power, exact) in
             [(0, 3.5 + 1.0), (1, 3.5 * 2.5), (4, 3.5 * 5.0 / 16.0), (5, 3.5 / 32.0), (6, 0.0), (15, 0.0)]
         {
-            let mut factors = [0.0; ROOM];
-            clock.weigh_rate_term(power, &mut factors);
+            let mut factors = [0.0; MAX_TERMS];
+            time_map.rate_term_weights(power, &mut factors);
             let term: f64 = terms.iter().zip(&factors).map(|(term, factor)| term * factor).sum();
             assert!((term - exact).abs() < 1e-12, "{power}: {term}, not {exact}");
         }

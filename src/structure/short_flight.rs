@@ -3,7 +3,7 @@
 use super::equations::Structure;
 use super::lanes::{LANES, Lane};
 use super::series::expand::{EXACT, SECOND_RECIPROCAL, flight_order};
-use crate::numerics::polynomial::{COUNT, ROOM};
+use crate::numerics::polynomial::{COUNT, MAX_TERMS};
 
 /// Up to this (fastest rate) x (time) a series of this order is exact to rounding: flights between instants that are
 /// the same but for rounding.
@@ -32,7 +32,7 @@ pub fn fly_in_one_series(
         // Terms whose number is known stay in registers.
         fly::<{ TINY_REACH_ORDER + 1 }>(structure, motion, loads, (h, TINY_REACH_ORDER), end);
     } else {
-        fly::<ROOM>(structure, motion, loads, (h, order), end);
+        fly::<MAX_TERMS>(structure, motion, loads, (h, order), end);
     }
 }
 
@@ -122,7 +122,7 @@ mod tests {
         let structure = Structure::new(&scene.left, &scene.right).unwrap();
         let vector = |seed: f64| (0..structure.lanes).map(|m| (seed + 1.3 * m as f64).sin()).collect::<Vec<_>>();
         let (q, v, load, slope) = (vector(0.1), vector(0.7), vector(1.9), vector(2.3));
-        let mut series = MotionSeries::new(structure.lanes, ROOM - 1);
+        let mut series = MotionSeries::new(structure.lanes, MAX_TERMS - 1);
         let mut powers = Powers::default();
         let [mut q0, mut v0, mut q1, mut v1] = [(); 4].map(|()| vec![f64::NAN; structure.lanes]);
         for reach in [1e-17, 1e-9, 1e-4, 0.01, 0.1, 0.3, 0.5, 0.9, 1.3, 2.0] {

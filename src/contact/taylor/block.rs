@@ -1,8 +1,8 @@
 //! The series of some pairs in contact: [`PAIRS`] pairs of one kind of law side by side.
 
 use crate::contact::force::{Force, Kind, power};
-use crate::numerics::polynomial::{COUNT, ROOM};
-use crate::numerics::substitution::Bend;
+use crate::numerics::polynomial::{COUNT, MAX_TERMS};
+use crate::numerics::substitution::Substitution;
 
 /// Pairs that are worked on together: as many as today's machines take in one instruction.
 pub const PAIRS: usize = 4;
@@ -11,16 +11,16 @@ pub const PAIRS: usize = 4;
 pub type Each = [f64; PAIRS];
 
 /// A series of each pair.
-type Rows = [Each; ROOM];
+type Rows = [Each; MAX_TERMS];
 
 /// A series of each pair with n times its term n beside it.
-pub(super) type Sloped = [[Each; 2]; ROOM];
+pub(super) type Sloped = [[Each; 2]; MAX_TERMS];
 
 /// Exponent of the power whose rate damps in a root law.
 pub const ROOT: f64 = 1.25;
 
 /// Where a series that is kept backwards begins.
-pub(super) const LAST: usize = ROOM - 1;
+pub(super) const LAST: usize = MAX_TERMS - 1;
 
 /// The scalar series of up to [`PAIRS`] contacts over a step, in powers of x, where x = t / scale or that of a time
 /// map.
@@ -57,7 +57,7 @@ pub struct PairBlock {
 
 impl Default for PairBlock {
     fn default() -> Self {
-        let (lane, rows, sloped) = ([0.0; PAIRS], [[0.0; PAIRS]; ROOM], [[[0.0; PAIRS]; 2]; ROOM]);
+        let (lane, rows, sloped) = ([0.0; PAIRS], [[0.0; PAIRS]; MAX_TERMS], [[[0.0; PAIRS]; 2]; MAX_TERMS]);
         PairBlock {
             kind: Kind::None,
             count: 0,
@@ -146,7 +146,7 @@ impl PairBlock {
     /// Enters power n of the first linear forces and the power n + 2 of the penetrations that follows from it.
     #[inline(always)]
     pub fn enter_linear(&mut self, n: usize, force: &[f64], penetration: &[f64]) {
-        if n + 2 < ROOM {
+        if n + 2 < MAX_TERMS {
             self.force[n][..force.len()].copy_from_slice(force);
             self.penetration[n + 2][..penetration.len()].copy_from_slice(penetration);
             self.order = n;
@@ -165,16 +165,16 @@ impl PairBlock {
 
     /// Re-expands the series of penetrations in the x of a time map, and those of the forces unless they are elastic:
     /// elastic forces are integrated in time.
-    pub fn bend(&mut self, bend: &Bend) {
+    pub fn substitute(&mut self, substitution: &Substitution) {
         let terms = self.order + 3;
         match self.is_elastic() {
-            true => bend.apply(&mut self.penetration[..terms], 1),
-            false => bend.apply_to_both([&mut self.penetration, &mut self.force], terms),
+            true => substitution.apply(&mut self.penetration[..terms], 1),
+            false => substitution.apply_to_both([&mut self.penetration, &mut self.force], terms),
         }
     }
 
     /// The same for two blocks of elastic forces.
-    pub fn bend_with(&mut self, other: &mut PairBlock, bend: &Bend) {
-        bend.apply_to_both([&mut self.penetration, &mut other.penetration], self.order + 3);
+    pub fn substitute_with(&mut self, other: &mut PairBlock, substitution: &Substitution) {
+        substitution.apply_to_both([&mut self.penetration, &mut other.penetration], self.order + 3);
     }
 }

@@ -4,7 +4,7 @@
 
 use super::block::{Each, LAST, PAIRS, PairBlock, ROOT, Sloped};
 use crate::contact::force::Kind;
-use crate::numerics::polynomial::{COUNT, RECIPROCAL, ROOM, each};
+use crate::numerics::polynomial::{COUNT, MAX_TERMS, RECIPROCAL, each};
 
 /// The kind of law of all pairs of a block, where code is compiled for it.
 pub trait PairLaw {
@@ -121,7 +121,7 @@ impl PairBlock {
     /// Enters power n of the penetrations, of pairs under a law.
     #[inline(always)]
     pub fn set_penetration<L: PairLaw>(&mut self, n: usize, values: Each) {
-        if n < ROOM {
+        if n < MAX_TERMS {
             self.penetration[n] = values;
             self.backwards[LAST - n] = values;
             if L::needs_slopes(self) {
@@ -135,7 +135,7 @@ impl PairBlock {
     #[inline(always)]
     pub fn extend_force<L: PairLaw>(&mut self, n: usize) -> Each {
         // Equal lengths: no bounds checks below.
-        if n + 2 >= ROOM {
+        if n + 2 >= MAX_TERMS {
             return [0.0; PAIRS];
         }
         self.order = n;

@@ -13,7 +13,7 @@ use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
 use crate::engine::window::solution::Window;
-use crate::numerics::polynomial::ROOM;
+use crate::numerics::polynomial::MAX_TERMS;
 use crate::numerics::quadrature::{EIGHT, Rule, TWELVE, gauss, graded};
 use crate::structure::{MotionSeries, dot, flight_order};
 
@@ -118,7 +118,7 @@ impl System {
         (work.q, work.v) = (q, v);
     }
 
-    /// Along the window's own clock; leaves the end in `work.q`, `work.v`.
+    /// Along the window's own time map; leaves the end in `work.q`, `work.v`.
     fn integrate_window(
         &self,
         base: &Base,
@@ -187,7 +187,7 @@ impl System {
         for (i, (t, weight)) in gauss(rule, length).enumerate().take(N) {
             (times[i], weights[i]) = (t, weight);
         }
-        let mut rates = [[0.0; N]; ROOM];
+        let mut rates = [[0.0; N]; MAX_TERMS];
         for (i, t) in times.iter().enumerate() {
             let powers = series.powers_at(*t);
             rates.iter_mut().zip(powers.in_time().1).for_each(|(rates, rate)| rates[i] = *rate);

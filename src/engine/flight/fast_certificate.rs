@@ -139,6 +139,6 @@ impl<const WIDTH: usize> Sight<WIDTH> for FromNear<'_, WIDTH> {
         let controls = [each(|p| start[p] + self.third * rate[p]), each(|p| end[p] - self.third * end_rate[p])];
         let higher = |a: Lane, b: Lane| -> Lane { each(|p| if a[p] < b[p] { b[p] } else { a[p] }) };
         let highest = higher(higher(start, controls[0]), higher(controls[1], end));
-        each(|p| highest[p] + self.share * fourth[p]).iter().all(|ceiling| *ceiling < 0.0)
+        each(|p| highest[p] + self.share * fourth[p]).iter().all(|upper_bound| *upper_bound < 0.0)
     }
 }

@@ -63,7 +63,7 @@ impl Search<'_> {
             } else {
                 series_left -= u32::from(series_left > 0);
                 let length = left.min(unit);
-                let entry = self.first_rise_in(length);
+                let entry = self.first_upcrossing_in(length);
                 if entry.is_some() || is_carried {
                     return self.cut(planned, length, entry);
                 }
@@ -93,7 +93,7 @@ impl Search<'_> {
     }
 
     /// The first entry in a piece, from its power series: where, as a share of the piece, and which pair.
-    fn first_rise_in(&mut self, length: f64) -> Option<(f64, usize)> {
+    fn first_upcrossing_in(&mut self, length: f64) -> Option<(f64, usize)> {
         let Search { system, base, look, work, .. } = self;
         let order =
             flight_order(system.structure.fastest * length, EXACT).unwrap_or(crate::numerics::polynomial::MAX_ORDER);
@@ -112,7 +112,7 @@ impl Search<'_> {
                 terms[0] -= pair.gap;
             }
             let end = first.map_or(1.0, |(x, _)| x);
-            if let Some(x) = roots::first_rise(terms, end, noise) {
+            if let Some(x) = roots::first_upcrossing(terms, end, noise) {
                 first = Some((x, p));
             }
         }

@@ -279,9 +279,9 @@ impl Model {
             Dense::Flight => known,
             Dense::Onset(onset) => highest_in_onset(&quantity, known, onset, part),
             Dense::Window(window, series) => self.highest_in_window(&quantity, known, (window, series), part, work),
-            Dense::Taylor(Solution { series, bend, end, .. }) => {
-                let (terms, order) = quantity.terms(series, Some(bend));
-                let end = if part.length == step.planned.length { end.x } else { series.place(part.length) };
+            Dense::Taylor(Solution { series, substitution, end, .. }) => {
+                let (terms, order) = quantity.terms(series, Some(substitution));
+                let end = if part.length == step.planned.length { end.x } else { series.x_at(part.length) };
                 let off = value_and_slope(&terms[..=order], end).0 - at_end;
                 if off.abs() <= TRUSTED * larger(known, at_end.abs()) {
                     highest(&terms, (end, order), known, &mut work.buffers.powers)

@@ -7,10 +7,10 @@ use crate::engine::peaks::flight::{Stretch, course_of, stays_below};
 use crate::engine::peaks::room::{MOST_FLOWN, PeakWork};
 use crate::engine::peaks::rows::PeakOf;
 use crate::engine::system::buffers::Buffers;
-use crate::numerics::polynomial::{Coefficients, MAX_ORDER, ROOM, larger};
+use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS, larger};
 use crate::numerics::powers::{Powers, Reading};
 use crate::numerics::roots;
-use crate::numerics::substitution::Bend;
+use crate::numerics::substitution::Substitution;
 use crate::structure::{EXACT, LANES, MotionSeries, dot, flight_order};
 
 /// (Fastest rate) x (time) that one series reaches.
@@ -241,11 +241,11 @@ impl Quantity<'_> {
         }
     }
 
-    /// The power series of the quantity in the x of a motion's, and its highest power; `bend` makes it one where a
-    /// clock does.
-    pub fn terms(&self, series: &MotionSeries, bend: Option<&Bend>) -> (Coefficients, usize) {
+    /// The power series of the quantity in the x of a motion's, and its highest power; `substitution` makes it one where a
+    /// time map does.
+    pub fn terms(&self, series: &MotionSeries, substitution: Option<&Substitution>) -> (Coefficients, usize) {
         let (count, per_unit) = (series.order + 1, 1.0 / series.scale);
-        let (mut of_q, mut terms) = ([0.0; ROOM], [0.0; ROOM]);
+        let (mut of_q, mut terms) = ([0.0; MAX_TERMS], [0.0; MAX_TERMS]);
         match self.lanes {
             Some((lane, below)) => {
                 let difference = |n: usize| series.term(n)[lane] - below.map_or(0.0, |below| series.term(n)[below]);
@@ -268,7 +268,7 @@ impl Quantity<'_> {
                 series.order - 2
             }
             PeakOf::BaseShear(_) => {
-                let mut of_v = [0.0; ROOM];
+                let mut of_v = [0.0; MAX_TERMS];
                 series.dot_each(&self.rows[1], 0, &mut of_v);
                 for n in 0..series.order {
                     terms[n] = of_q[n] + (n + 1) as f64 * of_v[n + 1] * per_unit;
@@ -276,10 +276,10 @@ impl Quantity<'_> {
                 series.order - 1
             }
         };
-        if series.clock.is_bent()
-            && let Some(bend) = bend
+        if series.time_map.is_curved()
+            && let Some(substitution) = substitution
         {
-            bend.apply_to_one(&mut terms[..=order]);
+            substitution.apply_to_one(&mut terms[..=order]);
         }
         (terms, order)
     }

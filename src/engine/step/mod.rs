@@ -43,7 +43,7 @@ pub enum StepKind {
 pub enum Dense<'a> {
     /// The exact motion apart, from the base on.
     Flight,
-    /// Power series in time, or by a clock.
+    /// Power series in time, or by a time map.
     Taylor(&'a Solution),
     Onset(&'a OnsetSeries),
     /// With the series of the motion without contact forces.

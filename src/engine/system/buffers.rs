@@ -1,7 +1,7 @@
 //! Vectors to work in: their content means nothing between calls.
 
 use crate::numerics::complementarity::Complementarity;
-use crate::numerics::polynomial::{Coefficients, MAX_ORDER, ROOM};
+use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS};
 use crate::numerics::powers::Powers;
 use crate::structure::{Interval, MotionSeries, Scratch, Structure};
 
@@ -41,7 +41,7 @@ impl Buffers {
             interval: Interval::room(structure),
             node_q: vector(),
             node_v: vector(),
-            scalar: [0.0; ROOM],
+            scalar: [0.0; MAX_TERMS],
             powers: Powers::default(),
             rigid: Complementarity::new(rigid),
         }

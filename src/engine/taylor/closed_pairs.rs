@@ -9,7 +9,7 @@ use crate::engine::taylor::open_pairs::Course;
 use crate::numerics::polynomial::{Coefficients, each};
 use crate::numerics::powers::{Powers, Reading};
 use crate::numerics::roots;
-use crate::numerics::substitution::Bend;
+use crate::numerics::substitution::Substitution;
 use crate::structure::MotionSeries;
 
 /// The pairs in contact, in blocks of one kind of law each.
@@ -130,20 +130,20 @@ impl ClosedPairs {
         blocks.any(|(block, members)| members.lanes().any(|(lane, _)| parabola(&block.penetration, lane) < 0.0))
     }
 
-    /// Makes all series such in the x of a clock: of two blocks at a time where there is one series in each.
-    pub fn bend(&mut self, bend: &Bend) {
+    /// Makes all series such in the x of a time map: of two blocks at a time where there is one series in each.
+    pub fn substitute(&mut self, substitution: &Substitution) {
         let mut waiting: Option<&mut PairBlock> = None;
         for block in &mut self.blocks[..self.used] {
             if !block.is_elastic() {
-                block.bend(bend);
+                block.substitute(substitution);
             } else if let Some(other) = waiting.take() {
-                other.bend_with(block, bend);
+                other.substitute_with(block, substitution);
             } else {
                 waiting = Some(block);
             }
         }
         if let Some(block) = waiting {
-            block.bend(bend);
+            block.substitute(substitution);
         }
     }
 
@@ -236,7 +236,7 @@ impl ClosedPairs {
             for (lane, pair) in self.pairs_of(b) {
                 let highest = |terms: &[Each], end: (f64, f64), fourth: f64, sign: f64| {
                     let start = (sign * terms[0][lane], sign * terms[1][lane]);
-                    roots::ceiling(start, (sign * end.0, sign * end.1), powers.x, fourth)
+                    roots::upper_bound(start, (sign * end.0, sign * end.1), powers.x, fourth)
                 };
                 out[pair] = match &force {
                     None => {
@@ -333,7 +333,7 @@ impl Contact {
             self.work += block.damping_work(
                 lane,
                 &self.branch(),
-                (&series.clock, series.scale),
+                (&series.time_map, series.scale),
                 x,
                 end.motion.penetration[lane],
             );

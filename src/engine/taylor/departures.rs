@@ -94,9 +94,9 @@ impl System {
         (until, noise): (f64, f64),
         scalar: &mut Coefficients,
     ) -> Option<f64> {
-        let (MotionSeries { scale, clock, .. }, end) = (&solution.series, solution.end.x);
+        let (MotionSeries { scale, time_map, .. }, end) = (&solution.series, solution.end.x);
         let sense = if contact.phase == Phase::Engaged { -1.0 } else { 1.0 };
-        let (moved, stretch) = (end * (contact.rate.abs() * scale + reading.turn[lane]), clock.rate(end));
+        let (moved, stretch) = (end * (contact.rate.abs() * scale + reading.turn[lane]), time_map.rate(end));
         // Of the guard times dt/dx, which changes no sign.
         let at_rest = guard.value(contact.penetration, 0.0).abs() * (stretch - 1.0).abs();
         let change = at_rest
@@ -112,10 +112,11 @@ impl System {
         for n in 0..terms {
             let spring = stiffness * scalar[n];
             let constant = if n == 0 { sense * guard.constant - noise } else { 0.0 };
-            scalar[n] = (spring + rate * (n + 1) as f64 * scalar[n + 1]) + (constant + 2.0 * clock.bend * previous);
+            scalar[n] =
+                (spring + rate * (n + 1) as f64 * scalar[n + 1]) + (constant + 2.0 * time_map.curvature * previous);
             previous = spring + constant;
         }
-        roots::first_rise(&mut scalar[..terms], until, 0.0)
+        roots::first_upcrossing(&mut scalar[..terms], until, 0.0)
     }
 
     /// m, rounding error of a penetration within the step.
@@ -143,7 +144,7 @@ impl System {
         for (pull, force) in pull.iter_mut().zip(force) {
             *pull = -force;
         }
-        roots::first_rise(pull, end, noise).map(|x| (x, Event::Release(p)))
+        roots::first_upcrossing(pull, end, noise).map(|x| (x, Event::Release(p)))
     }
 
     /// The sum of the sizes of all that a pair's relative motion is added up from, each term times its factor at the end of
@@ -157,8 +158,8 @@ impl System {
         factors: impl Fn(&Powers) -> &Coefficients,
     ) -> f64 {
         let series = &solution.series;
-        work.powers.set_by(&series.clock, solution.end.x, series.order);
-        work.powers.set_in_time(&series.clock);
+        work.powers.set_by(&series.time_map, solution.end.x, series.order);
+        work.powers.set_in_time(&series.time_map);
         self.pairs[p].project(base.coordinates, series, factors(&work.powers), &mut work.scalar)
     }
 }
@@ -180,7 +181,7 @@ fn released(
     let (block, _) = closed.of(p);
     let first = (-(block.penetration[0][lane] + depth).max(0.0), -block.penetration[1][lane]);
     let last = (-reading.penetration[lane] - depth, -reading.slope[lane]);
-    if roots::ceiling(first, last, end, reading.fourth[lane]) <= 0.0 {
+    if roots::upper_bound(first, last, end, reading.fourth[lane]) <= 0.0 {
         return None;
     }
     let terms = block.copy_penetration(lane, distance);
@@ -189,5 +190,5 @@ fn released(
         *d = -*d;
     }
     distance[0] -= depth;
-    roots::first_rise(&mut distance[..terms], until, 0.0)
+    roots::first_upcrossing(&mut distance[..terms], until, 0.0)
 }

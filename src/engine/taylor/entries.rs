@@ -9,7 +9,7 @@ use crate::engine::taylor::open_pairs::Course;
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::powers::Powers;
 use crate::numerics::roots;
-use crate::numerics::substitution::Bend;
+use crate::numerics::substitution::Substitution;
 use crate::structure::MotionSeries;
 
 impl System {
@@ -18,22 +18,28 @@ impl System {
         if base.contacts.iter().all(Contact::in_contact) {
             return None;
         }
-        let Solution { open, closed, series, end, bend, .. } = solution;
+        let Solution { open, closed, series, end, substitution, .. } = solution;
         if !closed.riders().is_empty() {
             let course = closed.course_of_riders();
             return self.first_of_lanes(
                 base,
                 closed.riders().iter().copied(),
                 &course,
-                ((series, bend), end, work),
+                ((series, substitution), end, work),
                 None,
             );
         }
         open.assign(&self.pairs, base.coordinates);
-        open.follow(base, &self.pairs, (series, bend), end, &mut work.node_q);
+        open.follow(base, &self.pairs, (series, substitution), end, &mut work.node_q);
         let mut first = None;
         for (block, course) in open.apart.iter().zip(&open.courses) {
-            first = self.first_of_lanes(base, open.members[*block].lanes(), course, ((series, bend), end, work), first);
+            first = self.first_of_lanes(
+                base,
+                open.members[*block].lanes(),
+                course,
+                ((series, substitution), end, work),
+                first,
+            );
         }
         first
     }
@@ -45,7 +51,7 @@ impl System {
         base: &Base,
         lanes: impl Iterator<Item = (usize, usize)>,
         course: &Course,
-        ((series, bend), end, work): ((&MotionSeries, &Bend), &mut Powers, &mut Buffers),
+        ((series, substitution), end, work): ((&MotionSeries, &Substitution), &mut Powers, &mut Buffers),
         mut first: Option<(f64, Event)>,
     ) -> Option<(f64, Event)> {
         let stays_apart = course.stays_apart(end.x);
@@ -57,15 +63,15 @@ impl System {
         };
         for (_, p) in lanes.filter(may_meet) {
             let terms = &mut work.scalar[..=series.order];
-            end.set_in_time(&series.clock);
+            end.set_in_time(&series.time_map);
             let size = self.pairs[p].project(base.coordinates, series, end.in_time().0, terms);
             let contact = &base.contacts[p];
             let noise = contact.begin_flight(terms, series.scale, self.pairs[p].noise(size));
-            if series.clock.is_bent() {
-                bend.apply_to_one(terms);
+            if series.time_map.is_curved() {
+                substitution.apply_to_one(terms);
             }
             let until = first.map_or(end.x, |(x, _)| x);
-            first = roots::first_rise(terms, until, noise).map(|x| (x, Event::Entry(p))).or(first);
+            first = roots::first_upcrossing(terms, until, noise).map(|x| (x, Event::Entry(p))).or(first);
         }
         first
     }

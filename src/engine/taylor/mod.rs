@@ -5,7 +5,7 @@
 //! their neighbours only, else that of the modes, as always near rigid contacts.
 //!
 //! Under a power law the last terms tell of the root of the time since the entry, or until the release: there the terms in
-//! time are weighed as those by a [`Clock`] have them, which knows no such root and goes several times as far.
+//! time are weighed as those by a [`TimeMap`] have them, which knows no such root and goes several times as far.
 
 pub mod assignment;
 pub mod closed_pairs;
@@ -44,10 +44,10 @@ impl System {
         at.counters.contact_steps += 1;
         at.counters.law_evaluations += solution.closed.count_forces();
         let reach = self.reach(base, solution, work, (is_singular, remaining));
-        let is_whole = solution.series.place(remaining) <= reach;
-        let end = if is_whole { solution.series.place(remaining) } else { reach };
+        let is_whole = solution.series.x_at(remaining) <= reach;
+        let end = if is_whole { solution.series.x_at(remaining) } else { reach };
         let event = self.first_event(base, solution, work, end);
-        solution.end.set_in_time(&solution.series.clock);
+        solution.end.set_in_time(&solution.series.time_map);
         solution.series.evaluate(&solution.end, &mut planned.q, &mut planned.v);
         planned.event = event;
         planned.reaches_limit = is_whole && !is_cut && event.is_none();
@@ -62,7 +62,7 @@ impl System {
         }
     }
 
-    /// How far the expanded series are good for, in x: with more powers where these are cheap, by a clock where that takes them
+    /// How far the expanded series are good for, in x: with more powers where these are cheap, by a time map where that takes them
     /// further.
     fn reach(
         &self,
@@ -77,7 +77,7 @@ impl System {
             reach = self.accurate_reach(base, solution, is_singular, whole);
         }
         if reach < whole && !self.has_close_rigid_pair(base) && !is_singular {
-            reach = self.reach_by_clock(base, solution, work, (reach, remaining));
+            reach = self.reach_by_map(base, solution, work, (reach, remaining));
         }
         reach
     }

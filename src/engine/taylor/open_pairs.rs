@@ -6,9 +6,9 @@ use crate::engine::base::{Base, Coordinates};
 use crate::engine::pairs::jacobian::{Meeting, OnFewModes, OnFloors, OnModes};
 use crate::engine::pairs::packing::{Members, Place, most_blocks};
 use crate::engine::pairs::pair::Pair;
-use crate::numerics::polynomial::{ROOM, each};
+use crate::numerics::polynomial::{MAX_TERMS, each};
 use crate::numerics::powers::Powers;
-use crate::numerics::substitution::Bend;
+use crate::numerics::substitution::Substitution;
 use crate::structure::{FEW_BLOCKS, LANES, MotionSeries};
 
 /// A block of pairs over a step, by the x of its powers.
@@ -30,7 +30,7 @@ impl Course {
         let ((values, slopes, fourths), term) = (powers.all(), |n: usize| &terms[n * width + i]);
         let (first, rate) = (term(0), *term(1));
         let (mut later, mut slope, mut fourth) = ([0.0; PAIRS], [0.0; PAIRS], [0.0; PAIRS]);
-        for n in 2..count.min(ROOM) {
+        for n in 2..count.min(MAX_TERMS) {
             let term = term(n);
             later = each(|i| later[i] + term[i] * values[n]);
             slope = each(|i| slope[i] + term[i] * slopes[n]);
@@ -81,7 +81,7 @@ impl OpenPairs {
             used: 0,
             coordinates: None,
             apart: Vec::with_capacity(most),
-            terms: vec![[0.0; PAIRS]; most * ROOM],
+            terms: vec![[0.0; PAIRS]; most * MAX_TERMS],
             courses: vec![Course::default(); most],
         }
     }
@@ -109,7 +109,7 @@ impl OpenPairs {
         &mut self,
         base: &Base,
         pairs: &[Pair],
-        (series, bend): (&MotionSeries, &Bend),
+        (series, substitution): (&MotionSeries, &Substitution),
         powers: &Powers,
         room: &mut [f64],
     ) {
@@ -132,8 +132,8 @@ impl OpenPairs {
             }
             Coordinates::Modes => relate(&OnModes(pairs), series, (members, apart), terms),
         }
-        if series.clock.is_bent() {
-            bend.apply(terms, apart.len());
+        if series.time_map.is_curved() {
+            substitution.apply(terms, apart.len());
         }
         read(terms, (members, apart), series.order + 1, powers, courses);
     }
@@ -154,7 +154,7 @@ impl<'a> Horizon<'a> {
     /// For a step up to x. With t = x + b x^2 no term of a series in time, made one in x and cut off after its last power, is
     /// larger than its size in time is at x + |b| x^2.
     fn of(series: &'a MotionSeries, x: f64, wandered: &'a mut [f64]) -> Horizon<'a> {
-        let reach = x + series.clock.bend.abs() * (x * x);
+        let reach = x + series.time_map.curvature.abs() * (x * x);
         series.sum_sizes(2, reach, wandered);
         Horizon { start: series.term(0), carried: series.term(1), reach, wandered }
     }

@@ -4,10 +4,10 @@ use crate::engine::base::Coordinates;
 use crate::engine::system::System;
 use crate::engine::taylor::closed_pairs::ClosedPairs;
 use crate::engine::taylor::open_pairs::OpenPairs;
-use crate::numerics::polynomial::{Coefficients, MAX_ORDER, ROOM};
+use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS};
 use crate::numerics::powers::Powers;
-use crate::numerics::substitution::Bend;
-use crate::numerics::time_map::Clock;
+use crate::numerics::substitution::Substitution;
+use crate::numerics::time_map::TimeMap;
 use crate::structure::MotionSeries;
 
 /// Power series of the motion and of all contacts.
@@ -23,8 +23,8 @@ pub struct Solution {
     pub reaction_order: usize,
     /// Of the end of the step.
     pub end: Powers,
-    /// What makes of the terms of a series in time those by its clock.
-    pub bend: Box<Bend>,
+    /// What makes of the terms of a series in time those by its time map.
+    pub substitution: Box<Substitution>,
 }
 
 impl Solution {
@@ -36,22 +36,22 @@ impl Solution {
             end: Powers::default(),
             closed: ClosedPairs::new(&system.pairs, on_floors),
             open: OpenPairs::new(system.pairs.len(), on_floors),
-            reactions: vec![[0.0; ROOM]; system.rigid.pairs.len()],
+            reactions: vec![[0.0; MAX_TERMS]; system.rigid.pairs.len()],
             reaction_order: 0,
-            bend: Box::default(),
+            substitution: Box::default(),
         }
     }
 
-    /// Has the series read by a clock, in whose x those of pairs in contact are from now on.
-    pub fn bend_by(&mut self, clock: Clock) {
-        self.bend.set(&clock, self.series.order + 1);
-        self.series.clock = clock;
-        self.closed.bend(&self.bend);
+    /// Has the series read by a time map, in whose x those of pairs in contact are from now on.
+    pub fn substitute(&mut self, time_map: TimeMap) {
+        self.substitution.set(&time_map, self.series.order + 1);
+        self.series.time_map = time_map;
+        self.closed.substitute(&self.substitution);
     }
 
     /// Has the step end at an x.
     pub fn end_at(&mut self, x: f64) {
-        self.end.set_by(&self.series.clock, x, self.series.order);
+        self.end.set_by(&self.series.time_map, x, self.series.order);
         self.closed.read(&self.end);
     }
 }

@@ -3,7 +3,7 @@
 use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::system::System;
 use crate::engine::taylor::solution::Solution;
-use crate::numerics::polynomial::{ROOM, rough_root};
+use crate::numerics::polynomial::{MAX_TERMS, rough_root};
 use crate::structure::MotionSeries;
 
 /// Velocity that a force may cause which is left out at the singular start of a power law, as a share of a step's
@@ -14,15 +14,15 @@ const START_SHARE: f64 = 0.1;
 /// missed, and the powers of the step overflow. The next series has a better scale.
 pub const FURTHEST: f64 = 1e9;
 
-/// Tolerance of a step below which it keeps away from the end of a clock and of its reach: there the rounding of terms in
+/// Tolerance of a step below which it keeps away from the end of a time map and of its reach: there the rounding of terms in
 /// time weighs a thousand times as much in series of as high an order.
 const NEAR_ROUNDING: f64 = 1e-13;
 
-/// Share of the clock up to a release that a step takes then.
+/// Share of the time map up to a release that a step takes then.
 const KEEPING_AWAY: f64 = 0.9;
 
 impl System {
-    /// Share of the way to the end of a clock that a step may take.
+    /// Share of the way to the end of a time map that a step may take.
     pub fn boldness(&self) -> f64 {
         if self.tolerance.step < NEAR_ROUNDING { KEEPING_AWAY } else { 1.0 }
     }
@@ -46,7 +46,7 @@ impl System {
         }
         for (p, contact) in touching(base).filter(|(_, contact)| contact.is_singular()) {
             let law = contact.branch();
-            let mut terms = [0.0; ROOM];
+            let mut terms = [0.0; MAX_TERMS];
             let (block, lane) = solution.closed.of(p);
             block.copy_penetration(lane, &mut terms);
             let left_out = |x: f64| {

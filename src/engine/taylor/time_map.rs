@@ -7,44 +7,44 @@ use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
 use crate::engine::taylor::step_size::FURTHEST;
 use crate::numerics::polynomial::rough_root;
-use crate::numerics::time_map::Clock;
+use crate::numerics::time_map::TimeMap;
 use crate::structure::MotionSeries;
 
 /// Share of the time to a singularity that a series reaches in time where the singularity is what limits it.
 const NEAR: f64 = 0.35;
 
-/// x up to which a series is used by the clock of an entry, in times since the entry: 25 times as long after it.
+/// x up to which a series is used by the time map of an entry, in times since the entry: 25 times as long after it.
 const FURTHEST_FROM_ENTRY: f64 = 8.0;
 
-/// By how much longer than until a release its clock goes, which stands still at its end: about what the terms in time leave
+/// By how much longer than until a release its time map goes, which stands still at its end: about what the terms in time leave
 /// open of when that is.
 const LATE: f64 = 1e-3;
 
 impl System {
-    /// How far the series reach by a clock in which the nearest entry behind, or release before, is no singularity, from
+    /// How far the series reach by a time map in which the nearest entry behind, or release before, is no singularity, from
     /// how far they do in time.
-    pub fn reach_by_clock(
+    pub fn reach_by_map(
         &self,
         base: &Base,
         solution: &mut Solution,
         work: &mut Buffers,
         (reach, remaining): (f64, f64),
     ) -> f64 {
-        let Some((clock, furthest)) = self.clock(base, solution, reach) else { return reach };
-        solution.bend_by(clock);
+        let Some((time_map, furthest)) = self.time_map(base, solution, reach) else { return reach };
+        solution.substitute(time_map);
         let reach = self.reach_of_rates(base, &solution.series, work);
-        self.cautious(reach, furthest.min(clock.place(remaining / solution.series.scale)))
+        self.cautious(reach, furthest.min(time_map.inverse(remaining / solution.series.scale)))
     }
 
-    /// The clock for series that reach so far in time, if one takes them further, and how far that is good for.
-    fn clock(&self, base: &Base, solution: &Solution, reach: f64) -> Option<(Clock, f64)> {
+    /// The time map for series that reach so far in time, if one takes them further, and how far that is good for.
+    fn time_map(&self, base: &Base, solution: &Solution, reach: f64) -> Option<(TimeMap, f64)> {
         let is_behind = |(_, contact): &(usize, &Contact)| {
             contact.phase == Phase::Engaged && !contact.branch().is_regular() && contact.age > 0.0
         };
         let ages = touching(base).filter(is_behind).map(|(_, contact)| contact.age);
         let since = ages.fold(f64::INFINITY, f64::min) / solution.series.scale;
         let release = (1.0 + LATE) * solution.closed.first_release(reach / NEAR);
-        let (bend, furthest) = match () {
+        let (curvature, furthest) = match () {
             // Reached or passed as it is, or in a scale far too long.
             _ if release < reach || reach > FURTHEST_FROM_ENTRY * since || reach < 1.0 / FURTHEST => return None,
             // Nothing to measure an error against.
@@ -53,10 +53,10 @@ impl System {
             _ if release.is_finite() => (-0.25 / release, 2.0 * release * self.boldness()),
             _ => return None,
         };
-        Some((Clock { bend }, furthest))
+        Some((TimeMap { curvature }, furthest))
     }
 
-    /// How far, by its clock, the last two terms of the velocities of a series stay below the tolerance.
+    /// How far, by its time map, the last two terms of the velocities of a series stay below the tolerance.
     fn reach_of_rates(&self, base: &Base, series: &MotionSeries, work: &mut Buffers) -> f64 {
         let allowed = self.tolerance.step * base.velocity_scale * series.scale;
         let (last, before) = (&mut work.node_q, &mut work.node_v);

@@ -36,7 +36,7 @@ const SWEEP_SHARE: f64 = 0.3;
 /// Share of a contact's force that moves it, and of its speed, below which it is at rest.
 const AT_REST: f64 = 0.1;
 
-/// Pairs with dashpots that a window is for: of two, series by a clock cost about as much; found by trying.
+/// Pairs with dashpots that a window is for: of two, series by a time map cost about as much; found by trying.
 const MOST_DAMPED: usize = 1;
 
 /// Windows that are tried for one step.

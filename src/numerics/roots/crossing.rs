@@ -22,20 +22,20 @@ const MOST_DOUBLINGS: u32 = 12;
 ///
 /// A start above 0 counts as exactly 0, which is what it is but for rounding. A rise that stays below `noise`, the
 /// rounding error of the coefficients, is none.
-pub fn first_rise(coefficients: &mut [f64], end: f64, noise: f64) -> Option<f64> {
+pub fn first_upcrossing(coefficients: &mut [f64], end: f64, noise: f64) -> Option<f64> {
     coefficients[0] = coefficients[0].min(0.0);
     if coefficients[0] == 0.0 {
-        return first_rise_from_zero(coefficients, end, noise);
+        return first_upcrossing_from_zero(coefficients, end, noise);
     }
-    Curve { terms: &Terms::of(coefficients), noise, left: None }.first_rise_up_to(end)
+    Curve { terms: &Terms::of(coefficients), noise, left: None }.first_upcrossing_up_to(end)
 }
 
 /// As above with the root at x = 0 divided out: the sign just after it is that of the first power that is not 0.
-fn first_rise_from_zero(coefficients: &[f64], end: f64, noise: f64) -> Option<f64> {
+fn first_upcrossing_from_zero(coefficients: &[f64], end: f64, noise: f64) -> Option<f64> {
     if noise > 0.0 {
         let terms = Terms::of(coefficients);
         let whole = Curve { terms: &terms, noise, left: None };
-        if terms.at(end).ceiling_from(whole.start()) <= noise {
+        if terms.at(end).upper_bound_from(whole.start()) <= noise {
             return None;
         }
     }
@@ -44,7 +44,7 @@ fn first_rise_from_zero(coefficients: &[f64], end: f64, noise: f64) -> Option<f6
     if rest[0] > 0.0 {
         return Some(0.0);
     }
-    Curve { terms: &Terms::of(rest), noise, left: None }.first_rise_up_to(end)
+    Curve { terms: &Terms::of(rest), noise, left: None }.first_upcrossing_up_to(end)
 }
 
 /// A polynomial with what is left out of account.
@@ -58,17 +58,17 @@ struct Curve<'a> {
 impl Curve<'_> {
     /// The first rise in 0..=end. A curve that stays within rounding of 0 has passages everywhere, which the search would
     /// follow up to the last of a billion pieces: there what lies below rounding is none.
-    fn first_rise_up_to(&self, end: f64) -> Option<f64> {
+    fn first_upcrossing_up_to(&self, end: f64) -> Option<f64> {
         let left = Cell::new(MOST_HALVINGS);
         let counted = Curve { left: Some(&left), ..*self };
         let (start, end) = (self.start(), self.terms.at(end));
-        let found = counted.first_rise(start, end);
+        let found = counted.first_upcrossing(start, end);
         if left.get() > 0 {
             return found;
         }
         left.set(MOST_HALVINGS);
         let noise = self.noise.max(4.0 * f64::EPSILON * self.terms.size(end.x));
-        Curve { noise, ..counted }.first_rise(start, end)
+        Curve { noise, ..counted }.first_upcrossing(start, end)
     }
 
     fn start(&self) -> End {
@@ -83,10 +83,10 @@ impl Curve<'_> {
     }
 
     /// The first x in the piece at which the curve passes 0 upwards, given that it is below 0 before the piece.
-    fn first_rise(&self, a: End, b: End) -> Option<f64> {
-        let ceiling = b.ceiling_from(a);
+    fn first_upcrossing(&self, a: End, b: End) -> Option<f64> {
+        let upper_bound = b.upper_bound_from(a);
         // Numbers that have overflowed have no roots; the state that they lead to is refused.
-        if ceiling <= self.noise || !ceiling.is_finite() {
+        if upper_bound <= self.noise || !upper_bound.is_finite() {
             return None;
         }
         if a.value >= 0.0 && a.slope > 0.0 {
@@ -102,7 +102,7 @@ impl Curve<'_> {
             return None;
         }
         let middle = self.terms.at(0.5 * (a.x + b.x));
-        self.first_rise(a, middle).or_else(|| self.first_rise(middle, b))
+        self.first_upcrossing(a, middle).or_else(|| self.first_upcrossing(middle, b))
     }
 
     /// The root between a point below 0 and one above, or the number just behind it: the curve is not below 0 there, so

@@ -15,9 +15,9 @@ pub struct End {
 
 impl End {
     /// Upper bound over the piece that ends here.
-    pub fn ceiling_from(self, a: End) -> f64 {
+    pub fn upper_bound_from(self, a: End) -> f64 {
         let w = self.x - a.x;
-        ceiling((a.value, a.slope), (self.value, self.slope), w, self.fourth)
+        upper_bound((a.value, a.slope), (self.value, self.slope), w, self.fourth)
     }
 
     /// Bounds on the slope over a piece (that of the interpolant is off by at most sqrt(3)/216 w^3 max|f''''|).
@@ -40,7 +40,7 @@ impl End {
 }
 
 /// Upper bound over 0..=x of a polynomial from its values and slopes at both ends and the bound on its fourth derivative.
-pub fn ceiling((value, slope): (f64, f64), (end, end_slope): (f64, f64), x: f64, fourth: f64) -> f64 {
+pub fn upper_bound((value, slope): (f64, f64), (end, end_slope): (f64, f64), x: f64, fourth: f64) -> f64 {
     let [first, second] = [value + x * slope / 3.0, end - x * end_slope / 3.0];
     value.max(first).max(second).max(end) + (x * x) * (x * x) / 384.0 * fourth
 }
@@ -56,6 +56,6 @@ pub fn may_turn_above(
     let (a, b) = (End { x: 0.0, value, slope, fourth: 0.0 }, End { x, value: end, slope: end_slope, fourth });
     let (least, most) = b.slopes_from(a);
     // Written so that a NaN may be anywhere.
-    let (goes_one_way, is_below) = (least > 0.0 || most < 0.0, b.ceiling_from(a) <= known);
+    let (goes_one_way, is_below) = (least > 0.0 || most < 0.0, b.upper_bound_from(a) <= known);
     !goes_one_way && !is_below
 }

@@ -26,7 +26,7 @@ pub fn maximum_above(
         }
     }
     let (least, most) = b.slopes_from(a);
-    if least <= 0.0 && most >= 0.0 && b.ceiling_from(a) > best.1 {
+    if least <= 0.0 && most >= 0.0 && b.upper_bound_from(a) > best.1 {
         let mut terms = Terms::empty();
         let count = copy(&mut terms.all);
         terms.complete(count);
@@ -43,9 +43,9 @@ fn raise_to_maximum(terms: &Terms, noise: f64, (a, b): (End, End), best: &mut (f
             *best = (end.x, end.value);
         }
     }
-    let ceiling = b.ceiling_from(a);
+    let upper_bound = b.upper_bound_from(a);
     // What exceeds the best by rounding only is none, and would be searched for ever.
-    if ceiling <= best.1 + noise || !ceiling.is_finite() || b.x - a.x < NARROWEST {
+    if upper_bound <= best.1 + noise || !upper_bound.is_finite() || b.x - a.x < NARROWEST {
         return;
     }
     let (least, most) = b.slopes_from(a);
@@ -54,7 +54,7 @@ fn raise_to_maximum(terms: &Terms, noise: f64, (a, b): (End, End), best: &mut (f
     }
     if b.is_concave_from(a) {
         if a.slope > 0.0 && b.slope < 0.0 {
-            let x = top(terms, a, b);
+            let x = maximum_of_concave(terms, a, b);
             let value = terms.value(roughly(x));
             if value > best.1 {
                 *best = (x, value);
@@ -70,9 +70,9 @@ fn raise_to_maximum(terms: &Terms, noise: f64, (a, b): (End, End), best: &mut (f
 /// Where the slope of a concave piece passes 0: Newton, kept inside a shrinking bracket. Wide
 /// instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn top(terms: &Terms, a: End, b: End) -> f64 {
+fn maximum_of_concave(terms: &Terms, a: End, b: End) -> f64 {
     let (mut low, mut high) = (a.x, b.x);
-    let mut x = top_of_cubic(a, b);
+    let mut x = maximum_of_cubic(a, b);
     for _ in 0..60 {
         let (slope, curvature) = terms.bend(x);
         if slope > 0.0 {
@@ -93,7 +93,7 @@ fn top(terms: &Terms, a: End, b: End) -> f64 {
 }
 
 /// About where the cubic interpolant of a piece that rises first and falls then is highest, somewhere in the piece.
-fn top_of_cubic(a: End, b: End) -> f64 {
+fn maximum_of_cubic(a: End, b: End) -> f64 {
     let w = b.x - a.x;
     let middle = 3.0 * (b.value - a.value) / w - (a.slope + b.slope);
     let (second, third) = (2.0 * (middle - a.slope), a.slope - 2.0 * middle + b.slope);

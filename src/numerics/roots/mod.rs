@@ -12,6 +12,6 @@ mod terms;
 #[cfg(test)]
 mod tests;
 
-pub use crossing::first_rise;
-pub use hermite::{ceiling, may_turn_above};
+pub use crossing::first_upcrossing;
+pub use hermite::{may_turn_above, upper_bound};
 pub use maximum::{maximum_above, roughly};

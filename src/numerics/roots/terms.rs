@@ -1,7 +1,7 @@
 //! A polynomial in blocks of four terms, each by Horner's rule, which wide instructions evaluate abreast.
 
 use super::hermite::End;
-use crate::numerics::polynomial::{Coefficients, FOURTH, ROOM, each};
+use crate::numerics::polynomial::{Coefficients, FOURTH, MAX_TERMS, each};
 
 /// Terms that are worked on without a question in between.
 pub const BLOCK: usize = 4;
@@ -55,12 +55,12 @@ impl Terms {
     }
 
     pub fn empty() -> Terms {
-        Terms { all: [0.0; ROOM], blocks: 0 }
+        Terms { all: [0.0; MAX_TERMS], blocks: 0 }
     }
 
     /// Fills up what follows on the coefficients, of which there are `count`.
     pub fn complete(&mut self, count: usize) {
-        self.blocks = count.div_ceil(BLOCK).min(ROOM / BLOCK);
+        self.blocks = count.div_ceil(BLOCK).min(MAX_TERMS / BLOCK);
         self.all[count..self.blocks * BLOCK].fill(0.0);
     }
 

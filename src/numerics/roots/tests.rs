@@ -1,8 +1,8 @@
 #![allow(clippy::unwrap_used)]
 
 use super::terms::Terms;
-use super::{first_rise, maximum_above};
-use crate::numerics::polynomial::{Coefficients, ROOM};
+use super::{first_upcrossing, maximum_above};
+use crate::numerics::polynomial::{Coefficients, MAX_TERMS};
 use crate::numerics::powers::Powers;
 
 /// Coefficients of factor * product of (x - root).
@@ -24,7 +24,7 @@ fn highest(coefficients: &[f64], known: f64) -> Option<(f64, f64)> {
 }
 
 fn highest_up_to(end: f64, coefficients: &[f64], known: f64) -> Option<(f64, f64)> {
-    let mut room = [0.0; ROOM];
+    let mut room = [0.0; MAX_TERMS];
     room[..coefficients.len()].copy_from_slice(coefficients);
     let mut powers = Powers::default();
     powers.set(end, coefficients.len() - 1);
@@ -36,7 +36,7 @@ fn highest_up_to(end: f64, coefficients: &[f64], known: f64) -> Option<(f64, f64
 }
 
 fn rise(factor: f64, roots: &[f64]) -> Option<f64> {
-    first_rise(&mut polynomial(factor, roots), 1.0, 1e-16)
+    first_upcrossing(&mut polynomial(factor, roots), 1.0, 1e-16)
 }
 
 #[test]
@@ -52,7 +52,7 @@ fn a_curve_has_passed_at_its_root() {
     // So have others that are the same: what meets at one instant is not taken for two impacts.
     for k in 1..1000 {
         let mut curve = polynomial(1.0, &[1e-3 * f64::from(k), 1.1 + 1e-4 * f64::from(k), 1.7, -0.3]);
-        let root = first_rise(&mut curve, 1.0, 0.0).unwrap();
+        let root = first_upcrossing(&mut curve, 1.0, 0.0).unwrap();
         let value = Terms::of(&curve).value(root);
         assert!(value >= 0.0 && (root - 1e-3 * f64::from(k)).abs() < 1e-14, "{value} at {root}");
     }
@@ -77,29 +77,29 @@ fn the_first_of_many_rises_is_the_one() {
 fn what_stays_below_is_none() {
     assert_eq!(rise(1.0, &[1.5]), None);
     // Touches from below without passing.
-    assert_eq!(first_rise(&mut [-0.25 - 1e-9, 1.0, -1.0], 1.0, 1e-16), None);
-    assert_eq!(first_rise(&mut [-1.0, 0.0, 0.0, 0.0], 1.0, 1e-16), None);
-    assert_eq!(first_rise(&mut [0.0; 8], 1.0, 0.0), None);
+    assert_eq!(first_upcrossing(&mut [-0.25 - 1e-9, 1.0, -1.0], 1.0, 1e-16), None);
+    assert_eq!(first_upcrossing(&mut [-1.0, 0.0, 0.0, 0.0], 1.0, 1e-16), None);
+    assert_eq!(first_upcrossing(&mut [0.0; 8], 1.0, 0.0), None);
 }
 
 #[test]
 fn a_start_at_0_counts_by_where_it_goes() {
-    assert_eq!(first_rise(&mut [0.0, 1.0], 1.0, 1e-16), Some(0.0));
-    assert_eq!(first_rise(&mut [0.0, -1.0, -1.0], 1.0, 1e-16), None);
+    assert_eq!(first_upcrossing(&mut [0.0, 1.0], 1.0, 1e-16), Some(0.0));
+    assert_eq!(first_upcrossing(&mut [0.0, -1.0, -1.0], 1.0, 1e-16), None);
     // Leaves downwards and comes back at x = 0.5.
-    let found = first_rise(&mut [0.0, -0.5, 1.0], 1.0, 1e-16).unwrap();
+    let found = first_upcrossing(&mut [0.0, -0.5, 1.0], 1.0, 1e-16).unwrap();
     assert!((found - 0.5).abs() < 1e-15, "{found}");
     // A start above 0 by rounding is a start at 0.
-    assert_eq!(first_rise(&mut [1e-17, -1.0], 1.0, 1e-16), None);
+    assert_eq!(first_upcrossing(&mut [1e-17, -1.0], 1.0, 1e-16), None);
     // However high it starts: it counts as 0, leaves downwards and comes back at x = 0.001.
-    let found = first_rise(&mut [1e-3, -1e-3, 1.0], 1.0, 1e-16).unwrap();
+    let found = first_upcrossing(&mut [1e-3, -1e-3, 1.0], 1.0, 1e-16).unwrap();
     assert!((found - 1e-3).abs() < 1e-15, "{found}");
 }
 
 #[test]
 fn a_rise_within_noise_is_none() {
-    assert_eq!(first_rise(&mut [-1e-18, 1e-17], 1.0, 1e-16), None);
-    assert!(first_rise(&mut [-1e-18, 1e-15], 1.0, 1e-16).is_some());
+    assert_eq!(first_upcrossing(&mut [-1e-18, 1e-17], 1.0, 1e-16), None);
+    assert!(first_upcrossing(&mut [-1e-18, 1e-15], 1.0, 1e-16).is_some());
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! The terms of a motion from the equation of motion, power by power.
 
 use super::MotionSeries;
-use crate::numerics::polynomial::{COUNT, ROOM, each};
-use crate::numerics::time_map::Clock;
+use crate::numerics::polynomial::{COUNT, MAX_TERMS, each};
+use crate::numerics::time_map::TimeMap;
 use crate::structure::equations::Structure;
 use crate::structure::floors::Floors;
 use crate::structure::lanes::{FEW_BLOCKS, LANES, Lane};
@@ -165,7 +165,7 @@ fn expand_single_modes(
     (scale, order): (f64, usize),
 ) {
     series.scale = scale;
-    series.clock = Clock::default();
+    series.time_map = TimeMap::default();
     series.order = order.max(3);
     let width = series.lanes / LANES;
     let scale2 = scale * scale;
@@ -245,7 +245,7 @@ fn expand_floors<F: PairForces>(
         series.coefficients[2 * lanes..3 * lanes].copy_from_slice(&load[..lanes]);
         series.coefficients[3 * lanes..4 * lanes].copy_from_slice(&slope[..lanes]);
     }
-    for n in first..(order - 1).min(ROOM - 3) {
+    for n in first..(order - 1).min(MAX_TERMS - 3) {
         let (known, rest) = series.coefficients.split_at_mut((n + 2) * lanes);
         let (u, v) = known[n * lanes..].split_at(lanes);
         let (next, _) = rest[..lanes].as_chunks_mut::<LANES>();

@@ -5,9 +5,9 @@ mod project;
 pub mod sums;
 
 use super::lanes::{LANES, Lane};
-use crate::numerics::polynomial::ROOM;
+use crate::numerics::polynomial::MAX_TERMS;
 use crate::numerics::powers::Powers;
-use crate::numerics::time_map::Clock;
+use crate::numerics::time_map::TimeMap;
 use project::{dot_each, project};
 use sums::{sum_sizes, sum_terms};
 
@@ -19,7 +19,7 @@ pub struct MotionSeries {
     pub scale: f64,
     /// The map from x to t / scale: the series is evaluated at an x, while its terms remain those of powers of t /
     /// scale.
-    pub clock: Clock,
+    pub time_map: TimeMap,
     /// Highest power.
     pub order: usize,
     coefficients: Vec<f64>,
@@ -31,7 +31,7 @@ impl MotionSeries {
         MotionSeries {
             lanes,
             scale: 1.0,
-            clock: Clock::default(),
+            time_map: TimeMap::default(),
             order: 0,
             coefficients: vec![0.0; lanes * (highest + 1)],
         }
@@ -40,7 +40,7 @@ impl MotionSeries {
     /// Starts a series from a state.
     pub fn start(&mut self, scale: f64, q: &[f64], v: &[f64]) {
         self.scale = scale;
-        self.clock = Clock::default();
+        self.time_map = TimeMap::default();
         self.order = 1;
         let (first, rest) = self.coefficients.split_at_mut(self.lanes);
         first.copy_from_slice(q);
@@ -51,23 +51,23 @@ impl MotionSeries {
 
     /// s at x.
     pub fn time(&self, x: f64) -> f64 {
-        self.clock.time(x) * self.scale
+        self.time_map.time(x) * self.scale
     }
 
     /// dt/dx at x, s.
     pub fn time_rate(&self, x: f64) -> f64 {
-        self.clock.rate(x) * self.scale
+        self.time_map.rate(x) * self.scale
     }
 
     /// x at a time, s.
-    pub fn place(&self, time: f64) -> f64 {
-        self.clock.place(time / self.scale)
+    pub fn x_at(&self, time: f64) -> f64 {
+        self.time_map.inverse(time / self.scale)
     }
 
     /// The powers of the x at a time, s.
     pub fn set_powers(&self, time: f64, powers: &mut Powers) {
-        powers.set_by(&self.clock, self.place(time), self.order);
-        powers.set_in_time(&self.clock);
+        powers.set_by(&self.time_map, self.x_at(time), self.order);
+        powers.set_in_time(&self.time_map);
     }
 
     /// The same in a table of its own.
@@ -91,7 +91,7 @@ impl MotionSeries {
 
     /// q and v at the x of the powers.
     pub fn evaluate(&self, powers: &Powers, q: &mut [f64], v: &mut [f64]) {
-        let terms = (self.order + 1).min(ROOM);
+        let terms = (self.order + 1).min(MAX_TERMS);
         let (value, rate) = powers.in_time();
         let (q, v) = (&mut q[..self.lanes], &mut v[..self.lanes]);
         let terms = (&self.coefficients[..terms * self.lanes], (&value[..terms], &rate[..terms]));
@@ -100,8 +100,8 @@ impl MotionSeries {
 
     /// Sum of the magnitudes of all terms from power `first` on at x, for each mode or floor, m.
     pub fn sum_sizes(&self, first: usize, x: f64, sizes: &mut [f64]) {
-        let mut powers = [1.0; ROOM];
-        for n in 1..=self.order.min(ROOM - 1) {
+        let mut powers = [1.0; MAX_TERMS];
+        for n in 1..=self.order.min(MAX_TERMS - 1) {
             powers[n] = powers[n - 1] * x;
         }
         let terms = &self.coefficients[first * self.lanes..(self.order + 1) * self.lanes];
@@ -111,9 +111,9 @@ impl MotionSeries {
     /// The last two terms of the series of dq/dx, m, from which the step size follows; returns their powers of x.
     pub fn last_rates(&self, last: &mut [f64], before: &mut [f64]) -> [usize; 2] {
         let powers = [self.order - 1, self.order - 2];
-        let [mut of_last, mut of_before] = [[0.0; ROOM]; 2];
-        self.clock.weigh_rate_term(powers[0], &mut of_last);
-        self.clock.weigh_rate_term(powers[1], &mut of_before);
+        let [mut of_last, mut of_before] = [[0.0; MAX_TERMS]; 2];
+        self.time_map.rate_term_weights(powers[0], &mut of_last);
+        self.time_map.rate_term_weights(powers[1], &mut of_before);
         let first = powers[1] / 2;
         let terms = &self.coefficients[first * self.lanes..(self.order + 1) * self.lanes];
         let factors = (&of_last[first..=self.order], &of_before[first..=self.order]);
@@ -133,7 +133,7 @@ impl MotionSeries {
     }
 
     /// v of one mode at N instants; `rates[n]` are the factors of term n at them.
-    pub fn velocities<const N: usize>(&self, mode: usize, rates: &[[f64; N]; ROOM]) -> [f64; N] {
+    pub fn velocities<const N: usize>(&self, mode: usize, rates: &[[f64; N]; MAX_TERMS]) -> [f64; N] {
         let mut rate = [0.0; N];
         for (n, rates) in rates.iter().enumerate().take(self.order + 1) {
             let term = self.coefficients[n * self.lanes + mode];
