@@ -42,7 +42,7 @@ impl State {
     /// What [`Model::restore`] brings back.
     pub fn save(&self) -> SavedState {
         let State { time, base, step, inputs, counters, work: _ } = self;
-        let is_planned = step.kind != StepKind::Unknown;
+        let is_planned = step.kind != StepKind::NotPlanned;
         SavedState { time: *time, base: base.clone(), is_planned, inputs: inputs.clone(), counters: *counters }
     }
 }
@@ -73,7 +73,7 @@ impl Model {
         state.base.clone_from(base);
         state.inputs.clone_from(inputs);
         state.work.peaks.forget();
-        state.step.kind = StepKind::Unknown;
+        state.step.kind = StepKind::NotPlanned;
         if *is_planned {
             let limit = self.limit(&state.base.segment, state.time);
             self.plan(state, limit);
@@ -101,7 +101,7 @@ impl Model {
         let number = self.system.ground.as_ref().and_then(|ground| ground.number(&base.segment)).unwrap_or_default();
         require(base.peaks.fit(&self.start_peaks()), "the peaks in it are impossible")?;
         require(
-            base.watch.fits(self.system.pairs.len(), number, MOST_COUNTED),
+            base.clearance.fits(self.system.pairs.len(), number, MOST_COUNTED),
             "what it tells of pairs apart is impossible",
         )?;
         self.restore(saved, &mut state);

@@ -1,7 +1,7 @@
 //! Everything that changes during a run: plain data, cloned to save it.
 
 use crate::collocation::Workspace as WindowWorkspace;
-use crate::engine::base::clearance::Watch;
+use crate::engine::base::clearance::Clearance;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::{Account, Base, Coordinates};
 use crate::engine::excitation::inputs::Inputs;
@@ -38,7 +38,7 @@ impl State {
     /// s from the base to the present time, as far as the step under way is known.
     pub(in crate::engine) fn since_base(&self) -> f64 {
         match self.step.kind {
-            StepKind::Unknown => 0.0,
+            StepKind::NotPlanned => 0.0,
             _ => (self.time - (self.base.segment.start + self.base.elapsed)).max(0.0),
         }
     }
@@ -132,7 +132,7 @@ impl Model {
                     .enumerate()
                     .map(|(p, pair)| pair.at_start(p, time, &q, &v))
                     .collect(),
-                watch: Watch::new(self.system.pairs.len()),
+                clearance: Clearance::new(self.system.pairs.len()),
                 peaks: self.start_peaks(),
                 energy: self.energy.then(Account::default),
                 velocity_scale: 0.0,

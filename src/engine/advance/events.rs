@@ -19,7 +19,7 @@ impl Model {
         match event {
             Event::Entry(p) if self.system.pairs[p].law.is_rigid() => {
                 self.system.convert(base, Coordinates::Modes, &mut work.q);
-                self.system.meet(base, p, work, on_episode);
+                self.system.resolve_contact(base, p, work, on_episode);
             }
             Event::Entry(p) => {
                 let contact = &mut base.contacts[p];

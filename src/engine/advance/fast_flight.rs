@@ -6,7 +6,7 @@ use crate::engine::base::counters::Counters;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::excitation::segment::Segment;
-use crate::engine::flight::fast_certificate::{NearPairs, Sight};
+use crate::engine::flight::fast_certificate::{NearPairs, SegmentCheck};
 use crate::engine::model::Model;
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
@@ -18,7 +18,7 @@ const MOST_AT_ONCE: u64 = 64;
 
 /// How far a glide has come.
 #[derive(Clone, Copy, Default)]
-pub struct Glide {
+pub struct FastRun {
     /// Segments flown over to their end.
     pub flown: u64,
     /// Whether the state is there, on its way through the next segment: nothing is left to do.
@@ -28,7 +28,7 @@ pub struct Glide {
 /// All pairs have been dismissed.
 struct NothingNear;
 
-impl<const WIDTH: usize> Sight<WIDTH> for NothingNear {
+impl<const WIDTH: usize> SegmentCheck<WIDTH> for NothingNear {
     #[inline(always)]
     fn stays_apart(
         &mut self,
@@ -43,24 +43,25 @@ impl<const WIDTH: usize> Sight<WIDTH> for NothingNear {
 impl Model {
     /// Flies over up to `most` segments of the record as far as `until`, as long as no pair has to be looked at more
     /// closely.
-    pub(in crate::engine) fn glide(&self, state: &mut State, until: f64, most: u64) -> Glide {
-        let Some((ground, first)) = self.gliding(state) else { return Glide::default() };
+    pub(in crate::engine) fn run_fast(&self, state: &mut State, until: f64, most: u64) -> FastRun {
+        let Some((ground, first)) = self.can_run_fast(state) else { return FastRun::default() };
         let mut next = first;
         let has_arrived = loop {
-            let is_planned = state.step.kind != StepKind::Unknown;
-            let is_free = state.base.watch.are_all_free(next) || !is_planned && self.look_ahead(ground, state, next);
+            let is_planned = state.step.kind != StepKind::NotPlanned;
+            let is_free =
+                state.base.clearance.are_all_free(next) || !is_planned && self.look_ahead(ground, state, next);
             let State { base, step, counters, work, .. } = &mut *state;
             if next - first >= most || !is_free && is_planned {
                 break false;
             }
             if ends_after(&base.segment, until) {
                 if is_free && !is_planned {
-                    step.kind = StepKind::Glide;
-                    self.count_glide(counters, 1);
+                    step.kind = StepKind::Deferred;
+                    self.count_flown(counters, 1);
                 }
                 break is_free;
             }
-            let end = if is_free { base.watch.due().min(next + MOST_AT_ONCE) } else { base.watch.next_look() };
+            let end = if is_free { base.clearance.due().min(next + MOST_AT_ONCE) } else { base.clearance.next_look() };
             let clear = self.watch_peaks(ground, base, next, &mut work.for_peaks());
             let is_checked = clear == next;
             let end = end.min(if is_checked { next + 1 } else { clear });
@@ -79,22 +80,22 @@ impl Model {
                 break false;
             }
             if is_free {
-                // No contact has a flag to clear: none was at the surface at the start, and one that is carried is not
+                // No contact has a flag to clear: none was at the surface at the start, and one that is tracked is not
                 // dismissed.
-                base.watch.move_on(flown);
-                self.count_glide(counters, flown - u64::from(is_planned));
+                base.clearance.move_on(flown);
+                self.count_flown(counters, flown - u64::from(is_planned));
             }
             if is_checked {
                 self.check_flown(base, next, work);
             }
-            step.kind = StepKind::Unknown;
+            step.kind = StepKind::NotPlanned;
             next += flown;
             base.segment = ground.segment(next);
             if !is_free && flown < wanted {
                 break false;
             }
         };
-        Glide { flown: next - first, has_arrived }
+        FastRun { flown: next - first, has_arrived }
     }
 
     /// Raises peaks over the segment, of that number, that has been flown from the motion in `work` to the base.
@@ -125,7 +126,7 @@ impl Model {
         until: f64,
     ) -> u64 {
         let Some(near) = &self.flight.near else { return 0 };
-        if !ground.is_in_record(segments.start) || base.contacts.iter().any(|contact| contact.carried) {
+        if !ground.is_in_record(segments.start) || base.contacts.iter().any(|contact| contact.tracked) {
             return 0;
         }
         let flown = fly_near(self, near, ground, base, segments.clone(), until);
@@ -140,22 +141,22 @@ impl Model {
     /// that the last of these would have left known.
     fn know_near_pairs(&self, base: &mut Base, segments: Range<u64>, counters: &mut Counters) {
         for p in 0..self.system.pairs.len() {
-            counters.pairs_evaluated += base.watch.evaluations(p, &segments);
+            counters.pairs_evaluated += base.clearance.evaluations(p, &segments);
         }
-        base.watch.move_on(segments.end - segments.start);
+        base.clearance.move_on(segments.end - segments.start);
         for (p, pair) in self.system.pairs.iter().enumerate() {
-            if !base.watch.is_free(p, segments.end - 1) {
+            if !base.clearance.is_free(p, segments.end - 1) {
                 let contact = &mut base.contacts[p];
                 (contact.penetration, contact.rate) = pair.penetration(&base.q, &base.v);
-                base.watch.set_known(p);
+                base.clearance.set_known(p);
             }
         }
     }
 
     /// The record and the number of the base's segment, where the motion can glide.
-    fn gliding(&self, state: &State) -> Option<(&GroundMotion, u64)> {
+    fn can_run_fast(&self, state: &State) -> Option<(&GroundMotion, u64)> {
         let State { base, step, .. } = state;
-        let is_plain = matches!(step.kind, StepKind::Unknown | StepKind::Glide | StepKind::Flight)
+        let is_plain = matches!(step.kind, StepKind::NotPlanned | StepKind::Deferred | StepKind::Flight)
             && base.elapsed == 0.0
             && base.coordinates == Coordinates::Modes
             && base.energy.is_none()
@@ -164,14 +165,14 @@ impl Model {
         if is_plain { self.system.watched_segment(base) } else { None }
     }
 
-    fn count_glide(&self, counters: &mut Counters, flown: u64) {
+    fn count_flown(&self, counters: &mut Counters, flown: u64) {
         counters.flight_steps += flown;
         counters.flights_dismissed += if self.system.pairs.is_empty() { 0 } else { flown };
     }
 
     /// Leaves the planned glide to be planned by other means.
-    pub(in crate::engine) fn forget_glide(&self, state: &mut State) {
-        state.step.kind = StepKind::Unknown;
+    pub(in crate::engine) fn forget_deferred(&self, state: &mut State) {
+        state.step.kind = StepKind::NotPlanned;
         state.counters.flight_steps -= 1;
         state.counters.flights_dismissed -= u64::from(!self.system.pairs.is_empty());
     }
@@ -220,7 +221,7 @@ fn fly_over(
     }
 }
 
-/// The same where some pairs are near, as long as their sight allows.
+/// The same where some pairs are near, as long as their check allows.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn fly_near(
     model: &Model,
@@ -231,15 +232,15 @@ fn fly_near(
     until: f64,
 ) -> u64 {
     match model.system.structure.lanes / LANES {
-        1 => fly_in_sight::<1>(model, near, ground, base, segments, until),
-        2 => fly_in_sight::<2>(model, near, ground, base, segments, until),
-        3 => fly_in_sight::<3>(model, near, ground, base, segments, until),
+        1 => fly_with_check::<1>(model, near, ground, base, segments, until),
+        2 => fly_with_check::<2>(model, near, ground, base, segments, until),
+        3 => fly_with_check::<3>(model, near, ground, base, segments, until),
         _ => 0,
     }
 }
 
 #[inline(always)]
-fn fly_in_sight<const WIDTH: usize>(
+fn fly_with_check<const WIDTH: usize>(
     model: &Model,
     near: &NearPairs,
     ground: &GroundMotion,
@@ -247,8 +248,8 @@ fn fly_in_sight<const WIDTH: usize>(
     segments: Range<u64>,
     until: f64,
 ) -> u64 {
-    let sight = near.from((&few::<WIDTH>(&base.q), &few::<WIDTH>(&base.v)), base.segment.length);
-    fly_few(model, ground, base, sight, segments, until)
+    let check = near.from((&few::<WIDTH>(&base.q), &few::<WIDTH>(&base.v)), base.segment.length);
+    fly_few(model, ground, base, check, segments, until)
 }
 
 #[inline(always)]
@@ -268,7 +269,7 @@ fn fly_few<const WIDTH: usize>(
     model: &Model,
     ground: &GroundMotion,
     base: &mut Base,
-    mut sight: impl Sight<WIDTH>,
+    mut check: impl SegmentCheck<WIDTH>,
     segments: Range<u64>,
     until: f64,
 ) -> u64 {
@@ -285,7 +286,7 @@ fn fly_few<const WIDTH: usize>(
         for c in 0..WIDTH {
             (end_q[c], end_v[c]) = modes[c].end_on_ground((&q[c], &v[c]), &participation[c], load);
         }
-        if !sight.stays_apart((&q, &v), (&end_q, &end_v), load) {
+        if !check.stays_apart((&q, &v), (&end_q, &end_v), load) {
             break;
         }
         (q, v) = (end_q, end_v);

@@ -32,12 +32,12 @@ impl Model {
             state.base.elapsed = 0.0;
         }
         if self.system.is_driven() {
-            state.step.kind = StepKind::Unknown;
+            state.step.kind = StepKind::NotPlanned;
         }
         self.check_segments(state, until)?;
-        let glide = self.glide(state, until, self.most_flights as u64);
-        if !glide.has_arrived {
-            self.go_on(state, until, glide.flown, on_episode)?;
+        let fast = self.run_fast(state, until, self.most_flights as u64);
+        if !fast.has_arrived {
+            self.go_on(state, until, fast.flown, on_episode)?;
         }
         state.time = until;
         Ok(())
@@ -75,11 +75,11 @@ impl Model {
             } else if self.system.is_driven() && state.base.elapsed >= limit {
                 break;
             }
-            let glide = self.glide(state, until, progress.flights_left(&state.counters));
-            if glide.flown > 0 {
+            let fast = self.run_fast(state, until, progress.flights_left(&state.counters));
+            if fast.flown > 0 {
                 progress.note(true);
             }
-            if glide.has_arrived {
+            if fast.has_arrived {
                 break;
             }
         }
@@ -103,26 +103,26 @@ impl Model {
         base.elapsed = end;
         base.last_length = planned.next_length.unwrap_or(base.last_length);
         self.move_contacts(base, planned);
-        self.system.keep_together(base, &mut work.buffers);
+        self.system.project_constraints(base, &mut work.buffers);
         if let Some(event) = planned.event {
             counters.events += 1;
-            base.watch.restart();
+            base.clearance.restart();
             work.peaks.restart();
             self.handle(base, event, &mut work.buffers, on_episode);
         }
-        *kind = StepKind::Unknown;
+        *kind = StepKind::NotPlanned;
     }
 
     /// Penetrations and rates at the end of a step.
     fn move_contacts(&self, base: &mut Base, planned: &Planned) {
         if !planned.ends.is_empty() {
-            base.watch.move_on(1);
+            base.clearance.move_on(1);
             for (p, (contact, end)) in base.contacts.iter_mut().zip(&planned.ends).enumerate() {
                 contact.at_surface = false;
                 contact.let_go = false;
-                contact.carried = false;
+                contact.tracked = false;
                 if let Some((penetration, rate)) = *end {
-                    base.watch.set_known(p);
+                    base.clearance.set_known(p);
                     (contact.penetration, contact.rate) = (penetration, rate);
                 }
             }
@@ -132,11 +132,11 @@ impl Model {
         if planned.length == 0.0 {
             return;
         }
-        base.watch.move_on(1);
-        base.watch.set_all_known();
+        base.clearance.move_on(1);
+        base.clearance.set_all_known();
         let (coordinates, q, v) = (base.coordinates, &base.q, &base.v);
-        for ((p, contact), (pair, carried)) in
-            base.contacts.iter_mut().enumerate().zip(self.system.pairs.iter().zip(&planned.carried))
+        for ((p, contact), (pair, tracked)) in
+            base.contacts.iter_mut().enumerate().zip(self.system.pairs.iter().zip(&planned.tracked))
         {
             contact.at_surface = false;
             contact.let_go = false;
@@ -144,10 +144,10 @@ impl Model {
             if contact.is_held() {
                 continue;
             }
-            contact.carried = false;
-            if let Some((penetration, rate)) = *carried {
+            contact.tracked = false;
+            if let Some((penetration, rate)) = *tracked {
                 (contact.penetration, contact.rate) = (penetration, rate);
-                contact.carried = self.system.is_close(p, penetration, coordinates, q);
+                contact.tracked = self.system.is_close(p, penetration, coordinates, q);
                 continue;
             }
             if !contact.in_contact() {

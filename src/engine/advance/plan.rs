@@ -12,8 +12,8 @@ impl Model {
     /// Works out the next step, up to `limit` (s since the segment's start) or the next event, unless that has been done already.
     pub fn plan(&self, state: &mut State, limit: f64) {
         match state.step.kind {
-            StepKind::Unknown => {}
-            StepKind::Glide => self.forget_glide(state),
+            StepKind::NotPlanned => {}
+            StepKind::Deferred => self.forget_deferred(state),
             _ => return,
         }
         let State { base, step, inputs, counters, work, .. } = state;
@@ -47,10 +47,10 @@ impl Model {
         let (remaining, is_cut) =
             match self.system.time_for_rigid_pairs(at.base, at.inputs, buffers, limit - at.base.elapsed) {
                 Ok(time) => time,
-                Err(event) => return happen_now(at.base, planned, taylor, event),
+                Err(event) => return plan_zero_length(at.base, planned, taylor, event),
             };
         if let Some(p) = self.entry_at_once(at.base) {
-            return happen_now(at.base, planned, taylor, Event::Entry(p));
+            return plan_zero_length(at.base, planned, taylor, Event::Entry(p));
         }
         self.system.load(at.base, at.inputs, &mut buffers.load, &mut buffers.slope);
         if !is_near_rigid {
@@ -66,7 +66,7 @@ impl Model {
             }
         }
         self.system.plan_taylor(at, (remaining, is_cut), planned, taylor, buffers);
-        StepKind::Contact
+        StepKind::Taylor
     }
 
     /// A pair that stands at the surface and approaches, by more than rounding: it enters now, together with another.
@@ -81,8 +81,8 @@ impl Model {
 }
 
 /// An event that needs no step: a Taylor step without length.
-fn happen_now(base: &Base, planned: &mut Planned, taylor: &mut Solution, event: Event) -> StepKind {
-    planned.happen_now(base, event);
+fn plan_zero_length(base: &Base, planned: &mut Planned, taylor: &mut Solution, event: Event) -> StepKind {
+    planned.plan_zero_length(base, event);
     taylor.series.scale = 1.0;
-    StepKind::Contact
+    StepKind::Taylor
 }

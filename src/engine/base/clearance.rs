@@ -8,7 +8,7 @@ pub const MOST: u64 = 64;
 
 /// What is known of pairs that are apart.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Watch {
+pub struct Clearance {
     /// Number of the first segment in which any pair may meet, as far as is known.
     due: u64,
     /// The first segment for which it is worth while to look again.
@@ -21,10 +21,10 @@ pub struct Watch {
     known: Vec<u64>,
 }
 
-impl Watch {
+impl Clearance {
     /// Nothing is known of the time to come, but every contact as it is now.
-    pub fn new(pairs: usize) -> Watch {
-        Watch { due: 0, next_look: 0, pairs: vec![0; pairs], moves: 0, known: vec![0; pairs] }
+    pub fn new(pairs: usize) -> Clearance {
+        Clearance { due: 0, next_look: 0, pairs: vec![0; pairs], moves: 0, known: vec![0; pairs] }
     }
 
     /// Forgets the time to come: a contact force or an impulse acts.
@@ -100,7 +100,7 @@ impl Watch {
 
     /// Whether it can be what is known of so many pairs in a segment of that number.
     pub fn fits(&self, pairs: usize, segment: u64, most_moves: u64) -> bool {
-        let Watch { due, next_look, pairs: free, moves, known } = self;
+        let Clearance { due, next_look, pairs: free, moves, known } = self;
         // A pair may have been dismissed in an earlier segment, and none is dismissed for longer than from here.
         let furthest = segment.saturating_add(2 * MOST);
         let is_first = |due: u64| free.iter().min().is_none_or(|first| due == *first);
@@ -120,22 +120,22 @@ mod tests {
 
     #[test]
     fn a_watch_that_a_run_cannot_come_to_does_not_fit() {
-        let watch = |due, pairs: &[u64], moves, known: &[u64]| Watch {
+        let clearance = |due, pairs: &[u64], moves, known: &[u64]| Clearance {
             due,
             next_look: 101,
             pairs: pairs.into(),
             moves,
             known: known.into(),
         };
-        let fits = |watch: Watch| watch.fits(2, 100, 1000);
-        assert!(fits(Watch::new(2)));
-        assert!(fits(watch(90, &[90, 164], 1000, &[0, 1000])));
-        assert!(!fits(watch(80, &[90, 164], 50, &[0, 50])), "due before any pair");
-        assert!(!fits(watch(90, &[90, u64::MAX], 50, &[0, 50])), "dismissed for ever");
-        assert!(!fits(watch(90, &[90, 164], 50, &[0, 51])), "known at a move to come");
-        assert!(!fits(watch(90, &[90, 164], 1001, &[0, 50])), "too many moves");
-        assert!(!fits(watch(90, &[90], 50, &[0, 50])) && !fits(watch(90, &[90, 164], 50, &[0])), "other pairs");
+        let fits = |clearance: Clearance| clearance.fits(2, 100, 1000);
+        assert!(fits(Clearance::new(2)));
+        assert!(fits(clearance(90, &[90, 164], 1000, &[0, 1000])));
+        assert!(!fits(clearance(80, &[90, 164], 50, &[0, 50])), "due before any pair");
+        assert!(!fits(clearance(90, &[90, u64::MAX], 50, &[0, 50])), "dismissed for ever");
+        assert!(!fits(clearance(90, &[90, 164], 50, &[0, 51])), "known at a move to come");
+        assert!(!fits(clearance(90, &[90, 164], 1001, &[0, 50])), "too many moves");
+        assert!(!fits(clearance(90, &[90], 50, &[0, 50])) && !fits(clearance(90, &[90, 164], 50, &[0])), "other pairs");
         // Without pairs, before and after the first look.
-        assert!(watch(0, &[], 0, &[]).fits(0, 0, 10) && watch(u64::MAX, &[], 3, &[]).fits(0, 5, 10));
+        assert!(clearance(0, &[], 0, &[]).fits(0, 0, 10) && clearance(u64::MAX, &[], 3, &[]).fits(0, 5, 10));
     }
 }

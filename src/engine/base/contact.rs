@@ -46,7 +46,7 @@ pub enum Phase {
 pub struct Contact {
     pub phase: Phase,
     pub force: EpisodeForce,
-    /// m. During an episode it is carried along by its own increments, not taken from the floors' displacements,
+    /// m. During an episode it is tracked by its own increments, not taken from the floors' displacements,
     /// which are larger and would bury its last digits.
     pub penetration: f64,
     /// m/s.
@@ -55,7 +55,7 @@ pub struct Contact {
     pub at_surface: bool,
     /// Rigid and close to the surface: `penetration` and `rate` are carried along by their own increments while apart
     /// too. Rebounds that die out are far smaller than the last digits of the floors' motion.
-    pub carried: bool,
+    pub tracked: bool,
     /// Just let go by a reaction that has fallen to 0: whatever presses the floors together now is rounding.
     pub let_go: bool,
     /// Held together again at the very instant at which it was let go: rounding cannot tell which is right, so it is

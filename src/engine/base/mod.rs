@@ -8,7 +8,7 @@ pub mod peaks;
 pub mod planned;
 
 use crate::contact::Force;
-use crate::engine::base::clearance::Watch;
+use crate::engine::base::clearance::Clearance;
 use crate::engine::base::contact::{Contact, Episode, Phase};
 use crate::engine::base::peaks::Peaks;
 use crate::engine::excitation::segment::Segment;
@@ -37,7 +37,7 @@ pub struct Base {
     /// Velocities.
     pub v: Vec<f64>,
     pub contacts: Vec<Contact>,
-    pub watch: Watch,
+    pub clearance: Clearance,
     pub peaks: Peaks,
     pub energy: Option<Account>,
     /// m/s, largest floor velocity that a contact step has seen: what its error is relative to.
@@ -75,7 +75,7 @@ impl Base {
         let time = self.time();
         let contact = &mut self.contacts[p];
         contact.let_go = contact.is_held() && contact.rate == 0.0;
-        contact.carried = contact.is_held();
+        contact.tracked = contact.is_held();
         contact.penetration = 0.0;
         contact.at_surface = true;
         contact.settle();

@@ -22,7 +22,7 @@ impl Base {
             q,
             v,
             contacts,
-            watch: _, // counts, looked at by themselves
+            clearance: _, // counts, looked at by themselves
             peaks,
             energy,
             velocity_scale,
@@ -49,7 +49,7 @@ impl Contact {
             penetration,
             rate,
             at_surface: _,
-            carried: _,
+            tracked: _,
             let_go: _,
             undecided: _,
             reaction,

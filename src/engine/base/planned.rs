@@ -16,7 +16,7 @@ pub enum Event {
 }
 
 /// Penetration, m, and its rate, m/s, one per contact.
-pub type Carried = Vec<Option<(f64, f64)>>;
+pub type Tracked = Vec<Option<(f64, f64)>>;
 
 /// What a step comes to, whatever its kind.
 #[derive(Clone, Debug)]
@@ -31,11 +31,11 @@ pub struct Planned {
     /// The state at the end, in the coordinates of the base.
     pub q: Vec<f64>,
     pub v: Vec<f64>,
-    /// Penetration and rate at the end of each contact that is carried.
-    pub carried: Carried,
+    /// Penetration and rate at the end of each contact that is tracked.
+    pub tracked: Tracked,
     /// Penetration and rate at the end of each contact of a flight that met nothing, none where they were not needed;
     /// empty otherwise.
-    pub ends: Carried,
+    pub ends: Tracked,
 }
 
 impl Planned {
@@ -48,18 +48,18 @@ impl Planned {
             event: None,
             q: vec![0.0; lanes],
             v: vec![0.0; lanes],
-            carried: vec![None; pairs],
+            tracked: vec![None; pairs],
             ends: Vec::with_capacity(pairs),
         }
     }
 
     /// An event that needs no step.
-    pub fn happen_now(&mut self, base: &Base, event: Event) {
+    pub fn plan_zero_length(&mut self, base: &Base, event: Event) {
         self.event = Some(event);
         self.reaches_limit = false;
         self.length = 0.0;
         self.next_length = None;
-        self.carried.fill(None);
+        self.tracked.fill(None);
         self.ends.clear();
         self.q.copy_from_slice(&base.q);
         self.v.copy_from_slice(&base.v);

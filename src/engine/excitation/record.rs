@@ -1,6 +1,6 @@
 //! Ground acceleration as a sequence of segments, in each of which it is linear in time.
 
-use crate::engine::excitation::segment::{Place, Segment};
+use crate::engine::excitation::segment::{RecordPlace, Segment};
 use crate::record::Record;
 use crate::structure::{Interval, Structure};
 use std::ops::Range;
@@ -47,7 +47,7 @@ impl GroundMotion {
                 length: self.spacing.min(first - time),
                 acceleration: 0.0,
                 slope: 0.0,
-                place: Place::Outside,
+                place: RecordPlace::Outside,
             };
         }
         let sample = self.times.partition_point(|t| *t <= time) - 1;
@@ -107,9 +107,9 @@ impl GroundMotion {
     /// The number of a segment, counted on after the record's end; none before its beginning.
     pub fn number(&self, segment: &Segment) -> Option<u64> {
         match segment.place {
-            Place::Outside => None,
-            Place::Sample(i) => Some(i as u64),
-            Place::After(k) => Some(self.lengths.len() as u64 + k),
+            RecordPlace::Outside => None,
+            RecordPlace::Sample(i) => Some(i as u64),
+            RecordPlace::After(k) => Some(self.lengths.len() as u64 + k),
         }
     }
 
@@ -117,10 +117,10 @@ impl GroundMotion {
     pub fn has(&self, segment: &Segment) -> bool {
         const MOST: u64 = 1 << 53;
         let own = match segment.place {
-            Place::Outside => self.segment_at(segment.start),
-            Place::Sample(i) if i < self.lengths.len() => self.sample(i),
-            Place::After(k) if k < MOST => self.after(k),
-            Place::Sample(_) | Place::After(_) => return false,
+            RecordPlace::Outside => self.segment_at(segment.start),
+            RecordPlace::Sample(i) if i < self.lengths.len() => self.sample(i),
+            RecordPlace::After(k) if k < MOST => self.after(k),
+            RecordPlace::Sample(_) | RecordPlace::After(_) => return false,
         };
         own == *segment
     }
@@ -143,15 +143,15 @@ impl GroundMotion {
     #[cold]
     fn passed_after(&self, number: u64) -> (f64, f64) {
         let last = self.lengths.len();
-        let (time, shaking) = self.passed[last];
-        (time + (number - last as u64) as f64 * self.spacing, shaking)
+        let (time, cumulative) = self.passed[last];
+        (time + (number - last as u64) as f64 * self.spacing, cumulative)
     }
 
     #[inline(always)]
     fn sample(&self, i: usize) -> Segment {
         let (start, length, ends) =
             (self.times[i], self.lengths[i], [self.accelerations[i], self.accelerations[i + 1]]);
-        Segment { start, length, acceleration: ends[0], slope: slope(ends, length), place: Place::Sample(i) }
+        Segment { start, length, acceleration: ends[0], slope: slope(ends, length), place: RecordPlace::Sample(i) }
     }
 
     #[inline(always)]
@@ -162,7 +162,7 @@ impl GroundMotion {
             length: self.spacing,
             acceleration: 0.0,
             slope: 0.0,
-            place: Place::After(k),
+            place: RecordPlace::After(k),
         }
     }
 }
@@ -214,13 +214,13 @@ fn slope([start, end]: [f64; 2], length: f64) -> f64 {
 
 /// Time and integral of |acceleration| up to each sample, summed without loss (Neumaier): their differences matter.
 fn passed(lengths: &[f64], accelerations: &[f64]) -> Vec<(f64, f64)> {
-    let (mut time, mut shaking) = (Sum::default(), Sum::default());
+    let (mut time, mut cumulative) = (Sum::default(), Sum::default());
     let mut passed = vec![(0.0, 0.0)];
     for (length, ends) in lengths.iter().zip(accelerations.windows(2)) {
         time.add(*length);
         // A chord lies above |a| where a is linear.
-        shaking.add(0.5 * length * (ends[0].abs() + ends[1].abs()));
-        passed.push((time.value + time.lost, shaking.value + shaking.lost));
+        cumulative.add(0.5 * length * (ends[0].abs() + ends[1].abs()));
+        passed.push((time.value + time.lost, cumulative.value + cumulative.lost));
     }
     passed
 }

@@ -14,12 +14,12 @@ pub struct Segment {
     pub acceleration: f64,
     /// m/s3.
     pub slope: f64,
-    pub place: Place,
+    pub place: RecordPlace,
 }
 
 /// Where a segment lies relative to the record.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Place {
+pub enum RecordPlace {
     /// Before the first sample, or a stretch under an input.
     Outside,
     /// From this sample to the next.
@@ -31,14 +31,14 @@ pub enum Place {
 impl Segment {
     /// A stretch under an input.
     pub fn under_input(start: f64, length: f64, input: &LinearInput) -> Segment {
-        Segment { start, length, acceleration: input.at(start), slope: input.slope(), place: Place::Outside }
+        Segment { start, length, acceleration: input.at(start), slope: input.slope(), place: RecordPlace::Outside }
     }
 
     /// Whether it can be a stretch under an input.
     pub fn is_under_input(&self) -> bool {
         let Segment { start, length, acceleration, slope, place } = *self;
         let numbers = [start, length, acceleration, slope];
-        place == Place::Outside && length >= 0.0 && numbers.into_iter().all(f64::is_finite)
+        place == RecordPlace::Outside && length >= 0.0 && numbers.into_iter().all(f64::is_finite)
     }
 
     /// m/s2 at a time since the start.

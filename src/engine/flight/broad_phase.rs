@@ -39,7 +39,7 @@ const TRIED: [[u64; LANES]; 3] = [[1, 2, 3, 4], [6, 8, 12, 16], [24, 32, 48, MOS
 const USUAL: u64 = 8;
 
 /// Segments for which it costs less to show by both ends of each that no pair meets than to look again and again.
-pub const NEAR: u64 = 16;
+pub const NEAR_SEGMENTS: u64 = 16;
 
 /// Margin for rounding, relative to the numbers that a penetration or a closing speed is added up from.
 const MARGIN: f64 = 1e-10;
@@ -49,9 +49,9 @@ const CHORD: f64 = 0.414_213_562_4;
 
 /// What stays the same during a run.
 #[derive(Debug)]
-pub struct ClosingSpeeds {
-    modes: Vec<ModeBlock>,
-    /// What a shaking (integral of |ground acceleration|) of 1 m/s does to each pair.
+pub struct ClosingBounds {
+    modes: Vec<BoundedModes>,
+    /// What a cumulative absolute velocity (integral of |ground acceleration|) of 1 m/s does to each pair.
     pairs: Vec<Growth>,
     /// Modes of a building in which damping couples them.
     coupled: Vec<Range<usize>>,
@@ -59,7 +59,7 @@ pub struct ClosingSpeeds {
 
 /// What [`LANES`] modes are, side by side.
 #[derive(Clone, Copy, Debug, Default)]
-struct ModeBlock {
+struct BoundedModes {
     /// rad/s.
     omega: Lane,
     /// w + c, 1/s.
@@ -73,7 +73,7 @@ struct ModeBlock {
     weight: Lane,
 }
 
-/// What a shaking of 1 m/s does to a pair.
+/// What a cumulative absolute velocity of 1 m/s does to a pair.
 #[derive(Clone, Copy, Debug)]
 struct Growth {
     /// The sums over modes for its e.
@@ -90,8 +90,8 @@ struct Sums {
     bend: f64,
 }
 
-impl ClosingSpeeds {
-    pub fn of(structure: &Structure, pairs: &[Pair], weight: &[f64]) -> ClosingSpeeds {
+impl ClosingBounds {
+    pub fn of(structure: &Structure, pairs: &[Pair], weight: &[f64]) -> ClosingBounds {
         let mut growth: Vec<f64> = structure.participation.iter().map(|p| p.abs()).collect();
         let coupled = [Side::Left, Side::Right]
             .into_iter()
@@ -119,7 +119,7 @@ impl ClosingSpeeds {
             |pair: &Pair| Growth { sums: Sums::of(&pair.row, &growth, &quickness, &bend), dragged: dragged(pair) };
         let block = |c: usize| {
             let lane = |all: &[f64]| -> Lane { std::array::from_fn(|i| all[c * LANES + i]) };
-            ModeBlock {
+            BoundedModes {
                 omega: lane(&omega),
                 quickness: lane(&quickness),
                 bend: lane(&bend),
@@ -128,7 +128,7 @@ impl ClosingSpeeds {
                 weight: lane(weight),
             }
         };
-        ClosingSpeeds {
+        ClosingBounds {
             modes: (0..structure.lanes / LANES).map(block).collect(),
             pairs: pairs.iter().map(growth).collect(),
             coupled,
@@ -136,25 +136,25 @@ impl ClosingSpeeds {
     }
 }
 
-impl ClosingSpeeds {
+impl ClosingBounds {
     /// Looks at the pairs that have not been dismissed for the base's segment, of that number; whether all are now.
-    /// If not, it is not worth while to look again for `patience` segments.
+    /// If not, it is not worth while to look again for `segments_to_wait` segments.
     pub fn dismiss(
         &self,
         system: &System,
         ground: &GroundMotion,
-        (base, segment, patience): (&mut Base, u64, u64),
+        (base, segment, segments_to_wait): (&mut Base, u64, u64),
         counters: &mut Counters,
         amplitude: &mut [f64],
     ) -> bool {
-        let is_free = base.watch.are_all_free(segment);
-        if is_free || segment < base.watch.next_look() {
+        let is_free = base.clearance.are_all_free(segment);
+        if is_free || segment < base.clearance.next_look() {
             return is_free;
         }
-        look_at_all((self, system), ground, base, segment, counters, amplitude);
-        let due = base.watch.first_due();
-        base.watch.note(due, if due >= segment + USUAL { due } else { due.max(segment + patience) });
-        base.watch.are_all_free(segment)
+        bound_all((self, system), ground, base, segment, counters, amplitude);
+        let due = base.clearance.first_due();
+        base.clearance.note(due, if due >= segment + USUAL { due } else { due.max(segment + segments_to_wait) });
+        base.clearance.are_all_free(segment)
     }
 
     /// Bounds on sqrt(v^2 + w^2 q^2) of all modes at the base. Returns a bound on what the displacements add to any
@@ -188,8 +188,8 @@ fn share_amplitude(modes: &mut [f64]) {
 
 /// Looks at each pair that has not been dismissed for a segment. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn look_at_all(
-    (closing, system): (&ClosingSpeeds, &System),
+fn bound_all(
+    (closing, system): (&ClosingBounds, &System),
     ground: &GroundMotion,
     base: &mut Base,
     segment: u64,
@@ -202,17 +202,17 @@ fn look_at_all(
         ends.set(&ahead, base.elapsed, segments);
     }
     for (p, pair) in system.pairs.iter().enumerate() {
-        if base.watch.is_free(p, segment) {
+        if base.clearance.is_free(p, segment) {
             continue;
         }
-        let Seen { bounds: sums, pull, moved, rate } = look(closing, base, &pair.row, amplitude);
+        let Seen { bounds: sums, pull, moved, rate } = bound_one(closing, base, &pair.row, amplitude);
         let contact = &mut base.contacts[p];
-        if !base.watch.is_known(p) {
+        if !base.clearance.is_known(p) {
             counters.pairs_evaluated += 1;
             (contact.penetration, contact.rate) = (moved - pair.gap, rate);
-            base.watch.set_known(p);
+            base.clearance.set_known(p);
         }
-        if contact.carried {
+        if contact.tracked {
             continue;
         }
         let closing = Closing {
@@ -222,7 +222,7 @@ fn look_at_all(
             sums,
             growth: &closing.pairs[p],
         };
-        base.watch.clear(p, segment + closing.longest(&ends));
+        base.clearance.clear(p, segment + closing.longest(&ends));
     }
 }
 
@@ -230,7 +230,7 @@ fn look_at_all(
 #[derive(Clone, Copy, Default)]
 struct Ends {
     time: Lane,
-    shaking: Lane,
+    cumulative: Lane,
 }
 
 impl Ends {
@@ -238,9 +238,9 @@ impl Ends {
     #[inline(always)]
     fn set(&mut self, ahead: &Ahead, elapsed: f64, segments: &[u64; LANES]) {
         for (i, segments) in segments.iter().enumerate() {
-            let (time, shaking) = ahead.over(*segments);
+            let (time, cumulative) = ahead.over(*segments);
             self.time[i] = (1.0 + MARGIN) * (time - elapsed);
-            self.shaking[i] = shaking;
+            self.cumulative[i] = cumulative;
         }
     }
 }
@@ -277,18 +277,18 @@ impl Closing<'_> {
 /// The least of what the bounds say of a penetration up to some ends, m. Where it is below 0 the pair stays apart; a NaN of
 /// the cubic is passed over, any other comes out. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn nearest(closing: &Closing, Ends { time, shaking }: &Ends) -> Lane {
+fn nearest(closing: &Closing, Ends { time, cumulative }: &Ends) -> Lane {
     let &Closing { start, rate, pull, ref sums, growth: &Growth { sums: ref growth, dragged } } = closing;
     let (smaller, larger) = (|a: f64, b: f64| if a < b { a } else { b }, |a: f64, b: f64| if a > b { a } else { b });
     let mut nearest = [0.0; LANES];
     for i in 0..LANES {
-        let (time, shaking) = (time[i], shaking[i]);
-        let speed = sums.speed + growth.speed * shaking;
-        let change = sums.change + growth.change * shaking;
-        let bend = sums.bend + growth.bend * shaking;
+        let (time, cumulative) = (time[i], cumulative[i]);
+        let speed = sums.speed + growth.speed * cumulative;
+        let change = sums.change + growth.change * cumulative;
+        let bend = sums.bend + growth.bend * cumulative;
         let rate = rate + MARGIN * speed;
         let (line, parabola) = (start + time * speed, start + time * (rate + 0.5 * time * change));
-        let (first, second) = (time * rate, 0.5 * time * time * (pull + shaking * dragged));
+        let (first, second) = (time * rate, 0.5 * time * time * (pull + cumulative * dragged));
         let end = start + (first + second + time * time * time * (bend * (1.0 / 6.0)));
         let inner = [3.0 * start + first, 3.0 * start + 2.0 * first + second];
         // The end last, a NaN where anything before it is one.
@@ -301,7 +301,7 @@ fn nearest(closing: &Closing, Ends { time, shaking }: &Ends) -> Lane {
 
 /// The sums over modes of one pair: of bounds, and of what its motion is at the base.
 #[inline(always)]
-fn look(closing: &ClosingSpeeds, base: &Base, row: &[f64], amplitude: &[f64]) -> Seen {
+fn bound_one(closing: &ClosingBounds, base: &Base, row: &[f64], amplitude: &[f64]) -> Seen {
     let [row, amplitude, q, v] = [row, amplitude, &base.q, &base.v].map(|all| all.as_chunks::<LANES>().0);
     // Says once that no index below leaves its table.
     let (modes, count) = (&closing.modes[..], closing.modes.len());

@@ -43,15 +43,15 @@ impl Certificate {
         let loads = (&work.load[..], &work.slope[..]);
         let deviation = self.deviation(&system.structure, (&base.q, &base.v), loads, h, &mut work.scratch);
         for (p, (pair, contact)) in system.pairs.iter().zip(&mut base.contacts).enumerate() {
-            if segment.is_some_and(|segment| base.watch.is_free(p, segment)) {
+            if segment.is_some_and(|segment| base.clearance.is_free(p, segment)) {
                 planned.ends.push(None);
                 look.stay_apart[p] = true;
                 continue;
             }
-            if !base.watch.is_known(p) {
+            if !base.clearance.is_known(p) {
                 counters.pairs_evaluated += 1;
                 (contact.penetration, contact.rate) = pair.penetration(&base.q, &base.v);
-                base.watch.set_known(p);
+                base.clearance.set_known(p);
             }
             counters.pairs_evaluated += 1;
             let (end, end_rate) = pair.penetration(&planned.q, &planned.v);

@@ -18,7 +18,7 @@ const MARGIN: f64 = 1e-10;
 
 impl System {
     /// Whether no pair meets within `length` seconds from a modal motion on, under a load and its slope.
-    pub fn swings_stay_apart(&self, (q, v): (&[f64], &[f64]), (load, slope): (&[f64], &[f64]), length: f64) -> bool {
+    pub fn envelopes_stay_apart(&self, (q, v): (&[f64], &[f64]), (load, slope): (&[f64], &[f64]), length: f64) -> bool {
         let structure = &self.structure;
         // Where damping couples modes, what holds them under a load that changes is not worked out here.
         if !structure.is_classical() && slope.iter().any(|slope| *slope != 0.0) {

@@ -13,7 +13,7 @@ pub const MOST_BLOCKS: usize = 3;
 /// What stays the same during a run.
 #[derive(Debug)]
 pub struct NearPairs {
-    modes: Vec<ModeBlock>,
+    modes: Vec<CertifiedModes>,
     /// What each mode is to the pairs, without the padding.
     shares: Vec<Lane>,
     /// m; infinite in a lane without a pair.
@@ -22,7 +22,7 @@ pub struct NearPairs {
 
 /// What [`LANES`] modes are, side by side.
 #[derive(Clone, Copy, Debug, Default)]
-struct ModeBlock {
+struct CertifiedModes {
     participation: Lane,
     /// c, 1/s, and w^2, 1/s2.
     damping: Lane,
@@ -42,7 +42,7 @@ impl NearPairs {
         let block = |c: usize| {
             let lane = |all: &[f64]| -> Lane { std::array::from_fn(|i| all[c * LANES + i]) };
             let (of_jerk, omega2) = (lane(&structure.quickness), lane(&structure.omega2));
-            ModeBlock {
+            CertifiedModes {
                 participation: lane(&structure.participation),
                 damping: lane(&structure.damping),
                 omega2,
@@ -65,9 +65,9 @@ impl NearPairs {
         &self,
         (q, v): (&[Lane; WIDTH], &[Lane; WIDTH]),
         length: f64,
-    ) -> FromNear<'_, WIDTH> {
+    ) -> HermiteCheck<'_, WIDTH> {
         let (third, share) = (length / 3.0, (length * length) * (length * length) / 384.0);
-        let mut seen = FromNear { near: self, third, share, start: Default::default() };
+        let mut seen = HermiteCheck { near: self, third, share, start: Default::default() };
         let [start, rate, _] = seen.pairs_at(q, v, &[[0.0; LANES]; WIDTH]);
         seen.start = [start, rate];
         seen
@@ -75,7 +75,7 @@ impl NearPairs {
 }
 
 /// What is seen of the pairs on the way from segment to segment.
-pub trait Sight<const WIDTH: usize> {
+pub trait SegmentCheck<const WIDTH: usize> {
     /// Whether no pair meets in the next segment, from the motion at its start and at its end and from the ground's
     /// acceleration and its slope.
     fn stays_apart(
@@ -87,7 +87,7 @@ pub trait Sight<const WIDTH: usize> {
 }
 
 /// What is seen on the way from segment to segment.
-pub struct FromNear<'a, const WIDTH: usize> {
+pub struct HermiteCheck<'a, const WIDTH: usize> {
     near: &'a NearPairs,
     /// s, a third of a segment's length h; and s4, h^4/384.
     third: f64,
@@ -96,7 +96,7 @@ pub struct FromNear<'a, const WIDTH: usize> {
     start: [Lane; 2],
 }
 
-impl<const WIDTH: usize> FromNear<'_, WIDTH> {
+impl<const WIDTH: usize> HermiteCheck<'_, WIDTH> {
     /// Penetrations and rates, and the sums over modes of |share| times `sizes`.
     #[inline(always)]
     fn pairs_at(&self, q: &[Lane; WIDTH], v: &[Lane; WIDTH], sizes: &[Lane; WIDTH]) -> [Lane; 3] {
@@ -116,7 +116,7 @@ impl<const WIDTH: usize> FromNear<'_, WIDTH> {
     fn fourth(&self, q: &[Lane; WIDTH], v: &[Lane; WIDTH], (acceleration, slope): (f64, f64)) -> [Lane; WIDTH] {
         let mut fourth = [[0.0; LANES]; WIDTH];
         for (((mode, q), v), fourth) in self.near.modes.iter().zip(q).zip(v).zip(&mut fourth) {
-            let ModeBlock { participation, damping, omega2, of_acceleration, of_jerk } = mode;
+            let CertifiedModes { participation, damping, omega2, of_acceleration, of_jerk } = mode;
             let own = each(|i| -participation[i] * acceleration - damping[i] * v[i] - omega2[i] * q[i]);
             let jerk = each(|i| -participation[i] * slope - damping[i] * own[i] - omega2[i] * v[i]);
             *fourth = each(|i| of_acceleration[i] * own[i].abs() + of_jerk[i] * jerk[i].abs());
@@ -125,7 +125,7 @@ impl<const WIDTH: usize> FromNear<'_, WIDTH> {
     }
 }
 
-impl<const WIDTH: usize> Sight<WIDTH> for FromNear<'_, WIDTH> {
+impl<const WIDTH: usize> SegmentCheck<WIDTH> for HermiteCheck<'_, WIDTH> {
     #[inline(always)]
     fn stays_apart(
         &mut self,

@@ -13,7 +13,7 @@ use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::{At, Planned};
 use crate::engine::excitation::record::GroundMotion;
-use crate::engine::flight::broad_phase::{ClosingSpeeds, NEAR};
+use crate::engine::flight::broad_phase::{ClosingBounds, NEAR_SEGMENTS};
 use crate::engine::flight::certificate::Certificate;
 use crate::engine::flight::fast_certificate::NearPairs;
 use crate::engine::flight::narrow_phase::Search;
@@ -24,7 +24,7 @@ use crate::engine::system::buffers::Buffers;
 /// What stays the same during a run.
 #[derive(Debug)]
 pub struct Flight {
-    closing: ClosingSpeeds,
+    closing: ClosingBounds,
     /// Where modes and pairs are few.
     pub near: Option<NearPairs>,
     certificate: Certificate,
@@ -35,7 +35,7 @@ impl Flight {
     pub fn new(System { structure, pairs, .. }: &System) -> Flight {
         let certificate = Certificate::of(structure, pairs);
         Flight {
-            closing: ClosingSpeeds::of(structure, pairs, &certificate.pair_weight),
+            closing: ClosingBounds::of(structure, pairs, &certificate.pair_weight),
             near: NearPairs::of(structure, pairs),
             certificate,
         }
@@ -52,8 +52,8 @@ impl Flight {
         amplitude: &mut [f64],
     ) -> bool {
         // Where modes and pairs are few it costs less to show by both ends of a segment that no pair meets.
-        let patience = if self.near.is_some() { NEAR } else { 1 };
-        self.closing.dismiss(system, ground, (base, segment, patience), counters, amplitude)
+        let segments_to_wait = if self.near.is_some() { NEAR_SEGMENTS } else { 1 };
+        self.closing.dismiss(system, ground, (base, segment, segments_to_wait), counters, amplitude)
     }
 
     /// Works out the flight from the base over `longest` seconds, under a load that is in `work`, or until the first entry.
@@ -70,7 +70,7 @@ impl Flight {
         planned.length = longest;
         planned.event = None;
         planned.next_length = None;
-        planned.carried.fill(None);
+        planned.tracked.fill(None);
         planned.ends.clear();
         system.fly(at.base, longest, work, (&mut planned.q, &mut planned.v));
         if system.pairs.is_empty() {
@@ -87,7 +87,7 @@ impl Flight {
             let is_over = planned.ends.iter().flatten().any(|(penetration, _)| *penetration >= 0.0);
             planned.ends.clear();
             let loads = (&work.load[..], &work.slope[..]);
-            if is_over || !system.swings_stay_apart((&at.base.q, &at.base.v), loads, longest) {
+            if is_over || !system.envelopes_stay_apart((&at.base.q, &at.base.v), loads, longest) {
                 let certificate = &self.certificate;
                 Search { certificate, system, base: at.base, look, work }.first_entry(planned, at.counters);
             }

@@ -40,11 +40,11 @@ impl Search<'_> {
         let remaining = planned.length;
         let mut unit =
             if system.structure.fastest * remaining > REACH { REACH / system.structure.fastest } else { remaining };
-        let is_carried = base.contacts.iter().any(|contact| contact.carried);
+        let is_tracked = base.contacts.iter().any(|contact| contact.tracked);
         self.look.start(base, &self.work.load);
-        if is_carried {
+        if is_tracked {
             system.structure.accelerate(&base.q, &base.v, &self.work.load, &mut self.work.q);
-            unit = unit.min(system.bounce_horizon(base, &self.work.q));
+            unit = unit.min(system.rebound_step_limit(base, &self.work.q));
         }
         let (mut series_left, mut longer) = (1, f64::from(LONGER) * unit);
         for _ in 0..MOST_PIECES {
@@ -52,7 +52,8 @@ impl Search<'_> {
             let left = remaining - self.look.from;
             if series_left == 0 && left > unit {
                 let length = left.min(longer);
-                if system.swings_stay_apart((&self.look.q, &self.look.v), (&self.look.load, &self.work.slope), left) {
+                if system.envelopes_stay_apart((&self.look.q, &self.look.v), (&self.look.load, &self.work.slope), left)
+                {
                     return;
                 }
                 if !self.piece_stays_apart(length) {
@@ -64,7 +65,7 @@ impl Search<'_> {
                 series_left -= u32::from(series_left > 0);
                 let length = left.min(unit);
                 let entry = self.first_upcrossing_in(length);
-                if entry.is_some() || is_carried {
+                if entry.is_some() || is_tracked {
                     return self.cut(planned, length, entry);
                 }
                 self.move_on(length);
@@ -89,7 +90,7 @@ impl Search<'_> {
             planned.reaches_limit = false;
             planned.event = entry.map(|(_, p)| Event::Entry(p));
         }
-        system.carry(base, &work.series, &work.powers, &mut work.scalar, &mut planned.carried);
+        system.track(base, &work.series, &work.powers, &mut work.scalar, &mut planned.tracked);
     }
 
     /// The first entry in a piece, from its power series: where, as a share of the piece, and which pair.

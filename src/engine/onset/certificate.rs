@@ -27,7 +27,8 @@ impl System {
         (0..onset.used).all(|b| {
             let [moved, turned] = onset.blocks[b].bounds(&onset.powers);
             onset.pairs_of(b).all(|(lane, p)| {
-                let room = Room { x: onset.powers.x, scale: onset.scale, moved: moved[lane], turned: turned[lane] };
+                let room =
+                    MotionBounds { x: onset.powers.x, scale: onset.scale, moved: moved[lane], turned: turned[lane] };
                 room.holds(&base.contacts[p])
             })
         })
@@ -49,7 +50,8 @@ impl System {
                 Coordinates::Floors => sizes[*left] + sizes[*right],
                 Coordinates::Modes => row.iter().zip(&*sizes).map(|(row, size)| row.abs() * size).sum(),
             };
-            let stays = |moved| Room { x: onset.powers.x, scale: onset.scale, moved, turned: 0.0 }.holds(contact);
+            let stays =
+                |moved| MotionBounds { x: onset.powers.x, scale: onset.scale, moved, turned: 0.0 }.holds(contact);
             let own = |(power, n)| self.pairs[p].relative(base.coordinates, onset.term(n)).abs() * power;
             stays(most) || stays(beyond.iter().zip(2..).map(own).sum())
         })
@@ -57,17 +59,17 @@ impl System {
 }
 
 /// How far a penetration and its derivative by x can get over 0..=x by their terms from x^2 on.
-struct Room {
+struct MotionBounds {
     x: f64,
     scale: f64,
     moved: f64,
     turned: f64,
 }
 
-impl Room {
+impl MotionBounds {
     /// Whether there is no room for an entry, a release or a change of branch within 0..=x.
     fn holds(&self, contact: &Contact) -> bool {
-        let &Room { x, scale, moved, turned } = self;
+        let &MotionBounds { x, scale, moved, turned } = self;
         let d = contact.penetration;
         let step_rate = contact.rate * scale;
         if !contact.in_contact() {

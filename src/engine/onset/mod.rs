@@ -13,7 +13,7 @@ use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::{At, Planned};
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::onset::series::{OnsetSeries, expand};
-use crate::engine::pairs::jacobian::{OnFloors, OnModes};
+use crate::engine::pairs::jacobian::{FloorJacobian, ModalJacobian};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 
@@ -35,9 +35,9 @@ impl System {
         onset.start(base, &self.pairs, grid, scale);
         let loads = (&work.load[..], &work.slope[..]);
         match base.coordinates {
-            Coordinates::Floors => expand(onset, &self.structure, base.coordinates, loads, &OnFloors),
+            Coordinates::Floors => expand(onset, &self.structure, base.coordinates, loads, &FloorJacobian),
             Coordinates::Modes => {
-                expand(onset, &self.structure, base.coordinates, loads, &OnModes(&self.pairs));
+                expand(onset, &self.structure, base.coordinates, loads, &ModalJacobian(&self.pairs));
             }
         }
         let accurate = self.onset_reach(base, onset, &grid);
@@ -47,7 +47,7 @@ impl System {
         };
         counters.contact_steps += 1;
         counters.law_evaluations += base.count_forces(Contact::branch);
-        planned.carried.fill(None);
+        planned.tracked.fill(None);
         planned.ends.clear();
         planned.event = None;
         planned.reaches_limit = x * scale >= remaining;
@@ -90,7 +90,7 @@ impl System {
         let mut last = [0.0; MOST_TERMS];
         grid.each(|index, exponent| {
             if exponent > HIGHEST - 1.0 - grid.beta {
-                last[index] = exponent * self.worst_floor(base.coordinates, onset.term(index));
+                last[index] = exponent * self.floor_norm(base.coordinates, onset.term(index));
             }
         });
         // The sum goes nearly as a power of x: a few secant steps in logarithms.

@@ -6,8 +6,8 @@ use crate::contact::onset::{Grid, GridPowers, MOST_TERMS, OnsetBlock, OnsetReadi
 use crate::contact::taylor::Kind;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::{Base, Coordinates, touching};
-use crate::engine::pairs::jacobian::Meeting;
-use crate::engine::pairs::packing::{Members, Place, most_blocks};
+use crate::engine::pairs::jacobian::ContactJacobian;
+use crate::engine::pairs::packing::{LanePlace, PackedPairs, most_blocks};
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
 use crate::structure::{LANES, Lane, Structure, sum_terms};
@@ -24,7 +24,7 @@ pub struct OnsetSeries {
     /// The pairs in contact, in blocks of one kind each; the first `used` are filled. There is room for all, but memory
     /// that no contact has needed yet is not touched.
     pub blocks: Vec<OnsetBlock>,
-    pub members: Vec<Members>,
+    pub members: Vec<PackedPairs>,
     pub used: usize,
     /// Block and lane of each contact.
     pub places: Vec<(usize, usize)>,
@@ -51,7 +51,7 @@ impl OnsetSeries {
             lanes,
             terms: vec![0.0; MOST_TERMS * lanes],
             blocks: Vec::with_capacity(most),
-            members: vec![Members::default(); most],
+            members: vec![PackedPairs::default(); most],
             used: 0,
             places: vec![(0, 0); pairs],
             scale: 1.0,
@@ -86,7 +86,7 @@ impl OnsetSeries {
         }
         for (p, contact) in touching(base) {
             let force = contact.branch();
-            let place = Place::of(&pairs[p], base.coordinates);
+            let place = LanePlace::of(&pairs[p], base.coordinates);
             let (b, lane) = self.room_for(&grid, Kind::of(&force), contact.is_singular(), place);
             self.blocks[b].add(lane, &force, scale, contact.penetration, contact.rate * scale);
             self.members[b].set(lane, p, &pairs[p], base.coordinates);
@@ -95,7 +95,7 @@ impl OnsetSeries {
     }
 
     /// Block and lane for a pair of a kind.
-    fn room_for(&mut self, grid: &Grid, kind: Kind, enters: bool, place: Place) -> (usize, usize) {
+    fn room_for(&mut self, grid: &Grid, kind: Kind, enters: bool, place: LanePlace) -> (usize, usize) {
         for b in (0..self.used).rev() {
             if self.blocks[b].is_of(kind, enters)
                 && let Some(lane) = self.members[b].free_lane(place)
@@ -160,12 +160,12 @@ fn has_singular_law(pairs: &[Pair]) -> bool {
 /// All terms, row by row: u_(i+2) from the force, load, damping and stiffness terms two powers of x below. Wide
 /// instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-pub fn expand<M: Meeting>(
+pub fn expand<M: ContactJacobian>(
     onset: &mut OnsetSeries,
     structure: &Structure,
     coordinates: Coordinates,
     loads: (&[f64], &[f64]),
-    meeting: &M,
+    jacobian: &M,
 ) {
     let Some(grid) = onset.grid else { return };
     for j in 0..grid.rows {
@@ -174,19 +174,19 @@ pub fn expand<M: Meeting>(
         }
         let first = if j == 0 { 2 } else { 1 };
         for i in first..=grid.last(j) {
-            extend(onset, structure, coordinates, loads, meeting, &grid, (i, j));
+            extend(onset, structure, coordinates, loads, jacobian, &grid, (i, j));
         }
     }
 }
 
 /// One term x^(i + beta j) of the motion.
 #[inline(always)]
-fn extend<M: Meeting>(
+fn extend<M: ContactJacobian>(
     onset: &mut OnsetSeries,
     structure: &Structure,
     coordinates: Coordinates,
     (load, slope): (&[f64], &[f64]),
-    meeting: &M,
+    jacobian: &M,
     grid: &Grid,
     (i, j): (usize, usize),
 ) {
@@ -217,10 +217,10 @@ fn extend<M: Meeting>(
         next.fill([0.0; LANES]);
     }
     for (block, members) in blocks.iter().zip(&onset.members) {
-        meeting.push(members, block.count, &block.force[here - 1].map(|force| factor * force), next);
+        jacobian.apply(members, block.count, &block.force[here - 1].map(|force| factor * force), next);
     }
     for (block, members) in blocks.iter_mut().zip(&onset.members) {
-        let values = meeting.relative(members, block.count, next);
+        let values = jacobian.relative(members, block.count, next);
         block.set_penetration(grid, i, j, values);
     }
 }

@@ -70,9 +70,9 @@ impl Model {
             let now = step.contact_at(&self.system, base, p, elapsed, &work.powers);
             point.note_contact(p, self.show(&now, now.penetration));
         }
-        if step.kind == StepKind::Unknown && base.contacts.iter().any(Contact::is_held) {
+        if step.kind == StepKind::NotPlanned && base.contacts.iter().any(Contact::is_held) {
             // An input that has just been set changes reactions at once.
-            self.system.balance(base, inputs, work);
+            self.system.solve_reactions(base, inputs, work);
             for (&k, &force) in work.rigid.pairs.iter().zip(&work.rigid.found) {
                 let p = self.system.rigid.pairs[k];
                 point.note_contact(p, ContactPoint { force, ..self.contact_in(base, point, p) });

@@ -125,7 +125,7 @@ impl Model {
         for ((next, load), resisted) in next.iter_mut().zip(load.iter()).zip(resisted.iter()) {
             *next = load + resisted;
         }
-        self.system.hold(rigid, next);
+        self.system.constrain(rigid, next);
         for (&k, rate) in rigid.pairs.iter().zip(&rigid.found) {
             contacts[self.system.rigid.pairs[k]].force[order] = *rate;
         }

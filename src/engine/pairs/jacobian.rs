@@ -1,39 +1,39 @@
 //! How contact forces and the motion meet: on floors, or on modes.
 
 use crate::contact::taylor::{Each, PAIRS};
-use crate::engine::pairs::packing::Members;
+use crate::engine::pairs::packing::PackedPairs;
 use crate::engine::pairs::pair::{Pair, apart};
 use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane, difference};
 
 /// How contact forces and the motion meet in its coordinates. `count` lanes of the members hold pairs.
-pub trait Meeting {
+pub trait ContactJacobian {
     /// Relative motions of the pairs.
-    fn relative(&self, members: &Members, count: usize, term: &[Lane]) -> Each;
+    fn relative(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each;
     /// The same, 0 where the floors move alike but for rounding.
-    fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each;
+    fn difference(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each;
     /// Adds what the forces do.
-    fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]);
+    fn apply(&self, members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]);
     /// The relative motions of many terms, each with where they are entered.
     #[inline(always)]
-    fn relate<'a>(&self, members: &Members, count: usize, terms: impl Iterator<Item = (&'a [Lane], &'a mut Each)>) {
+    fn relate<'a>(&self, members: &PackedPairs, count: usize, terms: impl Iterator<Item = (&'a [Lane], &'a mut Each)>) {
         terms.for_each(|(term, out)| *out = self.relative(members, count, term));
     }
     /// Adds what the forces do; returns the relative motions without that.
     #[inline(always)]
-    fn meet(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) -> Each {
+    fn relative_and_apply(&self, members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]) -> Each {
         let relative = self.relative(members, count, term);
-        self.push(members, count, forces, term);
+        self.apply(members, count, forces, term);
         relative
     }
 }
 
 /// The motion is that of the floors.
-pub struct OnFloors;
+pub struct FloorJacobian;
 
-impl Meeting for OnFloors {
+impl ContactJacobian for FloorJacobian {
     #[inline(always)]
-    fn relative(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
+    fn relative(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each {
         if let Some([left, right]) = members.between {
             let (left, right) = (&term[left], &term[right]);
             return each(|lane| left[lane] - right[lane]);
@@ -43,7 +43,7 @@ impl Meeting for OnFloors {
     }
 
     #[inline(always)]
-    fn relate<'a>(&self, members: &Members, count: usize, terms: impl Iterator<Item = (&'a [Lane], &'a mut Each)>) {
+    fn relate<'a>(&self, members: &PackedPairs, count: usize, terms: impl Iterator<Item = (&'a [Lane], &'a mut Each)>) {
         match members.between {
             // Told once for all terms.
             Some([left, right]) => {
@@ -53,7 +53,7 @@ impl Meeting for OnFloors {
         }
     }
 
-    fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
+    fn difference(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each {
         if let Some([left, right]) = members.between {
             return each(|lane| apart(term[left][lane], term[right][lane]));
         }
@@ -62,15 +62,15 @@ impl Meeting for OnFloors {
     }
 
     #[inline(always)]
-    fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) {
-        self.meet(members, count, forces, term);
+    fn apply(&self, members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]) {
+        self.relative_and_apply(members, count, forces, term);
     }
 
     #[inline(always)]
-    fn meet(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) -> Each {
+    fn relative_and_apply(&self, members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]) -> Each {
         let Some(blocks) = members.between else {
             let relative = self.relative(members, count, term);
-            OnFloors::push_floors(members, count, forces, term);
+            FloorJacobian::push_floors(members, count, forces, term);
             return relative;
         };
         let Ok([left, right]) = term.get_disjoint_mut(blocks) else { return [0.0; PAIRS] };
@@ -81,9 +81,9 @@ impl Meeting for OnFloors {
     }
 }
 
-impl OnFloors {
+impl FloorJacobian {
     #[inline(always)]
-    fn push_floors(members: &Members, count: usize, forces: &Each, term: &mut [Lane]) {
+    fn push_floors(members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]) {
         let term = term.as_flattened_mut();
         for (lane, (floors, force)) in members.floors.iter().zip(forces).enumerate().take(count) {
             for (floor, inverse_masses) in floors.iter().zip(&members.inverse_masses) {
@@ -95,11 +95,11 @@ impl OnFloors {
 
 /// The motion is that of modes that are few enough for the members to know all of them; of use for all lanes, those of
 /// riders too.
-pub struct OnFewModes;
+pub struct PackedModalJacobian;
 
-impl Meeting for OnFewModes {
+impl ContactJacobian for PackedModalJacobian {
     #[inline(always)]
-    fn relative(&self, members: &Members, _: usize, term: &[Lane]) -> Each {
+    fn relative(&self, members: &PackedPairs, _: usize, term: &[Lane]) -> Each {
         // All pairs together, which needs no sum across lanes.
         let mut sums = [[0.0; PAIRS]; 2];
         let (modes, _) = members.by_mode.as_chunks::<LANES>();
@@ -111,12 +111,12 @@ impl Meeting for OnFewModes {
         each(|i| sums[0][i] + sums[1][i])
     }
 
-    fn difference(&self, members: &Members, _: usize, term: &[Lane]) -> Each {
+    fn difference(&self, members: &PackedPairs, _: usize, term: &[Lane]) -> Each {
         lane_by_lane(PAIRS, |lane| difference(members.rows[lane].as_flattened(), term.as_flattened()).0)
     }
 
     #[inline(always)]
-    fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) {
+    fn apply(&self, members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]) {
         for (row, force) in members.rows.iter().zip(forces).take(count) {
             push_blocks(row, *force, term);
         }
@@ -124,27 +124,27 @@ impl Meeting for OnFewModes {
 }
 
 /// The motion is that of the modes.
-pub struct OnModes<'a>(pub &'a [Pair]);
+pub struct ModalJacobian<'a>(pub &'a [Pair]);
 
-impl OnModes<'_> {
+impl ModalJacobian<'_> {
     #[inline(always)]
     fn row(&self, pair: usize) -> &[Lane] {
         self.0[pair].row.as_chunks::<LANES>().0
     }
 }
 
-impl Meeting for OnModes<'_> {
+impl ContactJacobian for ModalJacobian<'_> {
     #[inline(always)]
-    fn relative(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
+    fn relative(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each {
         lane_by_lane(count, |lane| dot_blocks(self.row(members.pairs[lane]), term))
     }
 
-    fn difference(&self, members: &Members, count: usize, term: &[Lane]) -> Each {
+    fn difference(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each {
         lane_by_lane(count, |lane| difference(&self.0[members.pairs[lane]].row, term.as_flattened()).0)
     }
 
     #[inline(always)]
-    fn push(&self, members: &Members, count: usize, forces: &Each, term: &mut [Lane]) {
+    fn apply(&self, members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]) {
         for (pair, force) in members.pairs.iter().zip(forces).take(count) {
             push_blocks(self.row(*pair), *force, term);
         }

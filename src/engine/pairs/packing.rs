@@ -7,7 +7,7 @@ use crate::structure::{FEW_BLOCKS, LANES, Lane};
 
 /// Which block of a kind a pair belongs to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Place {
+pub enum LanePlace {
     /// Any that has a free lane.
     #[default]
     Any,
@@ -20,22 +20,22 @@ pub enum Place {
     },
 }
 
-impl Place {
+impl LanePlace {
     /// Of a pair.
-    pub fn of(pair: &Pair, coordinates: Coordinates) -> Place {
+    pub fn of(pair: &Pair, coordinates: Coordinates) -> LanePlace {
         let [left, right] = pair.lanes;
         match coordinates {
             Coordinates::Floors if left % LANES == right % LANES => {
-                Place::Between { blocks: [left / LANES, right / LANES], lane: left % LANES }
+                LanePlace::Between { blocks: [left / LANES, right / LANES], lane: left % LANES }
             }
-            _ => Place::Any,
+            _ => LanePlace::Any,
         }
     }
 }
 
 /// The pairs of a block, lane by lane; lanes without a pair hold what was there before.
 #[derive(Clone, Debug, Default)]
-pub struct Members {
+pub struct PackedPairs {
     /// Their numbers.
     pub pairs: [usize; PAIRS],
     /// Which lanes hold a pair.
@@ -56,23 +56,23 @@ pub struct Members {
     pub by_mode: [Each; FEW_BLOCKS * LANES],
 }
 
-impl Members {
+impl PackedPairs {
     /// Starts without a pair; returns the lane of the first, which belongs to a place.
-    pub fn start(&mut self, place: Place) -> usize {
+    pub fn start(&mut self, place: LanePlace) -> usize {
         self.taken = [false; PAIRS];
         let (between, lane) = match place {
-            Place::Any => (None, 0),
-            Place::Between { blocks, lane } => (Some(blocks), lane),
+            LanePlace::Any => (None, 0),
+            LanePlace::Between { blocks, lane } => (Some(blocks), lane),
         };
         self.between = between;
         lane
     }
 
     /// The lane for another pair, if there is room.
-    pub fn free_lane(&self, place: Place) -> Option<usize> {
+    pub fn free_lane(&self, place: LanePlace) -> Option<usize> {
         match place {
-            Place::Any if self.between.is_none() => self.taken.iter().position(|taken| !taken),
-            Place::Between { blocks, lane } if self.between == Some(blocks) && !self.taken[lane] => Some(lane),
+            LanePlace::Any if self.between.is_none() => self.taken.iter().position(|taken| !taken),
+            LanePlace::Between { blocks, lane } if self.between == Some(blocks) && !self.taken[lane] => Some(lane),
             _ => None,
         }
     }

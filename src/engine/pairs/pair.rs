@@ -79,7 +79,7 @@ impl Pair {
             penetration,
             rate,
             at_surface: penetration == 0.0,
-            carried: false,
+            tracked: false,
             let_go: false,
             undecided: false,
             reaction: 0.0,

@@ -27,7 +27,7 @@ impl Contact {
     /// the rounding error that is left.
     pub fn begin_flight(&self, terms: &mut [f64], scale: f64, noise: f64) -> f64 {
         terms[0] = self.flight_start();
-        if !self.carried {
+        if !self.tracked {
             return noise;
         }
         terms[1] = self.rate * scale;

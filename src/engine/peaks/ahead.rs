@@ -1,7 +1,7 @@
 //! For how many segments of the record nothing can exceed its peak.
 //!
-//! With the amplitude e = sqrt(q'^2 + w^2 q^2) of each mode, which grows by no more than |participation| S in a shaking
-//! S = integral of |ground acceleration| (see `flight/broad_phase.rs`), a quantity y = A q + B q' is bounded by sums over modes:
+//! With the amplitude e = sqrt(q'^2 + w^2 q^2) of each mode, which grows by no more than |participation| S over a cumulative absolute
+//! velocity S = integral of |ground acceleration| (see `flight/broad_phase.rs`), a quantity y = A q + B q' is bounded by sums over modes:
 //!
 //! ```text
 //! |y|   <= sum of (|A| / w + |B|) e
@@ -41,7 +41,7 @@ struct Amplitudes<'a> {
     damping: &'a [f64],
 }
 
-/// The bounds on |y|, |y'| and |y''| without more shaking.
+/// The bounds on |y|, |y'| and |y''| while the ground does not accelerate.
 #[derive(Default)]
 struct Reach {
     swing: Lane,
@@ -95,7 +95,7 @@ impl Model {
     #[inline(never)]
     fn bound_ahead(&self, ground: &GroundMotion, base: &Base, segment: u64, work: &mut PeakWork) {
         let ahead = ground.ahead_of(segment);
-        let shaking = [SHORT, LONG].map(|segments| ahead.over(segments).1);
+        let cumulative = [SHORT, LONG].map(|segments| ahead.over(segments).1);
         let (strongest, steepest) = ahead.largest(SHORT);
         let values = base.peaks.values.as_chunks::<LANES>().0;
         let longest = ahead.longest(SHORT);
@@ -107,19 +107,20 @@ impl Model {
                 let watched = &mut work.peaks.watch.blocks[building.first + b];
                 let Reach { swing, rate, bend } = reach(block, &amplitudes);
                 let (peaks, growth) = (&values[building.first + b], &block.growth);
-                let most = |shaking: f64| each(|i| (1.0 + MARGIN) * (swing[i] + growth.swing[i] * shaking));
+                let most = |cumulative: f64| each(|i| (1.0 + MARGIN) * (swing[i] + growth.swing[i] * cumulative));
                 let is_below = |most: Lane| (0..LANES).all(|i| most[i] <= peaks[i]);
                 watched.clear_until = segment;
-                if is_below(most(shaking[1])) {
+                if is_below(most(cumulative[1])) {
                     watched.clear_until = segment + LONG;
-                } else if is_below(most(shaking[0])) {
+                } else if is_below(most(cumulative[0])) {
                     watched.clear_until = segment + SHORT;
                 }
-                watched.rate =
-                    each(|i| (1.0 + MARGIN) * (rate[i] + growth.rate[i] * shaking[0] + growth.at_once[i] * strongest));
+                watched.rate = each(|i| {
+                    (1.0 + MARGIN) * (rate[i] + growth.rate[i] * cumulative[0] + growth.at_once[i] * strongest)
+                });
                 watched.sag = each(|i| {
                     let pushed = growth.pushed[i] * strongest + growth.at_once[i] * steepest;
-                    (1.0 + MARGIN) * sag * (bend[i] + growth.bend[i] * shaking[0] + pushed)
+                    (1.0 + MARGIN) * sag * (bend[i] + growth.bend[i] * cumulative[0] + pushed)
                 });
             }
         }

@@ -16,15 +16,21 @@ const STILL: f64 = 3e-14;
 
 impl System {
     /// A rigid pair meets: an impulse, or where it has no speed left the floors stay together.
-    pub fn meet(&self, base: &mut Base, first: usize, work: &mut Buffers, on_episode: &mut dyn FnMut(&Episode)) {
+    pub fn resolve_contact(
+        &self,
+        base: &mut Base,
+        first: usize,
+        work: &mut Buffers,
+        on_episode: &mut dyn FnMut(&Episode),
+    ) {
         let (approach, still) = self.approach(base, first);
         let contact = &mut base.contacts[first];
         contact.penetration = 0.0;
         contact.at_surface = true;
         if approach > still {
-            self.collide(base, first, work, on_episode);
+            self.apply_impulses(base, first, work, on_episode);
         } else {
-            self.join(base, first, work);
+            self.begin_persistent(base, first, work);
         }
     }
 
@@ -32,12 +38,12 @@ impl System {
     fn approach(&self, base: &Base, p: usize) -> (f64, f64) {
         let contact = &base.contacts[p];
         let (rate, size) = self.pairs[p].difference(base.coordinates, &base.v);
-        let rate = if contact.carried || contact.is_held() { contact.rate } else { rate };
+        let rate = if contact.tracked || contact.is_held() { contact.rate } else { rate };
         (rate, STILL * size)
     }
 
     /// The impulses of all rigid pairs that meet now, when one does.
-    fn collide(&self, base: &mut Base, first: usize, work: &mut Buffers, on_episode: &mut dyn FnMut(&Episode)) {
+    fn apply_impulses(&self, base: &mut Base, first: usize, work: &mut Buffers, on_episode: &mut dyn FnMut(&Episode)) {
         let rigid = &mut work.rigid;
         rigid.clear();
         for (k, &p) in self.rigid.pairs.iter().enumerate() {
@@ -74,7 +80,7 @@ impl System {
     /// Whether a rigid pair stands at the surface now.
     fn is_closed(&self, base: &Base, p: usize) -> bool {
         let (contact, pair) = (&base.contacts[p], &self.pairs[p]);
-        let noise = if contact.carried { 0.0 } else { pair.noise(pair.difference(base.coordinates, &base.q).1) };
+        let noise = if contact.tracked { 0.0 } else { pair.noise(pair.difference(base.coordinates, &base.q).1) };
         contact.is_held() || contact.at_surface || contact.penetration >= -noise
     }
 
@@ -101,7 +107,7 @@ impl System {
         contact.rate = -restitution * approach;
         contact.penetration = 0.0;
         contact.at_surface = true;
-        contact.carried = true;
+        contact.tracked = true;
         contact.impacts += 1;
         contact.impulse += impulse;
         contact.work += lost;
@@ -132,18 +138,18 @@ impl System {
     }
 
     /// Two rigid floors stay together from now on.
-    fn join(&self, base: &mut Base, p: usize, work: &mut Buffers) {
+    fn begin_persistent(&self, base: &mut Base, p: usize, work: &mut Buffers) {
         let time = base.time();
         let contact = &mut base.contacts[p];
         contact.rate = 0.0;
         contact.begin(time, 0.0);
         contact.phase = Phase::Held;
         contact.reaction = 0.0;
-        contact.carried = false;
+        contact.tracked = false;
         contact.undecided = contact.let_go;
         contact.let_go = false;
         base.impacts += 1;
         base.last_length = 0.0;
-        self.keep_together(base, work);
+        self.project_constraints(base, work);
     }
 }

@@ -9,7 +9,7 @@ use crate::structure::{difference, dot};
 
 impl System {
     /// Takes out of the motion what rounding has moved floors apart that are held together.
-    pub fn keep_together(&self, base: &mut Base, work: &mut Buffers) {
+    pub fn project_constraints(&self, base: &mut Base, work: &mut Buffers) {
         if !self.rigid.pairs.iter().any(|&p| base.contacts[p].is_held()) {
             return;
         }
@@ -37,7 +37,7 @@ impl System {
 
     /// The modal accelerations at the base, in `work.q`, with every contact force; the reactions stay in `work.rigid`.
     /// Returns a pair that is held together but moves apart.
-    pub fn balance(&self, base: &Base, inputs: &Inputs, work: &mut Buffers) -> Option<usize> {
+    pub fn solve_reactions(&self, base: &Base, inputs: &Inputs, work: &mut Buffers) -> Option<usize> {
         self.load(base, inputs, &mut work.load, &mut work.slope);
         work.node_q.copy_from_slice(&work.load);
         for (p, contact) in touching(base) {
@@ -64,7 +64,7 @@ impl System {
 
     /// Keeps floors together that are held: adds the reactions' part to the modal accelerations of one power. The
     /// reactions stay in `rigid.found`.
-    pub fn hold(&self, rigid: &mut Complementarity, acceleration: &mut [f64]) {
+    pub fn constrain(&self, rigid: &mut Complementarity, acceleration: &mut [f64]) {
         if rigid.pairs.is_empty() {
             return;
         }

@@ -1,7 +1,7 @@
 //! Rigid pairs near the surface: how long a step may be until the next rebound, and where they get to in it.
 
 use crate::engine::base::contact::Contact;
-use crate::engine::base::planned::{Carried, Event};
+use crate::engine::base::planned::{Event, Tracked};
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::pairs::pair::Pair;
@@ -10,7 +10,7 @@ use crate::engine::system::buffers::Buffers;
 use crate::numerics::powers::Powers;
 use crate::structure::{MotionSeries, dot};
 
-/// A rigid pair is carried by its own increments up to this many rounding errors of its penetration from the surface.
+/// A rigid pair is tracked by its own increments up to this many rounding errors of its penetration from the surface.
 const CLOSE: f64 = 1e6;
 
 /// Share of the time left for which floors are held together that rounding cannot tell from free ones.
@@ -19,8 +19,8 @@ const SHORT_WHILE: f64 = 1e-3;
 impl System {
     /// How long a step may be, s, so that the next bounce of every pair near the surface is a good part of it; with the
     /// modal accelerations at the base.
-    pub fn bounce_horizon(&self, base: &Base, acceleration: &[f64]) -> f64 {
-        let apart = base.contacts.iter().zip(&self.pairs).filter(|(contact, _)| contact.carried);
+    pub fn rebound_step_limit(&self, base: &Base, acceleration: &[f64]) -> f64 {
+        let apart = base.contacts.iter().zip(&self.pairs).filter(|(contact, _)| contact.tracked);
         let bounce = |(contact, pair): (&Contact, &Pair)| {
             4.0 * time_to_surface(contact.penetration, contact.rate, dot(&pair.row, acceleration))
         };
@@ -40,11 +40,11 @@ impl System {
             work.rigid.clear();
             return Ok((remaining, false));
         }
-        if let Some(p) = self.balance(base, inputs, work) {
+        if let Some(p) = self.solve_reactions(base, inputs, work) {
             return Err(Event::Release(p));
         }
         work.rigid.close_all(&self.rigid.matrix);
-        let mut time = self.bounce_horizon(base, &work.q);
+        let mut time = self.rebound_step_limit(base, &work.q);
         if base.contacts.iter().any(|contact| contact.undecided) {
             time = time.min(SHORT_WHILE * remaining);
         }
@@ -53,22 +53,22 @@ impl System {
 
     /// Whether rigid floors are held together, or are about to meet again.
     pub fn has_close_rigid_pair(&self, base: &Base) -> bool {
-        self.rigid.pairs.iter().any(|&p| base.contacts[p].is_held() || base.contacts[p].carried)
+        self.rigid.pairs.iter().any(|&p| base.contacts[p].is_held() || base.contacts[p].tracked)
     }
 
-    /// Where the pairs that are carried get to at the x of the powers of a series in time.
-    pub fn carry(
+    /// Where the pairs that are tracked get to at the x of the powers of a series in time.
+    pub fn track(
         &self,
         base: &Base,
         series: &MotionSeries,
         powers: &Powers,
         scalar: &mut [f64],
-        carried: &mut Carried,
+        tracked: &mut Tracked,
     ) {
-        carried.fill(None);
+        tracked.fill(None);
         for &p in &self.rigid.pairs {
             let (contact, pair) = (&base.contacts[p], &self.pairs[p]);
-            carried[p] = contact.carried.then(|| {
+            tracked[p] = contact.tracked.then(|| {
                 let terms = &mut scalar[..=series.order];
                 let noise = pair.noise(pair.project(base.coordinates, series, powers.in_time().0, terms));
                 contact.begin_flight(terms, series.scale, noise);
@@ -78,7 +78,7 @@ impl System {
         }
     }
 
-    /// Whether a pair at this penetration, m, is still to be carried.
+    /// Whether a pair at this penetration, m, is still to be tracked.
     pub fn is_close(&self, p: usize, penetration: f64, coordinates: Coordinates, q: &[f64]) -> bool {
         penetration > -CLOSE * self.pairs[p].noise(self.pairs[p].difference(coordinates, q).1)
     }

@@ -28,11 +28,11 @@ pub struct Step {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepKind {
     /// Not worked out yet.
-    Unknown,
+    NotPlanned,
     Flight,
     /// A flight over a whole segment for which every pair has been dismissed; its end has not been worked out.
-    Glide,
-    Contact,
+    Deferred,
+    Taylor,
     /// In contact, the first step after an entry under a power law.
     Onset,
     /// In contact, few pairs under power laws.
@@ -54,7 +54,7 @@ impl Step {
     /// None yet, with room for any.
     pub fn new(system: &System) -> Step {
         Step {
-            kind: StepKind::Unknown,
+            kind: StepKind::NotPlanned,
             planned: Planned::new(system.structure.lanes, system.pairs.len()),
             taylor: Solution::new(system),
             onset: OnsetSeries::new(system),
@@ -63,18 +63,18 @@ impl Step {
     }
 
     pub fn is_flight(&self) -> bool {
-        matches!(self.kind, StepKind::Flight | StepKind::Glide)
+        matches!(self.kind, StepKind::Flight | StepKind::Deferred)
     }
 
     pub fn is_in_contact(&self) -> bool {
-        matches!(self.kind, StepKind::Contact | StepKind::Onset | StepKind::Window)
+        matches!(self.kind, StepKind::Taylor | StepKind::Onset | StepKind::Window)
     }
 
     /// What it knows of the motion; of one that has not been worked out, what a flight does.
     pub fn dense(&self) -> Dense<'_> {
         match self.kind {
-            StepKind::Unknown | StepKind::Flight | StepKind::Glide => Dense::Flight,
-            StepKind::Contact => Dense::Taylor(&self.taylor),
+            StepKind::NotPlanned | StepKind::Flight | StepKind::Deferred => Dense::Flight,
+            StepKind::Taylor => Dense::Taylor(&self.taylor),
             StepKind::Onset => Dense::Onset(&self.onset),
             StepKind::Window => Dense::Window(&self.window, &self.taylor.series),
         }
@@ -120,19 +120,19 @@ impl Step {
         (q, v): (&mut [f64], &mut [f64]),
     ) -> bool {
         // Far below what a series reaches, so that what damping takes forwards is not given back as rounding.
-        const NEAR: f64 = 1e-6;
+        const NEARLY_OVER: f64 = 1e-6;
         let length = match self.kind {
             StepKind::Flight => self.planned.length,
-            StepKind::Glide => base.segment.length,
+            StepKind::Deferred => base.segment.length,
             _ => return false,
         };
         let left = length - elapsed;
         let reach = system.structure.fastest * left;
-        if !(system.structure.is_classical() && left > 0.0 && reach <= NEAR) {
+        if !(system.structure.is_classical() && left > 0.0 && reach <= NEARLY_OVER) {
             return false;
         }
         let Some(order) = exact_order(reach) else { return false };
-        let end = if self.kind == StepKind::Glide {
+        let end = if self.kind == StepKind::Deferred {
             let (mut end_q, mut end_v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
             system.fly(base, length, work, (&mut end_q, &mut end_v));
             (work.q, work.v) = (end_q, end_v);

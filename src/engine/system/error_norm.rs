@@ -6,7 +6,7 @@ use crate::structure::LANES;
 
 impl System {
     /// Largest floor displacement, velocity ... of a vector of motion; of modes, that any one of them stands for.
-    pub fn worst_floor(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
+    pub fn floor_norm(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
         match coordinates {
             Coordinates::Floors => largest_of(motion, |_, size| size),
             Coordinates::Modes => {
@@ -18,7 +18,7 @@ impl System {
 
     /// The velocity that contact errors are measured against: of the floors, or what the springs can give them.
     pub fn present_velocity(&self, base: &Base) -> f64 {
-        let floors = self.worst_floor(base.coordinates, &base.v);
+        let floors = self.floor_norm(base.coordinates, &base.v);
         // What is stored later comes from the motion that has been seen.
         if base.last_length > 0.0 {
             return floors;

@@ -3,7 +3,7 @@
 use crate::contact::taylor::{Kind, PAIRS, PairBlock};
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
-use crate::engine::pairs::packing::Place;
+use crate::engine::pairs::packing::LanePlace;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::taylor::closed_pairs::ClosedPairs;
 
@@ -29,7 +29,7 @@ impl ClosedPairs {
             let kind = Kind::of(&force);
             // A spring of that law's exponent is a root law without damping: better than a block of its own beside it.
             let joint = if has_roots && force.is_like_root() { Kind::Root } else { kind };
-            let (b, lane) = self.room_for(joint, Place::of(&pairs[p], base.coordinates));
+            let (b, lane) = self.room_for(joint, LanePlace::of(&pairs[p], base.coordinates));
             self.members[b].set(lane, p, &pairs[p], base.coordinates);
             self.blocks[b].count = self.blocks[b].count.max(lane + 1);
             self.places[p] = (b, lane);
@@ -74,7 +74,7 @@ impl ClosedPairs {
     }
 
     /// Block and lane for a pair of a kind: mostly in the newest block.
-    fn room_for(&mut self, kind: Kind, place: Place) -> (usize, usize) {
+    fn room_for(&mut self, kind: Kind, place: LanePlace) -> (usize, usize) {
         for b in (0..self.used).rev() {
             if self.blocks[b].kind() == kind
                 && let Some(lane) = self.members[b].free_lane(place)

@@ -3,9 +3,9 @@
 use crate::contact::taylor::{Any, BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
 use crate::engine::base::Coordinates;
 use crate::engine::base::contact::Contact;
-use crate::engine::pairs::packing::{Members, most_blocks};
+use crate::engine::pairs::packing::{PackedPairs, most_blocks};
 use crate::engine::pairs::pair::Pair;
-use crate::engine::taylor::open_pairs::Course;
+use crate::engine::taylor::open_pairs::PenetrationBounds;
 use crate::numerics::polynomial::{Coefficients, each};
 use crate::numerics::powers::{Powers, Reading};
 use crate::numerics::roots;
@@ -17,7 +17,7 @@ use crate::structure::MotionSeries;
 pub struct ClosedPairs {
     /// The first `used` are filled. There is room for all, but memory that no contact has needed yet is not touched.
     pub blocks: Vec<PairBlock>,
-    pub members: Vec<Members>,
+    pub members: Vec<PackedPairs>,
     pub readings: Vec<BlockReading>,
     /// Whether a pair of the block has just entered without any speed: where its floors move alike, its penetration is
     /// rounding.
@@ -39,7 +39,7 @@ pub struct ClosedPairs {
 }
 
 /// Blocks of pairs, and which pairs stand in them.
-pub type Blocks<'a> = (&'a mut [PairBlock], &'a [Members]);
+pub type Blocks<'a> = (&'a mut [PairBlock], &'a [PackedPairs]);
 
 /// What a block comes to at the end of a step.
 pub struct BlockEnd {
@@ -57,7 +57,7 @@ impl ClosedPairs {
         let most = most_blocks(pairs, 5, on_floors);
         ClosedPairs {
             blocks: Vec::with_capacity(most),
-            members: vec![Members::default(); most],
+            members: vec![PackedPairs::default(); most],
             readings: vec![BlockReading::default(); most],
             at_surface: vec![false; most],
             neighbours: (0..pairs).map(|p| (0..p).filter(|&q| shares(&all[p], &all[q])).collect()).collect(),
@@ -72,9 +72,9 @@ impl ClosedPairs {
     }
 
     /// How they go up to the end of the step.
-    pub fn course_of_riders(&self) -> Course {
+    pub fn bounds_of_riders(&self) -> PenetrationBounds {
         let (PairBlock { penetration: terms, .. }, end) = (&self.blocks[0], &self.readings[0]);
-        Course { start: [terms[0], terms[1]], end: [end.penetration, end.slope], fourth: end.fourth }
+        PenetrationBounds { start: [terms[0], terms[1]], end: [end.penetration, end.slope], fourth: end.fourth }
     }
 
     /// The pairs that are apart and ride along in the first block, with their lanes: all of them, or none.
@@ -94,7 +94,7 @@ impl ClosedPairs {
 
     /// The block of all pairs where they fit into one and are under linear laws: its members, whether one of them has just
     /// entered without any speed, and whether the penetrations have to wait for all forces.
-    pub fn only_linear_block(&mut self) -> Option<(&mut PairBlock, &Members, bool, bool)> {
+    pub fn only_linear_block(&mut self) -> Option<(&mut PairBlock, &PackedPairs, bool, bool)> {
         self.count_linear()?;
         Some((&mut self.blocks[0], &self.members[0], self.at_surface[0], self.waits))
     }
@@ -209,7 +209,7 @@ impl ClosedPairs {
 
     /// Enters power n of the penetrations, from the members of a block, its lanes that hold pairs, and whether one of them may
     /// have just entered without any speed.
-    pub fn set_blocks(&mut self, n: usize, mut values: impl FnMut(&Members, usize, bool) -> Each) {
+    pub fn set_blocks(&mut self, n: usize, mut values: impl FnMut(&PackedPairs, usize, bool) -> Each) {
         let blocks = self.blocks.iter_mut().zip(&self.members).zip(&self.at_surface);
         for ((block, members), at_surface) in blocks.take(self.used) {
             let values = values(members, block.count, *at_surface);

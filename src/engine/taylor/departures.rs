@@ -32,7 +32,7 @@ impl System {
             }
         }
         for &p in self.rigid.pairs.iter().filter(|&&p| base.contacts[p].is_held() && !base.contacts[p].undecided) {
-            first = self.letting_go(p, solution, work, until(first, solution)).or(first);
+            first = self.first_detachment(p, solution, work, until(first, solution)).or(first);
         }
         first
     }
@@ -136,7 +136,7 @@ impl System {
     }
 
     /// Where the reaction of a pair that is held together falls to 0 in 0..=end of its series.
-    fn letting_go(&self, p: usize, solution: &Solution, work: &mut Buffers, end: f64) -> Option<(f64, Event)> {
+    fn first_detachment(&self, p: usize, solution: &Solution, work: &mut Buffers, end: f64) -> Option<(f64, Event)> {
         let k = self.rigid.pairs.iter().position(|&pair| pair == p)?;
         let noise = self.acceleration_noise(p, &solution.series, end) / self.rigid.matrix[(k, k)];
         let force = &solution.reactions[k][..=solution.reaction_order];

@@ -5,7 +5,7 @@ use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::Event;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
-use crate::engine::taylor::open_pairs::Course;
+use crate::engine::taylor::open_pairs::PenetrationBounds;
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::powers::Powers;
 use crate::numerics::roots;
@@ -20,7 +20,7 @@ impl System {
         }
         let Solution { open, closed, series, end, substitution, .. } = solution;
         if !closed.riders().is_empty() {
-            let course = closed.course_of_riders();
+            let course = closed.bounds_of_riders();
             return self.first_of_lanes(
                 base,
                 closed.riders().iter().copied(),
@@ -32,7 +32,7 @@ impl System {
         open.assign(&self.pairs, base.coordinates);
         open.follow(base, &self.pairs, (series, substitution), end, &mut work.node_q);
         let mut first = None;
-        for (block, course) in open.apart.iter().zip(&open.courses) {
+        for (block, course) in open.apart.iter().zip(&open.bounds) {
             first = self.first_of_lanes(
                 base,
                 open.members[*block].lanes(),
@@ -50,13 +50,13 @@ impl System {
         &self,
         base: &Base,
         lanes: impl Iterator<Item = (usize, usize)>,
-        course: &Course,
+        course: &PenetrationBounds,
         ((series, substitution), end, work): ((&MotionSeries, &Substitution), &mut Powers, &mut Buffers),
         mut first: Option<(f64, Event)>,
     ) -> Option<(f64, Event)> {
         let stays_apart = course.stays_apart(end.x);
         // Of a pair at the surface, or next to it, more digits are known than the motion tells.
-        let is_sure = |lane: usize, contact: &Contact| stays_apart[lane] && !contact.at_surface && !contact.carried;
+        let is_sure = |lane: usize, contact: &Contact| stays_apart[lane] && !contact.at_surface && !contact.tracked;
         let may_meet = |&(lane, p): &(usize, usize)| {
             let contact = &base.contacts[p];
             !contact.in_contact() && !is_sure(lane, contact)

@@ -2,7 +2,7 @@
 
 use crate::contact::taylor::PAIRS;
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::pairs::jacobian::{OnFewModes, OnFloors, OnModes};
+use crate::engine::pairs::jacobian::{FloorJacobian, ModalJacobian, PackedModalJacobian};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::closed_pairs::ClosedPairs;
@@ -28,19 +28,15 @@ impl System {
         let Solution { series, closed, .. } = solution;
         match base.coordinates {
             Coordinates::Floors => {
-                with_forces!(closed, [Linear, Spring, Damped, Root], false, OnFloors, |forces| series.expand_floors(
-                    &structure.floors,
-                    order,
-                    loads,
-                    forces
-                ));
+                with_forces!(closed, [Linear, Spring, Damped, Root], false, FloorJacobian, |forces| series
+                    .expand_floors(&structure.floors, order, loads, forces));
             }
             Coordinates::Modes if structure.is_classical() && work.rigid.pairs.is_empty() => {
                 if base.q.len() > FEW_BLOCKS * LANES {
-                    with_forces!(closed, [], false, OnModes(&self.pairs), |forces| series
+                    with_forces!(closed, [], false, ModalJacobian(&self.pairs), |forces| series
                         .expand_modes(structure, order, loads, forces));
                 } else if !self.expand_linear(series, closed, order, loads) {
-                    with_forces!(closed, [Spring, Damped, Root], true, OnFewModes, |forces| series
+                    with_forces!(closed, [Spring, Damped, Root], true, PackedModalJacobian, |forces| series
                         .expand_few_modes(structure, order, loads, forces));
                 }
             }
@@ -111,7 +107,7 @@ impl System {
             }
             closed.each_force(n, |p, force| self.push_apart_by(p, Coordinates::Modes, force, out));
         };
-        series.extend(&self.structure, load_of_power, |acceleration| self.hold(rigid, acceleration));
+        series.extend(&self.structure, load_of_power, |acceleration| self.constrain(rigid, acceleration));
         for (&k, reaction) in rigid.pairs.iter().zip(&rigid.found) {
             reactions[k][n] = *reaction;
         }

@@ -54,7 +54,7 @@ impl System {
         planned.length = if planned.reaches_limit { remaining } else { solution.series.time(solution.end.x) };
         planned.next_length = Some(solution.series.time(reach));
         planned.ends.clear();
-        self.carry(base, &solution.series, &solution.end, &mut work.scalar, &mut planned.carried);
+        self.track(base, &solution.series, &solution.end, &mut work.scalar, &mut planned.tracked);
         for (reaction, &p) in solution.reactions.iter().zip(&self.rigid.pairs) {
             if base.contacts[p].is_held() {
                 base.contacts[p].reaction = reaction[0];

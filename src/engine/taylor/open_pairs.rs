@@ -3,8 +3,8 @@
 use crate::contact::taylor::{Each, PAIRS};
 use crate::engine::base::contact::Contact;
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::pairs::jacobian::{Meeting, OnFewModes, OnFloors, OnModes};
-use crate::engine::pairs::packing::{Members, Place, most_blocks};
+use crate::engine::pairs::jacobian::{ContactJacobian, FloorJacobian, ModalJacobian, PackedModalJacobian};
+use crate::engine::pairs::packing::{LanePlace, PackedPairs, most_blocks};
 use crate::engine::pairs::pair::Pair;
 use crate::numerics::polynomial::{MAX_TERMS, each};
 use crate::numerics::powers::Powers;
@@ -13,7 +13,7 @@ use crate::structure::{FEW_BLOCKS, LANES, MotionSeries};
 
 /// A block of pairs over a step, by the x of its powers.
 #[derive(Clone, Debug, Default)]
-pub struct Course {
+pub struct PenetrationBounds {
     /// Penetrations at the start, m, and their derivatives.
     pub start: [Each; 2],
     /// The same at the end.
@@ -22,11 +22,11 @@ pub struct Course {
     pub fourth: Each,
 }
 
-impl Course {
+impl PenetrationBounds {
     /// Of block `i` of `width`, from so many powers of their relative displacements: all of one power, then those of the
     /// next.
     #[inline(always)]
-    fn of(terms: &[Each], (i, width): (usize, usize), count: usize, powers: &Powers, gap: &Each) -> Course {
+    fn of(terms: &[Each], (i, width): (usize, usize), count: usize, powers: &Powers, gap: &Each) -> PenetrationBounds {
         let ((values, slopes, fourths), term) = (powers.all(), |n: usize| &terms[n * width + i]);
         let (first, rate) = (term(0), *term(1));
         let (mut later, mut slope, mut fourth) = ([0.0; PAIRS], [0.0; PAIRS], [0.0; PAIRS]);
@@ -38,7 +38,7 @@ impl Course {
         }
         let start = each(|i| first[i] - gap[i]);
         let end = each(|i| start[i] + (rate[i] * powers.x + later[i]));
-        Course { start: [start, rate], end: [end, each(|i| rate[i] + slope[i])], fourth }
+        PenetrationBounds { start: [start, rate], end: [end, each(|i| rate[i] + slope[i])], fourth }
     }
 
     /// Which pairs certainly stay apart up to x: the penetration is as near to its cubic interpolant as its fourth
@@ -60,7 +60,7 @@ impl Course {
 #[derive(Clone, Debug)]
 pub struct OpenPairs {
     /// Room for all; the first `used` are filled.
-    pub members: Vec<Members>,
+    pub members: Vec<PackedPairs>,
     pub used: usize,
     /// What the members are made for.
     pub coordinates: Option<Coordinates>,
@@ -69,7 +69,7 @@ pub struct OpenPairs {
     /// m, relative displacements of these: all of one power, then those of the next.
     pub terms: Vec<Each>,
     /// How these go over the step.
-    pub courses: Vec<Course>,
+    pub bounds: Vec<PenetrationBounds>,
 }
 
 impl OpenPairs {
@@ -77,12 +77,12 @@ impl OpenPairs {
     pub fn new(pairs: usize, on_floors: bool) -> OpenPairs {
         let most = most_blocks(pairs, 1, on_floors);
         OpenPairs {
-            members: vec![Members::default(); most],
+            members: vec![PackedPairs::default(); most],
             used: 0,
             coordinates: None,
             apart: Vec::with_capacity(most),
             terms: vec![[0.0; PAIRS]; most * MAX_TERMS],
-            courses: vec![Course::default(); most],
+            bounds: vec![PenetrationBounds::default(); most],
         }
     }
 
@@ -93,7 +93,7 @@ impl OpenPairs {
         }
         (self.coordinates, self.used) = (Some(coordinates), 0);
         for (p, pair) in pairs.iter().enumerate() {
-            let place = Place::of(pair, coordinates);
+            let place = LanePlace::of(pair, coordinates);
             let found = (0..self.used).find_map(|b| Some((b, self.members[b].free_lane(place)?)));
             let (b, lane) = found.unwrap_or_else(|| {
                 self.used += 1;
@@ -103,7 +103,7 @@ impl OpenPairs {
         }
     }
 
-    /// Works out the courses of the blocks that have a pair that is apart and not too far to meet, up to the x of the
+    /// Works out the bounds of the blocks that have a pair that is apart and not too far to meet, up to the x of the
     /// powers; `room` is for a number of each floor.
     pub fn follow(
         &mut self,
@@ -113,29 +113,29 @@ impl OpenPairs {
         powers: &Powers,
         room: &mut [f64],
     ) {
-        let OpenPairs { members, apart, terms, courses, .. } = self;
+        let OpenPairs { members, apart, terms, bounds, .. } = self;
         let members = &members[..self.used];
         apart.clear();
         let horizon = (base.coordinates == Coordinates::Floors).then(|| Horizon::of(series, powers.x, room));
-        let may_meet = |(lane, p): (usize, usize), members: &Members| {
+        let may_meet = |(lane, p): (usize, usize), members: &PackedPairs| {
             let contact = &base.contacts[p];
             let is_far = |horizon: &Horizon| horizon.is_beyond(contact, members.floors[lane], members.gap[lane]);
             !contact.in_contact() && !horizon.as_ref().is_some_and(is_far)
         };
-        let has_to_be_followed = |members: &Members| members.lanes().any(|of_lane| may_meet(of_lane, members));
+        let has_to_be_followed = |members: &PackedPairs| members.lanes().any(|of_lane| may_meet(of_lane, members));
         apart.extend(members.iter().enumerate().filter(|(_, members)| has_to_be_followed(members)).map(|(b, _)| b));
         let terms = &mut terms[..(series.order + 1) * apart.len()];
         match base.coordinates {
-            Coordinates::Floors => relate(&OnFloors, series, (members, apart), terms),
+            Coordinates::Floors => relate(&FloorJacobian, series, (members, apart), terms),
             Coordinates::Modes if base.q.len() <= FEW_BLOCKS * LANES => {
-                relate(&OnFewModes, series, (members, apart), terms)
+                relate(&PackedModalJacobian, series, (members, apart), terms)
             }
-            Coordinates::Modes => relate(&OnModes(pairs), series, (members, apart), terms),
+            Coordinates::Modes => relate(&ModalJacobian(pairs), series, (members, apart), terms),
         }
         if series.time_map.is_curved() {
             substitution.apply(terms, apart.len());
         }
-        read(terms, (members, apart), series.order + 1, powers, courses);
+        read(terms, (members, apart), series.order + 1, powers, bounds);
     }
 }
 
@@ -144,7 +144,7 @@ struct Horizon<'a> {
     /// The displacements of all floors at the start, m, and what their velocities then make of them until x or the time
     /// there, whichever is more.
     start: &'a [f64],
-    carried: &'a [f64],
+    tracked: &'a [f64],
     reach: f64,
     /// m, the most that all other terms of the motion of each floor add up to.
     wandered: &'a [f64],
@@ -156,44 +156,44 @@ impl<'a> Horizon<'a> {
     fn of(series: &'a MotionSeries, x: f64, wandered: &'a mut [f64]) -> Horizon<'a> {
         let reach = x + series.time_map.curvature.abs() * (x * x);
         series.sum_sizes(2, reach, wandered);
-        Horizon { start: series.term(0), carried: series.term(1), reach, wandered }
+        Horizon { start: series.term(0), tracked: series.term(1), reach, wandered }
     }
 
     /// Whether two floors are too far from each other.
     fn is_beyond(&self, contact: &Contact, [left, right]: [usize; 2], gap: f64) -> bool {
         let relative = |motion: &[f64]| motion[left] - motion[right];
-        let carried = self.reach * relative(self.carried).max(0.0);
-        let nearest = relative(self.start) - gap + carried + (self.wandered[left] + self.wandered[right]);
+        let tracked = self.reach * relative(self.tracked).max(0.0);
+        let nearest = relative(self.start) - gap + tracked + (self.wandered[left] + self.wandered[right]);
         // Of a pair at the surface, or next to it, more digits are known than the motion tells.
-        nearest < 0.0 && !contact.at_surface && !contact.carried
+        nearest < 0.0 && !contact.at_surface && !contact.tracked
     }
 }
 
 /// The relative displacements of some blocks, power by power. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn relate<M: Meeting>(
-    meeting: &M,
+fn relate<M: ContactJacobian>(
+    jacobian: &M,
     series: &MotionSeries,
-    (members, apart): (&[Members], &[usize]),
+    (members, apart): (&[PackedPairs], &[usize]),
     terms: &mut [Each],
 ) {
     for (i, b) in apart.iter().enumerate() {
         let members = &members[*b];
         let out = terms.chunks_exact_mut(apart.len()).map(|terms| &mut terms[i]);
-        meeting.relate(members, members.count(), series.rows().zip(out));
+        jacobian.relate(members, members.count(), series.rows().zip(out));
     }
 }
 
-/// The courses of some blocks from so many powers. Wide instructions give the same bits.
+/// The bounds of some blocks from so many powers. Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn read(
     terms: &[Each],
-    (members, apart): (&[Members], &[usize]),
+    (members, apart): (&[PackedPairs], &[usize]),
     count: usize,
     powers: &Powers,
-    courses: &mut [Course],
+    bounds: &mut [PenetrationBounds],
 ) {
-    for (i, (b, course)) in apart.iter().zip(courses).enumerate() {
-        *course = Course::of(terms, (i, apart.len()), count, powers, &members[*b].gap);
+    for (i, (b, course)) in apart.iter().zip(bounds).enumerate() {
+        *course = PenetrationBounds::of(terms, (i, apart.len()), count, powers, &members[*b].gap);
     }
 }

@@ -5,8 +5,8 @@
 //! [`super::linear_pairs`].)
 
 use crate::contact::taylor::{Any, PairBlock, PairLaw};
-use crate::engine::pairs::jacobian::Meeting;
-use crate::engine::pairs::packing::Members;
+use crate::engine::pairs::jacobian::ContactJacobian;
+use crate::engine::pairs::packing::PackedPairs;
 use crate::engine::taylor::closed_pairs::{Blocks, ClosedPairs};
 use crate::numerics::polynomial::each;
 use crate::structure::{Lane, PairForces};
@@ -15,34 +15,34 @@ use std::marker::PhantomData;
 /// Pairs under a law, each of which feels nothing of the others at once; `ONE` where they are one block.
 pub struct AtOnce<'a, M, L, const ONE: bool> {
     blocks: &'a mut [PairBlock],
-    members: &'a [Members],
-    meeting: M,
+    members: &'a [PackedPairs],
+    jacobian: M,
     law: PhantomData<L>,
 }
 
-impl<'a, M: Meeting, L: PairLaw, const ONE: bool> AtOnce<'a, M, L, ONE> {
-    pub fn of((blocks, members): Blocks<'a>, meeting: M, _: L) -> AtOnce<'a, M, L, ONE> {
-        AtOnce { blocks, members, meeting, law: PhantomData }
+impl<'a, M: ContactJacobian, L: PairLaw, const ONE: bool> AtOnce<'a, M, L, ONE> {
+    pub fn of((blocks, members): Blocks<'a>, jacobian: M, _: L) -> AtOnce<'a, M, L, ONE> {
+        AtOnce { blocks, members, jacobian, law: PhantomData }
     }
 
     #[inline(always)]
-    fn act_by(meeting: &M, block: &mut PairBlock, members: &Members, n: usize, factor: f64, term: &mut [Lane]) {
+    fn act_by(jacobian: &M, block: &mut PairBlock, members: &PackedPairs, n: usize, factor: f64, term: &mut [Lane]) {
         let force = block.extend_force::<L>(n);
-        let relative = meeting.meet(members, block.count, &each(|i| factor * force[i]), term);
+        let relative = jacobian.relative_and_apply(members, block.count, &each(|i| factor * force[i]), term);
         // What a force does to its own pair needs no detour by the motion: the next powers of the force wait for it.
         let relative = each(|i| relative[i] - factor * members.softness[i] * force[i]);
         block.set_penetration::<L>(n + 2, relative);
     }
 }
 
-impl<M: Meeting, L: PairLaw, const ONE: bool> PairForces for AtOnce<'_, M, L, ONE> {
+impl<M: ContactJacobian, L: PairLaw, const ONE: bool> PairForces for AtOnce<'_, M, L, ONE> {
     #[inline(always)]
     fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
         if ONE {
-            return Self::act_by(&self.meeting, &mut self.blocks[0], &self.members[0], n, factor, term);
+            return Self::act_by(&self.jacobian, &mut self.blocks[0], &self.members[0], n, factor, term);
         }
         for (block, members) in self.blocks.iter_mut().zip(self.members) {
-            Self::act_by(&self.meeting, block, members, n, factor, term);
+            Self::act_by(&self.jacobian, block, members, n, factor, term);
         }
     }
 }
@@ -50,19 +50,19 @@ impl<M: Meeting, L: PairLaw, const ONE: bool> PairForces for AtOnce<'_, M, L, ON
 /// Pairs whose penetrations have to wait for all forces.
 pub struct InTurn<'a, M> {
     pub closed: &'a mut ClosedPairs,
-    pub meeting: M,
+    pub jacobian: M,
 }
 
-impl<M: Meeting> PairForces for InTurn<'_, M> {
+impl<M: ContactJacobian> PairForces for InTurn<'_, M> {
     fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
         let ((blocks, members), _) = self.closed.blocks();
         for (block, members) in blocks.iter_mut().zip(members) {
             let force = block.extend_force::<Any>(n);
-            self.meeting.push(members, block.count, &force.map(|force| factor * force), term);
+            self.jacobian.apply(members, block.count, &force.map(|force| factor * force), term);
         }
         self.closed.set_blocks(n + 2, |members, count, at_surface| match at_surface {
-            true => self.meeting.difference(members, count, term),
-            false => self.meeting.relative(members, count, term),
+            true => self.jacobian.difference(members, count, term),
+            false => self.jacobian.relative(members, count, term),
         });
     }
 }
@@ -70,16 +70,16 @@ impl<M: Meeting> PairForces for InTurn<'_, M> {
 /// Hands the forces of the closed pairs to an expansion: made for one of `$law`s where they are all under that, and in one
 /// block where `$one` says that this is usual.
 macro_rules! with_forces {
-    ($closed:expr, [$($law:ident),*], $one:expr, $meeting:expr, |$forces:ident| $expand:expr) => {{
+    ($closed:expr, [$($law:ident),*], $one:expr, $jacobian:expr, |$forces:ident| $expand:expr) => {{
         use $crate::engine::taylor::pair_forces::{AtOnce, InTurn};
         macro_rules! under {
             ($blocks:expr, $is_one:expr, $any:expr) => {{
-                let $forces = &mut AtOnce::<_, _, { $is_one }>::of($blocks, $meeting, $any);
+                let $forces = &mut AtOnce::<_, _, { $is_one }>::of($blocks, $jacobian, $any);
                 $expand
             }};
         }
         if $closed.waits() {
-            let $forces = &mut InTurn { closed: $closed, meeting: $meeting };
+            let $forces = &mut InTurn { closed: $closed, jacobian: $jacobian };
             $expand
         } else {
             let (blocks, kind) = $closed.blocks();

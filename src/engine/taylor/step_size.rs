@@ -23,14 +23,14 @@ const KEEPING_AWAY: f64 = 0.9;
 
 impl System {
     /// Share of the way to the end of a time map that a step may take.
-    pub fn boldness(&self) -> f64 {
+    pub fn safety_factor(&self) -> f64 {
         if self.tolerance.step < NEAR_ROUNDING { KEEPING_AWAY } else { 1.0 }
     }
 
     /// How far to go where terms show that something is accurate up to about `reach`: not quite as far, unless the rest of
     /// the way is within reach too.
-    pub fn cautious(&self, reach: f64, whole: f64) -> f64 {
-        if self.boldness() * reach >= whole { whole } else { 0.9 * reach }
+    pub fn with_safety(&self, reach: f64, whole: f64) -> f64 {
+        if self.safety_factor() * reach >= whole { whole } else { 0.9 * reach }
     }
 
     /// How far, in units of the series' scale, its last two terms stay below the tolerance.
@@ -40,7 +40,7 @@ impl System {
     pub fn accurate_reach(&self, base: &Base, solution: &Solution, is_singular: bool, whole: f64) -> f64 {
         let series = &solution.series;
         let mut reach = self.reach_of_terms(base, series, self.tolerance.step * base.velocity_scale * series.scale);
-        reach = self.cautious(reach, whole);
+        reach = self.with_safety(reach, whole);
         if !is_singular {
             return reach.min(FURTHEST);
         }
@@ -63,7 +63,7 @@ impl System {
     fn reach_of_terms(&self, base: &Base, series: &MotionSeries, allowed: f64) -> f64 {
         let mut reach = f64::INFINITY;
         for n in [series.order - 1, series.order] {
-            let term = n as f64 * self.worst_floor(base.coordinates, series.term(n));
+            let term = n as f64 * self.floor_norm(base.coordinates, series.term(n));
             if term > 0.0 {
                 reach = reach.min(match allowed {
                     0.0 => self.reach_from_rest(base.coordinates, series, n, term),
@@ -79,7 +79,7 @@ impl System {
     fn reach_from_rest(&self, coordinates: Coordinates, series: &MotionSeries, last: usize, last_term: f64) -> f64 {
         (2..last / 2)
             .map(|n| {
-                let term = n as f64 * self.worst_floor(coordinates, series.term(n));
+                let term = n as f64 * self.floor_norm(coordinates, series.term(n));
                 libm::pow(self.tolerance.step * term / last_term, 1.0 / (last - n) as f64)
             })
             .fold(0.0, f64::max)
@@ -89,7 +89,7 @@ impl System {
     /// small share of what there is and what the step brings about.
     fn forceless_reach(&self, left_out: impl Fn(f64) -> f64, base: &Base, series: &MotionSeries, whole: f64) -> f64 {
         let (speed, coordinates) = (base.velocity_scale, base.coordinates);
-        let gained = [2, 3, 4].map(|n| n as f64 * self.worst_floor(coordinates, series.term(n)) / series.scale);
+        let gained = [2, 3, 4].map(|n| n as f64 * self.floor_norm(coordinates, series.term(n)) / series.scale);
         let mut x = whole;
         while x > 1e-30 {
             let gained = x * (gained[0] + x * (gained[1] + x * gained[2]));

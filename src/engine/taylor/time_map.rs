@@ -11,7 +11,7 @@ use crate::numerics::time_map::TimeMap;
 use crate::structure::MotionSeries;
 
 /// Share of the time to a singularity that a series reaches in time where the singularity is what limits it.
-const NEAR: f64 = 0.35;
+const SHARE_TO_SINGULARITY: f64 = 0.35;
 
 /// x up to which a series is used by the time map of an entry, in times since the entry: 25 times as long after it.
 const FURTHEST_FROM_ENTRY: f64 = 8.0;
@@ -33,7 +33,7 @@ impl System {
         let Some((time_map, furthest)) = self.time_map(base, solution, reach) else { return reach };
         solution.substitute(time_map);
         let reach = self.reach_of_rates(base, &solution.series, work);
-        self.cautious(reach, furthest.min(time_map.inverse(remaining / solution.series.scale)))
+        self.with_safety(reach, furthest.min(time_map.inverse(remaining / solution.series.scale)))
     }
 
     /// The time map for series that reach so far in time, if one takes them further, and how far that is good for.
@@ -43,14 +43,14 @@ impl System {
         };
         let ages = touching(base).filter(is_behind).map(|(_, contact)| contact.age);
         let since = ages.fold(f64::INFINITY, f64::min) / solution.series.scale;
-        let release = (1.0 + LATE) * solution.closed.first_release(reach / NEAR);
+        let release = (1.0 + LATE) * solution.closed.first_release(reach / SHARE_TO_SINGULARITY);
         let (curvature, furthest) = match () {
             // Reached or passed as it is, or in a scale far too long.
             _ if release < reach || reach > FURTHEST_FROM_ENTRY * since || reach < 1.0 / FURTHEST => return None,
             // Nothing to measure an error against.
             _ if base.velocity_scale == 0.0 => return None,
-            _ if reach > NEAR * since => (0.25 / since, FURTHEST_FROM_ENTRY * since),
-            _ if release.is_finite() => (-0.25 / release, 2.0 * release * self.boldness()),
+            _ if reach > SHARE_TO_SINGULARITY * since => (0.25 / since, FURTHEST_FROM_ENTRY * since),
+            _ if release.is_finite() => (-0.25 / release, 2.0 * release * self.safety_factor()),
             _ => return None,
         };
         Some((TimeMap { curvature }, furthest))
@@ -61,7 +61,7 @@ impl System {
         let allowed = self.tolerance.step * base.velocity_scale * series.scale;
         let (last, before) = (&mut work.node_q, &mut work.node_v);
         let powers = series.last_rates(last, before);
-        let sizes = [last, before].map(|term| self.worst_floor(base.coordinates, term));
+        let sizes = [last, before].map(|term| self.floor_norm(base.coordinates, term));
         let reaches = powers.iter().zip(sizes).filter(|(_, size)| *size > 0.0);
         reaches.map(|(power, size)| rough_root(allowed / size, *power)).fold(f64::INFINITY, f64::min)
     }

@@ -32,9 +32,9 @@ impl Windows {
         let equation = &window.equation;
         let pairs_hold = (0..equation.pairs).all(|place| {
             let kernels = &equation.kernels[place].each_ref();
-            let way = if place < equation.closed { Way::Up } else { Way::Down };
+            let sense = if place < equation.closed { Sense::Up } else { Sense::Down };
             let free = &equation.free[place][..equation.terms];
-            let bend = window.bend(way, free, kernels, Some(place));
+            let bend = window.bend(sense, free, kernels, Some(place));
             let passage = Passage { window, place, contact: &base.contacts[window.contacts[place]], bend, ending };
             if place < equation.closed {
                 return passage.stays_in_contact();
@@ -63,11 +63,11 @@ impl Windows {
             for ((kernel, room), q) in kernels.iter_mut().zip(&mut room).zip(&contacts[..equation.closed]) {
                 *kernel = self.kernel(system, p, *q, room);
             }
-            let bend = |way: Way| window.bend(way, terms, &kernels, None);
-            if keeps_off(contact, bend(Way::Up), solution.length) {
+            let bend = |sense: Sense| window.bend(sense, terms, &kernels, None);
+            if keeps_off(contact, bend(Sense::Up), solution.length) {
                 return true;
             }
-            let bend = bend(Way::Down);
+            let bend = bend(Sense::Down);
             (terms[0], terms[1]) = (contact.flight_start(), contact.rate * series.scale);
             let approach = Approach { window, free: terms, kernels: &kernels, bend };
             let end = (solution.length, approach.depth(solution.length));
@@ -76,9 +76,9 @@ impl Windows {
     }
 }
 
-/// Which way a penetration bends.
+/// In which sense a penetration bends.
 #[derive(Clone, Copy, PartialEq)]
-enum Way {
+enum Sense {
     Up,
     Down,
 }
@@ -92,14 +92,14 @@ pub fn keeps_off(contact: &Contact, bend: f64, h: f64) -> bool {
 }
 
 impl Window {
-    /// m/s^2, bound on what bends the penetration of a pair that way over the window: its motion without contact forces, of
+    /// m/s^2, bound on what bends the penetration of a pair in that sense over the window: its motion without contact forces, of
     /// which the terms are given, and what the forces do, of which the kernels are: all but what that of the pair itself,
     /// where it has one, does at once.
-    fn bend(&self, way: Way, free: &[f64], kernels: &[&Kernel; MOST_PAIRS], itself: Option<usize>) -> f64 {
+    fn bend(&self, sense: Sense, free: &[f64], kernels: &[&Kernel; MOST_PAIRS], itself: Option<usize>) -> f64 {
         let Window { equation, solution, greatest, .. } = self;
         let (x, h) = (solution.length / equation.scale, solution.length);
         let later = sum_of_sizes(free, 3, x);
-        let at_start = if way == Way::Up { 2.0 * free[2] } else { -2.0 * free[2] };
+        let at_start = if sense == Sense::Up { 2.0 * free[2] } else { -2.0 * free[2] };
         let mut bend = (at_start + later * x) / (equation.scale * equation.scale);
         for q in 0..equation.closed {
             let at_once = if itself == Some(q) { 0.0 } else { kernels[q][1].abs() };

@@ -22,7 +22,7 @@ pub struct Windows {
     /// Error between nodes that a window may have, relative to what one step may.
     pub allowed: f64,
     /// Length of windows relative to the usual.
-    pub patience: f64,
+    pub length_factor: f64,
     /// Of each pair whose law has a root.
     pub springs: Vec<Option<Spring>>,
 }
@@ -36,7 +36,7 @@ impl Windows {
         let kernels = known.iter().flat_map(|p| known.iter().map(|q| response.kernel(&p.row, &q.row))).collect();
         let allowed = BETWEEN_NODES / libm::cbrt(tolerance.step);
         let springs = pairs.iter().map(Spring::of).collect();
-        Some(Windows { kernels, allowed, patience: patience(tolerance.step), springs })
+        Some(Windows { kernels, allowed, length_factor: length_factor(tolerance.step), springs })
     }
 
     /// G_pq of two pairs, for which there is `room` where it is not kept.
@@ -51,6 +51,6 @@ impl Windows {
 }
 
 /// How long windows are for an accuracy of steps, relative to the usual.
-pub fn patience(step_tolerance: f64) -> f64 {
+pub fn length_factor(step_tolerance: f64) -> f64 {
     libm::pow(step_tolerance / USUAL.0, USUAL.1).clamp(0.4, 1.2)
 }

@@ -20,7 +20,7 @@ use crate::engine::system::buffers::Buffers;
 use crate::engine::window::certificate::keeps_off;
 use crate::engine::window::kernels::Windows;
 use crate::engine::window::solution::Window;
-use crate::engine::window::trial::Draft;
+use crate::engine::window::trial::Trial;
 use crate::structure::{EXACT, MotionSeries, dot, flight_order};
 
 /// How far a kernel may be off, relative to what one step may.
@@ -47,9 +47,9 @@ enum Verdict {
     /// Nothing else happens in it, and its forces are right.
     Good,
     /// To be tried again.
-    Another(Draft),
+    Another(Trial),
     /// Not to be tried again.
-    Hopeless,
+    Reject,
 }
 
 impl Windows {
@@ -68,39 +68,39 @@ impl Windows {
         if base.coordinates != Coordinates::Modes || !window.gather(base) {
             return false;
         }
-        let Some(mut draft) = self.draft(system, base, window, remaining) else { return false };
-        if !self.set_equation(system, base, (window, series), work, draft.room()) {
+        let Some(mut trial) = self.trial(system, base, window, remaining) else { return false };
+        if !self.set_equation(system, base, (window, series), work, trial.room()) {
             return false;
         }
         if (0..window.equation.closed).any(|place| window.is_at_rest(system, base, place)) {
             return false;
         }
-        self.watch(system, base, (window, series), draft.length);
+        self.watch(system, base, (window, series), trial.length);
         let tolerance = system.tolerance.step * base.velocity_scale;
         for _ in 0..MOST_TRIES {
             let Window { equation, solution, .. } = window;
-            if !solution.solve(equation, room, draft.frame(), SWEEP_SHARE * tolerance * draft.length) {
+            if !solution.solve(equation, room, trial.frame(), SWEEP_SHARE * tolerance * trial.length) {
                 // An event that is not where it was expected may be late.
-                draft = match draft.ending {
-                    Ending::Given => draft.shorter(0.5),
-                    _ => draft.shorter(1.0).until(Ending::Given, draft.longest.min(equation.scale)),
+                trial = match trial.ending {
+                    Ending::Given => trial.shorter(0.5),
+                    _ => trial.shorter(1.0).until(Ending::Given, trial.longest.min(equation.scale)),
                 };
                 continue;
             }
             if solution.length > remaining {
-                draft = draft.shorter(1.0).until(Ending::Given, remaining.min(equation.scale));
+                trial = trial.shorter(1.0).until(Ending::Given, remaining.min(equation.scale));
                 continue;
             }
             window.close();
-            match self.judge(system, base, (window, series), work, draft, tolerance) {
+            match self.assess(system, base, (window, series), work, trial, tolerance) {
                 Verdict::Good => {
                     at.counters.contact_steps += 1;
                     at.counters.law_evaluations += base.count_forces(Contact::branch);
-                    window.commit(system, series, planned, work, draft.ending, remaining);
+                    window.commit(system, series, planned, work, trial.ending, remaining);
                     return true;
                 }
-                Verdict::Another(next) => draft = next,
-                Verdict::Hopeless => return false,
+                Verdict::Another(next) => trial = next,
+                Verdict::Reject => return false,
             }
         }
         false
@@ -166,39 +166,39 @@ impl Windows {
     }
 
     /// Whether a solved window is right and certain, or what to try instead.
-    fn judge(
+    fn assess(
         &self,
         system: &System,
         base: &Base,
         (window, series): (&Window, &MotionSeries),
         work: &mut Buffers,
-        draft: Draft,
+        trial: Trial,
         tolerance: f64,
     ) -> Verdict {
         let Window { equation, solution, .. } = window;
-        if let Some(next) = window.passed(draft) {
+        if let Some(next) = window.passed(trial) {
             return Verdict::Another(next);
         }
         // What still approaches is not released: its depth is below what the iteration leaves open.
-        if let Ending::Release(place) = draft.ending
+        if let Ending::Release(place) = trial.ending
             && solution.end[place].1 >= 0.0
         {
-            return Verdict::Hopeless;
+            return Verdict::Reject;
         }
         let error = solution.velocity_error(equation) / tolerance;
         let allowed = self.allowed;
         if error > allowed {
             if let Some(least) = solution.rule.next() {
-                return Verdict::Another(Draft { least, ..draft });
+                return Verdict::Another(Trial { least, ..trial });
             }
             let share = libm::pow(allowed / error, 0.1);
-            return Verdict::Another(draft.shorter((0.9 * share).max(0.3)));
+            return Verdict::Another(trial.shorter((0.9 * share).max(0.3)));
         }
-        match self.is_certain(system, base, (window, series), work, draft.ending) {
+        match self.is_certain(system, base, (window, series), work, trial.ending) {
             true => Verdict::Good,
             // Near an event that bounds cannot tell: power series find it.
-            false if draft.ending != Ending::Given || draft.halved => Verdict::Hopeless,
-            false => Verdict::Another(Draft { halved: true, ..draft.shorter(0.5) }),
+            false if trial.ending != Ending::Given || trial.halved => Verdict::Reject,
+            false => Verdict::Another(Trial { halved: true, ..trial.shorter(0.5) }),
         }
     }
 }
@@ -265,7 +265,7 @@ impl Window {
         remaining: f64,
     ) {
         let (length, contacts) = (self.solution.length, self.contacts);
-        planned.carried.fill(None);
+        planned.tracked.fill(None);
         planned.ends.clear();
         planned.length = length;
         planned.reaches_limit = length == remaining && ending == Ending::Given;
@@ -280,7 +280,7 @@ impl Window {
     }
 
     /// The window up to the first event that a solved one has passed.
-    fn passed(&self, draft: Draft) -> Option<Draft> {
+    fn passed(&self, trial: Trial) -> Option<Trial> {
         let Window { equation, solution, .. } = self;
         let count = solution.rule.count();
         let theta = &Tables::of(solution.map, solution.rule).theta[..count];
@@ -292,11 +292,11 @@ impl Window {
             let is_beyond = |d: f64| if is_closed { d <= 0.0 } else { d > 0.0 };
             // Right after a release or entry it is at the surface.
             let beyond = first_node(&depth[..count], d, is_beyond);
-            let beyond = beyond.filter(|i| *i < theta.len() || draft.ending != event).map(|i| (i, event));
+            let beyond = beyond.filter(|i| *i < theta.len() || trial.ending != event).map(|i| (i, event));
             let turns = is_closed && matches!(equation.forces[place], Force::Root { .. });
             let turned = if turns { first_node(&rate[..count], v, |v| v <= 0.0) } else { None };
             let turn = Ending::Turn(place);
-            let turned = turned.filter(|i| *i < theta.len() || draft.ending != turn).map(|i| (i, turn));
+            let turned = turned.filter(|i| *i < theta.len() || trial.ending != turn).map(|i| (i, turn));
             for (i, event) in [beyond, turned].into_iter().flatten() {
                 let time = theta.get(i).unwrap_or(&1.0) * solution.length;
                 if time < first.0 {
@@ -307,8 +307,8 @@ impl Window {
         let (time, event) = first;
         match event {
             Ending::Given => None,
-            Ending::Release(_) => Some(Draft { map: draft.map.with_end(), ..draft.until(event, time) }),
-            _ => Some(Draft { map: draft.map.without_end(), ..draft.until(event, time) }),
+            Ending::Release(_) => Some(Trial { map: trial.map.with_end(), ..trial.until(event, time) }),
+            _ => Some(Trial { map: trial.map.without_end(), ..trial.until(event, time) }),
         }
     }
 }

@@ -226,7 +226,7 @@ impl Contact {
         }
         let end = if is_whole { solution.end[place] } else { window.depth(place, elapsed, moments) };
         let last = if is_whole { 1.0 } else { solution.map.inverse(elapsed / solution.length) };
-        let way = Way { nodes, last, rates: (self.rate, end.1) };
+        let way = FollowedPart { nodes, last, rates: (self.rate, end.1) };
         // Between nodes forces are known to fewer digits than what they do: what is read there is worked out from that.
         let read = |x: f64| {
             let elapsed = solution.length * solution.map.at(x).0;
@@ -242,7 +242,7 @@ impl Contact {
             false => deepest,
             true => {
                 let force = law.value(end.0, end.1);
-                Way { rates: (f64::NAN, f64::NAN), ..way }
+                FollowedPart { rates: (f64::NAN, f64::NAN), ..way }
                     .highest(&solution.force[place], force, self.episode.peak_force)
                     .map(at)
             }
@@ -262,7 +262,7 @@ impl Contact {
 }
 
 /// How far a window is followed, and how fast what is followed goes there.
-struct Way {
+struct FollowedPart {
     nodes: &'static Nodes,
     /// x.
     last: f64,
@@ -270,7 +270,7 @@ struct Way {
     rates: (f64, f64),
 }
 
-impl Way {
+impl FollowedPart {
     /// x where what has these values at the nodes and `end` at the end is largest, if it is above `known` there; at the start
     /// it is not.
     fn highest(&self, values: &Row, end: f64, known: f64) -> Option<f64> {

@@ -20,7 +20,7 @@ pub struct Spring {
 }
 
 /// When a spring alone would do what, s.
-pub struct Prospect {
+pub struct Forecast {
     /// Its time: (m V^(1-n) / k)^(1/(n+1)) for the speed V of all of its energy.
     pub unit: f64,
     /// Until it turns round.
@@ -48,14 +48,14 @@ impl Spring {
     }
 
     /// From a penetration, m, its rate, m/s, and the energy stored per unit of mass, J/kg; `None` beyond all measure.
-    pub fn prospect(&self, d: f64, rate: f64, stored: f64) -> Option<Prospect> {
+    pub fn forecast(&self, d: f64, rate: f64, stored: f64) -> Option<Forecast> {
         let speed = (rate * rate + 2.0 * stored).sqrt();
         let unit = self.unit * libm::pow(speed, self.power);
         let left = if d > 0.0 { swing(self.exponent, d / (self.deepest * unit * speed)) } else { self.all };
         let (turn, release) = if rate >= 0.0 { (left, self.all + left) } else { (0.0, self.all - left) };
         let time = self.deepest * unit;
         let is_sound = unit.is_finite() && unit > 0.0 && release > 0.0;
-        is_sound.then_some(Prospect { unit, turn: turn * time, release: release * time })
+        is_sound.then_some(Forecast { unit, turn: turn * time, release: release * time })
     }
 }
 

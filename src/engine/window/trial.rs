@@ -25,7 +25,7 @@ const MODES_REACH: f64 = 1.0;
 
 /// A window that is to be tried.
 #[derive(Clone, Copy, Debug)]
-pub struct Draft {
+pub struct Trial {
     pub map: Map,
     /// Fewest nodes that it may have.
     pub least: Rule,
@@ -40,10 +40,10 @@ pub struct Draft {
     pub halved: bool,
 }
 
-impl Draft {
+impl Trial {
     /// What is to be solved.
     pub fn frame(self) -> Frame {
-        let Draft { map, length, ending, .. } = self;
+        let Trial { map, length, ending, .. } = self;
         let [eight, twelve] = reach_of_fewer(map);
         let rule = match length / self.reach {
             share if share < eight => Rule::Eight,
@@ -62,20 +62,20 @@ impl Draft {
     }
 
     /// A window without an event, of that share of the length.
-    pub fn shorter(self, share: f64) -> Draft {
-        Draft { map: self.map.without_end(), length: share * self.length, ending: Ending::Given, ..self }
+    pub fn shorter(self, share: f64) -> Trial {
+        Trial { map: self.map.without_end(), length: share * self.length, ending: Ending::Given, ..self }
     }
 
     /// The same up to an event.
-    pub fn until(self, ending: Ending, length: f64) -> Draft {
-        Draft { length, ending, ..self }
+    pub fn until(self, ending: Ending, length: f64) -> Trial {
+        Trial { length, ending, ..self }
     }
 }
 
 impl Windows {
     /// What to try first within the `remaining` seconds; `None` where a contact is beyond all measure or its damping too
     /// stiff.
-    pub fn draft(&self, system: &System, base: &Base, window: &mut Window, remaining: f64) -> Option<Draft> {
+    pub fn trial(&self, system: &System, base: &Base, window: &mut Window, remaining: f64) -> Option<Trial> {
         let (mut longest, mut map) = (f64::INFINITY, Map::Plain);
         let (mut time, mut ending) = (f64::INFINITY, Ending::Given);
         let mut dashpot = 0.0_f64;
@@ -84,15 +84,15 @@ impl Windows {
             let (contact, force) = (&base.contacts[p], window.equation.forces[place]);
             let d = contact.penetration.max(0.0);
             let stored = force.stored_energy(d) / system.pairs[p].mass;
-            let prospect = self.springs[p]?.prospect(d, contact.rate, stored)?;
-            window.equation.omega[place] = 1.0 / prospect.unit;
+            let forecast = self.springs[p]?.forecast(d, contact.rate, stored)?;
+            window.equation.omega[place] = 1.0 / forecast.unit;
             if force.is_damped() {
                 dashpot = dashpot.max(force.dashpot(d) / system.pairs[p].mass);
             }
             let is_root = matches!(force, Force::Root { .. });
             let since = if contact.penetration > 0.0 { contact.age } else { 0.0 };
-            let is_fresh = since < FRESH * prospect.unit;
-            longest = longest.min(self.patience * longest_window(&force, is_fresh) * prospect.unit);
+            let is_fresh = since < FRESH * forecast.unit;
+            longest = longest.min(self.length_factor * longest_window(&force, is_fresh) * forecast.unit);
             if is_fresh && is_root && since > 0.0 {
                 longest = longest.min(8.0 * since);
             }
@@ -102,31 +102,31 @@ impl Windows {
                 _ => map,
             };
             let event = match is_root && contact.rate > 0.0 {
-                true => (DASHPOT * prospect.turn, Ending::Turn(place)),
-                false => (prospect.release, Ending::Release(place)),
+                true => (DASHPOT * forecast.turn, Ending::Turn(place)),
+                false => (forecast.release, Ending::Release(place)),
             };
             if event.0 < time {
                 (time, ending) = event;
             }
         }
         // With fewer nodes the length goes with a higher power of the accuracy.
-        let (reach, least) = (self.patience * longest, Rule::Eight);
+        let (reach, least) = (self.length_factor * longest, Rule::Eight);
         longest = longest.min(MODES_REACH / system.structure.fastest);
         if dashpot * time.min(longest).min(remaining) > TOO_STIFF {
             return None;
         }
-        let draft = Draft { map, least, length: time, ending, longest: longest.min(remaining), reach, halved: false };
-        let draft = match ending {
-            Ending::Turn(_) if time <= longest => draft,
-            Ending::Release(_) if time <= longest => Draft { map: map.with_end(), ..draft },
-            _ => draft.until(Ending::Given, (time / (time / longest).ceil().max(2.0)).min(longest)),
+        let trial = Trial { map, least, length: time, ending, longest: longest.min(remaining), reach, halved: false };
+        let trial = match ending {
+            Ending::Turn(_) if time <= longest => trial,
+            Ending::Release(_) if time <= longest => Trial { map: map.with_end(), ..trial },
+            _ => trial.until(Ending::Given, (time / (time / longest).ceil().max(2.0)).min(longest)),
         };
-        if draft.length <= remaining {
-            return Some(draft);
+        if trial.length <= remaining {
+            return Some(trial);
         }
         let is_before_release = matches!(ending, Ending::Release(_));
         let length = if is_before_release { remaining.min(BEFORE_RELEASE * time) } else { remaining };
-        Some(Draft { length, ..draft.shorter(1.0) })
+        Some(Trial { length, ..trial.shorter(1.0) })
     }
 }
 
@@ -178,7 +178,7 @@ mod tests {
             let windows = model.windows.as_ref().unwrap();
             let equation = &mut window.equation;
             (equation.closed, equation.forces[0]) = (1, base.contacts[0].branch());
-            assert_eq!(windows.draft(&model.system, &base, &mut window, 0.01).is_some(), is_tried, "{restitution}");
+            assert_eq!(windows.trial(&model.system, &base, &mut window, 0.01).is_some(), is_tried, "{restitution}");
         }
     }
 }
