@@ -1,7 +1,7 @@
 //! Fewer terms for a polynomial: Chebyshev economization.
 //!
-//! Of all polynomials x^n + ... the Chebyshev polynomial of 0..=1, divided by its first factor, is the smallest there: 2^(1 - 2 n).
-//! So a small term of degree n is taken away together with so much of the lower ones [Lanczos1956].
+//! Of all polynomials x^n + ... the Chebyshev polynomial of 0..=1, divided by its first factor, is the smallest there:
+//! 2^(1 - 2 n). So a small term of degree n is taken away together with so much of the lower ones [Lanczos1956].
 
 use super::tables::POWERS;
 use crate::numerics::polynomial::each;

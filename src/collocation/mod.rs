@@ -9,7 +9,8 @@
 //!
 //! G_pq(t) is what an impulse at pair q makes of the distance of pair p, a power series in t that the modes give once
 //! and for all. So the forces at the nodes, eight to sixteen times, are all that is unknown, however many storeys there
-//! are. The time is mapped, t = h theta(x), so that roots of the time since an entry or until a release are polynomials in x.
+//! are. The time is mapped, t = h theta(x), so that roots of the time since an entry or until a release are polynomials
+//! in x.
 
 mod economization;
 mod equation;

@@ -93,8 +93,8 @@ fn a_damped_impact_returns_what_its_closed_form_says() {
     assert!((-rest.end[0].1 / v - e).abs() < 1e-10, "{} instead of {e}", -rest.end[0].1 / v);
 }
 
-/// A mass on a spring that meets another spring, from 0.1 m and 1.5 m/s on for 0.2 s: how far its position and its speed are
-/// from those of one oscillator with both springs and dashpots, where the kernel may be off by `remainder`.
+/// A mass on a spring that meets another spring, from 0.1 m and 1.5 m/s on for 0.2 s: how far its position and its
+/// speed are from those of one oscillator with both springs and dashpots, where the kernel may be off by `remainder`.
 fn beside_both_springs(remainder: f64, dashpot: f64) -> (f64, f64) {
     let (m, w, z) = (2.0, 5.0, 0.04);
     let (k, c) = (m * 7.0 * 7.0, 2.0 * m * dashpot);

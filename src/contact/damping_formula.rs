@@ -184,7 +184,8 @@ fn exact(e: f64) -> f64 {
         return 0.0;
     }
     let g = |b: f64| b + b / e - libm::log1p(b / e) + libm::log1p(-b);
-    // Near 0, g = (1 / e^2 - 1) b^2 / 2 - (1 / e^3 + 1) b^3 / 3 + ..., so that the root is near 3 e (1 - e^2) / (2 (1 + e^3)).
+    // Near 0, g = (1 / e^2 - 1) b^2 / 2 - (1 / e^3 + 1) b^3 / 3 + ..., so that the root is near 3 e (1 - e^2) / (2 (1 +
+    // e^3)).
     let (mut low, mut high) = (0.25 * e * (1.0 - e), 1.0);
     while high - low > f64::EPSILON * high {
         let middle = 0.5 * (low + high);

@@ -1,5 +1,5 @@
-//! What to say where the work of a communication step is not enough, or numbers overflow: which contact or building it is, and
-//! the key of the scene to change.
+//! What to say where the work of a communication step is not enough, or numbers overflow: which contact or building it
+//! is, and the key of the scene to change.
 
 use crate::contact::LawKey;
 use crate::engine::base::Base;

@@ -1,9 +1,9 @@
 //! The C interface of FMI 2.0 for co-simulation: the only unsafe code of the crate, and no physics.
 //!
 //! `life.rs`, `values.rs`, `step.rs`, `state.rs` and `derivatives.rs` hold the 34 exported functions, each of a few lines.
-//! A call runs through the fence (`fence.rs`), which checks instance and call sequence, catches panics (`panics.rs`), and sends the
-//! messages (`logger.rs`) when nothing is borrowed any more; `arguments.rs` turns pointers into slices and strings,
-//! `instance.rs` begins and ends the life of an instance.
+//! A call runs through the fence (`fence.rs`), which checks instance and call sequence, catches panics (`panics.rs`),
+//! and sends the messages (`logger.rs`) when nothing is borrowed any more; `arguments.rs` turns pointers into slices
+//! and strings, `instance.rs` begins and ends the life of an instance.
 //!
 //! What every function relies on, as FMI 2.0.4, chapter 2.1 requires of a caller: a component is null or comes from
 //! `fmi2Instantiate` and has not been freed, no two threads use the same component at once, an array has at least as

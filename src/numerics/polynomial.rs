@@ -60,8 +60,8 @@ pub const RECIPROCAL: [f64; MAX_TERMS + 1] = {
     table
 };
 
-/// As many numbers side by side as wide instructions take: unlike `std::array::from_fn` it always becomes one of these after
-/// the other.
+/// As many numbers side by side as wide instructions take: unlike `std::array::from_fn` it always becomes one of these
+/// after the other.
 #[inline(always)]
 pub fn each(of: impl Fn(usize) -> f64) -> [f64; BLOCK] {
     let mut all = [0.0; BLOCK];

@@ -113,7 +113,8 @@ impl Powers {
         self.stretch
     }
 
-    /// What the terms of a polynomial in time, of two powers less than the highest, are multiplied by for its integral, once set.
+    /// What the terms of a polynomial in time, of two powers less than the highest, are multiplied by for its integral,
+    /// once set.
     pub fn integral_in_time(&self) -> &Coefficients {
         &self.by_map[2]
     }

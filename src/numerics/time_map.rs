@@ -77,9 +77,10 @@ impl TimeMap {
         2.0 * time / (1.0 + (1.0 + 4.0 * self.curvature * time).max(0.0).sqrt())
     }
 
-    /// What the terms of a series in time, up to a `highest`, are multiplied by to make the value at x of its series in x with
-    /// as many terms, what to make the value there of the series of its rate, and what those of a series with two terms less
-    /// to make its integral over time. The rate needs no division by that of the time map, which may stand still there.
+    /// What the terms of a series in time, up to a `highest`, are multiplied by to make the value at x of its series in
+    /// x with as many terms, what to make the value there of the series of its rate, and what those of a series with
+    /// two terms less to make its integral over time. The rate needs no division by that of the time map, which may
+    /// stand still there.
     pub fn weights(&self, x: f64, highest: usize, [value, rate, integral]: [&mut Coefficients; 3]) {
         let (y, stretch) = (self.curvature * x, 1.0 + self.curvature * x);
         (value[0], rate[0]) = (1.0, 0.0);

@@ -2,7 +2,8 @@
 //! building, each floor is coupled to its neighbours only.
 //!
 //! Both buildings' floors stand in one vector, the left building's first. Where they are many each building begins with a
-//! block of lanes, so that floors of one level stand in the same place of a block, and a building is whole blocks of its own.
+//! block of lanes, so that floors of one level stand in the same place of a block, and a building is whole blocks of
+//! its own.
 //!
 //! ```text
 //! M u'' + C u' + K u = -M 1 ground acceleration + floor forces - contact forces

@@ -10,8 +10,8 @@ use crate::numerics::polynomial::{COUNT, MAX_TERMS};
 const TINY_REACH: f64 = 1e-6;
 const TINY_REACH_ORDER: usize = 4;
 
-/// Order at which the series of a flight over `reach` = (fastest rate) x (time) is exact to rounding; `None` where it is too
-/// long for one.
+/// Order at which the series of a flight over `reach` = (fastest rate) x (time) is exact to rounding; `None` where it
+/// is too long for one.
 #[inline]
 pub fn exact_order(reach: f64) -> Option<usize> {
     if reach <= TINY_REACH { Some(TINY_REACH_ORDER) } else { flight_order(reach, EXACT) }

@@ -19,8 +19,8 @@ pub(super) struct Touch {
     duration: f64,
     /// s, in which a wave crosses a floor of that mass and comes back.
     wave: f64,
-    /// s, of a storey by itself: the longer one of both buildings, and no less than 1/20 of the period of a tower. None where
-    /// neither swings.
+    /// s, of a storey by itself: the longer one of both buildings, and no less than 1/20 of the period of a tower. None
+    /// where neither swings.
     storey: Option<f64>,
     /// s, the longer first period.
     period: Option<f64>,

@@ -211,7 +211,8 @@ impl OnsetBlock {
     }
 
     /// Term (i, j) of power times d' (in units of the scale). d' has (exponent) times the penetration's term one power of x
-    /// up: of e, whose terms stand one place further, these are those of a power and the first; of d those of the next term.
+    /// up: of e, whose terms stand one place further, these are those of a power and the first; of d those of the next
+    /// term.
     #[inline(always)]
     fn times_rate(&self, grid: &Grid, products: &Products, (i, j): (usize, usize)) -> Each {
         let (mut sum, here) = ([0.0; PAIRS], grid.index(i, j));

@@ -130,8 +130,8 @@ impl PairBlock {
         }
     }
 
-    /// Fills power n of the forces, of pairs under a law, from the powers 0..=n + 1 of the penetrations, for n = 0, 1, 2, ...
-    /// in turn, and returns it.
+    /// Fills power n of the forces, of pairs under a law, from the powers 0..=n + 1 of the penetrations, for n = 0, 1,
+    /// 2, ... in turn, and returns it.
     #[inline(always)]
     pub fn extend_force<L: PairLaw>(&mut self, n: usize) -> Each {
         // Equal lengths: no bounds checks below.

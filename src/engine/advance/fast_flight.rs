@@ -262,8 +262,9 @@ fn fly_segment(model: &Model, ground: &GroundMotion, segment: &Segment, base: &B
     )
 }
 
-/// The same loop within the record for a few blocks of modes, which stay in registers. It goes as far as segments are of one length, and
-/// leaves the base as it is if the motion does not stay finite: numbers that are not finite never become so again.
+/// The same loop within the record for a few blocks of modes, which stay in registers. It goes as far as segments are
+/// of one length, and leaves the base as it is if the motion does not stay finite: numbers that are not finite never
+/// become so again.
 #[inline(always)]
 fn fly_few<const WIDTH: usize>(
     model: &Model,

@@ -9,7 +9,8 @@ use crate::engine::step::{Step, StepKind};
 use crate::engine::taylor::solution::Solution;
 
 impl Model {
-    /// Works out the next step, up to `limit` (s since the segment's start) or the next event, unless that has been done already.
+    /// Works out the next step, up to `limit` (s since the segment's start) or the next event, unless that has been
+    /// done already.
     pub fn plan(&self, state: &mut State, limit: f64) {
         match state.step.kind {
             StepKind::NotPlanned => {}

@@ -208,7 +208,8 @@ impl System {
     }
 
     /// Adds the work of the ground motion, of structural damping and of what the floor forces have changed by since the
-    /// base over a solution that begins `from` seconds after it, at the nodes and weights of a quadrature. `motion`(t, q, v) fills v; q is room for it to work in.
+    /// base over a solution that begins `from` seconds after it, at the nodes and weights of a quadrature. `motion`(t,
+    /// q, v) fills v; q is room for it to work in.
     fn integrate(
         &self,
         base: &Base,

@@ -1,7 +1,8 @@
 //! No pair meets in a flight, shown by both ends of it.
 //!
 //! A penetration differs from the cubic through its end values and slopes by at most h^4/384 max|d''''|
-//! \[BirkhoffPriver1967\], and |d''''| is bounded by an energy of the motion. Where all of that lies below 0 there is no contact.
+//! \[BirkhoffPriver1967\], and |d''''| is bounded by an energy of the motion. Where all of that lies below 0 there is
+//! no contact.
 
 use crate::engine::base::planned::{At, Planned};
 use crate::engine::flight::workspace::Look;

@@ -110,8 +110,8 @@ impl<const WIDTH: usize> HermiteCheck<'_, WIDTH> {
         [each(|p| moved[p] - self.near.gaps[p]), rate, size]
     }
 
-    /// Bounds on |q''''| of the modes, from the motion at the start of a segment and the ground's acceleration and its slope:
-    /// as [`Structure::fourth_derivative_bound`] has it with a + b for sqrt(a^2 + b^2).
+    /// Bounds on |q''''| of the modes, from the motion at the start of a segment and the ground's acceleration and its
+    /// slope: as [`Structure::fourth_derivative_bound`] has it with a + b for sqrt(a^2 + b^2).
     #[inline(always)]
     fn fourth(&self, q: &[Lane; WIDTH], v: &[Lane; WIDTH], (acceleration, slope): (f64, f64)) -> [Lane; WIDTH] {
         let mut fourth = [[0.0; LANES]; WIDTH];

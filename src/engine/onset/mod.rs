@@ -21,8 +21,8 @@ use crate::engine::system::buffers::Buffers;
 const HIGHEST: f64 = 8.0;
 
 impl System {
-    /// Works out the first step of an episode, under a load that is in `work`; `false` where a plain step has to do it: entries without speed to
-    /// speak of, or of different laws at the same instant.
+    /// Works out the first step of an episode, under a load that is in `work`; `false` where a plain step has to do it:
+    /// entries without speed to speak of, or of different laws at the same instant.
     pub fn plan_onset(
         &self,
         At { base, counters, .. }: &mut At,

@@ -1,5 +1,5 @@
-//! The double power series of the motion and of all contacts after an entry: a series of Frobenius's kind \[Frobenius1873\], whose
-//! exponents are i + beta j.
+//! The double power series of the motion and of all contacts after an entry: a series of Frobenius's kind
+//! \[Frobenius1873\], whose exponents are i + beta j.
 
 use crate::contact::EpisodeForce;
 use crate::contact::onset::{Grid, GridPowers, MOST_TERMS, OnsetBlock, OnsetReading, Products};

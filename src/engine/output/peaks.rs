@@ -11,8 +11,8 @@ use crate::engine::state::State;
 use crate::engine::step::StepKind;
 
 impl Model {
-    /// The largest magnitude so far of what `of` names, 0 where the scene has no peaks; `point` is what has been observed in
-    /// `state`.
+    /// The largest magnitude so far of what `of` names, 0 where the scene has no peaks; `point` is what has been
+    /// observed in `state`.
     pub fn peak(&self, state: &State, point: &Point, of: PeakOf) -> f64 {
         if self.peak_rows.are_none() {
             return 0.0;

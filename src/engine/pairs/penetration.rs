@@ -34,9 +34,9 @@ impl Contact {
         if self.let_go {
             terms[2] = terms[2].min(0.0);
         }
-        // A pair that rests at the surface is pressed or not by its acceleration, which is 0 where it is rounding: what presses it
-        // brings it together at once. Had it first to pass the rounding of its gap, it would meet with a speed that it cannot
-        // have, and pairs of the same floor would keep each other bouncing.
+        // A pair that rests at the surface is pressed or not by its acceleration, which is 0 where it is rounding: what
+        // presses it brings it together at once. Had it first to pass the rounding of its gap, it would meet with a
+        // speed that it cannot have, and pairs of the same floor would keep each other bouncing.
         let is_pressed = terms[2] > 0.0;
         if terms[0] == 0.0 && self.rate == 0.0 && !is_pressed { noise } else { 0.0 }
     }

@@ -1,7 +1,8 @@
 //! For how many segments of the record nothing can exceed its peak.
 //!
-//! With the amplitude e = sqrt(q'^2 + w^2 q^2) of each mode, which grows by no more than |participation| S over a cumulative absolute
-//! velocity S = integral of |ground acceleration| (see `flight/broad_phase.rs`), a quantity y = A q + B q' is bounded by sums over modes:
+//! With the amplitude e = sqrt(q'^2 + w^2 q^2) of each mode, which grows by no more than |participation| S over a
+//! cumulative absolute velocity S = integral of |ground acceleration| (see `flight/broad_phase.rs`), a quantity y = A q
+//! + B q' is bounded by sums over modes:
 //!
 //! ```text
 //! |y|   <= sum of (|A| / w + |B|) e
@@ -10,10 +11,10 @@
 //!          + |B participation| |slope of the ground acceleration|
 //! ```
 //!
-//! The first is enough once the strongest shaking is over. The second tells for how many segments a quantity cannot get from
-//! where it is to its peak. By the third, one that is below its peak at both ends of a segment by h^2/8 |y''| is so all along.
-//! These bounds are worked out every few segments, values where they are due. They change no result, so no saved state
-//! holds them.
+//! The first is enough once the strongest shaking is over. The second tells for how many segments a quantity cannot get
+//! from where it is to its peak. By the third, one that is below its peak at both ends of a segment by h^2/8 |y''| is
+//! so all along. These bounds are worked out every few segments, values where they are due. They change no result, so
+//! no saved state holds them.
 
 use crate::engine::base::Base;
 use crate::engine::excitation::record::GroundMotion;
@@ -149,8 +150,8 @@ impl Model {
         Amplitudes { own, over_w, quick, bent, damping }
     }
 
-    /// Raises the peaks of a block to the end of the segment, of that number, that has been flown to the base; whether it may
-    /// have exceeded them on the way.
+    /// Raises the peaks of a block to the end of the segment, of that number, that has been flown to the base; whether
+    /// it may have exceeded them on the way.
     pub(in crate::engine) fn raise_to_end(
         &self,
         building: &BuildingRows,

@@ -260,9 +260,9 @@ impl Model {
         }
     }
 
-    /// The largest magnitude of a quantity within a part of a step, or `known` if that is larger, from its value at the end of
-    /// the part. It is looked for in the whole
-    /// step, so that a turn has the same bits whatever part is looked at.
+    /// The largest magnitude of a quantity within a part of a step, or `known` if that is larger, from its value at the
+    /// end of the part. It is looked for in the whole step, so that a turn has the same bits whatever part is looked
+    /// at.
     #[inline(never)]
     fn highest_in_contact(
         &self,
@@ -296,8 +296,8 @@ impl Model {
 }
 
 /// By how much the floors of a building, or the storeys below them, may exceed their peaks of displacement, drift and
-/// acceleration in a step of h seconds, in whatever units: the bounds of [`Model::check_floor`] for all floors at once. Wide
-/// instructions give the same bits.
+/// acceleration in a step of h seconds, in whatever units: the bounds of [`Model::check_floor`] for all floors at once.
+/// Wide instructions give the same bits.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn find_excess(room: &mut FloorRoom, lanes: Range<usize>, h: f64, [displacement, drift, acceleration]: [&[f64]; 3]) {
     let FloorRoom { start, end, least, most, largest, strays, excess, .. } = room;

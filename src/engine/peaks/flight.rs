@@ -2,8 +2,9 @@
 //!
 //! A quantity y = A q + B q' is as near to the cubic through its values and slopes at both ends as h^4/384 max|y''''|
 //! [BirkhoffPriver1967]. The load is linear in time, so q'' is a free oscillation, whose E = sqrt(q'''^2 + w^2 q''^2) never
-//! grows, and |y''''| <= sum over modes of (|A| (w + c) + |B| (c (w + c) + w^2)) E. Where the cubic's control values and that
-//! bound stay below the peak, nothing has happened; where the slope keeps its sign, the larger end is the peak.
+//! grows, and |y''''| <= sum over modes of (|A| (w + c) + |B| (c (w + c) + w^2)) E. Where the cubic's control values
+//! and that bound stay below the peak, nothing has happened; where the slope keeps its sign, the larger end is the
+//! peak.
 
 use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;

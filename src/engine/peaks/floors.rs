@@ -1,9 +1,9 @@
 //! The floors at both ends of a step in contact, and how far they can stray in between.
 //!
 //! Over h seconds a displacement is within h^2/8 max|u''| of the chord between its ends, a velocity within h/2 max|u''|. So
-//! the acceleration r by stiffness and damping strays from its chord by no more than T A, with A the largest accelerations of
-//! all floors and T = h^2/8 |M^-1 K| + h/2 |M^-1 C|. A <= B + T A, where B is what r is at the ends with all that pushes: so
-//! A <= B + T B + |T|^2 / (1 - |T|) max B.
+//! the acceleration r by stiffness and damping strays from its chord by no more than T A, with A the largest
+//! accelerations of all floors and T = h^2/8 |M^-1 K| + h/2 |M^-1 C|. A <= B + T A, where B is what r is at the ends
+//! with all that pushes: so A <= B + T B + |T|^2 / (1 - |T|) max B.
 
 use crate::engine::base::Coordinates;
 use crate::engine::model::Model;

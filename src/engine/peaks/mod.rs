@@ -1,15 +1,15 @@
 //! Largest magnitudes so far, in continuous time: of displacements, drifts, absolute accelerations and base shears.
 //!
-//! Nothing is sampled. A flight is exact, so what a quantity is at both ends of it, how fast it changes there and a bound on
-//! its fourth derivative tell whether it can have exceeded its peak in between ([`flight`]); most segments of a record need
-//! not even that, since the amplitudes of the modes tell for how long nothing can ([`ahead`]). In contact the largest force
-//! and both ends of a step bound what the floors have done ([`contact`]). What may have exceeded its peak is searched for
-//! where it did: in the power series of the step ([`search`]), or by readings of the step where it has none in time
-//! ([`reading`]).
+//! Nothing is sampled. A flight is exact, so what a quantity is at both ends of it, how fast it changes there and a
+//! bound on its fourth derivative tell whether it can have exceeded its peak in between ([`flight`]); most segments of
+//! a record need not even that, since the amplitudes of the modes tell for how long nothing can ([`ahead`]). In contact
+//! the largest force and both ends of a step bound what the floors have done ([`contact`]). What may have exceeded its
+//! peak is searched for where it did: in the power series of the step ([`search`]), or by readings of the step where it
+//! has none in time ([`reading`]).
 //!
-//! Between communication points a peak belongs to the scene: the base holds that of all whole steps, and what the step under
-//! way adds is worked out from its start when somebody asks. Velocities jump in an impact of `stereomechanical`: the motion
-//! before and after counts, the impulse itself, in which accelerations have no size, does not.
+//! Between communication points a peak belongs to the scene: the base holds that of all whole steps, and what the step
+//! under way adds is worked out from its start when somebody asks. Velocities jump in an impact of `stereomechanical`:
+//! the motion before and after counts, the impulse itself, in which accelerations have no size, does not.
 
 pub mod ahead;
 pub mod contact;

@@ -186,8 +186,8 @@ impl OnsetQuantity {
     }
 }
 
-/// The largest magnitude in a step, from one time to another, as far as it lies before a time, or `known` if that is larger.
-/// The whole step is read, in so many parts, so that a turn has the same bits wherever it is asked for.
+/// The largest magnitude in a step, from one time to another, as far as it lies before a time, or `known` if that is
+/// larger. The whole step is read, in so many parts, so that a turn has the same bits wherever it is asked for.
 fn highest(
     (known, until): (f64, f64),
     (from, to): (f64, f64),

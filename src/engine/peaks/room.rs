@@ -1,5 +1,5 @@
-//! Room to work in, and what is remembered from segment to segment and from quantity to quantity. It changes no result, so no
-//! saved state holds it.
+//! Room to work in, and what is remembered from segment to segment and from quantity to quantity. It changes no result,
+//! so no saved state holds it.
 
 use crate::engine::peaks::rows::PeakRows;
 use crate::engine::system::buffers::Buffers;
@@ -28,7 +28,8 @@ pub struct PeakRoom {
     pub expanded: Option<(f64, f64)>,
     /// How many more pieces of a flight may be looked at.
     pub pieces_left: u32,
-    /// Where the flight that is searched has been worked out, the latest last: halves of it are asked for by many quantities.
+    /// Where the flight that is searched has been worked out, the latest last: halves of it are asked for by many
+    /// quantities.
     pub flown: [Flown; MOST_FLOWN],
     pub next_flown: usize,
     /// q and v at both ends of a piece, and the load at its start.

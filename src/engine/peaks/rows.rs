@@ -70,7 +70,8 @@ pub struct Growth {
     /// |B participation| and |(A - B c) participation|: what a ground acceleration does at once to y' and y''.
     pub at_once: Lane,
     pub pushed: Lane,
-    /// What a cumulative absolute velocity (integral of |ground acceleration|) of 1 m/s adds to the bounds on |y|, |y'| and |y''|.
+    /// What a cumulative absolute velocity (integral of |ground acceleration|) of 1 m/s adds to the bounds on |y|, |y'|
+    /// and |y''|.
     pub swing: Lane,
     pub rate: Lane,
     pub bend: Lane,

@@ -1,5 +1,5 @@
-//! The dense solution from the base on: one of a few kinds of step. What kind it is, is asked here; who needs to know more than
-//! where it is and what it does to contacts gets it by [`Step::dense`].
+//! The dense solution from the base on: one of a few kinds of step. What kind it is, is asked here; who needs to know
+//! more than where it is and what it does to contacts gets it by [`Step::dense`].
 
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
@@ -109,8 +109,8 @@ impl Step {
         }
     }
 
-    /// Reads a flight that is all but over from its end, under a load that is in `work`; whether it is one. Masters whose time
-    /// differs from that of a sample by its rounding ask for it all the time, and few terms are enough.
+    /// Reads a flight that is all but over from its end, under a load that is in `work`; whether it is one. Masters
+    /// whose time differs from that of a sample by its rounding ask for it all the time, and few terms are enough.
     fn fly_back(
         &self,
         system: &System,
@@ -163,8 +163,8 @@ impl Step {
         }
     }
 
-    /// Follows one contact, `elapsed` seconds into a step that has begun at `start` \[s\]; for a series in time, `powers` are
-    /// those of that time.
+    /// Follows one contact, `elapsed` seconds into a step that has begun at `start` \[s\]; for a series in time,
+    /// `powers` are those of that time.
     pub fn follow_one(&self, system: &System, contact: &mut Contact, elapsed: f64, start: f64, powers: &Powers) {
         match self.dense() {
             Dense::Onset(onset) => contact.follow_onset(onset, elapsed / onset.scale, start),

@@ -22,7 +22,8 @@ impl Tolerance {
     /// For that of a scene.
     pub fn of(relative_tolerance: f64) -> Tolerance {
         let step = STEP_SHARE * relative_tolerance;
-        // 1.5 for each digit is about cheapest: with 1.2 single masses took 5 to 15 % more instructions, tall frames as many.
+        // 1.5 for each digit is about cheapest: with 1.2 single masses took 5 to 15 % more instructions, tall frames as
+        // many.
         let order = (-1.5 * libm::log10(step)).round().clamp(8.0, (MAX_ORDER - 2) as f64) as usize;
         Tolerance { step, order, linear_order: linear_order(step, order) }
     }

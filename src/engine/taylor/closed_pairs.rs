@@ -207,8 +207,8 @@ impl ClosedPairs {
         }
     }
 
-    /// Enters power n of the penetrations, from the members of a block, its lanes that hold pairs, and whether one of them may
-    /// have just entered without any speed.
+    /// Enters power n of the penetrations, from the members of a block, its lanes that hold pairs, and whether one of
+    /// them may have just entered without any speed.
     pub fn set_blocks(&mut self, n: usize, mut values: impl FnMut(&PackedPairs, usize, bool) -> Each) {
         let blocks = self.blocks.iter_mut().zip(&self.members).zip(&self.at_surface);
         for ((block, members), at_surface) in blocks.take(self.used) {

@@ -65,8 +65,8 @@ impl System {
         }
     }
 
-    /// By how much a guard has to be passed, in its unit: by more than rounding where the floors move alike but for that, else
-    /// the contact would pass back and forth for ever.
+    /// By how much a guard has to be passed, in its unit: by more than rounding where the floors move alike but for
+    /// that, else the contact would pass back and forth for ever.
     fn noise_of_guard(
         &self,
         contact: &Contact,

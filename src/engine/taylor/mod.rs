@@ -62,8 +62,8 @@ impl System {
         }
     }
 
-    /// How far the expanded series are good for, in x: with more powers where these are cheap, by a time map where that takes them
-    /// further.
+    /// How far the expanded series are good for, in x: with more powers where these are cheap, by a time map where that
+    /// takes them further.
     fn reach(
         &self,
         base: &Base,

@@ -151,8 +151,8 @@ struct Horizon<'a> {
 }
 
 impl<'a> Horizon<'a> {
-    /// For a step up to x. With t = x + b x^2 no term of a series in time, made one in x and cut off after its last power, is
-    /// larger than its size in time is at x + |b| x^2.
+    /// For a step up to x. With t = x + b x^2 no term of a series in time, made one in x and cut off after its last
+    /// power, is larger than its size in time is at x + |b| x^2.
     fn of(series: &'a MotionSeries, x: f64, wandered: &'a mut [f64]) -> Horizon<'a> {
         let reach = x + series.time_map.curvature.abs() * (x * x);
         series.sum_sizes(2, reach, wandered);

@@ -14,8 +14,8 @@ const START_SHARE: f64 = 0.1;
 /// missed, and the powers of the step overflow. The next series has a better scale.
 pub const FURTHEST: f64 = 1e9;
 
-/// Tolerance of a step below which it keeps away from the end of a time map and of its reach: there the rounding of terms in
-/// time weighs a thousand times as much in series of as high an order.
+/// Tolerance of a step below which it keeps away from the end of a time map and of its reach: there the rounding of
+/// terms in time weighs a thousand times as much in series of as high an order.
 const NEAR_ROUNDING: f64 = 1e-13;
 
 /// Share of the time map up to a release that a step takes then.

@@ -16,8 +16,8 @@ const SHARE_TO_SINGULARITY: f64 = 0.35;
 /// x up to which a series is used by the time map of an entry, in times since the entry: 25 times as long after it.
 const FURTHEST_FROM_ENTRY: f64 = 8.0;
 
-/// By how much longer than until a release its time map goes, which stands still at its end: about what the terms in time leave
-/// open of when that is.
+/// By how much longer than until a release its time map goes, which stands still at its end: about what the terms in
+/// time leave open of when that is.
 const LATE: f64 = 1e-3;
 
 impl System {

@@ -92,9 +92,9 @@ pub fn keeps_off(contact: &Contact, bend: f64, h: f64) -> bool {
 }
 
 impl Window {
-    /// m/s^2, bound on what bends the penetration of a pair in that sense over the window: its motion without contact forces, of
-    /// which the terms are given, and what the forces do, of which the kernels are: all but what that of the pair itself,
-    /// where it has one, does at once.
+    /// m/s^2, bound on what bends the penetration of a pair in that sense over the window: its motion without contact
+    /// forces, of which the terms are given, and what the forces do, of which the kernels are: all but what that of the
+    /// pair itself, where it has one, does at once.
     fn bend(&self, sense: Sense, free: &[f64], kernels: &[&Kernel; MOST_PAIRS], itself: Option<usize>) -> f64 {
         let Window { equation, solution, greatest, .. } = self;
         let (x, h) = (solution.length / equation.scale, solution.length);

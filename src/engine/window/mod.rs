@@ -53,8 +53,8 @@ enum Verdict {
 }
 
 impl Windows {
-    /// Works out a window from the base on, over `remaining` seconds at most and under a load that is in `work`; `false` where
-    /// power series have to do it. `series` is for the motion without contact forces.
+    /// Works out a window from the base on, over `remaining` seconds at most and under a load that is in `work`;
+    /// `false` where power series have to do it. `series` is for the motion without contact forces.
     pub fn plan(
         &self,
         system: &System,

@@ -271,8 +271,8 @@ struct FollowedPart {
 }
 
 impl FollowedPart {
-    /// x where what has these values at the nodes and `end` at the end is largest, if it is above `known` there; at the start
-    /// it is not.
+    /// x where what has these values at the nodes and `end` at the end is largest, if it is above `known` there; at the
+    /// start it is not.
     fn highest(&self, values: &Row, end: f64, known: f64) -> Option<f64> {
         let (nodes, last) = (&self.nodes.x[..self.nodes.count], self.last);
         let before = if last < 1.0 { nodes.iter().take_while(|x| **x < last).count() } else { nodes.len() };

@@ -16,8 +16,8 @@ const DASHPOT: f64 = 0.85;
 /// Share of the time until a release up to which a window that does not reach it may go: its root would be felt.
 const BEFORE_RELEASE: f64 = 0.8;
 
-/// (Rate of a dashpot) x (time) x of a window that is not even tried: n sweeps leave some x^n / n! of an error, 24 at the most
-/// are made, and a window that has failed is halved four times at most: 12.5^24 / 24! is above 1.
+/// (Rate of a dashpot) x (time) x of a window that is not even tried: n sweeps leave some x^n / n! of an error, 24 at
+/// the most are made, and a window that has failed is halved four times at most: 12.5^24 / 24! is above 1.
 const TOO_STIFF: f64 = 200.0;
 
 /// (Fastest rate) x (time) that the series of a window are for.
@@ -161,8 +161,8 @@ mod tests {
     use crate::engine::state::State;
     use crate::scene::Scene;
 
-    /// 1 mm deep in each other: the dashpot takes some 1e2/s for e = 0.5, and 1e14/s for 1e-12, which windows of 0.01 s cannot
-    /// be halved often enough for.
+    /// 1 mm deep in each other: the dashpot takes some 1e2/s for e = 0.5, and 1e14/s for 1e-12, which windows of 0.01 s
+    /// cannot be halved often enough for.
     #[test]
     fn no_window_is_tried_where_none_can_succeed() {
         for (restitution, is_tried) in [(0.5, true), (1e-12, false)] {

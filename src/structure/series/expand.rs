@@ -46,7 +46,8 @@ pub trait PairForces {
 }
 
 impl MotionSeries {
-    /// Appends power n + 2 from the load's power n (in 1/scale^n), by (n+1)(n+2) q_{n+2} = load_n - c (n+1) q_{n+1} - w^2 q_n.
+    /// Appends power n + 2 from the load's power n (in 1/scale^n), by (n+1)(n+2) q_{n+2} = load_n - c (n+1) q_{n+1} -
+    /// w^2 q_n.
     ///
     /// `load` adds the modal load of power n to its argument, which holds zeros, in units of the load itself, and
     /// `constrain` may change the modal accelerations that follow from it.
@@ -72,8 +73,9 @@ impl MotionSeries {
         self.order += 1;
     }
 
-    /// Expands from a started series of modes that damping does not couple to `order`, or goes on with an expanded one, under
-    /// a load, its slope and the forces of some pairs; the terms of up to [`FEW_BLOCKS`] blocks of modes stay in registers.
+    /// Expands from a started series of modes that damping does not couple to `order`, or goes on with an expanded one,
+    /// under a load, its slope and the forces of some pairs; the terms of up to [`FEW_BLOCKS`] blocks of modes stay in
+    /// registers.
     pub fn expand_few_modes(
         &mut self,
         structure: &Structure,
