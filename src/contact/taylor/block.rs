@@ -106,12 +106,6 @@ impl PairBlock {
             let value = power(penetration, ROOT);
             (self.root[0][0][lane], self.lead[1][lane]) = (value, ROOT * value * inverse);
         }
-        self.add_open_pair(lane, penetration, step_rate);
-    }
-
-    /// Adds an open pair in a spare lane: it has no force, and its penetration is expanded beside the others at no
-    /// cost.
-    pub fn add_open_pair(&mut self, lane: usize, penetration: f64, step_rate: f64) {
         for (n, value) in [penetration, step_rate].into_iter().enumerate() {
             self.penetration[n][lane] = value;
             self.backwards[LAST - n][lane] = value;
@@ -171,10 +165,5 @@ impl PairBlock {
             true => substitution.apply(&mut self.penetration[..terms], 1),
             false => substitution.apply_to_both([&mut self.penetration, &mut self.force], terms),
         }
-    }
-
-    /// The same for two blocks of elastic forces.
-    pub fn substitute_with(&mut self, other: &mut PairBlock, substitution: &Substitution) {
-        substitution.apply_to_both([&mut self.penetration, &mut other.penetration], self.order + 3);
     }
 }

@@ -1,12 +1,12 @@
 //! The powers of forces from those of the penetrations, for each kind of law.
 //!
-//! Code compiled for one kind costs less than code that asks for the kind at every power.
+//! Code compiled for damped power laws costs less than code that asks for the kind at every power.
 
 use super::block::{Each, LAST, PAIRS, PairBlock, ROOT, Sloped};
 use crate::contact::force::Kind;
 use crate::numerics::polynomial::{COUNT, MAX_TERMS, RECIPROCAL, each};
 
-/// The kind of law of all pairs of a block, where code is compiled for it.
+/// What is known of the kind of law of all pairs of a block: damped power laws, or any kind.
 pub trait PairLaw {
     /// Whether the forces need the series of the rates.
     #[inline(always)]
@@ -30,40 +30,30 @@ impl PairLaw for Any {
     fn force(block: &mut PairBlock, n: usize) -> Each {
         match block.kind {
             Kind::None => [0.0; PAIRS],
-            Kind::Linear => Linear::force(block, n),
-            Kind::Spring => Spring::force(block, n),
+            Kind::Linear => linear(block, n),
+            Kind::Spring => spring(block, n),
             Kind::Damped => Damped::force(block, n),
-            Kind::Root => Root::force(block, n),
+            Kind::Root => root(block, n),
         }
     }
 }
 
 /// [`Kind::Linear`].
-pub struct Linear;
-
-impl PairLaw for Linear {
-    #[inline(always)]
-    fn force(block: &mut PairBlock, n: usize) -> Each {
-        let (d, next) = (&block.penetration[n], &block.penetration[n + 1]);
-        each(|i| block.stiffness[i] * d[i] + block.damping[i] * (COUNT[n + 1] * next[i]))
-    }
+#[inline(always)]
+fn linear(block: &mut PairBlock, n: usize) -> Each {
+    let (d, next) = (&block.penetration[n], &block.penetration[n + 1]);
+    each(|i| block.stiffness[i] * d[i] + block.damping[i] * (COUNT[n + 1] * next[i]))
 }
-
 /// [`Kind::Spring`].
-pub struct Spring;
-
-impl PairLaw for Spring {
-    #[inline(always)]
-    fn force(block: &mut PairBlock, n: usize) -> Each {
-        let mut sums = [[0.0; PAIRS]; 2];
-        if n >= 2 {
-            add_all_products(&mut sums, &block.backwards[LAST - (n - 1)..LAST - 1], &block.power[1..n - 1]);
-        }
-        let power = block.extend_power(n, &sums);
-        each(|i| block.stiffness[i] * power[i])
+#[inline(always)]
+fn spring(block: &mut PairBlock, n: usize) -> Each {
+    let mut sums = [[0.0; PAIRS]; 2];
+    if n >= 2 {
+        add_all_products(&mut sums, &block.backwards[LAST - (n - 1)..LAST - 1], &block.power[1..n - 1]);
     }
+    let power = block.extend_power(n, &sums);
+    each(|i| block.stiffness[i] * power[i])
 }
-
 /// [`Kind::Damped`]: d^n (1 + b d'), the product with the newest terms last.
 pub struct Damped;
 
@@ -95,28 +85,23 @@ impl PairLaw for Damped {
 }
 
 /// [`Kind::Root`]: d^0.25 d' = (4/5) (d^1.25)', no product of series, but a root that is one power ahead.
-pub struct Root;
-
-impl PairLaw for Root {
-    #[inline(always)]
-    fn force(block: &mut PairBlock, n: usize) -> Each {
-        let (mut sums, mut roots) = ([[0.0; PAIRS]; 2], [[0.0; PAIRS]; 2]);
-        if n >= 2 {
-            add_products(&mut roots, &block.backwards[LAST - n], &block.root[1]);
-            let depths = &block.backwards[LAST - (n - 1)..LAST - 1];
-            for ((d, p), root) in depths.iter().zip(&block.power[1..n - 1]).zip(&block.root[2..n]) {
-                add_products(&mut sums, d, p);
-                add_products(&mut roots, d, root);
-            }
+#[inline(always)]
+fn root(block: &mut PairBlock, n: usize) -> Each {
+    let (mut sums, mut roots) = ([[0.0; PAIRS]; 2], [[0.0; PAIRS]; 2]);
+    if n >= 2 {
+        add_products(&mut roots, &block.backwards[LAST - n], &block.root[1]);
+        let depths = &block.backwards[LAST - (n - 1)..LAST - 1];
+        for ((d, p), root) in depths.iter().zip(&block.power[1..n - 1]).zip(&block.root[2..n]) {
+            add_products(&mut sums, d, p);
+            add_products(&mut roots, d, root);
         }
-        let power = block.extend_power(n, &sums);
-        let root = block.next_power(&block.root, [ROOT; PAIRS], block.lead[1], &roots, n + 1);
-        let slope = each(|i| COUNT[n + 1] * root[i]);
-        block.root[n + 1] = [root, slope];
-        each(|i| block.stiffness[i] * power[i] + block.damping[i] * slope[i])
     }
+    let power = block.extend_power(n, &sums);
+    let root = block.next_power(&block.root, [ROOT; PAIRS], block.lead[1], &roots, n + 1);
+    let slope = each(|i| COUNT[n + 1] * root[i]);
+    block.root[n + 1] = [root, slope];
+    each(|i| block.stiffness[i] * power[i] + block.damping[i] * slope[i])
 }
-
 impl PairBlock {
     /// Enters power n of the penetrations, of pairs under a law.
     #[inline(always)]

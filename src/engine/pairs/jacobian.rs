@@ -93,8 +93,7 @@ impl FloorJacobian {
     }
 }
 
-/// The motion is that of modes that are few enough for the members to know all of them; of use for all lanes, those of
-/// riders too.
+/// The motion is that of modes that are few enough for the members to know all of them.
 pub struct PackedModalJacobian;
 
 impl ContactJacobian for PackedModalJacobian {

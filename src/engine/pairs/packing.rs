@@ -81,11 +81,6 @@ impl PackedPairs {
     pub fn set(&mut self, lane: usize, pair: usize, data: &Pair, coordinates: Coordinates) {
         self.pairs[lane] = pair;
         self.taken[lane] = true;
-        self.set_beside(lane, data, coordinates);
-    }
-
-    /// Enters what belongs to a pair in a lane that does not hold it.
-    pub fn set_beside(&mut self, lane: usize, data: &Pair, coordinates: Coordinates) {
         let Pair { lanes: floors, inverse_masses: [left, right], .. } = *data;
         self.floors[lane] = floors;
         self.gap[lane] = data.gap;

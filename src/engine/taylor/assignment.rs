@@ -1,6 +1,6 @@
 //! Which pair in contact stands in which block and lane.
 
-use crate::contact::taylor::{Kind, PAIRS, PairBlock};
+use crate::contact::taylor::{Kind, PairBlock};
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
 use crate::engine::pairs::packing::LanePlace;
@@ -8,11 +8,9 @@ use crate::engine::pairs::pair::Pair;
 use crate::engine::taylor::closed_pairs::ClosedPairs;
 
 impl ClosedPairs {
-    /// Starts the series of all pairs in contact that are not held together; `scale` is the unit of time. Pairs that are
-    /// apart `may_ride` along where the motion is that of few modes.
-    pub fn start(&mut self, base: &Base, pairs: &[Pair], scale: f64, may_ride: bool) {
-        if self.may_ride != may_ride || !self.start_again(base, scale) {
-            self.may_ride = may_ride;
+    /// Starts the series of all pairs in contact that are not held together; `scale` is the unit of time.
+    pub fn start(&mut self, base: &Base, pairs: &[Pair], scale: f64) {
+        if !self.start_again(base, scale) {
             self.assign(base, pairs);
             self.start_again(base, scale);
         }
@@ -35,19 +33,6 @@ impl ClosedPairs {
             self.places[p] = (b, lane);
             self.assigned.push((p, kind));
         }
-        self.riders.clear();
-        if self.may_ride && self.used == 1 && pairs.len() <= PAIRS && self.blocks[0].has_roots() {
-            self.assign_riders(base, pairs);
-        }
-    }
-
-    /// Gives the pairs that are apart the lanes that are left.
-    fn assign_riders(&mut self, base: &Base, pairs: &[Pair]) {
-        let apart = (0..pairs.len()).filter(|&p| !base.contacts[p].in_contact());
-        for (lane, p) in (self.blocks[0].count..PAIRS).zip(apart) {
-            self.members[0].set_beside(lane, &pairs[p], base.coordinates);
-            self.riders.push((lane, p));
-        }
     }
 
     /// Enters the closed pairs where they have been assigned; whether they are the same as then.
@@ -65,10 +50,6 @@ impl ClosedPairs {
             let at_surface = contact.at_surface && contact.rate == 0.0;
             self.at_surface[b] |= at_surface;
             self.waits |= at_surface || self.neighbours[p].iter().any(|&q| is_closed(&base.contacts[q]));
-        }
-        for &(lane, p) in &self.riders {
-            let Contact { penetration, rate, .. } = base.contacts[p];
-            self.blocks[0].add_open_pair(lane, penetration, rate * scale);
         }
         assigned.next().is_none() && self.coordinates == base.coordinates
     }

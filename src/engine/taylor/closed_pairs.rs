@@ -5,8 +5,7 @@ use crate::engine::base::Coordinates;
 use crate::engine::base::contact::Contact;
 use crate::engine::pairs::packing::{PackedPairs, most_blocks};
 use crate::engine::pairs::pair::Pair;
-use crate::engine::taylor::open_pairs::PenetrationBounds;
-use crate::numerics::polynomial::{Coefficients, each};
+use crate::numerics::polynomial::Coefficients;
 use crate::numerics::powers::{Powers, Reading};
 use crate::numerics::roots;
 use crate::numerics::substitution::Substitution;
@@ -27,10 +26,6 @@ pub struct ClosedPairs {
     /// The closed pairs that have been given a block and a lane, with their kinds, and in which coordinates.
     pub assigned: Vec<(usize, Kind)>,
     pub coordinates: Coordinates,
-    /// Lanes of the only block in which pairs that are apart ride along, all of them or none: so their penetrations come
-    /// with the others' at no cost.
-    pub riders: Vec<(usize, usize)>,
-    pub may_ride: bool,
     /// Whether the penetrations have to wait for all forces.
     pub waits: bool,
     pub used: usize,
@@ -45,8 +40,6 @@ pub type Blocks<'a> = (&'a mut [PairBlock], &'a [PackedPairs]);
 pub struct BlockEnd {
     motion: BlockReading,
     force: ForceReading,
-    /// Whether a force, or a penetration, may be largest in between.
-    turns: [[bool; PAIRS]; 2],
 }
 
 impl ClosedPairs {
@@ -63,23 +56,10 @@ impl ClosedPairs {
             neighbours: (0..pairs).map(|p| (0..p).filter(|&q| shares(&all[p], &all[q])).collect()).collect(),
             assigned: Vec::with_capacity(pairs),
             coordinates: Coordinates::default(),
-            riders: Vec::with_capacity(PAIRS),
-            may_ride: false,
             waits: false,
             used: 0,
             places: vec![(0, 0); pairs],
         }
-    }
-
-    /// How they go up to the end of the step.
-    pub fn bounds_of_riders(&self) -> PenetrationBounds {
-        let (PairBlock { penetration: terms, .. }, end) = (&self.blocks[0], &self.readings[0]);
-        PenetrationBounds { start: [terms[0], terms[1]], end: [end.penetration, end.slope], fourth: end.fourth }
-    }
-
-    /// The pairs that are apart and ride along in the first block, with their lanes: all of them, or none.
-    pub fn riders(&self) -> &[(usize, usize)] {
-        &self.riders
     }
 
     /// How many pairs have a force.
@@ -130,21 +110,9 @@ impl ClosedPairs {
         blocks.any(|(block, members)| members.lanes().any(|(lane, _)| parabola(&block.penetration, lane) < 0.0))
     }
 
-    /// Makes all series such in the x of a time map: of two blocks at a time where there is one series in each.
+    /// Makes all series such in the x of a time map.
     pub fn substitute(&mut self, substitution: &Substitution) {
-        let mut waiting: Option<&mut PairBlock> = None;
-        for block in &mut self.blocks[..self.used] {
-            if !block.is_elastic() {
-                block.substitute(substitution);
-            } else if let Some(other) = waiting.take() {
-                other.substitute_with(block, substitution);
-            } else {
-                waiting = Some(block);
-            }
-        }
-        if let Some(block) = waiting {
-            block.substitute(substitution);
-        }
+        self.blocks[..self.used].iter_mut().for_each(|block| block.substitute(substitution));
     }
 
     /// Number of blocks in use.
@@ -173,22 +141,6 @@ impl ClosedPairs {
     /// Penetrations of a block at the end of the step.
     pub fn reading(&self, block: usize) -> &BlockReading {
         &self.readings[block]
-    }
-
-    /// Which pairs of a block certainly stay in contact up to x, the end of the step.
-    pub fn stays_closed(&self, block: usize, x: f64) -> [bool; PAIRS] {
-        if self.at_surface[block] {
-            return [false; PAIRS];
-        }
-        let (PairBlock { penetration: terms, .. }, end) = (&self.blocks[block], &self.readings[block]);
-        let bound = (x * x) * (x * x) / 384.0;
-        let smaller = |a: f64, b: f64| if a < b { a } else { b };
-        // As `roots::ceiling` has it.
-        let least = each(|i| {
-            let (start, end, slope) = (terms[0][i], end.penetration[i], end.slope[i]);
-            smaller(smaller(start, end), smaller(start + x * terms[1][i] / 3.0, end - x * slope / 3.0))
-        });
-        std::array::from_fn(|i| least[i] > 0.0 && least[i] >= bound * end.fourth[i])
     }
 
     /// Power n of the forces, from the powers of the penetrations so far.
@@ -274,46 +226,13 @@ impl ClosedPairs {
 
 impl BlockEnd {
     fn of(block: &PairBlock, motion: BlockReading, powers: &Powers) -> BlockEnd {
-        let (force, of_force) = match block.is_elastic() {
+        let force = match block.is_elastic() {
             // Strongest where they are deepest.
-            true => (ForceReading { impulse: block.elastic_impulses(powers), ..Default::default() }, [false; PAIRS]),
-            false => {
-                let force = block.read_force(powers);
-                (force, may_turn(&block.force, (&force.value, &force.slope), &force.fourth, powers.x))
-            }
+            true => ForceReading { impulse: block.elastic_impulses(powers), ..Default::default() },
+            false => block.read_force(powers),
         };
-        let of_motion = may_turn(&block.penetration, (&motion.penetration, &motion.slope), &motion.fourth, powers.x);
-        BlockEnd { motion, force, turns: [of_force, of_motion] }
+        BlockEnd { motion, force }
     }
-}
-
-/// Whether the slope of each series may pass 0 within 0..=x, by bounds as [`roots`] has them.
-#[inline(always)]
-fn may_turn(terms: &[Each], (end, slope): (&Each, &Each), fourth: &Each, x: f64) -> [bool; PAIRS] {
-    let (smaller, larger) = (|a: f64, b: f64| if a < b { a } else { b }, |a: f64, b: f64| if a > b { a } else { b });
-    let (start, first) = (&terms[0], &terms[1]);
-    let middle = each(|i| 3.0 * (end[i] - start[i]) / x - (first[i] + slope[i]));
-    let least = each(|i| smaller(middle[i], smaller(first[i], slope[i])));
-    let most = each(|i| larger(middle[i], larger(first[i], slope[i])));
-    let error = each(|i| 0.008_02 * x * x * x * fourth[i]);
-    std::array::from_fn(|i| !(least[i] > error[i] || most[i] < -error[i]))
-}
-
-/// See [`roots::maximum_above`]; only of what `turns` more than the ends has to be looked at.
-#[inline(always)]
-fn highest(
-    turns: bool,
-    first: (f64, f64),
-    x: f64,
-    end: &Reading,
-    known: f64,
-    terms: impl FnOnce(&mut Coefficients) -> usize,
-) -> Option<(f64, f64)> {
-    if turns {
-        return roots::maximum_above(first, x, end, known, terms);
-    }
-    let (at, value) = if end.value > first.0 { (x, end.value) } else { (0.0, first.0) };
-    (value > known).then_some((at, value))
 }
 
 impl Contact {
@@ -338,7 +257,6 @@ impl Contact {
                 end.motion.penetration[lane],
             );
         }
-        let [force_turns, motion_turns] = end.turns.map(|turns| turns[lane]);
         let depth = Reading {
             value: end.motion.penetration[lane],
             slope: end.motion.slope[lane],
@@ -346,7 +264,7 @@ impl Contact {
         };
         let terms = |out: &mut Coefficients| block.copy_penetration(lane, out);
         let first = (block.penetration[0][lane], block.penetration[1][lane]);
-        let deepest = highest(motion_turns, first, x, &depth, self.episode.peak_penetration, terms);
+        let deepest = roots::maximum_above(first, x, &depth, self.episode.peak_penetration, terms);
         if let Some((_, peak)) = deepest {
             self.episode.peak_penetration = peak;
         }
@@ -355,7 +273,7 @@ impl Contact {
             _ => {
                 let terms = |out: &mut Coefficients| block.copy_force(lane, out);
                 let first = (block.force[0][lane], block.force[1][lane]);
-                highest(force_turns, first, x, &end.force.of(lane), self.episode.peak_force, terms)
+                roots::maximum_above(first, x, &end.force.of(lane), self.episode.peak_force, terms)
             }
         };
         if let Some((at, peak)) = strongest.filter(|(_, peak)| *peak > self.episode.peak_force) {

@@ -22,13 +22,9 @@ impl System {
     pub fn first_leaving(&self, base: &Base, solution: &Solution, work: &mut Buffers) -> Option<(f64, Event)> {
         let mut first = None;
         for block in 0..solution.closed.len() {
-            let stays = solution.closed.stays_closed(block, solution.end.x);
+            let reading = solution.closed.reading(block);
             for (lane, p) in solution.closed.pairs_of(block) {
-                if !stays[lane] || base.contacts[p].force.guard.is_some() {
-                    let reading = solution.closed.reading(block);
-                    let place = (p, lane, stays[lane]);
-                    first = self.leaving(base, solution, work, place, reading, until(first, solution)).or(first);
-                }
+                first = self.leaving(base, solution, work, (p, lane), reading, until(first, solution)).or(first);
             }
         }
         for &p in self.rigid.pairs.iter().filter(|&&p| base.contacts[p].is_held() && !base.contacts[p].undecided) {
@@ -37,13 +33,13 @@ impl System {
         first
     }
 
-    /// Release or change of branch of a pair in contact; of one that certainly stays closed, of its branch only.
+    /// Release or change of branch of a pair in contact.
     fn leaving(
         &self,
         base: &Base,
         solution: &Solution,
         work: &mut Buffers,
-        (p, lane, stays): (usize, usize, bool),
+        (p, lane): (usize, usize),
         reading: &BlockReading,
         until: f64,
     ) -> Option<(f64, Event)> {
@@ -51,10 +47,7 @@ impl System {
         // One that has entered without any speed, whose first terms may be rounding, leaves at that depth.
         let depth =
             if contact.at_surface && contact.rate == 0.0 { self.noise_of(p, base, solution, work) } else { 0.0 };
-        let released = match stays {
-            true => None,
-            false => released(&solution.closed, (p, lane), reading, (solution.end.x, until), depth, &mut work.scalar),
-        };
+        let released = released(&solution.closed, (p, lane), reading, (solution.end.x, until), depth, &mut work.scalar);
         let first = released.map(|x| (x, Event::Release(p)));
         let Some(guard) = contact.force.guard else { return first };
         let until = released.unwrap_or(until);

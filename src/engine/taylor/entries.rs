@@ -18,17 +18,7 @@ impl System {
         if base.contacts.iter().all(Contact::in_contact) {
             return None;
         }
-        let Solution { open, closed, series, end, substitution, .. } = solution;
-        if !closed.riders().is_empty() {
-            let course = closed.bounds_of_riders();
-            return self.first_of_lanes(
-                base,
-                closed.riders().iter().copied(),
-                &course,
-                ((series, substitution), end, work),
-                None,
-            );
-        }
+        let Solution { open, series, end, substitution, .. } = solution;
         open.assign(&self.pairs, base.coordinates);
         open.follow(base, &self.pairs, (series, substitution), end, &mut work.node_q);
         let mut first = None;

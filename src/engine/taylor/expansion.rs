@@ -16,9 +16,7 @@ impl System {
     /// The series of the motion, of penetrations and forces from the base on.
     pub fn expand(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, scale: f64) {
         solution.series.start(scale, &base.q, &base.v);
-        let are_few = base.coordinates == Coordinates::Modes && base.q.len() <= FEW_BLOCKS * LANES;
-        let may_ride = are_few && self.structure.is_classical() && self.rigid.pairs.is_empty();
-        solution.closed.start(base, &self.pairs, scale, may_ride);
+        solution.closed.start(base, &self.pairs, scale);
         self.expand_to(base, solution, work, self.tolerance.order + 1);
     }
 
@@ -28,15 +26,19 @@ impl System {
         let Solution { series, closed, .. } = solution;
         match base.coordinates {
             Coordinates::Floors => {
-                with_forces!(closed, [Linear, Spring, Damped, Root], false, FloorJacobian, |forces| series
-                    .expand_floors(&structure.floors, order, loads, forces));
+                with_forces!(closed, [Damped], FloorJacobian, |forces| series.expand_floors(
+                    &structure.floors,
+                    order,
+                    loads,
+                    forces
+                ));
             }
             Coordinates::Modes if structure.is_classical() && work.rigid.pairs.is_empty() => {
                 if base.q.len() > FEW_BLOCKS * LANES {
-                    with_forces!(closed, [], false, ModalJacobian(&self.pairs), |forces| series
+                    with_forces!(closed, [], ModalJacobian(&self.pairs), |forces| series
                         .expand_modes(structure, order, loads, forces));
                 } else if !self.expand_linear(series, closed, order, loads) {
-                    with_forces!(closed, [Spring, Damped, Root], true, PackedModalJacobian, |forces| series
+                    with_forces!(closed, [], PackedModalJacobian, |forces| series
                         .expand_few_modes(structure, order, loads, forces));
                 }
             }
