@@ -2,6 +2,8 @@
 //!
 //! ```text
 //! cargo run --release --example run_time -- SCENE.toml engine TOLERANCE REPEATS OUTPUT
+//! cargo run --release --example run_time -- SCENE.toml coupled TOLERANCE REPEATS OUTPUT
+//! cargo run --release --example run_time -- SCENE.toml whole TOLERANCE REPEATS OUTPUT
 //! cargo run --release --example run_time -- SCENE.toml memory TOLERANCE INSTANCES OUTPUT
 //! ```
 //!
@@ -12,10 +14,15 @@
 //! peak forces, impulses, dissipated energies, and the reading of the
 //! displacements at the output times.
 //!
+//! `coupled` does the same every 0.01 s, as a co-simulation with that communication step would.
+//!
+//! `whole` goes to the end in one step and reads what a study does, there alone: OUTPUT gets displacements and their
+//! peaks, then impulse, peak force and dissipated energy of each contact.
+//!
 //! `memory` makes that many instances as an FMU has them instead, ready to run, and prints the bytes that each takes
 //! (Linux only).
 
-use pounding::engine::{Model, Point, Side, State};
+use pounding::engine::{Model, PeakOf, Point, Side, State};
 use pounding::scene::Package;
 use pounding::slave::{Log, Slave};
 use std::error::Error;
@@ -24,6 +31,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 const OUTPUT_STEP: f64 = 0.05;
+const COMMUNICATION_STEP: f64 = 0.01;
 
 fn main() -> ExitCode {
     match run(&std::env::args().skip(1).collect::<Vec<_>>()) {
@@ -38,31 +46,40 @@ fn main() -> ExitCode {
 fn run(words: &[String]) -> Result<(), Box<dyn Error>> {
     match words {
         [scene, method, tolerance, repeats, output] if method == "engine" => {
-            run_times(Path::new(scene), tolerance.parse()?, repeats.parse()?, Path::new(output))
+            run_times(Path::new(scene), solve, tolerance.parse()?, repeats.parse()?, Path::new(output))
+        }
+        [scene, method, tolerance, repeats, output] if method == "coupled" => {
+            run_times(Path::new(scene), solve_coupled, tolerance.parse()?, repeats.parse()?, Path::new(output))
+        }
+        [scene, method, tolerance, repeats, output] if method == "whole" => {
+            run_times(Path::new(scene), solve_whole, tolerance.parse()?, repeats.parse()?, Path::new(output))
         }
         [scene, method, _, instances, _] if method == "memory" => memory(Path::new(scene), instances.parse()?),
-        _ => Err("usage: run_time SCENE.toml engine|memory TOLERANCE REPEATS OUTPUT".into()),
+        _ => Err("usage: run_time SCENE.toml engine|coupled|whole|memory TOLERANCE REPEATS OUTPUT".into()),
     }
 }
 
-fn run_times(scene: &Path, tolerance: f64, repeats: usize, output: &Path) -> Result<(), Box<dyn Error>> {
+/// Goes to the end of the scene, at a time in s; enters what is read on the way.
+type Solve = fn(&Model, &mut State, &mut Point, f64, &mut Vec<f64>) -> Result<(), Box<dyn Error>>;
+
+fn run_times(scene: &Path, solve: Solve, tolerance: f64, repeats: usize, output: &Path) -> Result<(), Box<dyn Error>> {
     let Package { mut scene, record, .. } = Package::from_scene_file(scene)?;
     scene.solver.relative_tolerance = tolerance;
-    let record = record.ok_or("the scene has no record")?.record;
+    let record = record.map(|record| record.record);
     let stop = scene.stop_time.ok_or("the scene has no stop_time")?;
 
     let clock = Instant::now();
-    let model = Model::new(&scene, Some(&record))?;
+    let model = Model::new(&scene, record.as_ref())?;
     let mut state = model.start(0.0);
     let setup = clock.elapsed().as_secs_f64();
 
-    let mut displacements = Vec::new();
+    let mut readings = Vec::new();
     let mut point = Point::default();
     for _ in 0..repeats {
         state = model.start(0.0);
-        displacements.clear();
+        readings.clear();
         let clock = Instant::now();
-        solve(&model, &mut state, &mut point, stop, &mut displacements)?;
+        solve(&model, &mut state, &mut point, stop, &mut readings)?;
         print!("{:e} ", clock.elapsed().as_secs_f64());
     }
     println!("\n{}", point.impacts);
@@ -73,25 +90,72 @@ fn run_times(scene: &Path, tolerance: f64, repeats: usize, output: &Path) -> Res
     println!("pairs_evaluated={}", counters.pairs_evaluated);
     println!("contact_steps={}", counters.contact_steps);
     println!("events={}", counters.events);
-    let bytes: Vec<u8> = displacements.iter().flat_map(|value| value.to_ne_bytes()).collect();
+    let bytes: Vec<u8> = readings.iter().flat_map(|value| value.to_ne_bytes()).collect();
     std::fs::write(output, bytes)?;
     Ok(())
 }
 
+/// These three have names of their own in the program: `benchmarks/special_paths.py` counts their instructions.
+#[inline(never)]
 fn solve(
     model: &Model,
     state: &mut State,
     point: &mut Point,
     stop: f64,
-    displacements: &mut Vec<f64>,
+    readings: &mut Vec<f64>,
 ) -> Result<(), Box<dyn Error>> {
-    let rows = (stop / OUTPUT_STEP).round() as u64;
+    solve_every(OUTPUT_STEP, model, state, point, stop, readings)
+}
+
+#[inline(never)]
+fn solve_coupled(
+    model: &Model,
+    state: &mut State,
+    point: &mut Point,
+    stop: f64,
+    readings: &mut Vec<f64>,
+) -> Result<(), Box<dyn Error>> {
+    solve_every(COMMUNICATION_STEP, model, state, point, stop, readings)
+}
+
+#[inline(always)]
+fn solve_every(
+    step: f64,
+    model: &Model,
+    state: &mut State,
+    point: &mut Point,
+    stop: f64,
+    readings: &mut Vec<f64>,
+) -> Result<(), Box<dyn Error>> {
+    let rows = (stop / step).round() as u64;
     for row in 0..=rows {
-        model.advance(state, row as f64 * OUTPUT_STEP, &mut |_| ())?;
+        model.advance(state, row as f64 * step, &mut |_| ())?;
         model.observe(state, point);
         for side in [Side::Left, Side::Right] {
-            displacements.extend((0..model.floors(side)).map(|floor| model.displacement(point, side, floor)));
+            readings.extend((0..model.floors(side)).map(|floor| model.displacement(point, side, floor)));
         }
+    }
+    Ok(())
+}
+
+#[inline(never)]
+fn solve_whole(
+    model: &Model,
+    state: &mut State,
+    point: &mut Point,
+    stop: f64,
+    readings: &mut Vec<f64>,
+) -> Result<(), Box<dyn Error>> {
+    model.advance(state, stop, &mut |_| ())?;
+    model.observe(state, point);
+    for side in [Side::Left, Side::Right] {
+        for floor in 0..model.floors(side) {
+            let peak = model.peak(state, point, PeakOf::Displacement(side, floor));
+            readings.extend([model.displacement(point, side, floor), peak]);
+        }
+    }
+    for contact in (0..model.contacts()).map(|p| model.contact(state, point, p)) {
+        readings.extend([contact.impulse, contact.peak_force, contact.dissipated_energy]);
     }
     Ok(())
 }

@@ -38,10 +38,11 @@ class Solver:
         return Outcome(float(times.split()[-1]), displacements, impacts if impacts >= 0 else None, counters)
 
 
-def build_engine():
+def build_engine(environment=None):
     """The program of benchmarks/run_time.rs."""
     command = ["cargo", "build", "--release", "--quiet", "--example", "run_time", "--message-format", "json"]
-    lines = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout.splitlines()
+    done = subprocess.run(command, cwd=ROOT, env=environment, check=True, stdout=subprocess.PIPE, text=True)
+    lines = done.stdout.splitlines()
     programs = [line.split('"executable":"')[1].split('"')[0] for line in lines if '"executable":"' in line]
     return Path(programs[-1])
 

@@ -175,7 +175,7 @@ impl Equation {
                         true => (&mut rate, accuracy * first, &tables.inner[..]),
                         false => (&mut depth, accuracy * first * length, &tables.inner[1..]),
                     };
-                    let count = economize(factors, count, bound);
+                    let count = if cfg!(without = "economized") { count } else { economize(factors, count, bound) };
                     combine::<N>(tables, &factors[..count], &mut response.between);
                 }
             }

@@ -156,7 +156,8 @@ impl Model {
     /// The record and the number of the base's segment, where the motion can glide.
     fn can_run_fast(&self, state: &State) -> Option<(&GroundMotion, u64)> {
         let State { base, step, .. } = state;
-        let is_plain = matches!(step.kind, StepKind::NotPlanned | StepKind::Deferred | StepKind::Flight)
+        let is_plain = !cfg!(without = "fast_flight")
+            && matches!(step.kind, StepKind::NotPlanned | StepKind::Deferred | StepKind::Flight)
             && base.elapsed == 0.0
             && base.coordinates == Coordinates::Modes
             && base.energy.is_none()

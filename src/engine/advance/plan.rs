@@ -60,7 +60,8 @@ impl Model {
             {
                 return StepKind::Window;
             }
-            if touching(at.base).any(|(_, contact)| contact.is_singular())
+            if !cfg!(without = "onset")
+                && touching(at.base).any(|(_, contact)| contact.is_singular())
                 && self.system.plan_onset(at, remaining, planned, onset, buffers)
             {
                 return StepKind::Onset;

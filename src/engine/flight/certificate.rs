@@ -58,7 +58,7 @@ impl Certificate {
             let (end, end_rate) = pair.penetration(&planned.q, &planned.v);
             planned.ends.push(Some((end, end_rate)));
             let highest = highest_of_cubic((contact.flight_start(), contact.rate), (end, end_rate), h);
-            look.stay_apart[p] = highest + deviation < 0.0;
+            look.stay_apart[p] = !cfg!(without = "certificate") && highest + deviation < 0.0;
         }
         look.stay_apart.iter().all(|stays_apart| *stays_apart)
     }

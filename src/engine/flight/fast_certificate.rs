@@ -36,7 +36,7 @@ impl NearPairs {
     /// For all pairs; none where modes or pairs are many, or damping couples modes.
     pub fn of(structure: &Structure, pairs: &[Pair]) -> Option<NearPairs> {
         let are_few = structure.lanes <= MOST_BLOCKS * LANES && pairs.len() <= LANES;
-        if !are_few || !structure.is_classical() {
+        if cfg!(without = "near_pairs") || !are_few || !structure.is_classical() {
             return None;
         }
         let block = |c: usize| {

@@ -14,7 +14,7 @@ impl System {
         if prepared.is_none()
             && let Some(order) = exact_order(self.structure.fastest * h)
         {
-            if self.structure.is_classical() {
+            if !cfg!(without = "short_flight") && self.structure.is_classical() {
                 return fly_in_one_series(&self.structure, (&base.q, &base.v), (load, slope), (h, order), (q, v));
             }
             series.expand_flight(&self.structure, (&base.q, &base.v), (load, slope), (h, order));

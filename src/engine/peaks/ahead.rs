@@ -64,6 +64,9 @@ impl Model {
         if self.peak_rows.are_none() {
             return u64::MAX;
         }
+        if cfg!(without = "peaks_ahead") {
+            return segment;
+        }
         if work.peaks.watch.due > segment {
             return work.peaks.watch.due;
         }

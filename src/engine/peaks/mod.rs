@@ -79,7 +79,7 @@ impl Model {
         for building in &self.peak_rows.buildings {
             let mut is_bounded = false;
             for b in 0..building.blocks.len() {
-                if !self.raise_to_end(building, b, segment, base, work) {
+                if !cfg!(without = "peaks_ahead") && !self.raise_to_end(building, b, segment, base, work) {
                     continue;
                 }
                 let mut peaks = std::mem::take(&mut base.peaks);

@@ -164,7 +164,7 @@ impl System {
 
 /// Modes are cheaper where they are few, or where every floor feels every other.
 fn contact_coordinates(structure: &Structure) -> Coordinates {
-    if structure.lanes > FEW_BLOCKS * LANES && structure.floors.is_sparse() {
+    if !cfg!(without = "floors") && structure.lanes > FEW_BLOCKS * LANES && structure.floors.is_sparse() {
         Coordinates::Floors
     } else {
         Coordinates::Modes

@@ -34,7 +34,7 @@ impl System {
                 ));
             }
             Coordinates::Modes if structure.is_classical() && work.rigid.pairs.is_empty() => {
-                if base.q.len() > FEW_BLOCKS * LANES {
+                if cfg!(without = "few_modes") || base.q.len() > FEW_BLOCKS * LANES {
                     with_forces!(closed, [], ModalJacobian(&self.pairs), |forces| series
                         .expand_modes(structure, order, loads, forces));
                 } else if !self.expand_linear(series, closed, order, loads) {
@@ -53,7 +53,8 @@ impl System {
     /// More powers of the series where these are cheap and it does not reach the release of any pair yet, within
     /// `reach`; whether there are more now.
     pub fn expand_further(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, reach: f64) -> bool {
-        let is_on_few_modes = base.coordinates == Coordinates::Modes
+        let is_on_few_modes = !cfg!(without = "few_modes")
+            && base.coordinates == Coordinates::Modes
             && base.q.len() <= FEW_BLOCKS * LANES
             && self.structure.is_classical()
             && work.rigid.pairs.is_empty();
@@ -76,7 +77,7 @@ impl System {
         order: usize,
         loads: (&[f64], &[f64]),
     ) -> bool {
-        match closed.count_linear() {
+        match closed.count_linear().filter(|_| !cfg!(without = "linear_pairs")) {
             None => false,
             Some(1) => self.expand_linear_pairs::<1>(series, closed, order, loads),
             Some(2) => self.expand_linear_pairs::<2>(series, closed, order, loads),

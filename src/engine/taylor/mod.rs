@@ -76,7 +76,7 @@ impl System {
         if reach < whole && self.expand_further(base, solution, work, reach) {
             reach = self.accurate_reach(base, solution, is_singular, whole);
         }
-        if reach < whole && !self.has_close_rigid_pair(base) && !is_singular {
+        if !cfg!(without = "time_map") && reach < whole && !self.has_close_rigid_pair(base) && !is_singular {
             reach = self.reach_by_map(base, solution, work, (reach, remaining));
         }
         reach

@@ -127,7 +127,7 @@ impl OpenPairs {
         let terms = &mut terms[..(series.order + 1) * apart.len()];
         match base.coordinates {
             Coordinates::Floors => relate(&FloorJacobian, series, (members, apart), terms),
-            Coordinates::Modes if base.q.len() <= FEW_BLOCKS * LANES => {
+            Coordinates::Modes if !cfg!(without = "few_modes") && base.q.len() <= FEW_BLOCKS * LANES => {
                 relate(&PackedModalJacobian, series, (members, apart), terms)
             }
             Coordinates::Modes => relate(&ModalJacobian(pairs), series, (members, apart), terms),

@@ -74,12 +74,12 @@ macro_rules! with_forces {
                 $expand
             }};
         }
-        if $closed.waits() {
+        if cfg!(without = "at_once") || $closed.waits() {
             let $forces = &mut InTurn { closed: $closed, jacobian: $jacobian };
             $expand
         } else {
             let (blocks, kind) = $closed.blocks();
-            match kind {
+            match kind.filter(|_| !cfg!(without = "one_law")) {
                 $(Some($crate::contact::taylor::Kind::$law) => under!(blocks, $crate::contact::taylor::$law),)*
                 _ => under!(blocks, $crate::contact::taylor::Any),
             }
