@@ -60,6 +60,7 @@ mod state;
 mod step;
 mod system;
 mod taylor;
+mod watched;
 mod window;
 
 pub use crate::engine::base::contact::Episode;
@@ -70,7 +71,7 @@ pub use crate::engine::model::Model;
 pub use crate::engine::output::feedthrough::Response;
 pub use crate::engine::output::point::{ContactPoint, EnergyPoint, Point};
 pub use crate::engine::output::point_rates::{ContactRates, EnergyRates, PEAK_ROUNDING, PointRates, Rates};
-pub use crate::engine::peaks::rows::PeakOf;
 pub use crate::engine::saved::SavedState;
 pub use crate::engine::state::State;
+pub use crate::engine::watched::rows::PeakOf;
 pub use crate::structure::Side;

@@ -1,12 +1,10 @@
 //! Everything that changes during a run: plain data, cloned to save it.
 
 use crate::collocation::Workspace as WindowWorkspace;
-use crate::engine::base::clearance::Clearance;
 use crate::engine::base::counters::Counters;
-use crate::engine::base::{Account, Base, Coordinates};
+use crate::engine::base::{Account, Base};
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::excitation::linear_input::LinearInput;
-use crate::engine::excitation::segment::Segment;
 use crate::engine::flight::workspace::Look;
 use crate::engine::model::Model;
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
@@ -114,34 +112,10 @@ impl Model {
     /// The initial state at a time, s.
     pub fn start(&self, time: f64) -> State {
         let _lanes = self.system.structure.lanes;
-        let [q, v] = self.initial.clone();
-        let segment = match &self.system.ground {
-            Some(ground) => ground.segment_at(time),
-            None => Segment::under_input(time, 0.0, &LinearInput::default()),
-        };
         let floors = self.floors(Side::Left) + self.floors(Side::Right);
         let mut state = State {
             time,
-            base: Base {
-                segment,
-                elapsed: time - segment.start,
-                contacts: self
-                    .system
-                    .pairs
-                    .iter()
-                    .enumerate()
-                    .map(|(p, pair)| pair.at_start(p, time, &q, &v))
-                    .collect(),
-                clearance: Clearance::new(self.system.pairs.len()),
-                peaks: self.start_peaks(),
-                energy: self.energy.then(Account::default),
-                velocity_scale: 0.0,
-                last_length: 0.0,
-                impacts: 0,
-                coordinates: Coordinates::Modes,
-                q,
-                v,
-            },
+            base: self.system.start(time, self.start_peaks(), self.energy.then(Account::default)),
             step: Step::new(&self.system),
             inputs: Inputs {
                 ground_acceleration: LinearInput::default(),
@@ -151,7 +125,6 @@ impl Model {
             counters: Counters::default(),
             work: Workspace::new(self),
         };
-        state.base.impacts = state.base.contacts.iter().map(|contact| contact.impacts).sum();
         self.system.open_account(&mut state.base);
         state
     }

@@ -116,7 +116,9 @@ impl GroundMotion {
     /// Whether a segment is one of this motion.
     pub fn has(&self, segment: &Segment) -> bool {
         const MOST: u64 = 1 << 53;
+        // A forged state may hold no number at all.
         let own = match segment.place {
+            _ if segment.start.is_nan() => return false,
             RecordPlace::Outside => self.segment_at(segment.start),
             RecordPlace::Sample(i) if i < self.lengths.len() => self.sample(i),
             RecordPlace::After(k) if k < MOST => self.after(k),
@@ -249,4 +251,25 @@ fn segment_lengths(times: &[f64]) -> Vec<f64> {
     let rounding = 4.0 * f64::EPSILON * times[0].abs().max(times[n].abs());
     let even = times.iter().enumerate().all(|(k, t)| (t - (times[0] + k as f64 * spacing)).abs() <= rounding);
     if even { vec![spacing; n] } else { times.windows(2).map(|pair| pair[1] - pair[0]).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_segment_that_starts_nowhere_is_none_of_the_motion() {
+        let building = "mass = [1e3]\nstiffness = [1e5]\ndamping = { ratio = 0.05 }\n";
+        let scene = Scene::from_toml(&format!("name = \"Two\"\n[left]\n{building}[right]\n{building}"));
+        let Ok(scene) = scene else { panic!("{scene:?}") };
+        let Ok(structure) = Structure::new(&scene.left, &scene.right) else { panic!("a sound structure") };
+        let record = Record { times: vec![1.0, 2.0, 3.0], accelerations: vec![0.0, 1.0, 0.0] };
+        let motion = GroundMotion::new(&record, 1.0, &structure);
+        for time in [0.0, 1.5, 10.0] {
+            let segment = motion.segment_at(time);
+            assert!(motion.has(&segment));
+            assert!(!motion.has(&Segment { start: f64::NAN, ..segment }));
+        }
+    }
 }

@@ -6,9 +6,9 @@ use crate::engine::output::known::PointPeaks;
 use crate::engine::output::point::Point;
 use crate::engine::peaks::flight::Stretch;
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
-use crate::engine::peaks::rows::PeakOf;
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
+use crate::engine::watched::rows::PeakOf;
 
 impl Model {
     /// The largest magnitude so far of what `of` names, 0 where the scene has no peaks; `point` is what has been

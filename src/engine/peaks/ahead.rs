@@ -20,7 +20,7 @@ use crate::engine::base::Base;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::model::Model;
 use crate::engine::peaks::room::{ModeBounds, PeakWork, WatchedBlock};
-use crate::engine::peaks::rows::{Block, BuildingRows};
+use crate::engine::watched::rows::{Block, BuildingRows};
 use crate::numerics::polynomial::{each, larger};
 use crate::structure::{LANES, Lane};
 

@@ -11,7 +11,7 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
 use crate::engine::peaks::room::{ModeBounds, PeakWork};
-use crate::engine::peaks::rows::{Block, BuildingRows, PeakOf};
+use crate::engine::watched::rows::{Block, BuildingRows, PeakOf};
 use crate::numerics::polynomial::{each, larger};
 use crate::numerics::roots;
 use crate::structure::{LANES, Lane};

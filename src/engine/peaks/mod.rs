@@ -16,9 +16,7 @@ pub mod contact;
 pub mod flight;
 pub mod floors;
 pub mod reading;
-pub mod resistance;
 pub mod room;
-pub mod rows;
 pub mod search;
 
 use crate::engine::base::Base;

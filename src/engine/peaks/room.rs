@@ -1,8 +1,8 @@
 //! Room to work in, and what is remembered from segment to segment and from quantity to quantity. It changes no result,
 //! so no saved state holds it.
 
-use crate::engine::peaks::rows::PeakRows;
 use crate::engine::system::buffers::Buffers;
+use crate::engine::watched::rows::PeakRows;
 use crate::structure::{LANES, Lane, Structure};
 
 /// Places of a flight that are remembered.

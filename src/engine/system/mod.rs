@@ -4,14 +4,19 @@ pub mod buffers;
 pub mod error_norm;
 pub mod tolerance;
 
-use crate::engine::base::{Base, Coordinates};
+use crate::engine::base::clearance::Clearance;
+use crate::engine::base::contact::Contact;
+use crate::engine::base::peaks::Peaks;
+use crate::engine::base::{Account, Base, Coordinates};
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::excitation::linear_input::LinearInput;
 use crate::engine::excitation::record::GroundMotion;
+use crate::engine::excitation::segment::Segment;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::pairs::rigid::RigidPairs;
 use crate::engine::system::tolerance::Tolerance;
-use crate::scene::Scene;
+use crate::record::Record;
+use crate::scene::{Building, Problem, Scene, SceneError};
 use crate::structure::{FEW_BLOCKS, ImpulseResponse, LANES, Side, Structure};
 
 /// What stays as it is during a run, but for what single kinds of step prepare for themselves.
@@ -31,13 +36,27 @@ pub struct System {
     pub least_approach: f64,
     /// Where a law has a root, and damping couples no modes.
     pub impulse_response: Option<ImpulseResponse>,
+    /// Modal displacements and velocities at the start.
+    initial: [Vec<f64>; 2],
     /// 1 at every floor.
     ones: Vec<f64>,
 }
 
 impl System {
-    pub fn new(structure: Structure, pairs: Vec<Pair>, ground: Option<GroundMotion>, scene: &Scene) -> System {
-        System {
+    /// Of a checked scene; `record` is there when `scene.ground.record` is.
+    pub fn of(scene: &Scene, record: Option<&Record>) -> Result<System, SceneError> {
+        let structure = Structure::new(&scene.left, &scene.right).map_err(|(side, _)| not_positive_definite(side))?;
+        let pairs: Vec<Pair> = scene.contacts.iter().map(|pair| Pair::new(pair, scene, &structure)).collect();
+        let ground = match record {
+            Some(record) if record.times.len() < 2 => return Err(too_short(record)),
+            Some(record) => {
+                let factor = scene.ground.scaling.factor(record).map_err(|p| SceneError { problems: vec![p] })?;
+                Some(GroundMotion::new(record, factor, &structure))
+            }
+            None => None,
+        };
+        Ok(System {
+            initial: initial_state(scene, &structure),
             rigid: RigidPairs::of(&pairs),
             floor_forces: scene.floor_forces,
             tolerance: Tolerance::of(scene.solver.relative_tolerance),
@@ -52,6 +71,31 @@ impl System {
             structure,
             pairs,
             ground,
+        })
+    }
+
+    /// The base at the initial state, at a time, s.
+    pub fn start(&self, time: f64, peaks: Peaks, energy: Option<Account>) -> Base {
+        let [q, v] = self.initial.clone();
+        let segment = match &self.ground {
+            Some(ground) => ground.segment_at(time),
+            None => Segment::under_input(time, 0.0, &LinearInput::default()),
+        };
+        let contacts: Vec<Contact> =
+            self.pairs.iter().enumerate().map(|(p, pair)| pair.at_start(p, time, &q, &v)).collect();
+        Base {
+            segment,
+            elapsed: time - segment.start,
+            clearance: Clearance::new(self.pairs.len()),
+            peaks,
+            energy,
+            velocity_scale: 0.0,
+            last_length: 0.0,
+            impacts: contacts.iter().map(|contact| contact.impacts).sum(),
+            coordinates: Coordinates::Modes,
+            contacts,
+            q,
+            v,
         }
     }
 
@@ -169,4 +213,28 @@ fn contact_coordinates(structure: &Structure) -> Coordinates {
     } else {
         Coordinates::Modes
     }
+}
+
+fn initial_state(scene: &Scene, structure: &Structure) -> [Vec<f64>; 2] {
+    let mut state = [vec![0.0; structure.lanes], vec![0.0; structure.lanes]];
+    for (side, building) in [(Side::Left, &scene.left), (Side::Right, &scene.right)] {
+        let Building { mass, initial_displacement, initial_velocity, .. } = building;
+        structure.to_modal(side, mass, initial_displacement, &mut state[0]);
+        structure.to_modal(side, mass, initial_velocity, &mut state[1]);
+    }
+    state
+}
+
+fn too_short(record: &Record) -> SceneError {
+    let found = format!("{} samples", record.times.len());
+    Problem::new("ground.record", found, "at least 2 samples, to be linear between").into()
+}
+
+fn not_positive_definite(side: Side) -> SceneError {
+    let building = match side {
+        Side::Left => "left",
+        Side::Right => "right",
+    };
+    let expected = "a positive definite stiffness with natural frequencies that double precision can hold";
+    Problem::new(format!("{building}.stiffness"), "", expected).into()
 }

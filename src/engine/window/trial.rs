@@ -156,9 +156,9 @@ fn reach_of_fewer(map: Map) -> [f64; 2] {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
+    use super::*;
     use crate::engine::base::contact::Phase;
-    use crate::engine::model::Model;
-    use crate::engine::state::State;
+    use crate::engine::base::peaks::Peaks;
     use crate::scene::Scene;
 
     /// 1 mm deep in each other: the dashpot takes some 1e2/s for e = 0.5, and 1e14/s for 1e-12, which windows of 0.01 s
@@ -171,14 +171,13 @@ mod tests {
                 "name = \"Two\"\n[right]\n{building}[left]\n{building}initial_velocity = [0.1]\n[[contact]]\nleft_floor = 1\n\
                  right_floor = 1\ngap = -1e-3\nlaw = \"jankowski\"\nstiffness = 1e8\nrestitution = {restitution:?}\n"
             );
-            let model = Model::new(&Scene::from_toml(&scene).unwrap(), None).unwrap();
-            let (State { base, .. }, mut window) =
-                (model.start(0.0), crate::engine::window::solution::Window::default());
+            let system = System::of(&Scene::from_toml(&scene).unwrap(), None).unwrap();
+            let (base, mut window) = (system.start(0.0, Peaks::default(), None), Window::default());
             assert_eq!(base.contacts[0].phase, Phase::Engaged);
-            let windows = model.windows.as_ref().unwrap();
+            let windows = Windows::of(&system).unwrap();
             let equation = &mut window.equation;
             (equation.closed, equation.forces[0]) = (1, base.contacts[0].branch());
-            assert_eq!(windows.trial(&model.system, &base, &mut window, 0.01).is_some(), is_tried, "{restitution}");
+            assert_eq!(windows.trial(&system, &base, &mut window, 0.01).is_some(), is_tried, "{restitution}");
         }
     }
 }
