@@ -12,16 +12,16 @@
 //! | natural frequencies and shapes; damping by ratios, Rayleigh or matrix | `structure/modes.rs` | \[OgitaAishima2018\], [Chopra2001, section 11.4] |
 //! | exact response to a load that is linear in time | `structure/propagator.rs` | \[NigamJennings1969\] |
 //! | a(t), linear between the samples of the record | `engine/excitation/record.rs` | |
-//! | penetration d = u_left - u_right - gap | `engine/model.rs` | |
+//! | penetration d = u_left - u_right - gap | `engine/pairs/pair.rs` | |
 //! | rigid contact (`stereomechanical`): impulse p = (1 + e) m V; floors held together by a reaction | `engine/rigid/impulses.rs`, `numerics/complementarity.rs` | \[Goldsmith1960\], [BarrosKhatami2013, eqs. 1, 2], \[Moreau1988\], \[LawsonHanson1974\] |
 //! | contact force F(d, v): one file per law, with its source, range and defect | `contact/laws/` | in each file |
 //! | a(e) of `hertz_damped` | `contact/damping_formula.rs` | at each formula |
-//! | motion in contact as a power series in time | `engine/taylor/mod.rs`, `structure/series/mod.rs`, `contact/taylor/mod.rs` | |
+//! | motion in contact as a power series in time | `engine/taylor/expansion.rs`, `structure/series/mod.rs`, `contact/taylor/mod.rs` | |
 //! | a variable in which the motion near entries and releases is smooth | `numerics/time_map.rs` | |
 //! | contact forces over a whole window from an integral equation, at Gauss nodes | `collocation/`, `engine/window/mod.rs`, `structure/impulse_response.rs` | \[Brunner2004\] |
-//! | motion just after an entry, powers i + beta j of time | `engine/onset/mod.rs`, `contact/onset/mod.rs` | |
-//! | bounds of a curve by its cubic Hermite interpolant: no contact, first root, largest value | `engine/flight/mod.rs`, `numerics/roots/mod.rs` | \[BirkhoffPriver1967\] |
-//! | energy account; impulse, work and peak force of a contact | `engine/energy/mod.rs`, `engine/advance/mod.rs` | |
+//! | motion just after an entry, powers i + beta j of time | `engine/onset/series.rs`, `contact/onset/mod.rs` | |
+//! | bounds of a curve by its cubic Hermite interpolant: no contact, first root, largest value | `engine/flight/certificate.rs`, `numerics/roots/mod.rs` | \[BirkhoffPriver1967\] |
+//! | energy account; impulse, work and peak force of a contact | `engine/energy.rs`, `engine/taylor/follow.rs`, `engine/onset/follow.rs`, `engine/window/solution.rs` | |
 //! | largest displacements, drifts, accelerations and base shears in continuous time | `engine/peaks/mod.rs` | \[BirkhoffPriver1967\] |
 //! | derivatives with respect to time, and to inputs at an instant | `engine/output/rates.rs`, `contact/rates.rs`, `engine/output/feedthrough.rs` | |
 //! | Gauss-Legendre quadrature | `numerics/quadrature.rs` | [AbramowitzStegun1964, table 25.4] |
