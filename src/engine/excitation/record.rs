@@ -255,15 +255,16 @@ fn segment_lengths(times: &[f64]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::scene::Scene;
 
     #[test]
     fn a_segment_that_starts_nowhere_is_none_of_the_motion() {
         let building = "mass = [1e3]\nstiffness = [1e5]\ndamping = { ratio = 0.05 }\n";
-        let scene = Scene::from_toml(&format!("name = \"Two\"\n[left]\n{building}[right]\n{building}"));
-        let Ok(scene) = scene else { panic!("{scene:?}") };
-        let Ok(structure) = Structure::new(&scene.left, &scene.right) else { panic!("a sound structure") };
+        let scene = format!("name = \"Two\"\n[left]\n{building}[right]\n{building}");
+        let scene = Scene::from_toml(&scene).unwrap();
+        let structure = Structure::new(&scene.left, &scene.right).ok().unwrap();
         let record = Record { times: vec![1.0, 2.0, 3.0], accelerations: vec![0.0, 1.0, 0.0] };
         let motion = GroundMotion::new(&record, 1.0, &structure);
         for time in [0.0, 1.5, 10.0] {

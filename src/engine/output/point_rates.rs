@@ -46,7 +46,7 @@ pub struct ContactRates {
     pub dissipated_energy: Rates,
 }
 
-/// First and second derivatives of the energy account, W and W/s. Names as in [`super::EnergyPoint`], whose residual stays.
+/// First and second derivatives of the energy account, W and W/s. Names as in [`crate::engine::EnergyPoint`], whose residual stays.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyRates {
     /// Of the inertia forces of the ground motion.
