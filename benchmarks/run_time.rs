@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! cargo run --release --example run_time -- SCENE.toml engine TOLERANCE REPEATS OUTPUT
+//! cargo run --release --example run_time -- SCENE.toml coupled|whole TOLERANCE REPEATS OUTPUT
 //! cargo run --release --example run_time -- SCENE.toml coupled TOLERANCE REPEATS OUTPUT
 //! cargo run --release --example run_time -- SCENE.toml whole TOLERANCE REPEATS OUTPUT
 //! cargo run --release --example run_time -- SCENE.toml memory TOLERANCE INSTANCES OUTPUT
@@ -19,6 +20,7 @@
 //! `whole` goes to the end in one step and reads what a study does, there alone: OUTPUT gets displacements and their
 //! peaks, then impulse, peak force and dissipated energy of each contact.
 //!
+//! `coupled` reads every 10 ms, as a master does, and `whole` at the end alone, as a study does, peaks and contacts too.
 //! `memory` makes that many instances as an FMU has them instead, ready to run, and prints the bytes that each takes
 //! (Linux only).
 
@@ -45,24 +47,38 @@ fn main() -> ExitCode {
 
 fn run(words: &[String]) -> Result<(), Box<dyn Error>> {
     match words {
-        [scene, method, tolerance, repeats, output] if method == "engine" => {
-            run_times(Path::new(scene), solve, tolerance.parse()?, repeats.parse()?, Path::new(output))
-        }
-        [scene, method, tolerance, repeats, output] if method == "coupled" => {
-            run_times(Path::new(scene), solve_coupled, tolerance.parse()?, repeats.parse()?, Path::new(output))
-        }
-        [scene, method, tolerance, repeats, output] if method == "whole" => {
-            run_times(Path::new(scene), solve_whole, tolerance.parse()?, repeats.parse()?, Path::new(output))
+        [scene, method, tolerance, repeats, output] if method != "memory" => {
+            let way = Way::of(method).ok_or(USAGE)?;
+            run_times(Path::new(scene), way, tolerance.parse()?, repeats.parse()?, Path::new(output))
         }
         [scene, method, _, instances, _] if method == "memory" => memory(Path::new(scene), instances.parse()?),
-        _ => Err("usage: run_time SCENE.toml engine|coupled|whole|memory TOLERANCE REPEATS OUTPUT".into()),
+        _ => Err(USAGE.into()),
     }
 }
 
-/// Goes to the end of the scene, at a time in s; enters what is read on the way.
-type Solve = fn(&Model, &mut State, &mut Point, f64, &mut Vec<f64>) -> Result<(), Box<dyn Error>>;
+const USAGE: &str = "usage: run_time SCENE.toml engine|coupled|whole|memory TOLERANCE REPEATS OUTPUT";
 
-fn run_times(scene: &Path, solve: Solve, tolerance: f64, repeats: usize, output: &Path) -> Result<(), Box<dyn Error>> {
+/// How a run is read.
+#[derive(Clone, Copy)]
+enum Way {
+    /// Displacements, every so many seconds.
+    Every(f64),
+    /// Displacements, their peaks and what contacts have come to, at the end alone.
+    Whole,
+}
+
+impl Way {
+    fn of(method: &str) -> Option<Way> {
+        match method {
+            "engine" => Some(Way::Every(OUTPUT_STEP)),
+            "coupled" => Some(Way::Every(COMMUNICATION_STEP)),
+            "whole" => Some(Way::Whole),
+            _ => None,
+        }
+    }
+}
+
+fn run_times(scene: &Path, way: Way, tolerance: f64, repeats: usize, output: &Path) -> Result<(), Box<dyn Error>> {
     let Package { mut scene, record, .. } = Package::from_scene_file(scene)?;
     scene.solver.relative_tolerance = tolerance;
     let record = record.map(|record| record.record);
@@ -79,7 +95,7 @@ fn run_times(scene: &Path, solve: Solve, tolerance: f64, repeats: usize, output:
         state = model.start(0.0);
         readings.clear();
         let clock = Instant::now();
-        solve(&model, &mut state, &mut point, stop, &mut readings)?;
+        solve(way, &model, &mut state, &mut point, stop, &mut readings)?;
         print!("{:e} ", clock.elapsed().as_secs_f64());
     }
     println!("\n{}", point.impacts);
@@ -95,67 +111,36 @@ fn run_times(scene: &Path, solve: Solve, tolerance: f64, repeats: usize, output:
     Ok(())
 }
 
-/// These three have names of their own in the program: `benchmarks/special_paths.py` counts their instructions.
+/// Goes to the end of the scene, at a time in s, and enters what is read on the way. It keeps its name in the program:
+/// `benchmarks/special_paths.py` counts its instructions.
 #[inline(never)]
 fn solve(
+    way: Way,
     model: &Model,
     state: &mut State,
     point: &mut Point,
     stop: f64,
     readings: &mut Vec<f64>,
 ) -> Result<(), Box<dyn Error>> {
-    solve_every(OUTPUT_STEP, model, state, point, stop, readings)
-}
-
-#[inline(never)]
-fn solve_coupled(
-    model: &Model,
-    state: &mut State,
-    point: &mut Point,
-    stop: f64,
-    readings: &mut Vec<f64>,
-) -> Result<(), Box<dyn Error>> {
-    solve_every(COMMUNICATION_STEP, model, state, point, stop, readings)
-}
-
-#[inline(always)]
-fn solve_every(
-    step: f64,
-    model: &Model,
-    state: &mut State,
-    point: &mut Point,
-    stop: f64,
-    readings: &mut Vec<f64>,
-) -> Result<(), Box<dyn Error>> {
-    let rows = (stop / step).round() as u64;
-    for row in 0..=rows {
+    let step = match way {
+        Way::Every(step) => step,
+        Way::Whole => stop,
+    };
+    for row in 0..=(stop / step).round() as u64 {
         model.advance(state, row as f64 * step, &mut |_| ())?;
         model.observe(state, point);
         for side in [Side::Left, Side::Right] {
             readings.extend((0..model.floors(side)).map(|floor| model.displacement(point, side, floor)));
         }
     }
-    Ok(())
-}
-
-#[inline(never)]
-fn solve_whole(
-    model: &Model,
-    state: &mut State,
-    point: &mut Point,
-    stop: f64,
-    readings: &mut Vec<f64>,
-) -> Result<(), Box<dyn Error>> {
-    model.advance(state, stop, &mut |_| ())?;
-    model.observe(state, point);
-    for side in [Side::Left, Side::Right] {
-        for floor in 0..model.floors(side) {
-            let peak = model.peak(state, point, PeakOf::Displacement(side, floor));
-            readings.extend([model.displacement(point, side, floor), peak]);
+    if let Way::Whole = way {
+        for side in [Side::Left, Side::Right] {
+            let peak = |floor| model.peak(state, point, PeakOf::Displacement(side, floor));
+            readings.extend((0..model.floors(side)).map(peak));
         }
-    }
-    for contact in (0..model.contacts()).map(|p| model.contact(state, point, p)) {
-        readings.extend([contact.impulse, contact.peak_force, contact.dissipated_energy]);
+        for contact in (0..model.contacts()).map(|p| model.contact(state, point, p)) {
+            readings.extend([contact.impulse, contact.peak_force, contact.dissipated_energy]);
+        }
     }
     Ok(())
 }

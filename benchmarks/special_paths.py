@@ -32,7 +32,7 @@ WORK = ROOT / "target/benchmarks/special_paths"
 PAGE = ROOT / "docs/benchmark/special_paths.md"
 FRAMES = ROOT / "examples/scenes/feup.toml"
 DEFAULT, USUAL = 1e-12, 1e-9  # tolerances: of a scene that says nothing, of the other benchmarks
-COUNTED = "*run_time*solve*"  # the functions of run_time.rs that are counted
+COUNTED = "*run_time*solve*"  # the function of run_time.rs that is counted
 
 # By the name of its switch: what it is, and where.
 PATHS = {
