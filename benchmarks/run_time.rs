@@ -2,7 +2,6 @@
 //!
 //! ```text
 //! cargo run --release --example run_time -- SCENE.toml engine TOLERANCE REPEATS OUTPUT
-//! cargo run --release --example run_time -- SCENE.toml coupled|whole TOLERANCE REPEATS OUTPUT
 //! cargo run --release --example run_time -- SCENE.toml coupled TOLERANCE REPEATS OUTPUT
 //! cargo run --release --example run_time -- SCENE.toml whole TOLERANCE REPEATS OUTPUT
 //! cargo run --release --example run_time -- SCENE.toml memory TOLERANCE INSTANCES OUTPUT
@@ -17,10 +16,9 @@
 //!
 //! `coupled` does the same every 0.01 s, as a co-simulation with that communication step would.
 //!
-//! `whole` goes to the end in one step and reads what a study does, there alone: OUTPUT gets displacements and their
+//! `whole` goes to the end in one step and reads what a study does, there alone: OUTPUT gets displacements, their
 //! peaks, then impulse, peak force and dissipated energy of each contact.
 //!
-//! `coupled` reads every 10 ms, as a master does, and `whole` at the end alone, as a study does, peaks and contacts too.
 //! `memory` makes that many instances as an FMU has them instead, ready to run, and prints the bytes that each takes
 //! (Linux only).
 
