@@ -11,7 +11,7 @@ use crate::engine::taylor::solution::Solution;
 impl Model {
     /// Works out the next step, up to `limit` (s since the segment's start) or the next event, unless that has been
     /// done already.
-    pub fn plan(&self, state: &mut State, limit: f64) {
+    pub(in crate::engine) fn plan(&self, state: &mut State, limit: f64) {
         match state.step.kind {
             StepKind::NotPlanned => {}
             StepKind::Deferred => self.forget_deferred(state),

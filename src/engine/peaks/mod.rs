@@ -94,7 +94,7 @@ impl Model {
     }
 
     /// Calls with the flight from the base to an end after some seconds.
-    pub fn with_flight(
+    pub(in crate::engine) fn with_flight(
         &self,
         base: &Base,
         inputs: &Inputs,
