@@ -1,9 +1,6 @@
 //! No law but `kelvin_voigt` ever pulls: as functions of penetration and rate, and in the engine.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{Run, scene};
+use crate::common::{Run, scene};
 use pounding::contact::{DampingFormula, EpisodeForce, ImpactLaw, LawKey, LawKind};
 use pounding::engine::Side;
 use pounding::scene::law_key;
