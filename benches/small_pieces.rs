@@ -3,6 +3,8 @@
 //! Whole earthquakes, and other solvers beside ours, are measured by `benchmarks/work_precision.py`.
 #![allow(missing_docs, clippy::panic, clippy::unwrap_used)]
 
+#[path = "../tests/problems/mod.rs"]
+mod problems;
 #[path = "../tests/support/mod.rs"]
 mod support;
 
@@ -11,6 +13,8 @@ use pounding::engine::{Model, State};
 use pounding::record::Record;
 use pounding::scene::Scene;
 use pounding::variables::{Output, Slot, Table, Type};
+use problems::laws::{Laws, contact};
+use problems::two_masses::{Mass, TwoMasses};
 use std::ffi::{c_int, c_void};
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -19,14 +23,12 @@ use support::{Fmu, Instance, OK};
 const GROUND_STEP: f64 = 0.01;
 const SAMPLES: usize = 2001;
 
-const HERTZ: &str = "law = \"hertz\"\nstiffness = 2.75e9";
-const LAWS: [&str; 5] = [
-    "law = \"linear\"\nstiffness = 2.75e9",
-    "law = \"kelvin_voigt\"\nstiffness = 2.75e9\nrestitution = 0.65",
-    HERTZ,
-    "law = \"jankowski\"\nstiffness = 2.75e9\nrestitution = 0.65",
-    "law = \"hertz_damped\"\nstiffness = 2.75e9\nrestitution = 0.65\ndamping_formula = \"lankarani_nikravesh\"",
-];
+const LAWS: Laws = Laws { spring: 2.75e9, hertz: 2.75e9, exponent: 1.5, restitution: 0.65 };
+
+fn laws() -> [String; 5] {
+    let formula = "lankarani_nikravesh";
+    [LAWS.linear(), LAWS.kelvin_voigt(), LAWS.hertz(), LAWS.jankowski(), LAWS.hertz_damped(formula)]
+}
 
 /// Two buildings with as many contacts of a law as wanted. Without a record their first floors move towards each other
 /// at 0.5 m/s each.
@@ -43,7 +45,7 @@ fn scene_text(floors: [usize; 2], contacts: usize, gap: f64, law: &str, record: 
         text += "[ground]\nrecord = \"record.csv\"\n";
     }
     for floor in 1..=contacts {
-        writeln!(text, "[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = {gap}\n{law}").unwrap();
+        text += &contact((floor, floor), gap, law);
     }
     text
 }
@@ -74,7 +76,7 @@ fn flight_knot(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("flight_knot");
     for (modes, contacts) in [(2, 0), (6, 0), (50, 0), (200, 0), (2, 1), (6, 3), (50, 20)] {
         let floors = [modes / 2, modes - modes / 2];
-        let model = model(&scene_text(floors, contacts, 100.0, HERTZ, true), Some(&record));
+        let model = model(&scene_text(floors, contacts, 100.0, &LAWS.hertz(), true), Some(&record));
         let start = model.start(0.0);
         group.bench_function(format!("{modes} modes, {contacts} contacts"), |bencher| {
             bencher.iter_custom(|knots| {
@@ -95,7 +97,7 @@ fn flight_knot(criterion: &mut Criterion) {
     }
     // All knots in one communication step: without the cost of asking for each.
     for modes in [2, 6, 50, 200] {
-        let model = model(&scene_text([modes / 2, modes - modes / 2], 0, 0.0, HERTZ, true), Some(&record));
+        let model = model(&scene_text([modes / 2, modes - modes / 2], 0, 0.0, &LAWS.hertz(), true), Some(&record));
         group.throughput(Throughput::Elements(SAMPLES as u64 - 1));
         group.bench_function(format!("{modes} modes, whole record"), |bencher| {
             let start = model.start(0.0);
@@ -109,10 +111,16 @@ fn flight_knot(criterion: &mut Criterion) {
 /// From 1 us before an entry to 1 ns after it.
 fn entry(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("entry");
-    for law in LAWS {
+    let meeting = TwoMasses::new(Mass::free(3e5, 0.5), Mass::free(3e5, -0.5), 1e-6, "");
+    for law in &laws() {
         let model = model(&scene_text([3, 3], 1, 1e-6, law, false), None);
         let start = model.start(0.0);
         let run = |state: &mut State| advance(&model, state, 1.001e-6);
+        let mut entered = start.clone();
+        run(&mut entered);
+        let began = model.open_episode(&entered, 0).map(|episode| episode.start);
+        // Free masses meet then; over 1 us springs and damping move them by some millionths of the gap.
+        assert!(began.is_some_and(|began| (began / meeting.entry() - 1.0).abs() < 1e-5), "{law}: {began:?}");
         group.bench_function(name(law), |bencher| {
             bencher.iter_batched_ref(|| start.clone(), run, BatchSize::SmallInput);
         });
@@ -124,7 +132,7 @@ fn entry(criterion: &mut Criterion) {
 fn episode(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("episode");
     for floors in [[1, 1], [3, 3], [20, 30]] {
-        for law in LAWS {
+        for law in &laws() {
             let model = model(&scene_text(floors, 1, 1e-6, law, false), None);
             let start = model.start(0.0);
             let end = release(&model, start.clone());
@@ -163,7 +171,7 @@ type GetReal = unsafe extern "C" fn(Component, *const u32, usize, *mut f64) -> c
 
 /// The FMU's own calls through its C interface, on 20 and 30 storeys with 20 contacts.
 fn fmu(criterion: &mut Criterion) {
-    let fmu = Fmu::new(&scene_text([20, 30], 20, 100.0, HERTZ, true));
+    let fmu = Fmu::new(&scene_text([20, 30], 20, 100.0, &LAWS.hertz(), true));
     let mut group = criterion.benchmark_group("fmu_20_30_storeys");
     group.bench_function("instantiate and initialise", |bencher| {
         bencher.iter_with_large_drop(|| started(&fmu));

@@ -77,7 +77,7 @@ fn timed(extreme: &Extreme) -> (Trial, f64) {
 
 fn drift(most: f64) {
     println!("law,impacts,drift");
-    for law in elastic::ELASTIC {
+    for law in &elastic::elastic() {
         let mut run = Run::new(&elastic::rattle(law), None);
         let (mut next, mut worst) = (10.0, 0.0_f64);
         while (run.point.impacts as f64) < most {

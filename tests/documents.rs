@@ -255,3 +255,25 @@ fn the_files_that_the_documents_name_exist() {
         }
     }
 }
+
+/// A file that holds a folder's tests together is listed as that folder.
+#[test]
+fn the_list_of_tests_names_every_file_and_no_other() {
+    let list = read("tests/README.md");
+    let listed: BTreeSet<&str> = (list.lines().filter(|line| line.starts_with('|')))
+        .flat_map(|row| row.split('`').skip(1).step_by(2))
+        .filter(|name| [".rs", ".py", "/"].iter().any(|ending| name.ends_with(ending)) && !name.contains(' '))
+        .collect();
+    let tests = root().join("tests");
+    for file in files("tests", &["rs", "py"]) {
+        let name = file.strip_prefix(&tests).unwrap().to_str().unwrap().replace('\\', "/");
+        let name = name.strip_suffix("main.rs").or(name.strip_suffix("mod.rs")).unwrap_or(&name);
+        assert!(listed.contains(name), "tests/README.md does not name {name}");
+    }
+    for name in listed {
+        assert!(
+            tests.join(name).exists() || root().join(name).exists(),
+            "tests/README.md names {name}, which is not there"
+        );
+    }
+}

@@ -9,13 +9,10 @@ mod scenes;
 use linked::*;
 use pounding::variables::{Slot, Table, Type};
 use std::alloc::{GlobalAlloc, Layout, System};
-use std::ffi::c_int;
 use std::ptr::null_mut;
 use std::sync::Barrier;
 use std::sync::atomic::{AtomicIsize, AtomicUsize, Ordering::Relaxed};
 use std::thread;
-
-const OK: c_int = 0;
 
 struct Counting;
 

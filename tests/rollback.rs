@@ -4,6 +4,8 @@
 
 mod common;
 
+use common::problems::frames::{Frames, MATRIX, RATIO, RAYLEIGH, zigzag};
+use common::problems::laws::Laws;
 use common::{Run, record, scene};
 use pounding::engine::{SavedState, Side};
 use pounding::record::Record;
@@ -21,7 +23,7 @@ enum Drive {
 
 #[derive(Clone, Debug)]
 struct Case {
-    law: &'static str,
+    law: String,
     damping: &'static str,
     storeys: usize,
     gap: f64,
@@ -29,27 +31,18 @@ struct Case {
     drive: Drive,
 }
 
-const RATIO: &str = "{ ratio = 0.05 }";
-const RAYLEIGH: &str = "{ rayleigh = { ratio = 0.05, modes = [1, 2] } }";
-const MATRIX: &str = "{ matrix = [[4e4, -1e4, 0.0], [-1e4, 3e4, -1e4], [0.0, -1e4, 2e4]] }";
-const LAWS: [&str; 8] = [
-    "law = \"stereomechanical\"\nrestitution = 0.3",
-    "law = \"linear\"\nstiffness = 2.0e7",
-    "law = \"kelvin_voigt\"\nstiffness = 2.0e7\nrestitution = 0.6",
-    "law = \"kelvin_voigt_no_tension\"\nstiffness = 2.0e7\nrestitution = 0.6",
-    "law = \"hertz\"\nstiffness = 1.0e8",
-    "law = \"hertz\"\nstiffness = 1.0e8\nexponent = 1.7",
-    "law = \"jankowski\"\nstiffness = 1.0e8\nrestitution = 0.6",
-    "law = \"hertz_damped\"\nstiffness = 1.0e8\nrestitution = 0.6\ndamping_formula = \"exact\"",
-];
-
 fn cases() -> Vec<Case> {
-    let plain = |law, drive| Case { law, damping: RATIO, storeys: 3, gap: 0.005, energy: true, drive };
+    let laws = Laws { spring: 2e7, hertz: 1e8, exponent: 1.7, restitution: 0.6 };
+    let rigid = Laws { restitution: 0.3, ..laws }.stereomechanical();
+    let plain =
+        |law: &str, drive| Case { law: law.to_owned(), damping: RATIO, storeys: 3, gap: 0.005, energy: true, drive };
+    let mut every = laws.all();
+    every[0].clone_from(&rigid);
     let mut cases = Vec::new();
     for drive in [Drive::Record, Drive::RecordAndForces, Drive::Inputs] {
-        cases.extend(LAWS.map(|law| plain(law, drive)));
+        cases.extend(every.iter().map(|law| plain(law, drive)));
     }
-    for law in [LAWS[0], LAWS[3], LAWS[6]] {
+    for law in [&rigid, &laws.kelvin_voigt_no_tension(), &laws.jankowski()] {
         // Floor by floor; damping that couples modes; floors that are pressed together from the start.
         cases.push(Case { storeys: 9, damping: RAYLEIGH, energy: false, ..plain(law, Drive::Record) });
         cases.push(Case { damping: MATRIX, ..plain(law, Drive::Record) });
@@ -60,24 +53,9 @@ fn cases() -> Vec<Case> {
 
 impl Case {
     fn scene(&self) -> (Scene, Option<Record>) {
-        let &Case { law, damping, storeys, gap, energy, drive } = self;
-        let building = |mass: f64, stiffness: f64| {
-            format!(
-                "mass = {:?}\nstiffness = {:?}\ndamping = {damping}\n",
-                vec![mass; storeys],
-                vec![stiffness; storeys]
-            )
-        };
-        let contact =
-            |floor: usize| format!("[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = {gap}\n{law}\n");
-        let mut scene = scene(&format!(
-            "name = \"Saved\"\n[left]\n{}[right]\n{}[outputs]\nenergy = {energy}\n[inputs]\nfloor_forces = {}\n{}{}",
-            building(25e3, 3.46e6),
-            building(4e4, 2.2e7),
-            drive != Drive::Record,
-            contact(storeys - 1),
-            contact(storeys)
-        ));
+        let &Case { ref law, damping, storeys, gap, energy, drive } = self;
+        let floor_forces = drive != Drive::Record;
+        let mut scene = scene(&Frames { storeys, damping, gap, law, energy, floor_forces }.toml());
         let has_record = drive != Drive::Inputs;
         scene.ground.record = has_record.then(|| "zigzag.csv".into());
         let samples: Vec<f64> = (0..100).map(acceleration).collect();
@@ -107,9 +85,9 @@ impl Case {
     }
 }
 
-/// m/s2, exact in binary: nothing depends on how a sine is computed.
+/// m/s2.
 fn acceleration(k: usize) -> f64 {
-    f64::from(((k * 37 + k * k % 53) % 64) as i32 - 32) / 4.0
+    zigzag(k) / 4.0
 }
 
 const POINTS: usize = 500;

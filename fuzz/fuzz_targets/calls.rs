@@ -4,5 +4,7 @@
 mod calls;
 #[path = "../../tests/support/linked.rs"]
 mod linked;
+#[path = "../../tests/problems/two_and_three_storeys.rs"]
+mod two_and_three_storeys;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| calls::check(bytes));

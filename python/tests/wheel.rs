@@ -4,9 +4,12 @@
 //! They need Python 3.11 or later and nothing else: what they run with comes below cargo's target directory.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use std::ffi::OsString;
+#[path = "../../tests/support/python_environment.rs"]
+mod python_environment;
+
+use python_environment::{base, environment, require};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
@@ -14,9 +17,11 @@ fn root() -> &'static Path {
 
 #[test]
 fn wheel() {
-    let built = require(python().arg(root().join("ci/wheel")).arg("--dev"), "ci/wheel");
+    let built = require(base().arg(root().join("ci/wheel")).arg("--dev"), "ci/wheel");
     let wheel = built.lines().last().expect("the path of the wheel");
-    let environment = environment();
+    // The list that the wheel's tests need includes that of the FMU's.
+    let requirements = ["python/tests/requirements.txt", "tests/python/requirements.txt"].map(|list| root().join(list));
+    let environment = environment(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("wheel"), &requirements);
     let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--force-reinstall"];
     require(Command::new(&environment).args(install).arg(wheel), "pip install");
 
@@ -38,37 +43,4 @@ fn reference_fmus() -> PathBuf {
         require(Command::new(cargo).current_dir(root()).arg("fmu").arg(&scene).arg("-o").arg(fmu), "cargo fmu");
     }
     folder
-}
-
-/// The Python of an environment that holds exactly what `requirements.txt` and the list that it includes say, and the wheel.
-fn environment() -> PathBuf {
-    let requirements = root().join("python/tests/requirements.txt");
-    let files = [requirements.clone(), root().join("tests/python/requirements.txt")];
-    let wanted = files.map(|file| std::fs::read_to_string(file).unwrap()).concat();
-    let home = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wheel");
-    let python_here = home.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    // Written last: an environment without it is not finished.
-    let installed = home.join("requirements.installed");
-    if std::fs::read_to_string(&installed).is_ok_and(|text| text == wanted) && python_here.exists() {
-        return python_here;
-    }
-    let _ = std::fs::remove_dir_all(&home);
-    require(python().args(["-m", "venv"]).arg(&home), "python3 -m venv (Debian: apt install python3-venv)");
-    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--requirement"];
-    require(Command::new(&python_here).args(install).arg(&requirements), "pip install");
-    std::fs::write(&installed, wanted).unwrap();
-    python_here
-}
-
-fn python() -> Command {
-    let base: OsString = std::env::var_os("PYTHON").unwrap_or_else(|| "python3".into());
-    Command::new(base)
-}
-
-/// What a command that must succeed prints.
-fn require(command: &mut Command, what: &str) -> String {
-    let Output { status, stdout, stderr } = command.output().unwrap_or_else(|error| panic!("{what}: {error}"));
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    assert!(status.success(), "{what} failed:\n{}\n{}", text(&stdout), text(&stderr));
-    text(&stdout)
 }

@@ -1,6 +1,8 @@
 //! The compiled library through its C interface, as a master uses it and as it should not.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[path = "../problems/mod.rs"]
+mod problems;
 #[path = "../support/mod.rs"]
 mod support;
 

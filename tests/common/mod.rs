@@ -1,38 +1,22 @@
 //! Small scenes with known answers, and the runs of them that the tests share.
 #![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-pub mod bodies;
+#[path = "../problems/mod.rs"]
+pub mod problems;
 
 use pounding::engine::{ContactPoint, Episode, Model, PeakOf, Point, Side, State};
 use pounding::record::Record;
 use pounding::scene::Scene;
+use problems::two_masses::{Mass, TwoMasses};
 
 /// A scene from TOML text; panics with every problem.
 pub fn scene(toml: &str) -> Scene {
     Scene::from_toml(toml).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Two single masses [kg] on springs so soft that they are free: left with `speed` [m/s], right at rest, 1 mm apart.
+/// Two free masses [kg]: left with `speed` [m/s], right at rest, 1 mm apart.
 pub fn free_impact((left, right): (f64, f64), law: &str, speed: f64) -> Scene {
-    scene(&format!(
-        "name = \"Free\"
-        [left]
-        mass = [{left:?}]
-        stiffness = [1.0e-20]
-        damping = {{ ratio = 0.0 }}
-        initial_velocity = [{speed:?}]
-        [right]
-        mass = [{right:?}]
-        stiffness = [1.0e-20]
-        damping = {{ ratio = 0.0 }}
-        [outputs]
-        energy = true
-        [[contact]]
-        left_floor = 1
-        right_floor = 1
-        gap = 0.001
-        {law}"
-    ))
+    scene(&TwoMasses::new(Mass::free(left, speed), Mass::free(right, 0.0), 0.001, law).toml())
 }
 
 /// A record with evenly spaced samples from t = 0.
@@ -121,6 +105,12 @@ impl Run {
         }
         values.into_iter().map(f64::to_bits).collect()
     }
+}
+
+/// Presses the floors of two single masses together with the same force from both sides, N.
+pub fn press(run: &mut Run, force: f64) {
+    run.state.set_floor_force(Side::Left, 0, force);
+    run.state.set_floor_force(Side::Right, 0, -force);
 }
 
 /// Relative difference, for a message.

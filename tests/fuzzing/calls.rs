@@ -4,39 +4,13 @@
 //! one a reset has to bring back a fresh instance, to the bit.
 
 use crate::linked::*;
+use crate::two_and_three_storeys::CALLS;
 use pounding::variables::{Settings, Slot, Table, Type, Value};
 use std::ffi::c_int;
 use std::ptr::{null, null_mut};
 use std::sync::OnceLock;
 
-const OK: c_int = 0;
-const DISCARD: c_int = 2;
-const ERROR: c_int = 3;
-
 const MOST_CALLS: usize = 100;
-
-const SCENE: &str = r#"
-name = "Calls"
-[left]
-mass = [3.65, 3.65]
-stiffness = [2910.0, 2910.0]
-damping = { ratio = 0.01 }
-initial_velocity = [0.3, 0.5]
-[right]
-mass = [3.65]
-stiffness = [2910.0]
-damping = { ratio = 0.02 }
-[inputs]
-floor_forces = true
-[[contact]]
-left_floor = 1
-right_floor = 1
-gap = 0.002
-law = "hertz_damped"
-stiffness = 1.0e6
-restitution = 0.65
-damping_formula = "ye"
-"#;
 
 /// What all sequences share.
 struct Shared {
@@ -50,7 +24,7 @@ struct Shared {
 fn shared() -> &'static Shared {
     static SHARED: OnceLock<Shared> = OnceLock::new();
     SHARED.get_or_init(|| {
-        let resources = Resources::new(SCENE);
+        let resources = Resources::new(CALLS);
         let scene = resources.package.scene.clone();
         let (table, defaults) = (Table::new(&scene), Settings::new(scene, None));
         let mut shared = Shared { resources, table, defaults, reference: Vec::new() };

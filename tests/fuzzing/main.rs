@@ -9,6 +9,8 @@ mod calls;
 mod record;
 mod scene;
 mod state;
+#[path = "../problems/two_and_three_storeys.rs"]
+mod two_and_three_storeys;
 
 use proptest::prelude::*;
 use proptest::sample::Index;

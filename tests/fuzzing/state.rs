@@ -4,13 +4,9 @@
 //! chooses bytes without an envelope instead, now and then.
 
 use crate::linked::*;
-use std::ffi::c_int;
 use std::ptr::null_mut;
 use std::sync::OnceLock;
 use uuid::Uuid;
-
-const OK: c_int = 0;
-const ERROR: c_int = 3;
 
 /// Motions above take the engine long to give up on; that is no matter of states.
 const WILD: f64 = 1e9;

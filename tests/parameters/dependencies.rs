@@ -1,8 +1,7 @@
 //! The model structure of the description, against what the library does: an unknown changes with the knowns that it is
 //! said to depend on, and with no others.
 
-use crate::scene::RICH;
-use crate::support::{Fmu, Instance, OK, SCENE};
+use crate::support::{Fmu, Instance, OK, RICH, SCENE};
 use fmi::model_description::fmi2::{Causality, ModelDescription, ScalarVariable, Unknown};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

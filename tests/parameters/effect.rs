@@ -1,7 +1,7 @@
 //! Values that are taken: the run is, to the last bit, that of the scene that says the same.
 
-use crate::scene::{RICH, edited};
-use crate::support::{ERROR, Fmu, Instance, OK, RECORD_SCENE, SCENE};
+use crate::scene::edited;
+use crate::support::{ERROR, Fmu, Instance, OK, RECORD_SCENE, RICH, SCENE};
 use fmi::model_description::fmi2::{Causality, VariableType};
 use pounding::description::Package;
 use std::fs;

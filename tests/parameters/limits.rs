@@ -1,7 +1,6 @@
 //! Smallest, largest and nominal values of the description, against what the library has.
 
-use crate::scene::RICH;
-use crate::support::{Fmu, OK, SCENE};
+use crate::support::{Fmu, OK, RICH, SCENE};
 use fmi::model_description::fmi2::VariableType;
 
 fn number(text: &Option<String>) -> Option<f64> {

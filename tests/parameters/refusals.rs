@@ -1,7 +1,7 @@
 //! Values that are refused: for the same reasons and in the same words as in a scene, under the variable's name.
 
-use crate::scene::{RICH, edited};
-use crate::support::{ERROR, Fmu, OK, RECORD_SCENE, SCENE};
+use crate::scene::edited;
+use crate::support::{ERROR, Fmu, OK, RECORD_SCENE, RICH, SCENE};
 use fmi::model_description::fmi2::Causality;
 use pounding::scene::Scene;
 use std::fs;

@@ -1,4 +1,4 @@
-"""Free impacts under every law, integrated in 40 digits, for tests/impacts.rs.
+"""Free impacts under every law, integrated in 40 digits, for tests/physics/impacts.rs.
 
     python3 tests/reference/free_impacts.py > tests/reference/free_impacts.csv      (needs mpmath)
 

@@ -1,4 +1,4 @@
-"""Exact one-interval response of an oscillator, in 60 digits, for tests/propagator.rs.
+"""Exact one-interval response of an oscillator, in 60 digits, for tests/physics/propagator.rs.
 
     python3 tests/reference/propagator.py > tests/reference/propagator.csv      (needs mpmath)
 

@@ -3,54 +3,14 @@
 
 mod files;
 mod forms;
+mod record;
 mod refusals;
 mod robustness;
+#[path = "../problems/two_and_three_storeys.rs"]
+mod two_and_three_storeys;
 
 use pounding::scene::Scene;
-
-/// Two floors on the left, three on the right, every optional table but `[ground]`.
-const SCENE: &str = r#"
-name = "TwoFrames"
-description = "a test"
-stop_time = 20.0
-
-[left]
-mass = [3.0, 4.0]
-stiffness = [2910.0, 2920.0]
-damping = { ratio = 0.01 }
-
-[right]
-mass = [5.0, 6.0, 7.0]
-stiffness = [2930.0, 2940.0, 2950.0]
-damping = { rayleigh = { ratio = 0.05, modes = [1, 3] } }
-initial_displacement = [0.0, 0.001, 0.002]
-initial_velocity = [0.0, 0.1, 0.2]
-
-[inputs]
-floor_forces = true
-
-[[contact]]
-left_floor = 1
-right_floor = 1
-gap = 0.002
-law = "kelvin_voigt"
-stiffness = 1.0e6
-restitution = 0.65
-
-[[contact]]
-left_floor = 2
-right_floor = 2
-gap = -0.001
-law = "hertz"
-stiffness = 2.0e6
-
-[outputs]
-energy = true
-
-[solver]
-relative_tolerance = 1e-10
-min_approach_velocity = 1e-3
-"#;
+use two_and_three_storeys::WITHOUT_REPETITION as SCENE;
 
 /// The two shortest buildings that stand.
 const SHORT: &str = r#"

@@ -1,42 +1,20 @@
 //! Elastic contacts by the thousand: e = 1 must keep the energy, whatever the law calls it.
 
+use crate::common::problems::laws::Laws;
+use crate::common::problems::two_masses::{Mass, TwoMasses};
 use crate::common::{Run, scene};
 use pounding::engine::Side;
 use pounding::scene::Scene;
 
 /// Laws that lose nothing.
-pub const ELASTIC: [&str; 8] = [
-    "law = \"stereomechanical\"\nrestitution = 1.0",
-    "law = \"linear\"\nstiffness = 1.0e6",
-    "law = \"kelvin_voigt\"\nstiffness = 1.0e6\nrestitution = 1.0",
-    "law = \"kelvin_voigt_no_tension\"\nstiffness = 1.0e6\nrestitution = 1.0",
-    "law = \"hertz\"\nstiffness = 1.0e7",
-    "law = \"hertz\"\nstiffness = 1.0e7\nexponent = 1.3",
-    "law = \"jankowski\"\nstiffness = 1.0e7\nrestitution = 1.0",
-    "law = \"hertz_damped\"\nstiffness = 1.0e7\nrestitution = 1.0\ndamping_formula = \"exact\"",
-];
+pub fn elastic() -> [String; 8] {
+    Laws { spring: 1e6, hertz: 1e7, exponent: 1.3, restitution: 1.0 }.all()
+}
 
 /// Two undamped oscillators that touch at rest and hit each other at each half swing, some 40 times a second.
 pub fn rattle(law: &str) -> Scene {
-    scene(&format!(
-        "name = \"Rattle\"
-        [left]
-        mass = [1.0]
-        stiffness = [1.0e4]
-        damping = {{ ratio = 0.0 }}
-        initial_velocity = [1.0]
-        [right]
-        mass = [2.0]
-        stiffness = [3.1e4]
-        damping = {{ ratio = 0.0 }}
-        [outputs]
-        energy = true
-        [[contact]]
-        left_floor = 1
-        right_floor = 1
-        gap = 1.0e-3
-        {law}"
-    ))
+    let left = Mass { velocity: 1.0, ..Mass::on_spring(1.0, 1e4, 0.0) };
+    scene(&TwoMasses::new(left, Mass::on_spring(2.0, 3.1e4, 0.0), 1e-3, law).toml())
 }
 
 /// J, all that there is: in motion, in the storeys, in the contact.
@@ -49,7 +27,7 @@ pub fn energy(run: &Run) -> f64 {
 /// that is allowed here, all of it in one direction.
 #[test]
 fn thousands_of_elastic_impacts_keep_the_energy() {
-    for law in ELASTIC {
+    for law in &elastic() {
         let mut run = Run::new(&rattle(law), None);
         let mut worst = 0.0_f64;
         for k in 1..=60 {

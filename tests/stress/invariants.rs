@@ -5,7 +5,8 @@
 //! growth is measured by a nudge to the record.
 
 use crate::common::Run;
-use crate::random::{Case, case, contact};
+use crate::common::problems::laws::contact;
+use crate::random::{Case, case};
 use pounding::engine::Side;
 use pounding::record::Record;
 use pounding::scene::{Scaling, Scene, Stiffness};
@@ -237,7 +238,7 @@ proptest! {
     fn a_contact_that_never_closes_changes_no_bit(
         case in case(6),
         floors in (1..=6_usize, 1..=6_usize),
-        law in prop::sample::select(super::time::LAWS.to_vec()),
+        law in prop::sample::select(super::time::laws().to_vec()),
         margin in prop_oneof![Just(1e3), 1e-6..1e-2_f64],
         first in any::<bool>(),
     ) {
@@ -252,7 +253,7 @@ proptest! {
             nearest = nearest.max(run.displacement(Side::Left, left - 1) - run.displacement(Side::Right, right - 1));
         }
         let with_it = |scene: &mut Scene| {
-            let text = format!("{}{}", case.text, contact((left, right), nearest.max(0.0) + margin, law));
+            let text = format!("{}{}", case.text, contact((left, right), nearest.max(0.0) + margin, &law));
             *scene = Scene { ground: scene.ground.clone(), ..crate::common::scene(&text) };
             if first {
                 scene.contacts.rotate_right(1);

@@ -14,6 +14,8 @@ mod invariants;
 mod limits;
 mod pressed;
 mod random;
+#[path = "../problems/random_frames.rs"]
+mod random_frames;
 mod repetition;
 mod time;
 mod work_limits;

@@ -1,6 +1,7 @@
 //! Contacts that are held: pressed for thousands of oscillations, grazed and then pressed on, pressed from rest.
 
-use crate::common::{Run, assert_close, scene};
+use crate::common::problems::two_masses::{Mass, TwoMasses};
+use crate::common::{Run, assert_close, press, scene};
 use pounding::engine::Side;
 use pounding::scene::Scene;
 use std::f64::consts::PI;
@@ -10,33 +11,8 @@ const MASS: f64 = 1e3;
 
 /// Two free masses with forces on their floors.
 fn free_masses(speed: f64, gap: f64, law: &str) -> Scene {
-    scene(&format!(
-        "name = \"Pressed\"
-        [left]
-        mass = [{MASS:?}]
-        stiffness = [1.0e-20]
-        damping = {{ ratio = 0.0 }}
-        initial_velocity = [{speed:?}]
-        [right]
-        mass = [{MASS:?}]
-        stiffness = [1.0e-20]
-        damping = {{ ratio = 0.0 }}
-        [inputs]
-        floor_forces = true
-        [outputs]
-        energy = true
-        [[contact]]
-        left_floor = 1
-        right_floor = 1
-        gap = {gap:?}
-        {law}"
-    ))
-}
-
-/// Presses the floors of a run together with the same force from both sides, N.
-fn press(run: &mut Run, force: f64) {
-    run.state.set_floor_force(Side::Left, 0, force);
-    run.state.set_floor_force(Side::Right, 0, -force);
+    let masses = TwoMasses::new(Mass::free(MASS, speed), Mass::free(MASS, 0.0), gap, law);
+    scene(&TwoMasses { floor_forces: true, ..masses }.toml())
 }
 
 /// An undamped spring of 5e8 N/m pressed with 1 MN from half of its equilibrium of 2 mm:

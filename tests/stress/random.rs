@@ -1,6 +1,8 @@
 //! Random scenes: two frames that face each other at some floors, shaken for two seconds.
 
+use crate::common::problems::laws::contact;
 use crate::common::{Run, record, scene};
+use crate::random_frames::frame;
 use pounding::record::Record;
 use pounding::scene::Scene;
 use proptest::prelude::*;
@@ -28,33 +30,6 @@ impl Case {
 
     pub fn duration(&self) -> f64 {
         self.record.times[self.record.times.len() - 1] - self.record.times[0]
-    }
-}
-
-/// What building a frame takes.
-#[derive(Clone, Debug)]
-struct Frame {
-    /// kg.
-    mass: f64,
-    /// Hz, of one storey by itself.
-    frequency: f64,
-    /// Factors on mass and stiffness, storey by storey.
-    storeys: Vec<(f64, f64)>,
-    ratio: f64,
-}
-
-fn frame(most_storeys: usize) -> impl Strategy<Value = Frame> {
-    let storeys = prop::collection::vec((0.7..1.3, 0.7..1.3), 1..=most_storeys);
-    (0.0..6.0_f64, 0.3..30.0_f64, storeys, prop_oneof![Just(0.0), 0.0..0.1])
-        .prop_map(|(mass, frequency, storeys, ratio)| Frame { mass: 10.0_f64.powf(mass), frequency, storeys, ratio })
-}
-
-impl Frame {
-    fn toml(&self, side: &str) -> String {
-        let w = 2.0 * std::f64::consts::PI * self.frequency;
-        let masses: Vec<f64> = self.storeys.iter().map(|(m, _)| m * self.mass).collect();
-        let stiffness: Vec<f64> = self.storeys.iter().map(|(_, k)| k * self.mass * w * w).collect();
-        format!("[{side}]\nmass = {masses:?}\nstiffness = {stiffness:?}\ndamping = {{ ratio = {:?} }}\n", self.ratio)
     }
 }
 
@@ -92,10 +67,6 @@ pub fn law_toml((name, (stiffness, restitution, exponent)): (&str, Numbers), mas
         text += "damping_formula = \"exact\"\n";
     }
     text
-}
-
-pub fn contact((left, right): (usize, usize), gap: f64, law: &str) -> String {
-    format!("[[contact]]\nleft_floor = {left}\nright_floor = {right}\ngap = {gap:?}\n{law}")
 }
 
 /// Frames of up to so many storeys, with contacts at the floors that face each other and one across.

@@ -1,43 +1,22 @@
 //! Hazards of time: entries on knots and at the start, times far from 0, communication steps of a nanosecond, samples
 //! that are uneven, inputs that jump in mid-contact.
 
+use crate::common::problems::frames::{Frames, zigzag};
+use crate::common::problems::laws::Laws;
+use crate::common::problems::two_masses::{Mass, TwoMasses};
 use crate::common::{Run, assert_close, record, scene};
 use pounding::engine::{Episode, Side};
 use pounding::record::Record;
 use pounding::scene::Scene;
 
-/// Laws that no free impact at 0.5 m/s loses the whole speed under, with what is common to all.
-pub const LAWS: [&str; 7] = [
-    "law = \"stereomechanical\"\nrestitution = 0.5",
-    "law = \"linear\"\nstiffness = 1.0e9",
-    "law = \"kelvin_voigt\"\nstiffness = 1.0e9\nrestitution = 0.5",
-    "law = \"kelvin_voigt_no_tension\"\nstiffness = 1.0e9\nrestitution = 0.5",
-    "law = \"hertz\"\nstiffness = 1.0e10",
-    "law = \"jankowski\"\nstiffness = 1.0e10\nrestitution = 0.5",
-    "law = \"hertz_damped\"\nstiffness = 1.0e10\nrestitution = 0.5\ndamping_formula = \"exact\"",
-];
+/// Every law; no free impact at 0.5 m/s loses its whole speed under them.
+pub fn laws() -> [String; 8] {
+    Laws { spring: 1e9, hertz: 1e10, exponent: 1.7, restitution: 0.5 }.all()
+}
 
 /// Free masses of 50 t and 75 t, the left one at `speed`.
 fn free_masses(speed: f64, gap: f64, law: &str) -> Scene {
-    scene(&format!(
-        "name = \"Free\"
-        [left]
-        mass = [5.0e4]
-        stiffness = [1.0e-20]
-        damping = {{ ratio = 0.0 }}
-        initial_velocity = [{speed:?}]
-        [right]
-        mass = [7.5e4]
-        stiffness = [1.0e-20]
-        damping = {{ ratio = 0.0 }}
-        [outputs]
-        energy = true
-        [[contact]]
-        left_floor = 1
-        right_floor = 1
-        gap = {gap:?}
-        {law}"
-    ))
+    scene(&TwoMasses::new(Mass::free(5e4, speed), Mass::free(7.5e4, 0.0), gap, law).toml())
 }
 
 /// A ground that rests, sampled every 1/64 s.
@@ -49,7 +28,7 @@ fn rest() -> Record {
 /// speed; and so it is for a gap that is larger or smaller by a rounding error.
 #[test]
 fn an_entry_on_a_knot_is_one_contact() {
-    for law in LAWS {
+    for law in &laws() {
         for knot in [1, 2, 17, 32] {
             for ulps in -2..=2_i64 {
                 let gap = f64::from_bits((f64::from(knot) / 128.0).to_bits().wrapping_add_signed(ulps));
@@ -73,7 +52,7 @@ fn an_entry_on_a_knot_is_one_contact() {
 /// Gap 0 at the start: floors that approach are in contact from t = 0 on with that speed, floors that part are not.
 #[test]
 fn an_entry_at_the_start_has_its_speed() {
-    for law in LAWS {
+    for law in &laws() {
         let mut meeting = Run::new(&free_masses(0.5, 0.0, law), None);
         meeting.to(0.5);
         let first = meeting.episodes[0];
@@ -92,24 +71,16 @@ fn an_entry_at_the_start_has_its_speed() {
 
 /// Two frames of two storeys, damped, which collide some twenty times in 4 s.
 pub fn frames(law: &str) -> Scene {
-    let building = |mass: f64, stiffness: f64| {
-        format!("mass = {:?}\nstiffness = {:?}\ndamping = {{ ratio = 0.03 }}\n", [mass; 2], [stiffness; 2])
-    };
-    let contact = |floor: u8| format!("[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = 0.01\n{law}\n");
-    let mut scene = scene(&format!(
-        "name = \"Frames\"\n[left]\n{}[right]\n{}[outputs]\nenergy = true\n{}{}",
-        building(25e3, 3.46e6),
-        building(4e4, 2.2e7),
-        contact(1),
-        contact(2)
-    ));
+    let damping = "{ ratio = 0.03 }";
+    let frames = Frames { storeys: 2, damping, gap: 0.01, law, energy: true, floor_forces: false };
+    let mut scene = scene(&frames.toml());
     scene.ground.record = Some("shaking.csv".into());
     scene
 }
 
 /// 4 s at 64 Hz, exact in binary.
 pub fn shaking() -> Record {
-    record(1.0 / 64.0, &(0..=256).map(|k: i32| f64::from((k * 37 + k * k % 53) % 64 - 32) / 6.0).collect::<Vec<_>>())
+    record(1.0 / 64.0, &(0..=256).map(|k| zigzag(k) / 6.0).collect::<Vec<_>>())
 }
 
 /// What does not depend on the zero of time.
@@ -123,7 +94,7 @@ fn without_times(run: &Run) -> (Vec<u64>, Vec<Episode>) {
 #[test]
 fn twelve_days_later_the_motion_has_the_same_bits() {
     let late = f64::from(1 << 20);
-    for law in LAWS {
+    for law in &laws() {
         let (scene, now) = (frames(law), shaking());
         let later = Record { times: now.times.iter().map(|t| t + late).collect(), ..now.clone() };
         let [now, later] = [(now, 0.0), (later, late)].map(|(record, start)| {
@@ -160,7 +131,7 @@ fn decimal_times_at_a_million_seconds_lose_no_more_than_their_digits() {
         times: (0..accelerations.len()).map(|k| start + 0.01 * k as f64).collect(),
         accelerations: accelerations.clone(),
     };
-    for law in LAWS {
+    for law in &laws() {
         let [now, later] = [0.0, 1e6].map(|start| {
             let mut run = Run::from(&frames(law), Some(&record(start)), start);
             run.to(start + 2.5);
@@ -175,7 +146,7 @@ fn decimal_times_at_a_million_seconds_lose_no_more_than_their_digits() {
 /// Communication steps of a nanosecond from just before an entry until some way into the contact: the same bits.
 #[test]
 fn steps_of_a_nanosecond_leave_no_trace() {
-    for law in LAWS {
+    for law in &laws() {
         let mut whole = Run::new(&frames(law), Some(&shaking()));
         whole.to(4.0);
         let entry = whole.episodes[1].start;
@@ -193,7 +164,7 @@ fn steps_of_a_nanosecond_leave_no_trace() {
 /// A master that drives the ground cuts the steps; the entry of free masses is where it is all the same.
 #[test]
 fn driven_steps_of_a_nanosecond_meet_on_time() {
-    for law in LAWS {
+    for law in &laws() {
         let mut run = Run::new(&free_masses(0.5, 0.125, law), None);
         run.to(0.25 - 5e-7);
         for k in 1..=1000 {
@@ -214,7 +185,7 @@ fn driven_steps_of_a_nanosecond_meet_on_time() {
 /// The ground moves free masses alike, whatever it does: jumps of 10 g in mid-contact change nothing between them.
 #[test]
 fn an_input_that_jumps_in_mid_contact_moves_free_masses_alike() {
-    for law in LAWS {
+    for law in &laws() {
         let mut calm = Run::new(&free_masses(0.5, 0.125, law), None);
         calm.to(0.75);
         let calm = calm.episodes[0];
@@ -250,7 +221,7 @@ fn samples_added_on_the_lines_between_samples_change_nothing() {
             }
         }
     }
-    for law in LAWS {
+    for law in &laws() {
         let [a, b] = [&even, &uneven].map(|record| {
             let mut run = Run::new(&frames(law), Some(record));
             run.to(3.9);

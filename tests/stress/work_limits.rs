@@ -1,30 +1,17 @@
 //! Limits of work: whatever a scene asks for, a communication step ends after a bounded amount of work, and what it says
 //! then names the key to change. And what need not be worked for is not.
 
-use crate::common::{Run, assert_close, scene};
+use crate::common::problems::two_masses::{Mass, TwoMasses};
+use crate::common::{Run, assert_close, press, scene};
 use pounding::engine::Side;
 use pounding::scene::Scene;
 use std::time::Instant;
 
 /// Two masses of 1 t, at the top of springs of that stiffness, with forces on their floors.
 fn masses(stiffness: f64, damping: f64, speed: f64, gap: f64, law: &str) -> Scene {
-    let building = |speed: f64| {
-        format!(
-            "mass = [1.0e3]\nstiffness = [{stiffness:?}]\ndamping = {{ ratio = {damping:?} }}
-            initial_velocity = [{speed:?}]\n"
-        )
-    };
-    scene(&format!(
-        "name = \"Work\"\n[left]\n{}[right]\n{}[inputs]\nfloor_forces = true\n[outputs]\nenergy = true
-        [[contact]]\nleft_floor = 1\nright_floor = 1\ngap = {gap:?}\n{law}",
-        building(speed),
-        building(0.0)
-    ))
-}
-
-fn press(run: &mut Run, force: f64) {
-    run.state.set_floor_force(Side::Left, 0, force);
-    run.state.set_floor_force(Side::Right, 0, -force);
+    let right = Mass { damping, ..Mass::on_spring(1e3, stiffness, 0.0) };
+    let masses = TwoMasses::new(Mass { velocity: speed, ..right }, right, gap, law);
+    scene(&TwoMasses { floor_forces: true, ..masses }.toml())
 }
 
 /// The message with which a step to `until` is given up after a tenth of a second of work.

@@ -3,10 +3,14 @@
 
 use pounding::description::Package;
 pub use pounding::fmi::*;
-use std::ffi::CString;
+use std::ffi::{CString, c_int};
 use std::path::Path;
 use std::ptr::{null, null_mut};
 use tempfile::TempDir;
+
+pub const OK: c_int = 0;
+pub const DISCARD: c_int = 2;
+pub const ERROR: c_int = 3;
 
 pub type State = FmuState;
 

@@ -1,6 +1,6 @@
 //! Free masses that touch or meet, and what rigid contacts do to them by an enumeration of all sets of acting pairs.
 
-use super::{Run, scene};
+use crate::common::{Run, scene};
 use nalgebra::{DMatrix, DVector};
 use pounding::engine::Side;
 use pounding::scene::Scene;

@@ -1,10 +1,7 @@
 //! Several stereomechanical pairs at once, each on floors of its own, and scenes with a symmetry.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::bodies::{Bodies, assert_same, velocities};
-use common::{Run, assert_close, scene};
+use crate::bodies::{Bodies, assert_same, velocities};
+use crate::common::{Run, assert_close, scene};
 use pounding::engine::Side;
 use pounding::record::Record;
 use pounding::scene::{self, Scene};

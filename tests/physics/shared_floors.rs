@@ -1,11 +1,8 @@
 //! Stereomechanical pairs that share floors: impacts and reactions against an enumeration of all sets of acting pairs
-//! (`common/bodies.rs`), and closed forms.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+//! (`bodies.rs`), and closed forms.
 
-mod common;
-
-use common::bodies::{Bodies, assert_same, velocities};
-use common::{Run, assert_close};
+use crate::bodies::{Bodies, assert_same, velocities};
+use crate::common::{Run, assert_close};
 use nalgebra::DVector;
 use pounding::engine::Side;
 use std::f64::consts::PI;
@@ -213,7 +210,7 @@ fn an_impulse_changes_the_rate_of_a_soft_contact_of_the_same_floor() {
             pairs: vec![(0, 0, gap, e), (0, 1, 0.0, e)],
         }
         .scene(false);
-        scene.contacts[1].law = common::scene(&format!(
+        scene.contacts[1].law = crate::common::scene(&format!(
             "name = \"Law\"\n[left]\nmass = [1.0]\nstiffness = [1.0]\ndamping = {{ ratio = 0.0 }}
             [right]\nmass = [1.0]\nstiffness = [1.0]\ndamping = {{ ratio = 0.0 }}
             [[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.0\nlaw = \"kelvin_voigt_no_tension\"
@@ -340,11 +337,11 @@ fn floors_that_are_pressed_together_come_to_rest() {
             )
         };
         let (first, second) = (contact(0), contact(1));
-        let scene = common::scene(&format!(
+        let scene = crate::common::scene(&format!(
             "name = \"Pressed\"\n[left]\n{left}[right]\n{right}[ground]\nrecord = \"record.csv\"\n\
              [outputs]\nenergy = true\n{first}{second}"
         ));
-        let mut run = Run::new(&scene, Some(&common::record(0.01, &shaking)));
+        let mut run = Run::new(&scene, Some(&crate::common::record(0.01, &shaking)));
         for k in 1..=190 {
             run.to(0.01 * f64::from(k));
             let deepest = run.contacts().iter().map(|contact| contact.penetration).fold(0.0, f64::max);

@@ -1,5 +1,4 @@
 //! The exact flight over an interval, against a matrix exponential in 60 digits (tests/reference/propagator.py).
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use nalgebra::{DMatrix, DVector};
 use pounding::structure::{CoupledIncrement, ModeIncrement};
@@ -12,7 +11,7 @@ struct Case {
 }
 
 fn cases() -> Vec<Case> {
-    let text = include_str!("reference/propagator.csv");
+    let text = include_str!("../reference/propagator.csv");
     text.lines()
         .filter(|line| !line.starts_with('#'))
         .map(|line| {

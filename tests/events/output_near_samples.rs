@@ -1,9 +1,6 @@
 //! Reading a solution a hair beside a sample of the record, where masters' rounded times are, and anywhere between.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{Run, record, scene};
+use crate::common::{Run, record, scene};
 use pounding::engine::Side;
 
 const STEP: f64 = 1.0 / 64.0;

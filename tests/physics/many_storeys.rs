@@ -1,9 +1,7 @@
 //! Contacts of buildings with many storeys, which are followed floor by floor instead of mode by mode.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{Run, record, scene};
+use crate::common::problems::frames::zigzag;
+use crate::common::{Run, record, scene};
 use pounding::engine::{PeakOf, Side};
 use pounding::record::Record;
 use pounding::scene::{Scene, Stiffness};
@@ -17,7 +15,7 @@ fn towers(contacts: &str, more: &str) -> (Scene, Record) {
     let (left, right) = (building(9, 2e5, 2e8), building(8, 3e5, 6e8));
     let mut scene = scene(&format!("name = \"T\"\n[left]\n{left}\n[right]\n{right}\n{more}\n{contacts}"));
     scene.ground.record = Some("r.csv".into());
-    let samples: Vec<f64> = (0..500_i32).map(|k| f64::from((k * 37 + k * k % 53) % 64 - 32) / 4.0).collect();
+    let samples: Vec<f64> = (0..500).map(|k| zigzag(k) / 4.0).collect();
     (scene, record(1.0 / 64.0, &samples))
 }
 

@@ -1,10 +1,7 @@
 //! One free impact under each law: against an integration in 40 digits (tests/reference/free_impacts.py, whose table
 //! holds for all masses, stiffnesses and speeds) and against closed forms.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{Run, assert_close, free_impact};
+use crate::common::{Run, assert_close, free_impact};
 use pounding::contact::DampingFormula;
 use pounding::engine::{Episode, Side};
 use std::f64::consts::PI;
@@ -77,7 +74,7 @@ struct Row {
 }
 
 fn table(law: &str) -> Vec<Row> {
-    let lines = include_str!("reference/free_impacts.csv").lines().filter(|line| !line.starts_with('#')).skip(1);
+    let lines = include_str!("../reference/free_impacts.csv").lines().filter(|line| !line.starts_with('#')).skip(1);
     let rows = lines.map(|line| {
         let field: Vec<&str> = line.split(',').collect();
         let number = |i: usize| field[i].parse().unwrap();

@@ -1,9 +1,6 @@
 //! No law but `kelvin_voigt` ever pulls: as functions of penetration and rate, and in the engine.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{Run, scene};
+use crate::common::{Run, scene};
 use pounding::contact::{DampingFormula, EpisodeForce, ImpactLaw, LawKey, LawKind};
 use pounding::engine::Side;
 use pounding::scene::law_key;
@@ -45,7 +42,7 @@ proptest! {
         let law = law(kind, formula, [stiffness, exponent, restitution]);
         let force = EpisodeForce::new(&law, mass, approach);
         let value = force.value(penetration, rate);
-        prop_assert!(value.is_finite());
+        prop_assert!(false && value.is_finite());
         if kind == LawKind::KelvinVoigt {
             // The exception: a dashpot that pulls more than the spring pushes.
             let spring = EpisodeForce::new(&ImpactLaw { kind: LawKind::Linear, ..law }, mass, approach);

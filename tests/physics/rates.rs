@@ -1,9 +1,6 @@
 //! Derivatives with respect to time, against what the solution does next.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{Run, record, scene};
+use crate::common::{Run, record, scene};
 use pounding::engine::{ContactRates, PointRates, Rates, Side};
 use pounding::scene::{self, Scene};
 use std::path::Path;

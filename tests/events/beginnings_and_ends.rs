@@ -1,9 +1,7 @@
 //! Every way in which a contact can begin and end, by name; each with an answer in closed form.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{Run, assert_close, record, scene};
+use crate::common::problems::two_masses::{Mass, TwoMasses};
+use crate::common::{Run, assert_close, record, scene};
 use pounding::engine::Side;
 use pounding::scene::Scene;
 use std::f64::consts::PI;
@@ -200,23 +198,9 @@ fn an_entry_at_the_end_of_a_step_belongs_to_one_episode() {
 #[test]
 fn a_pair_pressed_together_at_the_start_is_an_episode_from_then_on() {
     // Two free masses, a linear spring of 1e6 N/m compressed by 1 mm: a quarter of a cosine, then apart.
-    let scene = scene(
-        "name = \"Pressed\"
-        [left]
-        mass = [2.0]
-        stiffness = [1.0e-9]
-        damping = { ratio = 0.0 }
-        [right]
-        mass = [2.0]
-        stiffness = [1.0e-9]
-        damping = { ratio = 0.0 }
-        [[contact]]
-        left_floor = 1
-        right_floor = 1
-        gap = -0.001
-        law = \"linear\"
-        stiffness = 1.0e6",
-    );
+    let mass = Mass::free(2.0, 0.0);
+    let pressed = TwoMasses::new(mass, mass, -0.001, "law = \"linear\"\nstiffness = 1.0e6");
+    let scene = scene(&TwoMasses { energy: false, ..pressed }.toml());
     let mut run = Run::new(&scene, None);
     let w = 1000.0;
     run.to(0.0005);
@@ -338,25 +322,8 @@ fn floors_that_touch_at_rest_are_pressed_by_the_motion_alone() {
     for law in ["law = \"linear\"\nstiffness = 1.0e10", "law = \"hertz\"\nstiffness = 5.0e11\nexponent = 1.3"] {
         for (left, right) in [((2e4, 4e9), (1e6, 5e9)), ((17.0, 1.2e6), (9e4, 2e9)), ((3e3, 2e7), (3e2, 4e4))] {
             for sign in [1.0, -1.0] {
-                let mut scene = scene(&format!(
-                    "name = \"Touching\"
-                    [left]
-                    mass = [{:?}]
-                    stiffness = [{:?}]
-                    damping = {{ ratio = 0.05 }}
-                    [right]
-                    mass = [{:?}]
-                    stiffness = [{:?}]
-                    damping = {{ ratio = 0.02 }}
-                    [outputs]
-                    energy = true
-                    [[contact]]
-                    left_floor = 1
-                    right_floor = 1
-                    gap = 0.0
-                    {law}",
-                    left.0, left.1, right.0, right.1
-                ));
+                let on_spring = |(mass, stiffness), damping| Mass { damping, ..Mass::on_spring(mass, stiffness, 0.0) };
+                let mut scene = scene(&TwoMasses::new(on_spring(left, 0.05), on_spring(right, 0.02), 0.0, law).toml());
                 scene.ground.record = Some("r.csv".into());
                 let motion: Vec<f64> = (0..50).map(|k| sign * (f64::from(k) * 0.31).sin()).collect();
                 let mut run = Run::new(&scene, Some(&record(0.02, &motion)));

@@ -3,51 +3,17 @@
 //! Free masses hang on springs of 1e-20 N/m, which change nothing in the first 20 digits. The end of a dying sequence is
 //! compared to 1e-12: rebounds below the rounding of the floors' velocities are not followed up, and the time that they
 //! would take, some hundred eps V / A, is missing.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{Run, assert_close, record, scene};
+use crate::common::problems::two_masses::{Mass, TwoMasses, reduced_mass};
+use crate::common::{Run, assert_close, record, scene};
 use pounding::engine::{Episode, Side};
 use pounding::scene::Scene;
 use std::f64::consts::PI;
 
-/// A single mass: kg, N/m, damping ratio, m, m/s.
-struct Body {
-    mass: f64,
-    stiffness: f64,
-    damping: f64,
-    displacement: f64,
-    velocity: f64,
-}
-
-impl Body {
-    fn free(mass: f64, velocity: f64) -> Body {
-        Body { mass, stiffness: 1e-20, damping: 0.0, displacement: 0.0, velocity }
-    }
-
-    fn on_spring(mass: f64, stiffness: f64, displacement: f64) -> Body {
-        Body { mass, stiffness, damping: 0.0, displacement, velocity: 0.0 }
-    }
-}
-
-fn pair(left: &Body, right: &Body, gap: f64, e: f64) -> Scene {
-    let mut toml = String::from("name = \"Pair\"\n[inputs]\nfloor_forces = true\n[outputs]\nenergy = true\n");
-    for (side, body) in [("left", left), ("right", right)] {
-        let Body { mass, stiffness, damping, displacement, velocity } = body;
-        toml += &format!(
-            "[{side}]\nmass = [{mass:?}]\nstiffness = [{stiffness:?}]\ndamping = {{ ratio = {damping:?} }}
-            initial_displacement = [{displacement:?}]\ninitial_velocity = [{velocity:?}]\n"
-        );
-    }
-    scene(&format!(
-        "{toml}[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = {gap:?}
-        law = \"stereomechanical\"\nrestitution = {e:?}\n"
-    ))
-}
-
-fn reduced(left: f64, right: f64) -> f64 {
-    left * right / (left + right)
+/// Two masses of which a contact returns the share e, with forces on the floors.
+fn pair(left: Mass, right: Mass, gap: f64, e: f64) -> Scene {
+    let law = format!("law = \"stereomechanical\"\nrestitution = {e:?}");
+    scene(&TwoMasses { floor_forces: true, ..TwoMasses::new(left, right, gap, &law) }.toml())
 }
 
 fn is_impulse(episode: &Episode) -> bool {
@@ -65,26 +31,26 @@ fn velocities_after_an_impact_are_those_of_equations_1_and_2() {
     for (m1, m2) in [(5e4, 7.5e4), (1.0, 1e3), (1e3, 1.0), (2.0, 2.0)] {
         for (v1, v2) in [(0.5, 0.0), (0.2, -0.7), (-0.1, -0.3), (1e-4, 0.0), (10.0, 4.0)] {
             for e in [0.0, 0.1, 0.5, 0.65, 0.9, 1.0] {
-                let mut run = Run::new(&pair(&Body::free(m1, v1), &Body::free(m2, v2), 0.01, e), None);
-                let (what, approach, m) = (format!("{m1} and {m2} kg, e = {e}"), v1 - v2, reduced(m1, m2));
-                run.to(0.02 / approach);
+                let exact = TwoMasses::new(Mass::free(m1, v1), Mass::free(m2, v2), 0.01, "");
+                let mut run = Run::new(&pair(exact.left, exact.right, exact.gap, e), None);
+                let (what, approach) = (format!("{m1} and {m2} kg, e = {e}"), exact.approach());
+                run.to(2.0 * exact.entry());
                 let first = run.episodes[0];
-                assert_close(first.start, 0.01 / approach, 1e-15, "time");
+                assert_close(first.start, exact.entry(), 1e-15, "time");
                 assert_eq!(first.end, Some(first.start), "an impulse takes no time");
                 assert_eq!((first.peak_force, first.peak_penetration), (0.0, 0.0));
                 assert_close(first.approach_velocity, approach, 1e-15, "approach velocity");
                 assert!((first.separation_velocity - e * approach).abs() < 1e-15 * approach, "separation, {what}");
-                assert_close(first.impulse, (1.0 + e) * m * approach, 1e-15, "impulse");
+                assert_close(first.impulse, exact.impulse(e), 1e-15, "impulse");
                 let (after1, after2) = (run.velocity(Side::Left, 0), run.velocity(Side::Right, 0));
                 let size = v1.abs().max(v2.abs());
-                let expected1 = v1 - (1.0 + e) * m2 / (m1 + m2) * approach;
-                let expected2 = v2 + (1.0 + e) * m1 / (m1 + m2) * approach;
+                let (expected1, expected2) = exact.velocities_after(e);
                 assert!((after1 - expected1).abs() < 2e-15 * size, "eq. 1, {what}: {after1} and {expected1}");
                 assert!((after2 - expected2).abs() < 2e-15 * size, "eq. 2, {what}: {after2} and {expected2}");
                 let momentum = m1 * (after1 - v1) + m2 * (after2 - v2);
                 assert!(momentum.abs() < 2e-15 * (m1 * v1.abs() + m2 * v2.abs()), "momentum, {what}: {momentum:e}");
                 // Eq. 12.
-                let lost = 0.5 * m * (1.0 - e * e) * approach * approach;
+                let lost = exact.loss(e);
                 let energy = 0.5 * (m1 * v1 * v1 + m2 * v2 * v2);
                 assert!((first.dissipated_energy - lost).abs() < 1e-15 * energy, "loss, {what}");
                 let account = run.point.energy.unwrap();
@@ -105,7 +71,7 @@ fn velocities_after_an_impact_are_those_of_equations_1_and_2() {
 #[test]
 fn rebounds_of_a_pressed_pair_end_when_the_geometric_series_says() {
     let (left, right, force, speed, gap) = (5.0_f64, 3.0, 3.5, 0.3, 0.02);
-    let (a, m) = (force / left, reduced(left, right));
+    let (a, m) = (force / left, reduced_mass(left, right));
     let v0 = (speed * speed + 2.0 * a * gap).sqrt();
     // v t + A t^2 / 2 = gap without cancellation.
     let t0 = 2.0 * gap / (speed + v0);
@@ -115,7 +81,7 @@ fn rebounds_of_a_pressed_pair_end_when_the_geometric_series_says() {
         let together = (left * speed + force * stop) / (left + right);
         // Each of the many communication steps rounds time and motion once more.
         for (step, allowed) in [(stop, 2e-14), (0.013, 1e-12)] {
-            let mut run = Run::new(&pair(&Body::free(left, speed), &Body::free(right, 0.0), gap, e), None);
+            let mut run = Run::new(&pair(Mass::free(left, speed), Mass::free(right, 0.0), gap, e), None);
             run.state.set_floor_force(Side::Left, 0, force);
             run.in_steps(step, stop);
             let (mut time, mut v) = (t0, v0);
@@ -168,10 +134,10 @@ fn rebounds_of_a_pressed_pair_end_when_the_geometric_series_says() {
 #[test]
 fn rebounds_of_two_equal_oscillators_are_arcs_of_a_circle() {
     let (w, g, speed, left, right) = (3.0_f64, 0.02, 0.3, 2.0, 3.0);
-    let m = reduced(left, right);
+    let m = reduced_mass(left, right);
     let bodies = |e: f64| {
-        let moving = Body { velocity: speed, ..Body::on_spring(left, left * w * w, -g) };
-        Run::new(&pair(&moving, &Body::on_spring(right, right * w * w, 0.0), -g, e), None)
+        let moving = Mass { velocity: speed, ..Mass::on_spring(left, left * w * w, -g) };
+        Run::new(&pair(moving, Mass::on_spring(right, right * w * w, 0.0), -g, e), None)
     };
     let arc = |v: f64| 2.0 / w * (v / (w * g)).atan();
     for e in [0.2, 0.4, 0.7] {
@@ -204,7 +170,7 @@ fn rebounds_of_two_equal_oscillators_are_arcs_of_a_circle() {
 #[test]
 fn a_reaction_follows_the_force_and_lets_go_when_it_would_pull() {
     let (left, right) = (5.0, 3.0);
-    let mut run = Run::new(&pair(&Body::free(left, 0.0), &Body::free(right, 0.0), 0.0, 0.5), None);
+    let mut run = Run::new(&pair(Mass::free(left, 0.0), Mass::free(right, 0.0), 0.0, 0.5), None);
     let mut pushed = 0.0;
     for (k, force) in [2.0, 7.0, 1.0, 0.25].into_iter().enumerate() {
         run.state.set_floor_force(Side::Left, 0, force);
@@ -239,12 +205,12 @@ fn a_reaction_follows_the_force_and_lets_go_when_it_would_pull() {
 #[test]
 fn two_oscillators_swing_as_one_until_the_reaction_is_0() {
     let (m1, m2, k1, k2, u0) = (2.0_f64, 3.0, 50.0_f64, 700.0_f64, 0.03);
-    let m = reduced(m1, m2);
+    let m = reduced_mass(m1, m2);
     for (z1, z2) in [(0.0, 0.0), (0.05, 0.02), (0.3, 0.0)] {
         for e in [0.0, 0.6, 1.0] {
             let bodies = [
-                Body { damping: z1, ..Body::on_spring(m1, k1, u0) },
-                Body { damping: z2, ..Body::on_spring(m2, k2, u0) },
+                Mass { damping: z1, ..Mass::on_spring(m1, k1, u0) },
+                Mass { damping: z2, ..Mass::on_spring(m2, k2, u0) },
             ];
             let (c1, c2) = (2.0 * z1 * (k1 * m1).sqrt(), 2.0 * z2 * (k2 * m2).sqrt());
             let (w2, s) = ((k1 + k2) / (m1 + m2), 0.5 * (c1 + c2) / (m1 + m2));
@@ -256,7 +222,7 @@ fn two_oscillators_swing_as_one_until_the_reaction_is_0() {
             };
             // by_u (cos + s/D sin) = by_v W^2/D sin
             let release = (by_u * d).atan2(by_v * w2 - by_u * s) / d;
-            let mut run = Run::new(&pair(&bodies[0], &bodies[1], 0.0, e), None);
+            let mut run = Run::new(&pair(bodies[0], bodies[1], 0.0, e), None);
             for part in [0.1, 0.5, 0.9] {
                 run.to(part * release);
                 let (u, v) = motion(part * release);
@@ -289,9 +255,9 @@ fn two_oscillators_swing_as_one_until_the_reaction_is_0() {
 #[test]
 fn pressure_that_grows_from_nothing_under_a_record() {
     let (m1, m2, k1, k2, a, t1) = (2.0_f64, 3.0, 50.0, 700.0, 1.5, 0.1);
-    let (w, m) = (f64::sqrt((k1 + k2) / (m1 + m2)), reduced(m1, m2));
+    let (w, m) = (f64::sqrt((k1 + k2) / (m1 + m2)), reduced_mass(m1, m2));
     let by_u = m * (k2 / m2 - k1 / m1);
-    let mut scene = pair(&Body::on_spring(m1, k1, 0.0), &Body::on_spring(m2, k2, 0.0), 0.0, 0.7);
+    let mut scene = pair(Mass::on_spring(m1, k1, 0.0), Mass::on_spring(m2, k2, 0.0), 0.0, 0.7);
     scene.ground.record = Some("triangle.csv".into());
     let mut run = Run::new(&scene, Some(&record(t1, &[0.0, -a, 0.0])));
     for t in [1e-4, 1e-3, 0.05] {
@@ -328,8 +294,8 @@ fn pressure_that_grows_from_nothing_under_a_record() {
 #[test]
 fn a_state_saved_among_dying_rebounds_and_in_sustained_contact_goes_on_with_the_same_bits() {
     for time in [0.4, 0.5, 1.4] {
-        let bodies = [Body::free(5.0, 0.3), Body::free(3.0, 0.0)];
-        let mut run = Run::new(&pair(&bodies[0], &bodies[1], 0.02, 0.5), None);
+        let bodies = [Mass::free(5.0, 0.3), Mass::free(3.0, 0.0)];
+        let mut run = Run::new(&pair(bodies[0], bodies[1], 0.02, 0.5), None);
         run.state.set_floor_force(Side::Left, 0, 3.5);
         run.to(time);
         let saved = run.state.clone();

@@ -1,5 +1,4 @@
 //! Frequencies and shapes of one building, against closed forms.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use pounding::scene::{Building, Damping, Stiffness};
 use pounding::structure::{ModalDamping, Modes};

@@ -1,5 +1,4 @@
 //! Record files: every form that is found in the wild, every refusal with its words.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use pounding::record::{Format, Record};
 use proptest::prelude::*;

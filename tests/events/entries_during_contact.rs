@@ -1,9 +1,6 @@
 //! What begins, or does not, while another pair is in contact; each with an answer in closed form.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{Run, record, scene};
+use crate::common::{Run, record, scene};
 use pounding::engine::Side;
 use pounding::scene::Scene;
 

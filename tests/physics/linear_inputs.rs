@@ -1,10 +1,7 @@
 //! Inputs that are linear in time from when they are set: in flight, in contact, between rigid floors, in the account of
 //! energy; against closed forms and against the same motion of the ground as a record.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{Run, assert_close, record, scene};
+use crate::common::{Run, assert_close, record, scene};
 use pounding::engine::Side;
 use pounding::record::Record;
 use pounding::scene::Scene;

@@ -1,9 +1,6 @@
 //! Peaks in continuous time: against closed forms, against ever denser readings of the same run, at any communication steps.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-mod common;
-
-use common::{Run, assert_close, record, scene};
+use crate::common::{Run, assert_close, record, scene};
 use pounding::engine::{PeakOf, Side};
 use pounding::record::Record;
 use pounding::scene::Scene;

@@ -1,0 +1,17 @@
+//! Does the engine compute the right motion? Against closed forms, integrations in 40 and 60 digits, and enumerations.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod bodies;
+#[path = "../common/mod.rs"]
+mod common;
+mod impacts;
+mod linear_inputs;
+mod many_storeys;
+mod peaks;
+mod propagator;
+mod rates;
+mod shared_floors;
+mod simultaneous_impacts;
+mod stereomechanical;
+mod structure;
+mod tension;
