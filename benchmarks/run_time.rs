@@ -100,7 +100,7 @@ fn run_times(scene: &Path, way: Way, tolerance: f64, repeats: usize, output: &Pa
     println!("setup_s={setup:e}");
     let counters = state.counters();
     println!("flight_steps={}", counters.flight_steps);
-    println!("closer_looks={}", counters.closer_looks);
+    println!("narrow_phase_pieces={}", counters.narrow_phase_pieces);
     println!("pairs_evaluated={}", counters.pairs_evaluated);
     println!("contact_steps={}", counters.contact_steps);
     println!("events={}", counters.events);

@@ -35,7 +35,7 @@ impl Progress {
     pub fn work(&self, counters: &Counters) -> u64 {
         let before = &self.before;
         let with_series = counters.contact_steps - before.contact_steps;
-        let looked = counters.closer_looks - before.closer_looks;
+        let looked = counters.narrow_phase_pieces - before.narrow_phase_pieces;
         let flown = counters.flight_steps - before.flight_steps;
         let accounted = counters.energy_steps - before.energy_steps;
         20 * with_series + 10 * looked + 6 * accounted + flown

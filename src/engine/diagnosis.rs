@@ -102,7 +102,7 @@ impl Model {
         let in_contact = counters.contact_steps - before.contact_steps;
         let steps = in_contact + counters.flight_steps - before.flight_steps;
         let (impacts, start) = (base.impacts - progress.impacts_before, progress.start);
-        let looked = counters.closer_looks - before.closer_looks;
+        let looked = counters.narrow_phase_pieces - before.narrow_phase_pieces;
         let remedy = match () {
             _ if counters.energy_steps - before.energy_steps > 16 * steps => {
                 format!("the energy account takes the most of it: leave outputs.energy out; {}", self.quick())

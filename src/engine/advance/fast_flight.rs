@@ -168,14 +168,14 @@ impl Model {
 
     fn count_flown(&self, counters: &mut Counters, flown: u64) {
         counters.flight_steps += flown;
-        counters.flights_dismissed += if self.system.pairs.is_empty() { 0 } else { flown };
+        counters.flights_cleared += if self.system.pairs.is_empty() { 0 } else { flown };
     }
 
     /// Leaves the planned glide to be planned by other means.
     pub(in crate::engine) fn forget_deferred(&self, state: &mut State) {
         state.step.kind = StepKind::NotPlanned;
         state.counters.flight_steps -= 1;
-        state.counters.flights_dismissed -= u64::from(!self.system.pairs.is_empty());
+        state.counters.flights_cleared -= u64::from(!self.system.pairs.is_empty());
     }
 
     /// Makes the end of a flight the base.

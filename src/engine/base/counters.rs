@@ -8,9 +8,9 @@ pub struct Counters {
     /// Internal flight steps.
     pub flight_steps: u64,
     /// Pieces of flights that were expanded into a series, or tried without one, to look for a contact.
-    pub closer_looks: u64,
+    pub narrow_phase_pieces: u64,
     /// Flights for which no pair had to be looked at: none can close that fast.
-    pub flights_dismissed: u64,
+    pub flights_cleared: u64,
     /// Evaluations of a pair's penetration for a flight.
     pub pairs_evaluated: u64,
     /// Internal steps in contact.

@@ -98,15 +98,15 @@ impl Counters {
     pub(in crate::engine) fn numbers(&self) -> impl Iterator<Item = u64> + use<> {
         let &Counters {
             flight_steps,
-            closer_looks,
-            flights_dismissed,
+            narrow_phase_pieces,
+            flights_cleared,
             pairs_evaluated,
             contact_steps,
             law_evaluations,
             events,
             energy_steps,
         } = self;
-        let in_flight = [flight_steps, closer_looks, flights_dismissed, pairs_evaluated];
+        let in_flight = [flight_steps, narrow_phase_pieces, flights_cleared, pairs_evaluated];
         in_flight.into_iter().chain([contact_steps, law_evaluations, events, energy_steps])
     }
 }

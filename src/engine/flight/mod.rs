@@ -81,7 +81,7 @@ impl Flight {
         if let Some((ground, segment)) = watched
             && self.dismiss(system, ground, at.base, segment, at.counters, &mut work.node_v)
         {
-            at.counters.flights_dismissed += 1;
+            at.counters.flights_cleared += 1;
             planned.ends.resize(system.pairs.len(), None);
         } else if !self.certificate.holds(system, at, planned, (look, work), segment) {
             let is_over = planned.ends.iter().flatten().any(|(penetration, _)| *penetration >= 0.0);

@@ -48,7 +48,7 @@ impl Search<'_> {
         }
         let (mut series_left, mut longer) = (1, f64::from(LONGER) * unit);
         for _ in 0..MOST_PIECES {
-            counters.closer_looks += 1;
+            counters.narrow_phase_pieces += 1;
             let left = remaining - self.look.from;
             if series_left == 0 && left > unit {
                 let length = left.min(longer);
