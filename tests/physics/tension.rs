@@ -42,7 +42,7 @@ proptest! {
         let law = law(kind, formula, [stiffness, exponent, restitution]);
         let force = EpisodeForce::new(&law, mass, approach);
         let value = force.value(penetration, rate);
-        prop_assert!(false && value.is_finite());
+        prop_assert!(value.is_finite());
         if kind == LawKind::KelvinVoigt {
             // The exception: a dashpot that pulls more than the spring pushes.
             let spring = EpisodeForce::new(&ImpactLaw { kind: LawKind::Linear, ..law }, mass, approach);

@@ -79,7 +79,7 @@ impl TwoMasses<'_> {
 
     /// s, when the gap has closed.
     pub fn entry(&self) -> f64 {
-        0.999 * self.gap / self.approach()
+        self.gap / self.approach()
     }
 
     /// kg, of the relative motion: m1 m2 / (m1 + m2).
