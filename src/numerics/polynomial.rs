@@ -89,7 +89,7 @@ pub fn rough_root(x: f64, n: usize) -> f64 {
     if !(-1022..1024).contains(&exponent) {
         return libm::pow(x, 1.0 / n as f64);
     }
-    // log2 of the mantissa by a parabola that is right at 1, sqrt 2 and 2; 2 to a fraction by its inverse's like.
+    // log2 of the mantissa by a parabola that is exact at 1, sqrt 2 and 2; the power of two by a similar one.
     let m = f64::from_bits(bits & MANTISSA | 1.0_f64.to_bits()) - 1.0;
     let log = (exponent as f64 + m * (1.345_35 - 0.345_35 * m)) / n as f64;
     // The integer part, rounded down also for negative logarithms.

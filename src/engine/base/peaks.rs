@@ -1,27 +1,27 @@
-//! The largest magnitudes so far.
+//! The largest magnitudes so far of the watched quantities.
 
 use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Lane};
 use serde::{Deserialize, Serialize};
 
-/// The peaks up to the base, in the places of [`PeakRows`].
+/// The peaks up to the base, in the order and units of [`PeakRows`].
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Peaks {
     pub values: Vec<f64>,
 }
 
 impl Peaks {
-    /// No peak yet, of so many blocks of quantities.
+    /// Peaks of 0, for that many blocks of quantities.
     pub fn new(blocks: usize) -> Peaks {
         Peaks { values: vec![0.0; blocks * LANES] }
     }
 
-    /// Whether they can be peaks of the same quantities.
+    /// Whether these are as many peaks as `other` and none of them is negative or NaN.
     pub fn fit(&self, other: &Peaks) -> bool {
         self.values.len() == other.values.len() && self.values.iter().all(|peak| *peak >= 0.0)
     }
 
-    /// All numbers in it.
+    /// All peaks.
     pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
         let Peaks { values } = self;
         values.iter().copied()
