@@ -35,7 +35,7 @@ impl ClosedPairs {
         }
     }
 
-    /// Enters the closed pairs where they have been assigned; whether they are the same as then.
+    /// Enters the closed pairs at their assigned lanes; returns whether the closed pairs are those that were assigned.
     fn start_again(&mut self, base: &Base, scale: f64) -> bool {
         self.at_surface.fill(false);
         self.waits = false;
