@@ -15,19 +15,19 @@ pub struct Buffers {
     pub slope: Vec<f64>,
     /// Rates of the external floor forces, N/s (on modes, per kg^1/2); empty where all are held constant.
     pub force_slope: Vec<f64>,
-    /// Vector by which a motion is converted to other coordinates; accelerations in `rigid`; old displacements in fast
-    /// flight.
+    /// Displacements or velocities while they are converted to other coordinates, or at the start of a segment in fast
+    /// flight. In `rigid`: accelerations.
     pub q: Vec<f64>,
-    /// Product of the damping matrix in the energy account; old velocities in fast flight.
+    /// Velocities at the start of a segment in fast flight. In the energy account: damping forces per unit of mass.
     pub v: Vec<f64>,
     pub scratch: Scratch,
     pub series: MotionSeries,
     pub interval: Interval,
-    /// Displacements at the nodes of a quadrature (`energy.rs`). Elsewhere: load with contact forces, or a term of a
-    /// series.
+    /// Displacements at the nodes of a quadrature (`energy.rs`). Elsewhere: the load with contact forces (`rigid`), bounds
+    /// on the floors' displacements (`taylor`, `onset`), or a term of a series.
     pub node_q: Vec<f64>,
-    /// Velocities at the nodes of a quadrature. In flight: bounds on the modal amplitudes, m kg^1/2/s, or on their fourth
-    /// derivatives. Elsewhere: a term of a series.
+    /// Velocities at the nodes of a quadrature (`energy.rs`). Elsewhere: bounds on the modal amplitudes, m kg^1/2/s
+    /// (`flight`), third derivatives of the modes (`peaks`), or a term of a series.
     pub node_v: Vec<f64>,
     /// Terms of one pair's penetration, m.
     pub scalar: Coefficients,
