@@ -15,11 +15,13 @@ use std::f64::consts::PI;
 #[derive(Debug)]
 pub struct Model {
     pub(in crate::engine) system: System,
+    /// Whether the energy account is kept.
     pub(in crate::engine) energy: bool,
     pub(in crate::engine) flight: Flight,
     pub(in crate::engine) windows: Option<Windows>,
     pub(in crate::engine) peak_rows: PeakRows,
     pub(in crate::engine) resistance: FloorResistance,
+    /// Natural frequencies of the left and the right building, ascending, Hz.
     pub(in crate::engine) frequencies: [Vec<f64>; 2],
     /// Limit on the work of one communication step, in flights.
     pub(in crate::engine) most_flights: f64,

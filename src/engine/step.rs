@@ -17,8 +17,11 @@ use crate::structure::{MotionSeries, exact_order, fly_in_one_series};
 #[derive(Clone, Debug)]
 pub struct Step {
     pub kind: StepKind,
+    /// Length, event and end of the planned step.
     pub planned: Planned,
+    /// Memory and solution of Taylor steps.
     pub taylor: Solution,
+    /// Memory and solution of onset steps.
     pub onset: OnsetSeries,
     /// The window's contact forces; its motion without contact forces is in the series of `taylor`.
     pub window: Box<Window>,
@@ -62,10 +65,12 @@ impl Step {
         }
     }
 
+    /// Whether the planned step is a flight.
     pub fn is_flight(&self) -> bool {
         matches!(self.kind, StepKind::Flight | StepKind::Deferred)
     }
 
+    /// Whether the planned step is one in contact.
     pub fn is_in_contact(&self) -> bool {
         matches!(self.kind, StepKind::Taylor | StepKind::Onset | StepKind::Window)
     }

@@ -7,6 +7,7 @@ use super::time_map::{BINOMIAL, LANES, TimeMap, Weights};
 /// The weights of that change for one time map: term m in x = sum over j of `weights[m][j]` times term m - j in time.
 #[derive(Clone, Debug)]
 pub struct Substitution {
+    /// Row m: the weights for term m in x.
     weights: [Weights; MAX_TERMS],
     /// The time map and the number of terms for which the weights have been worked out.
     known: (TimeMap, usize),

@@ -8,6 +8,7 @@ use crate::engine::model::Model;
 use crate::engine::system::buffers::Buffers;
 
 impl Model {
+    /// Changes the state of the contact at the base by its event, and reports an episode that ends.
     pub(in crate::engine) fn handle(
         &self,
         base: &mut Base,

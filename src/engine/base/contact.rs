@@ -45,6 +45,7 @@ pub enum Phase {
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Contact {
     pub phase: Phase,
+    /// The forces of the latest episode on both sides of the law's guard, and the guard.
     pub force: EpisodeForce,
     /// Penetration, m, positive in contact. During an episode it is integrated from its own rate and not recomputed
     /// from the floors' displacements, which are larger, so that their difference would lose its last digits.
@@ -83,10 +84,12 @@ pub struct Contact {
 }
 
 impl Contact {
+    /// Whether the floors touch: engaged, slack or held.
     pub fn in_contact(&self) -> bool {
         self.phase != Phase::Apart
     }
 
+    /// Whether rigid floors are held together by a reaction.
     pub fn is_held(&self) -> bool {
         self.phase == Phase::Held
     }

@@ -27,6 +27,7 @@ pub enum Coordinates {
 /// The solution at the end of an internal step.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Base {
+    /// The segment of the ground motion that contains the base.
     pub segment: Segment,
     /// Time since the start of the segment, s.
     pub elapsed: f64,
@@ -37,8 +38,11 @@ pub struct Base {
     /// Velocities, m/s (modal coordinates: m kg^1/2/s).
     pub v: Vec<f64>,
     pub contacts: Vec<Contact>,
+    /// Pairs that are known to stay apart for some segments.
     pub clearance: Clearance,
+    /// Peaks up to the base.
     pub peaks: Peaks,
+    /// The energy account; `None` where the scene does not ask for it.
     pub energy: Option<Account>,
     /// Largest floor velocity in the steps in contact so far, m/s: their error is measured relative to it.
     pub velocity_scale: f64,
@@ -93,6 +97,7 @@ impl Base {
 }
 
 impl Account {
+    /// Raises `largest` to the magnitudes of the account's terms and of the `others`.
     pub fn update_largest(&mut self, others: [f64; 3]) {
         let terms = [self.initial, self.input, self.external, self.viscous];
         self.largest = terms.iter().chain(&others).fold(self.largest, |largest, term| largest.max(term.abs()));

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 /// The peaks up to the base, in the order and units of [`PeakRows`].
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Peaks {
+    /// One peak per watched quantity, in blocks of [`LANES`]; 0 in lanes without a quantity.
     pub values: Vec<f64>,
 }
 
@@ -27,10 +28,12 @@ impl Peaks {
         values.iter().copied()
     }
 
+    /// The peaks of one block of quantities.
     pub fn block(&self, block: usize) -> &Lane {
         &self.values.as_chunks::<LANES>().0[block]
     }
 
+    /// Raises the peak at an index to the magnitude of a value.
     pub fn raise(&mut self, place: usize, value: f64) {
         let peak = &mut self.values[place];
         *peak = larger(*peak, value.abs());

@@ -27,6 +27,7 @@ pub struct Planned {
     pub reaches_limit: bool,
     /// New value of the base's `last_length` once the step is taken, s; `None` where it stays as it is.
     pub next_length: Option<f64>,
+    /// The event at the end; `None` where the step ends without one.
     pub event: Option<Event>,
     /// Displacements at the end, in the coordinates of the base.
     pub q: Vec<f64>,

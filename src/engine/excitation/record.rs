@@ -177,6 +177,7 @@ impl GroundMotion {
 /// Bounds on the ground motion from the start of a segment on.
 pub struct Ahead<'a> {
     ground: &'a GroundMotion,
+    /// Number of the segment.
     number: u64,
     /// Time, s, from the first sample to that start.
     start: f64,

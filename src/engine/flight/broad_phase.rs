@@ -88,12 +88,16 @@ struct Growth {
 /// Sums over modes of |row| e, m/s, of |row| (w + c) e, m/s2, and of |row| k e, m/s3.
 #[derive(Clone, Copy, Debug)]
 struct Sums {
+    /// Of |row| e, m/s.
     speed: f64,
+    /// Of |row| (w + c) e, m/s2.
     change: f64,
+    /// Of |row| k e, m/s3.
     bend: f64,
 }
 
 impl ClosingBounds {
+    /// For the pairs of a structure; `weight` is the largest |row| entry of each mode over all pairs.
     pub fn of(structure: &Structure, pairs: &[Pair], weight: &[f64]) -> ClosingBounds {
         let mut growth: Vec<f64> = structure.participation.iter().map(|p| p.abs()).collect();
         let coupled = [Side::Left, Side::Right]
@@ -258,7 +262,9 @@ struct Closing<'a> {
     rate: f64,
     /// Relative acceleration by springs and dashpots at the base, m/s2.
     pull: f64,
+    /// Sums over modes with the present amplitudes.
     sums: Sums,
+    /// Their increase per unit of cumulative absolute velocity.
     growth: &'a Growth,
 }
 

@@ -23,6 +23,7 @@ pub struct NearPairs {
 /// Coefficients of [`LANES`] modes, side by side.
 #[derive(Clone, Copy, Debug, Default)]
 struct CertifiedModes {
+    /// Modal participation of the ground acceleration, kg^1/2.
     participation: Lane,
     /// Damping c, 1/s.
     damping: Lane,

@@ -18,6 +18,7 @@ pub struct Response {
     pub reactions: Vec<f64>,
     /// Acceleration of each floor, m/s2.
     accelerations: Vec<f64>,
+    /// Scratch vectors, kept for the next call.
     work: Option<Box<Buffers>>,
 }
 

@@ -22,10 +22,12 @@ pub struct FloorMotions {
     pub motion: Vec<KnownBlock<2>>,
     /// Absolute accelerations, m/s2.
     pub acceleration: Vec<KnownBlock<1>>,
+    /// Number of rows of the modal matrix that have been multiplied.
     pub rows_read: Cell<u64>,
     /// Load by floor and contact forces per unit of mass, in the coordinates of the point; meaningful where
     /// `is_loaded`.
     pub load: Vec<f64>,
+    /// The accelerations, once they have been worked out.
     pub is_loaded: bool,
     pub accelerations: OnceCell<Accelerations>,
     /// Memory for the accelerations.
@@ -48,6 +50,7 @@ impl<const N: usize> KnownBlock<N> {
         (0..lanes / LANES).map(|_| KnownBlock { observation: Cell::new(0), numbers: numbers() }).collect()
     }
 
+    /// Stores the quantities of a block for an observation.
     #[inline]
     pub fn set(&self, observation: u64, blocks: &[Lane; N]) {
         self.observation.set(observation);

@@ -30,6 +30,7 @@ pub struct Pair {
 }
 
 impl Pair {
+    /// A contact of the scene, with its masses and its row of the modal Jacobian.
     pub fn new(pair: &crate::scene::ContactPair, scene: &Scene, structure: &Structure) -> Pair {
         let (left, right) = (pair.left_floor - 1, pair.right_floor - 1);
         let mut row = vec![0.0; structure.lanes];

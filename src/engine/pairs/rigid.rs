@@ -14,6 +14,7 @@ pub struct RigidPairs {
 }
 
 impl RigidPairs {
+    /// The rigid pairs among all.
     pub fn of(all: &[Pair]) -> RigidPairs {
         let pairs: Vec<usize> = (0..all.len()).filter(|&p| all[p].law.is_rigid()).collect();
         let shared = |a: &Pair, b: &Pair, side: usize| {

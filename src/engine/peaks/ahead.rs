@@ -49,8 +49,11 @@ struct Amplitudes<'a> {
 /// The bounds on |y|, |y'| and |y''| without ground acceleration.
 #[derive(Default)]
 struct Reach {
+    /// On |y|.
     swing: Lane,
+    /// On |y'|.
     rate: Lane,
+    /// On |y''|.
     bend: Lane,
 }
 

@@ -187,6 +187,7 @@ impl Model {
         }
     }
 
+    /// Raises the peaks of block `b` over a flight, with the bounds on its modes.
     pub(in crate::engine) fn check_block(
         &self,
         building: &BuildingRows,

@@ -122,12 +122,14 @@ pub struct PeakWatch {
     pub blocks: Vec<WatchedBlock>,
 }
 
+/// A block of watched quantities, as it is looked ahead from some segment.
 #[derive(Clone, Debug, Default)]
 pub struct WatchedBlock {
     /// Number of the first segment in which a quantity of the block may exceed its peak.
     pub clear_until: u64,
     /// The values at the start of the segment `known_at`.
     pub value: Lane,
+    /// Number of the segment at whose start the values are known.
     pub known_at: Option<u64>,
     /// Bounds on |y'|.
     pub rate: Lane,
@@ -153,6 +155,7 @@ impl PeakWatch {
         self.until > 0
     }
 
+    /// Whether a block cannot exceed its peaks in a segment.
     pub fn is_clear(&self, block: usize, segment: u64) -> bool {
         self.blocks[block].clear_until > segment
     }
@@ -244,6 +247,7 @@ impl FloorRoom {
         }
     }
 
+    /// Forgets the time of `end`, so that the next step works out its start again.
     pub fn forget(&mut self) {
         self.known = None;
     }

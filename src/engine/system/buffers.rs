@@ -21,10 +21,12 @@ pub struct Buffers {
     /// Velocities at the start of a segment in fast flight. In the energy account: damping forces per unit of mass.
     pub v: Vec<f64>,
     pub scratch: Scratch,
+    /// Power series of a piece of a flight.
     pub series: MotionSeries,
+    /// The exact response over some time.
     pub interval: Interval,
-    /// Displacements at the nodes of a quadrature (`energy.rs`). Elsewhere: the load with contact forces (`rigid`), bounds
-    /// on the floors' displacements (`taylor`, `onset`), or a term of a series.
+    /// Displacements at the nodes of a quadrature (`energy.rs`). Elsewhere: the load with contact forces (`rigid`),
+    /// bounds on the floors' displacements (`taylor`, `onset`), or a term of a series.
     pub node_q: Vec<f64>,
     /// Velocities at the nodes of a quadrature (`energy.rs`). Elsewhere: bounds on the modal amplitudes, m kg^1/2/s
     /// (`flight`), third derivatives of the modes (`peaks`), or a term of a series.

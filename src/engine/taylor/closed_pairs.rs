@@ -45,7 +45,9 @@ pub type Blocks<'a> = (&'a mut [PairBlock], &'a [PackedPairs]);
 
 /// A block at the end of a step.
 pub struct BlockEnd {
+    /// Penetrations, m, and their derivatives by x.
     motion: BlockReading,
+    /// Forces, N, their derivatives by x, and impulses.
     force: ForceReading,
 }
 

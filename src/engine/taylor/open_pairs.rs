@@ -62,6 +62,7 @@ impl PenetrationBounds {
 pub struct OpenPairs {
     /// Allocated for all pairs; the first `used` are filled.
     pub members: Vec<PackedPairs>,
+    /// Number of blocks in use.
     pub used: usize,
     /// The coordinates for which the pairs have been assigned.
     pub coordinates: Option<Coordinates>,

@@ -13,6 +13,7 @@ use crate::structure::MotionSeries;
 /// Power series of the motion and of all contacts.
 #[derive(Clone, Debug)]
 pub struct Solution {
+    /// The motion.
     pub series: MotionSeries,
     /// Penetrations and forces of the closed pairs.
     pub closed: ClosedPairs,

@@ -10,6 +10,7 @@ pub struct FloorResistance {
     pub buildings: [Resistance; 2],
 }
 
+/// The coupling between the floors of one building.
 #[derive(Debug)]
 pub struct Resistance {
     /// |M^-1 K| and |M^-1 C|, entry by entry, where a floor is coupled to more than its neighbours.
@@ -21,6 +22,7 @@ pub struct Resistance {
 }
 
 impl FloorResistance {
+    /// For both buildings of a structure.
     pub fn of(structure: &Structure) -> FloorResistance {
         FloorResistance { buildings: [Side::Left, Side::Right].map(|side| Resistance::of(structure, side)) }
     }

@@ -27,6 +27,7 @@ pub enum PeakOf {
 }
 
 impl PeakOf {
+    /// The building to which the quantity belongs.
     pub(in crate::engine) fn side(self) -> Side {
         match self {
             PeakOf::Displacement(side, _) | PeakOf::Drift(side, _) | PeakOf::Acceleration(side, _) => side,
@@ -50,6 +51,7 @@ pub struct BuildingRows {
     /// Number of its first block among the blocks of both buildings.
     pub first: usize,
     pub blocks: Vec<Block>,
+    /// Number of floors.
     floors: usize,
     /// Number of blocks of displacements and drifts.
     moving: usize,

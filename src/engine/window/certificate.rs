@@ -122,6 +122,7 @@ fn sum_of_sizes(terms: &[f64], first: usize, x: f64) -> f64 {
 /// An open pair during a window, whose penetration can be evaluated at any time. The window stays as it is however near
 /// the pair comes, as long as it does not touch: so a contact that never closes changes no result.
 struct Approach<'a> {
+    /// The solved window.
     window: &'a Window,
     /// Terms of its motion without contact forces.
     free: &'a [f64],
@@ -158,6 +159,7 @@ impl Approach<'_> {
 /// One pair over a window.
 struct Passage<'a> {
     window: &'a Window,
+    /// Index of the pair in the window.
     place: usize,
     contact: &'a Contact,
     /// Bound on the second derivative of its penetration, m/s2, see [`Window::bend`].

@@ -24,7 +24,9 @@ pub type Moments = [[f64; POWERS]; MOST_PAIRS];
 pub struct Window {
     /// Numbers of the contacts in the window: the closed ones, then the open ones that are watched.
     pub contacts: [usize; MOST_PAIRS],
+    /// The integral equation of the penetrations.
     pub equation: Equation,
+    /// Penetrations, rates and forces at the nodes.
     pub solution: Solution,
     /// Bounds on the magnitudes of the forces, N, also between the nodes.
     pub greatest: [f64; MOST_PAIRS],

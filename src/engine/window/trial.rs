@@ -27,6 +27,7 @@ const MODES_REACH: f64 = 1.0;
 /// A window to be tried.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial {
+    /// Map from x in 0..1 to the share of the length: nodes are denser at a singularity.
     pub map: Map,
     /// The smallest rule that it may use.
     pub least: Rule,
@@ -163,8 +164,8 @@ mod tests {
     use crate::engine::base::peaks::Peaks;
     use crate::scene::Scene;
 
-    /// 1 mm deep in each other: the dashpot's rate is some 1e2/s for e = 0.5, and 1e14/s for 1e-12, for which windows of
-    /// 0.01 s cannot be halved often enough.
+    /// 1 mm deep in each other: the dashpot's rate is some 1e2/s for e = 0.5, and 1e14/s for 1e-12, for which windows
+    /// of 0.01 s cannot be halved often enough.
     #[test]
     fn no_window_is_tried_where_none_can_succeed() {
         for (restitution, is_tried) in [(0.5, true), (1e-12, false)] {

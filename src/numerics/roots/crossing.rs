@@ -52,6 +52,7 @@ fn first_upcrossing_from_zero(coefficients: &[f64], end: f64, noise: f64) -> Opt
 /// A polynomial and the level below which its values are rounding.
 struct Curve<'a> {
     terms: &'a Terms,
+    /// Rounding error of the coefficients.
     noise: f64,
     /// Halvings left for all pieces together; absent where they are not limited.
     left: Option<&'a Cell<u32>>,

@@ -11,6 +11,7 @@ pub const BLOCK: usize = 4;
 /// With y = x^[`BLOCK`] it is P0(y) + x P1(y) + x^2 P2(y) + x^3 P3(y); the four are evaluated side by side.
 pub struct Terms {
     pub all: Coefficients,
+    /// Number of blocks in use.
     blocks: usize,
 }
 
@@ -47,6 +48,7 @@ impl Place {
 }
 
 impl Terms {
+    /// A polynomial with these coefficients.
     pub fn of(coefficients: &[f64]) -> Terms {
         let mut terms = Terms::empty();
         terms.all[..coefficients.len()].copy_from_slice(coefficients);
@@ -54,6 +56,7 @@ impl Terms {
         terms
     }
 
+    /// No terms, to be filled and completed.
     pub fn empty() -> Terms {
         Terms { all: [0.0; MAX_TERMS], blocks: 0 }
     }
@@ -75,6 +78,7 @@ impl Terms {
         point(self.blocks(), x)
     }
 
+    /// Value at x.
     #[inline(always)]
     pub fn value(&self, x: f64) -> f64 {
         let at = Place::at(x);
@@ -85,6 +89,7 @@ impl Terms {
         at.total(value)
     }
 
+    /// Value and slope at x.
     #[inline(always)]
     pub fn value_and_slope(&self, x: f64) -> (f64, f64) {
         value_and_slope(self.blocks(), Place::at(x))
@@ -119,6 +124,7 @@ impl Terms {
     }
 }
 
+/// Value and slope at a point, as [`Terms::value_and_slope`], from the blocks.
 #[inline(always)]
 pub fn value_and_slope(blocks: &[Block], at: Place) -> (f64, f64) {
     let (mut value, mut by_y) = ([0.0; BLOCK], [0.0; BLOCK]);
