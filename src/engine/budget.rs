@@ -1,37 +1,40 @@
-//! How much work one communication step may be.
+//! The limit on the work of one communication step.
 //!
 //! Work is counted, not timed: the same step is given up at the same place on every machine.
 
 use crate::engine::base::counters::Counters;
 use crate::structure::Structure;
 
-/// Work that one communication step may be: some ten seconds. A whole earthquake takes some thousandths of that.
+/// Limit on the work of one communication step, in microseconds: some ten seconds. A whole earthquake takes some
+/// thousandths of that.
 pub const MOST_WORK: f64 = 1e7;
 
-/// Steps that may follow each other without any time passing.
+/// Limit on the number of consecutive steps of length 0.
 pub const MOST_STEPS_AT_ONCE: u32 = 100_000;
 
-/// Flights that are as much work as so many microseconds: an internal step with a series takes as long as some twenty.
+/// Number of flights that take `work` microseconds; one internal step with a series takes as long as some twenty
+/// flights.
 pub fn most_flights(structure: &Structure, pairs: usize, work: f64) -> f64 {
     let step_work = 2.0 + 0.2 * structure.lanes as f64 + 0.5 * pairs as f64;
     work / (0.05 * step_work)
 }
 
-/// What one communication step has taken so far.
+/// The work of one communication step so far.
 pub struct Progress {
-    /// s, where it began.
+    /// Time at which the communication step began, s.
     pub start: f64,
     /// The counts at its beginning.
     pub before: Counters,
+    /// The number of impacts at its beginning.
     pub impacts_before: u64,
-    /// Steps in a row without any time passing.
+    /// Number of consecutive steps of length 0.
     pub stalled: u32,
-    /// What it may take, in flights.
+    /// Limit on its work, in flights.
     pub most: u64,
 }
 
 impl Progress {
-    /// Work of a communication step so far, in that of flights.
+    /// Work of the communication step so far, in flights.
     pub fn work(&self, counters: &Counters) -> u64 {
         let before = &self.before;
         let with_series = counters.contact_steps - before.contact_steps;
@@ -41,12 +44,12 @@ impl Progress {
         20 * with_series + 10 * looked + 6 * accounted + flown
     }
 
-    /// Flights that may be taken without looking at the work again.
+    /// Number of flights that may be taken before the work is looked at again.
     pub fn flights_left(&self, counters: &Counters) -> u64 {
         self.most.saturating_sub(self.work(counters))
     }
 
-    /// Notes whether a step takes any time.
+    /// Notes whether a step has a length above 0.
     pub fn note(&mut self, takes_time: bool) {
         self.stalled = if takes_time { 0 } else { self.stalled + 1 };
     }

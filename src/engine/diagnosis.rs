@@ -1,5 +1,5 @@
-//! What to say where the work of a communication step is not enough, or numbers overflow: which contact or building it
-//! is, and the key of the scene to change.
+//! Error messages for a communication step that exceeds its limit on work, or whose numbers overflow: the contact or
+//! the building that is the likeliest cause, and the key of the scene to change.
 
 use crate::contact::LawKey;
 use crate::engine::base::Base;
@@ -13,7 +13,7 @@ use crate::engine::state::State;
 use crate::structure::{LANES, Side};
 
 impl Model {
-    /// Nothing may run on without numbers.
+    /// Refuses a state with numbers that are not finite.
     pub(in crate::engine) fn check_numbers(&self, state: &State) -> Result<(), EngineError> {
         let base = &state.base;
         // A sum is finite only if all of its terms are.
@@ -28,7 +28,8 @@ impl Model {
 
     #[cold]
     fn overflow(&self, base: &Base) -> EngineError {
-        // Afterwards nothing has numbers: of the contacts that were closed the stiffest is the likeliest cause.
+        // After an overflow no number is left to judge by: of the contacts that were closed, the stiffest is the
+        // likeliest cause.
         let closed = base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact());
         let stiffness = |p: usize| self.system.pairs[p].law.stiffness;
         let contact = closed.map(|(p, _)| p).max_by(|&p, &other| stiffness(p).total_cmp(&stiffness(other)));
@@ -49,13 +50,13 @@ impl Model {
         }
     }
 
-    /// Limits the work of each communication step to so many seconds, as far as they can be told beforehand (on a core
-    /// of 2020, within a factor of a few). Ten where nothing is said.
+    /// Limits the work of each communication step to so many seconds, estimated beforehand for a core of the year 2020
+    /// (within a factor of a few). The default is ten.
     pub fn limit_work(&mut self, seconds: f64) {
         self.most_flights = most_flights(&self.system.structure, self.system.pairs.len(), 1e6 * seconds);
     }
 
-    /// Refuses a communication step that has more segments of the record than it may take flights.
+    /// Refuses a communication step with more segments of the record than flights that it may take.
     #[inline]
     pub(in crate::engine) fn check_segments(&self, state: &State, until: f64) -> Result<(), EngineError> {
         match &self.system.ground {
@@ -77,14 +78,14 @@ impl Model {
         }
     }
 
-    /// What a communication step has taken that has flown over so many segments and no more.
+    /// The work of a communication step at its beginning, after fast flight over `flown` segments.
     pub(in crate::engine) fn progress(&self, state: &State, flown: u64) -> Progress {
         let State { time, counters, base, .. } = state;
         let before = Counters { flight_steps: counters.flight_steps.saturating_sub(flown), ..*counters };
         Progress { start: *time, before, impacts_before: base.impacts, stalled: 0, most: self.most_flights as u64 }
     }
 
-    /// Nothing may run for ever or on without numbers.
+    /// Refuses to go on beyond the limit on work, or with numbers that are not finite.
     pub(in crate::engine) fn check_progress(&self, state: &State, progress: &Progress) -> Result<(), EngineError> {
         if progress.work(&state.counters) > progress.most {
             return Err(self.gave_up(state, progress, "more work than one communication step may be"));
@@ -122,13 +123,13 @@ impl Model {
         }
     }
 
-    /// Whether there is a record that has not begun or is over.
+    /// Whether there is a record and the base is before its beginning or after its end.
     fn is_outside_record(&self, base: &Base) -> bool {
         let is_in = |ground: &GroundMotion| ground.number(&base.segment).is_some_and(|n| ground.is_in_record(n));
         self.system.ground.as_ref().is_some_and(|ground| !is_in(ground))
     }
 
-    /// Floors that meet again and again.
+    /// The message's part on floors that collide very often.
     fn often(&self, base: &Base, impacts: u64) -> String {
         let most = base.contacts.iter().enumerate().max_by_key(|(_, contact)| contact.impacts);
         let Some((p, contact)) = most else { return self.quick() };
@@ -144,7 +145,7 @@ impl Model {
         format!("{path} has had {} of {impacts} impacts: {change}change {path}.gap", contact.impacts.min(impacts))
     }
 
-    /// The contact that makes the steps short.
+    /// The message's part on the contact that makes the steps short.
     fn stiff(&self, base: &Base) -> String {
         let rates = base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact()).map(|(p, contact)| {
             let (spring, dashpot) = self.contact_rates(p, contact);
@@ -174,7 +175,7 @@ impl Model {
         )
     }
 
-    /// 1/s, how fast spring and dashpot of a contact act at its deepest.
+    /// Rates at which spring and dashpot of a contact act at its largest penetration, 1/s.
     fn contact_rates(&self, p: usize, contact: &Contact) -> (f64, f64) {
         let (force, mass) = (contact.force.engaged, self.system.pairs[p].mass);
         let d = contact.episode.peak_penetration.max(contact.penetration);
@@ -182,7 +183,7 @@ impl Model {
         ((spring.max(0.0) / mass).sqrt(), force.dashpot(d) / mass)
     }
 
-    /// The building with the fastest mode.
+    /// The message's part on the building with the fastest mode.
     fn quick(&self) -> String {
         let fastest = |side: Side| {
             let range = self.system.structure.range(side);
@@ -205,7 +206,7 @@ impl Model {
     }
 }
 
-/// Sum of a modal vector.
+/// Sum of the components of a modal vector.
 fn lanes_sum(modal: &[f64]) -> f64 {
     let mut sum = [0.0; LANES];
     for modal in modal.as_chunks::<LANES>().0 {

@@ -1,6 +1,6 @@
-//! The energy account, in motion relative to the ground. Only kept where the scene asks for it.
+//! The energy account, for motion relative to the ground; kept only where the scene asks for it.
 //!
-//! Every term is integrated by itself, none is the remainder of the others, so that their sum tests the solution.
+//! Every term is integrated by itself and none is computed as a remainder, so that their sum tests the solution.
 
 use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::At;
@@ -17,11 +17,14 @@ use crate::numerics::polynomial::MAX_TERMS;
 use crate::numerics::quadrature::{EIGHT, Rule, TWELVE, gauss, graded};
 use crate::structure::{MotionSeries, dot, flight_order};
 
-/// Work over a stretch of time, J.
+/// Work over an interval of time, J.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Work {
+    /// Work of the ground motion.
     pub input: f64,
+    /// Energy dissipated by structural damping.
     pub viscous: f64,
+    /// Work of the external floor forces.
     pub external: f64,
 }
 
@@ -34,7 +37,7 @@ impl System {
         }
     }
 
-    /// Opens the account with the energy that is there at the start.
+    /// Opens the account with the energy at the start.
     pub fn open_account(&self, base: &mut Base) {
         let (kinetic, strain) = self.structure_energies(base.coordinates, &base.q, &base.v);
         if let Some(account) = &mut base.energy {
@@ -61,7 +64,7 @@ impl System {
         }
     }
 
-    /// Work from the base over `length` seconds.
+    /// The work from the base over `length` seconds.
     pub fn work_over(&self, base: &Base, step: &Step, inputs: &Inputs, work: &mut Buffers, length: f64) -> Work {
         let mut done = Work::default();
         self.find_force_slopes(inputs, base.coordinates, work);
@@ -80,7 +83,7 @@ impl System {
             }
             Dense::Window(window, series) => self.integrate_window(base, (window, series), length, work, &mut done),
         }
-        // Of the forces as they are at the base; what they change by has its part from the quadratures.
+        // Work of the floor forces at their values at the base; the quadratures add that of their change.
         work.load.fill(0.0);
         let Base { segment, elapsed, .. } = base;
         self.add_floor_forces(inputs, base.coordinates, |force| force.after(segment.start, *elapsed), &mut work.load);
@@ -95,7 +98,7 @@ impl System {
         done
     }
 
-    /// The rates of the floor forces, where there are any.
+    /// Sets `work.force_slope` to the rates of the floor forces; empty where all are held.
     fn find_force_slopes(&self, inputs: &Inputs, coordinates: Coordinates, work: &mut Buffers) {
         let slope = &mut work.force_slope;
         slope.clear();
@@ -109,7 +112,7 @@ impl System {
         }
     }
 
-    /// A flight of any length in which damping takes nothing, under a load that is held.
+    /// Work over a flight of any length without damping losses and under a constant load.
     fn integrate_quiet_flight(&self, base: &Base, work: &mut Buffers, length: f64, done: &mut Work) {
         let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
         self.fly(base, length, work, (&mut q, &mut v));
@@ -118,7 +121,7 @@ impl System {
         (work.q, work.v) = (q, v);
     }
 
-    /// Along the window's own time map; leaves the end in `work.q`, `work.v`.
+    /// Work over a window, by quadrature in its own time map; leaves the motion at the end in `work.q`, `work.v`.
     fn integrate_window(
         &self,
         base: &Base,
@@ -139,9 +142,10 @@ impl System {
         (work.q, work.v) = (q, v);
     }
 
-    /// Flies in pieces that a series reaches; leaves the end in `work.q`, `work.v`.
+    /// Work over a flight, by quadrature over pieces within reach of one series each; leaves the motion at the end in
+    /// `work.q`, `work.v`.
     fn integrate_flight(&self, base: &Base, inputs: &Inputs, work: &mut Buffers, length: f64, done: &mut Work) {
-        // The account needs fewer digits than the motion, which it does not feed back into.
+        // The account needs fewer digits than the motion, which does not depend on it.
         const REMAINDER: f64 = 1e-16;
         let pieces = self.pieces(length);
         let h = length / pieces as f64;
@@ -167,8 +171,8 @@ impl System {
         work.series = series;
     }
 
-    /// Adds the work over a series that begins `from` seconds after the base and is integrated over `length` seconds,
-    /// by a rule of N points. Modes that are not coupled take all points at once.
+    /// Adds the work over a series that begins `from` seconds after the base, over `length` seconds, by a rule of N
+    /// points. Uncoupled modes are evaluated at all points side by side.
     fn integrate_series<const N: usize>(
         &self,
         base: &Base,
@@ -207,9 +211,9 @@ impl System {
         }
     }
 
-    /// Adds the work of the ground motion, of structural damping and of what the floor forces have changed by since the
-    /// base over a solution that begins `from` seconds after it, at the nodes and weights of a quadrature. `motion`(t,
-    /// q, v) fills v; q is room for it to work in.
+    /// Adds the work of the ground motion, of structural damping and of the change of the floor forces since the base,
+    /// over a solution that begins `from` seconds after the base, by the nodes and weights of a quadrature. `motion`(t,
+    /// q, v) writes the velocities at t to v, with q as scratch.
     fn integrate(
         &self,
         base: &Base,

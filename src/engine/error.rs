@@ -1,9 +1,9 @@
-//! What the engine cannot go on from.
+//! The error of a run that the engine cannot continue.
 
-/// What the engine cannot go on from; carries the numbers and the remedy.
+/// A run that cannot be continued, or a state that cannot be restored: the message has the numbers and the remedy.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{message}")]
 pub struct EngineError {
-    /// For a person.
+    /// The message to the user.
     pub message: String,
 }

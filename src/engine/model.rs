@@ -1,4 +1,4 @@
-//! The model: everything about a scene that stays as it is during a run.
+//! The model: the scene, prepared for the engine; constant during a run.
 
 use crate::engine::budget::{MOST_WORK, most_flights};
 use crate::engine::flight::Flight;
@@ -11,17 +11,19 @@ use crate::scene::{Scene, SceneError};
 use crate::structure::Side;
 use std::f64::consts::PI;
 
-/// Everything that stays as it is during a run.
+/// The scene, prepared for the engine; constant during a run.
 #[derive(Debug)]
 pub struct Model {
     pub(in crate::engine) system: System,
+    /// Whether the energy account is kept.
     pub(in crate::engine) energy: bool,
     pub(in crate::engine) flight: Flight,
     pub(in crate::engine) windows: Option<Windows>,
     pub(in crate::engine) peak_rows: PeakRows,
     pub(in crate::engine) resistance: FloorResistance,
+    /// Natural frequencies of the left and the right building, ascending, Hz.
     pub(in crate::engine) frequencies: [Vec<f64>; 2],
-    /// What one communication step may take, in flights.
+    /// Limit on the work of one communication step, in flights.
     pub(in crate::engine) most_flights: f64,
 }
 

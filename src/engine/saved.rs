@@ -1,7 +1,7 @@
-//! Saving a state, and going on from it as if nothing had happened since.
+//! Saving a state, and restoring it so that the run continues to the same bits.
 //!
-//! What is saved is the base and what the master holds. The step under way follows from these and is worked out again,
-//! to the same bits; buffers hold nothing, and what follows from the scene is in the model.
+//! Saved are the base and the inputs. The step under way follows from these and is planned again, to the same bits;
+//! scratch vectors hold nothing, and all that follows from the scene is in the model.
 
 use crate::contact::EpisodeForce;
 use crate::engine::base::Base;
@@ -16,20 +16,20 @@ use crate::engine::step::StepKind;
 use crate::structure::Side;
 use serde::{Deserialize, Serialize};
 
-/// No run counts so far: a count above would overflow before long.
+/// Largest count that a saved state may have: no run gets that far, and beyond it a count could overflow.
 const MOST_COUNTED: u64 = 1 << 53;
 
-/// m and m/s (of modes, times the root of a mass): no building moves so far or so fast. What does would keep the engine
-/// busy for a minute before it gives up.
+/// Largest displacement, m, and velocity, m/s, that a saved state may have (of modes: times the root of a mass). No
+/// building moves so far or so fast, and a motion beyond it would take a minute of work before it is given up.
 const MOST_MOTION: f64 = 1e12;
 
-/// What the start of a segment and the time since then may be off by as a time: s, relative to times above 1 s.
+/// Largest difference between the saved time and the one that follows from its segment, s, relative to times above 1 s.
 const TIME_ROUNDING: f64 = 1e-9;
 
-/// All that a state is to the model that it belongs to: plain data, to be kept or written to bytes.
+/// Everything of a state that cannot be worked out from the model: plain data, to be kept or written to bytes.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SavedState {
-    /// s, the communication time.
+    /// The communication time, s.
     time: f64,
     base: Base,
     /// Whether a step from the base had been planned.
@@ -39,7 +39,7 @@ pub struct SavedState {
 }
 
 impl State {
-    /// What [`Model::restore`] brings back.
+    /// The data from which [`Model::restore`] brings the state back.
     pub fn save(&self) -> SavedState {
         let State { time, base, step, inputs, counters, work: _ } = self;
         let is_planned = step.kind != StepKind::NotPlanned;
@@ -48,25 +48,25 @@ impl State {
 }
 
 impl SavedState {
-    /// s, the communication time.
+    /// The communication time, s.
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// m/s2, where there is no record.
+    /// The ground acceleration, m/s2; meaningful where there is no record.
     pub fn ground_acceleration(&self) -> &LinearInput {
         &self.inputs.ground_acceleration
     }
 
-    /// N, on a floor counted from 0; none where the scene has no floor forces.
+    /// The force on a floor, counted from 0, N; `None` where the scene has no floor forces.
     pub fn floor_force(&self, side: Side, floor: usize) -> Option<&LinearInput> {
         self.inputs.floor_forces.get(self.inputs.place(side, floor))
     }
 }
 
 impl Model {
-    /// Makes a state of this model what another of its states was when it was saved. The run from there on is the same
-    /// to the last bit.
+    /// Brings a state of this model back to what it was, or another of its states was, when it was saved. The run from
+    /// there on is the same to the last bit.
     pub fn restore(&self, saved: &SavedState, state: &mut State) {
         let SavedState { time, base, is_planned, inputs, counters } = saved;
         state.time = *time;
@@ -78,12 +78,12 @@ impl Model {
             let limit = self.limit(&state.base.segment, state.time);
             self.plan(state, limit);
         }
-        // What has been worked out again is not counted again.
+        // Planning the step again is not counted again.
         state.counters = *counters;
     }
 
-    /// Whether a state that comes from outside can be one of this model: restoring it and going on from there is safe
-    /// then, whatever its numbers.
+    /// Whether a state from outside can be one of this model. If so, it is safe to restore it and to continue, whatever
+    /// its numbers.
     ///
     /// # Errors
     /// The first thing that does not fit the model.
@@ -148,8 +148,8 @@ impl Model {
         require(base.impacts == impacts && impacts <= MOST_COUNTED, "its impacts are not those of its contacts")
     }
 
-    /// A step that has been planned holds the time. Without one the base is there already (after a failed step it may
-    /// be further): the engine never has a stretch to make up for.
+    /// A planned step contains the communication time. Without one the base is at that time already (after a failed
+    /// step it may be later).
     fn check_time(&self, is_planned: bool, state: &State) -> Result<(), EngineError> {
         let State { time, base, .. } = state;
         let (since, rounding) = (time - base.segment.start, rounding(*time));

@@ -14,11 +14,12 @@ use crate::structure::Side;
 
 /// Everything that changes during a run.
 ///
-/// `base` is the engine's own last step end at or before the communication time, and `step` is the dense solution
-/// from there on. `step` follows from `base` alone, so it is the same whatever the communication points are.
+/// `base` is the end of the engine's last own step at or before the communication time, and `step` is the dense
+/// solution from there on. `step` follows from `base` and the inputs alone; with a record inside it does not depend on
+/// the communication points.
 #[derive(Clone, Debug)]
 pub struct State {
-    /// s, the communication time.
+    /// The communication time, s.
     pub(in crate::engine) time: f64,
     pub(in crate::engine) base: Base,
     pub(in crate::engine) step: Step,
@@ -28,12 +29,12 @@ pub struct State {
 }
 
 impl State {
-    /// s, the communication time.
+    /// The communication time, s.
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// s from the base to the present time, as far as the step under way is known.
+    /// Time from the base to the present, s, as far as the planned step reaches.
     pub(in crate::engine) fn since_base(&self) -> f64 {
         match self.step.kind {
             StepKind::NotPlanned => 0.0,
@@ -41,29 +42,30 @@ impl State {
         }
     }
 
-    /// Work done so far.
+    /// The counts of work so far.
     pub fn counters(&self) -> Counters {
         self.counters
     }
 
-    /// m/s2, now; only where the scene has no record. Held from now on, unless a rate is set for the same time.
+    /// Sets the ground acceleration, m/s2, at the present time; used only where the scene has no record. It is constant
+    /// from now on, unless a rate is set for the same time.
     pub fn set_ground_acceleration(&mut self, acceleration: f64) {
         self.inputs.ground_acceleration.set_value(acceleration, self.time);
     }
 
-    /// m/s3, from now on until the acceleration or its rate is set again.
+    /// Sets the rate of the ground acceleration, m/s3, from now on until the acceleration or its rate is set again.
     pub fn set_ground_acceleration_rate(&mut self, rate: f64) {
         self.inputs.ground_acceleration.set_slope(rate, self.time);
     }
 
-    /// N, now; only where the scene has floor forces. Floors counted from 0. Held from now on, unless a rate is set for
-    /// the same time.
+    /// Sets the force on a floor, counted from 0, N, at the present time; used only where the scene has floor forces.
+    /// It is constant from now on, unless a rate is set for the same time.
     pub fn set_floor_force(&mut self, side: Side, floor: usize, force: f64) {
         let time = self.time;
         self.change_floor_force(side, floor, |input| input.set_value(force, time));
     }
 
-    /// N/s, from now on until the force or its rate is set again.
+    /// Sets the rate of the force on a floor, N/s, from now on until the force or its rate is set again.
     pub fn set_floor_force_rate(&mut self, side: Side, floor: usize, rate: f64) {
         let time = self.time;
         self.change_floor_force(side, floor, |input| input.set_slope(rate, time));
@@ -77,7 +79,7 @@ impl State {
     }
 }
 
-/// Room to work in; its content means nothing between calls.
+/// Scratch memory of all kinds of steps; its content means nothing between calls.
 #[derive(Clone, Debug)]
 pub struct Workspace {
     pub buffers: Buffers,
@@ -87,7 +89,7 @@ pub struct Workspace {
 }
 
 impl Workspace {
-    /// What peaks need of it.
+    /// The part of it that the peaks use.
     pub fn for_peaks(&mut self) -> PeakWork<'_> {
         PeakWork { buffers: &mut self.buffers, peaks: &mut self.peaks }
     }
@@ -104,7 +106,7 @@ impl Workspace {
 }
 
 impl Model {
-    /// Room to work in.
+    /// Scratch vectors for this model.
     pub(in crate::engine) fn buffers(&self) -> Buffers {
         Buffers::new(&self.system.structure, self.system.rigid.pairs.len())
     }
@@ -131,7 +133,7 @@ impl Model {
 }
 
 impl State {
-    /// Where the planned step ends, s since the start of the segment: by the `limit`, whatever rounding adds.
+    /// The end of the planned step, s since the start of the segment; never beyond the `limit` by rounding.
     pub(in crate::engine) fn step_end(&self, limit: f64) -> f64 {
         if self.step.planned.reaches_limit { limit } else { (self.base.elapsed + self.step.planned.length).min(limit) }
     }

@@ -1,5 +1,5 @@
-//! The dense solution from the base on: one of a few kinds of step. What kind it is, is asked here; who needs to know
-//! more than where it is and what it does to contacts gets it by [`Step::dense`].
+//! The dense solution from the base on, by one of a few kinds of step. Only this file asks for the kind; code that
+//! needs more than the motion and the contacts of a step matches on [`Step::dense`].
 
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
@@ -13,45 +13,48 @@ use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
 use crate::structure::{MotionSeries, exact_order, fly_in_one_series};
 
-/// The dense solution from the base on.
+/// The planned step and its dense solution from the base on. Memory for each kind is kept, so that no step allocates.
 #[derive(Clone, Debug)]
 pub struct Step {
     pub kind: StepKind,
+    /// Length, event and end of the planned step.
     pub planned: Planned,
+    /// Memory and solution of Taylor steps.
     pub taylor: Solution,
+    /// Memory and solution of onset steps.
     pub onset: OnsetSeries,
-    /// The motion without its forces is in the series of `taylor`.
+    /// The window's contact forces; its motion without contact forces is in the series of `taylor`.
     pub window: Box<Window>,
 }
 
 /// The kinds of step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepKind {
-    /// Not worked out yet.
+    /// No step has been planned.
     NotPlanned,
     Flight,
-    /// A flight over a whole segment for which every pair has been dismissed; its end has not been worked out.
+    /// A flight over a whole segment for which every pair has been cleared; its end has not been worked out yet.
     Deferred,
     Taylor,
-    /// In contact, the first step after an entry under a power law.
+    /// The first step after an entry under a power law: a double power series.
     Onset,
-    /// In contact, few pairs under power laws.
+    /// Contact forces over a whole window, for few pairs under power laws.
     Window,
 }
 
-/// What a step knows of the motion.
+/// The dense solution of a step.
 pub enum Dense<'a> {
-    /// The exact motion apart, from the base on.
+    /// The exact motion of the buildings apart, from the base on.
     Flight,
-    /// Power series in time, or by a time map.
+    /// Power series in time, or in the x of a time map.
     Taylor(&'a Solution),
     Onset(&'a OnsetSeries),
-    /// With the series of the motion without contact forces.
+    /// Contact forces over a window, with the series of the motion without contact forces.
     Window(&'a Window, &'a MotionSeries),
 }
 
 impl Step {
-    /// None yet, with room for any.
+    /// No step yet, with memory for any kind.
     pub fn new(system: &System) -> Step {
         Step {
             kind: StepKind::NotPlanned,
@@ -62,15 +65,17 @@ impl Step {
         }
     }
 
+    /// Whether the planned step is a flight.
     pub fn is_flight(&self) -> bool {
         matches!(self.kind, StepKind::Flight | StepKind::Deferred)
     }
 
+    /// Whether the planned step is one in contact.
     pub fn is_in_contact(&self) -> bool {
         matches!(self.kind, StepKind::Taylor | StepKind::Onset | StepKind::Window)
     }
 
-    /// What it knows of the motion; of one that has not been worked out, what a flight does.
+    /// The solution of the step; for a step that has not been planned, a flight.
     pub fn dense(&self) -> Dense<'_> {
         match self.kind {
             StepKind::NotPlanned | StepKind::Flight | StepKind::Deferred => Dense::Flight,
@@ -80,7 +85,7 @@ impl Step {
         }
     }
 
-    /// q and v, `elapsed` seconds after the base.
+    /// Displacements and velocities, in the coordinates of the base, `elapsed` seconds after the base.
     pub fn evaluate(
         &self,
         system: &System,
@@ -109,8 +114,9 @@ impl Step {
         }
     }
 
-    /// Reads a flight that is all but over from its end, under a load that is in `work`; whether it is one. Masters
-    /// whose time differs from that of a sample by its rounding ask for it all the time, and few terms are enough.
+    /// Evaluates a flight backwards from its planned end, under the load in `work`, if less than `NEARLY_OVER` of it is
+    /// left; returns whether it did. Masters whose time differs from that of a sample by rounding need this all the
+    /// time, and it takes few terms.
     fn fly_back(
         &self,
         system: &System,
@@ -119,7 +125,8 @@ impl Step {
         work: &mut Buffers,
         (q, v): (&mut [f64], &mut [f64]),
     ) -> bool {
-        // Far below what a series reaches, so that what damping takes forwards is not given back as rounding.
+        // Small enough that no series converges badly and that the growth by damping backwards in time is below
+        // rounding.
         const NEARLY_OVER: f64 = 1e-6;
         let length = match self.kind {
             StepKind::Flight => self.planned.length,
@@ -147,7 +154,7 @@ impl Step {
         true
     }
 
-    /// Follows the contacts to the end of the step, which has begun at `start` \[s\].
+    /// Moves the contacts to the end of the step, which began at the time `start` \[s\].
     pub fn follow(&self, system: &System, contacts: &mut [Contact], start: f64) {
         let length = self.planned.length;
         match self.dense() {
@@ -163,8 +170,8 @@ impl Step {
         }
     }
 
-    /// Follows one contact, `elapsed` seconds into a step that has begun at `start` \[s\]; for a series in time,
-    /// `powers` are those of that time.
+    /// Moves one contact to `elapsed` seconds into a step that began at the time `start` \[s\]; `powers` are those of
+    /// that time, used by series in time.
     pub fn follow_one(&self, system: &System, contact: &mut Contact, elapsed: f64, start: f64, powers: &Powers) {
         match self.dense() {
             Dense::Onset(onset) => contact.follow_onset(onset, elapsed / onset.scale, start),
@@ -174,7 +181,7 @@ impl Step {
         }
     }
 
-    /// A contact at a time since the base; for a series in time, `powers` are those of that time.
+    /// One contact, `elapsed` seconds after the base; `powers` are those of that time, used by series in time.
     pub fn contact_at(&self, system: &System, base: &Base, p: usize, elapsed: f64, powers: &Powers) -> Contact {
         let mut contact = base.contacts[p];
         if contact.in_contact() && elapsed > 0.0 {
@@ -183,17 +190,18 @@ impl Step {
         contact
     }
 
-    /// The powers of a time since the base for the power series of the step.
+    /// Sets the powers of the step's series in time, for a time after the base, s.
     pub fn set_powers(&self, elapsed: f64, powers: &mut Powers) {
         self.taylor.series.set_powers(elapsed, powers);
     }
 
-    /// Those of its end.
+    /// The powers of the step's series in time at the end of the step.
     pub fn end_powers(&self) -> &Powers {
         &self.taylor.end
     }
 
-    /// N, bounds on the sizes of the contact forces over the first seconds, of which the powers of the series are given.
+    /// Bounds on the magnitudes of the contact forces, N, from the base to an elapsed time, s, with the powers of that
+    /// time.
     pub fn bound_forces(
         &self,
         system: &System,

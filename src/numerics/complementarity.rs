@@ -1,36 +1,39 @@
 //! Forces that can only push, between floors that touch: a linear complementarity problem.
 //!
-//! Wanted are x >= 0 with w = G x - b >= 0 and x . w = 0, where G = J M^-1 J' says what a unit force (impulse) between
-//! one pair does to the relative acceleration (velocity) of another, and b what the pairs would do without any. G is
-//! symmetric and positive semidefinite, so that x minimises x . G x / 2 - b . x over x >= 0: Gauss's principle of least
-//! constraint. It is found by the active-set method for non-negative least squares \[LawsonHanson1974,
-//! ch. 23\], which ends after finitely many exchanges, also where pairs depend on each other (four pairs of two floors a
-//! side): a pair whose column depends on those that are active stays out.
+//! Sought are x >= 0 with w = G x - b >= 0 and x . w = 0. G = J M^-1 J' gives the relative acceleration (velocity) of
+//! each pair per unit force (impulse) of another; b is the relative acceleration (velocity) at which the pairs would
+//! close without any, positive towards each other. G is symmetric and positive semidefinite, so that x minimises x . G
+//! x / 2 - b . x over x >= 0: Gauss's principle of least constraint. It is solved by the active-set method for
+//! non-negative least squares \[LawsonHanson1974, ch. 23\], which ends after finitely many exchanges, also where pairs
+//! depend on each other (four pairs of two floors a side): a pair whose column depends on those of the active pairs
+//! stays inactive.
 
 use nalgebra::DMatrix;
 
-/// A pivot below this share of its diagonal entry is 0 but for rounding: the pair depends on those before it.
+/// A pivot below this share of its diagonal entry is taken as 0: the pair depends linearly on those before it.
 const DEPENDENT: f64 = 1e-10;
 
-/// A factor of the matrix of some pairs, and room to solve with it.
+/// The problem for some pairs, its solution, and the factors of the active pairs' matrix.
 #[derive(Clone, Debug, Default)]
 pub struct Complementarity {
-    /// The pairs in question, as rows of the matrix.
+    /// The pairs in question, as row numbers of G.
     pub pairs: Vec<usize>,
-    /// One per pair in question: what is known, then what is found.
+    /// b, one per pair in question.
     pub known: Vec<f64>,
+    /// x, one per pair in question: N where b is in m/s2, N s where it is in m/s.
     pub found: Vec<f64>,
-    /// Rounding error of what is known: no force is needed against less.
+    /// Rounding error of b, one per pair in question: a pair needs no force against less.
     pub noise: Vec<f64>,
     /// Positions in `pairs` that may carry a force.
     active: Vec<usize>,
+    /// Solution of the equations of the active pairs, which may hold negative forces.
     trial: Vec<f64>,
     /// L below the diagonal and D on it, by rows, in the order of the active positions; D is 0 for a dependent pair.
     factor: Vec<f64>,
 }
 
 impl Complementarity {
-    /// Room for that many pairs.
+    /// Allocates for at most `most` pairs.
     pub fn new(most: usize) -> Complementarity {
         let numbers = || Vec::with_capacity(most);
         Complementarity {
@@ -60,14 +63,15 @@ impl Complementarity {
         self.noise.push(noise);
     }
 
-    /// Makes all pairs active, pulling or pushing: G x = b from now on.
+    /// Solves for bilateral contact: makes all pairs active, so that G x = b from the next `solve` on; x of either
+    /// sign.
     pub fn close_all(&mut self, matrix: &DMatrix<f64>) {
         self.active.clear();
         self.active.extend(0..self.pairs.len());
         self.factorise(matrix);
     }
 
-    /// `found` from `known` for the active pairs, 0 for the others.
+    /// `found` from `known` for the active pairs; 0 for the others.
     pub fn solve(&mut self) {
         self.try_active();
         self.found.fill(0.0);
@@ -76,7 +80,7 @@ impl Complementarity {
         }
     }
 
-    /// Finds the forces that only push.
+    /// Solves the complementarity problem: forces x >= 0 that only push.
     pub fn push(&mut self, matrix: &DMatrix<f64>) {
         self.close_all(matrix);
         self.solve();
@@ -85,7 +89,7 @@ impl Complementarity {
         }
         self.active.clear();
         self.found.fill(0.0);
-        // Every round lowers the minimum; rounding may make the last ones idle.
+        // Every round lowers the minimised function; by rounding the last rounds may leave it as it is.
         for _ in 0..3 * self.pairs.len() + 3 {
             let Some(next) = self.most_violated(matrix) else { break };
             self.active.push(next);
@@ -93,7 +97,7 @@ impl Complementarity {
         }
     }
 
-    /// The pair that is not active and violates w >= 0 most, relative to its own force.
+    /// The inactive pair that violates w >= 0 most, relative to b.
     fn most_violated(&self, matrix: &DMatrix<f64>) -> Option<usize> {
         let mut worst = (0.0, None);
         for position in (0..self.pairs.len()).filter(|position| !self.active.contains(position)) {
@@ -108,12 +112,12 @@ impl Complementarity {
         worst.1
     }
 
-    /// Moves to the solution of the active pairs, or as far as none of them pulls, and drops what would; whether that
-    /// was all of the way.
+    /// Moves x towards the solution of the active pairs until the first force would become negative, and makes that
+    /// pair inactive; returns whether the whole way was possible.
     fn step_to_active(&mut self, matrix: &DMatrix<f64>) -> bool {
         self.factorise(matrix);
         self.try_active();
-        // How far, and which pair would pull beyond.
+        // The largest admissible share of the way, and the pair whose force would be negative beyond it.
         let mut stop: Option<(f64, usize)> = None;
         for (i, &position) in self.active.iter().enumerate().filter(|&(i, _)| self.trial[i] <= 0.0) {
             let here = self.found[position];
@@ -155,7 +159,7 @@ impl Complementarity {
         }
     }
 
-    /// `trial` = solution for the active pairs.
+    /// `trial` = solution of the equations of the active pairs.
     fn try_active(&mut self) {
         let n = self.active.len();
         for i in 0..n {
@@ -194,7 +198,7 @@ mod tests {
         problem.found
     }
 
-    /// What every solution satisfies, and no other x (but for pairs that depend on each other).
+    /// Asserts the conditions that determine x uniquely (unless pairs depend on each other).
     fn assert_solves(matrix: &DMatrix<f64>, known: &[f64], x: &[f64]) {
         for (i, b) in known.iter().enumerate() {
             let w: f64 = (0..x.len()).map(|j| matrix[(i, j)] * x[j]).sum::<f64>() - b;
@@ -210,7 +214,7 @@ mod tests {
 
     #[test]
     fn a_pair_that_would_pull_is_left_out() {
-        // One floor of mass 1 against two of mass 1: what one pair needs drives the other apart.
+        // One floor of mass 1 against two of mass 1: the force that one pair needs drives the other pair apart.
         let matrix = DMatrix::from_row_slice(2, 2, &[2.0, 1.0, 1.0, 2.0]);
         assert_eq!(push(&matrix, &[3.0, 1.0]), [1.5, 0.0]);
         let both = push(&matrix, &[3.0, 3.0]);

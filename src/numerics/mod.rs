@@ -1,4 +1,5 @@
-//! Arithmetic without mechanics: polynomials and power series, their roots and largest values, quadrature, complementarity.
+//! Arithmetic without mechanics: polynomials and power series, their roots and largest values, quadrature, linear
+//! complementarity.
 
 pub mod complementarity;
 pub mod polynomial;

@@ -1,22 +1,22 @@
 //! Polynomials of a step, c0 + c1 x + c2 x^2 + ..., evaluated by tables of powers: sums of products in a fixed order,
-//! which vectorise, where Horner's rule waits for one result after the other.
+//! which vectorise, whereas each operation of Horner's rule waits for the one before.
 
-/// Highest power of any series.
+/// Highest power of any Taylor series of the motion.
 pub const MAX_ORDER: usize = 30;
 
-/// Room for the powers of a series and of its derivatives, a multiple of [`BLOCK`].
+/// Length of a coefficient array: the powers of a series and of its derivatives; a multiple of [`BLOCK`].
 pub const MAX_TERMS: usize = 36;
 
-/// Terms that are summed side by side.
+/// Number of terms that are summed side by side, one per lane of a vector register.
 pub const BLOCK: usize = 4;
 
 /// The coefficients of a polynomial; 0 or at least finite beyond its highest power.
 pub type Coefficients = [f64; MAX_TERMS];
 
-/// The powers of 1.
+/// 1 for each power.
 pub const ALL: Coefficients = [1.0; MAX_TERMS];
 
-/// 0, 1, 2, ...
+/// n for each power n.
 pub const COUNT: Coefficients = {
     let mut table = [0.0; MAX_TERMS];
     let mut n = 0;
@@ -27,7 +27,7 @@ pub const COUNT: Coefficients = {
     table
 };
 
-/// n (n-1).
+/// n (n-1) for each power n: factors of the second derivative.
 pub const SECOND: Coefficients = {
     let mut table = [0.0; MAX_TERMS];
     let mut n = 1;
@@ -38,7 +38,7 @@ pub const SECOND: Coefficients = {
     table
 };
 
-/// n (n-1) (n-2) (n-3).
+/// n (n-1) (n-2) (n-3) for each power n: factors of the fourth derivative.
 pub const FOURTH: Coefficients = {
     let mut table = [0.0; MAX_TERMS];
     let mut n = 4;
@@ -49,7 +49,7 @@ pub const FOURTH: Coefficients = {
     table
 };
 
-/// 1/(n + 1), for one power more.
+/// 1/(n + 1) for each power n, and for one power more: factors of the integral.
 pub const RECIPROCAL: [f64; MAX_TERMS + 1] = {
     let mut table = [0.0; MAX_TERMS + 1];
     let mut n = 0;
@@ -60,8 +60,7 @@ pub const RECIPROCAL: [f64; MAX_TERMS + 1] = {
     table
 };
 
-/// As many numbers side by side as wide instructions take: unlike `std::array::from_fn` it always becomes one of these
-/// after the other.
+/// The numbers `of(0)`, `of(1)`, ... of one block: unlike `std::array::from_fn` it is always unrolled.
 #[inline(always)]
 pub fn each(of: impl Fn(usize) -> f64) -> [f64; BLOCK] {
     let mut all = [0.0; BLOCK];
@@ -71,7 +70,7 @@ pub fn each(of: impl Fn(usize) -> f64) -> [f64; BLOCK] {
     all
 }
 
-/// The larger of two numbers that are not NaN: unlike `max` it does not look for one.
+/// The larger of two numbers that are not NaN: unlike `f64::max` without a test for NaN.
 #[inline(always)]
 pub fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
@@ -82,7 +81,7 @@ pub fn value_and_slope(coefficients: &[f64], x: f64) -> (f64, f64) {
     coefficients.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * x + c, slope * x + value))
 }
 
-/// x^(1/n) for x > 0 within 1 %: what the length of a step needs.
+/// x^(1/n) for x > 0 within 1 %, for step lengths, which need no more.
 pub fn rough_root(x: f64, n: usize) -> f64 {
     const MANTISSA: u64 = (1 << 52) - 1;
     let bits = x.to_bits();
@@ -90,10 +89,10 @@ pub fn rough_root(x: f64, n: usize) -> f64 {
     if !(-1022..1024).contains(&exponent) {
         return libm::pow(x, 1.0 / n as f64);
     }
-    // log2 of the mantissa by a parabola that is right at 1, sqrt 2 and 2; 2 to a fraction by its inverse's like.
+    // log2 of the mantissa by a parabola that is exact at 1, sqrt 2 and 2; the power of two by a similar one.
     let m = f64::from_bits(bits & MANTISSA | 1.0_f64.to_bits()) - 1.0;
     let log = (exponent as f64 + m * (1.345_35 - 0.345_35 * m)) / n as f64;
-    // Towards 0 and one down for what is below it.
+    // The integer part, rounded down also for negative logarithms.
     let whole = log as i64 - i64::from(log < 0.0);
     let fraction = log - whole as f64;
     let power = f64::from_bits(((whole.clamp(-1022, 1023) + 1023) as u64) << 52);

@@ -1,16 +1,16 @@
-//! The powers of one x, with which polynomials are evaluated there: in x, or in a time that a [`TimeMap`] makes of x.
+//! The powers of one x, by which polynomials in x are evaluated, and those in a time that a [`TimeMap`] relates to x.
 
 use super::polynomial::{BLOCK, COUNT, Coefficients, FOURTH, MAX_TERMS, RECIPROCAL};
 use super::time_map::TimeMap;
 
-/// The powers of x up to some highest, and what their derivatives need.
+/// Tables to evaluate polynomials at one x: powers up to some highest, and the factors of their derivatives.
 #[derive(Clone, Debug)]
 pub struct Powers {
-    /// x.
+    /// The point, in the unit of the polynomials.
     pub x: f64,
-    /// The highest.
+    /// The highest power in the tables.
     highest: usize,
-    /// Blocks that hold powers up to the highest.
+    /// Number of blocks that hold powers up to the highest.
     blocks: usize,
     /// x^n, 0 beyond the highest.
     value: Coefficients,
@@ -18,13 +18,14 @@ pub struct Powers {
     slope: Coefficients,
     /// n (n-1) (n-2) (n-3) x^(n-4).
     fourth: Coefficients,
-    /// How much faster time passes at the x than at 0.
+    /// dt/dx at x, by the time map; 1 at 0.
     stretch: f64,
-    /// Of the terms of a series in time, where x is that of a time map that is curved: see [`TimeMap::weights`].
+    /// Weights of the terms of a series in time for its value, rate and integral, where the time map is curved: see
+    /// [`TimeMap::weights`].
     by_map: [Coefficients; 3],
-    /// Whether it is.
+    /// Whether the time map is curved.
     is_curved: bool,
-    /// Whether what polynomials in time need has been worked out.
+    /// Whether the weights of series in time have been set.
     is_in_time: bool,
 }
 
@@ -45,7 +46,7 @@ impl Default for Powers {
     }
 }
 
-/// A polynomial at x.
+/// A polynomial evaluated at x.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
     /// Its value.
@@ -82,14 +83,14 @@ impl Powers {
         }
     }
 
-    /// The same for polynomials in the x of a time map.
+    /// Tables for x >= 0 and polynomials in the x of a time map.
     pub fn set_by(&mut self, time_map: &TimeMap, x: f64, highest: usize) {
         self.set(x, highest);
         self.stretch = 2.0 * time_map.curvature * x;
         self.is_curved = time_map.is_curved();
     }
 
-    /// Goes on to what polynomials in time need, unless that has been done.
+    /// Sets the weights of series in time, unless they are set.
     pub fn set_in_time(&mut self, time_map: &TimeMap) {
         if std::mem::replace(&mut self.is_in_time, true) {
             return;
@@ -102,29 +103,29 @@ impl Powers {
         factors.for_each(|((factor, value), reciprocal)| *factor = reciprocal * (self.x * value));
     }
 
-    /// What the terms of a polynomial in time are multiplied by for its value and for its rate, once set.
+    /// Weights of the terms of a series in time for its value at x and for its rate there; after `set_in_time`.
     pub fn in_time(&self) -> (&Coefficients, &Coefficients) {
         let [value, rate, _] = &self.by_map;
         if self.is_curved { (value, rate) } else { (&self.value, &self.slope) }
     }
 
-    /// How much faster time passes at the x than at 0, by the time map.
+    /// dt/dx at x, by the time map; 1 at 0.
     pub fn stretch(&self) -> f64 {
         self.stretch
     }
 
-    /// What the terms of a polynomial in time, of two powers less than the highest, are multiplied by for its integral,
-    /// once set.
+    /// Weights of the terms of a series in time, with two powers less than the highest, for its integral from 0 to x;
+    /// after `set_in_time`.
     pub fn integral_in_time(&self) -> &Coefficients {
         &self.by_map[2]
     }
 
-    /// x^n, n x^(n-1) and n (n-1) (n-2) (n-3) x^(n-4) for n from 0 on.
+    /// The tables x^n, n x^(n-1) and n (n-1) (n-2) (n-3) x^(n-4) for n = 0, 1, 2, ...
     pub fn all(&self) -> (&Coefficients, &Coefficients, &Coefficients) {
         (&self.value, &self.slope, &self.fourth)
     }
 
-    /// Value, slope and the bound on the fourth derivative.
+    /// Value and slope at x, and a bound on the fourth derivative over 0..=x.
     pub fn read(&self, polynomial: &Coefficients) -> Reading {
         let (mut value, mut slope, mut fourth) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
         let [c, v, s, f] = [polynomial, &self.value, &self.slope, &self.fourth].map(|table| self.blocks_of(table));
@@ -189,7 +190,7 @@ mod tests {
             }
             assert!((reading.fourth - fourth).abs() <= 1e-14 * fourth, "{x}: {} and {fourth}", reading.fourth);
         }
-        // A shorter polynomial after a longer one: nothing of the old tables is left.
+        // A shorter polynomial after a longer one: the old entries of the tables are cleared.
         powers.set(0.5, 2);
         let exact = polynomial[0] + 0.5 * polynomial[1] + 0.25 * polynomial[2];
         assert!((powers.read(&polynomial).value - exact).abs() < 1e-15);

@@ -1,9 +1,9 @@
-//! Gauss-Legendre quadrature.
+//! Gauss-Legendre quadrature, also with nodes graded towards the start of the interval.
 
 /// Half of a symmetric rule: nodes on 0..1 and their weights [AbramowitzStegun1964, table 25.4].
 pub type Rule = [(f64, f64)];
 
-/// 8 points, exact up to degree 15: for smooth motion in flight.
+/// 8 points, exact up to degree 15: for the smooth motion in flight.
 pub const EIGHT: &Rule = &[
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
     (0.525_532_409_916_329, 0.313_706_645_877_887_3),
@@ -11,7 +11,7 @@ pub const EIGHT: &Rule = &[
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
 ];
 
-/// 12 points, exact up to degree 23: for steps in contact, which are as long as their series allows.
+/// 12 points, exact up to degree 23: for steps in contact, which are as long as their series allow.
 pub const TWELVE: &Rule = &[
     (0.125_233_408_511_468_9, 0.249_147_045_813_402_8),
     (0.367_831_498_998_180_2, 0.233_492_536_538_354_8),
@@ -21,7 +21,7 @@ pub const TWELVE: &Rule = &[
     (0.981_560_634_246_719_3, 0.047_175_336_386_511_83),
 ];
 
-/// The same points and weights for the integral over 0..=1.
+/// Points and weights of [`TWELVE`] for the integral over 0..=1.
 pub const TWELVE_POINTS: [(f64, f64); 12] = {
     let mut points = [(0.0, 0.0); 12];
     let mut i = 0;
@@ -42,8 +42,8 @@ pub fn gauss(rule: &Rule, length: f64) -> impl Iterator<Item = (f64, f64)> {
         .map(move |(node, weight)| (half * (1.0 + node), half * weight))
 }
 
-/// The same in s with t = s^4: smooth for integrands that go with quarter powers of t from the start on, as after an
-/// entry under a law with d^(1/4), and with powers from 1 on.
+/// Points and weights for the integral over 0..=length by quadrature in s with t = s^4. Accurate where the integrand is
+/// a series in quarter powers of t, as after an entry under a law with d^(1/4), or in whole powers of t.
 pub fn graded(rule: &Rule, length: f64) -> impl Iterator<Item = (f64, f64)> {
     gauss(rule, length.sqrt().sqrt()).map(|(s, weight)| {
         let cube = s * s * s;

@@ -1,13 +1,15 @@
-//! Turns the terms of a series in time into those of the same function in the x of a [`TimeMap`].
+//! Changes the variable of a power series: from its terms in time to those of the same function in the x of a
+//! [`TimeMap`].
 
 use super::polynomial::{MAX_TERMS, each};
 use super::time_map::{BINOMIAL, LANES, TimeMap, Weights};
 
-/// What makes of the terms of a series in time those in the x of a time map.
+/// The weights of that change for one time map: term m in x = sum over j of `weights[m][j]` times term m - j in time.
 #[derive(Clone, Debug)]
 pub struct Substitution {
+    /// Row m: the weights for term m in x.
     weights: [Weights; MAX_TERMS],
-    /// What they are for.
+    /// The time map and the number of terms for which the weights have been worked out.
     known: (TimeMap, usize),
 }
 
@@ -21,7 +23,7 @@ impl Default for Substitution {
 }
 
 impl Substitution {
-    /// For a time map and series of so many terms or less.
+    /// Works out the weights for a time map and series of at most so many terms.
     pub fn set(&mut self, time_map: &TimeMap, terms: usize) {
         if std::mem::replace(&mut self.known, (*time_map, terms)) == (*time_map, terms) {
             return;
@@ -38,32 +40,33 @@ impl Substitution {
         }
     }
 
-    /// Changes the terms of series that stand side by side, `width` blocks of [`LANES`] of them.
+    /// Changes series that stand side by side in place: `terms` holds `width` blocks of [`LANES`] of them for each
+    /// power.
     pub fn apply(&self, terms: &mut [[f64; LANES]], width: usize) {
         substitute_terms(terms, width, &self.weights);
     }
 
-    /// Changes the terms of one series.
+    /// Changes the terms of one series in place.
     pub fn apply_to_one(&self, terms: &mut [f64]) {
         for m in (2..terms.len()).rev() {
             terms[m] += (1..=m / 2).map(|j| self.weights[m][j] * terms[m - j]).sum::<f64>();
         }
     }
 
-    /// The same for two series of [`LANES`] lanes each, with no more than so many terms.
+    /// Changes two arrays of [`LANES`] series each in place, with at most `count` terms.
     pub fn apply_to_both(&self, terms: [&mut [[f64; LANES]; MAX_TERMS]; 2], count: usize) {
         substitute_both(terms, &self.weights, count);
     }
 }
 
-/// See [`Substitution::apply_to_both`]. Wide instructions give the same bits.
+/// See [`Substitution::apply_to_both`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn substitute_both(terms: [&mut [[f64; LANES]; MAX_TERMS]; 2], weights: &[Weights; MAX_TERMS], count: usize) {
     let [first, second] = terms;
     for (m, weights) in weights[..count.min(MAX_TERMS)].iter().enumerate().skip(2).rev() {
         let ((known, own), (others, other)) = (first.split_at_mut(m), second.split_at_mut(m));
         let (mut sum, mut other_sum) = (own[0], other[0]);
-        // From the newest term back.
+        // From the highest term down, so that lower ones are still those in time.
         let rows = known[m - m / 2..].iter().zip(&others[m - m / 2..]).rev();
         for ((term, other), weight) in rows.zip(&weights[1..=m / 2]) {
             for i in 0..LANES {
@@ -75,7 +78,7 @@ fn substitute_both(terms: [&mut [[f64; LANES]; MAX_TERMS]; 2], weights: &[Weight
     }
 }
 
-/// See [`Substitution::apply`]. Wide instructions give the same bits.
+/// See [`Substitution::apply`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn substitute_terms(terms: &mut [[f64; LANES]], width: usize, weights: &[Weights]) {
     let mut first = 0;
@@ -91,7 +94,7 @@ fn substitute_terms(terms: &mut [[f64; LANES]], width: usize, weights: &[Weights
     }
 }
 
-/// The same for a block alone: returns 1.
+/// Changes the first block of lanes in each row; returns 1, the number of blocks done.
 #[inline(always)]
 fn substitute_block(terms: &mut [[f64; LANES]], weights: &[Weights]) -> usize {
     for (m, weights) in weights[..terms.len()].iter().enumerate().skip(2).rev() {
@@ -107,7 +110,7 @@ fn substitute_block(terms: &mut [[f64; LANES]], weights: &[Weights]) -> usize {
     1
 }
 
-/// The same for `N` blocks of lanes, from the `first` of each row on; returns how many that are.
+/// Changes `N` blocks of lanes from the `first` of each row on; returns `N`.
 #[inline(always)]
 fn substitute_blocks<const N: usize>(
     terms: &mut [[f64; LANES]],
@@ -137,7 +140,8 @@ mod tests {
     use super::super::polynomial::value_and_slope;
     use super::*;
 
-    /// (1 + t)^3.5 has no series in t beyond 1, but one in the root of 1 + t, and there it ends with the seventh power.
+    /// (1 + t)^3.5 has no power series in t that converges beyond t = 1; in the root of 1 + t it is a polynomial of
+    /// degree 7.
     #[test]
     fn a_root_becomes_a_polynomial() {
         const LENGTH: usize = 24;

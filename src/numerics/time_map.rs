@@ -1,18 +1,18 @@
 //! The variable of a step's power series: time, or one in which the motion is smoother.
 //!
-//! A power law's force has a root of the time since the entry behind it, or of the time until the release before it, and
-//! no series in time gets further than to there. In the root itself the motion is analytic there: with
+//! Under a power law the force contains a root of the time since the entry, or of the time until the release, so that a
+//! series in time converges only up to that singularity. In the root itself the motion is analytic there: with
 //!
 //! ```text
 //! t = x + x^2 / (4 a),    1 + t/a = (1 + x / (2 a))^2
 //! ```
 //!
-//! the entry a time a ago is no singularity in x, nor, with a < 0, is the release after a time of -a. The terms of a
-//! series in x follow from those in t without any more of the motion: the first n in x from the first n in t.
+//! the entry at t = -a is no singularity in x, nor, with a < 0, is the release at t = -a. The first n terms of the
+//! series in x follow from the first n in t alone ([`crate::numerics::substitution`]).
 
 use crate::numerics::polynomial::{COUNT, Coefficients, MAX_TERMS, RECIPROCAL};
 
-/// Lanes that are worked on together.
+/// Series that are worked on side by side.
 pub const LANES: usize = 4;
 
 /// Time, in units of a series' scale, as a function of x: t = x + curvature x^2.
@@ -22,10 +22,11 @@ pub struct TimeMap {
     pub curvature: f64,
 }
 
-/// Of term m - j of a series in time, for its term m in x; as many as whole blocks of lanes hold.
+/// The weights of terms m - j of a series in time, j = 0, 1, ..., in its term m in x; filled up to whole blocks of
+/// lanes.
 pub type Weights = [f64; (MAX_TERMS / 2 + 1).next_multiple_of(LANES)];
 
-/// n-th of these: (n over j).
+/// Row n: the binomials (n over j).
 const CHOOSE: [Weights; MAX_TERMS] = {
     let mut table = [[0.0; (MAX_TERMS / 2 + 1).next_multiple_of(LANES)]; MAX_TERMS];
     let mut n = 0;
@@ -41,7 +42,7 @@ const CHOOSE: [Weights; MAX_TERMS] = {
     table
 };
 
-/// (m - j) over j.
+/// Row m: the binomials (m - j over j).
 pub const BINOMIAL: [Weights; MAX_TERMS] = {
     let mut table = [[0.0; (MAX_TERMS / 2 + 1).next_multiple_of(LANES)]; MAX_TERMS];
     let mut m = 0;
@@ -57,12 +58,12 @@ pub const BINOMIAL: [Weights; MAX_TERMS] = {
 };
 
 impl TimeMap {
-    /// Whether x is not the time.
+    /// Whether x differs from the time.
     pub fn is_curved(&self) -> bool {
         self.curvature != 0.0
     }
 
-    /// The time at x.
+    /// The time at x, in the series' unit.
     pub fn time(&self, x: f64) -> f64 {
         x + self.curvature * x * x
     }
@@ -72,19 +73,18 @@ impl TimeMap {
         1.0 + 2.0 * self.curvature * x
     }
 
-    /// x at a time; where the time map does not reach it, one beyond all that it reaches.
+    /// x at a time; for a time beyond the map's range, an x beyond all of its range.
     pub fn inverse(&self, time: f64) -> f64 {
         2.0 * time / (1.0 + (1.0 + 4.0 * self.curvature * time).max(0.0).sqrt())
     }
 
-    /// What the terms of a series in time, up to a `highest`, are multiplied by to make the value at x of its series in
-    /// x with as many terms, what to make the value there of the series of its rate, and what those of a series with
-    /// two terms less to make its integral over time. The rate needs no division by that of the time map, which may
-    /// stand still there.
+    /// Weights whose sums with the terms of a series in t give value, rate and integral over time at x of that series
+    /// re-expanded in x and truncated after the power `highest` (the integral for a series with two terms less). The
+    /// rate is not divided by dt/dx, which may be 0 at x.
     pub fn weights(&self, x: f64, highest: usize, [value, rate, integral]: [&mut Coefficients; 3]) {
         let (y, stretch) = (self.curvature * x, 1.0 + self.curvature * x);
         (value[0], rate[0]) = (1.0, 0.0);
-        // The power of x, and what of (1 + y)^n is left where the series in x ends: all of it or its first terms.
+        // x^n, and the factor (1 + y)^n by which t^n = x^n (1 + y)^n differs, truncated where the series in x ends.
         let (mut power, mut whole) = (1.0, 1.0);
         for n in 1..=highest {
             let left = highest - n;
@@ -100,7 +100,7 @@ impl TimeMap {
         }
     }
 
-    /// What the terms of a series in time are multiplied by to make one term in x of its rate.
+    /// Factors of the terms of a series in time whose sum is the term of that power in x of its rate, times dt/dx.
     pub fn rate_term_weights(&self, power: usize, factors: &mut Coefficients) {
         let mut bend = 1.0;
         factors[..=power + 1].fill(0.0);
@@ -112,7 +112,7 @@ impl TimeMap {
     }
 }
 
-/// Two polynomials in y up to the power `last`, and the first of them without that power.
+/// Values at y of two polynomials up to the power `last`, and of the first one up to `last` - 1.
 #[inline(always)]
 fn truncated([first, second]: [&Weights; 2], y: f64, last: usize) -> [f64; 3] {
     let mut sums = [first[last], second[last], 0.0];
@@ -146,7 +146,7 @@ mod tests {
         assert!(past.inverse(1.1) > past.inverse(1.0), "a time_map that goes until 1");
     }
 
-    /// Terms of (1 + sign t)^3.5 + t, whose series in the x of a time map that ends, or begins, where that is 0 is short.
+    /// Terms of (1 + sign t)^3.5 + t: a polynomial in the x of the time map whose singularity is where 1 + sign t = 0.
     fn root_terms(sign: f64) -> Coefficients {
         let (mut terms, mut term) = ([0.0; MAX_TERMS], 1.0);
         for (n, slot) in terms.iter_mut().enumerate() {

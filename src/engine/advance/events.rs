@@ -1,4 +1,4 @@
-//! What follows an event. Entry, release and branch change end a step (they are terminal events); peaks do not.
+//! Handling of the event that ends a step: entry, release or change of branch. Peaks are not events.
 
 use crate::contact::EpisodeForce;
 use crate::engine::base::contact::Episode;
@@ -8,6 +8,7 @@ use crate::engine::model::Model;
 use crate::engine::system::buffers::Buffers;
 
 impl Model {
+    /// Changes the state of the contact at the base by its event, and reports an episode that ends.
     pub(in crate::engine) fn handle(
         &self,
         base: &mut Base,
@@ -24,14 +25,14 @@ impl Model {
             Event::Entry(p) => {
                 let contact = &mut base.contacts[p];
                 contact.penetration = 0.0;
-                // What enters does not move apart but for rounding.
+                // A pair that enters does not separate, except by rounding.
                 contact.rate = self.system.pairs[p].difference(base.coordinates, &base.v).0.max(0.0);
                 contact.at_surface = true;
                 let (pair, approach) = (&self.system.pairs[p], contact.rate.max(self.system.least_approach));
                 contact.force = EpisodeForce::new(&pair.law, pair.mass, Some(approach));
                 contact.begin(time, contact.rate);
                 base.impacts += 1;
-                // The first series of an episode finds its own scale.
+                // The first series of an episode estimates its own time scale.
                 base.last_length = 0.0;
             }
             Event::Release(p) => base.release(p, on_episode),

@@ -1,6 +1,6 @@
-//! The common case of a run at the price of its arithmetic: whole segments of a record in which no two floors meet.
+//! Fast flight: many whole segments of a record in which no two floors meet, in one loop.
 //!
-//! Nothing here is needed for the result: `plan` and `take` do the same segment by segment, bit for bit.
+//! It is an optimisation only: `plan` and `take` do the same segment by segment, bit for bit.
 
 use crate::engine::base::counters::Counters;
 use crate::engine::base::{Base, Coordinates};
@@ -13,19 +13,19 @@ use crate::engine::step::{Step, StepKind};
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
 
-/// Most segments that are flown over without looking at what has come out.
+/// Largest number of segments in one pass of the loop, between looks at pairs and peaks.
 const MOST_AT_ONCE: u64 = 64;
 
-/// How far a glide has come.
+/// The result of a fast flight.
 #[derive(Clone, Copy, Default)]
 pub struct FastRun {
-    /// Segments flown over to their end.
+    /// Number of segments passed.
     pub flown: u64,
-    /// Whether the state is there, on its way through the next segment: nothing is left to do.
+    /// Whether the state has reached the communication time, within the next segment.
     pub has_arrived: bool,
 }
 
-/// All pairs have been dismissed.
+/// The check where all pairs are cleared: none is needed.
 struct NothingNear;
 
 impl<const WIDTH: usize> SegmentCheck<WIDTH> for NothingNear {
@@ -41,8 +41,8 @@ impl<const WIDTH: usize> SegmentCheck<WIDTH> for NothingNear {
 }
 
 impl Model {
-    /// Flies over up to `most` segments of the record as far as `until`, as long as no pair has to be looked at more
-    /// closely.
+    /// Flies over up to `most` segments of the record, at most until the time `until`, s, while no pair needs the
+    /// narrow phase.
     pub(in crate::engine) fn run_fast(&self, state: &mut State, until: f64, most: u64) -> FastRun {
         let Some((ground, first)) = self.can_run_fast(state) else { return FastRun::default() };
         let mut next = first;
@@ -80,8 +80,8 @@ impl Model {
                 break false;
             }
             if is_free {
-                // No contact has a flag to clear: none was at the surface at the start, and one that is tracked is not
-                // dismissed.
+                // No contact has a flag to clear: none was at the surface at the start, and tracked ones are not
+                // cleared.
                 base.clearance.move_on(flown);
                 self.count_flown(counters, flown - u64::from(is_planned));
             }
@@ -98,7 +98,7 @@ impl Model {
         FastRun { flown: next - first, has_arrived }
     }
 
-    /// Raises peaks over the segment, of that number, that has been flown from the motion in `work` to the base.
+    /// Raises the peaks over the segment with that number, which has been flown from the motion in `work` to the base.
     #[inline(never)]
     fn check_flown(&self, base: &mut Base, segment: u64, work: &mut Workspace) {
         let start = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));
@@ -106,16 +106,16 @@ impl Model {
         (work.buffers.q, work.buffers.v) = start;
     }
 
-    /// Looks at the pairs that have not been dismissed for the base's segment, of that number; whether all are now. Seldom
-    /// needed: the loop above has no room for it.
+    /// Broad phase: tests the pairs that are not cleared for the base's segment, which has that number; returns whether
+    /// all are cleared now. Called seldom, so kept out of the loop above.
     #[inline(never)]
     fn look_ahead(&self, ground: &GroundMotion, state: &mut State, segment: u64) -> bool {
         let State { base, counters, work, .. } = state;
         self.flight.dismiss(&self.system, ground, base, segment, counters, &mut work.buffers.node_v)
     }
 
-    /// Flies over segments for which not all pairs have been dismissed, as long as both ends of each show that none meets;
-    /// returns how many.
+    /// Flies over segments for which not all pairs are cleared, as long as both ends of each prove that none meets;
+    /// returns the number of segments.
     #[inline(never)]
     fn fly_over_near_pairs(
         &self,
@@ -137,8 +137,8 @@ impl Model {
         flown
     }
 
-    /// Counts the pairs that planned flights over some segments would have evaluated, and leaves those at the base known
-    /// that the last of these would have left known.
+    /// Counts the evaluations of pairs that planning these segments one by one would have made, and marks the contacts
+    /// as known whose penetration at the base it would have left known.
     fn know_near_pairs(&self, base: &mut Base, segments: Range<u64>, counters: &mut Counters) {
         for p in 0..self.system.pairs.len() {
             counters.pairs_evaluated += base.clearance.evaluations(p, &segments);
@@ -153,7 +153,7 @@ impl Model {
         }
     }
 
-    /// The record and the number of the base's segment, where the motion can glide.
+    /// The record and the number of the base's segment, if fast flight is possible from the base.
     fn can_run_fast(&self, state: &State) -> Option<(&GroundMotion, u64)> {
         let State { base, step, .. } = state;
         let is_plain = !cfg!(without = "fast_flight")
@@ -171,7 +171,7 @@ impl Model {
         counters.flights_cleared += if self.system.pairs.is_empty() { 0 } else { flown };
     }
 
-    /// Leaves the planned glide to be planned by other means.
+    /// Forgets a deferred flight, so that it is planned in the usual way.
     pub(in crate::engine) fn forget_deferred(&self, state: &mut State) {
         state.step.kind = StepKind::NotPlanned;
         state.counters.flight_steps -= 1;
@@ -190,9 +190,7 @@ fn ends_after(segment: &Segment, time: f64) -> bool {
     time - segment.start < segment.length
 }
 
-/// The loop over segments that end by `until` and for which all pairs have been dismissed; returns how many. Wide
-/// instructions are chosen where the machine has them; they do the same operations in the same order, so they give the
-/// same bits.
+/// The loop over segments that end by `until` and for which all pairs are cleared; returns the number of segments.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn fly_over(
     model: &Model,
@@ -222,7 +220,8 @@ fn fly_over(
     }
 }
 
-/// The same where some pairs are near, as long as their check allows.
+/// The loop over segments that end by `until` while some pairs are near, as long as their check proves that none meets;
+/// returns the number of segments.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn fly_near(
     model: &Model,
@@ -263,9 +262,9 @@ fn fly_segment(model: &Model, ground: &GroundMotion, segment: &Segment, base: &B
     )
 }
 
-/// The same loop within the record for a few blocks of modes, which stay in registers. It goes as far as segments are
-/// of one length, and leaves the base as it is if the motion does not stay finite: numbers that are not finite never
-/// become so again.
+/// The same loop within the record for few blocks of modes, which stay in registers. It runs over segments of equal
+/// length, and leaves the base as it is if the motion has overflowed: a number that is not finite never becomes finite
+/// again, so the test at the end is enough.
 #[inline(always)]
 fn fly_few<const WIDTH: usize>(
     model: &Model,

@@ -1,4 +1,4 @@
-//! Advancing: plan a step, take it, handle its event, until the communication time is reached.
+//! The algorithm's outer loop: plan a step, take it, handle its event, until the communication time is reached.
 
 pub mod events;
 pub mod fast_flight;
@@ -15,11 +15,11 @@ use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
 
 impl Model {
-    /// Brings the state to a time, s, and reports each episode when it ends.
+    /// Advances the state to the time `until`, s, and reports each episode when it ends.
     ///
-    /// With a record inside, the engine's own steps are segments, events and contact steps, whatever `until` is.
-    /// Where a master drives the ground or the floors, its input acts from one communication point to the next, so
-    /// these cut the steps too.
+    /// With a record inside, the engine's own steps end at segments, events and where series end, whatever `until` is.
+    /// Where a master drives the ground or the floors, its input changes at communication points, so that steps end
+    /// there too.
     pub fn advance(
         &self,
         state: &mut State,
@@ -43,7 +43,7 @@ impl Model {
         Ok(())
     }
 
-    /// Advances from where gliding has ended, over so many segments.
+    /// Advances step by step from the end of a fast flight over `flown` segments.
     #[inline(never)]
     fn go_on(
         &self,
@@ -86,7 +86,7 @@ impl Model {
         Ok(())
     }
 
-    /// Where a step has to end, s since the start of the segment.
+    /// The latest end of a step, s since the start of the segment.
     pub(in crate::engine) fn limit(&self, segment: &Segment, until: f64) -> f64 {
         if self.system.is_driven() { segment.length.min(until - segment.start) } else { segment.length }
     }
@@ -113,7 +113,7 @@ impl Model {
         *kind = StepKind::NotPlanned;
     }
 
-    /// Penetrations and rates at the end of a step.
+    /// Moves penetrations and rates of the contacts to the end of the planned step.
     fn move_contacts(&self, base: &mut Base, planned: &Planned) {
         if !planned.ends.is_empty() {
             base.clearance.move_on(1);
@@ -128,7 +128,8 @@ impl Model {
             }
             return;
         }
-        // What a step without length has not moved keeps what is known of it, which may be more than its floors tell.
+        // A zero-length step keeps the stored penetration, which may be more accurate than the floors' displacements
+        // give it.
         if planned.length == 0.0 {
             return;
         }
@@ -157,7 +158,7 @@ impl Model {
         }
     }
 
-    /// Follows the contacts to the end of a step, and raises the peaks to what it reaches.
+    /// Moves the contacts through the step to its end, and raises the peaks over it.
     fn follow_and_raise(&self, base: &mut Base, step: &Step, inputs: &Inputs, end: f64, work: &mut Workspace) {
         let work = &mut work.for_peaks();
         let start = base.time();

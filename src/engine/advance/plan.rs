@@ -1,4 +1,4 @@
-//! Which kind of step comes next.
+//! Planning: the choice of the kind of the next step.
 
 use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::{At, Event, Planned};
@@ -9,8 +9,8 @@ use crate::engine::step::{Step, StepKind};
 use crate::engine::taylor::solution::Solution;
 
 impl Model {
-    /// Works out the next step, up to `limit` (s since the segment's start) or the next event, unless that has been
-    /// done already.
+    /// Plans the next step, up to `limit` (s since the segment's start) or the next event, unless it has been planned
+    /// already.
     pub(in crate::engine) fn plan(&self, state: &mut State, limit: f64) {
         match state.step.kind {
             StepKind::NotPlanned => {}
@@ -71,7 +71,7 @@ impl Model {
         StepKind::Taylor
     }
 
-    /// A pair that stands at the surface and approaches, by more than rounding: it enters now, together with another.
+    /// A pair at the surface that approaches by more than rounding: it enters now, at the same instant as another one.
     fn entry_at_once(&self, base: &Base) -> Option<usize> {
         let at_surface = |contact: &Contact| contact.at_surface || contact.penetration >= 0.0;
         let meets = |(p, contact): (usize, &Contact)| {
@@ -82,7 +82,7 @@ impl Model {
     }
 }
 
-/// An event that needs no step: a Taylor step without length.
+/// Plans a Taylor step of length 0 for an event at the base.
 fn plan_zero_length(base: &Base, planned: &mut Planned, taylor: &mut Solution, event: Event) -> StepKind {
     planned.plan_zero_length(base, event);
     taylor.series.scale = 1.0;

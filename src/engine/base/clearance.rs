@@ -1,70 +1,72 @@
-//! For how long each pair is known to stay apart.
+//! Until which segment of the record each pair is known to stay apart (found in the broad phase), and at which contacts
+//! penetration and rate are those at the base.
 
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// Most segments that one look is good for.
+/// Largest number of segments ahead for which one broad phase clears a pair.
 pub const MOST: u64 = 64;
 
-/// What is known of pairs that are apart.
+/// Pairs that are known to stay apart, by numbers of segments of the record.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Clearance {
-    /// Number of the first segment in which any pair may meet, as far as is known.
+    /// Number of the first segment in which any pair may meet, as far as is known: the minimum of `pairs`.
     due: u64,
-    /// The first segment for which it is worth while to look again.
+    /// Number of the first segment in which another broad phase is worth its cost.
     next_look: u64,
-    /// The same for each pair.
+    /// For each pair, the number of the first segment in which it may meet.
     pairs: Vec<u64>,
-    /// How often the base has moved.
+    /// Number of times that the base has moved.
     moves: u64,
-    /// The move at which penetration and rate of each contact were worked out: where they are not needed they are not.
+    /// For each contact, `moves` when its penetration and rate were last worked out; flights that do not need them skip
+    /// them.
     known: Vec<u64>,
 }
 
 impl Clearance {
-    /// Nothing is known of the time to come, but every contact as it is now.
+    /// No pair is cleared; the penetration of every contact is known at the base.
     pub fn new(pairs: usize) -> Clearance {
         Clearance { due: 0, next_look: 0, pairs: vec![0; pairs], moves: 0, known: vec![0; pairs] }
     }
 
-    /// Forgets the time to come: a contact force or an impulse acts.
+    /// Withdraws the clearance of all pairs: a contact force or an impulse acts, which the bounds do not include.
     pub fn restart(&mut self) {
         (self.due, self.next_look) = (0, 0);
         self.pairs.fill(0);
     }
 
-    /// Dismisses a pair up to a segment.
+    /// Clears a pair up to the segment `until`, in which it may meet.
     pub fn clear(&mut self, p: usize, until: u64) {
         self.pairs[p] = until;
     }
 
-    /// The first segment in which any pair may meet.
+    /// The first segment in which any pair may meet, from the numbers of all pairs.
     pub fn first_due(&self) -> u64 {
         self.pairs.iter().copied().min().unwrap_or(u64::MAX)
     }
 
-    /// Notes when any pair may meet, and when it is worth while to look again.
+    /// Notes the first segment in which any pair may meet, and the one in which another broad phase is worth its cost.
     pub fn note(&mut self, due: u64, next_look: u64) {
         (self.due, self.next_look) = (due, next_look);
     }
 
-    /// Whether a pair has been dismissed for a segment.
+    /// Whether a pair is known to stay apart in a segment.
     pub fn is_free(&self, p: usize, segment: u64) -> bool {
         self.pairs[p] > segment
     }
 
-    /// The first segment for which any pair has not been.
+    /// The first segment in which any pair may meet, as noted.
     pub fn due(&self) -> u64 {
         self.due
     }
 
-    /// The first segment for which it is worth while to look again.
+    /// The first segment in which another broad phase is worth its cost.
     pub fn next_look(&self) -> u64 {
         self.next_look
     }
 
-    /// Evaluations of a pair for flights over segments that begin at the base: at its start where it is not known, and at
-    /// the end of each for which the pair has not been dismissed.
+    /// Number of evaluations of a pair's penetration for flights over segments that begin at the base: one at the end
+    /// of each segment for which the pair is not cleared, and one at the first start unless it is known there.
     pub fn evaluations(&self, p: usize, segments: &Range<u64>) -> u64 {
         let first = self.pairs[p].max(segments.start);
         if first >= segments.end {
@@ -74,34 +76,35 @@ impl Clearance {
         segments.end - first + u64::from(!is_known)
     }
 
-    /// Whether all pairs have been.
+    /// Whether all pairs are known to stay apart in a segment.
     pub fn are_all_free(&self, segment: u64) -> bool {
         self.due > segment
     }
 
-    /// The base has moved, so often: no contact is known any more.
+    /// Notes that the base has moved that often: no contact's penetration is known at the base any more.
     pub fn move_on(&mut self, moves: u64) {
         self.moves += moves;
     }
 
-    /// Penetration and rate of a contact are those at the base.
+    /// Notes that penetration and rate of a contact are those at the base.
     pub fn set_known(&mut self, p: usize) {
         self.known[p] = self.moves;
     }
 
-    /// Those of all contacts are.
+    /// Notes that penetration and rate of all contacts are those at the base.
     pub fn set_all_known(&mut self) {
         self.known.fill(self.moves);
     }
 
+    /// Whether penetration and rate of a contact are those at the base.
     pub fn is_known(&self, p: usize) -> bool {
         self.known[p] == self.moves
     }
 
-    /// Whether it can be what is known of so many pairs in a segment of that number.
+    /// Whether a restored clearance is possible for that many pairs in that segment, after at most `most_moves` moves.
     pub fn fits(&self, pairs: usize, segment: u64, most_moves: u64) -> bool {
         let Clearance { due, next_look, pairs: free, moves, known } = self;
-        // A pair may have been dismissed in an earlier segment, and none is dismissed for longer than from here.
+        // A pair may have been cleared in an earlier segment, but never for longer than from the present one.
         let furthest = segment.saturating_add(2 * MOST);
         let is_first = |due: u64| free.iter().min().is_none_or(|first| due == *first);
         free.len() == pairs
@@ -135,7 +138,7 @@ mod tests {
         assert!(!fits(clearance(90, &[90, 164], 50, &[0, 51])), "known at a move to come");
         assert!(!fits(clearance(90, &[90, 164], 1001, &[0, 50])), "too many moves");
         assert!(!fits(clearance(90, &[90], 50, &[0, 50])) && !fits(clearance(90, &[90, 164], 50, &[0])), "other pairs");
-        // Without pairs, before and after the first look.
+        // Without pairs, before and after the first broad phase.
         assert!(clearance(0, &[], 0, &[]).fits(0, 0, 10) && clearance(u64::MAX, &[], 3, &[]).fits(0, 5, 10));
     }
 }

@@ -1,4 +1,4 @@
-//! One contact: what it is doing, and what it has come to.
+//! One contact: its phase, its motion, and the sums over its episodes.
 
 use crate::contact::{EpisodeForce, Force};
 use serde::{Deserialize, Serialize};
@@ -8,85 +8,93 @@ use serde::{Deserialize, Serialize};
 pub struct Episode {
     /// Contact, counted from 0.
     pub contact: usize,
-    /// s.
+    /// Time of the start, s.
     pub start: f64,
-    /// s; `None` while open.
+    /// Time of the end, s; `None` while the episode is open.
     pub end: Option<f64>,
-    /// m/s at the start.
+    /// Rate of the penetration at the start, m/s.
     pub approach_velocity: f64,
-    /// m/s at the end, positive when separating.
+    /// Velocity at the end, m/s, positive when the floors separate.
     pub separation_velocity: f64,
-    /// N.
+    /// Largest force, N.
     pub peak_force: f64,
-    /// s.
+    /// Time of the largest force, s.
     pub peak_time: f64,
-    /// m.
+    /// Largest penetration, m.
     pub peak_penetration: f64,
-    /// N s.
+    /// Integral of the force, N s.
     pub impulse: f64,
-    /// J.
+    /// Energy that the contact has dissipated in the episode, J.
     pub dissipated_energy: f64,
 }
 
-/// What a contact is doing.
+/// The phase of a contact, which decides its force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Phase {
-    /// No force.
+    /// Apart: no force.
     Apart,
     /// In contact, the law's force acts.
     Engaged,
-    /// In contact, on the other side of the law's guard.
+    /// In contact, on the other side of the law's guard, where another force acts.
     Slack,
     /// Rigid floors held together by a reaction: penetration and its rate are 0.
     Held,
 }
 
-/// One contact.
+/// The state of one contact at the base.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Contact {
     pub phase: Phase,
+    /// The forces of the latest episode on both sides of the law's guard, and the guard.
     pub force: EpisodeForce,
-    /// m. During an episode it is tracked by its own increments, not taken from the floors' displacements,
-    /// which are larger and would bury its last digits.
+    /// Penetration, m, positive in contact. During an episode it is integrated from its own rate and not recomputed
+    /// from the floors' displacements, which are larger, so that their difference would lose its last digits.
     pub penetration: f64,
-    /// m/s.
+    /// Rate of the penetration, m/s, positive when the floors approach.
     pub rate: f64,
-    /// Stands exactly at d = 0, just released or just entered.
+    /// Whether the penetration is exactly 0: just released or just entered.
     pub at_surface: bool,
-    /// Rigid and close to the surface: `penetration` and `rate` are carried along by their own increments while apart
-    /// too. Rebounds that die out are far smaller than the last digits of the floors' motion.
+    /// Rigid and close to the surface: `penetration` and `rate` are integrated by their own increments while apart too.
+    /// Rebounds that die out are far smaller than the rounding errors of the floors' motion.
     pub tracked: bool,
-    /// Just let go by a reaction that has fallen to 0: whatever presses the floors together now is rounding.
+    /// Just released from being held, by a reaction that has fallen to 0: an acceleration that still presses the floors
+    /// together is rounding.
     pub let_go: bool,
-    /// Held together again at the very instant at which it was let go: rounding cannot tell which is right, so it is
-    /// held for a short while and then asked again.
+    /// Held again at the very instant of its release, where rounding decides which of the two is right: the floors are
+    /// held for a short while before the reaction is tested again.
     pub undecided: bool,
-    /// N, of floors that are held together.
+    /// Reaction between floors that are held together, N, positive in compression.
     pub reaction: f64,
+    /// Number of episodes.
     pub impacts: u64,
+    /// Integral of the force over all episodes, N s.
     pub impulse: f64,
-    /// J, integral of F v, but for what `stored_energy` has changed since `stored_reference`.
+    /// Integral of F v over all episodes, J, without the change of `stored_energy` since `stored_reference`.
     pub work: f64,
+    /// Elastic energy at the start of the present branch, J.
     pub stored_reference: f64,
+    /// Largest force of all episodes, N.
     pub peak_force: f64,
-    /// The latest episode, up to the base, but for its energy.
+    /// The latest episode, up to the base; its dissipated energy is filled in by `present_episode`.
     pub episode: Episode,
-    /// J, `work` when the latest episode began.
+    /// `work` when the latest episode began, J.
     pub work_before: f64,
-    /// s that the latest episode has lasted: added up step by step, whereas times lose digits far from 0.
+    /// Duration of the latest episode, s: the sum of the steps, as differences of times lose digits far from 0.
     pub age: f64,
 }
 
 impl Contact {
+    /// Whether the floors touch: engaged, slack or held.
     pub fn in_contact(&self) -> bool {
         self.phase != Phase::Apart
     }
 
+    /// Whether rigid floors are held together by a reaction.
     pub fn is_held(&self) -> bool {
         self.phase == Phase::Held
     }
 
-    /// J, integral of F v so far.
+    /// Integral of F v of all episodes so far, J.
     pub fn dissipated_energy(&self) -> f64 {
         match self.phase {
             Phase::Apart => self.work,
@@ -94,7 +102,7 @@ impl Contact {
         }
     }
 
-    /// The force law in this phase.
+    /// The force law of the present phase.
     pub fn branch(&self) -> Force {
         match self.phase {
             Phase::Apart | Phase::Held => Force::None,
@@ -103,12 +111,12 @@ impl Contact {
         }
     }
 
-    /// The latest episode as far as it has come.
+    /// The latest episode up to the base, with its dissipated energy.
     pub fn present_episode(&self) -> Episode {
         Episode { dissipated_energy: self.dissipated_energy() - self.work_before, ..self.episode }
     }
 
-    /// N, at the base.
+    /// The force at the base, N, positive in compression.
     pub fn present_force(&self) -> f64 {
         match self.phase {
             Phase::Held => self.reaction,
@@ -123,7 +131,7 @@ impl Contact {
         self.stored_reference = self.branch().stored_energy(self.penetration);
         (self.work_before, self.age) = (self.work, 0.0);
         let force = self.present_force();
-        // A contact that begins with a pull has not pushed yet.
+        // A contact that begins in tension has had no compression yet.
         let pushed = force.max(0.0);
         self.peak_force = self.peak_force.max(pushed);
         self.episode = Episode {
@@ -140,17 +148,17 @@ impl Contact {
         };
     }
 
-    /// Penetration at the start of a flight: exactly 0 just after a release, never above 0.
+    /// Penetration at the start of a flight, m: exactly 0 just after a release, never above 0.
     pub fn flight_start(&self) -> f64 {
         if self.at_surface { 0.0 } else { self.penetration.min(0.0) }
     }
 
-    /// Just entered under a force that has no power series at d = 0.
+    /// Whether it has just entered under a force that has no power series at d = 0.
     pub fn is_singular(&self) -> bool {
         self.in_contact() && self.penetration <= 0.0 && !self.branch().is_regular()
     }
 
-    /// The force that the series of the next step uses.
+    /// The force with which the series of the next step starts.
     pub fn starting_force(&self) -> Force {
         if self.is_singular() { Force::None } else { self.branch() }
     }
@@ -162,7 +170,7 @@ impl Contact {
         self.stored_reference = self.branch().stored_energy(self.penetration);
     }
 
-    /// Books what the elastic part has taken since the reference.
+    /// Adds to the work the change of elastic energy since the reference.
     pub fn settle(&mut self) {
         self.work += self.branch().stored_energy(self.penetration) - self.stored_reference;
         self.stored_reference = 0.0;

@@ -1,4 +1,4 @@
-//! How much work a run has been.
+//! Counts of the work of a run.
 
 use serde::{Deserialize, Serialize};
 
@@ -15,8 +15,8 @@ pub struct Counters {
     pub pairs_evaluated: u64,
     /// Internal steps in contact.
     pub contact_steps: u64,
-    /// Contact forces that were expanded into a series or solved for over a window: one for each such step and pair whose
-    /// law acts in it.
+    /// Contact forces that were expanded into a series or solved for over a window: one for each such step and pair
+    /// whose law acts in it.
     pub law_evaluations: u64,
     /// Steps, or pieces of flights, over which the terms of the energy account were integrated.
     pub energy_steps: u64,

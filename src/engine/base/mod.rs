@@ -1,4 +1,4 @@
-//! The solution at the end of an internal step: with the inputs it is all that a run goes on from.
+//! The base: the solution at the end of the last internal step. With the inputs it determines the rest of a run.
 
 pub mod clearance;
 pub mod contact;
@@ -14,58 +14,67 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::excitation::segment::Segment;
 use serde::{Deserialize, Serialize};
 
-/// What a vector of motion holds, floor by floor or mode by mode.
+/// The coordinates of a vector of motion: floor by floor or mode by mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Coordinates {
-    /// In flight, and near rigid contacts.
+    /// Modal coordinates: in flight, and near rigid contacts.
     #[default]
     Modes,
-    /// In contact.
+    /// Floor displacements: in contact.
     Floors,
 }
 
 /// The solution at the end of an internal step.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Base {
+    /// The segment of the ground motion that contains the base.
     pub segment: Segment,
-    /// s since the start of the segment.
+    /// Time since the start of the segment, s.
     pub elapsed: f64,
-    /// What `q` and `v` hold.
+    /// The coordinates of `q` and `v`.
     pub coordinates: Coordinates,
-    /// Displacements, m (of modes, m kg^1/2).
+    /// Displacements, m (modal coordinates: m kg^1/2).
     pub q: Vec<f64>,
-    /// Velocities.
+    /// Velocities, m/s (modal coordinates: m kg^1/2/s).
     pub v: Vec<f64>,
     pub contacts: Vec<Contact>,
+    /// Pairs that are known to stay apart for some segments.
     pub clearance: Clearance,
+    /// Peaks up to the base.
     pub peaks: Peaks,
+    /// The energy account; `None` where the scene does not ask for it.
     pub energy: Option<Account>,
-    /// m/s, largest floor velocity that a contact step has seen: what its error is relative to.
+    /// Largest floor velocity in the steps in contact so far, m/s: their error is measured relative to it.
     pub velocity_scale: f64,
-    /// s, length of the last contact step: the unit of the next series.
+    /// Length of the last step in contact, s: the time unit of the next series; 0 where the next series finds its own.
     pub last_length: f64,
+    /// Number of episodes of all contacts.
     pub impacts: u64,
 }
 
-/// Work done since the start, J.
+/// The energy account: the energy at the start and the work done since, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Account {
+    /// Kinetic and elastic energy at the start.
     pub initial: f64,
+    /// Work of the ground motion.
     pub input: f64,
+    /// Work of the external floor forces.
     pub external: f64,
+    /// Energy dissipated by structural damping.
     pub viscous: f64,
-    /// Largest magnitude that any term has had.
+    /// Largest magnitude of any term so far: the residual of the balance is relative to it.
     pub largest: f64,
 }
 
 impl Base {
-    /// How many contacts have a force.
+    /// Number of contacts on which a force acts, with `of` for a contact's force.
     pub fn count_forces(&self, of: impl Fn(&Contact) -> Force) -> u64 {
         let is_pressed = |contact: &&Contact| contact.in_contact() && of(contact) != Force::None;
         self.contacts.iter().filter(is_pressed).count() as u64
     }
 
-    /// s.
+    /// Time of the base, s.
     pub fn time(&self) -> f64 {
         self.segment.start + self.elapsed
     }
@@ -88,13 +97,14 @@ impl Base {
 }
 
 impl Account {
+    /// Raises `largest` to the magnitudes of the account's terms and of the `others`.
     pub fn update_largest(&mut self, others: [f64; 3]) {
         let terms = [self.initial, self.input, self.external, self.viscous];
         self.largest = terms.iter().chain(&others).fold(self.largest, |largest, term| largest.max(term.abs()));
     }
 }
 
-/// The contacts that are in contact, with their number.
+/// The contacts whose floors touch, each with its number.
 pub fn touching(base: &Base) -> impl Iterator<Item = (usize, &Contact)> {
     base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact())
 }

@@ -1,4 +1,5 @@
-//! All numbers of a state, by patterns without `..`: a new field has to be thought of here.
+//! All numbers of a state, for the test that they are finite. Patterns without `..` make a new field a compile error
+//! here.
 
 use crate::engine::base::contact::{Contact, Episode};
 use crate::engine::base::counters::Counters;
@@ -34,7 +35,7 @@ impl Base {
         of_motion.chain(of_contacts).chain(peaks.numbers()).chain(energy.iter().flat_map(Account::numbers))
     }
 
-    /// Displacements and velocities.
+    /// Displacements and velocities, with the contacts' penetrations and rates.
     pub fn motion(&self) -> impl Iterator<Item = f64> + '_ {
         let of_contacts = self.contacts.iter().flat_map(|contact| [contact.penetration, contact.rate]);
         self.q.iter().chain(&self.v).copied().chain(of_contacts)

@@ -1,10 +1,10 @@
-//! What every kind of step plans.
+//! The planned step: its length, its event and the solution at its end, as every kind of step gives them.
 
 use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
 use crate::engine::excitation::inputs::Inputs;
 
-/// What ends a step, at which contact.
+/// The event that ends a step, with the number of its contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
     /// Penetration passes 0 upwards.
@@ -15,31 +15,33 @@ pub enum Event {
     Branch(usize),
 }
 
-/// Penetration, m, and its rate, m/s, one per contact.
+/// Penetration, m, and its rate, m/s, one per contact; `None` where they are not tracked or not needed.
 pub type Tracked = Vec<Option<(f64, f64)>>;
 
-/// What a step comes to, whatever its kind.
+/// The end of a planned step, whatever its kind.
 #[derive(Clone, Debug)]
 pub struct Planned {
-    /// s.
+    /// Length, s.
     pub length: f64,
     /// Whether the step ends where the segment (or the communication step that cuts it) does.
     pub reaches_limit: bool,
-    /// s, `last_length` of the base once the step is taken; absent where it stays as it is.
+    /// New value of the base's `last_length` once the step is taken, s; `None` where it stays as it is.
     pub next_length: Option<f64>,
+    /// The event at the end; `None` where the step ends without one.
     pub event: Option<Event>,
-    /// The state at the end, in the coordinates of the base.
+    /// Displacements at the end, in the coordinates of the base.
     pub q: Vec<f64>,
+    /// Velocities at the end, in the coordinates of the base.
     pub v: Vec<f64>,
-    /// Penetration and rate at the end of each contact that is tracked.
+    /// Penetration and rate at the end, of each contact that is tracked.
     pub tracked: Tracked,
-    /// Penetration and rate at the end of each contact of a flight that met nothing, none where they were not needed;
-    /// empty otherwise.
+    /// After a flight without an entry: penetration and rate at the end, of each contact for which they were needed.
+    /// Empty otherwise.
     pub ends: Tracked,
 }
 
 impl Planned {
-    /// Of no step yet.
+    /// No step yet, for vectors of that many lanes and that many pairs.
     pub fn new(lanes: usize, pairs: usize) -> Planned {
         Planned {
             length: 0.0,
@@ -53,7 +55,7 @@ impl Planned {
         }
     }
 
-    /// An event that needs no step.
+    /// Plans a step of length 0: the event is at the base.
     pub fn plan_zero_length(&mut self, base: &Base, event: Event) {
         self.event = Some(event);
         self.reaches_limit = false;
@@ -66,7 +68,7 @@ impl Planned {
     }
 }
 
-/// Where a step starts: the base, what acts on it, and the counts of work.
+/// The start of a step: the base, the inputs that act on it, and the counts of work.
 pub struct At<'a> {
     pub base: &'a mut Base,
     pub inputs: &'a Inputs,

@@ -1,12 +1,15 @@
-//! What a master sets, as a function of time.
+//! An input of a master as a function of time.
 
 use serde::{Deserialize, Serialize};
 
-/// An input that is linear in time from when it was set, until it is set again.
+/// An input that is linear in time from the instant at which it was set until it is set again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LinearInput {
+    /// Value at `since`.
     value: f64,
+    /// Rate of change, per second.
     slope: f64,
+    /// Time at which it was set, s.
     since: f64,
 }
 
@@ -16,24 +19,25 @@ impl LinearInput {
         self.after(time, 0.0)
     }
 
-    /// The value `elapsed` seconds after a time: far from 0 the sum of the two would lose digits.
+    /// The value `elapsed` seconds after a time; far from time 0 the sum of the two would lose digits.
     pub fn after(&self, time: f64, elapsed: f64) -> f64 {
         self.value + self.slope * ((time - self.since) + elapsed)
     }
 
-    /// Its rate, per second.
+    /// Its rate of change, per second.
     pub fn slope(&self) -> f64 {
         self.slope
     }
 
-    /// Sets the value at a time. A slope that has been set for the same time stays; an older one belongs to a line that
-    /// ends here: the value is held.
+    /// Sets the value at a time, s. A slope that was set for the same time stays; otherwise the value is constant from
+    /// now on.
     pub fn set_value(&mut self, value: f64, time: f64) {
         let slope = if self.since == time { self.slope } else { 0.0 };
         *self = LinearInput { value, slope, since: time };
     }
 
-    /// Sets the rate from a time on; the value there is what has been set for it, or what the line has come to.
+    /// Sets the slope from a time on; the value there is the one set for that time, or else the present value of the
+    /// line.
     pub fn set_slope(&mut self, slope: f64, time: f64) {
         *self = LinearInput { value: self.at(time), slope, since: time };
     }
@@ -43,13 +47,13 @@ impl LinearInput {
         self.numbers().into_iter().all(f64::is_finite)
     }
 
-    /// Value, rate and since when, s.
+    /// Value, rate of change per second, and the time at which it was set, s.
     pub(in crate::engine) fn numbers(&self) -> [f64; 3] {
         let &LinearInput { value, slope, since } = self;
         [value, slope, since]
     }
 
-    /// Begins the same line at another time.
+    /// Moves the start of the line to another time, s, with the same value and slope.
     pub fn move_to(&mut self, time: f64) {
         self.since = time;
     }

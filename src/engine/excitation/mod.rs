@@ -1,4 +1,4 @@
-//! What moves the buildings: the ground, by a record or by an input, and forces on the floors.
+//! The excitation of the buildings: ground acceleration, from a record or an input, and forces on the floors.
 
 pub mod inputs;
 pub mod linear_input;

@@ -1,29 +1,33 @@
-//! Ground acceleration as a sequence of segments, in each of which it is linear in time.
+//! A ground motion record as a sequence of segments, in each of which the acceleration is linear in time.
 
 use crate::engine::excitation::segment::{RecordPlace, Segment};
 use crate::record::Record;
 use crate::structure::{Interval, Structure};
 use std::ops::Range;
 
-/// Records with up to this many different sample spacings have their exact flight prepared for each.
+/// Largest number of different segment lengths, from the shortest on, for which the exact flight is prepared.
 const MOST_PREPARED: usize = 8;
 
-/// A scaled record, cut into segments.
+/// A scaled record, divided into segments.
 #[derive(Debug)]
 pub struct GroundMotion {
+    /// Times of the samples, s.
     times: Vec<f64>,
+    /// Accelerations at the samples, m/s2.
     accelerations: Vec<f64>,
-    /// s, typical spacing: also the length of segments outside the record.
+    /// Typical sample spacing, s: also the length of segments outside the record.
     spacing: f64,
-    /// s, length of each segment.
+    /// Length of each segment, s.
     lengths: Vec<f64>,
-    /// Up to each sample: s, and m/s, the integral of |acceleration| (never less).
+    /// At each sample, from the first: time, s, and the cumulative absolute velocity, m/s: the integral of
+    /// |acceleration| or an upper bound.
     passed: Vec<(f64, f64)>,
+    /// The exact flight over a segment, one for each length of a segment up to [`MOST_PREPARED`].
     prepared: Vec<Interval>,
 }
 
 impl GroundMotion {
-    /// Prepares a record times `factor` for a structure.
+    /// Prepares a record, its accelerations times `factor`, for a structure.
     pub fn new(record: &Record, factor: f64, structure: &Structure) -> GroundMotion {
         let times = record.times.clone();
         let accelerations: Vec<f64> = record.accelerations.iter().map(|a| a * factor).collect();
@@ -38,7 +42,7 @@ impl GroundMotion {
         GroundMotion { times, accelerations, spacing, lengths, passed, prepared }
     }
 
-    /// The segment that holds a time.
+    /// The segment that contains a time, s.
     pub fn segment_at(&self, time: f64) -> Segment {
         let first = self.times.first().copied().unwrap_or(time);
         if time < first {
@@ -58,18 +62,19 @@ impl GroundMotion {
         self.after(((time - end) / self.spacing).floor().max(0.0) as u64)
     }
 
-    /// Number of segments between two times, but for those before and of the record.
+    /// Number of segments between two times, s, other than those before and within the record.
     pub fn segments_after(&self, from: f64, until: f64) -> f64 {
         let end = self.times.last().copied().unwrap_or(from);
         (until - from.max(end)) / self.spacing
     }
 
-    /// Whether these are more than so many.
+    /// Whether the number of segments between two times, other than those before and within the record, exceeds
+    /// `segments`.
     pub fn are_more_after(&self, (from, until): (f64, f64), segments: f64) -> bool {
         until - from > segments * self.spacing && self.segments_after(from, until) > segments
     }
 
-    /// The segment that follows one.
+    /// The segment that follows another.
     pub fn following(&self, segment: &Segment) -> Segment {
         match self.number(segment) {
             Some(number) => self.segment(number + 1),
@@ -77,7 +82,7 @@ impl GroundMotion {
         }
     }
 
-    /// The segment with a number.
+    /// The segment with a number, counted from the first sample and on after the record's end.
     #[inline(always)]
     pub fn segment(&self, number: u64) -> Segment {
         let samples = self.lengths.len() as u64;
@@ -89,7 +94,7 @@ impl GroundMotion {
         number < self.lengths.len() as u64
     }
 
-    /// Start, length, acceleration and slope of segments of the record, from a number on.
+    /// (start, length, (acceleration, slope)) of the segments of the record with these numbers.
     #[inline(always)]
     pub fn of_record(&self, numbers: Range<u64>) -> impl Iterator<Item = (f64, f64, (f64, f64))> {
         let samples = self.lengths.len() as u64;
@@ -99,12 +104,12 @@ impl GroundMotion {
         segments.map(|((start, length), ends)| (*start, *length, (ends[0], slope([ends[0], ends[1]], *length))))
     }
 
-    /// The exact flight over a whole segment, where it has been prepared.
+    /// The exact flight over a whole segment, where its length has been prepared.
     pub fn prepared(&self, segment: &Segment) -> Option<&Interval> {
         self.prepared.iter().find(|interval| interval.length == segment.length)
     }
 
-    /// The number of a segment, counted on after the record's end; none before its beginning.
+    /// The number of a segment, counted on after the record's end; `None` before the first sample.
     pub fn number(&self, segment: &Segment) -> Option<u64> {
         match segment.place {
             RecordPlace::Outside => None,
@@ -113,10 +118,10 @@ impl GroundMotion {
         }
     }
 
-    /// Whether a segment is one of this motion.
+    /// Whether a segment is one of this record's.
     pub fn has(&self, segment: &Segment) -> bool {
         const MOST: u64 = 1 << 53;
-        // A forged state may hold no number at all.
+        // A forged state may contain any number.
         let own = match segment.place {
             _ if segment.start.is_nan() => return false,
             RecordPlace::Outside => self.segment_at(segment.start),
@@ -127,13 +132,13 @@ impl GroundMotion {
         own == *segment
     }
 
-    /// From the start of the segment with a number on.
+    /// Bounds on the ground motion from the start of a segment on.
     pub fn ahead_of(&self, number: u64) -> Ahead<'_> {
         let (start, before) = self.passed_at(number);
         Ahead { ground: self, number, start, before }
     }
 
-    /// Up to the start of a segment: s, and the integral of |acceleration|, m/s.
+    /// From the first sample to the start of a segment: time, s, and integral of |acceleration|, m/s.
     #[inline(always)]
     fn passed_at(&self, number: u64) -> (f64, f64) {
         match self.passed.get(number as usize) {
@@ -169,29 +174,32 @@ impl GroundMotion {
     }
 }
 
-/// What is to come from the start of a segment on.
+/// Bounds on the ground motion from the start of a segment on.
 pub struct Ahead<'a> {
     ground: &'a GroundMotion,
+    /// Number of the segment.
     number: u64,
-    /// s and m/s, up to there.
+    /// Time, s, from the first sample to that start.
     start: f64,
+    /// Integral of |acceleration|, m/s, from the first sample to that start.
     before: f64,
 }
 
 impl Ahead<'_> {
-    /// s, the longest of so many segments.
+    /// Length of the longest of the next `segments` segments, s.
     pub fn longest(&self, segments: u64) -> f64 {
         self.each(segments).fold(self.ground.spacing, |longest, (length, _)| longest.max(length))
     }
 
-    /// The largest |ground acceleration|, m/s2, and the largest |slope|, m/s3, of so many segments.
+    /// The largest |ground acceleration|, m/s2, and the largest |slope|, m/s3, in the next `segments` segments.
     pub fn largest(&self, segments: u64) -> (f64, f64) {
         self.each(segments).fold((0.0, 0.0), |(strongest, steepest): (f64, f64), (length, [start, end])| {
             (strongest.max(start.abs()).max(end.abs()), steepest.max(((end - start) / length).abs()))
         })
     }
 
-    /// Length, s, and accelerations at both ends, m/s2, of each of so many segments within the record.
+    /// Length, s, and accelerations at both ends, m/s2, of those of the next `segments` segments that lie in the
+    /// record.
     fn each(&self, segments: u64) -> impl Iterator<Item = (f64, [f64; 2])> + '_ {
         let GroundMotion { lengths, accelerations, .. } = self.ground;
         let [first, end] =
@@ -200,7 +208,7 @@ impl Ahead<'_> {
         lengths[first..end].iter().copied().zip(ends)
     }
 
-    /// s that so many segments last, and the integral of |acceleration| over them, m/s: never less than exact.
+    /// Duration of the next `segments` segments, s, and integral of |acceleration| over them, m/s: upper bounds.
     #[inline(always)]
     pub fn over(&self, segments: u64) -> (f64, f64) {
         const ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -214,20 +222,21 @@ fn slope([start, end]: [f64; 2], length: f64) -> f64 {
     (end - start) / length
 }
 
-/// Time and integral of |acceleration| up to each sample, summed without loss (Neumaier): their differences matter.
+/// Time, s, and integral of |acceleration|, m/s, up to each sample. The sums are compensated (Neumaier), since their
+/// differences are used.
 fn passed(lengths: &[f64], accelerations: &[f64]) -> Vec<(f64, f64)> {
     let (mut time, mut cumulative) = (Sum::default(), Sum::default());
     let mut passed = vec![(0.0, 0.0)];
     for (length, ends) in lengths.iter().zip(accelerations.windows(2)) {
         time.add(*length);
-        // A chord lies above |a| where a is linear.
+        // The trapezoid rule is an upper bound for |a|, which is convex where a is linear.
         cumulative.add(0.5 * length * (ends[0].abs() + ends[1].abs()));
         passed.push((time.value + time.lost, cumulative.value + cumulative.lost));
     }
     passed
 }
 
-/// A sum of positive numbers with what rounding has lost of it.
+/// A sum of positive numbers, with the rounding error that it has lost.
 #[derive(Default)]
 struct Sum {
     value: f64,
@@ -243,8 +252,8 @@ impl Sum {
     }
 }
 
-/// Differences of the sample times. Times that are a multiple of one spacing but for their rounding get that spacing,
-/// so that one prepared interval serves them all.
+/// Differences of the sample times. If the times are multiples of one spacing but for their rounding, all segments get
+/// exactly that length, so that one prepared flight serves them all.
 fn segment_lengths(times: &[f64]) -> Vec<f64> {
     let n = times.len() - 1;
     let spacing = (times[n] - times[0]) / n as f64;

@@ -1,26 +1,26 @@
-//! A stretch of time in which the ground acceleration is linear.
+//! An interval of time in which the ground acceleration is linear.
 
 use crate::engine::excitation::linear_input::LinearInput;
 use serde::{Deserialize, Serialize};
 
-/// A stretch of time in which the ground acceleration is linear.
+/// An interval of time in which the ground acceleration is linear.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Segment {
-    /// s.
+    /// Start, s.
     pub start: f64,
-    /// s.
+    /// Length, s.
     pub length: f64,
-    /// m/s2 at the start.
+    /// Ground acceleration at the start, m/s2.
     pub acceleration: f64,
-    /// m/s3.
+    /// Rate of change of the ground acceleration, m/s3.
     pub slope: f64,
     pub place: RecordPlace,
 }
 
-/// Where a segment lies relative to the record.
+/// The position of a segment in the record.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum RecordPlace {
-    /// Before the first sample, or a stretch under an input.
+    /// Before the first sample, or an interval under an input.
     Outside,
     /// From this sample to the next.
     Sample(usize),
@@ -29,19 +29,19 @@ pub enum RecordPlace {
 }
 
 impl Segment {
-    /// A stretch under an input.
+    /// A segment under an input.
     pub fn under_input(start: f64, length: f64, input: &LinearInput) -> Segment {
         Segment { start, length, acceleration: input.at(start), slope: input.slope(), place: RecordPlace::Outside }
     }
 
-    /// Whether it can be a stretch under an input.
+    /// Whether it can be a segment under an input: consistent and finite.
     pub fn is_under_input(&self) -> bool {
         let Segment { start, length, acceleration, slope, place } = *self;
         let numbers = [start, length, acceleration, slope];
         place == RecordPlace::Outside && length >= 0.0 && numbers.into_iter().all(f64::is_finite)
     }
 
-    /// m/s2 at a time since the start.
+    /// Ground acceleration, m/s2, at a time since the start, s.
     pub fn acceleration_at(&self, elapsed: f64) -> f64 {
         self.acceleration + self.slope * elapsed
     }

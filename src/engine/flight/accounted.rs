@@ -1,25 +1,25 @@
-//! How long a flight may be for the energy account, which is integrated piece by piece.
+//! Length limit of flights for the energy account, which is integrated piece by piece.
 
 use crate::engine::base::Base;
 use crate::engine::system::System;
 
-/// (Fastest rate) x (time) of a piece of a flight.
+/// Length of a piece of a flight, in units of 1 / (fastest rate): within reach of one series.
 const REACH: f64 = 1.5;
 
-/// Pieces of one flight: what is longer takes several, or none.
+/// Largest number of pieces of one flight; a longer flight takes several steps, unless its motion has died out.
 pub const MOST_PIECES: f64 = 10_000.0;
 
-/// Share of the largest energy so far below which a motion has nothing to lose any more.
+/// Share of the largest energy so far below which the energy that damping can still dissipate is negligible.
 const QUIET: f64 = 1e-20;
 
 impl System {
-    /// Pieces of a flight of that length, s, each of which a series reaches.
+    /// Number of pieces, each within reach of one series, of a flight of that length, s.
     pub fn pieces(&self, length: f64) -> u64 {
         (self.structure.fastest * length / REACH).ceil().max(1.0) as u64
     }
 
-    /// What a flight from the base over `length` seconds, under a load and its slope, is shortened to for the account:
-    /// some thousand pieces, unless nothing is left to integrate.
+    /// Length, s, of the flight from the base, at most `length`, under a load and its slope: limited to some thousand
+    /// pieces for the energy account, unless nothing is left to integrate.
     pub fn accounted_flight(&self, base: &Base, loads: (&[f64], &[f64]), length: f64) -> f64 {
         let most = self.longest_pieces();
         match &base.energy {
@@ -28,12 +28,12 @@ impl System {
         }
     }
 
-    /// s.
+    /// Length of the longest flight that is integrated in one step, s.
     pub fn longest_pieces(&self) -> f64 {
         MOST_PIECES * REACH / self.structure.fastest
     }
 
-    /// Whether damping takes nothing from now on: there is none, or the motion about where the load holds the buildings
+    /// Whether damping dissipates nothing from now on: there is none, or the oscillation about the static displacement
     /// has died out.
     fn is_quiet(&self, base: &Base, (load, slope): (&[f64], &[f64]), largest: f64) -> bool {
         if slope.iter().any(|slope| *slope != 0.0) {

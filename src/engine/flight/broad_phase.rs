@@ -1,26 +1,26 @@
-//! Pairs that cannot meet yet: bounds on how fast their floors can close tell for how many segments of the record they
-//! need not be looked at: conservative advancement \[Mirtich1996\] with bounds of structural dynamics.
+//! The broad phase: for each pair, bounds on the closing velocity of its floors give a number of segments of the record
+//! in which it cannot meet. This is conservative advancement \[Mirtich1996\] with bounds of structural dynamics.
 //!
-//! Apart from contact, the amplitude e = sqrt(q'^2 + w^2 q^2) of each mode grows by no more than A, |participation| x the
-//! integral of |ground acceleration|: damping only takes from it. Without the ground's part |q''| <= (w + c) e, and that
-//! part pushes both floors of a pair alike. So with e now, after a time t
+//! Apart from contact, the amplitude e = sqrt(q'^2 + w^2 q^2) of each mode grows at most by A = |participation| x the
+//! integral of |ground acceleration|, as damping only reduces it. Without the ground's part |q''| <= (w + c) e, and the
+//! ground accelerates both floors of a pair alike. Hence, with the present e, after a time t
 //!
 //! ```text
 //! penetration <= penetration now + t sum over modes of |row| (e + A)
 //! penetration <= penetration now + t (rate now + t/2 sum over modes of |row| (w + c) (e + A))
 //! ```
 //!
-//! The first never falls with t and the second is convex: what lies below 0 at the end of a stretch did so all along.
-//! Where damping couples no modes, the pair's own acceleration by springs and dashpots, a = -row (c v + w^2 q), changes by
-//! no more than |a'| <= sum of |row| (k (e + A) + c |participation| |ground acceleration|) with
-//! k^2 = (w^2 + c^2)^2 + c^2 w^2, so that with S, the integral of |ground acceleration|,
+//! The first bound never falls with t and the second is convex: if it is below 0 at the end of an interval, it was
+//! below 0 throughout. Where damping couples no modes, the pair's relative acceleration by springs and dashpots, a =
+//! -row (c v + w^2 q), changes at a rate |a'| <= sum of |row| (k (e + A) + c |participation| |ground acceleration|)
+//! with k^2 = (w^2 + c^2)^2 + c^2 w^2. With S, the integral of |ground acceleration|, this gives
 //!
 //! ```text
 //! penetration <= penetration now + t rate now + t^2/2 (a now + S sum of |row| c |participation|)
 //!                + t^3/6 sum over modes of |row| k (e + A)
 //! ```
 //!
-//! a cubic, which lies below its Bernstein coefficients.
+//! a cubic in t, which is bounded by its Bernstein coefficients.
 
 use crate::engine::base::Base;
 use crate::engine::base::clearance::MOST;
@@ -32,65 +32,72 @@ use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane, ModalDamping, Side, Structure};
 use std::ops::Range;
 
-/// Numbers of segments for which it is tried whether a pair stays apart, some at a time.
+/// Numbers of segments for which a pair is tested, four at a time.
 const TRIED: [[u64; LANES]; 3] = [[1, 2, 3, 4], [6, 8, 12, 16], [24, 32, 48, MOST]];
 
-/// As many as a look is mostly good for where nothing is near.
+/// Number of segments for which a broad phase mostly clears a pair when no pair is near.
 const USUAL: u64 = 8;
 
-/// Segments for which it costs less to show by both ends of each that no pair meets than to look again and again.
+/// Number of segments to wait before another broad phase where it costs less to check each segment by both of its ends.
 pub const NEAR_SEGMENTS: u64 = 16;
 
-/// Margin for rounding, relative to the numbers that a penetration or a closing speed is added up from.
+/// Margin for rounding, relative to the terms of a penetration or closing velocity.
 const MARGIN: f64 = 1e-10;
 
 /// sqrt(2) - 1, rounded up: sqrt(a^2 + b^2) <= a + this b for a >= b >= 0.
 const CHORD: f64 = 0.414_213_562_4;
 
-/// What stays the same during a run.
+/// The bounds' coefficients for each mode and pair; constant during a run.
 #[derive(Debug)]
 pub struct ClosingBounds {
+    /// The modes of both buildings, in blocks.
     modes: Vec<BoundedModes>,
-    /// What a cumulative absolute velocity (integral of |ground acceleration|) of 1 m/s does to each pair.
+    /// For each pair, the increase of its bounds per unit of cumulative absolute velocity (integral of |ground
+    /// acceleration|), 1 m/s.
     pairs: Vec<Growth>,
-    /// Modes of a building in which damping couples them.
+    /// Ranges of the modes of buildings in which damping couples modes.
     coupled: Vec<Range<usize>>,
 }
 
-/// What [`LANES`] modes are, side by side.
+/// Coefficients of [`LANES`] modes, side by side.
 #[derive(Clone, Copy, Debug, Default)]
 struct BoundedModes {
-    /// rad/s.
+    /// Natural frequency w, rad/s.
     omega: Lane,
     /// w + c, 1/s.
     quickness: Lane,
     /// k, 1/s2; infinite where damping couples the mode to others.
     bend: Lane,
-    /// c, 1/s, and w^2, 1/s2.
+    /// Damping c, 1/s.
     damping: Lane,
+    /// w^2, 1/s2.
     omega2: Lane,
-    /// Largest |row| of all pairs.
+    /// Largest |row| entry over all pairs, kg^-1/2.
     weight: Lane,
 }
 
-/// What a cumulative absolute velocity of 1 m/s does to a pair.
+/// Increase of a pair's bounds per unit of cumulative absolute velocity, 1 m/s.
 #[derive(Clone, Copy, Debug)]
 struct Growth {
-    /// The sums over modes for its e.
+    /// The sums over modes, with |participation| in place of e.
     sums: Sums,
-    /// To the pair's acceleration by dashpots, m/s2.
+    /// Increase of the relative acceleration by dashpots, m/s2: sum over modes of |row| c |participation|.
     dragged: f64,
 }
 
 /// Sums over modes of |row| e, m/s, of |row| (w + c) e, m/s2, and of |row| k e, m/s3.
 #[derive(Clone, Copy, Debug)]
 struct Sums {
+    /// Of |row| e, m/s.
     speed: f64,
+    /// Of |row| (w + c) e, m/s2.
     change: f64,
+    /// Of |row| k e, m/s3.
     bend: f64,
 }
 
 impl ClosingBounds {
+    /// For the pairs of a structure; `weight` is the largest |row| entry of each mode over all pairs.
     pub fn of(structure: &Structure, pairs: &[Pair], weight: &[f64]) -> ClosingBounds {
         let mut growth: Vec<f64> = structure.participation.iter().map(|p| p.abs()).collect();
         let coupled = [Side::Left, Side::Right]
@@ -103,7 +110,7 @@ impl ClosingBounds {
         let omega: Vec<f64> = structure.omega2.iter().map(|w2| w2.sqrt()).collect();
         let mut quickness: Vec<f64> = omega.iter().zip(&structure.damping).map(|(w, c)| w + c).collect();
         for range in &coupled {
-            // |C| |v| + w |w q|, with the largest row sum of C.
+            // |C| |v| + w |w q|, with the largest row sum of |C|.
             quickness[range.clone()].fill(2.0 * structure.fastest);
         }
         let of_mode = |(w, c): (&f64, &f64)| ((w * w + c * c) * (w * w + c * c) + c * c * w * w).sqrt();
@@ -137,8 +144,8 @@ impl ClosingBounds {
 }
 
 impl ClosingBounds {
-    /// Looks at the pairs that have not been dismissed for the base's segment, of that number; whether all are now.
-    /// If not, it is not worth while to look again for `segments_to_wait` segments.
+    /// Tests the pairs that are not cleared for the base's segment, which has that number; returns whether all are
+    /// cleared now. If not, the next broad phase is `segments_to_wait` segments later.
     pub fn dismiss(
         &self,
         system: &System,
@@ -159,8 +166,8 @@ impl ClosingBounds {
         base.clearance.are_all_free(segment)
     }
 
-    /// Bounds on sqrt(v^2 + w^2 q^2) of all modes at the base. Returns a bound on what the displacements add to any
-    /// penetration, m.
+    /// Writes upper bounds on sqrt(v^2 + w^2 q^2) of all modes at the base. Returns a bound on the contribution of the
+    /// displacements to any penetration, m.
     #[inline(always)]
     fn amplitudes(&self, base: &Base, amplitude: &mut [f64]) -> f64 {
         let [(q, _), (v, _)] = [&base.q, &base.v].map(|vector| vector.as_chunks::<LANES>());
@@ -169,7 +176,7 @@ impl ClosingBounds {
         for (((mode, q), v), amplitude) in blocks.zip(amplitude.as_chunks_mut::<LANES>().0) {
             let moved = each(|i| q[i].abs());
             let (a, b) = (each(|i| v[i].abs()), each(|i| mode.omega[i] * moved[i]));
-            // Not `max` and `min`, which pass over a NaN.
+            // Not `max` and `min`, which ignore a NaN.
             let more = each(|i| if a[i] > b[i] { a[i] } else { b[i] });
             let less = each(|i| if a[i] > b[i] { b[i] } else { a[i] });
             *amplitude = each(|i| more[i] + CHORD * less[i]);
@@ -182,13 +189,14 @@ impl ClosingBounds {
     }
 }
 
-/// Coupled modes exchange energy: only the amplitude of all together never grows by itself, and any may have it.
+/// Gives each of some coupled modes the amplitude of all of them together: they exchange energy, and only that
+/// amplitude cannot grow without excitation.
 fn share_amplitude(modes: &mut [f64]) {
     let whole = modes.iter().map(|e| e * e).sum::<f64>().sqrt();
     modes.fill(whole);
 }
 
-/// Looks at each pair that has not been dismissed for a segment. Wide instructions give the same bits.
+/// Tests each pair that is not cleared for a segment.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn bound_all(
     (closing, system): (&ClosingBounds, &System),
@@ -228,7 +236,7 @@ fn bound_all(
     }
 }
 
-/// Times, s, and integrals of |ground acceleration|, m/s, up to the ends of some numbers of segments.
+/// At the ends of some numbers of segments: time from the base, s, and integral of |ground acceleration|, m/s.
 #[derive(Clone, Copy, Default)]
 struct Ends {
     time: Lane,
@@ -236,7 +244,7 @@ struct Ends {
 }
 
 impl Ends {
-    /// The ends of some numbers of segments, from the base on.
+    /// Sets the ends of some numbers of segments, counted from the base.
     #[inline(always)]
     fn set(&mut self, ahead: &Ahead, elapsed: f64, segments: &[u64; LANES]) {
         for (i, segments) in segments.iter().enumerate() {
@@ -247,19 +255,21 @@ impl Ends {
     }
 }
 
-/// What tells for how long a pair stays apart.
+/// Terms of one pair's bounds.
 struct Closing<'a> {
-    /// m and m/s.
+    /// Penetration at the base, m, and its rate, m/s.
     start: f64,
     rate: f64,
-    /// m/s2, by springs and dashpots.
+    /// Relative acceleration by springs and dashpots at the base, m/s2.
     pull: f64,
+    /// Sums over modes with the present amplitudes.
     sums: Sums,
+    /// Their increase per unit of cumulative absolute velocity.
     growth: &'a Growth,
 }
 
 impl Closing<'_> {
-    /// The most of the segments tried for which the pair stays apart, 0 if it does for none.
+    /// The largest of the tested numbers of segments for which the pair stays apart; 0 if it does for none.
     #[inline(always)]
     fn longest(&self, ends: &[Ends; TRIED.len()]) -> u64 {
         let mut free = 0;
@@ -276,8 +286,8 @@ impl Closing<'_> {
     }
 }
 
-/// The least of what the bounds say of a penetration up to some ends, m. Where it is below 0 the pair stays apart; a NaN of
-/// the cubic is passed over, any other comes out. Wide instructions give the same bits.
+/// The least of the three upper bounds on a penetration up to some ends, m: where it is below 0 the pair stays apart. A
+/// NaN of the cubic bound is ignored, one of the others is returned.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn nearest(closing: &Closing, Ends { time, cumulative }: &Ends) -> Lane {
     let &Closing { start, rate, pull, ref sums, growth: &Growth { sums: ref growth, dragged } } = closing;
@@ -293,7 +303,7 @@ fn nearest(closing: &Closing, Ends { time, cumulative }: &Ends) -> Lane {
         let (first, second) = (time * rate, 0.5 * time * time * (pull + cumulative * dragged));
         let end = start + (first + second + time * time * time * (bend * (1.0 / 6.0)));
         let inner = [3.0 * start + first, 3.0 * start + 2.0 * first + second];
-        // The end last, a NaN where anything before it is one.
+        // The end as the last operand: it is NaN where anything before it is.
         let last = end + 0.0 * (inner[0] + inner[1]);
         let cubic = larger(larger(larger(start, inner[0]), inner[1]), last);
         nearest[i] = smaller(cubic, smaller(line, parabola));
@@ -301,11 +311,11 @@ fn nearest(closing: &Closing, Ends { time, cumulative }: &Ends) -> Lane {
     nearest
 }
 
-/// The sums over modes of one pair: of bounds, and of what its motion is at the base.
+/// For one pair, the sums over modes in its bounds, and its motion at the base.
 #[inline(always)]
 fn bound_one(closing: &ClosingBounds, base: &Base, row: &[f64], amplitude: &[f64]) -> Seen {
     let [row, amplitude, q, v] = [row, amplitude, &base.q, &base.v].map(|all| all.as_chunks::<LANES>().0);
-    // Says once that no index below leaves its table.
+    // Equal lengths: no bounds checks below.
     let (modes, count) = (&closing.modes[..], closing.modes.len());
     let (row, amplitude, q, v) = (&row[..count], &amplitude[..count], &q[..count], &v[..count]);
     let (mut speed, mut change, mut bend) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
@@ -324,8 +334,8 @@ fn bound_one(closing: &ClosingBounds, base: &Base, row: &[f64], amplitude: &[f64
     Seen { bounds: Sums { speed, change, bend }, pull, moved, rate }
 }
 
-/// Sums over lanes, from left to right. Not inlined: else compilers add up the same lane of several sums abreast, for which
-/// they turn round every block of modes.
+/// Sums over lanes, from left to right. Not inlined: otherwise compilers transpose every block of modes in order to add
+/// up the same lane of several sums side by side.
 #[inline(never)]
 fn totals(sums: &[Lane; 6]) -> [f64; 6] {
     let mut totals = [0.0; 6];
@@ -335,12 +345,12 @@ fn totals(sums: &[Lane; 6]) -> [f64; 6] {
     totals
 }
 
-/// What a look at a pair tells.
+/// Result of `bound_one`.
 struct Seen {
     bounds: Sums,
-    /// m/s2, acceleration by springs and dashpots, where damping couples no modes.
+    /// Relative acceleration by springs and dashpots, m/s2, where damping couples no modes.
     pull: f64,
-    /// m and m/s, how far and how fast the left floor has moved towards the right one.
+    /// Displacement of the left floor relative to the right one, m, and its rate, m/s: positive when they approach.
     moved: f64,
     rate: f64,
 }

@@ -1,8 +1,8 @@
-//! No pair meets in a flight, shown by both ends of it.
+//! Proof from both ends of a flight that no pair meets in it.
 //!
-//! A penetration differs from the cubic through its end values and slopes by at most h^4/384 max|d''''|
-//! \[BirkhoffPriver1967\], and |d''''| is bounded by an energy of the motion. Where all of that lies below 0 there is
-//! no contact.
+//! A penetration d differs from the cubic through its end values and slopes by at most h^4/384 max|d''''|
+//! \[BirkhoffPriver1967\], and |d''''| is bounded by an energy of the motion. If the cubic plus this bound is below 0,
+//! there is no contact.
 
 use crate::engine::base::planned::{At, Planned};
 use crate::engine::flight::workspace::Look;
@@ -11,10 +11,10 @@ use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::structure::{Scratch, Structure};
 
-/// What stays the same during a run.
+/// Coefficients of the bounds; constant during a run.
 #[derive(Debug)]
 pub struct Certificate {
-    /// Largest |row| entry of each mode over all pairs.
+    /// Largest |row| entry of each mode over all pairs, kg^-1/2.
     pub pair_weight: Vec<f64>,
 }
 
@@ -30,8 +30,8 @@ impl Certificate {
         Certificate { pair_weight }
     }
 
-    /// Whether no pair meets in the planned flight, shown by both ends alone; a pair that is dismissed for its segment
-    /// does not.
+    /// Whether both ends of the planned flight prove that no pair meets in it; pairs that are cleared for its segment
+    /// are not tested.
     pub fn holds(
         &self,
         system: &System,
@@ -63,8 +63,8 @@ impl Certificate {
         look.stay_apart.iter().all(|stays_apart| *stays_apart)
     }
 
-    /// How far any penetration can be from its cubic interpolant over the `h` seconds that follow a modal motion: by the
-    /// largest that any |d''''| can be.
+    /// Bound on the distance of any penetration from its cubic interpolant over the next `h` seconds of a modal motion,
+    /// m: h^4/384 max|d''''|.
     pub fn deviation(
         &self,
         structure: &Structure,
@@ -77,7 +77,8 @@ impl Certificate {
     }
 }
 
-/// The largest control value of the cubic Hermite interpolant from values and rates at both ends.
+/// The largest control value of the cubic Hermite interpolant through values and rates at both ends: an upper bound of
+/// it.
 pub fn highest_of_cubic((start, rate): (f64, f64), (end, end_rate): (f64, f64), h: f64) -> f64 {
     start.max(start + h / 3.0 * rate).max(end - h / 3.0 * end_rate).max(end)
 }

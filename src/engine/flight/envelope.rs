@@ -1,26 +1,26 @@
-//! Flights in which no swing reaches across a gap, however long they last.
+//! Proof by the envelopes of the modal oscillations that no pair meets in a flight, however long it is.
 //!
-//! Under a load that is linear in time each mode swings about the place where the load would hold it,
+//! Under a load that is linear in time each mode oscillates about its quasi-static displacement s,
 //!
 //! ```text
 //! q = s + h,   s = load / w^2 - c slope / w^4,   h'' + c h' + w^2 h = 0
 //! ```
 //!
-//! and R = sqrt(h^2 + (h' / w)^2) never grows. So a penetration never exceeds what s alone makes of it, which is largest
-//! at one of the ends, by more than the sum over modes of |row| R. A motion that has died out costs nothing from there
-//! on, and neither does one that goes on for ever without reaching the other floor.
+//! and the envelope R = sqrt(h^2 + (h' / w)^2) never grows. Hence a penetration exceeds the one by s alone, which is
+//! largest at one of the ends, at most by the sum over modes of |row| R. So a motion that has died out needs no further
+//! tests, nor does one that oscillates for ever without reaching the other floor.
 
 use crate::engine::system::System;
 use crate::structure::Side;
 
-/// Margin for rounding, relative to the numbers that a penetration is added up from.
+/// Margin for rounding, relative to the terms of a penetration.
 const MARGIN: f64 = 1e-10;
 
 impl System {
     /// Whether no pair meets within `length` seconds from a modal motion on, under a load and its slope.
     pub fn envelopes_stay_apart(&self, (q, v): (&[f64], &[f64]), (load, slope): (&[f64], &[f64]), length: f64) -> bool {
         let structure = &self.structure;
-        // Where damping couples modes, what holds them under a load that changes is not worked out here.
+        // With coupled modes the quasi-static displacement under a changing load is not worked out here.
         if cfg!(without = "envelopes") || !structure.is_classical() && slope.iter().any(|slope| *slope != 0.0) {
             return false;
         }
@@ -46,12 +46,12 @@ impl System {
                     size += (pair.row[m] * held).abs() + (pair.row[m] * drift).abs();
                 }
             }
-            // Written so that a NaN never stays apart.
+            // Written so that a NaN never counts as apart.
             start.max(start + change) - pair.gap + swing + MARGIN * size < 0.0
         })
     }
 
-    /// What damping couples exchanges energy: any mode may come to have all of it.
+    /// Envelope radius of a mode: its own, or that of all modes if damping couples them, since they exchange energy.
     fn shared_radius(&self, side: Side, of_mode: &impl Fn(usize) -> [f64; 3], mode: usize) -> f64 {
         let w2 = &self.structure.omega2;
         let energy: f64 = self.structure.range(side).map(|m| w2[m] * of_mode(m)[2] * of_mode(m)[2]).sum();

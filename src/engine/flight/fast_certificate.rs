@@ -1,39 +1,41 @@
-//! Flights over segments in which some pair is too near to be dismissed: both ends of each segment show that none meets.
+//! Proof from both ends of each segment that no pair meets in it, while fast flight passes over many segments.
 //!
-//! What [`super::flight`] asks of a planned flight, for all pairs of a scene abreast and without a stop between segments,
-//! where modes and pairs are few. It is never surer than that: what is flown over here would be certified there.
+//! It is the test of [`super::certificate`] with a bound that is never sharper: every segment accepted here is accepted
+//! there. All pairs are tested side by side, with modes and pairs few enough for registers.
 
 use crate::engine::pairs::pair::Pair;
 use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane, Side, Structure};
 
-/// Most blocks of modes that a flight keeps in registers.
+/// Largest number of blocks of modes that fast flight keeps in registers.
 pub const MOST_BLOCKS: usize = 3;
 
-/// What stays the same during a run.
+/// Coefficients of the test; constant during a run.
 #[derive(Debug)]
 pub struct NearPairs {
     modes: Vec<CertifiedModes>,
-    /// What each mode is to the pairs, without the padding.
+    /// Rows of all pairs, mode by mode, without the padding, kg^-1/2.
     shares: Vec<Lane>,
-    /// m; infinite in a lane without a pair.
+    /// Gaps, m; infinite in a lane without a pair.
     gaps: Lane,
 }
 
-/// What [`LANES`] modes are, side by side.
+/// Coefficients of [`LANES`] modes, side by side.
 #[derive(Clone, Copy, Debug, Default)]
 struct CertifiedModes {
+    /// Modal participation of the ground acceleration, kg^1/2.
     participation: Lane,
-    /// c, 1/s, and w^2, 1/s2.
+    /// Damping c, 1/s.
     damping: Lane,
+    /// w^2, 1/s2.
     omega2: Lane,
-    /// What a mode's own acceleration and its rate at the start add to the bound on its |q''''|, 1/s2 and 1/s.
+    /// Factors of |q''| and |q'''| at the start in the bound on a mode's |q''''|, 1/s2 and 1/s.
     of_acceleration: Lane,
     of_jerk: Lane,
 }
 
 impl NearPairs {
-    /// For all pairs; none where modes or pairs are many, or damping couples modes.
+    /// For all pairs of a structure; `None` where modes or pairs are many, or damping couples modes.
     pub fn of(structure: &Structure, pairs: &[Pair]) -> Option<NearPairs> {
         let are_few = structure.lanes <= MOST_BLOCKS * LANES && pairs.len() <= LANES;
         if cfg!(without = "near_pairs") || !are_few || !structure.is_classical() {
@@ -59,7 +61,7 @@ impl NearPairs {
         })
     }
 
-    /// What is seen from a motion on over segments of a length, s.
+    /// The test over segments of a `length`, s, from a motion on.
     #[inline(always)]
     pub fn from<const WIDTH: usize>(
         &self,
@@ -74,10 +76,10 @@ impl NearPairs {
     }
 }
 
-/// What is seen of the pairs on the way from segment to segment.
+/// The test of segments that follow each other.
 pub trait SegmentCheck<const WIDTH: usize> {
-    /// Whether no pair meets in the next segment, from the motion at its start and at its end and from the ground's
-    /// acceleration and its slope.
+    /// Whether no pair meets in the next segment, from the motion at its start and end and the ground's acceleration,
+    /// m/s2, and slope, m/s3, at its start.
     fn stays_apart(
         &mut self,
         start: (&[Lane; WIDTH], &[Lane; WIDTH]),
@@ -86,18 +88,19 @@ pub trait SegmentCheck<const WIDTH: usize> {
     ) -> bool;
 }
 
-/// What is seen on the way from segment to segment.
+/// The test by cubic Hermite interpolation, on its way from segment to segment.
 pub struct HermiteCheck<'a, const WIDTH: usize> {
     near: &'a NearPairs,
-    /// s, a third of a segment's length h; and s4, h^4/384.
+    /// A third of a segment's length h, s.
     third: f64,
+    /// h^4/384, s4.
     share: f64,
-    /// Penetrations and rates at the start of the present segment.
+    /// Penetrations, m, and rates, m/s, at the start of the present segment.
     start: [Lane; 2],
 }
 
 impl<const WIDTH: usize> HermiteCheck<'_, WIDTH> {
-    /// Penetrations and rates, and the sums over modes of |share| times `sizes`.
+    /// Penetrations, m, and rates, m/s, of all pairs, and the sums over modes of |row| times `sizes`.
     #[inline(always)]
     fn pairs_at(&self, q: &[Lane; WIDTH], v: &[Lane; WIDTH], sizes: &[Lane; WIDTH]) -> [Lane; 3] {
         let (mut moved, mut rate, mut size) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
@@ -110,8 +113,8 @@ impl<const WIDTH: usize> HermiteCheck<'_, WIDTH> {
         [each(|p| moved[p] - self.near.gaps[p]), rate, size]
     }
 
-    /// Bounds on |q''''| of the modes, from the motion at the start of a segment and the ground's acceleration and its
-    /// slope: as [`Structure::fourth_derivative_bound`] has it with a + b for sqrt(a^2 + b^2).
+    /// Bounds on |q''''| of the modes, from the motion at the start of a segment and the ground's acceleration and
+    /// slope: as [`Structure::fourth_derivative_bound`], but with a + b in place of sqrt(a^2 + b^2).
     #[inline(always)]
     fn fourth(&self, q: &[Lane; WIDTH], v: &[Lane; WIDTH], (acceleration, slope): (f64, f64)) -> [Lane; WIDTH] {
         let mut fourth = [[0.0; LANES]; WIDTH];

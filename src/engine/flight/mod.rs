@@ -1,4 +1,5 @@
-//! Flight: both buildings swing by themselves, exactly, until the segment ends or two floors meet.
+//! Flight: no floors touch, and both buildings move by their exact modal solution until the segment ends or two floors
+//! meet.
 
 pub mod accounted;
 pub mod broad_phase;
@@ -21,11 +22,11 @@ use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 
-/// What stays the same during a run.
+/// Coefficients for the proofs that no pair meets; constant during a run.
 #[derive(Debug)]
 pub struct Flight {
     closing: ClosingBounds,
-    /// Where modes and pairs are few.
+    /// The fast test of both ends, where modes and pairs are few.
     pub near: Option<NearPairs>,
     certificate: Certificate,
 }
@@ -41,7 +42,8 @@ impl Flight {
         }
     }
 
-    /// Looks at the pairs that have not been dismissed for the base's segment, of that number; whether all are now.
+    /// Broad phase: tests the pairs that are not cleared for the base's segment, which has that number; returns whether
+    /// all are cleared now.
     pub fn dismiss(
         &self,
         system: &System,
@@ -51,12 +53,12 @@ impl Flight {
         counters: &mut Counters,
         amplitude: &mut [f64],
     ) -> bool {
-        // Where modes and pairs are few it costs less to show by both ends of a segment that no pair meets.
+        // Where modes and pairs are few, the test of a segment by both ends costs less than another broad phase.
         let segments_to_wait = if self.near.is_some() { NEAR_SEGMENTS } else { 1 };
         self.closing.dismiss(system, ground, (base, segment, segments_to_wait), counters, amplitude)
     }
 
-    /// Works out the flight from the base over `longest` seconds, under a load that is in `work`, or until the first entry.
+    /// Plans the flight from the base, under the load in `work`, over `longest` seconds or until the first entry.
     pub fn plan(
         &self,
         system: &System,

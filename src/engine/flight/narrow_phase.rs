@@ -1,7 +1,8 @@
-//! A closer look at a flight in which floors may meet: piece by piece, from the power series of the penetrations.
+//! The narrow phase: the first entry in a flight is searched for piece by piece, in the power series of the
+//! penetrations.
 //!
-//! Looking does not touch the motion: a flight in which nothing is found ends where the exact solution says, to the bit
-//! the same whether it has been looked at or not. So it does not matter which pairs there are that never meet.
+//! The search does not change the motion: a flight without an entry ends at the exact solution, to the same bits
+//! whether it was searched or not. So pairs that never meet do not affect the results.
 
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::{Event, Planned};
@@ -14,27 +15,28 @@ use crate::numerics::polynomial::ALL;
 use crate::numerics::roots;
 use crate::structure::{EXACT, flight_order};
 
-/// (Fastest rate) x (time) that one series reaches.
+/// Length of a piece, in units of 1 / (fastest rate), that one series reaches.
 const REACH: f64 = 1.5;
 
-/// Pieces that one flight is looked at in; what is longer takes another step.
+/// Largest number of pieces in which one flight is searched; a longer one takes another step.
 const MOST_PIECES: u32 = 10_000;
 
-/// Between series, pieces of this many times their length and more are tried without one.
+/// A piece of this many times that length, doubled after each success, is first tested by both ends, without a series;
+/// where the test fails, as many pieces are searched by series.
 const LONGER: u32 = 4;
 
-/// A search for the first entry in a planned flight.
+/// The search for the first entry in a planned flight.
 pub struct Search<'a> {
     pub certificate: &'a Certificate,
     pub system: &'a System,
     pub base: &'a Base,
     pub look: &'a mut Look,
-    /// With the load at the base and its rate.
+    /// Holds the load at the base and its rate.
     pub work: &'a mut Buffers,
 }
 
 impl Search<'_> {
-    /// Finds the first entry in the planned flight and shortens the step to it.
+    /// Finds the first entry in the planned flight and ends the step there.
     pub fn first_entry(&mut self, planned: &mut Planned, counters: &mut Counters) {
         let Search { system, base, .. } = *self;
         let remaining = planned.length;
@@ -79,7 +81,7 @@ impl Search<'_> {
         (planned.length, planned.reaches_limit) = (self.look.from, false);
     }
 
-    /// Ends the step at the entry that has been found in the series of a piece, or with that piece.
+    /// Ends the step at the entry found in the series of the last piece, or at the end of that piece.
     fn cut(&mut self, planned: &mut Planned, length: f64, entry: Option<(f64, usize)>) {
         let Search { system, base, look, work, .. } = self;
         let x = entry.map_or(1.0, |(x, _)| x);
@@ -93,7 +95,7 @@ impl Search<'_> {
         system.track(base, &work.series, &work.powers, &mut work.scalar, &mut planned.tracked);
     }
 
-    /// The first entry in a piece, from its power series: where, as a share of the piece, and which pair.
+    /// The first entry in a piece by its power series: (share of the piece, pair).
     fn first_upcrossing_in(&mut self, length: f64) -> Option<(f64, usize)> {
         let Search { system, base, look, work, .. } = self;
         let order =
@@ -120,7 +122,7 @@ impl Search<'_> {
         first
     }
 
-    /// Whether no pair meets in a piece, shown by both ends as for a whole flight; if so, the look has moved on.
+    /// Whether both ends of a piece prove that no pair meets in it; if so, the search moves on to its end.
     fn piece_stays_apart(&mut self, length: f64) -> bool {
         let Search { certificate, system, look, work, .. } = self;
         let Look { q, v, load, .. } = &*look;
@@ -139,13 +141,13 @@ impl Search<'_> {
         stays_apart
     }
 
-    /// Moves on by the exact flight.
+    /// Moves the search by the exact flight over a piece of `length` seconds.
     fn move_on(&mut self, length: f64) {
         self.fly(length);
         self.look.move_on(length, &self.work.slope);
     }
 
-    /// Flies from the base to the end of a piece.
+    /// Writes the motion at the end of a piece, by the exact flight from the base.
     fn fly(&mut self, length: f64) {
         let Search { system, base, look, work, .. } = self;
         let Look { from, end_q, end_v, .. } = &mut **look;

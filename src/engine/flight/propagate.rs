@@ -1,4 +1,4 @@
-//! The exact motion of both buildings apart.
+//! The exact response of both buildings to a linear load.
 
 use crate::engine::base::Base;
 use crate::engine::system::System;
@@ -6,7 +6,7 @@ use crate::engine::system::buffers::Buffers;
 use crate::structure::{exact_order, fly_in_one_series};
 
 impl System {
-    /// Flies q, v of the base over `h` under `work.load` and `work.slope`.
+    /// Writes to q, v the motion `h` seconds after the base, under `work.load` and its slope.
     pub fn fly(&self, base: &Base, h: f64, work: &mut Buffers, (q, v): (&mut [f64], &mut [f64])) {
         let Buffers { load, slope, scratch, series, interval, powers, .. } = work;
         let whole = base.elapsed == 0.0 && h == base.segment.length;

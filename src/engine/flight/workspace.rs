@@ -1,20 +1,22 @@
-//! Where the search for an entry has got to in a flight.
+//! Working data of the search for an entry in a flight.
 
 use crate::engine::base::Base;
 
-/// Where a look has got to: content means nothing between calls.
+/// The position of the search in the flight; its content means nothing between calls.
 #[derive(Clone, Debug)]
 pub struct Look {
-    /// s since the base.
+    /// Time since the base, s.
     pub from: f64,
-    /// The motion there and the load.
+    /// Modal displacements at that time.
     pub q: Vec<f64>,
+    /// Modal velocities at that time.
     pub v: Vec<f64>,
+    /// Modal load at that time.
     pub load: Vec<f64>,
     /// The motion at the end of the present piece.
     pub end_q: Vec<f64>,
     pub end_v: Vec<f64>,
-    /// Pairs that certainly do not meet in the whole flight.
+    /// Whether each pair is known not to meet in the whole flight.
     pub stay_apart: Vec<bool>,
 }
 

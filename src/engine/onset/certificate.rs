@@ -1,4 +1,4 @@
-//! How far an onset step may go: nothing happens to any contact in it, shown by bounds on the sums of its terms.
+//! Length of an onset step up to which no contact changes its state, proved by bounds on the sums of the series' terms.
 
 use crate::engine::base::contact::Contact;
 use crate::engine::base::{Base, Coordinates};
@@ -8,7 +8,7 @@ use crate::engine::system::System;
 use crate::structure::sum_sizes;
 
 impl System {
-    /// How far it is certain, up to `reach`, that no contact changes its state; `sizes` is room to work in.
+    /// The x, at most `reach`, up to which no contact certainly changes its state; `sizes` is a scratch vector.
     pub fn certain_reach(&self, base: &Base, onset: &mut OnsetSeries, sizes: &mut [f64], reach: f64) -> Option<f64> {
         let grid = onset.grid?;
         let mut x = reach;
@@ -22,7 +22,7 @@ impl System {
         None
     }
 
-    /// Whether all pairs that touch go on to do so, on the same branch, up to the x of the powers.
+    /// Whether all closed pairs stay in contact, on the same branch, up to the x of the powers.
     fn stays_touching(&self, base: &Base, onset: &OnsetSeries) -> bool {
         (0..onset.used).all(|b| {
             let [moved, turned] = onset.blocks[b].bounds(&onset.powers);
@@ -34,7 +34,8 @@ impl System {
         })
     }
 
-    /// Whether all pairs that are apart stay so: by how far each floor can get, or else by the pair's own terms.
+    /// Whether all open pairs stay apart: by a bound on the displacement of each floor, or else on the pair's own
+    /// terms.
     fn stays_free(&self, base: &Base, onset: &OnsetSeries, sizes: &mut [f64]) -> bool {
         let mut apart = base.contacts.iter().enumerate().filter(|(_, contact)| !contact.in_contact()).peekable();
         if apart.peek().is_none() {
@@ -58,16 +59,20 @@ impl System {
     }
 }
 
-/// How far a penetration and its derivative by x can get over 0..=x by their terms from x^2 on.
+/// Bounds on the change of one penetration over 0..=x, beyond its terms of power 0 and 1.
 struct MotionBounds {
+    /// End of the step, in units of its scale.
     x: f64,
+    /// Unit of time, s.
     scale: f64,
+    /// Bound on the change of the penetration, m.
     moved: f64,
+    /// Bound on the change of its derivative by x, m.
     turned: f64,
 }
 
 impl MotionBounds {
-    /// Whether there is no room for an entry, a release or a change of branch within 0..=x.
+    /// Whether an entry, a release or a change of branch is impossible within 0..=x.
     fn holds(&self, contact: &Contact) -> bool {
         let &MotionBounds { x, scale, moved, turned } = self;
         let d = contact.penetration;
@@ -77,7 +82,7 @@ impl MotionBounds {
             return if d == 0.0 { step_rate * x + moved < 0.0 } else { d + x * step_rate.max(0.0) + moved < 0.0 };
         }
         if d <= 0.0 {
-            // Entered now: it goes on deeper, which is also the engaged side of every guard.
+            // A pair that enters now goes deeper, and so stays on the engaged side of every guard.
             return step_rate > turned;
         }
         let inside = d + x * step_rate.min(0.0) - moved > 0.0;

@@ -1,4 +1,4 @@
-//! What an onset step does to contacts.
+//! Moves the contacts along an onset step.
 
 use crate::contact::onset::{GridPowers, value_and_slope, values_and_slopes};
 use crate::engine::base::contact::Contact;
@@ -6,18 +6,20 @@ use crate::engine::onset::series::OnsetSeries;
 use crate::numerics::quadrature::{TWELVE, graded};
 use crate::numerics::roots;
 
-/// Most places at which a slope is looked at for where it passes 0: it takes some ten.
+/// Largest number of evaluations in the search for a zero of a slope: it takes some ten.
 const MOST_TURNS: usize = 60;
 
-/// Share of a peak that the series of a force has to reach for the law to be asked: it is truncated.
+/// Share of a known peak that the series of a force, which is truncated, has to reach before the law itself is
+/// evaluated.
 const NEARLY: f64 = 0.999;
 
-/// Share of a step after which the slope of a force is looked at for where it goes from the start: what turns before that
-/// is within the square of this of its peak at the start.
+/// Share of a step at which the slope of a force is evaluated for its sign at the start, where it has no value. A
+/// maximum before that differs from the force at the start only relatively by the square of this.
 const JUST_AFTER: f64 = 1e-6;
 
 impl Contact {
-    /// Follows the contact over 0..=x of an onset step: penetration, impulse, peaks, work.
+    /// Moves the contact over 0..=x of an onset step that began at the time `start`, s: penetration, impulse, peaks and
+    /// work.
     pub fn follow_onset(&mut self, onset: &OnsetSeries, x: f64, start: f64) {
         let Some(grid) = &onset.grid else { return };
         let ((block, lane), scale) = (onset.places[self.episode.contact], onset.scale);
@@ -36,7 +38,7 @@ impl Contact {
             let powers = law.damping_powers(&depths, &rates.map(|rate| rate / scale));
             self.work += scale * weights.iter().zip(&powers).map(|(weight, power)| weight * power).sum::<f64>();
         }
-        // The stored force terms are those of F x.
+        // The stored terms are those of the force times x.
         let force = || {
             let terms = block.copy_force(grid, lane);
             move |x: f64| {
@@ -46,7 +48,7 @@ impl Contact {
         };
         let last = (end.force[lane], end.force_slope[lane]);
         if let Some((at, _)) = highest(force, x, last, NEARLY * self.episode.peak_force) {
-            // The series of the force tells where; how much is what the law makes of the motion there, as it is shown.
+            // The time of the peak is that of the series; its value is the law's for the motion then, as in the output.
             let (d, slope) = value_and_slope(grid, &block.copy_penetration(grid, lane), at);
             let (peak, last) = (law.value(d, slope / scale), law.value(end.penetration[lane], end.slope[lane] / scale));
             let (at, peak) = if last > peak { (x, last) } else { (at, peak) };
@@ -68,7 +70,8 @@ impl Contact {
     }
 }
 
-/// The largest value of a smooth single-peaked curve of (value, slope) over 0..=end, where it is `last`, if above `known`.
+/// (x, value) of the largest value over 0..=end of a smooth curve with one maximum, whose value and slope at the end
+/// are `last`, if it exceeds `known`; `curve` evaluates value and slope.
 fn highest<C: Fn(f64) -> (f64, f64)>(
     curve: impl FnOnce() -> C,
     end: f64,
@@ -87,8 +90,8 @@ fn highest<C: Fn(f64) -> (f64, f64)>(
     (value > known).then_some((at, value))
 }
 
-/// Where a slope passes 0 downwards between two places with their slopes, by false position; a slope that stays is halved,
-/// so that both ends close in (the Illinois method \[DowellJarratt1971\]).
+/// The zero of a slope that passes 0 downwards between two (x, slope), by false position. The slope at an end that
+/// stays is halved, so that both ends converge (the Illinois method \[DowellJarratt1971\]).
 fn turning_point(slope: impl Fn(f64) -> f64, mut low: (f64, f64), mut high: (f64, f64)) -> f64 {
     let (close, mut last) = (1e-9 * high.0, f64::INFINITY);
     for _ in 0..MOST_TURNS {

@@ -1,7 +1,8 @@
-//! The first step after an entry under a power law: a double power series of the motion (see [`crate::contact::onset`]).
+//! An onset step, the first after an entry under a power law: a double power series of the motion (see
+//! [`crate::contact::onset`]).
 //!
-//! The step ends before anything else can happen - a turn, a release, an entry elsewhere -, shown by bounds on the sums
-//! of its terms, so it has no event of its own.
+//! The step ends before any event - a turn, a release, another entry - is possible, as bounds on the sums of its terms
+//! prove. So it has no event of its own.
 
 pub mod certificate;
 pub mod follow;
@@ -17,12 +18,12 @@ use crate::engine::pairs::jacobian::{FloorJacobian, ModalJacobian};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 
-/// Highest power of x of the double series: its cost grows with the square, its reach hardly.
+/// Highest power of x in the double series: its cost grows with the square of this, its reach hardly.
 const HIGHEST: f64 = 8.0;
 
 impl System {
-    /// Works out the first step of an episode, under a load that is in `work`; `false` where a plain step has to do it:
-    /// entries without speed to speak of, or of different laws at the same instant.
+    /// Plans the first step of an episode, under the load in `work`; returns `false` if a Taylor step has to do it: for
+    /// entries with hardly any approach velocity, or under different laws at the same instant.
     pub fn plan_onset(
         &self,
         At { base, counters, .. }: &mut At,
@@ -58,7 +59,8 @@ impl System {
         true
     }
 
-    /// The grid that all entering pairs share, and the time in which the quickest of them would turn round.
+    /// The exponents of the series, common to all entering pairs, and its time scale, s: at most the shortest time in
+    /// which one of these pairs would turn round.
     fn onset_grid(&self, base: &Base, work: &mut Buffers, remaining: f64) -> Option<(Grid, f64)> {
         let mut found: Option<Grid> = None;
         let mut scale = self.series_scale(base, remaining);
@@ -73,7 +75,8 @@ impl System {
             found = Some(grid);
             let pair = &self.pairs[p];
             scale = scale.min(turning_time(&force, pair.mass, contact.rate));
-            // Where acceleration overtakes the entry speed before the force amounts to anything, that speed is noise.
+            // If the acceleration changes the approach velocity before the force matters, that velocity is as good as
+            // 0.
             let overtaken = contact.rate / self.pairs[p].relative(base.coordinates, &work.q).abs();
             let gained = force.value(1.5 * contact.rate * overtaken, contact.rate) * overtaken / pair.mass;
             if gained < allowed {
@@ -83,8 +86,8 @@ impl System {
         found.map(|grid| (grid, scale))
     }
 
-    /// How far the last terms stay below the tolerance. Free masses have the terms x^(1 + beta j) only, and the last row
-    /// begins up to one power of x and one of z below the highest.
+    /// The x up to which the last terms are below the tolerance. Free masses have only the terms x^(1 + beta j); so all
+    /// terms within one power of x and one of z = x^beta below the highest are taken as the last.
     fn onset_reach(&self, base: &Base, onset: &OnsetSeries, grid: &Grid) -> f64 {
         let allowed = self.tolerance.step * base.velocity_scale * onset.scale;
         let mut last = [0.0; MOST_TERMS];
@@ -93,7 +96,7 @@ impl System {
                 last[index] = exponent * self.floor_norm(base.coordinates, onset.term(index));
             }
         });
-        // The sum goes nearly as a power of x: a few secant steps in logarithms.
+        // The sum is nearly a power of x: a few secant steps in logarithms.
         let mut x = 1.0;
         for _ in 0..3 {
             let error = grid.sum(&last, x) / x;
@@ -106,7 +109,7 @@ impl System {
     }
 }
 
-/// The time in which a power force stops a mass: k (V t)^n t = m V.
+/// The time in which a power force stops a mass, s: k (V t)^n t = m V.
 fn turning_time(force: &Force, mass: f64, speed: f64) -> f64 {
     let (stiffness, exponent) = match *force {
         Force::None => return f64::INFINITY,

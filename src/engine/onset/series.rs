@@ -1,5 +1,5 @@
 //! The double power series of the motion and of all contacts after an entry: a series of Frobenius's kind
-//! \[Frobenius1873\], whose exponents are i + beta j.
+//! \[Frobenius1873\] with the exponents i + beta j.
 
 use crate::contact::EpisodeForce;
 use crate::contact::onset::{Grid, GridPowers, MOST_TERMS, OnsetBlock, OnsetReading, Products};
@@ -15,34 +15,42 @@ use crate::structure::{LANES, Lane, Structure, sum_terms};
 /// The double series of the motion and of all contacts.
 #[derive(Clone, Debug, Default)]
 pub struct OnsetSeries {
+    /// The exponents of its terms.
     pub grid: Option<Grid>,
-    /// Those of its terms, for pairs that touch and that enter, once they are known for its beta.
+    /// Tables of the products of terms, for pairs that were in contact before and for entering pairs, worked out for
+    /// `beta`.
     pub products: [Products; 2],
+    /// The exponent beta for which the tables have been worked out.
     pub beta: f64,
+    /// Length of a vector of motion.
     pub lanes: usize,
+    /// Terms of the motion, m or modal: one vector for each exponent.
     pub terms: Vec<f64>,
-    /// The pairs in contact, in blocks of one kind each; the first `used` are filled. There is room for all, but memory
-    /// that no contact has needed yet is not touched.
+    /// The pairs in contact, in blocks of one kind of force each; the first `used` are filled. They are allocated for
+    /// all pairs, but memory that no contact has needed yet is not touched.
     pub blocks: Vec<OnsetBlock>,
+    /// The pairs in each block.
     pub members: Vec<PackedPairs>,
+    /// Number of blocks in use.
     pub used: usize,
     /// Block and lane of each contact.
     pub places: Vec<(usize, usize)>,
-    /// s.
+    /// Unit of time, s: x is the time in this unit.
     pub scale: f64,
-    /// Powers of the x that was looked at last, and the blocks there.
+    /// Powers of the x at which the series was last evaluated.
     pub powers: GridPowers,
+    /// The blocks at that x.
     pub readings: Vec<OnsetReading>,
 }
 
 impl OnsetSeries {
-    /// Room for the largest grid; none where no law needs one.
+    /// Allocates for the largest grid of exponents; nothing if no law needs one.
     pub fn new(System { structure, pairs, contact_coordinates, .. }: &System) -> OnsetSeries {
         if !has_singular_law(pairs) {
             return OnsetSeries::default();
         }
         let (lanes, pairs, on_floors) = (structure.lanes, pairs.len(), *contact_coordinates == Coordinates::Floors);
-        // Each of five kinds has one block that is not full, of pairs that enter and of pairs that touch.
+        // Five kinds of force, with entering pairs or others, have at most one block each that is not full.
         let most = most_blocks(pairs, 10, on_floors);
         OnsetSeries {
             grid: None,
@@ -65,12 +73,12 @@ impl OnsetSeries {
         self.grid.as_ref()
     }
 
-    /// The motion's term with an index of the grid.
+    /// The term of the motion with that index in the grid of exponents.
     pub fn term(&self, index: usize) -> &[f64] {
         &self.terms[index * self.lanes..(index + 1) * self.lanes]
     }
 
-    /// Starts from the state of the base; `scale` is the unit of time, s.
+    /// Starts the series from the base; `scale` is the unit of time, s.
     pub fn start(&mut self, base: &Base, pairs: &[Pair], grid: Grid, scale: f64) {
         (self.grid, self.scale, self.used) = (Some(grid), scale, 0);
         if grid.beta != self.beta {
@@ -94,7 +102,7 @@ impl OnsetSeries {
         }
     }
 
-    /// Block and lane for a pair of a kind.
+    /// Block and lane for a pair of a kind of force.
     fn room_for(&mut self, grid: &Grid, kind: Kind, enters: bool, place: LanePlace) -> (usize, usize) {
         for b in (0..self.used).rev() {
             if self.blocks[b].is_of(kind, enters)
@@ -112,12 +120,12 @@ impl OnsetSeries {
         (b, self.members[b].start(place))
     }
 
-    /// The pairs of a block, lane by lane.
+    /// (lane, number of the pair) of each lane that holds a pair.
     pub fn pairs_of(&self, block: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.members[block].lanes()
     }
 
-    /// Takes the readings of all blocks at x.
+    /// Evaluates all blocks at x.
     pub fn read(&mut self, x: f64) {
         let Some(grid) = &self.grid else { return };
         self.powers.set(grid, x);
@@ -126,18 +134,18 @@ impl OnsetSeries {
         }
     }
 
-    /// N, bounds on the sizes of the forces up to x, one per contact.
+    /// Writes bounds on the magnitudes of the forces up to x, N, one per contact.
     pub fn bound_forces(&self, contacts: &[Contact], x: f64, out: &mut [f64]) {
         let Some(grid) = &self.grid else { return };
         for (p, out) in out.iter_mut().enumerate().filter(|(p, _)| contacts[*p].in_contact()) {
             let (block, lane) = self.places[p];
-            // The stored force terms are those of F x.
+            // The stored terms are those of the force times x.
             let terms = self.blocks[block].copy_force(grid, lane).map(f64::abs);
             *out = grid.sum(&terms, x) / x;
         }
     }
 
-    /// u and v at x > 0.
+    /// Displacements and velocities at x > 0.
     pub fn evaluate(&self, x: f64, q: &mut [f64], v: &mut [f64]) {
         let Some(grid) = &self.grid else { return };
         let other;
@@ -152,13 +160,12 @@ impl OnsetSeries {
     }
 }
 
-/// Whether a force has no power series at d = 0.
+/// Whether some law has a force without a power series at d = 0.
 fn has_singular_law(pairs: &[Pair]) -> bool {
     pairs.iter().any(|pair| !EpisodeForce::new(&pair.law, pair.mass, None).engaged.is_regular())
 }
 
-/// All terms, row by row: u_(i+2) from the force, load, damping and stiffness terms two powers of x below. Wide
-/// instructions give the same bits.
+/// Expands all terms, row by row: u_(i+2) from the terms of force, load, damping and stiffness two powers of x below.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn expand<M: ContactJacobian>(
     onset: &mut OnsetSeries,
@@ -179,7 +186,7 @@ pub fn expand<M: ContactJacobian>(
     }
 }
 
-/// One term x^(i + beta j) of the motion.
+/// Adds one term x^(i + beta j) of the motion.
 #[inline(always)]
 fn extend<M: ContactJacobian>(
     onset: &mut OnsetSeries,
@@ -197,7 +204,7 @@ fn extend<M: ContactJacobian>(
     let (known, rest) = onset.terms.split_at_mut(here * lanes);
     let next = &mut rest[..lanes];
     if i >= 2 {
-        // A loop: what an iterator's `for_each` calls would not have the wide instructions.
+        // A loop, as the closure of an iterator's `for_each` would not be compiled for wide instructions.
         for block in blocks.iter_mut().filter(|block| !block.enters) {
             block.extend_touching(grid, &onset.products[0], (i - 2, j));
         }
@@ -213,7 +220,7 @@ fn extend<M: ContactJacobian>(
         let (moved, moving) = known[(here - 2) * lanes..].split_at(lanes);
         resist(structure, coordinates, (moved, moving), ((exponent - 1.0) / scale, factor), load, next);
     } else {
-        // Nothing moves as x^(beta j) alone.
+        // There is no term x^(beta j) without a power of x.
         next.fill([0.0; LANES]);
     }
     for (block, members) in blocks.iter().zip(&onset.members) {
@@ -225,7 +232,7 @@ fn extend<M: ContactJacobian>(
     }
 }
 
-/// A term of the motion from two before it and some load, each times a factor, without the forces of contacts.
+/// A term of the motion without contact forces, from two earlier terms and a load, each times a factor.
 #[inline(always)]
 fn resist(
     structure: &Structure,

@@ -7,7 +7,8 @@ use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
 
 impl Model {
-    /// What the account of the base has come to at a time since it; `point` holds the motion and the contacts there.
+    /// The terms of the energy account `elapsed` seconds after the base; `point` holds the motion and the contacts
+    /// then.
     #[inline(never)]
     pub(in crate::engine) fn read_energy(
         &self,

@@ -1,4 +1,4 @@
-//! How fast the energies change: powers, and the rates of powers, from the motion and its derivatives.
+//! Rates of the energy account: powers and their rates, from the motion and its derivatives.
 
 use crate::engine::base::Coordinates;
 use crate::engine::excitation::linear_input::LinearInput;
@@ -9,10 +9,11 @@ use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
 
 impl Model {
-    /// The rates of the energy account at a point of which all other rates are known; none without an account.
+    /// The rates of the energy account at a point, once all other rates are known; `None` without an account.
     ///
-    /// With <a, b> the sum of masses times a and b, and K, C per unit of mass: the kinetic energy <v, v>/2, the strain
-    /// energy <u, K u>/2, and the powers <v, C v> of damping, -<1, v> a(t) of the ground and <f, v> of floor forces f.
+    /// With <a, b> the sum of masses times a and b, and K, C per unit of mass, these are the derivatives of the kinetic
+    /// energy <v, v>/2 and the strain energy <u, K u>/2, the powers <v, C v> of damping, -<1, v> a(t) of the ground and
+    /// <f, v> of the floor forces f, and the rates of these powers.
     pub(in crate::engine) fn differentiate_energy(
         &self,
         state: &State,
@@ -52,7 +53,7 @@ impl Model {
         })
     }
 
-    /// The sum of masses times both vectors.
+    /// The sum over floors of mass times both components.
     fn inner(&self, coordinates: Coordinates, x: &[f64], y: &[f64]) -> f64 {
         let products = x.iter().zip(y).map(|(x, y)| x * y);
         match coordinates {

@@ -1,7 +1,8 @@
-//! What answers at once to forces on the floors: accelerations, and the reactions between floors that are held together.
+//! Direct feedthrough: accelerations and reactions between held floors that depend on the floor forces at the same
+//! instant.
 //!
-//! At a given instant, with the motion as it is, both are linear in the forces as long as the same rigid pairs press.
-//! The ground's acceleration moves all floors alike: no absolute acceleration and no reaction answers to it.
+//! At a given instant, for a given motion, both are linear in the forces as long as the same rigid pairs press. The
+//! ground's acceleration moves all floors alike: absolute accelerations and reactions have no feedthrough from it.
 
 use crate::engine::model::Model;
 use crate::engine::output::point::Point;
@@ -10,18 +11,19 @@ use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
 use crate::structure::Side;
 
-/// The answer to some forces on the floors; everything else stays as it is.
+/// Accelerations and reactions by some forces on the floors alone, for a given motion.
 #[derive(Clone, Debug, Default)]
 pub struct Response {
-    /// N, reaction of each contact.
+    /// Reaction of each contact, N, positive in compression.
     pub reactions: Vec<f64>,
-    /// m/s2, floor by floor.
+    /// Acceleration of each floor, m/s2.
     accelerations: Vec<f64>,
+    /// Scratch vectors, kept for the next call.
     work: Option<Box<Buffers>>,
 }
 
 impl Model {
-    /// Answers to no force yet.
+    /// Begins the response to another set of forces, without any yet.
     pub fn clear_response(&self, response: &mut Response) {
         for (vector, length) in [
             (&mut response.reactions, self.system.pairs.len()),
@@ -32,14 +34,14 @@ impl Model {
         }
     }
 
-    /// Adds a force, N, on a floor by itself.
+    /// Adds the acceleration of a floor by a force on it, N, without reactions.
     pub fn push_floor(&self, side: Side, floor: usize, force: f64, response: &mut Response) {
         let floors = &self.system.structure.floors;
         let lane = floors.lane(side as usize, floor);
         response.accelerations[lane] += force * floors.inverse_mass(lane);
     }
 
-    /// Lets the rigid pairs answer that press now, as `point` shows them: their floors stay together.
+    /// Adds the reactions of the rigid pairs that press now, as `point` shows them: their floors stay together.
     pub fn settle_response(&self, state: &State, point: &Point, response: &mut Response) {
         let mut work = response.work.take().unwrap_or_else(|| Box::new(self.buffers()));
         self.list_pressing(&state.base, point, &mut work);
@@ -59,7 +61,7 @@ impl Model {
         response.work = Some(work);
     }
 
-    /// m/s2, of a floor.
+    /// Acceleration of a floor, m/s2.
     pub fn response_at(&self, response: &Response, side: Side, floor: usize) -> f64 {
         response.accelerations[self.system.structure.floors.lane(side as usize, floor)]
     }

@@ -1,4 +1,5 @@
-//! The floors of an observed solution. A floor is worked out when it is first asked for, and so are accelerations.
+//! The motion of the floors at an observed time. Displacements, velocities and accelerations are worked out when first
+//! read.
 
 use crate::engine::base::Coordinates;
 use crate::engine::model::Model;
@@ -7,28 +8,28 @@ use crate::engine::output::point::Point;
 use crate::structure::{LANES, Lane, Side};
 
 impl Point {
-    /// Rows of the modal matrix that have been summed up, since this point was made: four at a time, that of the floor that
-    /// is asked for and those that share its block, which come with it at no cost; once for an observation where a
-    /// displacement or velocity is asked for, once for accelerations. None where the solution is that of the floors.
+    /// Number of rows of the modal matrix that have been multiplied since this point was made. Rows are counted by
+    /// blocks of four, as the floors of a block are worked out together, once per observation for displacements and
+    /// velocities and once for accelerations. 0 where the motion is that of the floors.
     pub fn rows_read(&self) -> u64 {
         self.floors.rows_read.get()
     }
 }
 
 impl Model {
-    /// m, relative to the ground; floors counted from 0.
+    /// Displacement of a floor, counted from 0, relative to the ground, m.
     #[inline]
     pub fn displacement(&self, point: &Point, side: Side, floor: usize) -> f64 {
         self.floor_motion(point, side, floor, 0)
     }
 
-    /// m/s, relative to the ground.
+    /// Velocity of a floor relative to the ground, m/s.
     #[inline]
     pub fn velocity(&self, point: &Point, side: Side, floor: usize) -> f64 {
         self.floor_motion(point, side, floor, 1)
     }
 
-    /// m/s2, absolute.
+    /// Absolute acceleration of a floor, m/s2.
     #[inline]
     pub fn acceleration(&self, point: &Point, side: Side, floor: usize) -> f64 {
         let FloorMotions { acceleration, observation, .. } = &point.floors;
@@ -40,7 +41,7 @@ impl Model {
         known.numbers[0][lane % LANES].get()
     }
 
-    /// N, force of the building on the ground.
+    /// Base shear, N: the force of the building on the ground.
     #[inline(never)]
     pub fn base_shear(&self, point: &Point, side: Side) -> f64 {
         match point.coordinates {
@@ -51,7 +52,8 @@ impl Model {
         }
     }
 
-    /// Displacement or velocity; both are worked out at once: it takes one pass over the floor's row.
+    /// Displacement (`quantity` 0) or velocity (1) of a floor; both are worked out together, in one pass over the
+    /// floor's row.
     #[inline]
     fn floor_motion(&self, point: &Point, side: Side, floor: usize, quantity: usize) -> f64 {
         let FloorMotions { motion, observation, .. } = &point.floors;
@@ -63,13 +65,13 @@ impl Model {
         known.numbers[quantity][lane % LANES].get()
     }
 
-    /// Works out some motions of a block of floors, and notes them.
+    /// Works out a block of floors of some vectors of motion and stores it in `known`.
     #[inline(never)]
     fn note_floors<const N: usize>(&self, point: &Point, block: usize, motion: [&[f64]; N], known: &KnownBlock<N>) {
         known.set(point.floors.observation, &self.floor_block(point, block, motion));
     }
 
-    /// The accelerations of an observed solution.
+    /// The accelerations at the observed time.
     pub(in crate::engine) fn accelerations<'p>(&self, point: &'p Point) -> &'p Accelerations {
         let floors = &point.floors;
         floors.accelerations.get_or_init(|| {
@@ -77,7 +79,7 @@ impl Model {
             let Accelerations { absolute, resisted } = &mut accelerations;
             resisted.fill(0.0);
             self.system.resist(point.coordinates, &point.q, &point.v, 1.0, resisted);
-            // Without the ground's load these are absolute accelerations.
+            // Without the ground's inertia load these are absolute accelerations.
             absolute.copy_from_slice(resisted);
             if floors.is_loaded {
                 absolute.iter_mut().zip(&floors.load).for_each(|(absolute, load)| *absolute += load);
@@ -86,7 +88,7 @@ impl Model {
         })
     }
 
-    /// One floor of some vectors of motion at the observed time.
+    /// One floor's components of some vectors of motion at the observed time.
     pub(in crate::engine) fn at_floor<const N: usize>(
         &self,
         point: &Point,
@@ -98,7 +100,7 @@ impl Model {
         self.floor_block(point, lane / LANES, motion).map(|block| block[lane % LANES])
     }
 
-    /// A block of floors.
+    /// A block of floors of some vectors of motion.
     #[inline(always)]
     fn floor_block<const N: usize>(&self, point: &Point, block: usize, motion: [&[f64]; N]) -> [Lane; N] {
         match point.coordinates {

@@ -1,24 +1,24 @@
-//! Natural frequencies, and how they follow masses and stiffnesses.
+//! Natural frequencies, and their derivatives with respect to masses and stiffnesses.
 
 use crate::engine::model::Model;
 use crate::structure::Side;
 
 impl Model {
-    /// Hz, natural frequencies of one building alone, ascending.
+    /// Natural frequencies of one building alone, ascending, Hz.
     pub fn natural_frequencies(&self, side: Side) -> &[f64] {
         &self.frequencies[side as usize]
     }
 
-    /// Hz per kg of a floor: how the natural frequency of a mode follows a mass. Modes and floors counted from 0.
-    /// None where another mode has the same frequency to rounding, and with it the shape is not unique.
+    /// Derivative of a mode's natural frequency with respect to the mass of a floor, Hz/kg. Modes and floors count from
+    /// 0. `None` where another mode has the same frequency within rounding, as its shape is not unique then.
     pub fn frequency_by_mass(&self, side: Side, mode: usize, floor: usize) -> Option<f64> {
         let modes = self.system.structure.modes(side);
         let shape = modes.shape[(floor, mode)];
         modes.is_single(mode).then(|| -0.5 * self.frequencies[side as usize][mode] * shape * shape)
     }
 
-    /// Hz per N/m of a storey of a shear building: how the natural frequency of a mode follows a stiffness.
-    /// None as for the mass.
+    /// Derivative of a mode's natural frequency with respect to the stiffness of a storey of a shear building, Hz per
+    /// N/m. `None` as for the mass.
     pub fn frequency_by_stiffness(&self, side: Side, mode: usize, storey: usize) -> Option<f64> {
         let modes = self.system.structure.modes(side);
         let below = if storey == 0 { 0.0 } else { modes.shape[(storey - 1, mode)] };

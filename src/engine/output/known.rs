@@ -1,4 +1,4 @@
-//! What has been worked out of an observed solution: each quantity when it is first asked for.
+//! Storage of the quantities of a point that are worked out when first read.
 
 use crate::engine::base::peaks::Peaks;
 use crate::engine::peaks::room::PeakRoom;
@@ -6,47 +6,51 @@ use crate::engine::system::buffers::Buffers;
 use crate::structure::{LANES, Lane};
 use std::cell::{Cell, OnceCell, RefCell};
 
-/// Some quantities of a block of floors, and the observation that they are of.
+/// Some quantities of a block of floors, and the number of the observation to which they belong.
 #[derive(Clone, Debug)]
 pub struct KnownBlock<const N: usize> {
     pub observation: Cell<u64>,
     pub numbers: [[Cell<f64>; LANES]; N],
 }
 
-/// What is known of the floors at one time.
+/// The floors' motions at one time.
 #[derive(Clone, Debug, Default)]
 pub struct FloorMotions {
     /// Number of this observation, from 1 on.
     pub observation: u64,
-    /// Displacement, m, and velocity, m/s, relative to the ground.
+    /// Displacements, m, and velocities, m/s, relative to the ground.
     pub motion: Vec<KnownBlock<2>>,
-    /// m/s2, absolute.
+    /// Absolute accelerations, m/s2.
     pub acceleration: Vec<KnownBlock<1>>,
+    /// Number of rows of the modal matrix that have been multiplied.
     pub rows_read: Cell<u64>,
-    /// Of the floor and contact forces, per unit of mass and in the coordinates of the point; of use where `is_loaded`.
+    /// Load by floor and contact forces per unit of mass, in the coordinates of the point; meaningful where
+    /// `is_loaded`.
     pub load: Vec<f64>,
+    /// The accelerations, once they have been worked out.
     pub is_loaded: bool,
     pub accelerations: OnceCell<Accelerations>,
-    /// Memory for them.
+    /// Memory for the accelerations.
     pub room: RefCell<Accelerations>,
 }
 
 /// Accelerations in the coordinates of a point, m/s2.
 #[derive(Clone, Debug, Default)]
 pub struct Accelerations {
-    /// Relative to a ground at rest.
+    /// Absolute accelerations: without the ground's inertia load.
     pub absolute: Vec<f64>,
-    /// The part that comes from the buildings' own stiffness and damping.
+    /// The part by the buildings' own stiffness and damping.
     pub resisted: Vec<f64>,
 }
 
 impl<const N: usize> KnownBlock<N> {
-    /// Nothing is known of so many lanes.
+    /// Blocks for that many lanes, of which nothing is known.
     fn unknown(lanes: usize) -> Vec<KnownBlock<N>> {
         let numbers = || std::array::from_fn(|_| std::array::from_fn(|_| Cell::new(0.0)));
         (0..lanes / LANES).map(|_| KnownBlock { observation: Cell::new(0), numbers: numbers() }).collect()
     }
 
+    /// Stores the quantities of a block for an observation.
     #[inline]
     pub fn set(&self, observation: u64, blocks: &[Lane; N]) {
         self.observation.set(observation);
@@ -59,7 +63,7 @@ impl<const N: usize> KnownBlock<N> {
 }
 
 impl FloorMotions {
-    /// Makes room for vectors of all floors of that length.
+    /// Allocates for vectors of all floors of that length.
     pub fn make_room(&mut self, lanes: usize) {
         self.motion = KnownBlock::unknown(lanes);
         self.acceleration = KnownBlock::unknown(lanes);
@@ -68,7 +72,7 @@ impl FloorMotions {
         *self.room.get_mut() = Accelerations { absolute: vec![0.0; lanes], resisted: vec![0.0; lanes] };
     }
 
-    /// Nothing is known of any floor.
+    /// Begins a new observation, of which nothing is known.
     pub fn forget(&mut self) {
         self.observation += 1;
         self.is_loaded = false;
@@ -77,7 +81,7 @@ impl FloorMotions {
         }
     }
 
-    /// The load to add forces to.
+    /// The load, to which forces are to be added.
     pub fn start_load(&mut self) -> &mut [f64] {
         self.is_loaded = true;
         self.load.fill(0.0);
@@ -85,7 +89,7 @@ impl FloorMotions {
     }
 }
 
-/// The peaks at an observed time, worked out when one is first asked for.
+/// The peaks at an observed time, worked out when one is first read.
 #[derive(Clone, Debug, Default)]
 pub struct PointPeaks {
     pub observation: u64,
@@ -93,5 +97,5 @@ pub struct PointPeaks {
     pub work: Option<Box<(Buffers, PeakRoom)>>,
 }
 
-/// For [`Point`], which is read through a shared reference.
+/// Shared mutable, since a [`Point`] is read through a shared reference.
 pub type PeakCell = RefCell<PointPeaks>;

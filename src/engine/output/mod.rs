@@ -1,4 +1,4 @@
-//! Reading the solution at the communication time, out of the dense solution of the step under way.
+//! Reading the solution at the communication time from the dense solution of the planned step.
 
 pub mod energy;
 pub mod energy_rates;
@@ -22,9 +22,9 @@ use crate::numerics::powers::Powers;
 use std::cell::Cell;
 
 impl Model {
-    /// Reads the state at its present time; the buffers of `point` are reused.
+    /// Evaluates the state at its present time; the memory of `point` is reused.
     ///
-    /// Floors, accelerations and contacts apart are not computed here but when one is asked for.
+    /// Floors, accelerations and open contacts are worked out only when one is read.
     pub fn observe(&self, state: &State, point: &mut Point) {
         if point.q.len() != self.system.structure.lanes || point.contacts.len() != self.system.pairs.len() {
             self.make_room(point);
@@ -62,7 +62,7 @@ impl Model {
         point.work = None;
     }
 
-    /// What the pairs that are in contact show.
+    /// Works out the closed contacts.
     #[inline(never)]
     fn note_contacts(&self, state: &State, elapsed: f64, work: &mut Buffers, point: &Point) {
         let State { base, step, inputs, .. } = state;
@@ -71,7 +71,7 @@ impl Model {
             point.note_contact(p, self.show(&now, now.penetration));
         }
         if step.kind == StepKind::NotPlanned && base.contacts.iter().any(Contact::is_held) {
-            // An input that has just been set changes reactions at once.
+            // An input that has just been set changes the reactions at the same instant.
             self.system.solve_reactions(base, inputs, work);
             for (&k, &force) in work.rigid.pairs.iter().zip(&work.rigid.found) {
                 let p = self.system.rigid.pairs[k];
@@ -80,7 +80,7 @@ impl Model {
         }
     }
 
-    /// The floor and contact forces as accelerations answer to them; contacts apart have none.
+    /// Works out the load by the floor and contact forces, on which accelerations depend; open contacts have no force.
     fn read_load(&self, state: &State, point: &mut Point) {
         let Point { floors, contacts, coordinates, .. } = point;
         let forces = || {
@@ -94,13 +94,13 @@ impl Model {
         }
     }
 
-    /// A contact at the observed time, counted from 0; `state` is what `point` has been observed in.
+    /// A contact, counted from 0, at the observed time; `state` has to be the one that `point` was observed from.
     #[inline]
     pub fn contact(&self, state: &State, point: &Point, p: usize) -> ContactPoint {
         self.contact_in(&state.base, point, p)
     }
 
-    /// The same from the state's base.
+    /// A contact at the observed time, with the base of the state.
     #[inline]
     pub(in crate::engine) fn contact_in(&self, base: &Base, point: &Point, p: usize) -> ContactPoint {
         let Known { observation, shown } = point.contacts[p].get();
@@ -127,13 +127,13 @@ impl Model {
             approach_velocity: contact.episode.approach_velocity.max(0.0), // a touch may have none but its rounding
         };
         if !self.system.pairs[contact.episode.contact].law.kind.info().pulls {
-            // All but 0 where a contact begins or ends, rounding decides on the sign.
+            // These are 0 where a contact begins or ends, except by rounding, which must not make them negative.
             (shown.force, shown.impulse) = (shown.force.max(0.0), shown.impulse.max(0.0));
         }
         shown
     }
 
-    /// The episode that a contact is in at the communication time, if it is in one.
+    /// The open episode of a contact at the communication time; `None` while it is apart.
     pub fn open_episode(&self, state: &State, contact: usize) -> Option<Episode> {
         let elapsed = state.since_base();
         let mut powers = Powers::default();

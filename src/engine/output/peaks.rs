@@ -1,4 +1,4 @@
-//! The peaks at the communication time: those of the base, and what the step under way adds.
+//! The peaks at the communication time: those of the base, raised over the planned step up to that time.
 
 use crate::engine::base::contact::Contact;
 use crate::engine::model::Model;
@@ -11,8 +11,8 @@ use crate::engine::step::StepKind;
 use crate::engine::watched::rows::PeakOf;
 
 impl Model {
-    /// The largest magnitude so far of what `of` names, 0 where the scene has no peaks; `point` is what has been
-    /// observed in `state`.
+    /// The largest magnitude so far of the quantity `of`; 0 where the scene keeps no peaks. `state` has to be the one
+    /// that `point` was observed from.
     pub fn peak(&self, state: &State, point: &Point, of: PeakOf) -> f64 {
         if self.peak_rows.are_none() {
             return 0.0;
@@ -26,7 +26,7 @@ impl Model {
         known.peaks.values[place]
     }
 
-    /// The peaks of the base and of what the step under way adds until the observed time.
+    /// Works out the peaks at the observed time.
     #[inline(never)]
     fn read_peaks(&self, state: &State, point: &Point, known: &mut PointPeaks) {
         let State { base, step, inputs, .. } = state;
@@ -58,7 +58,7 @@ impl Model {
         known.work = Some(room);
     }
 
-    /// The end of the flight under way, as planned; returns how long it lasts, s.
+    /// Works out the end of the planned flight; returns its length, s.
     fn end_of_flight(&self, state: &State, work: &mut PeakWork, (q, v): (&mut [f64], &mut [f64])) -> f64 {
         let State { base, step, inputs, .. } = state;
         if step.kind == StepKind::Flight {

@@ -1,42 +1,44 @@
-//! How fast everything at one time changes.
+//! The rates of all outputs at one time.
 
 use crate::contact::Force;
 use crate::engine::system::buffers::Buffers;
 
-/// What a quantity may be below its peak so far by rounding, relative to it.
+/// Difference of a quantity from its peak, relative to it, up to which it counts as the peak: rounding.
 pub const PEAK_ROUNDING: f64 = 1e-12;
 
 /// First and second derivative with respect to time.
 pub type Rates = [f64; 2];
 
-/// The derivatives at one time, as floors and contacts show them.
+/// The derivatives of all outputs at one time.
 #[derive(Clone, Debug, Default)]
 pub struct PointRates {
-    /// m/s3 and m/s4.
+    /// Of the ground acceleration: m/s3 and m/s4.
     pub ground_acceleration: Rates,
-    /// One per contact.
+    /// One entry per contact.
     pub contacts: Vec<ContactRates>,
-    /// Of the energy account, where there is one.
+    /// Of the energy account; `None` where there is none.
     pub energy: Option<EnergyRates>,
-    /// Second to fourth derivative of the motion relative to the ground, in the coordinates of the point.
+    /// Second derivative of the motion relative to the ground, in the coordinates of the point.
     pub(in crate::engine) acceleration: Vec<f64>,
+    /// Its third derivative.
     pub(in crate::engine) jerk: Vec<f64>,
+    /// Its fourth derivative.
     pub(in crate::engine) snap: Vec<f64>,
-    /// What stiffness and damping of the buildings add to the third and to the fourth.
+    /// The parts of the third and of the fourth derivative by stiffness and damping of the buildings.
     pub(in crate::engine) resisted: [Vec<f64>; 2],
-    /// A contact begins at this very instant.
+    /// Whether a contact begins at this very instant.
     pub(in crate::engine) is_beginning: bool,
-    /// The force of each contact and its penetration, m; none for rigid ones.
+    /// The force law of each contact and its penetration, m; [`Force::None`] for rigid ones.
     pub(in crate::engine) forces: Vec<(Force, f64)>,
     pub(in crate::engine) work: Option<Box<Buffers>>,
 }
 
-/// The derivatives of one contact. Names as in [`super::ContactPoint`].
+/// The derivatives of one contact's outputs. Names as in [`super::ContactPoint`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactRates {
     /// N/s and N/s2.
     pub force: Rates,
-    /// N/s and N/s2: those of the force while it is the largest so far and grows.
+    /// N/s and N/s2: the rates of the force while it is at its peak and grows, else 0.
     pub peak_force: Rates,
     /// m/s and m/s2.
     pub penetration: Rates,
@@ -46,19 +48,20 @@ pub struct ContactRates {
     pub dissipated_energy: Rates,
 }
 
-/// First and second derivatives of the energy account, W and W/s. Names as in [`crate::engine::EnergyPoint`], whose residual stays.
+/// First and second derivatives of the energy account, W and W/s. Names as in [`crate::engine::EnergyPoint`]; the residual has
+/// none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyRates {
-    /// Of the inertia forces of the ground motion.
+    /// Of the work of the ground motion.
     pub input: Rates,
     /// Of the kinetic energy.
     pub kinetic: Rates,
     /// Of the strain energy of the storeys.
     pub strain: Rates,
-    /// Of structural damping.
+    /// Of the energy dissipated by structural damping.
     pub viscous: Rates,
-    /// Of the contact forces.
+    /// Of the work on the contacts.
     pub impact: Rates,
-    /// Of the external floor forces.
+    /// Of the work of the external floor forces.
     pub external: Rates,
 }

@@ -1,8 +1,8 @@
-//! How fast everything changes at the communication time: first and second derivatives with respect to time, from the
-//! equations of motion and from the forces' own derivatives, not from differences.
+//! First and second derivatives of all outputs with respect to time at the communication time, from the equations of
+//! motion and from the derivatives of the force laws, not by differences.
 //!
-//! They are those of the solution that goes on from here under the inputs as they have been set so far, right-hand ones:
-//! after an event, after a corner of the ground motion.
+//! They are right-hand derivatives, after an event or a corner of the ground motion: those of the solution from here
+//! on, under the inputs as set so far.
 
 use crate::engine::base::contact::Phase;
 use crate::engine::base::{Base, Coordinates};
@@ -15,11 +15,11 @@ use crate::engine::system::buffers::Buffers;
 use crate::structure::Side;
 
 impl Model {
-    /// Differentiates the solution at the present time of the state, which `point` shows; the buffers of `rates` are
-    /// reused.
+    /// Works out the derivatives at the present time of the state, from which `point` was observed; the memory of
+    /// `rates` is reused.
     ///
-    /// Where a contact begins at this very instant its force has no derivatives yet: they and what follows from them
-    /// read 0.
+    /// Where a contact begins at this very instant, its force has no derivatives yet: they, and all that depend on
+    /// them, are 0.
     pub fn differentiate(&self, state: &State, point: &Point, rates: &mut PointRates) {
         let mut work = rates.work.take().unwrap_or_else(|| Box::new(self.buffers()));
         rates.clear(self.system.structure.lanes);
@@ -51,7 +51,8 @@ impl Model {
         rates.work = Some(work);
     }
 
-    /// Rates of the penetrations, and the forces that act; whether any contact is just beginning.
+    /// Works out the rates of the penetrations and lists the present force laws; returns whether any contact is just
+    /// beginning.
     fn differentiate_penetrations(
         &self,
         state: &State,
@@ -89,8 +90,9 @@ impl Model {
         work.rigid.close_all(&self.system.rigid.matrix);
     }
 
-    /// The equations of motion differentiated once (`order` 0) and twice (1): third and fourth derivative of the motion,
-    /// first and second of the contact forces. Where a contact is beginning only what stiffness and damping add.
+    /// Differentiates the equations of motion once (`order` 0) and twice (1): for the third and fourth derivative of
+    /// the motion and the first and second of the contact forces. Where a contact is just beginning, only for the parts
+    /// by stiffness and damping.
     fn differentiate_again(
         &self,
         order: usize,
@@ -131,23 +133,23 @@ impl Model {
         }
     }
 
-    /// m/s and m/s2, of a displacement relative to the ground.
+    /// Rates of a floor's displacement relative to the ground, m/s and m/s2.
     pub fn displacement_rates(&self, point: &Point, rates: &PointRates, side: Side, floor: usize) -> Rates {
         self.at_floor(point, side, floor, [&point.v, &rates.acceleration])
     }
 
-    /// m/s2 and m/s3, of a velocity relative to the ground.
+    /// Rates of a floor's velocity relative to the ground, m/s2 and m/s3.
     pub fn velocity_rates(&self, point: &Point, rates: &PointRates, side: Side, floor: usize) -> Rates {
         self.at_floor(point, side, floor, [&rates.acceleration, &rates.jerk])
     }
 
-    /// m/s3 and m/s4, of an absolute acceleration.
+    /// Rates of a floor's absolute acceleration, m/s3 and m/s4.
     pub fn acceleration_rates(&self, point: &Point, rates: &PointRates, side: Side, floor: usize) -> Rates {
         let [jerk, snap] = self.at_floor(point, side, floor, [&rates.jerk, &rates.snap]);
         [jerk + rates.ground_acceleration[0], snap]
     }
 
-    /// N/s and N/s2, of the force of a building on the ground.
+    /// Rates of a base shear, the force of the building on the ground, N/s and N/s2.
     pub fn base_shear_rates(&self, point: &Point, rates: &PointRates, side: Side) -> Rates {
         let PointRates { acceleration, jerk, resisted, .. } = rates;
         let [first, second] = match point.coordinates {
@@ -162,7 +164,7 @@ impl Model {
 }
 
 impl PointRates {
-    /// Second derivative of the motion relative to the ground, and the third if it has one.
+    /// Second derivative of the motion relative to the ground, and the third; `None` where a contact is just beginning.
     pub(in crate::engine) fn motion(&self) -> (&[f64], Option<&[f64]>) {
         (&self.acceleration, (!self.is_beginning).then_some(&self.jerk[..]))
     }

@@ -1,4 +1,5 @@
-//! How contact forces and the motion meet: on floors, or on modes.
+//! The contact Jacobian J: relative motions J q of the pairs from the motion of the floors or modes, and the loads -J'
+//! F of contact forces F on them, per unit of mass.
 
 use crate::contact::taylor::{Each, PAIRS};
 use crate::engine::pairs::packing::PackedPairs;
@@ -6,20 +7,20 @@ use crate::engine::pairs::pair::{Pair, apart};
 use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane, difference};
 
-/// How contact forces and the motion meet in its coordinates. `count` lanes of the members hold pairs.
+/// The contact Jacobian for a packed block of pairs, of which the first `count` lanes may hold pairs.
 pub trait ContactJacobian {
-    /// Relative motions of the pairs.
+    /// Relative motion of each pair: that of its left floor less that of its right floor.
     fn relative(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each;
-    /// The same, 0 where the floors move alike but for rounding.
+    /// Relative motion of each pair, set to 0 where the two floors' motions agree within rounding.
     fn difference(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each;
-    /// Adds what the forces do.
+    /// Adds to the accelerations in `term` those by the pairs' forces, N, positive in compression.
     fn apply(&self, members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]);
-    /// The relative motions of many terms, each with where they are entered.
+    /// Writes for each of many terms of a series the relative motions of the pairs to the array beside it.
     #[inline(always)]
     fn relate<'a>(&self, members: &PackedPairs, count: usize, terms: impl Iterator<Item = (&'a [Lane], &'a mut Each)>) {
         terms.for_each(|(term, out)| *out = self.relative(members, count, term));
     }
-    /// Adds what the forces do; returns the relative motions without that.
+    /// Adds to the accelerations in `term` those by the forces; returns the relative motions from before.
     #[inline(always)]
     fn relative_and_apply(&self, members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]) -> Each {
         let relative = self.relative(members, count, term);
@@ -28,7 +29,7 @@ pub trait ContactJacobian {
     }
 }
 
-/// The motion is that of the floors.
+/// The Jacobian where the motion is that of the floors: each row has only a 1 and a -1.
 pub struct FloorJacobian;
 
 impl ContactJacobian for FloorJacobian {
@@ -45,7 +46,7 @@ impl ContactJacobian for FloorJacobian {
     #[inline(always)]
     fn relate<'a>(&self, members: &PackedPairs, count: usize, terms: impl Iterator<Item = (&'a [Lane], &'a mut Each)>) {
         match members.between {
-            // Told once for all terms.
+            // The test for adjacent blocks once for all terms.
             Some([left, right]) => {
                 terms.for_each(|(term, out)| *out = each(|lane| term[left][lane] - term[right][lane]));
             }
@@ -93,13 +94,13 @@ impl FloorJacobian {
     }
 }
 
-/// The motion is that of modes that are few enough for the members to know all of them.
+/// The Jacobian on modes where these are few enough for its rows to be stored in the packed pairs.
 pub struct PackedModalJacobian;
 
 impl ContactJacobian for PackedModalJacobian {
     #[inline(always)]
     fn relative(&self, members: &PackedPairs, _: usize, term: &[Lane]) -> Each {
-        // All pairs together, which needs no sum across lanes.
+        // All pairs side by side, which needs no sum across lanes.
         let mut sums = [[0.0; PAIRS]; 2];
         let (modes, _) = members.by_mode.as_chunks::<LANES>();
         for (pairs, term) in modes.iter().zip(term) {
@@ -122,7 +123,7 @@ impl ContactJacobian for PackedModalJacobian {
     }
 }
 
-/// The motion is that of the modes.
+/// The Jacobian on modes, by the rows of all pairs.
 pub struct ModalJacobian<'a>(pub &'a [Pair]);
 
 impl ModalJacobian<'_> {
@@ -150,7 +151,7 @@ impl ContactJacobian for ModalJacobian<'_> {
     }
 }
 
-/// A number for each lane that holds a pair, 0 for others.
+/// The number `of` each lane that may hold a pair, 0 for the others.
 #[inline(always)]
 fn lane_by_lane(count: usize, of: impl Fn(usize) -> f64) -> Each {
     let mut all = [0.0; PAIRS];
@@ -160,7 +161,7 @@ fn lane_by_lane(count: usize, of: impl Fn(usize) -> f64) -> Each {
     all
 }
 
-/// Sum of products of a row and a term.
+/// Product of a row with a term: four partial sums, added as (0+2)+(1+3).
 #[inline(always)]
 pub fn dot_blocks(row: &[Lane], term: &[Lane]) -> f64 {
     let mut sum = [0.0; LANES];
@@ -172,7 +173,7 @@ pub fn dot_blocks(row: &[Lane], term: &[Lane]) -> f64 {
     (sum[0] + sum[2]) + (sum[1] + sum[3])
 }
 
-/// Subtracts what a force does to the modes.
+/// Subtracts row times force from the modal accelerations in `term`.
 #[inline(always)]
 fn push_blocks(row: &[Lane], force: f64, term: &mut [Lane]) {
     for (term, row) in term.iter_mut().zip(row) {

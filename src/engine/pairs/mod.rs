@@ -1,4 +1,4 @@
-//! Which floors face each other, and how their forces and the motion meet.
+//! Pairs of facing floors: gap and law, the contact Jacobian, and the blocks of four in which pairs are worked on.
 
 pub mod jacobian;
 pub mod packing;

@@ -1,18 +1,18 @@
-//! Which pairs stand together in a block, and in which lane.
+//! Packing of pairs into blocks of [`LANES`], which are worked on side by side.
 
 use crate::contact::taylor::{Each, PAIRS};
 use crate::engine::base::Coordinates;
 use crate::engine::pairs::pair::Pair;
 use crate::structure::{FEW_BLOCKS, LANES, Lane};
 
-/// Which block of a kind a pair belongs to.
+/// The block, among those of pairs with the same kind of force, to which a pair may belong.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LanePlace {
-    /// Any that has a free lane.
+    /// Any block with a free lane.
     #[default]
     Any,
-    /// That of the pairs between two blocks of floors, in the lane of its floors: what happens to a block of pairs is then
-    /// the same for whole blocks of floors.
+    /// The block of the pairs between two given blocks of floors, in the lane of the pair's floors, so that whole
+    /// blocks of floors are subtracted from each other.
     Between {
         /// The blocks of the left and of the right floors.
         blocks: [usize; 2],
@@ -21,7 +21,7 @@ pub enum LanePlace {
 }
 
 impl LanePlace {
-    /// Of a pair.
+    /// The place of a pair whose motion has these coordinates.
     pub fn of(pair: &Pair, coordinates: Coordinates) -> LanePlace {
         let [left, right] = pair.lanes;
         match coordinates {
@@ -33,31 +33,32 @@ impl LanePlace {
     }
 }
 
-/// The pairs of a block, lane by lane; lanes without a pair hold what was there before.
+/// Data of the pairs of a block, lane by lane; lanes without a pair hold what an earlier pair has left there.
 #[derive(Clone, Debug, Default)]
 pub struct PackedPairs {
-    /// Their numbers.
+    /// Numbers of the pairs.
     pub pairs: [usize; PAIRS],
-    /// Which lanes hold a pair.
+    /// Whether each lane holds a pair.
     taken: [bool; PAIRS],
-    /// The blocks of floors between which they are, where each pair stands in the lane of its floors.
+    /// The left and the right block of floors, where each pair stands in the lane of its floors.
     pub between: Option<[usize; 2]>,
-    /// Lanes of the two floors.
+    /// Lanes of the left and the right floor of each pair in a vector of all floors.
     pub floors: [[usize; 2]; PAIRS],
-    /// What a force does to each floor, 1/kg: minus and plus its inverse mass.
+    /// Accelerations of the left and the right floor per unit of contact force, 1/kg: minus and plus the inverse
+    /// masses.
     pub inverse_masses: [Each; 2],
-    /// m.
+    /// Gaps, m.
     pub gap: Each,
-    /// 1/kg, relative acceleration of the pair by its own force.
+    /// Minus the relative acceleration of each pair per unit of its own force, 1/kg.
     pub softness: Each,
-    /// What the pair is to the first modes.
+    /// Rows of the modal Jacobian for each pair, where modes are few.
     pub rows: [[Lane; FEW_BLOCKS]; PAIRS],
-    /// The same mode by mode, for all pairs side by side.
+    /// The same rows transposed: mode by mode, for all pairs side by side.
     pub by_mode: [Each; FEW_BLOCKS * LANES],
 }
 
 impl PackedPairs {
-    /// Starts without a pair; returns the lane of the first, which belongs to a place.
+    /// Begins a block without pairs; returns the lane of its first pair, whose place is given.
     pub fn start(&mut self, place: LanePlace) -> usize {
         self.taken = [false; PAIRS];
         let (between, lane) = match place {
@@ -68,7 +69,7 @@ impl PackedPairs {
         lane
     }
 
-    /// The lane for another pair, if there is room.
+    /// The lane for another pair, if there is one free at its place.
     pub fn free_lane(&self, place: LanePlace) -> Option<usize> {
         match place {
             LanePlace::Any if self.between.is_none() => self.taken.iter().position(|taken| !taken),
@@ -77,7 +78,7 @@ impl PackedPairs {
         }
     }
 
-    /// Enters a pair by its number.
+    /// Enters a pair, by its number and data, into a lane.
     pub fn set(&mut self, lane: usize, pair: usize, data: &Pair, coordinates: Coordinates) {
         self.pairs[lane] = pair;
         self.taken[lane] = true;
@@ -93,19 +94,19 @@ impl PackedPairs {
         }
     }
 
-    /// Lanes up to the last one that holds a pair.
+    /// Number of lanes up to the last one that holds a pair.
     pub fn count(&self) -> usize {
         self.taken.iter().rposition(|taken| *taken).map_or(0, |lane| lane + 1)
     }
 
-    /// The lanes that hold a pair, with its number.
+    /// (lane, number of the pair) of each lane that holds a pair.
     pub fn lanes(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.pairs.iter().copied().enumerate().zip(&self.taken).filter(|(_, taken)| **taken).map(|(pair, _)| pair)
     }
 }
 
-/// Most blocks that so many pairs of some kinds fill.
+/// Upper bound on the number of blocks that `pairs` pairs of `kinds` kinds of force fill.
 pub fn most_blocks(pairs: usize, kinds: usize, on_floors: bool) -> usize {
-    // Every block has at least one pair; on floors their places may keep them apart.
+    // Every block has at least one pair; on floors, pairs at different places cannot share a block.
     if on_floors || pairs == 0 { pairs } else { pairs.min(pairs.div_ceil(PAIRS) + kinds - 1) }
 }

@@ -1,4 +1,4 @@
-//! Two facing floors.
+//! One pair of facing floors and its penetration.
 
 use crate::contact::{EpisodeForce, Force, ImpactLaw};
 use crate::engine::base::Coordinates;
@@ -6,29 +6,31 @@ use crate::engine::base::contact::{Contact, Episode, Phase};
 use crate::scene::Scene;
 use crate::structure::{FEW_BLOCKS, LANES, Lane, Side, Structure};
 
-/// Two facing floors.
+/// One pair of facing floors, left and right.
 #[derive(Clone, Debug)]
 pub struct Pair {
-    /// Penetration = row . q - gap; the force F loads the modes with -row F.
+    /// Row of the modal Jacobian, kg^-1/2: penetration = row . q - gap, and a contact force F loads the modes with -row
+    /// F.
     pub row: Vec<f64>,
-    /// m.
+    /// Gap at rest, m.
     pub gap: f64,
     pub law: ImpactLaw,
-    /// kg, reduced mass of the two floors.
+    /// Reduced mass of the two floors, kg.
     pub mass: f64,
-    /// Left and right floor, counted from 0.
+    /// Numbers of the left and the right floor, from 0.
     pub floors: [usize; 2],
-    /// kg, of these floors.
+    /// Masses of these floors, kg.
     pub masses: [f64; 2],
-    /// 1/kg.
+    /// Their inverses, 1/kg.
     pub inverse_masses: [f64; 2],
-    /// Their lanes in a vector of all floors.
+    /// Indices of the two floors in a vector of all floors.
     pub lanes: [usize; 2],
-    /// `row` as far as it goes, where modes are few.
+    /// The first blocks of `row`: all of it where modes are few.
     pub first_blocks: [Lane; FEW_BLOCKS],
 }
 
 impl Pair {
+    /// A contact of the scene, with its masses and its row of the modal Jacobian.
     pub fn new(pair: &crate::scene::ContactPair, scene: &Scene, structure: &Structure) -> Pair {
         let (left, right) = (pair.left_floor - 1, pair.right_floor - 1);
         let mut row = vec![0.0; structure.lanes];
@@ -53,23 +55,25 @@ impl Pair {
         }
     }
 
-    /// Whether its force goes as a power of the penetration, but for 1 and whole laws that do not.
+    /// Whether its force is a power of the penetration with a fractional exponent.
     pub fn has_power_law(&self) -> bool {
         matches!(EpisodeForce::new(&self.law, self.mass, None).engaged, Force::Power { .. } | Force::Root { .. })
     }
 
-    /// m and m/s.
+    /// Penetration, m, and its rate, m/s, for a modal motion.
     pub fn penetration(&self, q: &[f64], v: &[f64]) -> (f64, f64) {
         use crate::structure::dot;
         (dot(&self.row, q) - self.gap, dot(&self.row, v))
     }
 
-    /// m, rounding error of a penetration that was added up from numbers of that size: a touch below it is none.
+    /// Rounding error, m, of a penetration that is a sum of terms of that total `size`, m: a smaller excess is no
+    /// contact.
     pub fn noise(&self, size: f64) -> f64 {
         2.0 * f64::EPSILON * (size + self.gap.abs())
     }
 
-    /// A pair that overlaps at the start is an episode without approach velocity.
+    /// The contact at the start of a run, for a modal motion. A pair that overlaps there begins an episode without
+    /// approach velocity.
     pub fn at_start(&self, index: usize, time: f64, q: &[f64], v: &[f64]) -> Contact {
         let (penetration, rate) = self.penetration(q, v);
         let force = EpisodeForce::new(&self.law, self.mass, None);
@@ -94,7 +98,7 @@ impl Pair {
         };
         let noise = self.noise(crate::structure::difference(&self.row, q).1);
         if self.law.is_rigid() {
-            // Overlaps by rounding at most: the scene is refused otherwise.
+            // Overlaps by rounding at most: otherwise the scene is refused.
             contact.at_surface = penetration >= -noise;
             contact.penetration = penetration.min(0.0);
         } else if penetration > noise {
@@ -105,7 +109,7 @@ impl Pair {
         contact
     }
 
-    /// The rate or other motion of the pair: that of its left floor less that of its right floor.
+    /// Motion (displacement, velocity, ...) of the left floor less that of the right floor.
     #[inline(always)]
     pub fn relative(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
         let Pair { row, lanes: [left, right], .. } = self;
@@ -115,7 +119,8 @@ impl Pair {
         }
     }
 
-    /// The same, 0 where the floors move alike but for rounding, and the size of what it is the difference of.
+    /// (left minus right, size): the relative motion, set to 0 where the floors' motions agree within rounding, and the
+    /// size of the numbers that were subtracted.
     pub fn difference(&self, coordinates: Coordinates, motion: &[f64]) -> (f64, f64) {
         let Pair { row, lanes: [left, right], .. } = self;
         match coordinates {
@@ -128,7 +133,7 @@ impl Pair {
     }
 }
 
-/// The difference of two floors' motion, 0 where they move alike but for rounding.
+/// Difference of the motions of two floors, set to 0 where they agree within rounding.
 pub fn apart(left: f64, right: f64) -> f64 {
     let difference = left - right;
     if difference.abs() <= 4.0 * f64::EPSILON * (left.abs() + right.abs()) { 0.0 } else { difference }

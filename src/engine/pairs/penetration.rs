@@ -1,4 +1,4 @@
-//! The power series of one penetration, and how far it is off by rounding.
+//! The power series of one pair's penetration, and its rounding error.
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::contact::Contact;
@@ -6,8 +6,8 @@ use crate::engine::pairs::pair::Pair;
 use crate::structure::MotionSeries;
 
 impl Pair {
-    /// The scalar series in time of a pair's relative motion, written to `out[n]`. Returns the sum of the sizes of all that
-    /// is added up, each term times its `factor`.
+    /// Writes the terms of a pair's relative motion to `out[n]`, as a series in time. Returns the sum of the magnitudes
+    /// of all that was added up, each term times its `factor`, m.
     pub fn project(&self, coordinates: Coordinates, series: &MotionSeries, factors: &[f64], out: &mut [f64]) -> f64 {
         if coordinates == Coordinates::Modes {
             return series.project(&self.row, factors, out);
@@ -23,8 +23,8 @@ impl Pair {
 }
 
 impl Contact {
-    /// Makes the first terms of the penetration's series, for a pair that is apart, those that are known best; returns
-    /// the rounding error that is left.
+    /// Replaces the first terms of an open pair's penetration by the contact's own numbers, which are more accurate;
+    /// returns the rounding error that remains, m.
     pub fn begin_flight(&self, terms: &mut [f64], scale: f64, noise: f64) -> f64 {
         terms[0] = self.flight_start();
         if !self.tracked {
@@ -34,9 +34,10 @@ impl Contact {
         if self.let_go {
             terms[2] = terms[2].min(0.0);
         }
-        // A pair that rests at the surface is pressed or not by its acceleration, which is 0 where it is rounding: what
-        // presses it brings it together at once. Had it first to pass the rounding of its gap, it would meet with a
-        // speed that it cannot have, and pairs of the same floor would keep each other bouncing.
+        // A pair at rest at the surface is pressed together or not according to its acceleration, which is 0 if it is
+        // rounding; if pressed, it meets at once. If its penetration had first to exceed the rounding error of the gap,
+        // the pair would meet with a velocity that it cannot have, and pairs on the same floor would keep each other
+        // bouncing.
         let is_pressed = terms[2] > 0.0;
         if terms[0] == 0.0 && self.rate == 0.0 && !is_pressed { noise } else { 0.0 }
     }

@@ -3,16 +3,18 @@
 use crate::engine::pairs::pair::Pair;
 use nalgebra::DMatrix;
 
-/// Which pairs are rigid, and how they act on each other.
+/// The rigid pairs and their coupling by common floors.
 #[derive(Debug)]
 pub struct RigidPairs {
-    /// Their numbers among all pairs.
+    /// Numbers of the rigid pairs among all pairs.
     pub pairs: Vec<usize>,
-    /// 1/kg: what an impulse between one pair does to the rate of another. Only pairs that share a floor do.
+    /// J M^-1 J', 1/kg: minus the change of one pair's rate per unit impulse of another. Only pairs with a common floor
+    /// are coupled.
     pub matrix: DMatrix<f64>,
 }
 
 impl RigidPairs {
+    /// The rigid pairs among all.
     pub fn of(all: &[Pair]) -> RigidPairs {
         let pairs: Vec<usize> = (0..all.len()).filter(|&p| all[p].law.is_rigid()).collect();
         let shared = |a: &Pair, b: &Pair, side: usize| {

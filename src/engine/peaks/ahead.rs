@@ -1,8 +1,8 @@
-//! For how many segments of the record nothing can exceed its peak.
+//! Looking ahead: for each block of watched quantities, the number of segments in which none can exceed its peak.
 //!
-//! With the amplitude e = sqrt(q'^2 + w^2 q^2) of each mode, which grows by no more than |participation| S over a
-//! cumulative absolute velocity S = integral of |ground acceleration| (see `flight/broad_phase.rs`), a quantity y = A q
-//! + B q' is bounded by sums over modes:
+//! The amplitude e = sqrt(q'^2 + w^2 q^2) of each mode grows at most by |participation| S over a cumulative absolute
+//! velocity S = integral of |ground acceleration| (see `flight/broad_phase.rs`). So a quantity y = A q + B q' is
+//! bounded by sums over modes:
 //!
 //! ```text
 //! |y|   <= sum of (|A| / w + |B|) e
@@ -11,10 +11,10 @@
 //!          + |B participation| |slope of the ground acceleration|
 //! ```
 //!
-//! The first is enough once the strongest shaking is over. The second tells for how many segments a quantity cannot get
-//! from where it is to its peak. By the third, one that is below its peak at both ends of a segment by h^2/8 |y''| is
-//! so all along. These bounds are worked out every few segments, values where they are due. They change no result, so
-//! no saved state holds them.
+//! The first bound suffices once the strongest ground motion is over. The second gives the number of segments in which
+//! a quantity cannot get from its value to its peak. By the third, a quantity that is below its peak by h^2/8 |y''| at
+//! both ends of a segment is below it throughout. The bounds are worked out every few segments, values where they are
+//! needed. They change no result, so no saved state holds them.
 
 use crate::engine::base::Base;
 use crate::engine::excitation::record::GroundMotion;
@@ -24,36 +24,42 @@ use crate::engine::watched::rows::{Block, BuildingRows};
 use crate::numerics::polynomial::{each, larger};
 use crate::structure::{LANES, Lane};
 
-/// Segments for which bounds are worked out, where nothing swings up to its peak and otherwise.
+/// Numbers of segments for which bounds are worked out: if all quantities stay below their peaks that long, and
+/// otherwise.
 const LONG: u64 = 128;
 const SHORT: u64 = 16;
 
 /// Margin for rounding, relative to bounds.
 const MARGIN: f64 = 1e-10;
 
-/// What a building's modes have at the base.
+/// The modal amplitudes of a building at the base.
 struct Amplitudes<'a> {
-    /// e, e / w, (w + c) e, w^2 e.
+    /// e of each mode.
     own: &'a [f64],
+    /// e / w of each mode.
     over_w: &'a [f64],
+    /// (w + c) e of each mode.
     quick: &'a [f64],
+    /// w^2 e of each mode.
     bent: &'a [f64],
-    /// c, 1/s.
+    /// Damping c of each mode, 1/s.
     damping: &'a [f64],
 }
 
-/// The bounds on |y|, |y'| and |y''| while the ground does not accelerate.
+/// The bounds on |y|, |y'| and |y''| without ground acceleration.
 #[derive(Default)]
 struct Reach {
+    /// On |y|.
     swing: Lane,
+    /// On |y'|.
     rate: Lane,
+    /// On |y''|.
     bend: Lane,
 }
 
 impl Model {
-    /// Looks ahead from the base, which is at the start of the segment of that number or within it, for the blocks that may
-    /// exceed a peak in it; returns the first segment in which any may. The motion is that of modes which damping does not
-    /// couple.
+    /// Looks ahead from the base, which is in the segment with that number, for the blocks that may exceed a peak;
+    /// returns the number of the first segment in which any may. For modal motion without coupling by damping.
     pub(in crate::engine) fn watch_peaks(
         &self,
         ground: &GroundMotion,
@@ -83,7 +89,7 @@ impl Model {
                 if watched.clear_until <= segment {
                     if watched.known_at != Some(segment) || base.elapsed > 0.0 {
                         (watched.value, watched.known_at) = (values_of(block, motion.0, motion.1), Some(segment));
-                        // An impulse may have made it larger.
+                        // After an impulse the value may exceed the peak.
                         *peaks = each(|i| larger(peaks[i], watched.value[i].abs()));
                     }
                     watched.clear_until = (segment + watched.segments_to_peak(peaks, watch.longest)).min(watch.until);
@@ -95,7 +101,7 @@ impl Model {
         due
     }
 
-    /// Works out bounds for some segments from the base on.
+    /// Works out the bounds for some segments from the base on.
     #[inline(never)]
     fn bound_ahead(&self, ground: &GroundMotion, base: &Base, segment: u64, work: &mut PeakWork) {
         let ahead = ground.ahead_of(segment);
@@ -134,7 +140,7 @@ impl Model {
         work.peaks.watch.until = segment + if are_all_long { LONG } else { SHORT };
     }
 
-    /// Amplitudes of a building's modes at the base.
+    /// Works out the amplitudes of a building's modes at the base.
     fn find_amplitudes(&self, building: &BuildingRows, base: &Base, bounds: &mut ModeBounds) {
         for m in building.modes.clone() {
             let (q, v, w2) = (base.q[m], base.v[m], self.system.structure.omega2[m]);
@@ -153,8 +159,8 @@ impl Model {
         Amplitudes { own, over_w, quick, bent, damping }
     }
 
-    /// Raises the peaks of a block to the end of the segment, of that number, that has been flown to the base; whether
-    /// it may have exceeded them on the way.
+    /// Raises the peaks of a block to the values at the end of a segment, which has been flown to the base; returns
+    /// whether they may have been exceeded before the end.
     pub(in crate::engine) fn raise_to_end(
         &self,
         building: &BuildingRows,
@@ -176,7 +182,8 @@ impl Model {
         for i in 0..LANES {
             let sag = watched.sag[i];
             let is_below = larger(start[i].abs(), end[i].abs()) + sag <= peaks[i];
-            // A slope differs from that of the chord by h/2 |y''| at most: here it keeps its sign.
+            // A slope differs from that of the chord by at most h/2 |y''|: if that is less than the chord's slope, the
+            // quantity is monotonic.
             let goes_one_way = (end[i] - start[i]).abs() > 4.0 * sag;
             peaks[i] = larger(peaks[i], end[i].abs());
             may_exceed |= !(is_below || goes_one_way);
@@ -186,32 +193,32 @@ impl Model {
 }
 
 impl WatchedBlock {
-    /// For how many segments of a length, s, all stay below their peaks.
+    /// Number of segments of that length, s, for which all quantities of the block stay below their peaks.
     #[inline(always)]
     fn segments_to_peak(&self, peaks: &Lane, length: f64) -> u64 {
         let mut least = SHORT as f64;
         for ((peak, value), rate) in peaks.iter().zip(&self.value).zip(&self.rate) {
             let segments = (peak - value.abs()) / (length * rate);
-            // A quantity that is always 0 has no rate; a NaN never clears anything.
+            // A quantity that is always 0 has the rate 0; a NaN never clears a block.
             let segments = if *rate == 0.0 { least } else { segments };
             least = if segments >= least { least } else { segments };
         }
-        // Below 0 and NaN: 0.
+        // The conversion makes 0 of negative numbers and NaN.
         (least - MARGIN) as u64
     }
 }
 
-/// The values of a block. Wide instructions give the same bits.
+/// The values of a block.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn values_of(block: &Block, q: &[f64], v: &[f64]) -> Lane {
     block.values(q, v)
 }
 
-/// The bounds of a block. Wide instructions give the same bits.
+/// The bounds of a block.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn reach(block: &Block, amplitudes: &Amplitudes) -> Reach {
     let count = block.on_q.len();
-    // Says once that no index below leaves its vector.
+    // Equal lengths: no bounds checks below.
     let Amplitudes { own, over_w, quick, bent, damping } = amplitudes;
     let (own, over_w, quick, bent, damping) =
         (&own[..count], &over_w[..count], &quick[..count], &bent[..count], &damping[..count]);

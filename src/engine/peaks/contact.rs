@@ -1,4 +1,5 @@
-//! Peaks over a step in contact: what its ends, its length and the largest contact forces do not rule out is searched for.
+//! Peaks over a step in contact: only what both ends, the length and the largest contact forces cannot rule out is
+//! searched.
 
 use crate::engine::base::contact::Contact;
 use crate::engine::base::peaks::Peaks;
@@ -17,12 +18,13 @@ use crate::numerics::powers::Powers;
 use crate::structure::Side;
 use std::ops::Range;
 
-/// How far the series of a quantity may be off at the end of a step, relative to its peak, to be searched. A series is as
-/// long as velocities allow: in a step of next to no time an acceleration may be off by any amount, and its ends say all.
+/// Largest error of a quantity's series at the end of a step, relative to its peak, with which the series is searched.
+/// The step length controls velocities only: in an extremely short step an acceleration may be off by any amount, and
+/// its values at both ends suffice.
 const TRUSTED: f64 = 1e-6;
 
 impl Model {
-    /// Notes the contacts at the start of a step.
+    /// Notes forces, penetrations and rates of the contacts at the start of a step.
     pub(in crate::engine) fn note_starts(&self, contacts: &[Contact], work: &mut PeakWork) {
         let starts = work.peaks.first_forces.iter_mut().zip(&mut work.peaks.starts);
         for ((force, start), contact) in starts.zip(contacts) {
@@ -31,7 +33,7 @@ impl Model {
         }
     }
 
-    /// Raises the peaks of the base over the step that is planned, whose contacts have been followed to its end.
+    /// Raises the peaks of the base over the planned step, after the contacts have been moved to its end.
     pub(in crate::engine) fn raise_over_step(
         &self,
         base: &mut Base,
@@ -53,7 +55,7 @@ impl Model {
         let part =
             ContactStep { base, step, inputs, length: step.planned.length, end: (&step.planned.q, &step.planned.v) };
         self.check_contact_step(&part, &mut peaks, work);
-        // Motions near rigid pairs change between two steps, and floor forces may.
+        // Only where nothing changes the motion between two steps: rigid pairs and floor forces may.
         if self.system.rigid.pairs.is_empty() && !self.system.floor_forces {
             work.peaks.floors.keep([base.segment.start, end]);
         }
@@ -61,8 +63,7 @@ impl Model {
         base.peaks = peaks;
     }
 
-    /// The same for the first part of the step under way, up to a motion some seconds
-    /// after the base.
+    /// Raises peaks over the first part of the planned step, up to a motion `elapsed` seconds after the base.
     pub(in crate::engine) fn raise_over_part(
         &self,
         (base, step, inputs): (&Base, &Step, &Inputs),
@@ -83,8 +84,8 @@ impl Model {
         work.peaks.floors.forget();
     }
 
-    /// Raises peaks to the motion of the base under the contact forces there. What an input that has just been set does
-    /// belongs to the step that begins: it has not acted yet.
+    /// Raises peaks to the motion of the base with its contact forces. An input that has just been set does not count
+    /// yet: it acts in the next step.
     pub(in crate::engine) fn raise_to_contact(&self, base: &Base, peaks: &mut Peaks, work: &mut PeakWork) {
         self.note_starts(&base.contacts, work);
         work.peaks.strongest.fill(0.0);
@@ -103,7 +104,7 @@ impl Model {
                     (PeakOf::Drift(side, floor), start.u[lane] - below),
                     (PeakOf::Acceleration(side, floor), start.resisted[lane] + work.peaks.first_push[lane]),
                 ];
-                // Floor forces are part of an acceleration.
+                // An acceleration would depend on the floor forces.
                 let known = if self.system.floor_forces { &now[..2] } else { &now };
                 known.iter().for_each(|&(of, value)| peaks.raise(self.peak_rows.place(of), value));
             }
@@ -120,7 +121,7 @@ impl Model {
         }
     }
 
-    /// The floors at both ends.
+    /// Works out the floors at both ends.
     fn find_ends(&self, part: &ContactStep, work: &mut PeakWork) {
         let ContactStep { base, length, end, .. } = *part;
         let room = &mut work.peaks.floors;
@@ -136,7 +137,7 @@ impl Model {
         }
     }
 
-    /// Adds what floor forces do some seconds after the base.
+    /// Adds the accelerations by floor forces, some seconds after the base.
     fn add_forces(&self, (base, inputs): (&Base, &Inputs), time: f64, resisted: &mut [f64]) {
         let at = base.elapsed + time;
         self.system.add_floor_forces(
@@ -147,7 +148,7 @@ impl Model {
         );
     }
 
-    /// How much contact forces push each floor: at the ends, and at the least and the most.
+    /// Works out the floors' accelerations by contact forces, m/s2: at both ends, and their least and largest values.
     fn find_pushes(&self, base: &Base, work: &mut PeakWork) {
         let room = &mut work.peaks;
         for vector in [&mut room.first_push, &mut room.last_push, &mut room.floors.least, &mut room.floors.most] {
@@ -170,7 +171,7 @@ impl Model {
         }
     }
 
-    /// How fast the floors of a building are at most.
+    /// Works out upper bounds on the floors' accelerations.
     fn bound_building(&self, side: Side, part: &ContactStep, work: &mut PeakWork) {
         let (ground, slope) = part.ground();
         let ground = larger(ground.abs(), (ground + slope * part.length).abs());
@@ -201,7 +202,7 @@ impl Model {
         self.check_one(PeakOf::BaseShear(side), shears, (bound, false), part, peaks, work);
     }
 
-    /// Raises the peaks of a floor and of the storey below.
+    /// Raises the peaks of a floor and of the storey below it.
     fn check_floor(
         &self,
         side: Side,
@@ -224,7 +225,8 @@ impl Model {
         let top = larger(resisted[0], resisted[1]) + most[lane] + strays[lane];
         let bottom = larger(-resisted[0], -resisted[1]) - least[lane] + strays[lane];
         let acceleration = larger(top, bottom);
-        // What goes one way all along is largest at an end: a rate falls by no more than the acceleration allows.
+        // A monotonic quantity is largest at an end; it is monotonic if its rate is larger than the acceleration could
+        // reverse.
         let goes_on = |rates: f64, fastest: f64| rates.abs() > part.length * fastest;
         let moving = [
             (PeakOf::Displacement(side, floor), moved, sag * fastest, goes_on(speed, fastest)),
@@ -237,7 +239,7 @@ impl Model {
         self.check_one(PeakOf::Acceleration(side, floor), pushed, (acceleration, false), part, peaks, work);
     }
 
-    /// Raises one peak from its values at both ends, a bound, and whether it goes one way all along.
+    /// Raises one peak from the values at both ends, a bound on it, and whether the quantity is monotonic.
     #[inline(always)]
     fn check_one(
         &self,
@@ -260,9 +262,9 @@ impl Model {
         }
     }
 
-    /// The largest magnitude of a quantity within a part of a step, or `known` if that is larger, from its value at the
-    /// end of the part. It is looked for in the whole step, so that a turn has the same bits whatever part is looked
-    /// at.
+    /// The largest magnitude of a quantity within a part of a step, or `known` if that is larger; `at_end` is its value
+    /// at the end of the part. Turning points are searched for in the whole step, so that each has the same bits
+    /// whatever part is asked for.
     #[inline(never)]
     fn highest_in_contact(
         &self,
@@ -295,14 +297,13 @@ impl Model {
     }
 }
 
-/// By how much the floors of a building, or the storeys below them, may exceed their peaks of displacement, drift and
-/// acceleration in a step of h seconds, in whatever units: the bounds of [`Model::check_floor`] for all floors at once.
-/// Wide instructions give the same bits.
+/// Bounds on the excess of the floors of a building, or the storeys below them, over their peaks of displacement, drift
+/// and acceleration, whichever is largest, in a step of h seconds: the bounds of [`Model::check_floor`] for all floors.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn find_excess(room: &mut FloorRoom, lanes: Range<usize>, h: f64, [displacement, drift, acceleration]: [&[f64]; 3]) {
     let FloorRoom { start, end, least, most, largest, strays, excess, .. } = room;
     let (sag, count) = (0.125 * h * h, lanes.len());
-    // Says once that no index below leaves its vector.
+    // Equal lengths: no bounds checks below.
     let (from, to) = (lanes.start, lanes.end);
     let (u0, u1) = (&start.u[from..to][..count], &end.u[from..to][..count]);
     let (r0, r1) = (&start.resisted[from..to][..count], &end.resisted[from..to][..count]);

@@ -1,10 +1,10 @@
-//! Peaks over a flight, from its ends.
+//! Peaks over a flight, by the motion at both of its ends.
 //!
-//! A quantity y = A q + B q' is as near to the cubic through its values and slopes at both ends as h^4/384 max|y''''|
-//! [BirkhoffPriver1967]. The load is linear in time, so q'' is a free oscillation, whose E = sqrt(q'''^2 + w^2 q''^2) never
-//! grows, and |y''''| <= sum over modes of (|A| (w + c) + |B| (c (w + c) + w^2)) E. Where the cubic's control values
-//! and that bound stay below the peak, nothing has happened; where the slope keeps its sign, the larger end is the
-//! peak.
+//! A quantity y = A q + B q' differs from the cubic through its values and slopes at both ends by at most h^4/384
+//! max|y''''| [BirkhoffPriver1967]. The load is linear in time, so q'' is a free oscillation, whose E = sqrt(q'''^2 +
+//! w^2 q''^2) never grows, and |y''''| <= sum over modes of (|A| (w + c) + |B| (c (w + c) + w^2)) E. If the cubic's
+//! control values plus this bound are below the peak, the peak stays; if the slope keeps its sign, the larger end is
+//! the maximum.
 
 use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;
@@ -17,35 +17,38 @@ use crate::numerics::roots;
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
 
-/// Margin for rounding, relative to the numbers that a swing is made of.
+/// Margin for rounding, relative to the terms of an amplitude.
 const MARGIN: f64 = 1e-12;
 
-/// A flight of both buildings from start to end.
+/// A flight of both buildings, or a part of one.
 pub struct Stretch<'a> {
-    /// q and v of all modes.
+    /// q and v of all modes at the start.
     pub start: (&'a [f64], &'a [f64]),
+    /// q and v of all modes at the end.
     pub end: (&'a [f64], &'a [f64]),
-    /// The modal load at the start and its rate.
+    /// The modal load at the start and its rate, per second.
     pub loads: (&'a [f64], &'a [f64]),
-    /// m/s2 and m/s3, of the ground at the start.
+    /// Ground acceleration at the start, m/s2, and its slope, m/s3.
     pub ground: (f64, f64),
-    /// s.
+    /// Length, s.
     pub length: f64,
-    /// The whole flight of which this is the first part.
+    /// The whole flight, of which this is the first part; `None` if it is whole itself.
     pub whole: Option<&'a Stretch<'a>>,
 }
 
-/// How the quantities of a block go over a flight: at both ends their values and slopes.
+/// The quantities of a block over a flight.
 #[derive(Clone, Copy, Default)]
 pub struct Course {
+    /// Values and slopes at the start.
     pub start: [Lane; 2],
+    /// Values and slopes at the end.
     pub end: [Lane; 2],
     /// Bounds on their fourth derivatives.
     fourth: Lane,
 }
 
 impl Model {
-    /// Raises peaks to what a flight reaches.
+    /// Raises peaks over a flight.
     pub(in crate::engine) fn check_flight(&self, flight: &Stretch, peaks: &mut Peaks, work: &mut PeakWork) {
         work.peaks.start_flight();
         for building in &self.peak_rows.buildings {
@@ -56,7 +59,7 @@ impl Model {
         }
     }
 
-    /// The same for the blocks that have not been cleared for the segment of that number.
+    /// Raises the peaks over a flight of those blocks that may exceed theirs in the segment with that number.
     pub(in crate::engine) fn check_due_blocks(
         &self,
         segment: u64,
@@ -79,8 +82,8 @@ impl Model {
         }
     }
 
-    /// Raises peaks to the motion of the base, which is that of modes without contact forces. What an input that has just
-    /// been set does belongs to the step that begins: it has not acted yet.
+    /// Raises peaks to the motion of the base, on modes and without contact forces. An input that has just been set
+    /// does not count yet: it acts in the next step.
     pub(in crate::engine) fn raise_to_motion(&self, base: &Base, peaks: &mut Peaks) {
         for building in &self.peak_rows.buildings {
             let [q, v] = [&base.q, &base.v].map(|vector| &vector[building.modes.clone()]);
@@ -96,7 +99,7 @@ impl Model {
         }
     }
 
-    /// What floor forces add to accelerations at the base, and how that changes.
+    /// Writes the accelerations by floor forces at the base, m/s2, and their rates, m/s3.
     pub(in crate::engine) fn note_floor_forces(&self, base: &Base, inputs: &Inputs, direct: &mut [[f64; 2]]) {
         for (place, direct) in direct.iter_mut().enumerate() {
             if let Some(PeakOf::Acceleration(side, floor)) = self.peak_rows.at(place) {
@@ -109,7 +112,7 @@ impl Model {
         }
     }
 
-    /// How fast a building's modes are and how far they can swing over a flight.
+    /// Works out bounds on a building's modes over a flight: on their derivatives, and on their oscillations.
     pub(in crate::engine) fn bound_modes(
         &self,
         building: &BuildingRows,
@@ -155,11 +158,13 @@ impl Model {
         self.bound_swings(building, flight, room, is_coupled);
     }
 
-    /// How far a building's modes can swing over a flight, about where the load holds them (see `flight/envelope.rs`).
+    /// Works out bounds on the oscillation of a building's modes about their quasi-static displacements (see
+    /// `flight/envelope.rs`).
     fn bound_swings(&self, building: &BuildingRows, flight: &Stretch, room: &mut ModeBounds, is_coupled: bool) {
         let ((q, v), (load, slope)) = (flight.start, flight.loads);
         let modes = building.modes.clone();
-        // Where damping couples modes, what holds them under a load that changes is not worked out: all of it may push.
+        // With coupled modes the quasi-static displacement under a changing load is not worked out: the whole load is
+        // taken to increase the amplitude.
         let is_pushed = is_coupled && slope[modes.clone()].iter().any(|slope| *slope != 0.0);
         let [held, held_end] = &mut room.held;
         for m in modes.clone() {
@@ -182,6 +187,7 @@ impl Model {
         }
     }
 
+    /// Raises the peaks of block `b` over a flight, with the bounds on its modes.
     pub(in crate::engine) fn check_block(
         &self,
         building: &BuildingRows,
@@ -212,7 +218,8 @@ impl Model {
             if course.may_turn_above(i, h, peak)
                 && let Some(of) = self.peak_rows.at(place + i)
             {
-                // In the whole flight, so that a turn has the same bits whatever part of it is looked at.
+                // Searched for in the whole flight, so that a turning point has the same bits whatever part is asked
+                // for.
                 let peak = self.highest_in_flight(flight.whole.unwrap_or(flight), of, (peak, h), work);
                 peaks.raise(place + i, peak);
             }
@@ -221,7 +228,7 @@ impl Model {
 }
 
 impl Block {
-    /// As `sum_course` adds them up.
+    /// The values of the quantities, added up in the same order as in `sum_course`.
     #[inline(always)]
     pub fn values(&self, q: &[f64], v: &[f64]) -> Lane {
         let mut sum = [0.0; LANES];
@@ -239,14 +246,14 @@ impl Block {
     }
 }
 
-/// Coupled modes exchange energy: any may come to have all of it.
+/// Gives each of some coupled modes the amplitude of all together: they exchange energy, and any may get all of it.
 fn share(modes: &mut [f64]) {
     let whole = modes.iter().map(|e| e * e).sum::<f64>().sqrt();
     modes.fill(whole);
 }
 
-/// Whether the modes cannot swing far enough for the quantities of a block to exceed their peaks by more than rounding;
-/// `direct` is what is added to them, linear in time, over some seconds from a time on.
+/// Whether the modes' oscillations are too small for the quantities of a block to exceed their peaks by more than
+/// rounding; `direct` is an addition to them that is linear in time, with the start and the length of its interval, s.
 pub fn stays_below(
     peaks: &Lane,
     block: &Block,
@@ -266,12 +273,12 @@ pub fn stays_below(
     (0..LANES).all(|i| swings[i] + added(i) <= (1.0 + MARGIN) * peaks[i])
 }
 
-/// How far the quantities of a block can swing, from where the modes are held at the start, at the end, how fast that
-/// changes, and how far they can swing about it in q and in q'. Wide instructions give the same bits.
+/// Bounds on the magnitudes of a block's quantities: from the quasi-static displacements at the start and at the end,
+/// their rate, and the amplitudes of the oscillation about them in q and in q'.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn swing_of(block: &Block, [held, held_end, rate, swing_q, swing]: [&[f64]; 5]) -> Lane {
     let count = block.on_q.len();
-    // Says once that no index below leaves its vector.
+    // Equal lengths: no bounds checks below.
     let (held, held_end, rate) = (&held[..count], &held_end[..count], &rate[..count]);
     let (swing_q, swing) = (&swing_q[..count], &swing[..count]);
     let (mut start, mut end, mut sum) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
@@ -293,19 +300,19 @@ fn swing_of(block: &Block, [held, held_end, rate, swing_q, swing]: [&[f64]; 5]) 
     each(|i| larger(start[i].abs(), end[i].abs()) + sum[i])
 }
 
-/// The course of a block over a flight.
+/// The quantities of a block at both ends of a flight.
 pub fn course_of(block: &Block, flight: &Stretch, bounds: &ModeBounds, modes: Range<usize>) -> Course {
     let ends = [flight.start.0, flight.start.1, &bounds.first, flight.end.0, flight.end.1, &bounds.last];
     let [slow, quick] = [&bounds.slow[modes.clone()], &bounds.quick[modes.clone()]];
     sum_course(block, ends.map(|vector| &vector[modes.clone()]), [slow, quick])
 }
 
-/// The same from the modes' q, v and accelerations at both ends and what bounds their fourth derivatives. Wide instructions
-/// give the same bits.
+/// The same quantities from the modes' q, v and accelerations at both ends and the factors of the bounds on their
+/// fourth derivatives.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn sum_course(block: &Block, ends: [&[f64]; 6], [slow, quick]: [&[f64]; 2]) -> Course {
     let count = block.on_q.len();
-    // Says once that no index below leaves its vector.
+    // Equal lengths: no bounds checks below.
     let [q, v, a, end_q, end_v, end_a] = ends.map(|vector| &vector[..count]);
     let (slow, quick) = (&slow[..count], &quick[..count]);
     let mut course = Course::default();
@@ -333,7 +340,7 @@ fn sum_course(block: &Block, ends: [&[f64]; 6], [slow, quick]: [&[f64]; 2]) -> C
 }
 
 impl Course {
-    /// Adds what is linear in time, over h seconds from a time on.
+    /// Adds to the quantities numbers that are linear in time, over an interval of h seconds that starts at `from`.
     pub fn add(&mut self, direct: &[[f64; 2]], from: f64, h: f64) {
         for (i, [value, rate]) in direct.iter().enumerate().take(LANES) {
             self.start[0][i] += value + rate * from;
@@ -343,7 +350,7 @@ impl Course {
         }
     }
 
-    /// Bounds on the magnitudes over the flight.
+    /// Upper bounds on the magnitudes over the flight.
     fn highest(&self, h: f64) -> Lane {
         let ([start, rate], [end, end_rate]) = (&self.start, &self.end);
         let (third, share) = (h / 3.0, (h * h) * (h * h) / 384.0);
@@ -353,7 +360,7 @@ impl Course {
         })
     }
 
-    /// Whether one of them may turn round in between, above its peak.
+    /// Whether quantity `i` may have a turning point in between, above its peak.
     pub fn may_turn_above(&self, i: usize, h: f64, peak: f64) -> bool {
         let (start, rate, end, end_rate) = (self.start[0][i], self.start[1][i], self.end[0][i], self.end[1][i]);
         roots::may_turn_above((start, rate), (end, end_rate), (h, self.fourth[i]), peak)

@@ -1,9 +1,9 @@
-//! The floors at both ends of a step in contact, and how far they can stray in between.
+//! The floors at both ends of a step in contact, and bounds on their motion in between.
 //!
-//! Over h seconds a displacement is within h^2/8 max|u''| of the chord between its ends, a velocity within h/2 max|u''|. So
-//! the acceleration r by stiffness and damping strays from its chord by no more than T A, with A the largest
-//! accelerations of all floors and T = h^2/8 |M^-1 K| + h/2 |M^-1 C|. A <= B + T A, where B is what r is at the ends
-//! with all that pushes: so A <= B + T B + |T|^2 / (1 - |T|) max B.
+//! Over h seconds a displacement is within h^2/8 max|u''| of the chord between its ends, a velocity within h/2
+//! max|u''|. So the acceleration r by stiffness and damping deviates from its chord by at most T A, with A the largest
+//! accelerations of all floors and T = h^2/8 |M^-1 K| + h/2 |M^-1 C|. With B the larger r at the ends plus the largest
+//! accelerations by all forces, A <= B + T A, and so A <= B + T B + |T|^2 / (1 - |T|) max B.
 
 use crate::engine::base::Coordinates;
 use crate::engine::model::Model;
@@ -12,11 +12,11 @@ use crate::engine::watched::resistance::Resistance;
 use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Side};
 
-/// |T| up to which the bound says anything.
+/// Largest |T| for which the bound is used.
 const FURTHEST: f64 = 0.5;
 
 impl Model {
-    /// The floors of a motion, without floor forces; `modal` is room to work in.
+    /// Works out the floors of a motion, without floor forces; `modal` is a scratch vector.
     pub(in crate::engine) fn find_floors(
         &self,
         coordinates: Coordinates,
@@ -44,8 +44,8 @@ impl Model {
         }
     }
 
-    /// Works out how far the floors of a building stray in a step of h seconds, and with that how fast they are at most:
-    /// `largest` holds B before and A after.
+    /// Works out the deviations T A of a building's floors in a step of h seconds; `largest` holds B before and A
+    /// after.
     pub(in crate::engine) fn find_strays(&self, side: Side, h: f64, room: &mut FloorRoom) {
         let Resistance { dense, most, .. } = &self.resistance.buildings[side as usize];
         let lanes = self.system.structure.floors.lanes_of(side as usize);
@@ -78,7 +78,7 @@ impl Model {
         }
     }
 
-    /// N, how far a base shear strays from its chord where the floors are as fast as `largest` at most.
+    /// Bound on the deviation of a base shear from its chord, N, with the floors' `largest` accelerations.
     pub(in crate::engine) fn shear_strays(&self, side: Side, h: f64, largest: &[f64]) -> f64 {
         let [on_u, on_v] = &self.resistance.buildings[side as usize].shear;
         let largest = self.system.structure.floors.of_building(side as usize, largest);
@@ -86,7 +86,7 @@ impl Model {
         terms.map(|((k, c), a)| (0.125 * h * h * k.abs() + 0.5 * h * c.abs()) * a).sum()
     }
 
-    /// N, the force of a building on the ground.
+    /// Base shear, N: the force of a building on the ground.
     pub(in crate::engine) fn shear_of(&self, side: Side, floors: &FloorState) -> f64 {
         let [on_u, on_v] = &self.resistance.buildings[side as usize].shear;
         let [u, v] =

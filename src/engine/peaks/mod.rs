@@ -1,15 +1,16 @@
-//! Largest magnitudes so far, in continuous time: of displacements, drifts, absolute accelerations and base shears.
+//! Peaks, the largest magnitudes so far in continuous time: of displacements, drifts, absolute accelerations and base
+//! shears.
 //!
-//! Nothing is sampled. A flight is exact, so what a quantity is at both ends of it, how fast it changes there and a
-//! bound on its fourth derivative tell whether it can have exceeded its peak in between ([`flight`]); most segments of
-//! a record need not even that, since the amplitudes of the modes tell for how long nothing can ([`ahead`]). In contact
-//! the largest force and both ends of a step bound what the floors have done ([`contact`]). What may have exceeded its
-//! peak is searched for where it did: in the power series of the step ([`search`]), or by readings of the step where it
-//! has none in time ([`reading`]).
+//! Nothing is sampled. A flight is exact, so that the values and slopes of a quantity at both ends and a bound on its
+//! fourth derivative show whether it can have exceeded its peak in between ([`flight`]); for most segments of a record
+//! not even these are needed, since the modal amplitudes give a number of segments in which no peak can be exceeded
+//! ([`ahead`]). In contact the largest force and both ends of a step bound the motion of the floors ([`contact`]).
+//! Where a peak may have been exceeded, the maximum is searched for: in the power series of the step ([`search`]), or
+//! by evaluating the step where it has no series in time ([`reading`]).
 //!
-//! Between communication points a peak belongs to the scene: the base holds that of all whole steps, and what the step
-//! under way adds is worked out from its start when somebody asks. Velocities jump in an impact of `stereomechanical`:
-//! the motion before and after counts, the impulse itself, in which accelerations have no size, does not.
+//! The peaks do not depend on the communication points: the base holds those of all whole steps, and the part of the
+//! planned step so far is added when a peak is read. Velocities jump in an impact of `stereomechanical`: the motion
+//! before and after counts, the impulse itself, in which accelerations are unbounded, does not.
 
 pub mod ahead;
 pub mod contact;
@@ -28,12 +29,12 @@ use crate::engine::step::Step;
 use flight::Stretch;
 
 impl Model {
-    /// No peak yet.
+    /// Peaks of 0.
     pub(in crate::engine) fn start_peaks(&self) -> Peaks {
         Peaks::new(self.peak_rows.blocks())
     }
 
-    /// Raises the peaks of the base over the flight that is planned.
+    /// Raises the peaks of the base over the planned flight.
     pub(in crate::engine) fn raise_over_flight(
         &self,
         base: &mut Base,
@@ -59,7 +60,7 @@ impl Model {
         base.peaks = peaks;
     }
 
-    /// Raises the peaks of the base, to which a segment of the record has been flown from a motion before.
+    /// Raises the peaks of the base over a segment of the record, from the motion at its `start` to the base.
     pub(in crate::engine) fn raise_over_segment(
         &self,
         base: &mut Base,
@@ -93,7 +94,7 @@ impl Model {
         (work.buffers.load, work.buffers.slope) = (load, slope);
     }
 
-    /// Calls with the flight from the base to an end after some seconds.
+    /// Calls a function with the flight from the base to a motion some seconds later.
     pub(in crate::engine) fn with_flight(
         &self,
         base: &Base,

@@ -1,5 +1,5 @@
-//! The largest magnitude of one quantity in a step that has no power series in time: the first one after an entry under a
-//! power law, or a window. Such a step is a part of one swing of the contact, so a few readings show every turn.
+//! The largest magnitude of a quantity in a step without a power series in time: an onset step or a window. Such a step
+//! is part of one oscillation of the contact, so that a few evaluations find every turning point.
 
 use crate::collocation::MOST_PAIRS;
 use crate::contact::onset::{MOST_TERMS, Terms, value_and_slope};
@@ -16,51 +16,53 @@ use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::larger;
 use crate::structure::MotionSeries;
 
-/// Parts that the first step after an entry, and a window, are read in.
+/// Number of parts into which an onset step is divided to find turning points.
 const PARTS_OF_ONSET: u32 = 6;
+/// Number of parts into which a window is divided.
 const PARTS_OF_WINDOW: u32 = 2;
 
-/// Share of the first step after an entry at which its start is read: its terms are divided by powers of the time.
+/// Share of an onset step at which its start is evaluated: its terms have to be divided by powers of the time.
 const START: f64 = 1e-6;
 
 /// Share of a peak that the cubic through a part's ends has to reach for the part to be searched.
 const NEARLY: f64 = 0.95;
 
-/// What is left to gain at a turn, relative to its value, where the search ends; and most readings that this takes.
+/// Remaining gain at a turning point, relative to its value, at which the search ends.
 const CLOSE: f64 = 1e-13;
+/// Largest number of evaluations in such a search.
 const MOST_READINGS: usize = 20;
 
 /// A step in contact, or its first part.
 #[derive(Clone, Copy)]
 pub struct ContactStep<'a> {
-    /// What it starts from.
+    /// The start of the step.
     pub base: &'a Base,
     pub step: &'a Step,
     pub inputs: &'a Inputs,
-    /// s.
+    /// Length, s.
     pub length: f64,
     /// q and v at the end, in the coordinates of the base.
     pub end: (&'a [f64], &'a [f64]),
 }
 
 impl ContactStep<'_> {
-    /// m/s2 and m/s3, of the ground at the start.
+    /// Ground acceleration at the start, m/s2, and its slope, m/s3.
     pub fn ground(&self) -> (f64, f64) {
         let Base { segment, elapsed, .. } = self.base;
         (segment.acceleration_at(*elapsed), segment.slope)
     }
 }
 
-/// A quantity at a time of a step.
+/// A quantity evaluated at a time of a step.
 #[derive(Clone, Copy)]
 struct Reading {
-    /// s since its start.
+    /// Time since the start of the step, s.
     time: f64,
     value: f64,
     slope: f64,
 }
 
-/// The largest magnitude of a quantity in a part of the first step after an entry, or `known` if that is larger.
+/// The largest magnitude of a quantity in the first part of an onset step, or `known` if that is larger.
 pub fn highest_in_onset(quantity: &Quantity, known: f64, onset: &OnsetSeries, part: &ContactStep) -> f64 {
     let ContactStep { step, length: until, .. } = part;
     let Some(series) = OnsetQuantity::of(quantity, onset) else { return known };
@@ -69,7 +71,8 @@ pub fn highest_in_onset(quantity: &Quantity, known: f64, onset: &OnsetSeries, pa
 }
 
 impl Model {
-    /// The same for a window, with the series of the motion without contact forces.
+    /// The largest magnitude of a quantity in the first part of a window, or `known` if that is larger; with the series
+    /// of the motion without contact forces.
     pub(in crate::engine) fn highest_in_window(
         &self,
         quantity: &Quantity,
@@ -83,7 +86,7 @@ impl Model {
         highest((known, part.length), whole, PARTS_OF_WINDOW, read)
     }
 
-    /// Reads a quantity and its slope at a time of a window, from the equations of motion.
+    /// Evaluates a quantity and its slope at a time of a window, from the equations of motion.
     fn read_in_window(
         &self,
         quantity: &Quantity,
@@ -139,7 +142,7 @@ impl Model {
     }
 }
 
-/// A quantity in the double series of the first step after an entry: a sum of these divided by no, one, two powers of x.
+/// A quantity in the double series of an onset step: a sum of three series, divided by 1, x and x^2.
 struct OnsetQuantity {
     terms: [Terms; 3],
 }
@@ -186,8 +189,8 @@ impl OnsetQuantity {
     }
 }
 
-/// The largest magnitude in a step, from one time to another, as far as it lies before a time, or `known` if that is
-/// larger. The whole step is read, in so many parts, so that a turn has the same bits wherever it is asked for.
+/// The largest magnitude over the times from..to, as far as they lie before `until`, or `known` if that is larger. The
+/// whole step is divided into the same parts, so that a turning point has the same bits whatever part is asked for.
 fn highest(
     (known, until): (f64, f64),
     (from, to): (f64, f64),
@@ -221,7 +224,7 @@ impl Reading {
     }
 }
 
-/// Where the cubic through two ends, between which it rises first and falls then, is highest, and how high.
+/// (time, value) of the maximum of the cubic through two ends, between which it rises first and falls then.
 fn top(a: Reading, b: Reading) -> (f64, f64) {
     let w = b.time - a.time;
     let (first, rise, last) = (w * a.slope, b.value - a.value, w * b.slope);
@@ -231,7 +234,8 @@ fn top(a: Reading, b: Reading) -> (f64, f64) {
     (a.time + w * s, a.value + s * (first + s * (second + s * third)))
 }
 
-/// A quantity where it turns from rising to falling between two readings: cubics through readings ever closer to it.
+/// The quantity at its turning point from rising to falling between two readings, by cubics through ever closer
+/// readings.
 fn turn(mut a: Reading, mut b: Reading, mut read: impl FnMut(f64) -> Reading) -> Reading {
     let mut best = if b.value > a.value { b } else { a };
     for _ in 0..MOST_READINGS {
@@ -240,7 +244,7 @@ fn turn(mut a: Reading, mut b: Reading, mut read: impl FnMut(f64) -> Reading) ->
             break;
         }
         let middle = read(time);
-        // What a parabola as bent as the bracket has left to gain.
+        // The gain that a parabola with the mean curvature of the bracket still has.
         let gain = 0.5 * middle.slope * middle.slope * (b.time - a.time) / (a.slope - b.slope);
         best = if middle.value > best.value { middle } else { best };
         if gain <= CLOSE * best.value.abs() {

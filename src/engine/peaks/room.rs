@@ -1,11 +1,11 @@
-//! Room to work in, and what is remembered from segment to segment and from quantity to quantity. It changes no result,
-//! so no saved state holds it.
+//! Scratch memory for peaks, and results that are kept from segment to segment and from quantity to quantity. None of
+//! it changes a result, so no saved state holds it.
 
 use crate::engine::system::buffers::Buffers;
 use crate::engine::watched::rows::PeakRows;
 use crate::structure::{LANES, Lane, Structure};
 
-/// Places of a flight that are remembered.
+/// Number of motions within a flight that are kept.
 pub const MOST_FLOWN: usize = 16;
 
 /// The motion of all modes at a time of a flight, s since its start.
@@ -16,40 +16,45 @@ pub struct Flown {
     pub v: Vec<f64>,
 }
 
-/// Room to work in; between calls it means nothing but for what `floors` keeps of the end of a step and `ahead` of the time
-/// to come.
+/// Scratch memory; between calls only two parts mean anything: the end of the last step in `floors`, and the bounds for
+/// the next segments in `watch`.
 #[derive(Clone, Debug, Default)]
 pub struct PeakRoom {
     pub watch: PeakWatch,
-    /// Of the modes over a flight, and over a piece of one.
+    /// Bounds on the modes over a flight.
     pub bounds: ModeBounds,
+    /// Bounds on the modes over a piece of a flight.
     pub piece: ModeBounds,
-    /// The piece of a flight, from and to, s, over which the series in the workspace has been expanded.
+    /// The piece of a flight, from and to, s, whose series is in the workspace.
     pub expanded: Option<(f64, f64)>,
-    /// How many more pieces of a flight may be looked at.
+    /// Number of pieces in which the flight may still be searched.
     pub pieces_left: u32,
-    /// Where the flight that is searched has been worked out, the latest last: halves of it are asked for by many
-    /// quantities.
+    /// Motions at times of the flight that is searched, in a ring: several quantities need those at the same halvings.
     pub flown: [Flown; MOST_FLOWN],
+    /// Index of the next motion to be overwritten.
     pub next_flown: usize,
-    /// q and v at both ends of a piece, and the load at its start.
+    /// q and v at the start and at the end of a piece.
     pub pieces: [Vec<f64>; 4],
+    /// The modal load at the start of a piece.
     pub load: Vec<f64>,
-    /// A row over q and one over v.
+    /// A row over the motion and one over its rate.
     pub rows: [Vec<f64>; 2],
-    /// Of each place: what floor forces add to an acceleration at the start of a flight, m/s2, and its rate.
+    /// For each watched quantity, the part of an acceleration by floor forces at the start of a flight, m/s2, and its
+    /// rate, m/s3.
     pub direct: Vec<[f64; 2]>,
     pub floors: FloorRoom,
     pub reading: ReadingRoom,
-    /// N, bounds on the sizes of the contact forces over a step.
+    /// Bounds on the magnitudes of the contact forces over a step, N.
     pub strongest: Vec<f64>,
-    /// N, the contact forces at the start of a step and at its end.
+    /// The contact forces at the start of a step, N.
     pub first_forces: Vec<f64>,
+    /// The contact forces at its end, N.
     pub last_forces: Vec<f64>,
-    /// Penetrations, m, and rates, m/s, at the start.
+    /// Penetrations, m, and rates, m/s, at the start of a step.
     pub starts: Vec<(f64, f64)>,
-    /// m/s2, what they push each floor by.
+    /// The floors' accelerations by these contact forces at the start, m/s2.
     pub first_push: Vec<f64>,
+    /// The floors' accelerations by the contact forces at the end, m/s2.
     pub last_push: Vec<f64>,
 }
 
@@ -79,19 +84,19 @@ impl PeakRoom {
         }
     }
 
-    /// Another flight is looked at.
+    /// Begins the search of another flight.
     pub fn start_flight(&mut self) {
         self.expanded = None;
         self.flown.iter_mut().for_each(|flown| flown.time = f64::NAN);
     }
 
-    /// Forgets what it keeps: the motion is another one.
+    /// Forgets all results that are kept: the motion has been replaced.
     pub fn forget(&mut self) {
         self.floors.forget();
         self.watch.restart();
     }
 
-    /// Forgets the time to come: a contact force or an impulse has acted.
+    /// Forgets the bounds for the next segments: a contact force or an impulse has acted.
     pub fn restart(&mut self) {
         if self.watch.looks_ahead() {
             self.watch.restart();
@@ -99,32 +104,36 @@ impl PeakRoom {
     }
 }
 
-/// Room for one call: buffers that any may use, and what is kept for peaks.
+/// The scratch memory of one call: the vectors that all kinds of steps share, and the peaks' own.
 pub struct PeakWork<'a> {
     pub buffers: &'a mut Buffers,
     pub peaks: &'a mut PeakRoom,
 }
 
-/// For how long what is clear of its peak.
+/// The segments until which no quantity can exceed its peak.
 #[derive(Clone, Debug, Default)]
 pub struct PeakWatch {
-    /// The first segment for which the bounds do not hold.
+    /// Number of the first segment for which the bounds do not hold.
     pub until: u64,
-    /// The first segment in which anything may exceed its peak, as far as is known.
+    /// Number of the first segment in which any quantity may exceed its peak, as far as is known.
     pub due: u64,
-    /// s, the longest segment until then.
+    /// Length of the longest segment until then, s.
     pub longest: f64,
     pub blocks: Vec<WatchedBlock>,
 }
 
+/// A block of watched quantities, as it is looked ahead from some segment.
 #[derive(Clone, Debug, Default)]
 pub struct WatchedBlock {
+    /// Number of the first segment in which a quantity of the block may exceed its peak.
     pub clear_until: u64,
-    /// The values at the start of a segment.
+    /// The values at the start of the segment `known_at`.
     pub value: Lane,
+    /// Number of the segment at whose start the values are known.
     pub known_at: Option<u64>,
-    /// Bounds on |y'|, and on how far it bends away from the chord of a segment: h^2/8 |y''|.
+    /// Bounds on |y'|.
     pub rate: Lane,
+    /// Bounds on the deviation from the chord over a segment: h^2/8 |y''|.
     pub sag: Lane,
 }
 
@@ -133,7 +142,7 @@ impl PeakWatch {
         PeakWatch { blocks: vec![WatchedBlock::default(); blocks], ..PeakWatch::default() }
     }
 
-    /// Forgets all: the motion is another one, or a contact force or an impulse has acted.
+    /// Forgets everything: the motion has been replaced, or a contact force or an impulse has acted.
     pub fn restart(&mut self) {
         (self.until, self.due) = (0, 0);
         for block in &mut self.blocks {
@@ -141,29 +150,35 @@ impl PeakWatch {
         }
     }
 
-    /// Whether it knows anything of the time to come.
+    /// Whether bounds for later segments are known.
     pub fn looks_ahead(&self) -> bool {
         self.until > 0
     }
 
+    /// Whether a block cannot exceed its peaks in a segment.
     pub fn is_clear(&self, block: usize, segment: u64) -> bool {
         self.blocks[block].clear_until > segment
     }
 }
 
-/// What is known of each mode over a flight.
+/// Bounds on each mode over a flight.
 #[derive(Clone, Debug, Default)]
 pub struct ModeBounds {
-    /// Accelerations relative to the ground, at the start and at the end.
+    /// Modal accelerations relative to the ground at the start.
     pub first: Vec<f64>,
+    /// Modal accelerations relative to the ground at the end.
     pub last: Vec<f64>,
-    /// How far each mode can swing in q' and in q, about where the load holds it: q at the start and at the end, and q'.
+    /// Amplitude of each mode's oscillation about its quasi-static displacement, in q'.
     pub swing: Vec<f64>,
+    /// The same amplitude in q.
     pub swing_q: Vec<f64>,
+    /// Quasi-static displacements at the start and at the end.
     pub held: [Vec<f64>; 2],
+    /// Rate of the quasi-static displacements.
     pub held_rate: Vec<f64>,
-    /// What |A| and |B| are multiplied by in the bound on a fourth derivative (in the look ahead: on a first and a second).
+    /// Factors of |A| in the bound on a fourth derivative (looking ahead: on a first one).
     pub slow: Vec<f64>,
+    /// Factors of |B| in the bound on a fourth derivative (looking ahead: on a second one).
     pub quick: Vec<f64>,
 }
 
@@ -186,28 +201,32 @@ impl ModeBounds {
 /// The floors of both buildings at one time.
 #[derive(Clone, Debug, Default)]
 pub struct FloorState {
-    /// m and m/s.
+    /// Displacements, m.
     pub u: Vec<f64>,
+    /// Velocities, m/s.
     pub v: Vec<f64>,
-    /// m/s2, by stiffness and damping of the buildings and by floor forces.
+    /// Accelerations by stiffness and damping of the buildings and by floor forces, m/s2.
     pub resisted: Vec<f64>,
 }
 
-/// Room for a step.
+/// Scratch memory for the floors over a step in contact.
 #[derive(Clone, Debug, Default)]
 pub struct FloorRoom {
     pub start: FloorState,
     pub end: FloorState,
-    /// m/s2, the least and the most that contact forces may push each floor by.
+    /// Least accelerations of each floor by contact forces, m/s2.
     pub least: Vec<f64>,
+    /// Largest accelerations of each floor by contact forces, m/s2.
     pub most: Vec<f64>,
-    /// B, and how far r strays from its chord, m/s2; at last A.
+    /// B, and at last A, m/s2 (see `floors.rs`).
     pub largest: Vec<f64>,
+    /// Bounds on the deviation of r from its chord, m/s2.
     pub strays: Vec<f64>,
-    /// By how much a peak may be exceeded.
+    /// Bounds on the excess over the peaks.
     pub excess: Vec<f64>,
+    /// Scratch vector on modes.
     pub modal: Vec<f64>,
-    /// The time that `end` is of, as the start of a segment and the time since then.
+    /// The time of `end`: bits of the start of its segment and of the time since then.
     pub known: Option<[u64; 2]>,
 }
 
@@ -228,11 +247,12 @@ impl FloorRoom {
         }
     }
 
+    /// Forgets the time of `end`, so that the next step works out its start again.
     pub fn forget(&mut self) {
         self.known = None;
     }
 
-    /// Goes on from the end of the step before, if it is at that time; whether it is.
+    /// Takes the end of the last step as the start of the next one if that is at the given time; returns whether it is.
     pub fn go_on(&mut self, time: [f64; 2]) -> bool {
         let goes_on = self.known == Some(time.map(f64::to_bits));
         if goes_on {
@@ -241,13 +261,13 @@ impl FloorRoom {
         goes_on
     }
 
-    /// The end is that of a time.
+    /// Notes the time of the end.
     pub fn keep(&mut self, time: [f64; 2]) {
         self.known = Some(time.map(f64::to_bits));
     }
 }
 
-/// Vectors to read into.
+/// Scratch vectors of a reading.
 #[derive(Clone, Debug, Default)]
 pub struct ReadingRoom {
     pub q: Vec<f64>,

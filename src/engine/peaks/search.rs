@@ -1,4 +1,4 @@
-//! The largest magnitude of one quantity in the power series of a motion: of a flight, piece by piece, or of a step in
+//! The largest magnitude of a quantity by power series of the motion: of a flight piece by piece, or of a step in
 //! contact.
 
 use crate::engine::base::Coordinates;
@@ -13,17 +13,17 @@ use crate::numerics::roots;
 use crate::numerics::substitution::Substitution;
 use crate::structure::{EXACT, LANES, MotionSeries, dot, flight_order};
 
-/// (Fastest rate) x (time) that one series reaches.
+/// Length of a piece, in units of 1 / (fastest rate), that one series reaches.
 const REACH: f64 = 1.5;
 
-/// Pieces of a flight are halved so often at most: then they are as short as rounding.
+/// Largest number of halvings of pieces of a flight: then they are as short as rounding.
 const MOST_HALVINGS: u32 = 40;
 
-/// Pieces in which one flight is searched for one quantity. Only free vibration without end has more, of several modes that
-/// nothing damps, over thousands of periods in one communication step: what it may reach later is not looked for.
+/// Largest number of pieces in which a flight is searched for one quantity. Only the undamped free vibration of several
+/// modes over thousands of periods in one communication step needs more; maxima that it reaches later are missed.
 const MOST_PIECES: u32 = 10_000;
 
-/// A piece of a flight: from one time of it to another, s, and how often it may be halved.
+/// A piece of a flight, from one time since its start to another, s, and the number of times that it may be halved.
 #[derive(Clone, Copy)]
 struct Piece {
     from: f64,
@@ -31,19 +31,19 @@ struct Piece {
     halvings: u32,
 }
 
-/// A quantity as rows over a motion in some coordinates.
+/// A quantity as rows over the motion in some coordinates.
 pub struct Quantity<'a> {
     pub of: PeakOf,
-    /// Over the motion, and over its rate; of an acceleration, those of the floor's displacement.
+    /// A row over the motion and one over its rate; of an acceleration, the rows of the floor's displacement.
     pub rows: &'a [Vec<f64>; 2],
-    /// The first row where it is 1 in one lane, and -1 in another one perhaps.
+    /// The lanes of the first row's 1 and, for a drift, -1, where it has no other entries.
     pub lanes: Option<(usize, Option<usize>)>,
-    /// m/s2 and m/s3, of the ground at the start of the series.
+    /// Ground acceleration at the start of the series, m/s2, and its slope, m/s3.
     pub ground: (f64, f64),
 }
 
 impl Model {
-    /// The largest magnitude of a quantity over the first seconds of a flight, `until` then, or `known` if that is larger.
+    /// The largest magnitude of a quantity over the first `until` seconds of a flight, or `known` if that is larger.
     pub(in crate::engine) fn highest_in_flight(
         &self,
         flight: &Stretch,
@@ -61,8 +61,8 @@ impl Model {
         peak
     }
 
-    /// The same over a piece: where the modes are too fast for one series, halves are looked at, unless the ends show that
-    /// there is nothing to be found.
+    /// The largest magnitude over a piece, or `known` if that is larger. A piece too long for one series is halved,
+    /// unless its ends prove that the quantity does not exceed `known` in it.
     fn highest_in_piece(
         &self,
         flight: &Stretch,
@@ -109,7 +109,7 @@ impl Model {
         peaks.expanded = Some((from, to));
     }
 
-    /// The motion at a time of a flight, into two vectors of the room.
+    /// Works out the motion at a time of a flight in two of the vectors `pieces`.
     fn fly_to(&self, flight: &Stretch, time: f64, into: [usize; 2], work: &mut PeakWork) {
         let PeakWork { buffers: Buffers { interval, scratch, .. }, peaks } = work;
         let Ok([q, v]) = peaks.pieces.get_disjoint_mut(into) else { return };
@@ -133,7 +133,7 @@ impl Model {
         v.copy_from_slice(known.1);
     }
 
-    /// The modal load at a time of a flight, into the room.
+    /// Works out the modal load at a time of a flight.
     fn set_load(&self, flight: &Stretch, time: f64, work: &mut PeakWork) {
         let (start, slope) = flight.loads;
         for (load, (start, slope)) in work.peaks.load.iter_mut().zip(start.iter().zip(slope)) {
@@ -141,7 +141,7 @@ impl Model {
         }
     }
 
-    /// The largest of `known` and the magnitudes at the ends of a piece, whose motions are in the room, and whether the
+    /// The largest of `known` and the magnitudes at the ends of a piece, whose motions are in `pieces`, and whether the
     /// quantity may exceed it in between.
     fn compare_ends(
         &self,
@@ -183,7 +183,7 @@ impl Model {
         (known, course.may_turn_above(lane, own.length, known))
     }
 
-    /// The rows of a quantity in some coordinates; or the lanes that say the same.
+    /// Sets the rows of a quantity in some coordinates; returns the lanes of their entries if these are only 1 and -1.
     pub(in crate::engine) fn set_rows(
         &self,
         of: PeakOf,
@@ -225,7 +225,7 @@ impl Model {
 }
 
 impl Quantity<'_> {
-    /// What the first row makes of a vector of motion.
+    /// Product of the first row with a vector of motion.
     pub fn of_motion(&self, motion: &[f64]) -> f64 {
         match self.lanes {
             Some((lane, below)) => motion[lane] - below.map_or(0.0, |below| motion[below]),
@@ -233,7 +233,7 @@ impl Quantity<'_> {
         }
     }
 
-    /// What the second row makes of a vector of its rate.
+    /// Product of the second row with a vector of the motion's rate.
     pub fn of_rate(&self, rate: &[f64]) -> f64 {
         match self.of {
             PeakOf::BaseShear(_) => dot(&self.rows[1], rate),
@@ -241,8 +241,8 @@ impl Quantity<'_> {
         }
     }
 
-    /// The power series of the quantity in the x of a motion's, and its highest power; `substitution` makes it one where a
-    /// time map does.
+    /// The power series of the quantity and its highest power, in the x of the motion's series; `substitution` changes
+    /// the variable to that of a time map.
     pub fn terms(&self, series: &MotionSeries, substitution: Option<&Substitution>) -> (Coefficients, usize) {
         let (count, per_unit) = (series.order + 1, 1.0 / series.scale);
         let (mut of_q, mut terms) = ([0.0; MAX_TERMS], [0.0; MAX_TERMS]);
@@ -253,7 +253,7 @@ impl Quantity<'_> {
             }
             None => series.dot_each(&self.rows[0], 0, &mut of_q),
         }
-        // Derivatives are known to fewer powers.
+        // Each derivative loses a power.
         let order = match self.of {
             PeakOf::Displacement(..) | PeakOf::Drift(..) => {
                 terms = of_q;
@@ -285,7 +285,7 @@ impl Quantity<'_> {
     }
 }
 
-/// The largest magnitude of a polynomial over 0..=x, or `known` if that is larger; `powers` is room to work in.
+/// The largest magnitude of a polynomial over 0..=x, or `known` if that is larger; `powers` is scratch.
 pub fn highest(terms: &Coefficients, (x, order): (f64, usize), known: f64, powers: &mut Powers) -> f64 {
     powers.set(x, order);
     let Reading { value, slope, fourth } = powers.read(terms);

@@ -1,21 +1,23 @@
 //! Rigid contacts (`stereomechanical`): impulses, rebounds that die out, floors held together by a reaction.
 //!
-//! An impulse p between two floors takes the approach velocity V to -e V at once (seed paper, eqs. 1 and 2). Pairs that
-//! meet at the same instant are solved together, p >= 0, w = v + e V <= 0, p . w = 0 \[Moreau1988\]: since only pairs
-//! that approach take part, each loses p (1 - e) V / 2 >= 0. The rebounds of a pair that is pressed together follow each
-//! other ever faster and end after a finite time, which the engine follows until what returns is below rounding: there
-//! the floors stay together, and the reaction is what keeps their relative acceleration 0, power by power of the series.
+//! An impulse p between two floors changes the approach velocity from V to -e V at once (seed paper, eqs. 1 and 2).
+//! Pairs that meet at the same instant are solved together: p >= 0, w = v + e V <= 0, p . w = 0 \[Moreau1988\]. As only
+//! approaching pairs take part, each of them dissipates p (1 - e) V / 2 >= 0. The rebounds of a pair that is pressed
+//! together follow each other ever faster and end after a finite time. They are followed until the rebound velocity is
+//! below rounding; from then on the floors stay together, and a reaction keeps their relative acceleration 0, power by
+//! power of the series.
 
 use crate::engine::base::Base;
 use crate::engine::base::contact::{Episode, Phase};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 
-/// A velocity below this share of the floors' velocities that it is the difference of is none: some hundred roundings.
+/// A relative velocity below this share of the floors' velocities is rounding: some hundred rounding errors.
 const STILL: f64 = 3e-14;
 
 impl System {
-    /// A rigid pair meets: an impulse, or where it has no speed left the floors stay together.
+    /// Handles the contact of a rigid pair: an impulse, or where its approach velocity is rounding, the floors stay
+    /// together.
     pub fn resolve_contact(
         &self,
         base: &mut Base,
@@ -34,7 +36,7 @@ impl System {
         }
     }
 
-    /// m/s, the rate of a rigid pair, and what is none but for rounding.
+    /// (rate, noise): the approach velocity of a rigid pair and its rounding error, m/s.
     fn approach(&self, base: &Base, p: usize) -> (f64, f64) {
         let contact = &base.contacts[p];
         let (rate, size) = self.pairs[p].difference(base.coordinates, &base.v);
@@ -42,7 +44,7 @@ impl System {
         (rate, STILL * size)
     }
 
-    /// The impulses of all rigid pairs that meet now, when one does.
+    /// Finds and applies the impulses of all rigid pairs that meet now, given that pair `first` does.
     fn apply_impulses(&self, base: &mut Base, first: usize, work: &mut Buffers, on_episode: &mut dyn FnMut(&Episode)) {
         let rigid = &mut work.rigid;
         rigid.clear();
@@ -77,21 +79,21 @@ impl System {
         self.update_soft_rates(base);
     }
 
-    /// Whether a rigid pair stands at the surface now.
+    /// Whether the floors of a rigid pair touch now.
     fn is_closed(&self, base: &Base, p: usize) -> bool {
         let (contact, pair) = (&base.contacts[p], &self.pairs[p]);
         let noise = if contact.tracked { 0.0 } else { pair.noise(pair.difference(base.coordinates, &base.q).1) };
         contact.is_held() || contact.at_surface || contact.penetration >= -noise
     }
 
-    /// The restitution of an impact now: none where what would return is rounding.
+    /// The coefficient of restitution of an impact now; 0 where the rebound velocity would be rounding.
     fn returned_share(&self, base: &Base, p: usize) -> f64 {
         let restitution = self.pairs[p].law.restitution;
         let (rate, still) = self.approach(base, p);
         if restitution * rate > still { restitution } else { 0.0 }
     }
 
-    /// An impulse as an episode without duration.
+    /// Records an impulse, N s, as an episode without duration.
     fn book_impulse(
         &self,
         base: &mut Base,
@@ -126,7 +128,7 @@ impl System {
         on_episode(&base.contacts[p].episode);
     }
 
-    /// An impulse changes the rate of other pairs of the same floors at once, and with it their force.
+    /// Updates the rates of the soft pairs: an impulse changes that of every pair with a common floor at once.
     fn update_soft_rates(&self, base: &mut Base) {
         for (p, contact) in base.contacts.iter_mut().enumerate().filter(|&(p, _)| !self.pairs[p].law.is_rigid()) {
             contact.rate = self.pairs[p].difference(base.coordinates, &base.v).0;
@@ -137,7 +139,7 @@ impl System {
         }
     }
 
-    /// Two rigid floors stay together from now on.
+    /// Holds the two floors of a rigid pair together from now on.
     fn begin_persistent(&self, base: &mut Base, p: usize, work: &mut Buffers) {
         let time = base.time();
         let contact = &mut base.contacts[p];

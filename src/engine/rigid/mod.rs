@@ -1,4 +1,4 @@
-//! Rigid contacts (`stereomechanical`): impulses, rebounds that die out, floors held together by a reaction.
+//! Rigid contacts (`stereomechanical`): impulses, rebounds that die out, and reactions between floors held together.
 
 pub mod impulses;
 pub mod reactions;

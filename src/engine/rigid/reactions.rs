@@ -1,4 +1,5 @@
-//! Rigid floors that are held together: the reactions that keep their relative acceleration 0, and who is let go.
+//! Reactions between rigid floors that are held together: they keep the relative acceleration 0 until one would be
+//! negative.
 
 use crate::engine::base::{Base, touching};
 use crate::engine::excitation::inputs::Inputs;
@@ -8,7 +9,7 @@ use crate::numerics::complementarity::Complementarity;
 use crate::structure::{difference, dot};
 
 impl System {
-    /// Takes out of the motion what rounding has moved floors apart that are held together.
+    /// Removes from the motion the relative displacements and velocities that rounding gives to floors held together.
     pub fn project_constraints(&self, base: &mut Base, work: &mut Buffers) {
         if !self.rigid.pairs.iter().any(|&p| base.contacts[p].is_held()) {
             return;
@@ -26,7 +27,7 @@ impl System {
         }
     }
 
-    /// Lists the pairs that are held together and makes them all active.
+    /// Lists the pairs that are held together in `work.rigid` and makes them all active.
     fn select_held(&self, base: &Base, work: &mut Buffers) {
         work.rigid.clear();
         for (k, _) in self.rigid.pairs.iter().enumerate().filter(|&(_, &p)| base.contacts[p].is_held()) {
@@ -35,8 +36,8 @@ impl System {
         work.rigid.close_all(&self.rigid.matrix);
     }
 
-    /// The modal accelerations at the base, in `work.q`, with every contact force; the reactions stay in `work.rigid`.
-    /// Returns a pair that is held together but moves apart.
+    /// Works out the modal accelerations at the base, with all contact forces, in `work.q`, and the reactions in
+    /// `work.rigid`. Returns a pair that is held together although its floors move apart.
     pub fn solve_reactions(&self, base: &Base, inputs: &Inputs, work: &mut Buffers) -> Option<usize> {
         self.load(base, inputs, &mut work.load, &mut work.slope);
         work.node_q.copy_from_slice(&work.load);
@@ -62,8 +63,8 @@ impl System {
         Some(self.rigid.pairs[rigid.pairs[apart]])
     }
 
-    /// Keeps floors together that are held: adds the reactions' part to the modal accelerations of one power. The
-    /// reactions stay in `rigid.found`.
+    /// Adds to one power of the modal accelerations the part of the reactions that keeps held floors together; their
+    /// terms of that power stay in `rigid.found`.
     pub fn constrain(&self, rigid: &mut Complementarity, acceleration: &mut [f64]) {
         if rigid.pairs.is_empty() {
             return;
@@ -75,7 +76,8 @@ impl System {
         self.push_apart(rigid, acceleration);
     }
 
-    /// What the forces (impulses, shifts) that have been found do to the modal accelerations (velocities, displacements).
+    /// Adds to modal accelerations (velocities, displacements) the effect of the forces (impulses, shifts) in
+    /// `rigid.found`.
     pub fn push_apart(&self, rigid: &Complementarity, modal: &mut [f64]) {
         for (&k, found) in rigid.pairs.iter().zip(&rigid.found) {
             for (modal, row) in modal.iter_mut().zip(&self.pairs[self.rigid.pairs[k]].row) {

@@ -1,4 +1,4 @@
-//! Rigid pairs near the surface: how long a step may be until the next rebound, and where they get to in it.
+//! Rigid pairs near the surface: the step length up to the next rebound, and their penetration and rate at its end.
 
 use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::{Event, Tracked};
@@ -10,15 +10,16 @@ use crate::engine::system::buffers::Buffers;
 use crate::numerics::powers::Powers;
 use crate::structure::{MotionSeries, dot};
 
-/// A rigid pair is tracked by its own increments up to this many rounding errors of its penetration from the surface.
+/// A rigid pair is tracked by its own increments while it is at most this many rounding errors of its penetration
+/// apart.
 const CLOSE: f64 = 1e6;
 
-/// Share of the time left for which floors are held together that rounding cannot tell from free ones.
+/// Share of the remaining time for which floors are held together when rounding cannot tell them from free ones.
 const SHORT_WHILE: f64 = 1e-3;
 
 impl System {
-    /// How long a step may be, s, so that the next bounce of every pair near the surface is a good part of it; with the
-    /// modal accelerations at the base.
+    /// Upper bound on the step length, s, so that the next rebound of every pair near the surface takes a good part of
+    /// the step; from the modal accelerations at the base.
     pub fn rebound_step_limit(&self, base: &Base, acceleration: &[f64]) -> f64 {
         let apart = base.contacts.iter().zip(&self.pairs).filter(|(contact, _)| contact.tracked);
         let bounce = |(contact, pair): (&Contact, &Pair)| {
@@ -27,8 +28,8 @@ impl System {
         apart.map(bounce).fold(f64::INFINITY, f64::min)
     }
 
-    /// How long a step may be near rigid contacts, of the `remaining` time, s, and whether it is cut; or the release that
-    /// comes first. Leaves the pairs that are held together in `work.rigid`, all active.
+    /// (length, is cut): the step length, s, near rigid contacts, at most `remaining`; or the release that comes first.
+    /// Leaves the pairs that are held together in `work.rigid`, all active.
     pub fn time_for_rigid_pairs(
         &self,
         base: &Base,
@@ -51,12 +52,12 @@ impl System {
         Ok((remaining.min(time), time < remaining))
     }
 
-    /// Whether rigid floors are held together, or are about to meet again.
+    /// Whether rigid floors are held together or about to collide again.
     pub fn has_close_rigid_pair(&self, base: &Base) -> bool {
         self.rigid.pairs.iter().any(|&p| base.contacts[p].is_held() || base.contacts[p].tracked)
     }
 
-    /// Where the pairs that are tracked get to at the x of the powers of a series in time.
+    /// Writes penetration and rate of each tracked pair at the x of the powers of a series in time.
     pub fn track(
         &self,
         base: &Base,
@@ -78,13 +79,13 @@ impl System {
         }
     }
 
-    /// Whether a pair at this penetration, m, is still to be tracked.
+    /// Whether a rigid pair at this penetration, m, is to be tracked.
     pub fn is_close(&self, p: usize, penetration: f64, coordinates: Coordinates, q: &[f64]) -> bool {
         penetration > -CLOSE * self.pairs[p].noise(self.pairs[p].difference(coordinates, q).1)
     }
 }
 
-/// s until d + v t + a t^2 / 2 is 0 for t > 0, from d <= 0.
+/// The smallest t > 0 with d + v t + a t^2 / 2 = 0, s, for d <= 0.
 fn time_to_surface(d: f64, v: f64, a: f64) -> f64 {
     let square = v * v - 2.0 * a * d;
     let time = match () {

@@ -1,32 +1,46 @@
-//! Vectors to work in: their content means nothing between calls.
+//! Scratch vectors that all kinds of steps share; their content means nothing between calls, but for the load of the
+//! step that is being planned.
 
 use crate::numerics::complementarity::Complementarity;
 use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS};
 use crate::numerics::powers::Powers;
 use crate::structure::{Interval, MotionSeries, Scratch, Structure};
 
-/// Buffers; their content means nothing between calls.
+/// Scratch vectors, each with one number per lane of the motion.
 #[derive(Clone, Debug)]
 pub struct Buffers {
+    /// Load per unit of mass at the start of the step (m/s2; on modes kg^1/2 m/s2).
     pub load: Vec<f64>,
+    /// Rate of change of the load over the step, per second.
     pub slope: Vec<f64>,
-    /// Rates of the floor forces, N/s (on modes, per kg^1/2); empty where all are held.
+    /// Rates of the external floor forces, N/s (on modes, per kg^1/2); empty where all are held constant.
     pub force_slope: Vec<f64>,
+    /// Displacements or velocities while they are converted to other coordinates, or at the start of a segment in fast
+    /// flight. In `rigid`: accelerations.
     pub q: Vec<f64>,
+    /// Velocities at the start of a segment in fast flight. In the energy account: damping forces per unit of mass.
     pub v: Vec<f64>,
     pub scratch: Scratch,
+    /// Power series of a piece of a flight.
     pub series: MotionSeries,
+    /// The exact response over some time.
     pub interval: Interval,
-    /// Modal state at an integration node.
+    /// Displacements at the nodes of a quadrature (`energy.rs`). Elsewhere: the load with contact forces (`rigid`),
+    /// bounds on the floors' displacements (`taylor`, `onset`), or a term of a series.
     pub node_q: Vec<f64>,
+    /// Velocities at the nodes of a quadrature (`energy.rs`). Elsewhere: bounds on the modal amplitudes, m kg^1/2/s
+    /// (`flight`), third derivatives of the modes (`peaks`), or a term of a series.
     pub node_v: Vec<f64>,
+    /// Terms of one pair's penetration, m.
     pub scalar: Coefficients,
+    /// Powers of the point at which a series is evaluated.
     pub powers: Powers,
+    /// The problem of the reactions or impulses of rigid pairs.
     pub rigid: Complementarity,
 }
 
 impl Buffers {
-    /// For a structure with so many rigid pairs.
+    /// Allocates for a structure with that many rigid pairs.
     pub fn new(structure: &Structure, rigid: usize) -> Buffers {
         let lanes = structure.lanes;
         let vector = || vec![0.0; lanes];

@@ -1,11 +1,13 @@
-//! What the error of a step in contact is measured against, and the unit of time of its series.
+//! Norms of the motion and the velocity to which errors of a step in contact are relative, and the time unit of its
+//! series.
 
 use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::system::System;
 use crate::structure::LANES;
 
 impl System {
-    /// Largest floor displacement, velocity ... of a vector of motion; of modes, that any one of them stands for.
+    /// Largest component over all floors of a vector of motion; of modal coordinates, the largest that one mode
+    /// contributes to any floor.
     pub fn floor_norm(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
         match coordinates {
             Coordinates::Floors => largest_of(motion, |_, size| size),
@@ -16,10 +18,11 @@ impl System {
         }
     }
 
-    /// The velocity that contact errors are measured against: of the floors, or what the springs can give them.
+    /// The velocity to which errors in contact are relative, m/s: the largest of the floors, or, at the first step,
+    /// also the one that the elastic energy could give them.
     pub fn present_velocity(&self, base: &Base) -> f64 {
         let floors = self.floor_norm(base.coordinates, &base.v);
-        // What is stored later comes from the motion that has been seen.
+        // Later elastic energy comes from velocities that have been seen.
         if base.last_length > 0.0 {
             return floors;
         }
@@ -29,8 +32,8 @@ impl System {
         springs.fold(floors, f64::max)
     }
 
-    /// The unit of time of the next series, s: near the length of the step, so that its terms neither overflow nor
-    /// vanish. A power law's series reaches no further than to its singularity at d = 0.
+    /// The time unit of the next series, s: near the length of the step, so that its terms neither overflow nor
+    /// underflow. A power law's series converges no further than to its singularity at d = 0.
     pub fn series_scale(&self, base: &Base, remaining: f64) -> f64 {
         let last = if base.last_length > 0.0 { base.last_length } else { remaining };
         let reach = touching(base)
@@ -41,13 +44,13 @@ impl System {
     }
 }
 
-/// The largest of the sizes of a motion, each as `weighed` by its block and lane.
+/// The largest of the magnitudes of a motion, each as `weighed` by its block and lane.
 #[inline(always)]
 fn largest_of(motion: &[f64], weighed: impl Fn((usize, usize), f64) -> f64) -> f64 {
     let mut largest = [0.0_f64; LANES];
     for (c, motion) in motion.as_chunks::<LANES>().0.iter().enumerate() {
         for i in 0..LANES {
-            // Not `max`, which has to look for a NaN in both.
+            // Not `max`, which tests both numbers for NaN.
             let size = weighed((c, i), motion[i].abs());
             largest[i] = if size > largest[i] { size } else { largest[i] };
         }
@@ -55,7 +58,7 @@ fn largest_of(motion: &[f64], weighed: impl Fn((usize, usize), f64) -> f64) -> f
     largest.iter().fold(0.0, |a, b| a.max(*b))
 }
 
-/// The power of two at or below x > 0: a scale that costs no rounding.
+/// The power of two at or below x > 0: scaling by it makes no rounding error.
 fn power_of_two_below(x: f64) -> f64 {
     const MANTISSA: u64 = (1 << 52) - 1;
     let power = f64::from_bits(x.to_bits() & !MANTISSA);

@@ -1,4 +1,4 @@
-//! The buildings, their pairs and the ground: what every kind of step needs to know of a scene. It knows no step.
+//! The mechanical system: buildings, pairs and ground. All kinds of steps use it; it knows none of them.
 
 pub mod buffers;
 pub mod error_norm;
@@ -19,31 +19,31 @@ use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
 use crate::structure::{FEW_BLOCKS, ImpulseResponse, LANES, Side, Structure};
 
-/// What stays as it is during a run, but for what single kinds of step prepare for themselves.
+/// The part of a model that all kinds of steps share; constant during a run.
 #[derive(Debug)]
 pub struct System {
     pub structure: Structure,
     pub pairs: Vec<Pair>,
     pub rigid: RigidPairs,
-    /// Absent where the acceleration is an input.
+    /// The record; absent where the ground acceleration is an input.
     pub ground: Option<GroundMotion>,
     /// Whether a master may set forces on the floors.
     pub floor_forces: bool,
     pub tolerance: Tolerance,
-    /// Coordinates of soft contacts.
+    /// The coordinates in contact, but for rigid pairs, which need modal ones.
     pub contact_coordinates: Coordinates,
-    /// m/s, floor on the approach velocity where a law divides by it.
+    /// Lower bound on the approach velocity in laws that divide by it, m/s.
     pub least_approach: f64,
-    /// Where a law has a root, and damping couples no modes.
+    /// Response to an impulse as a series in time; present where a law has a root and damping couples no modes.
     pub impulse_response: Option<ImpulseResponse>,
-    /// Modal displacements and velocities at the start.
+    /// Modal displacements, m kg^1/2, and velocities at the start of a run.
     initial: [Vec<f64>; 2],
-    /// 1 at every floor.
+    /// 1 for every floor: the influence vector of the ground motion.
     ones: Vec<f64>,
 }
 
 impl System {
-    /// Of a checked scene; `record` is there when `scene.ground.record` is.
+    /// The system of a checked scene; `record` is there when `scene.ground.record` is.
     pub fn of(scene: &Scene, record: Option<&Record>) -> Result<System, SceneError> {
         let structure = Structure::new(&scene.left, &scene.right).map_err(|(side, _)| not_positive_definite(side))?;
         let pairs: Vec<Pair> = scene.contacts.iter().map(|pair| Pair::new(pair, scene, &structure)).collect();
@@ -74,7 +74,7 @@ impl System {
         })
     }
 
-    /// The base at the initial state, at a time, s.
+    /// The base with the initial motion at a time, s.
     pub fn start(&self, time: f64, peaks: Peaks, energy: Option<Account>) -> Base {
         let [q, v] = self.initial.clone();
         let segment = match &self.ground {
@@ -99,18 +99,18 @@ impl System {
         }
     }
 
-    /// Whether the engine's steps are cut at communication points: where a master's inputs act.
+    /// Whether a master's inputs act on the system, so that steps end at communication points.
     pub fn is_driven(&self) -> bool {
         self.ground.is_none() || self.floor_forces
     }
-    /// The segment of the record at the base, and its number, where pairs can be dismissed: where nothing but the
-    /// record acts on the buildings.
+    /// The record and the number of the base's segment, if pairs can be cleared for segments ahead: if only the record
+    /// acts on the buildings.
     pub fn watched_segment(&self, base: &Base) -> Option<(&GroundMotion, u64)> {
         let ground = self.ground.as_ref().filter(|_| !self.is_driven())?;
         Some((ground, ground.number(&base.segment)?))
     }
 
-    /// The load at the base, in its coordinates and per unit of mass, and its rate until the segment's end.
+    /// The load at the base per unit of mass, in its coordinates, and its rate of change until the segment's end.
     pub fn load(&self, base: &Base, inputs: &Inputs, load: &mut [f64], slope: &mut [f64]) {
         let Base { segment, elapsed, coordinates, .. } = base;
         let (acceleration, rate) = (segment.acceleration_at(*elapsed), segment.slope);
@@ -128,7 +128,7 @@ impl System {
         }
     }
 
-    /// What a ground acceleration of -1 m/s^2 pushes.
+    /// The load per unit of mass by a ground acceleration of -1 m/s2.
     pub fn participation(&self, coordinates: Coordinates) -> &[f64] {
         match coordinates {
             Coordinates::Modes => &self.structure.participation,
@@ -158,7 +158,7 @@ impl System {
         }
     }
 
-    /// Acceleration for a given motion and load per unit of mass.
+    /// The acceleration for a given motion and load per unit of mass.
     pub fn accelerate(
         &self,
         coordinates: Coordinates,
@@ -170,7 +170,7 @@ impl System {
         self.resist(coordinates, q, v, 1.0, acceleration);
     }
 
-    /// Subtracts from an acceleration what stiffness and `rate` times damping do.
+    /// Subtracts from an acceleration the stiffness forces and `rate` times the damping forces, per unit of mass.
     pub fn resist(&self, coordinates: Coordinates, q: &[f64], v: &[f64], rate: f64, acceleration: &mut [f64]) {
         match coordinates {
             Coordinates::Modes => self.structure.resist(q, v, rate, acceleration),
@@ -178,7 +178,7 @@ impl System {
         }
     }
 
-    /// Adds to a load per unit of mass what a contact force does.
+    /// Adds a contact force of pair `p`, N, positive in compression, to a load per unit of mass.
     pub fn push_apart_by(&self, p: usize, coordinates: Coordinates, force: f64, load: &mut [f64]) {
         let Pair { row, lanes: [left, right], inverse_masses, .. } = &self.pairs[p];
         match coordinates {
@@ -190,7 +190,7 @@ impl System {
         }
     }
 
-    /// Takes the base into other coordinates.
+    /// Converts the base to other coordinates; `room` is a scratch vector of the same length.
     pub fn convert(&self, base: &mut Base, coordinates: Coordinates, room: &mut Vec<f64>) {
         if base.coordinates == coordinates {
             return;
@@ -206,7 +206,7 @@ impl System {
     }
 }
 
-/// Modes are cheaper where they are few, or where every floor feels every other.
+/// The cheaper coordinates in contact: modes where they are few or where the floor matrices are full, else floors.
 fn contact_coordinates(structure: &Structure) -> Coordinates {
     if !cfg!(without = "floors") && structure.lanes > FEW_BLOCKS * LANES && structure.floors.is_sparse() {
         Coordinates::Floors

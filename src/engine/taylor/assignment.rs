@@ -1,4 +1,4 @@
-//! Which pair in contact stands in which block and lane.
+//! Assignment of the pairs in contact to blocks, by kind of force, and to lanes.
 
 use crate::contact::taylor::{Kind, PairBlock};
 use crate::engine::base::Base;
@@ -8,7 +8,7 @@ use crate::engine::pairs::pair::Pair;
 use crate::engine::taylor::closed_pairs::ClosedPairs;
 
 impl ClosedPairs {
-    /// Starts the series of all pairs in contact that are not held together; `scale` is the unit of time.
+    /// Starts the series of all pairs in contact, except those held together; `scale` is the time unit, s.
     pub fn start(&mut self, base: &Base, pairs: &[Pair], scale: f64) {
         if !self.start_again(base, scale) {
             self.assign(base, pairs);
@@ -16,7 +16,7 @@ impl ClosedPairs {
         }
     }
 
-    /// Gives each closed pair its block and lane.
+    /// Assigns a block and a lane to each closed pair.
     fn assign(&mut self, base: &Base, pairs: &[Pair]) {
         self.used = 0;
         self.assigned.clear();
@@ -25,7 +25,7 @@ impl ClosedPairs {
         for (p, contact) in closed(base) {
             let force = contact.starting_force();
             let kind = Kind::of(&force);
-            // A spring of that law's exponent is a root law without damping: better than a block of its own beside it.
+            // A root law without damping includes an undamped power law of the same exponent: so both share a block.
             let joint = if has_roots && force.is_like_root() { Kind::Root } else { kind };
             let (b, lane) = self.room_for(joint, LanePlace::of(&pairs[p], base.coordinates));
             self.members[b].set(lane, p, &pairs[p], base.coordinates);
@@ -35,7 +35,7 @@ impl ClosedPairs {
         }
     }
 
-    /// Enters the closed pairs where they have been assigned; whether they are the same as then.
+    /// Enters the closed pairs at their assigned lanes; returns whether the closed pairs are those that were assigned.
     fn start_again(&mut self, base: &Base, scale: f64) -> bool {
         self.at_surface.fill(false);
         self.waits = false;
@@ -54,7 +54,7 @@ impl ClosedPairs {
         assigned.next().is_none() && self.coordinates == base.coordinates
     }
 
-    /// Block and lane for a pair of a kind: mostly in the newest block.
+    /// Block and lane for a pair of a kind of force: a free lane, of the newest block if possible, or a new block.
     fn room_for(&mut self, kind: Kind, place: LanePlace) -> (usize, usize) {
         for b in (0..self.used).rev() {
             if self.blocks[b].kind() == kind
@@ -73,7 +73,7 @@ impl ClosedPairs {
     }
 }
 
-/// The pairs that have a force, with their numbers.
+/// The closed pairs, each with its number.
 fn closed(base: &Base) -> impl Iterator<Item = (usize, &Contact)> {
     base.contacts.iter().enumerate().filter(|(_, contact)| is_closed(contact))
 }

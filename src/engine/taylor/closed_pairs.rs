@@ -1,4 +1,4 @@
-//! The series of all pairs in contact while a step is expanded and followed.
+//! The closed pairs, those with a contact force, during a Taylor step: series of their penetrations and forces.
 
 use crate::contact::taylor::{Any, BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
 use crate::engine::base::Coordinates;
@@ -11,39 +11,48 @@ use crate::numerics::roots;
 use crate::numerics::substitution::Substitution;
 use crate::structure::MotionSeries;
 
-/// The pairs in contact, in blocks of one kind of law each.
+/// The closed pairs, in blocks of one kind of force each.
 #[derive(Clone, Debug)]
 pub struct ClosedPairs {
-    /// The first `used` are filled. There is room for all, but memory that no contact has needed yet is not touched.
+    /// The first `used` are filled. They are allocated for all pairs, but memory that no contact has needed yet is not
+    /// touched.
     pub blocks: Vec<PairBlock>,
+    /// The pairs in each block.
     pub members: Vec<PackedPairs>,
+    /// Each block's penetrations at the end of the step.
     pub readings: Vec<BlockReading>,
-    /// Whether a pair of the block has just entered without any speed: where its floors move alike, its penetration is
-    /// rounding.
+    /// Whether a pair of the block has just entered with a velocity of 0: where its floors move alike, its penetration
+    /// is rounding.
     pub at_surface: Vec<bool>,
-    /// Of each pair the earlier ones with which it shares a floor, so that each feels the other's force at once.
+    /// For each pair, the earlier pairs that share a floor with it, so that the force of one accelerates the other
+    /// directly.
     pub neighbours: Vec<Vec<usize>>,
-    /// The closed pairs that have been given a block and a lane, with their kinds, and in which coordinates.
+    /// The closed pairs that have been assigned, with their kinds of force.
     pub assigned: Vec<(usize, Kind)>,
+    /// The coordinates for which they have been assigned.
     pub coordinates: Coordinates,
-    /// Whether the penetrations have to wait for all forces.
+    /// Whether a new power of the penetrations can be worked out only after that of all forces: pairs share a floor, or
+    /// have just entered with a velocity of 0.
     pub waits: bool,
+    /// Number of blocks in use.
     pub used: usize,
     /// Block and lane of each contact.
     pub places: Vec<(usize, usize)>,
 }
 
-/// Blocks of pairs, and which pairs stand in them.
+/// Blocks of pairs, and the pairs in them.
 pub type Blocks<'a> = (&'a mut [PairBlock], &'a [PackedPairs]);
 
-/// What a block comes to at the end of a step.
+/// A block at the end of a step.
 pub struct BlockEnd {
+    /// Penetrations, m, and their derivatives by x.
     motion: BlockReading,
+    /// Forces, N, their derivatives by x, and impulses.
     force: ForceReading,
 }
 
 impl ClosedPairs {
-    /// Room for these pairs.
+    /// Allocates for these pairs.
     pub fn new(all: &[Pair], on_floors: bool) -> ClosedPairs {
         let pairs = all.len();
         let shares = |a: &Pair, b: &Pair| a.floors[0] == b.floors[0] || a.floors[1] == b.floors[1];
@@ -62,24 +71,24 @@ impl ClosedPairs {
         }
     }
 
-    /// How many pairs have a force.
+    /// Number of pairs with a force.
     pub fn count_forces(&self) -> u64 {
         self.assigned.iter().filter(|(_, kind)| *kind != Kind::None).count() as u64
     }
 
-    /// How many pairs there are, where they fit into one block and are under linear laws.
+    /// Number of pairs, if they fit into one block and are under linear laws.
     pub fn count_linear(&self) -> Option<usize> {
         (self.used == 1 && self.blocks[0].is_linear()).then(|| self.blocks[0].count)
     }
 
-    /// The block of all pairs where they fit into one and are under linear laws: its members, whether one of them has just
-    /// entered without any speed, and whether the penetrations have to wait for all forces.
+    /// The only block if all pairs fit into one and are under linear laws: (block, its pairs, whether one of them has
+    /// just entered with a velocity of 0, `waits`).
     pub fn only_linear_block(&mut self) -> Option<(&mut PairBlock, &PackedPairs, bool, bool)> {
         self.count_linear()?;
         Some((&mut self.blocks[0], &self.members[0], self.at_surface[0], self.waits))
     }
 
-    /// All blocks with their pairs, and the kind of law where that is the same for all.
+    /// All blocks with their pairs, and the kind of force if it is the same for all.
     pub fn blocks(&mut self) -> (Blocks<'_>, Option<Kind>) {
         let (blocks, members) = (&mut self.blocks[..self.used], &self.members[..self.used]);
         let kind = blocks.first().map(PairBlock::kind);
@@ -87,12 +96,13 @@ impl ClosedPairs {
         ((blocks, members), kind)
     }
 
-    /// Whether the penetrations have to wait for all forces: pairs share a floor, or have just entered without any speed.
+    /// Whether a new power of the penetrations can be worked out only after that of all forces (see the field).
     pub fn waits(&self) -> bool {
         self.waits
     }
 
-    /// About where the first pair under a power law is released, if that is before `limit`; else infinite.
+    /// Estimate of the first release of a pair under a power law, in units of the series' scale; infinite if not before
+    /// `limit`.
     pub fn first_release(&self, limit: f64) -> f64 {
         let mut first = f64::INFINITY;
         let blocks = self.blocks[..self.used].iter().zip(&self.members);
@@ -103,14 +113,14 @@ impl ClosedPairs {
         first
     }
 
-    /// Whether any pair is released by x, as far as the first powers tell.
+    /// Whether any pair is released by x, judged by the first three terms of its penetration.
     pub fn are_some_nearly_released(&self, x: f64) -> bool {
         let parabola = |d: &[Each], lane: usize| d[0][lane] + x * (d[1][lane] + x * d[2][lane]);
         let mut blocks = self.blocks[..self.used].iter().zip(&self.members);
         blocks.any(|(block, members)| members.lanes().any(|(lane, _)| parabola(&block.penetration, lane) < 0.0))
     }
 
-    /// Makes all series such in the x of a time map.
+    /// Changes the variable of all series to the x of a time map.
     pub fn substitute(&mut self, substitution: &Substitution) {
         self.blocks[..self.used].iter_mut().for_each(|block| block.substitute(substitution));
     }
@@ -126,12 +136,12 @@ impl ClosedPairs {
         (&self.blocks[block], lane)
     }
 
-    /// The pairs of a block, lane by lane.
+    /// (lane, number of the pair) of each lane that holds a pair.
     pub fn pairs_of(&self, block: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.members[block].lanes()
     }
 
-    /// Reads the penetrations at the end of the step.
+    /// Evaluates the penetrations at the end of the step.
     pub fn read(&mut self, end: &Powers) {
         for (reading, block) in self.readings.iter_mut().zip(&self.blocks).take(self.used) {
             *reading = block.read(end);
@@ -143,14 +153,14 @@ impl ClosedPairs {
         &self.readings[block]
     }
 
-    /// Power n of the forces, from the powers of the penetrations so far.
+    /// Extends the forces by power n, from the powers of the penetrations up to n.
     pub fn extend_forces(&mut self, n: usize) {
         for block in &mut self.blocks[..self.used] {
             block.extend_force::<Any>(n);
         }
     }
 
-    /// Calls for each pair with its number and power n of its force.
+    /// Calls `visit` with the number of each pair and power n of its force.
     pub fn each_force(&self, n: usize, mut visit: impl FnMut(usize, f64)) {
         for (block, members) in self.blocks.iter().zip(&self.members).take(self.used) {
             for (lane, pair) in members.lanes() {
@@ -159,8 +169,8 @@ impl ClosedPairs {
         }
     }
 
-    /// Enters power n of the penetrations, from the members of a block, its lanes that hold pairs, and whether one of
-    /// them may have just entered without any speed.
+    /// Enters power n of the penetrations, block by block: `values` gets its pairs, the number of lanes that may hold
+    /// pairs, and whether one of them may have just entered with a velocity of 0.
     pub fn set_blocks(&mut self, n: usize, mut values: impl FnMut(&PackedPairs, usize, bool) -> Each) {
         let blocks = self.blocks.iter_mut().zip(&self.members).zip(&self.at_surface);
         for ((block, members), at_surface) in blocks.take(self.used) {
@@ -169,7 +179,8 @@ impl ClosedPairs {
         }
     }
 
-    /// The same from the number of a pair.
+    /// Enters power n of the penetrations, pair by pair: `term` gets its number and whether a pair of its block has
+    /// just entered with a velocity of 0.
     pub fn set_penetrations(&mut self, n: usize, mut term: impl FnMut(usize, bool) -> f64) {
         self.set_blocks(n, |members, _, at_surface| {
             let mut values = [0.0; PAIRS];
@@ -180,7 +191,7 @@ impl ClosedPairs {
         });
     }
 
-    /// N, bounds on the sizes of the forces up to the x of the powers, one per contact.
+    /// Writes bounds on the magnitudes of the forces up to the x of the powers, N, one per contact.
     pub fn bound_forces(&self, contacts: &[Contact], powers: &Powers, out: &mut [f64]) {
         for (b, block) in self.blocks[..self.used].iter().enumerate() {
             let depth = block.read(powers);
@@ -206,7 +217,7 @@ impl ClosedPairs {
         }
     }
 
-    /// Follows the contacts to the end of the step, which has begun at `start` [s].
+    /// Moves the contacts to the end of the step, which began at the time `start`, s.
     pub fn follow(&self, contacts: &mut [Contact], series: &MotionSeries, start: f64, powers: &Powers) {
         for (b, block) in self.blocks[..self.used].iter().enumerate() {
             let end = BlockEnd::of(block, self.readings[b], powers);
@@ -216,7 +227,7 @@ impl ClosedPairs {
         }
     }
 
-    /// The same for one contact.
+    /// Moves one contact to the x of the powers, in a step that began at the time `start`, s.
     pub fn follow_one(&self, contact: &mut Contact, series: &MotionSeries, start: f64, powers: &Powers) {
         let (block, lane) = self.of(contact.episode.contact);
         let end = BlockEnd::of(block, block.read(powers), powers);
@@ -227,7 +238,7 @@ impl ClosedPairs {
 impl BlockEnd {
     fn of(block: &PairBlock, motion: BlockReading, powers: &Powers) -> BlockEnd {
         let force = match block.is_elastic() {
-            // Strongest where they are deepest.
+            // An elastic force is largest where the penetration is.
             true => ForceReading { impulse: block.elastic_impulses(powers), ..Default::default() },
             false => block.read_force(powers),
         };
@@ -236,7 +247,7 @@ impl BlockEnd {
 }
 
 impl Contact {
-    /// Penetration, impulse, peaks and work over a series up to x.
+    /// Moves a contact over its series up to x: penetration, impulse, peaks and work.
     fn follow_lane(
         &mut self,
         (block, lane): (&PairBlock, usize),
@@ -283,7 +294,8 @@ impl Contact {
         }
         self.penetration = depth.value;
         self.rate = depth.slope / series.time_rate(x);
-        // The series of a damped force is truncated; what is shown is what the law makes of the motion.
+        // The series of a damped force is truncated: at the end, the peak uses the force that the law gives for the
+        // motion there, as the output does.
         let last = if block.is_elastic() { 0.0 } else { self.branch().value(self.penetration, self.rate) };
         if last > self.episode.peak_force {
             self.episode.peak_force = last;

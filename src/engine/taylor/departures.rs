@@ -1,4 +1,5 @@
-//! What ends a step in contact: a release, a change of branch, an entry of another pair.
+//! Departures, the events of pairs in contact that end a step: release, change of branch, or detachment of floors held
+//! together.
 
 use crate::contact::Guard;
 use crate::contact::taylor::BlockReading;
@@ -14,11 +15,11 @@ use crate::numerics::powers::Powers;
 use crate::numerics::roots;
 use crate::structure::{MotionSeries, difference};
 
-/// Share of the velocities so far below which a rate may be rounding.
+/// Rate, as a share of the largest velocity so far, below which it may be rounding.
 const ALIKE: f64 = 1e-12;
 
 impl System {
-    /// The first event of a pair in contact up to the end of the step's series.
+    /// The first departure up to the end of the step's series, as (x, event).
     pub fn first_leaving(&self, base: &Base, solution: &Solution, work: &mut Buffers) -> Option<(f64, Event)> {
         let mut first = None;
         for block in 0..solution.closed.len() {
@@ -33,7 +34,7 @@ impl System {
         first
     }
 
-    /// Release or change of branch of a pair in contact.
+    /// The release or change of branch of one pair in contact, whichever is first.
     fn leaving(
         &self,
         base: &Base,
@@ -44,7 +45,8 @@ impl System {
         until: f64,
     ) -> Option<(f64, Event)> {
         let contact = &base.contacts[p];
-        // One that has entered without any speed, whose first terms may be rounding, leaves at that depth.
+        // A pair that entered with a velocity of 0, so that its first terms may be rounding, is released only beyond
+        // their rounding error.
         let depth =
             if contact.at_surface && contact.rate == 0.0 { self.noise_of(p, base, solution, work) } else { 0.0 };
         let released = released(&solution.closed, (p, lane), reading, (solution.end.x, until), depth, &mut work.scalar);
@@ -58,8 +60,8 @@ impl System {
         }
     }
 
-    /// By how much a guard has to be passed, in its unit: by more than rounding where the floors move alike but for
-    /// that, else the contact would pass back and forth for ever.
+    /// The excess, in the guard's unit, by which a guard has to be passed: above 0 where the rate is only rounding, as
+    /// otherwise the contact would pass back and forth for ever.
     fn noise_of_guard(
         &self,
         contact: &Contact,
@@ -77,7 +79,7 @@ impl System {
         if rate <= noise { guard.damping.abs() * noise } else { 0.0 }
     }
 
-    /// Where a contact passes to the other side of its guard, by more than a `noise`.
+    /// The x at which a contact passes to the other side of its guard, by more than `noise`.
     fn passes_guard(
         &self,
         contact: &Contact,
@@ -90,7 +92,7 @@ impl System {
         let (MotionSeries { scale, time_map, .. }, end) = (&solution.series, solution.end.x);
         let sense = if contact.phase == Phase::Engaged { -1.0 } else { 1.0 };
         let (moved, stretch) = (end * (contact.rate.abs() * scale + reading.turn[lane]), time_map.rate(end));
-        // Of the guard times dt/dx, which changes no sign.
+        // The polynomial is the guard times dt/dx, which is positive and so keeps the sign.
         let at_rest = guard.value(contact.penetration, 0.0).abs() * (stretch - 1.0).abs();
         let change = at_rest
             + guard.stiffness.abs() * moved * stretch.max(1.0)
@@ -112,13 +114,13 @@ impl System {
         roots::first_upcrossing(&mut scalar[..terms], until, 0.0)
     }
 
-    /// m, rounding error of a penetration within the step.
+    /// Rounding error of a penetration within the step, m.
     fn noise_of(&self, p: usize, base: &Base, solution: &Solution, work: &mut Buffers) -> f64 {
         let size = self.size_of(p, base, solution, work, |powers| powers.in_time().0);
         self.pairs[p].noise(size)
     }
 
-    /// m/s2, rounding error of a pair's relative acceleration in 0..=x of a series.
+    /// Rounding error of a pair's relative acceleration in 0..=x of a series, m/s2.
     fn acceleration_noise(&self, p: usize, series: &MotionSeries, x: f64) -> f64 {
         let (mut sum, mut power) = (0.0, 1.0 / (series.scale * series.scale));
         for n in 2..=series.order {
@@ -128,7 +130,7 @@ impl System {
         8.0 * f64::EPSILON * sum
     }
 
-    /// Where the reaction of a pair that is held together falls to 0 in 0..=end of its series.
+    /// The x in 0..=end at which the reaction of a held pair falls to 0.
     fn first_detachment(&self, p: usize, solution: &Solution, work: &mut Buffers, end: f64) -> Option<(f64, Event)> {
         let k = self.rigid.pairs.iter().position(|&pair| pair == p)?;
         let noise = self.acceleration_noise(p, &solution.series, end) / self.rigid.matrix[(k, k)];
@@ -140,8 +142,7 @@ impl System {
         roots::first_upcrossing(pull, end, noise).map(|x| (x, Event::Release(p)))
     }
 
-    /// The sum of the sizes of all that a pair's relative motion is added up from, each term times its factor at the end of
-    /// the step.
+    /// Sum of the magnitudes of the terms of a pair's relative motion, m, each times its factor at the end of the step.
     fn size_of(
         &self,
         p: usize,
@@ -157,12 +158,12 @@ impl System {
     }
 }
 
-/// How far to look: to the first event that is known, or to the end.
+/// The end of a search: the first event known so far, or the end of the step.
 fn until(first: Option<(f64, Event)>, solution: &Solution) -> f64 {
     first.map_or(solution.end.x, |(x, _)| x)
 }
 
-/// Where a penetration is back at 0, or at -`depth`, up to `until`; its reading is that at the step's `end`.
+/// The x at which a penetration returns to 0, or to -`depth`, in 0..=`until`; `reading` is the penetration at `end`.
 fn released(
     closed: &ClosedPairs,
     (p, lane): (usize, usize),
@@ -178,7 +179,7 @@ fn released(
         return None;
     }
     let terms = block.copy_penetration(lane, distance);
-    // Distance to the surface, positive once d has passed 0 downwards.
+    // The distance of the floors: positive once the penetration has passed 0 downwards.
     for d in &mut distance[..terms] {
         *d = -*d;
     }

@@ -1,4 +1,4 @@
-//! The first entry of a pair that is apart while others are in contact.
+//! The first entry of an open pair while others are in contact.
 
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
@@ -13,7 +13,7 @@ use crate::numerics::substitution::Substitution;
 use crate::structure::MotionSeries;
 
 impl System {
-    /// The first entry of a pair that is apart up to the end of the step.
+    /// The first entry of an open pair up to the end of the step, as (x, event).
     pub fn first_entry(&self, base: &Base, solution: &mut Solution, work: &mut Buffers) -> Option<(f64, Event)> {
         if base.contacts.iter().all(Contact::in_contact) {
             return None;
@@ -34,7 +34,7 @@ impl System {
         first
     }
 
-    /// The first entry among some lanes that hold a pair, of those that are apart, or the one that is known.
+    /// The first entry among the open pairs of some lanes, or `first` if that is earlier.
     #[inline]
     fn first_of_lanes(
         &self,
@@ -45,7 +45,8 @@ impl System {
         mut first: Option<(f64, Event)>,
     ) -> Option<(f64, Event)> {
         let stays_apart = course.stays_apart(end.x);
-        // Of a pair at the surface, or next to it, more digits are known than the motion tells.
+        // A tracked pair's stored penetration is more accurate than one recomputed from the motion: it is tested by its
+        // own series.
         let is_sure = |lane: usize, contact: &Contact| stays_apart[lane] && !contact.at_surface && !contact.tracked;
         let may_meet = |&(lane, p): &(usize, usize)| {
             let contact = &base.contacts[p];

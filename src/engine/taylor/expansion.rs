@@ -1,4 +1,4 @@
-//! Expands motion and contact forces together, power by power.
+//! Expansion of motion and contact forces into power series in time, power by power together.
 
 use crate::contact::taylor::PAIRS;
 use crate::engine::base::{Base, Coordinates};
@@ -13,14 +13,14 @@ use crate::numerics::complementarity::Complementarity;
 use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, difference, dot};
 
 impl System {
-    /// The series of the motion, of penetrations and forces from the base on.
+    /// Expands motion, penetrations and forces from the base on; `scale` is the time unit, s.
     pub fn expand(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, scale: f64) {
         solution.series.start(scale, &base.q, &base.v);
         solution.closed.start(base, &self.pairs, scale);
         self.expand_to(base, solution, work, self.tolerance.order + 1);
     }
 
-    /// Expands the started series to `order`, or goes on with it.
+    /// Extends the started series to `order`.
     fn expand_to(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, order: usize) {
         let (structure, loads) = (&self.structure, (&work.load[..], &work.slope[..]));
         let Solution { series, closed, .. } = solution;
@@ -50,8 +50,8 @@ impl System {
         }
     }
 
-    /// More powers of the series where these are cheap and it does not reach the release of any pair yet, within
-    /// `reach`; whether there are more now.
+    /// Extends the series by more powers, if these are cheap and no pair is released within `reach`; returns whether it
+    /// did.
     pub fn expand_further(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, reach: f64) -> bool {
         let is_on_few_modes = !cfg!(without = "few_modes")
             && base.coordinates == Coordinates::Modes
@@ -68,8 +68,7 @@ impl System {
         true
     }
 
-    /// Expands a started series of few modes to `order`, or goes on with it, where all pairs are under linear laws;
-    /// whether they are.
+    /// Extends a started series on few modes to `order` if all pairs are under linear laws; returns whether they are.
     fn expand_linear(
         &self,
         series: &mut MotionSeries,
@@ -96,7 +95,7 @@ impl System {
         forces.map(|mut forces| series.expand_few_modes(&self.structure, order, loads, &mut forces)).is_some()
     }
 
-    /// One power of the modes, where floors are held together.
+    /// Extends the series on modes by one power, with the reactions between floors that are held together.
     fn extend_together(&self, solution: &mut Solution, (load, slope): (&[f64], &[f64]), rigid: &mut Complementarity) {
         let Solution { series, closed, reactions, reaction_order, .. } = solution;
         let n = series.order - 1;

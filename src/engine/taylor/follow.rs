@@ -1,4 +1,4 @@
-//! What a Taylor step does to contacts.
+//! Moves the contacts along a Taylor step.
 
 use crate::engine::base::contact::Contact;
 use crate::engine::system::System;
@@ -8,7 +8,7 @@ use crate::numerics::powers::Powers;
 use crate::numerics::roots;
 
 impl Solution {
-    /// Follows the contacts to the end of the step, which has begun at `start` [s].
+    /// Moves the contacts to the end of the step, which began at the time `start`, s.
     pub fn follow(&self, system: &System, contacts: &mut [Contact], start: f64) {
         self.closed.follow(contacts, &self.series, start, &self.end);
         for (terms, &p) in self.reactions.iter().zip(&system.rigid.pairs) {
@@ -18,7 +18,7 @@ impl Solution {
         }
     }
 
-    /// Follows one contact to the time of the powers.
+    /// Moves one contact to the x of the powers.
     pub fn follow_one(&self, system: &System, contact: &mut Contact, start: f64, powers: &Powers) {
         if !contact.is_held() {
             return self.closed.follow_one(contact, &self.series, start, powers);
@@ -29,7 +29,7 @@ impl Solution {
         }
     }
 
-    /// N, bounds on the sizes of the contact forces up to the x of the powers.
+    /// Writes bounds on the magnitudes of the contact forces up to the x of the powers, N.
     pub fn bound_forces(&self, system: &System, contacts: &[Contact], powers: &Powers, out: &mut [f64]) {
         self.closed.bound_forces(contacts, powers, out);
         for (terms, &p) in self.reactions.iter().zip(&system.rigid.pairs) {
@@ -42,7 +42,8 @@ impl Solution {
 }
 
 impl Contact {
-    /// Impulse and peaks of floors that are held together, over a series up to the x of the powers.
+    /// Impulse and peaks of floors that are held together, by the series of their reaction, N, up to the x of the
+    /// powers.
     pub fn follow_reaction(&mut self, terms: &Coefficients, order: usize, scale: f64, start: f64, powers: &Powers) {
         let impulse = scale * powers.integral(terms);
         self.impulse += impulse;

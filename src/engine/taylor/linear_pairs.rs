@@ -1,7 +1,7 @@
-//! The usual contact at the price of its arithmetic: up to [`PAIRS`] pairs, all under linear laws, on few modes.
+//! Contact forces of the most common case: up to [`PAIRS`] pairs, all under linear laws, on few modes.
 //!
-//! What [`super::pair_forces`] does for any pairs, with the same operations in the same order, but the last powers
-//! of the penetrations stay in registers.
+//! They are those of [`super::pair_forces`], with the same operations in the same order, but the last two powers of the
+//! penetrations stay in registers.
 
 use crate::contact::taylor::{Each, PAIRS, PairBlock};
 use crate::engine::pairs::jacobian::dot_blocks;
@@ -11,25 +11,28 @@ use crate::numerics::polynomial::COUNT as POWER;
 use crate::structure::{FEW_BLOCKS, LANES, Lane, PairForces, difference};
 use std::array::from_fn;
 
-/// The pairs while a series is expanded: `COUNT` of them, or as many as there are where that is [`PAIRS`].
+/// The pairs while a series is expanded: `COUNT` of them, or at most that many if it is [`PAIRS`].
 pub struct LinearPairs<'a, const COUNT: usize> {
     block: &'a mut PairBlock,
+    /// Number of pairs.
     count: usize,
-    /// What each pair is to the modes.
+    /// Rows of the modal Jacobian.
     rows: [&'a [Lane; FEW_BLOCKS]; COUNT],
+    /// Force per unit of penetration, and of its rate in the series' time unit, N/m.
     stiffness: [f64; COUNT],
     damping: [f64; COUNT],
+    /// Minus the relative acceleration of each pair per unit of its own force, 1/kg.
     softness: [f64; COUNT],
-    /// Whether the penetrations have to wait for all forces.
+    /// Whether a new power of the penetrations can be worked out only after that of all forces (see [`ClosedPairs`]).
     waits: bool,
-    /// Whether a pair has just entered without any speed.
+    /// Whether a pair has just entered with a velocity of 0.
     at_surface: bool,
-    /// The last two powers of the penetrations.
+    /// The last two powers of the penetrations, m.
     last: [[f64; COUNT]; 2],
 }
 
 impl<'a, const COUNT: usize> LinearPairs<'a, COUNT> {
-    /// The closed pairs, where all are of that kind, from power `n` of the forces on; `all` are those of the scene.
+    /// The closed pairs from power `n` of the forces on, if all are of that kind; `all` are the pairs of the scene.
     pub fn of(closed: &'a mut ClosedPairs, all: &'a [Pair], n: usize) -> Option<LinearPairs<'a, COUNT>> {
         let (block, members, at_surface, waits) = closed.only_linear_block()?;
         let mut rows = [&NO_ROW; COUNT];
@@ -60,7 +63,7 @@ impl<const COUNT: usize> PairForces for LinearPairs<'_, COUNT> {
             for (next, row) in next.iter_mut().zip(&self.rows).take(count) {
                 *next = dot_blocks(*row, term);
             }
-            // What a force does to its own pair needs no detour by the motion.
+            // The effect of a force on its own pair by its inverse mass, without waiting for the motion.
             next = from_fn(|i| next[i] - factor * self.softness[i] * force[i]);
         }
         for (force, row) in force.iter().zip(&self.rows).take(count) {

@@ -1,11 +1,12 @@
-//! A step in contact: power series in time of the motion, with the forces of the pairs that are in contact.
+//! A Taylor step in contact: power series in time of the motion and of the contact forces.
 //!
-//! Each power follows from the ones before at the cost of a few vector operations; only the contact forces need products
-//! of series. The step is as long as the last terms allow. The motion is that of the floors where they are many and feel
-//! their neighbours only, else that of the modes, as always near rigid contacts.
+//! Each power follows from the ones before by a few vector operations; only the contact forces need products of series.
+//! The last terms determine the step length. The motion is that of the floors where these are many and coupled to their
+//! neighbours only, else that of the modes, as always near rigid contacts.
 //!
-//! Under a power law the last terms tell of the root of the time since the entry, or until the release: there the terms in
-//! time are weighed as those by a [`TimeMap`] have them, which knows no such root and goes several times as far.
+//! Under a power law the series in time converges only up to the singularity at the entry or at the release. There it
+//! is re-expanded in the x of a [`TimeMap`], in which the motion is analytic at that point, and reaches several times
+//! as far.
 
 pub mod assignment;
 pub mod closed_pairs;
@@ -27,8 +28,8 @@ use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
 
 impl System {
-    /// Works out the power series from the base over `remaining` seconds at most, under a load that is in `work`, and how
-    /// far they are good for; `is_cut` where the remaining time is not all that there is.
+    /// Plans a step from the base over `remaining` seconds at most, under the load in `work`; `is_cut` if the remaining
+    /// time has been shortened, so that the step does not reach the limit.
     pub fn plan_taylor(
         &self,
         at: &mut At,
@@ -62,8 +63,8 @@ impl System {
         }
     }
 
-    /// How far the expanded series are good for, in x: with more powers where these are cheap, by a time map where that
-    /// takes them further.
+    /// How far the series are accurate, in x: with more powers where these are cheap, and in the x of a time map where
+    /// it takes them further.
     fn reach(
         &self,
         base: &Base,
@@ -82,14 +83,14 @@ impl System {
         reach
     }
 
-    /// The first event up to an x; leaves the end of the step, which is there or at the event, in the solution.
+    /// The first event up to x = `end`; sets the end of the step in the solution, which is there or at the event.
     fn first_event(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, end: f64) -> Option<Event> {
         solution.end_at(end);
         let leaving = self.first_leaving(base, solution, work);
         if let Some((x, _)) = leaving {
             solution.end_at(x);
         }
-        // Only an entry is looked for in the motion, and no further than to what ends the step anyway.
+        // Only entries need the motion; they are searched for only up to the first departure.
         let entry = self.first_entry(base, solution, work);
         if let Some((x, _)) = entry {
             solution.end_at(x);

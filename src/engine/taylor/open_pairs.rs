@@ -1,4 +1,4 @@
-//! The pairs that are apart while others are in contact: which of them may meet within a step.
+//! The open pairs while others are in contact: bounds that show which of them may meet within a step.
 
 use crate::contact::taylor::{Each, PAIRS};
 use crate::engine::base::contact::Contact;
@@ -11,20 +11,20 @@ use crate::numerics::powers::Powers;
 use crate::numerics::substitution::Substitution;
 use crate::structure::{FEW_BLOCKS, LANES, MotionSeries};
 
-/// A block of pairs over a step, by the x of its powers.
+/// Penetrations of a block of pairs at both ends of a step, in the x of its series.
 #[derive(Clone, Debug, Default)]
 pub struct PenetrationBounds {
-    /// Penetrations at the start, m, and their derivatives.
+    /// Penetrations at the start, m, and their derivatives with respect to x.
     pub start: [Each; 2],
-    /// The same at the end.
+    /// Penetrations at the end, m, and their derivatives with respect to x.
     pub end: [Each; 2],
-    /// Bounds on their fourth derivatives.
+    /// Bounds on their fourth derivatives with respect to x.
     pub fourth: Each,
 }
 
 impl PenetrationBounds {
-    /// Of block `i` of `width`, from so many powers of their relative displacements: all of one power, then those of the
-    /// next.
+    /// For block `i` of `width`, from the first `count` terms of its relative displacements; `terms` holds those of all
+    /// blocks for one power, then for the next.
     #[inline(always)]
     fn of(terms: &[Each], (i, width): (usize, usize), count: usize, powers: &Powers, gap: &Each) -> PenetrationBounds {
         let ((values, slopes, fourths), term) = (powers.all(), |n: usize| &terms[n * width + i]);
@@ -41,8 +41,9 @@ impl PenetrationBounds {
         PenetrationBounds { start: [start, rate], end: [end, each(|i| rate[i] + slope[i])], fourth }
     }
 
-    /// Which pairs certainly stay apart up to x: the penetration is as near to its cubic interpolant as its fourth
-    /// derivative says, and that lies between its control points (as [`roots::ceiling`] has it).
+    /// Whether each pair certainly stays apart up to x: its penetration differs from its cubic interpolant by no more
+    /// than its fourth derivative allows, and the interpolant is at most its largest control value
+    /// ([`roots::upper_bound`]).
     pub fn stays_apart(&self, x: f64) -> [bool; PAIRS] {
         let ([start, rate], [end, slope]) = (&self.start, &self.end);
         let larger = |a: f64, b: f64| if a > b { a } else { b };
@@ -51,29 +52,30 @@ impl PenetrationBounds {
             let control = larger(start[i] + third * rate[i], end[i] - third * slope[i]);
             larger(larger(start[i], end[i]), control) + bound * self.fourth[i]
         });
-        // Written so that a NaN never stays apart.
+        // Written so that a NaN never counts as apart.
         highest.map(|highest| highest < 0.0)
     }
 }
 
-/// All pairs in blocks, and their series.
+/// All pairs in blocks, and the series of those that are apart.
 #[derive(Clone, Debug)]
 pub struct OpenPairs {
-    /// Room for all; the first `used` are filled.
+    /// Allocated for all pairs; the first `used` are filled.
     pub members: Vec<PackedPairs>,
+    /// Number of blocks in use.
     pub used: usize,
-    /// What the members are made for.
+    /// The coordinates for which the pairs have been assigned.
     pub coordinates: Option<Coordinates>,
-    /// The blocks that have a pair that is apart.
+    /// Numbers of the blocks with an open pair that may meet.
     pub apart: Vec<usize>,
-    /// m, relative displacements of these: all of one power, then those of the next.
+    /// Terms of the relative displacements of these blocks, m: those of all blocks for one power, then for the next.
     pub terms: Vec<Each>,
-    /// How these go over the step.
+    /// Bounds on their penetrations over the step.
     pub bounds: Vec<PenetrationBounds>,
 }
 
 impl OpenPairs {
-    /// Room for these pairs.
+    /// Allocates for that many pairs.
     pub fn new(pairs: usize, on_floors: bool) -> OpenPairs {
         let most = most_blocks(pairs, 1, on_floors);
         OpenPairs {
@@ -86,7 +88,7 @@ impl OpenPairs {
         }
     }
 
-    /// Gives each pair its block and lane in some coordinates.
+    /// Assigns a block and a lane to each pair, for some coordinates.
     pub fn assign(&mut self, pairs: &[Pair], coordinates: Coordinates) {
         if self.coordinates == Some(coordinates) {
             return;
@@ -103,8 +105,8 @@ impl OpenPairs {
         }
     }
 
-    /// Works out the bounds of the blocks that have a pair that is apart and not too far to meet, up to the x of the
-    /// powers; `room` is for a number of each floor.
+    /// Works out the bounds up to the x of the powers for all blocks with an open pair that is not too far apart to
+    /// meet; `room` is a scratch vector of the floors' length.
     pub fn follow(
         &mut self,
         base: &Base,
@@ -139,37 +141,39 @@ impl OpenPairs {
     }
 }
 
-/// How near floors have to be at the start of a step to meet in it.
+/// The distances that floors can move in a step, to exclude pairs that are too far apart to meet.
 struct Horizon<'a> {
-    /// The displacements of all floors at the start, m, and what their velocities then make of them until x or the time
-    /// there, whichever is more.
+    /// Displacements of all floors at the start, m.
     start: &'a [f64],
+    /// Terms of power 1: their velocities times the series' scale, m.
     tracked: &'a [f64],
+    /// Number of these terms by which the floors move at most: x, or the time there if that is more.
     reach: f64,
-    /// m, the most that all other terms of the motion of each floor add up to.
+    /// Sum of the magnitudes of all other terms of each floor's motion, m.
     wandered: &'a [f64],
 }
 
 impl<'a> Horizon<'a> {
-    /// For a step up to x. With t = x + b x^2 no term of a series in time, made one in x and cut off after its last
-    /// power, is larger than its size in time is at x + |b| x^2.
+    /// For a step up to x. With t = x + b x^2, a term of a series in time, re-expanded in x and truncated after the
+    /// last power, is never larger at x than the same term in time at x + |b| x^2.
     fn of(series: &'a MotionSeries, x: f64, wandered: &'a mut [f64]) -> Horizon<'a> {
         let reach = x + series.time_map.curvature.abs() * (x * x);
         series.sum_sizes(2, reach, wandered);
         Horizon { start: series.term(0), tracked: series.term(1), reach, wandered }
     }
 
-    /// Whether two floors are too far from each other.
+    /// Whether two floors are too far apart to meet in the step.
     fn is_beyond(&self, contact: &Contact, [left, right]: [usize; 2], gap: f64) -> bool {
         let relative = |motion: &[f64]| motion[left] - motion[right];
         let tracked = self.reach * relative(self.tracked).max(0.0);
         let nearest = relative(self.start) - gap + tracked + (self.wandered[left] + self.wandered[right]);
-        // Of a pair at the surface, or next to it, more digits are known than the motion tells.
+        // A tracked pair's stored penetration is more accurate than one recomputed from the motion, so it is never
+        // excluded here.
         nearest < 0.0 && !contact.at_surface && !contact.tracked
     }
 }
 
-/// The relative displacements of some blocks, power by power. Wide instructions give the same bits.
+/// Terms of the relative displacements of some blocks, power by power.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn relate<M: ContactJacobian>(
     jacobian: &M,
@@ -184,7 +188,7 @@ fn relate<M: ContactJacobian>(
     }
 }
 
-/// The bounds of some blocks from so many powers. Wide instructions give the same bits.
+/// Bounds on the penetrations of some blocks, from the first `count` terms.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn read(
     terms: &[Each],

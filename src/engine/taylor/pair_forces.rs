@@ -1,8 +1,7 @@
 //! The forces of the closed pairs while a series is expanded, power by power.
 //!
-//! For many pairs that are all under damped power laws there is code made for that, with the same operations in the same
-//! order as for any: it saves an eighth of a run. (Few pairs under linear laws on few modes have
-//! [`crate::engine::taylor::linear_pairs`].)
+//! For many pairs that are all under damped power laws the same operations are compiled for that law alone, which saves
+//! an eighth of a run. (Few pairs under linear laws on few modes have [`crate::engine::taylor::linear_pairs`].)
 
 use crate::contact::taylor::{Any, PairBlock, PairLaw};
 use crate::engine::pairs::jacobian::ContactJacobian;
@@ -12,7 +11,7 @@ use crate::numerics::polynomial::each;
 use crate::structure::{Lane, PairForces};
 use std::marker::PhantomData;
 
-/// Pairs under a law, each of which feels nothing of the others at once.
+/// Closed pairs that share no floor: each penetration's new power is worked out together with its own force.
 pub struct AtOnce<'a, M, L> {
     blocks: &'a mut [PairBlock],
     members: &'a [PackedPairs],
@@ -29,7 +28,8 @@ impl<'a, M: ContactJacobian, L: PairLaw> AtOnce<'a, M, L> {
     fn act_by(jacobian: &M, block: &mut PairBlock, members: &PackedPairs, n: usize, factor: f64, term: &mut [Lane]) {
         let force = block.extend_force::<L>(n);
         let relative = jacobian.relative_and_apply(members, block.count, &each(|i| factor * force[i]), term);
-        // What a force does to its own pair needs no detour by the motion: the next powers of the force wait for it.
+        // The effect of a force on its own pair by its inverse mass: so the next power of the force need not wait for
+        // the motion.
         let relative = each(|i| relative[i] - factor * members.softness[i] * force[i]);
         block.set_penetration::<L>(n + 2, relative);
     }
@@ -44,7 +44,7 @@ impl<M: ContactJacobian, L: PairLaw> PairForces for AtOnce<'_, M, L> {
     }
 }
 
-/// Pairs whose penetrations have to wait for all forces.
+/// Closed pairs of which some share a floor: the new powers of all forces first, then those of the penetrations.
 pub struct InTurn<'a, M> {
     pub closed: &'a mut ClosedPairs,
     pub jacobian: M,
@@ -64,7 +64,7 @@ impl<M: ContactJacobian> PairForces for InTurn<'_, M> {
     }
 }
 
-/// Hands the forces of the closed pairs to an expansion: made for one of `$law`s where they are all under that.
+/// Runs an expansion with the forces of the closed pairs: compiled for one of the `$law`s if all pairs are under it.
 macro_rules! with_forces {
     ($closed:expr, [$($law:ident),*], $jacobian:expr, |$forces:ident| $expand:expr) => {{
         use $crate::engine::taylor::pair_forces::{AtOnce, InTurn};

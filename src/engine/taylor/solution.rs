@@ -1,4 +1,4 @@
-//! What a Taylor step knows of the motion and of all contacts over its length.
+//! The dense solution of a Taylor step: series of the motion and of all contacts.
 
 use crate::engine::base::Coordinates;
 use crate::engine::system::System;
@@ -13,22 +13,24 @@ use crate::structure::MotionSeries;
 /// Power series of the motion and of all contacts.
 #[derive(Clone, Debug)]
 pub struct Solution {
+    /// The motion.
     pub series: MotionSeries,
-    /// Of the pairs in contact.
+    /// Penetrations and forces of the closed pairs.
     pub closed: ClosedPairs,
-    /// Of the pairs that are apart meanwhile.
+    /// Bounds on the penetrations of the open pairs.
     pub open: OpenPairs,
-    /// N, reactions of the rigid pairs that are held together, one per rigid pair, and their highest power.
+    /// Terms of the reactions between floors that are held together, N, one series per rigid pair.
     pub reactions: Vec<Coefficients>,
+    /// Highest power of these series.
     pub reaction_order: usize,
-    /// Of the end of the step.
+    /// Powers of x at the end of the step.
     pub end: Powers,
-    /// What makes of the terms of a series in time those by its time map.
+    /// Weights that change the variable of a series from time to the x of the step's time map.
     pub substitution: Box<Substitution>,
 }
 
 impl Solution {
-    /// Room for the series of a system.
+    /// Allocates for the series of a system.
     pub fn new(system: &System) -> Solution {
         let on_floors = system.contact_coordinates == Coordinates::Floors;
         Solution {
@@ -42,14 +44,14 @@ impl Solution {
         }
     }
 
-    /// Has the series read by a time map, in whose x those of pairs in contact are from now on.
+    /// Sets the time map of the motion's series, and changes the variable of the closed pairs' series to its x.
     pub fn substitute(&mut self, time_map: TimeMap) {
         self.substitution.set(&time_map, self.series.order + 1);
         self.series.time_map = time_map;
         self.closed.substitute(&self.substitution);
     }
 
-    /// Has the step end at an x.
+    /// Sets the end of the step, at x.
     pub fn end_at(&mut self, x: f64) {
         self.end.set_by(&self.series.time_map, x, self.series.order);
         self.closed.read(&self.end);

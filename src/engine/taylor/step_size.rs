@@ -6,37 +6,38 @@ use crate::engine::taylor::solution::Solution;
 use crate::numerics::polynomial::{MAX_TERMS, rough_root};
 use crate::structure::MotionSeries;
 
-/// Velocity that a force may cause which is left out at the singular start of a power law, as a share of a step's
+/// Velocity that a force neglected at the singular start of a power law may have caused, as a share of a step's
 /// tolerance.
 const START_SHARE: f64 = 0.1;
 
-/// Furthest reach of a series, in units of its scale: beyond, terms that have vanished in a scale far too short would be
-/// missed, and the powers of the step overflow. The next series has a better scale.
+/// Largest reach of a series, in units of its scale. Beyond it, terms that have underflowed in a scale far too short
+/// would be missed, and the powers of the step would overflow. The next series has a better scale.
 pub const FURTHEST: f64 = 1e9;
 
-/// Tolerance of a step below which it keeps away from the end of a time map and of its reach: there the rounding of
-/// terms in time weighs a thousand times as much in series of as high an order.
+/// Step tolerance below which a step keeps away from the end of its time map and of its reach: there the rounding
+/// errors of the terms in time are amplified a thousand times at the high orders that such a tolerance needs.
 const NEAR_ROUNDING: f64 = 1e-13;
 
-/// Share of the time map up to a release that a step takes then.
+/// Share of the time map up to a release that a step with such a tolerance takes.
 const KEEPING_AWAY: f64 = 0.9;
 
 impl System {
-    /// Share of the way to the end of a time map that a step may take.
+    /// Share of the way to the end of a time map, or of the remaining time, that a step may take.
     pub fn safety_factor(&self) -> f64 {
         if self.tolerance.step < NEAR_ROUNDING { KEEPING_AWAY } else { 1.0 }
     }
 
-    /// How far to go where terms show that something is accurate up to about `reach`: not quite as far, unless the rest of
-    /// the way is within reach too.
+    /// The step length for a series whose terms show that it is accurate up to about `reach`: 0.9 of it, or the `whole`
+    /// remaining length if that is within reach.
     pub fn with_safety(&self, reach: f64, whole: f64) -> f64 {
         if self.safety_factor() * reach >= whole { whole } else { 0.9 * reach }
     }
 
-    /// How far, in units of the series' scale, its last two terms stay below the tolerance.
+    /// Reach at which the last two terms of the velocity are below the tolerance, in units of the series' scale; with
+    /// safety.
     ///
-    /// It is the velocity that is controlled: over a contact of a millisecond a displacement error is a velocity error
-    /// a thousand times larger.
+    /// The velocity is controlled, not the displacement: over a contact of a millisecond a displacement error
+    /// corresponds to a velocity error a thousand times as large.
     pub fn accurate_reach(&self, base: &Base, solution: &Solution, is_singular: bool, whole: f64) -> f64 {
         let series = &solution.series;
         let mut reach = self.reach_of_terms(base, series, self.tolerance.step * base.velocity_scale * series.scale);
@@ -59,7 +60,7 @@ impl System {
         reach.min(FURTHEST)
     }
 
-    /// How far the last two terms stay below what is `allowed`, m.
+    /// Reach at which the last two terms, each times its power, are below `allowed`, m.
     fn reach_of_terms(&self, base: &Base, series: &MotionSeries, allowed: f64) -> f64 {
         let mut reach = f64::INFINITY;
         for n in [series.order - 1, series.order] {
@@ -74,8 +75,8 @@ impl System {
         reach
     }
 
-    /// How far a last term stays below the tolerance where nothing has moved yet: relative to the velocity that any of
-    /// the terms before it brings about by then.
+    /// Reach at which the last term is below the tolerance where nothing has moved yet, so that no velocity scale is
+    /// known: it is compared with the velocity by the largest of the earlier terms at that reach.
     fn reach_from_rest(&self, coordinates: Coordinates, series: &MotionSeries, last: usize, last_term: f64) -> f64 {
         (2..last / 2)
             .map(|n| {
@@ -85,8 +86,8 @@ impl System {
             .fold(0.0, f64::max)
     }
 
-    /// How far a power law's force may be left out after an entry: the velocity that it would have caused, m/s, stays a
-    /// small share of what there is and what the step brings about.
+    /// Reach up to which the force of a power law may be neglected after an entry: the velocity that it would have
+    /// caused, `left_out`, m/s, is a small share of the velocity scale and of the velocity gained in the step.
     fn forceless_reach(&self, left_out: impl Fn(f64) -> f64, base: &Base, series: &MotionSeries, whole: f64) -> f64 {
         let (speed, coordinates) = (base.velocity_scale, base.coordinates);
         let gained = [2, 3, 4].map(|n| n as f64 * self.floor_norm(coordinates, series.term(n)) / series.scale);

@@ -1,4 +1,4 @@
-//! What is watched for its largest magnitude, and how floors feel each other: what of it stays the same during a run.
+//! The quantities whose peaks are kept, and the coupling of floors that bounds on them need; constant during a run.
 
 pub mod resistance;
 pub mod rows;

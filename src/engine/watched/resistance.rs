@@ -1,31 +1,34 @@
-//! How floors feel each other, as sizes.
+//! Magnitudes of the coupling between floors by stiffness and damping, for bounds on accelerations.
 
 use crate::structure::{ModalDamping, Side, Structure};
 use nalgebra::DMatrix;
 use std::ops::Range;
 
-/// How floors feel each other, for both buildings.
+/// Magnitudes of the coupling between floors, for both buildings.
 #[derive(Debug)]
 pub struct FloorResistance {
     pub buildings: [Resistance; 2],
 }
 
+/// The coupling between the floors of one building.
 #[derive(Debug)]
 pub struct Resistance {
-    /// |M^-1 K| and |M^-1 C|, where a floor feels more than its neighbours.
+    /// |M^-1 K| and |M^-1 C|, entry by entry, where a floor is coupled to more than its neighbours.
     pub dense: Option<[DMatrix<f64>; 2]>,
-    /// Their largest sums over a row, 1/s2 and 1/s.
+    /// Largest row sums of |M^-1 K| and |M^-1 C|, 1/s2 and 1/s.
     pub most: [f64; 2],
-    /// Sums over the columns of K and C, N/m and N s/m: the base shear.
+    /// Column sums of K and C, N/m and N s/m: the base shear is their product with displacements and velocities.
     pub shear: [Vec<f64>; 2],
 }
 
 impl FloorResistance {
+    /// For both buildings of a structure.
     pub fn of(structure: &Structure) -> FloorResistance {
         FloorResistance { buildings: [Side::Left, Side::Right].map(|side| Resistance::of(structure, side)) }
     }
 
-    /// The rows of a base shear over displacements and velocities of all floors, of which the building has some lanes.
+    /// Writes the rows of the base shear over the displacements and the velocities of all floors; the building has the
+    /// given `lanes` of them.
     pub fn set_shear_rows(&self, side: usize, lanes: Range<usize>, row: &mut [f64], row_v: &mut [f64]) {
         let [on_u, on_v] = &self.buildings[side].shear;
         row[lanes.clone()].copy_from_slice(on_u);

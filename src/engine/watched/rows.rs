@@ -1,7 +1,7 @@
-//! What is watched for its peak, as functions of the motion: four of them at a time.
+//! The quantities whose peaks are kept, as linear functions of the motion, in blocks of four.
 //!
-//! Without contact and floor forces each is a row over the displacements q and one over the velocities v of its building's
-//! modes, y = A q + B v:
+//! Without contact and floor forces each quantity y is a row A over the displacements q and a row B over the velocities
+//! v of its building's modes, y = A q + B v:
 //!
 //! ```text
 //! displacement         A = shape of the floor                     B = 0
@@ -13,20 +13,21 @@
 use crate::structure::{LANES, Lane, ModalDamping, Side, Structure};
 use std::ops::Range;
 
-/// Something whose largest magnitude so far is kept. Floors and storeys count from 0.
+/// A quantity whose largest magnitude is kept. Floors and storeys count from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PeakOf {
-    /// m, of a floor relative to the ground.
+    /// Displacement of a floor relative to the ground, m.
     Displacement(Side, usize),
-    /// m, of a storey: of its upper floor relative to its lower one.
+    /// Drift of a storey, m: the displacement of its upper floor less that of its lower one.
     Drift(Side, usize),
-    /// m/s2, of a floor, absolute.
+    /// Absolute acceleration of a floor, m/s2.
     Acceleration(Side, usize),
-    /// N, force of the building on the ground.
+    /// Force of the building on the ground, N.
     BaseShear(Side),
 }
 
 impl PeakOf {
+    /// The building to which the quantity belongs.
     pub(in crate::engine) fn side(self) -> Side {
         match self {
             PeakOf::Displacement(side, _) | PeakOf::Drift(side, _) | PeakOf::Acceleration(side, _) => side,
@@ -41,61 +42,63 @@ pub struct PeakRows {
     pub buildings: [BuildingRows; 2],
 }
 
-/// Of one building: blocks of [`LANES`] quantities, first displacements and drifts, then accelerations and the base shear.
+/// The watched quantities of one building, in blocks of [`LANES`]: first displacements and drifts, then accelerations
+/// and the base shear.
 #[derive(Debug)]
 pub struct BuildingRows {
-    /// Its modes in a modal vector.
+    /// The building's modes in a modal vector.
     pub modes: Range<usize>,
-    /// Number of its first block among those of both buildings.
+    /// Number of its first block among the blocks of both buildings.
     pub first: usize,
     pub blocks: Vec<Block>,
+    /// Number of floors.
     floors: usize,
-    /// Blocks of displacements and drifts.
+    /// Number of blocks of displacements and drifts.
     moving: usize,
 }
 
 /// [`LANES`] quantities of one building.
 #[derive(Debug)]
 pub struct Block {
-    /// A, mode by mode.
+    /// Row A, mode by mode.
     pub on_q: Vec<Lane>,
-    /// B; empty where it is 0.
+    /// Row B, mode by mode; empty where it is 0.
     pub on_v: Vec<Lane>,
     pub growth: Growth,
 }
 
-/// What the ground adds to the bounds of `ahead.rs`.
+/// The ground motion's part in the bounds of `peaks/ahead.rs`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Growth {
-    /// |B participation| and |(A - B c) participation|: what a ground acceleration does at once to y' and y''.
+    /// Change of y' and of y'' per unit of ground acceleration: |B participation| and |(A - B c) participation|.
     pub at_once: Lane,
     pub pushed: Lane,
-    /// What a cumulative absolute velocity (integral of |ground acceleration|) of 1 m/s adds to the bounds on |y|, |y'|
-    /// and |y''|.
+    /// Increase of the bounds on |y|, |y'| and |y''| per unit of cumulative absolute velocity (integral of |ground
+    /// acceleration|), 1 m/s.
     pub swing: Lane,
     pub rate: Lane,
     pub bend: Lane,
 }
 
 impl PeakRows {
-    /// Of all that is watched; nothing where that is not `wanted`.
+    /// The watched quantities of both buildings; none unless `wanted`.
     pub fn of(structure: &Structure, wanted: bool) -> PeakRows {
         let left = BuildingRows::of(structure, Side::Left, 0, wanted);
         let right = BuildingRows::of(structure, Side::Right, left.blocks.len(), wanted);
         PeakRows { buildings: [left, right] }
     }
 
-    /// Whether nothing is watched.
+    /// Whether no quantity is watched.
     pub fn are_none(&self) -> bool {
         self.blocks() == 0
     }
 
-    /// Blocks of both buildings.
+    /// Number of blocks of both buildings.
     pub fn blocks(&self) -> usize {
         self.buildings.iter().map(|building| building.blocks.len()).sum()
     }
 
-    /// Where a quantity is among those of all blocks.
+    /// Index of a quantity among those of all blocks.
     pub fn place(&self, of: PeakOf) -> usize {
         let building = &self.buildings[of.side() as usize];
         let floors = building.floors;
@@ -108,7 +111,7 @@ impl PeakRows {
             }
     }
 
-    /// What is at a place, if anything is.
+    /// The quantity at an index; `None` in a lane that is not used.
     pub fn at(&self, place: usize) -> Option<PeakOf> {
         let side = if place < self.buildings[1].first * LANES { Side::Left } else { Side::Right };
         let building = &self.buildings[side as usize];
@@ -162,7 +165,7 @@ impl BuildingRows {
 }
 
 impl Block {
-    /// From the A and the B of each lane and mode.
+    /// A block from A and B of each lane and mode.
     fn of(structure: &Structure, side: Side, count: usize, row: impl Fn(usize, usize) -> [f64; 2]) -> Block {
         let lanes =
             |part: usize| -> Vec<Lane> { (0..count).map(|m| std::array::from_fn(|i| row(i, m)[part])).collect() };

@@ -1,9 +1,10 @@
-//! Bounds that show that nothing happens within a window but the event that it ends with.
+//! Proof that within a window no event happens but the one with which it ends.
 //!
-//! Between two nodes a penetration is known at both and bends by no more than all that acts on it: what the buildings would
-//! do without contact forces, of which the power series is there; and the forces, whose size is known. One in contact must
-//! not sag below 0, so what bends it upwards counts; a force in contact pushes apart, so it never bends its own pair's
-//! penetration upwards. One apart must not swell above 0, so what bends it downwards counts: it may rise and fall again.
+//! Between two nodes a penetration is known at both, and its second derivative is bounded: that of the motion without
+//! contact forces by its power series, that of the contact forces by their magnitudes. A closed pair's penetration must
+//! not fall to 0: only upward curvature can take it below its chord, and as its own force pushes the floors apart and
+//! so curves it downwards, that force may be left out. An open pair's penetration must not rise to 0: there downward
+//! curvature counts.
 
 use crate::collocation::{Ending, Kernel, MOST_PAIRS, POWERS, Solution, Tables};
 use crate::contact::Guard;
@@ -16,11 +17,11 @@ use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::SECOND;
 use crate::structure::MotionSeries;
 
-/// Pieces of a window are halved so many times to show that a pair stays apart: down to a distance of rounding.
+/// Halvings of a piece of a window to show that a pair stays apart in it: down to a distance of rounding.
 const MOST_HALVINGS: u32 = 16;
 
 impl Windows {
-    /// Whether nothing but its ending happens in the window of a step.
+    /// Whether no event happens in the window of a step but its ending.
     pub fn is_certain(
         &self,
         system: &System,
@@ -44,7 +45,7 @@ impl Windows {
         pairs_hold && self.others_stay_apart(system, base, (window, series), work)
     }
 
-    /// Whether all pairs that are not in the window stay apart.
+    /// Whether all pairs outside the window stay apart.
     fn others_stay_apart(
         &self,
         system: &System,
@@ -76,25 +77,25 @@ impl Windows {
     }
 }
 
-/// In which sense a penetration bends.
+/// Sign of the curvature (second derivative) that a bound is for.
 #[derive(Clone, Copy, PartialEq)]
 enum Sense {
     Up,
     Down,
 }
 
-/// Whether a pair apart, whose penetration bends upwards by `bend` at most, stays so over `h` seconds.
+/// Whether an open pair, whose penetration has at most the second derivative `bend`, m/s2, stays apart for `h` seconds.
 pub fn keeps_off(contact: &Contact, bend: f64, h: f64) -> bool {
     let (start, rate) = (contact.flight_start(), contact.rate);
-    // Below a parabola that only falls, or one that may rise.
+    // The penetration is below a parabola, which either falls throughout or may rise.
     let falls = start <= 0.0 && rate + 0.5 * bend * h < 0.0;
     falls || start + h * (rate.max(0.0) + 0.5 * bend * h) < 0.0
 }
 
 impl Window {
-    /// m/s^2, bound on what bends the penetration of a pair in that sense over the window: its motion without contact
-    /// forces, of which the terms are given, and what the forces do, of which the kernels are: all but what that of the
-    /// pair itself, where it has one, does at once.
+    /// Bound on the second derivative of a pair's penetration over the window, in that sense, m/s2: of its motion
+    /// without contact forces, from the terms `free`, and of all contact forces, from the `kernels`. The direct effect
+    /// of its own force is left out if it is number `itself` in the window.
     fn bend(&self, sense: Sense, free: &[f64], kernels: &[&Kernel; MOST_PAIRS], itself: Option<usize>) -> f64 {
         let Window { equation, solution, greatest, .. } = self;
         let (x, h) = (solution.length / equation.scale, solution.length);
@@ -110,32 +111,35 @@ impl Window {
     }
 }
 
-/// Sum of the sizes of the second derivatives of terms from one on, in powers of x from that one on.
+/// Sum of the magnitudes of the second derivatives of the terms from number `first` on, divided by the power of x in
+/// the first of them.
 fn sum_of_sizes(terms: &[f64], first: usize, x: f64) -> f64 {
     let last = terms.len().min(SECOND.len());
     let terms = terms[first..last].iter().zip(&SECOND[first..last]);
     terms.rev().fold(0.0, |sum, (c, count)| sum * x + count * c.abs())
 }
 
-/// A pair that is apart while a window is under way, whose distance can be read anywhere. However near it comes: where it
-/// does not touch the window stays as it is, so that a contact that never closes changes nothing.
+/// An open pair during a window, whose penetration can be evaluated at any time. The window stays as it is however near
+/// the pair comes, as long as it does not touch: so a contact that never closes changes no result.
 struct Approach<'a> {
+    /// The solved window.
     window: &'a Window,
     /// Terms of its motion without contact forces.
     free: &'a [f64],
     kernels: &'a [&'a Kernel; MOST_PAIRS],
-    /// m/s^2, see [`Window::bend`].
+    /// Bound on the second derivative of its penetration, m/s2, see [`Window::bend`].
     bend: f64,
 }
 
 impl Approach<'_> {
-    /// m, penetration after so many seconds.
+    /// Penetration after `elapsed` seconds, m.
     fn depth(&self, elapsed: f64) -> f64 {
         let mut room = None;
         self.window.depth_of((self.free, self.kernels), elapsed, self.window.moments(elapsed, &mut room)).0
     }
 
-    /// Whether it stays below 0 between two times at which it is; pieces are halved up to so many times.
+    /// Whether the penetration stays below 0 between two times, at which it is below 0; `start` and `end` are (time,
+    /// penetration). Pieces are halved at most `halvings` times.
     fn stays_below(&self, (start, from): (f64, f64), (end, to): (f64, f64), halvings: u32) -> bool {
         let gone = end - start;
         if from.max(to) < -0.125 * self.bend * gone * gone {
@@ -152,27 +156,32 @@ impl Approach<'_> {
     }
 }
 
-/// One pair on its way through a window.
+/// One pair over a window.
 struct Passage<'a> {
     window: &'a Window,
+    /// Index of the pair in the window.
     place: usize,
     contact: &'a Contact,
-    /// m/s^2, see [`Window::bend`].
+    /// Bound on the second derivative of its penetration, m/s2, see [`Window::bend`].
     bend: f64,
     ending: Ending,
 }
 
-/// From one node to the next: seconds, penetration at both, rate at the second.
+/// The piece of a window from one node to the next.
 struct Piece {
+    /// Its length, s.
     gone: f64,
+    /// Penetration at its start, m.
     from: f64,
+    /// Penetration at its end, m.
     to: f64,
+    /// Rate at its end, m/s.
     rate: f64,
     is_last: bool,
 }
 
-/// Whether a penetration that is above 0 at the nodes is so between them: above the chord but for the bend. Wide
-/// instructions give the same bits.
+/// Whether a penetration that is above 0 at the nodes is so between them: it is below its chord by at most h^2/8
+/// `bend`.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn stays_above((theta, length): (&[f64], f64), depth: &[f64], bend: f64) -> bool {
     let mut holds = true;
@@ -184,7 +193,8 @@ fn stays_above((theta, length): (&[f64], f64), depth: &[f64], bend: f64) -> bool
 }
 
 impl Passage<'_> {
-    /// Whether something holds for all pieces, from the start by all nodes to the end.
+    /// Whether something holds for all pieces: from the start to the first node, between nodes, and from the last one
+    /// to the end.
     #[inline(always)]
     fn all(&self, mut holds: impl FnMut(Piece) -> bool) -> bool {
         let Window { solution, .. } = self.window;
@@ -202,7 +212,7 @@ impl Passage<'_> {
         holds(Piece { gone: solution.length - time, from, to, rate, is_last: true })
     }
 
-    /// m, penetration at the start.
+    /// Penetration at the start, m.
     fn start(&self) -> f64 {
         match self.contact.in_contact() {
             true => self.contact.penetration.max(0.0),
@@ -244,7 +254,7 @@ impl Passage<'_> {
         self.all(|piece| {
             let (start, end) = ((time, piece.from), (time + piece.gone, piece.to));
             time = end.0;
-            // Below the chord but for the bend.
+            // The penetration exceeds its chord by at most `swell` times the distance from an end.
             let swell = 0.5 * self.bend * piece.gone;
             match () {
                 _ if touches && piece.is_last => -piece.from / piece.gone > swell,
@@ -254,21 +264,21 @@ impl Passage<'_> {
         })
     }
 
-    /// m, least penetration on a piece of a pair that stays in contact.
+    /// Least penetration on a piece of a pair that stays in contact, m.
     fn least(&self, piece: &Piece) -> f64 {
         piece.from.min(piece.to) - 0.125 * self.bend * piece.gone * piece.gone
     }
 
-    /// m/s^2, what the spring at a depth takes off the rate.
+    /// Deceleration of the penetration by the spring at a depth, m/s2.
     fn brake(&self, depth: f64) -> f64 {
         self.contact.branch().value(depth.max(0.0), 0.0) * self.window.equation.kernels[self.place][self.place][1]
     }
 
-    /// Whether the guard of an engaged pair stays positive, which it does while the pair approaches fast enough.
+    /// Whether the guard of an engaged pair stays positive, as it does while the pair approaches fast enough.
     fn is_engaged(&self, guard: &Guard) -> bool {
         let turns = self.ending == Ending::Turn(self.place);
         self.all(|piece| {
-            // Up to a turn the depth only grows.
+            // Until a turn the penetration only grows.
             let depth = if turns { piece.from } else { self.least(&piece) };
             let falls = || self.brake(depth) > self.bend;
             if turns && piece.is_last {
@@ -279,7 +289,7 @@ impl Passage<'_> {
         })
     }
 
-    /// Whether a pair goes apart all the time, of which only penetrations are known.
+    /// Whether a pair separates throughout, shown by its penetrations alone.
     fn recedes(&self) -> bool {
         let mut rate = self.contact.rate;
         self.all(|piece| {

@@ -1,34 +1,35 @@
-//! What windows need to know of a scene.
+//! Data of windows that stay constant during a run: kernels of the pairs, error allowance, lengths.
 
 use crate::collocation::{Kernel, POWERS, Tables};
 use crate::engine::system::System;
 use crate::engine::window::spring::Spring;
 
-/// Relative accuracy of a step for which windows are as long as [`longest_window`] says, and how their length goes with it.
+/// Relative tolerance of a step at which windows have the lengths of [`longest_window`], and the exponent with which
+/// their lengths depend on the tolerance.
 const USUAL: (f64, f64) = (2e-11, 0.055);
 
-/// Error between the nodes of a window, relative to the power 2/3 of what one step may leave: at its end a Gauss rule is
-/// far better than between its nodes.
+/// Allowed error between the nodes of a window, relative to the power 2/3 of the tolerance of one step: a Gauss rule is
+/// far more accurate at its end than between its nodes.
 const BETWEEN_NODES: f64 = 10.0;
 
-/// Pairs of which all kernels are kept: 64 kB.
+/// Largest number of pairs for which all kernels are stored: 64 kB.
 const MOST_KNOWN: usize = 20;
 
-/// What windows need to know of a scene.
+/// Data of windows that stay constant during a run.
 #[derive(Clone, Debug)]
 pub struct Windows {
-    /// G_pq of pairs p and q, one row after the other, where they are few.
+    /// Kernels G_pq of pairs p and q, by rows; empty where pairs are many.
     kernels: Vec<Kernel>,
-    /// Error between nodes that a window may have, relative to what one step may.
+    /// Allowed error between nodes, relative to the tolerance of one step.
     pub allowed: f64,
-    /// Length of windows relative to the usual.
+    /// Length of windows relative to that at the usual tolerance.
     pub length_factor: f64,
-    /// Of each pair whose law has a root.
+    /// For each pair, the spring of its law, where the law is a power law.
     pub springs: Vec<Option<Spring>>,
 }
 
 impl Windows {
-    /// `None` where no law needs them, or damping couples the modes.
+    /// For a system; `None` where no law needs windows, or damping couples the modes.
     pub fn of(System { impulse_response, pairs, tolerance, .. }: &System) -> Option<Windows> {
         let response = impulse_response.as_ref().filter(|_| !cfg!(without = "windows"))?;
         Tables::prepare();
@@ -39,7 +40,7 @@ impl Windows {
         Some(Windows { kernels, allowed, length_factor: length_factor(tolerance.step), springs })
     }
 
-    /// G_pq of two pairs, for which there is `room` where it is not kept.
+    /// The kernel G_pq of two pairs; it is worked out in `room` if it is not stored.
     pub fn kernel<'a>(&'a self, system: &System, p: usize, q: usize, room: &'a mut Option<Kernel>) -> &'a Kernel {
         let pairs = &system.pairs;
         match (self.kernels.get(p * pairs.len() + q), &system.impulse_response) {
@@ -50,7 +51,7 @@ impl Windows {
     }
 }
 
-/// How long windows are for an accuracy of steps, relative to the usual.
+/// Length of windows at a step tolerance, relative to that at the usual one.
 pub fn length_factor(step_tolerance: f64) -> f64 {
     libm::pow(step_tolerance / USUAL.0, USUAL.1).clamp(0.4, 1.2)
 }

@@ -1,8 +1,9 @@
-//! A step in contact over a whole window (see [`crate::collocation`]), as long as few pairs are in contact.
+//! A step in contact over a whole window by collocation (see [`crate::collocation`]), as long as few pairs are in
+//! contact.
 //!
-//! Two windows take a Hertz contact from its entry to its release, if no sample of the record comes between, where power
-//! series need twenty steps. A window is taken only if bounds show that nothing else happens in it (see
-//! [`certificate`]). Where that cannot be shown power series in time go on.
+//! Two windows take a Hertz contact from its entry to its release, if no sample of the record comes between, where
+//! power series need twenty steps. A window is used only if bounds prove that no other event happens in it (see
+//! [`certificate`]); otherwise the step is taken by power series in time.
 
 pub mod certificate;
 pub mod kernels;
@@ -23,38 +24,38 @@ use crate::engine::window::solution::Window;
 use crate::engine::window::trial::Trial;
 use crate::structure::{EXACT, MotionSeries, dot, flight_order};
 
-/// How far a kernel may be off, relative to what one step may.
+/// Allowed truncation error of a kernel, relative to the tolerance of one step.
 const KERNEL_SHARE: f64 = 0.03;
 
-/// How far the series of the motion without contact forces may be off, relative to what one step may: it is of the whole
-/// motion, of which a contact is a small part.
+/// Allowed error of the series of the motion without contact forces, relative to the tolerance of one step: it is the
+/// whole motion's, of which the contact's is a small part.
 const FREE_SHARE: f64 = 1e-3;
 
-/// How far the iteration may be off, relative to what one step may.
+/// Allowed error of the iteration, relative to the tolerance of one step.
 const SWEEP_SHARE: f64 = 0.3;
 
-/// Share of a contact's force that moves it, and of its speed, below which it is at rest.
+/// A contact is at rest if the part of its force that is not balanced, and its velocity, are below this share.
 const AT_REST: f64 = 0.1;
 
-/// Pairs with dashpots that a window is for: of two, series by a time map cost about as much; found by trying.
+/// Largest number of pairs with dashpots in a window: with two, series in a time map cost about as much (measured).
 const MOST_DAMPED: usize = 1;
 
-/// Windows that are tried for one step.
+/// Largest number of windows that are solved for one step.
 const MOST_TRIES: usize = 5;
 
-/// What has been found of a solved window.
+/// Assessment of a solved window.
 enum Verdict {
-    /// Nothing else happens in it, and its forces are right.
+    /// No other event happens in it, and its forces are accurate.
     Good,
-    /// To be tried again.
+    /// Another window is to be tried.
     Another(Trial),
-    /// Not to be tried again.
+    /// No window: the step is taken by power series.
     Reject,
 }
 
 impl Windows {
-    /// Works out a window from the base on, over `remaining` seconds at most and under a load that is in `work`;
-    /// `false` where power series have to do it. `series` is for the motion without contact forces.
+    /// Plans a window from the base, over `remaining` seconds at most and under the load in `work`; returns `false` if
+    /// the step has to be taken by power series. `series` is for the motion without contact forces.
     pub fn plan(
         &self,
         system: &System,
@@ -80,7 +81,7 @@ impl Windows {
         for _ in 0..MOST_TRIES {
             let Window { equation, solution, .. } = window;
             if !solution.solve(equation, room, trial.frame(), SWEEP_SHARE * tolerance * trial.length) {
-                // An event that is not where it was expected may be late.
+                // The expected event may come later than in this window, so one without an event is tried next.
                 trial = match trial.ending {
                     Ending::Given => trial.shorter(0.5),
                     _ => trial.shorter(1.0).until(Ending::Given, trial.longest.min(equation.scale)),
@@ -106,7 +107,8 @@ impl Windows {
         false
     }
 
-    /// Fills in the free motion and the kernels for windows up to `longest`, s; whether series reach that far.
+    /// Sets the motion without contact forces and the kernels for windows up to `longest`, s; returns whether its
+    /// series reach that far.
     fn set_equation(
         &self,
         system: &System,
@@ -132,7 +134,7 @@ impl Windows {
         true
     }
 
-    /// Fills in what belongs to one pair of the window.
+    /// Sets the data of one pair of the window.
     fn set_pair(&self, system: &System, base: &Base, (window, series): (&mut Window, &MotionSeries), place: usize) {
         let Window { equation, contacts, .. } = window;
         let p = contacts[place];
@@ -147,7 +149,7 @@ impl Windows {
         }
     }
 
-    /// Adds the pairs that may come into contact over `length` seconds, as far as there is room.
+    /// Adds the open pairs that may come into contact within `length` seconds, as many as there is room for.
     fn watch(&self, system: &System, base: &Base, (window, series): (&mut Window, &MotionSeries), length: f64) {
         for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| !contact.in_contact()) {
             let place = window.equation.pairs;
@@ -165,7 +167,7 @@ impl Windows {
         }
     }
 
-    /// Whether a solved window is right and certain, or what to try instead.
+    /// Assesses a solved window: accurate and certain, or the next one to try.
     fn assess(
         &self,
         system: &System,
@@ -179,7 +181,7 @@ impl Windows {
         if let Some(next) = window.passed(trial) {
             return Verdict::Another(next);
         }
-        // What still approaches is not released: its depth is below what the iteration leaves open.
+        // A pair that still approaches at the end is not released: its penetration is below the error of the iteration.
         if let Ending::Release(place) = trial.ending
             && solution.end[place].1 >= 0.0
         {
@@ -196,14 +198,15 @@ impl Windows {
         }
         match self.is_certain(system, base, (window, series), work, trial.ending) {
             true => Verdict::Good,
-            // Near an event that bounds cannot tell: power series find it.
+            // An event may be so near that bounds cannot exclude it: power series find it.
             false if trial.ending != Ending::Given || trial.halved => Verdict::Reject,
             false => Verdict::Another(Trial { halved: true, ..trial.shorter(0.5) }),
         }
     }
 }
 
-/// Which of some numbers at nodes, by fours, and of that at the end is the first of a kind.
+/// Index of the first of some numbers, at the nodes and then at the end, for which `is_it` holds. Nodes are tested by
+/// fours.
 #[inline(always)]
 fn first_node(at_nodes: &[f64], end: f64, is_it: impl Fn(f64) -> bool) -> Option<usize> {
     let mut is_any = [false; 4];
@@ -217,7 +220,7 @@ fn first_node(at_nodes: &[f64], end: f64, is_it: impl Fn(f64) -> bool) -> Option
 }
 
 impl Window {
-    /// The pairs in contact, if they are few enough and of laws that windows are for.
+    /// Lists the pairs in contact; returns whether they are few enough and under laws that windows are for.
     fn gather(&mut self, base: &Base) -> bool {
         self.equation.closed = 0;
         for (p, contact) in touching(base) {
@@ -227,7 +230,7 @@ impl Window {
                 Force::Root { .. } => true,
                 Force::None | Force::Linear { .. } => false,
             };
-            // An entry whose speed is rounding is for the other kinds of step.
+            // An entry with an approach velocity of only rounding is left to other kinds of step.
             let enters = contact.penetration > 0.0 || contact.rate > 0.0;
             let place = self.equation.closed;
             if place == MOST_PAIRS || contact.is_held() || !fits || !enters {
@@ -242,8 +245,9 @@ impl Window {
         closed <= MOST_DAMPED || self.equation.forces[..closed].iter().all(|force| !force.is_damped())
     }
 
-    /// Whether a pair leans on another without moving much: its force and all that it holds off cancel, and a window adds
-    /// them up apart, over and over; a power series adds up what is left of them.
+    /// Whether a pair is pressed together almost without motion: its contact force and the forces that it balances
+    /// nearly cancel. A window would add up both separately and lose digits; a power series adds up their small
+    /// difference.
     fn is_at_rest(&self, system: &System, base: &Base, place: usize) -> bool {
         let Window { equation, contacts, .. } = self;
         let (p, force) = (contacts[place], equation.forces[place]);
@@ -254,7 +258,7 @@ impl Window {
         left.abs() < AT_REST * pushed && 0.5 * rate * rate < AT_REST * AT_REST * stored
     }
 
-    /// Makes a solved window the planned planned.
+    /// Makes a solved window the planned step.
     fn commit(
         &self,
         system: &System,
@@ -279,7 +283,7 @@ impl Window {
         planned.next_length = Some(length);
     }
 
-    /// The window up to the first event that a solved one has passed.
+    /// A trial up to the first event that a solved window has passed; `None` if it has passed none.
     fn passed(&self, trial: Trial) -> Option<Trial> {
         let Window { equation, solution, .. } = self;
         let count = solution.rule.count();
@@ -290,7 +294,8 @@ impl Window {
             let is_closed = place < equation.closed;
             let event = if is_closed { Ending::Release(place) } else { Ending::Touch(place) };
             let is_beyond = |d: f64| if is_closed { d <= 0.0 } else { d > 0.0 };
-            // Right after a release or entry it is at the surface.
+            // At its ending, a release or entry, the pair is at the surface: only nodes before the end are tested for
+            // that event.
             let beyond = first_node(&depth[..count], d, is_beyond);
             let beyond = beyond.filter(|i| *i < theta.len() || trial.ending != event).map(|i| (i, event));
             let turns = is_closed && matches!(equation.forces[place], Force::Root { .. });

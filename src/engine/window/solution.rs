@@ -1,4 +1,4 @@
-//! The solution over a window of a contact (see [`crate::collocation`]): reading it and following contacts through it.
+//! The dense solution over a window (see [`crate::collocation`]): its evaluation, and the contacts along it.
 
 use crate::collocation::{
     Equation, Kernel, MOST_PAIRS, NODES, Nodes, POWERS, Row, Rule, Solution, Tables, dot, fours, larger, nodes,
@@ -10,45 +10,47 @@ use crate::numerics::powers::Powers;
 use crate::numerics::roots;
 use crate::structure::MotionSeries;
 
-/// Share of a peak that the node next to it has at least.
+/// The node next to a peak has at least this share of it.
 const NEARLY: f64 = 0.97;
 
-/// How far a polynomial through the nodes is off at most, relative to a peak.
+/// Largest error of a polynomial through the nodes, relative to a peak.
 const INTERPOLATED: f64 = 1e-6;
 
-/// N s^(k+1): integrals of (time left)^k times the force of each pair of a window.
+/// Integrals of (time left)^k times the force of each pair of a window, k = 0, 1, ..., N s^(k+1).
 pub type Moments = [[f64; POWERS]; MOST_PAIRS];
 
-/// A window of the pairs in contact.
+/// A window: the pairs in it, their integral equation and its solution.
 #[derive(Clone, Debug, Default)]
 pub struct Window {
-    /// The contacts that are in it.
+    /// Numbers of the contacts in the window: the closed ones, then the open ones that are watched.
     pub contacts: [usize; MOST_PAIRS],
+    /// The integral equation of the penetrations.
     pub equation: Equation,
+    /// Penetrations, rates and forces at the nodes.
     pub solution: Solution,
-    /// N, bounds on the size of the forces, between the nodes too.
+    /// Bounds on the magnitudes of the forces, N, also between the nodes.
     pub greatest: [f64; MOST_PAIRS],
-    /// Until its end.
+    /// Moments of the forces over the whole window.
     whole: Moments,
 }
 
-/// The part of a window up to some time: nodes of its own, at which the forces are known.
+/// The part of a window up to some time, with quadrature nodes of its own.
 struct Part {
-    /// s since the start of the window.
+    /// Times of the nodes since the start of the window, s.
     times: Row,
-    /// s, for integrals over the part.
+    /// Weights for integrals over time, s.
     weights: Row,
-    /// x of the window.
+    /// The nodes in the window's x.
     x: Row,
 }
 
 impl Window {
-    /// Where a contact is in it.
+    /// Index of a contact in the window.
     pub fn place(&self, contact: usize) -> Option<usize> {
         self.contacts[..self.equation.pairs].iter().position(|&p| p == contact)
     }
 
-    /// The part until `elapsed`, with the nodes of a rule.
+    /// The part until `elapsed`, s, with the nodes of a rule.
     fn part(&self, elapsed: f64, rule: Rule) -> Part {
         let Solution { map, length, .. } = self.solution;
         let end = map.inverse((elapsed / length).min(1.0));
@@ -63,14 +65,14 @@ impl Window {
         part
     }
 
-    /// Times, s, and weights for integrals until `elapsed` of what the whole motion does, which may be faster than that of
-    /// the contact: the window's own nodes, as few as the contact needs, would be too few.
+    /// Times, s, and weights, s, of a quadrature until `elapsed` for the whole motion. It may be faster than the
+    /// contact's, for which the window's own nodes are made: these would be too few.
     pub fn nodes(&self, elapsed: f64) -> impl Iterator<Item = (f64, f64)> {
         let part = self.part(elapsed, Rule::Sixteen);
         part.times.into_iter().zip(part.weights)
     }
 
-    /// Works out the moments until the end of a solution that has been found, and how large its forces are.
+    /// Works out the moments over the whole window and the bounds on the forces, once a solution has been found.
     pub fn close(&mut self) {
         let Equation { closed, powers, .. } = self.equation;
         let Solution { map, rule, length, ref force, .. } = self.solution;
@@ -81,7 +83,7 @@ impl Window {
         }
     }
 
-    /// The moments until `elapsed`, for which there is `room` where they are not those until the end.
+    /// The moments until `elapsed`; worked out in `room` unless they are those of the whole window.
     pub fn moments<'a>(&'a self, elapsed: f64, room: &'a mut Option<Moments>) -> &'a Moments {
         let Equation { closed, powers, .. } = self.equation;
         let Solution { rule, length, ref force, .. } = self.solution;
@@ -96,23 +98,23 @@ impl Window {
         all
     }
 
-    /// N, bounds on the sizes of the forces, one per contact.
+    /// Writes bounds on the magnitudes of the forces, N, one per contact.
     pub fn bound_forces(&self, contacts: &[Contact], out: &mut [f64]) {
         for (place, &p) in self.contacts.iter().enumerate().take(self.equation.closed) {
-            // Between nodes a force is at most a little higher than at them.
+            // Between nodes a force is at most slightly larger than at them.
             let (d, v) = self.solution.end[place];
             let end = contacts[p].branch().value(d, v);
             out[p] = larger(end.abs(), largest(&self.solution.force[place]) / NEARLY);
         }
     }
 
-    /// Penetration, m, and rate, m/s, of a pair under these moments.
+    /// Penetration, m, and rate, m/s, of a pair in the window, `elapsed` seconds into it, from the moments until then.
     fn depth(&self, place: usize, elapsed: f64, moments: &Moments) -> (f64, f64) {
         let Equation { terms, ref free, ref kernels, .. } = self.equation;
         self.depth_of((&free[place][..terms], &kernels[place].each_ref()), elapsed, moments)
     }
 
-    /// The same from the terms of its motion without contact forces and its kernels.
+    /// Penetration, m, and rate, m/s, of any pair, from the terms of its motion without contact forces and its kernels.
     pub fn depth_of(
         &self,
         (free, kernels): (&[f64], &[&Kernel; MOST_PAIRS]),
@@ -132,13 +134,13 @@ impl Window {
     }
 }
 
-/// The largest size of a number at the nodes.
+/// The largest magnitude of a number at the nodes.
 fn largest(row: &Row) -> f64 {
     let sizes = fours(row).iter().fold([0.0; 4], |most, row| each(|i| larger(row[i].abs(), most[i])));
     sizes.into_iter().fold(0.0, larger)
 }
 
-/// The moments of one force over its window. Wide instructions give the same bits.
+/// The moments of one force over its window.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn weigh_whole(whole: &[Row], force: &Row, length: f64, moments: &mut [f64; POWERS]) {
     let mut power = length;
@@ -148,7 +150,7 @@ fn weigh_whole(whole: &[Row], force: &Row, length: f64, moments: &mut [f64; POWE
     }
 }
 
-/// The moments of one force over a part of its window. Wide instructions give the same bits.
+/// The moments of one force over a part of its window.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn weigh(nodes: &Nodes, force: &Row, part: &Part, elapsed: f64, moments: &mut [f64]) {
     let (mut pushed, left) = (nodes.interpolant(force).at(&part.x), part.times.map(|time| elapsed - time));
@@ -164,7 +166,7 @@ fn weigh(nodes: &Nodes, force: &Row, part: &Part, elapsed: f64, moments: &mut [f
 }
 
 impl Window {
-    /// q and v, `elapsed` seconds into the window, from the series of the motion without contact forces.
+    /// Displacements and velocities, `elapsed` seconds into the window; `series` is the motion without contact forces.
     pub fn evaluate(
         &self,
         system: &System,
@@ -176,7 +178,7 @@ impl Window {
         self.evaluate_with_pairs(system, series, elapsed, powers, motion, &mut []);
     }
 
-    /// The same, and the penetrations, m, and rates, m/s, of as many pairs in contact as there is room for.
+    /// The same motion, and the (penetration, m, rate, m/s) of the closed pairs, as many as `pairs` has room for.
     pub fn evaluate_with_pairs(
         &self,
         system: &System,
@@ -201,8 +203,8 @@ impl Window {
 }
 
 impl Contact {
-    /// Follows the contact `elapsed` seconds into a window that has begun at `start` [s]: penetration, impulse, peaks,
-    /// work.
+    /// Moves the contact to `elapsed` seconds into a window that began at the time `start`, s: penetration, impulse,
+    /// peaks and work.
     pub fn follow_window(&mut self, window: &Window, elapsed: f64, start: f64) {
         let Some(place) = window.place(self.episode.contact) else { return };
         let law = self.branch();
@@ -227,7 +229,7 @@ impl Contact {
         let end = if is_whole { solution.end[place] } else { window.depth(place, elapsed, moments) };
         let last = if is_whole { 1.0 } else { solution.map.inverse(elapsed / solution.length) };
         let way = FollowedPart { nodes, last, rates: (self.rate, end.1) };
-        // Between nodes forces are known to fewer digits than what they do: what is read there is worked out from that.
+        // Between nodes, penetrations and rates from the moments have more digits than interpolated ones.
         let read = |x: f64| {
             let elapsed = solution.length * solution.map.at(x).0;
             window.depth(place, elapsed, window.moments(elapsed, &mut None))
@@ -238,7 +240,7 @@ impl Contact {
             self.episode.peak_penetration = self.episode.peak_penetration.max(peak);
         }
         let strongest = match law.is_damped() {
-            // A spring pushes most where it is deepest.
+            // A spring's force is largest where the penetration is.
             false => deepest,
             true => {
                 let force = law.value(end.0, end.1);
@@ -248,7 +250,8 @@ impl Contact {
             }
         };
         if let Some((x, (d, v))) = strongest {
-            // Between nodes a force is known to fewer digits: a summit there may lie below the end.
+            // Interpolated forces have fewer digits, so that the maximum found between nodes may lie below the force at
+            // the end.
             let (peak, last_force) = (law.value(d, v), law.value(end.0, end.1));
             let (x, peak) = if last_force > peak { (last, last_force) } else { (x, peak) };
             if peak > self.episode.peak_force {
@@ -261,18 +264,18 @@ impl Contact {
     }
 }
 
-/// How far a window is followed, and how fast what is followed goes there.
+/// The part of a window along which a contact is moved, to find the maximum of one of its quantities.
 struct FollowedPart {
     nodes: &'static Nodes,
-    /// x.
+    /// x of its end.
     last: f64,
-    /// At the start and at the end, where it is known.
+    /// Rates of the quantity at its start and end; NaN where they are not known.
     rates: (f64, f64),
 }
 
 impl FollowedPart {
-    /// x where what has these values at the nodes and `end` at the end is largest, if it is above `known` there; at the
-    /// start it is not.
+    /// x of the maximum of a quantity with these `values` at the nodes and `end` at the end, if it exceeds `known`. The
+    /// start is no candidate.
     fn highest(&self, values: &Row, end: f64, known: f64) -> Option<f64> {
         let (nodes, last) = (&self.nodes.x[..self.nodes.count], self.last);
         let before = if last < 1.0 { nodes.iter().take_while(|x| **x < last).count() } else { nodes.len() };
@@ -282,7 +285,7 @@ impl FollowedPart {
                 (best, at) = (*value, i);
             }
         }
-        // Between nodes it is at most a little higher than at them.
+        // Between nodes the quantity is at most slightly larger than at them.
         if best < NEARLY * known || at == 0 && self.rates.0 <= 0.0 {
             return None;
         }
@@ -299,8 +302,8 @@ impl FollowedPart {
     }
 }
 
-/// Where the polynomial through values at the nodes has its summit in low..high, by Newton's method from a point on. Wide
-/// instructions give the same bits.
+/// (x, value) of the maximum of the polynomial through values at the nodes in low..high, by Newton's method from
+/// `from`.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn summit(nodes: &Nodes, values: &Row, (low, from, high): (f64, f64, f64)) -> Option<(f64, f64)> {
     let interpolant = nodes.interpolant(values);
@@ -308,7 +311,7 @@ fn summit(nodes: &Nodes, values: &Row, (low, from, high): (f64, f64, f64)) -> Op
     for _ in 0..8 {
         let [value, slope, curvature] = interpolant.derivatives(x);
         let step = slope / curvature;
-        // The value at the summit is flat: half of the digits of x give all of its digits.
+        // Near the maximum the value is flat: with half of the digits of x it has all of its own.
         if curvature < 0.0 && step.abs() < 1e-9 {
             return Some((x, value));
         }

@@ -1,36 +1,37 @@
-//! How long the spring of a power law alone takes to turn a contact round and to release it.
+//! Estimates of the time in which the spring of a power law alone makes a contact turn and releases it.
 
 use crate::contact::force::power;
 use crate::contact::{EpisodeForce, Force};
 use crate::engine::pairs::pair::Pair;
 use crate::numerics::quadrature::{EIGHT, gauss};
 
-/// The spring of a pair under a power law, which alone would let it swing through a contact.
+/// The spring of a pair under a power law: constants of its oscillation through a contact.
 #[derive(Clone, Copy, Debug)]
 pub struct Spring {
+    /// Exponent n of the force k d^n.
     pub exponent: f64,
-    /// Exponent of the speed in the unit of time: (1 - n) / (n + 1).
+    /// Exponent of the velocity in the time unit: (1 - n) / (n + 1).
     pub power: f64,
-    /// The unit of time for a speed of 1 m/s, s.
+    /// The time unit at a velocity of 1 m/s, s.
     pub unit: f64,
-    /// Largest penetration in units of time and speed.
+    /// Largest penetration, in units of velocity times time unit.
     pub deepest: f64,
-    /// [`swing`] from the surface.
+    /// [`swing`] from the surface to the largest penetration.
     pub all: f64,
 }
 
-/// When a spring alone would do what, s.
+/// Estimated times for a contact under a spring alone, s.
 pub struct Forecast {
-    /// Its time: (m V^(1-n) / k)^(1/(n+1)) for the speed V of all of its energy.
+    /// The time unit: (m V^(1-n) / k)^(1/(n+1)), with V the velocity that corresponds to all of the energy.
     pub unit: f64,
-    /// Until it turns round.
+    /// Time until the penetration is largest.
     pub turn: f64,
-    /// Until it is released.
+    /// Time until the release.
     pub release: f64,
 }
 
 impl Spring {
-    /// `None` for other laws.
+    /// For a pair; `None` under other laws.
     pub fn of(pair: &Pair) -> Option<Spring> {
         let (stiffness, n) = match EpisodeForce::new(&pair.law, pair.mass, None).engaged {
             Force::Power { stiffness, exponent, .. } => (stiffness, exponent),
@@ -47,7 +48,8 @@ impl Spring {
         })
     }
 
-    /// From a penetration, m, its rate, m/s, and the energy stored per unit of mass, J/kg; `None` beyond all measure.
+    /// The estimate from a penetration, m, its rate, m/s, and the elastic energy per unit of mass, J/kg; `None` if
+    /// numbers overflow.
     pub fn forecast(&self, d: f64, rate: f64, stored: f64) -> Option<Forecast> {
         let speed = (rate * rate + 2.0 * stored).sqrt();
         let unit = self.unit * libm::pow(speed, self.power);
@@ -59,7 +61,7 @@ impl Spring {
     }
 }
 
-/// Integral of 1 / sqrt(1 - u^(n+1)) over from..1, roughly: the time from a depth to the deepest.
+/// Estimate of the integral of 1 / sqrt(1 - u^(n+1)) over from..1: the time from a depth to the largest one, in units.
 fn swing(n: f64, from: f64) -> f64 {
     let width = 1.0 - from.min(1.0);
     gauss(EIGHT, 1.0)

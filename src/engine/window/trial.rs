@@ -1,4 +1,4 @@
-//! Which window to try first: as long as the laws in it allow, and up to the next event if that is near.
+//! The window to try first: as long as the laws in it allow, or up to the next event if that is near.
 
 use crate::collocation::{Ending, Frame, Map, Rule};
 use crate::contact::Force;
@@ -7,41 +7,44 @@ use crate::engine::system::System;
 use crate::engine::window::kernels::Windows;
 use crate::engine::window::solution::Window;
 
-/// Time since an entry, in units of the contact's, until which its root is felt.
+/// Time since an entry, in the contact's time units, until which the singularity at the entry is felt.
 const FRESH: f64 = 0.3;
 
-/// A dashpot helps the spring to turn a contact round.
+/// Factor on the spring's time until the turn, for a dashpot: it helps to stop the approach.
 const DASHPOT: f64 = 0.85;
 
-/// Share of the time until a release up to which a window that does not reach it may go: its root would be felt.
+/// A window without a release in it ends at most at this share of the time until the release, whose singularity it
+/// would feel.
 const BEFORE_RELEASE: f64 = 0.8;
 
-/// (Rate of a dashpot) x (time) x of a window that is not even tried: n sweeps leave some x^n / n! of an error, 24 at
-/// the most are made, and a window that has failed is halved four times at most: 12.5^24 / 24! is above 1.
+/// Largest x = (rate of a dashpot) x (length) of a window that is tried: n sweeps leave an error of about x^n / n!, at
+/// most 24 sweeps are made, and a window that has failed is halved at most four times: 12.5^24 / 24! is above 1.
 const TOO_STIFF: f64 = 200.0;
 
-/// (Fastest rate) x (time) that the series of a window are for.
+/// Largest (fastest rate) x (length) of a window.
 const MODES_REACH: f64 = 1.0;
 
-/// A window that is to be tried.
+/// A window to be tried.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial {
+    /// Map from x in 0..1 to the share of the length: nodes are denser at a singularity.
     pub map: Map,
-    /// Fewest nodes that it may have.
+    /// The smallest rule that it may use.
     pub least: Rule,
-    /// s.
+    /// Length, s; with an event, the estimate of its time.
     pub length: f64,
+    /// The event at its end.
     pub ending: Ending,
-    /// s, longest window that may be tried.
+    /// Length of the longest window that may be tried, s.
     pub longest: f64,
-    /// s, what [`reach_of_fewer`] is relative to.
+    /// Length, s, to which [`reach_of_fewer`] is relative.
     pub reach: f64,
-    /// Made shorter since nothing could be shown of a longer one.
+    /// Whether a longer one could not be proved free of events.
     pub halved: bool,
 }
 
 impl Trial {
-    /// What is to be solved.
+    /// The window as the solver takes it.
     pub fn frame(self) -> Frame {
         let Trial { map, length, ending, .. } = self;
         let [eight, twelve] = reach_of_fewer(map);
@@ -53,7 +56,7 @@ impl Trial {
         Frame { map, rule: rule.max(self.least), length, ending }
     }
 
-    /// s, longest that it may turn out.
+    /// Largest length that it may have when it is solved, s.
     pub fn room(&self) -> f64 {
         match self.ending {
             Ending::Given => self.length,
@@ -66,15 +69,15 @@ impl Trial {
         Trial { map: self.map.without_end(), length: share * self.length, ending: Ending::Given, ..self }
     }
 
-    /// The same up to an event.
+    /// A window of that length up to an event.
     pub fn until(self, ending: Ending, length: f64) -> Trial {
         Trial { length, ending, ..self }
     }
 }
 
 impl Windows {
-    /// What to try first within the `remaining` seconds; `None` where a contact is beyond all measure or its damping too
-    /// stiff.
+    /// The window to try first within the `remaining` seconds; `None` where numbers of a contact overflow or its
+    /// damping is too stiff.
     pub fn trial(&self, system: &System, base: &Base, window: &mut Window, remaining: f64) -> Option<Trial> {
         let (mut longest, mut map) = (f64::INFINITY, Map::Plain);
         let (mut time, mut ending) = (f64::INFINITY, Ending::Given);
@@ -109,7 +112,7 @@ impl Windows {
                 (time, ending) = event;
             }
         }
-        // With fewer nodes the length goes with a higher power of the accuracy.
+        // With fewer nodes the length depends on a higher power of the tolerance.
         let (reach, least) = (self.length_factor * longest, Rule::Eight);
         longest = longest.min(MODES_REACH / system.structure.fastest);
         if dashpot * time.min(longest).min(remaining) > TOO_STIFF {
@@ -130,7 +133,7 @@ impl Windows {
     }
 }
 
-/// Longest window in units of the contact's time; half of a Hertz contact takes 1.61. Found by trying.
+/// Largest length of a window in the contact's time units, found by measurement; half of a Hertz contact takes 1.61.
 fn longest_window(force: &Force, is_fresh: bool) -> f64 {
     match (force, is_fresh) {
         (Force::Root { .. }, true) => 0.62,
@@ -141,8 +144,8 @@ fn longest_window(force: &Force, is_fresh: bool) -> f64 {
     }
 }
 
-/// How far eight and twelve nodes reach, relative to sixteen. Found by trying: where they turn out too few, which is so for
-/// a few windows of a hundred, the next more are taken.
+/// Largest length for eight and for twelve nodes, relative to that for sixteen; found by measurement. In the few
+/// windows of a hundred where these are too few, the next rule is used.
 fn reach_of_fewer(map: Map) -> [f64; 2] {
     match map {
         Map::Plain => [0.22, 0.65],
@@ -161,8 +164,8 @@ mod tests {
     use crate::engine::base::peaks::Peaks;
     use crate::scene::Scene;
 
-    /// 1 mm deep in each other: the dashpot takes some 1e2/s for e = 0.5, and 1e14/s for 1e-12, which windows of 0.01 s
-    /// cannot be halved often enough for.
+    /// 1 mm deep in each other: the dashpot's rate is some 1e2/s for e = 0.5, and 1e14/s for 1e-12, for which windows
+    /// of 0.01 s cannot be halved often enough.
     #[test]
     fn no_window_is_tried_where_none_can_succeed() {
         for (restitution, is_tried) in [(0.5, true), (1e-12, false)] {

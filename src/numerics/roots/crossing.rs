@@ -1,27 +1,28 @@
-//! The first passage of a polynomial upwards through 0, or the proof that there is none.
+//! The first upward crossing of 0 by a polynomial, or the proof that there is none.
 
 use super::hermite::{End, NARROWEST};
 use super::terms::Terms;
 use crate::numerics::polynomial::FOURTH;
 use std::cell::Cell;
 
-/// Pieces that a search for a rise may halve before what it finds is taken for rounding: one that means anything takes
-/// some dozens (a scene that needs this: `stress/work_limits.rs`).
+/// Halvings of all pieces together after which a search takes what it finds for rounding: a genuine search needs some
+/// dozens (a scene that reaches the limit: `stress/work_limits.rs`).
 const MOST_HALVINGS: u32 = 20_000;
 
-/// Newton steps relative to x below which the next one starts from a round number.
+/// Newton's step relative to x below which the next iteration starts from x rounded to twelve digits.
 const NEAR: f64 = 1e-8;
 
-/// Newton steps relative to x from a round number after which the root is right to rounding.
+/// Newton's step relative to x, from a rounded start, below which the root is accurate to rounding.
 const NEXT_TO: f64 = 1e-11;
 
-/// Doublings of one rounding by which a root may have to be put off to where rounding sees the curve above 0.
+/// Doublings of one rounding error by which a root may be moved up until the evaluated polynomial is not below 0.
 const MOST_DOUBLINGS: u32 = 12;
 
-/// Where a polynomial, taken as below 0 (or on its way up from exactly 0) at x = 0, first passes 0 upwards in 0..=end.
+/// The x in 0..=end at which a polynomial first crosses 0 upwards; it is below 0 just after x = 0, or starts exactly
+/// there.
 ///
-/// A start above 0 counts as exactly 0, which is what it is but for rounding. A rise that stays below `noise`, the
-/// rounding error of the coefficients, is none.
+/// A start above 0 is rounding and counts as exactly 0. A crossing after which the polynomial stays below `noise`, the
+/// rounding error of its coefficients, is none.
 pub fn first_upcrossing(coefficients: &mut [f64], end: f64, noise: f64) -> Option<f64> {
     coefficients[0] = coefficients[0].min(0.0);
     if coefficients[0] == 0.0 {
@@ -30,7 +31,8 @@ pub fn first_upcrossing(coefficients: &mut [f64], end: f64, noise: f64) -> Optio
     Curve { terms: &Terms::of(coefficients), noise, left: None }.first_upcrossing_up_to(end)
 }
 
-/// As above with the root at x = 0 divided out: the sign just after it is that of the first power that is not 0.
+/// As above for a start at exactly 0, by dividing out the root at x = 0: the first power with a non-zero coefficient
+/// decides the sign just after it.
 fn first_upcrossing_from_zero(coefficients: &[f64], end: f64, noise: f64) -> Option<f64> {
     if noise > 0.0 {
         let terms = Terms::of(coefficients);
@@ -47,17 +49,19 @@ fn first_upcrossing_from_zero(coefficients: &[f64], end: f64, noise: f64) -> Opt
     Curve { terms: &Terms::of(rest), noise, left: None }.first_upcrossing_up_to(end)
 }
 
-/// A polynomial with what is left out of account.
+/// A polynomial and the level below which its values are rounding.
 struct Curve<'a> {
     terms: &'a Terms,
+    /// Rounding error of the coefficients.
     noise: f64,
-    /// Halvings that are left for all pieces together, where they are counted.
+    /// Halvings left for all pieces together; absent where they are not limited.
     left: Option<&'a Cell<u32>>,
 }
 
 impl Curve<'_> {
-    /// The first rise in 0..=end. A curve that stays within rounding of 0 has passages everywhere, which the search would
-    /// follow up to the last of a billion pieces: there what lies below rounding is none.
+    /// The first upward crossing in 0..=end. A curve within rounding of 0 crosses it everywhere, and following these
+    /// crossings would take a billion pieces: when the halvings are used up, the search is repeated with the rounding
+    /// error of the terms as the noise.
     fn first_upcrossing_up_to(&self, end: f64) -> Option<f64> {
         let left = Cell::new(MOST_HALVINGS);
         let counted = Curve { left: Some(&left), ..*self };
@@ -75,17 +79,17 @@ impl Curve<'_> {
         End { x: 0.0, value: self.terms.all[0], slope: self.terms.all[1], fourth: FOURTH[4] * self.terms.all[4].abs() }
     }
 
-    /// Whether a piece may be halved once more.
+    /// Counts a halving; returns whether it was still allowed.
     fn may_halve(&self) -> bool {
         let Some(left) = self.left else { return true };
         left.set(left.get().saturating_sub(1));
         left.get() > 0
     }
 
-    /// The first x in the piece at which the curve passes 0 upwards, given that it is below 0 before the piece.
+    /// The first x in the piece at which the curve crosses 0 upwards, given that it is below 0 before the piece.
     fn first_upcrossing(&self, a: End, b: End) -> Option<f64> {
         let upper_bound = b.upper_bound_from(a);
-        // Numbers that have overflowed have no roots; the state that they lead to is refused.
+        // Overflowed numbers have no roots; the state that they lead to is refused.
         if upper_bound <= self.noise || !upper_bound.is_finite() {
             return None;
         }
@@ -105,8 +109,8 @@ impl Curve<'_> {
         self.first_upcrossing(a, middle).or_else(|| self.first_upcrossing(middle, b))
     }
 
-    /// The root between a point below 0 and one above, or the number just behind it: the curve is not below 0 there, so
-    /// that two curves that are the same to the last bit have both passed at the root of either.
+    /// The root between a point below 0 and one above, moved up by rounding errors until the curve is not below 0
+    /// there: of two curves that agree to the last bit, both have then crossed at the root of either.
     fn root(&self, a: End, b: End) -> f64 {
         let root = newton(self.terms, a, b);
         let (mut x, mut further) = (root, f64::EPSILON * root);
@@ -121,8 +125,8 @@ impl Curve<'_> {
     }
 }
 
-/// Newton, kept inside a shrinking bracket. The last step starts from a round number: so the root of a curve that is
-/// steep there hardly depends on the way to it. Wide instructions give the same bits.
+/// Newton's method, kept inside a shrinking bracket. The last iteration starts from a rounded x, so that the root of a
+/// steep curve hardly depends on the iterates before.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn newton(terms: &Terms, a: End, b: End) -> f64 {
     let (mut low, mut high) = (a.x, b.x);
@@ -156,7 +160,7 @@ fn newton(terms: &Terms, a: End, b: End) -> f64 {
     x
 }
 
-/// About where the cubic interpolant of a piece passes 0, somewhere in the piece.
+/// The approximate zero of the cubic interpolant of a piece, inside the piece.
 fn root_of_cubic(a: End, b: End) -> f64 {
     let w = b.x - a.x;
     let (first, rise, last) = (w * a.slope, b.value - a.value, w * b.slope);
@@ -174,7 +178,7 @@ fn root_of_cubic(a: End, b: End) -> f64 {
     a.x + w * s
 }
 
-/// x to twelve digits: neighbours become the same number.
+/// x rounded to twelve digits: neighbouring numbers become equal.
 fn round(x: f64) -> f64 {
     const LEFT_OUT: u64 = (1 << 12) - 1;
     f64::from_bits((x.to_bits() + (LEFT_OUT >> 1)) & !LEFT_OUT)

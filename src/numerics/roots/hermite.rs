@@ -1,35 +1,37 @@
-//! What both ends of a piece say about a function in between: bounds on its value, slope and curvature.
+//! Bounds on value, slope and curvature of a function over a piece, from values and slopes at both ends (cubic Hermite
+//! interpolation) and a bound on its fourth derivative.
 
 /// Pieces are not halved below this fraction of the step: two roots closer than this are one touch without duration.
 pub const NARROWEST: f64 = 1e-9;
 
-/// One end of a piece.
+/// The function at one end of a piece.
 #[derive(Clone, Copy)]
 pub struct End {
     pub x: f64,
     pub value: f64,
     pub slope: f64,
-    /// Bound on the fourth derivative over 0..=x: what happens further out says nothing about the pieces before.
+    /// Bound on the fourth derivative over 0..=x, so that each piece has its own.
     pub fourth: f64,
 }
 
 impl End {
-    /// Upper bound over the piece that ends here.
+    /// Upper bound of the function over the piece from `a` to here.
     pub fn upper_bound_from(self, a: End) -> f64 {
         let w = self.x - a.x;
         upper_bound((a.value, a.slope), (self.value, self.slope), w, self.fourth)
     }
 
-    /// Bounds on the slope over a piece (that of the interpolant is off by at most sqrt(3)/216 w^3 max|f''''|).
+    /// Bounds on the slope over the piece from `a` to here (the interpolant's is off by at most sqrt(3)/216 w^3
+    /// max|f''''|).
     pub fn slopes_from(self, a: End) -> (f64, f64) {
         let w = self.x - a.x;
-        // Control values of the interpolant's slope: a.slope, this, b.slope.
+        // Bernstein control values of the interpolant's slope: a.slope, `middle`, b.slope.
         let middle = 3.0 * (self.value - a.value) / w - (a.slope + self.slope);
         let error = 0.00802 * w * w * w * self.fourth;
         (a.slope.min(middle).min(self.slope) - error, a.slope.max(middle).max(self.slope) + error)
     }
 
-    /// Whether the curvature is negative over a piece (that of the interpolant is off by at most w^2/12 max|f''''|).
+    /// Whether the curvature is negative over the piece (the interpolant's is off by at most w^2/12 max|f''''|).
     pub fn is_concave_from(self, a: End) -> bool {
         let w = self.x - a.x;
         let secant = (self.value - a.value) / w;
@@ -39,13 +41,13 @@ impl End {
     }
 }
 
-/// Upper bound over 0..=x of a polynomial from its values and slopes at both ends and the bound on its fourth derivative.
+/// Upper bound over 0..=x of a function from its values and slopes at both ends and the bound on its fourth derivative.
 pub fn upper_bound((value, slope): (f64, f64), (end, end_slope): (f64, f64), x: f64, fourth: f64) -> f64 {
     let [first, second] = [value + x * slope / 3.0, end - x * end_slope / 3.0];
     value.max(first).max(second).max(end) + (x * x) * (x * x) / 384.0 * fourth
 }
 
-/// Whether a function may turn from rising to falling above `known` in 0..=x, from its values and slopes at both ends and a
+/// Whether a function may have a local maximum above `known` in 0..=x, from its values and slopes at both ends and a
 /// bound on its fourth derivative.
 pub fn may_turn_above(
     (value, slope): (f64, f64),
@@ -55,7 +57,7 @@ pub fn may_turn_above(
 ) -> bool {
     let (a, b) = (End { x: 0.0, value, slope, fourth: 0.0 }, End { x, value: end, slope: end_slope, fourth });
     let (least, most) = b.slopes_from(a);
-    // Written so that a NaN may be anywhere.
+    // Written so that a NaN counts as "may".
     let (goes_one_way, is_below) = (least > 0.0 || most < 0.0, b.upper_bound_from(a) <= known);
     !goes_one_way && !is_below
 }

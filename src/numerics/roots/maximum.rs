@@ -5,9 +5,9 @@ use super::terms::Terms;
 use crate::numerics::polynomial::Coefficients;
 use crate::numerics::powers::Reading;
 
-/// Where a polynomial is largest in 0..=end, if it exceeds `known` there: (x, value), from its value and slope at 0 and
-/// its reading at the end. `terms` copies its coefficients and tells their number; it is asked only where the maximum
-/// may be in between.
+/// (x, value) of the maximum of a polynomial over 0..=end if it exceeds `known`, from its value and slope at 0 and its
+/// `reading` at the end. Where the maximum may lie inside, `copy` is called for the coefficients: it writes them and
+/// returns their number.
 pub fn maximum_above(
     (value, slope): (f64, f64),
     end: f64,
@@ -36,7 +36,7 @@ pub fn maximum_above(
     best.0.is_finite().then_some(best)
 }
 
-/// Raises `best` = (x, value) to the largest value over a piece. What exceeds it by less than `noise` is rounding.
+/// Raises `best` = (x, value) to the maximum over a piece; an excess below `noise` is rounding.
 fn raise_to_maximum(terms: &Terms, noise: f64, (a, b): (End, End), best: &mut (f64, f64)) {
     for end in [a, b] {
         if end.value > best.1 {
@@ -44,7 +44,7 @@ fn raise_to_maximum(terms: &Terms, noise: f64, (a, b): (End, End), best: &mut (f
         }
     }
     let upper_bound = b.upper_bound_from(a);
-    // What exceeds the best by rounding only is none, and would be searched for ever.
+    // An excess within rounding would be halved for ever.
     if upper_bound <= best.1 + noise || !upper_bound.is_finite() || b.x - a.x < NARROWEST {
         return;
     }
@@ -67,8 +67,7 @@ fn raise_to_maximum(terms: &Terms, noise: f64, (a, b): (End, End), best: &mut (f
     raise_to_maximum(terms, noise, (middle, b), best);
 }
 
-/// Where the slope of a concave piece passes 0: Newton, kept inside a shrinking bracket. Wide
-/// instructions give the same bits.
+/// Where the slope of a concave piece is 0: Newton's method, kept inside a shrinking bracket.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn maximum_of_concave(terms: &Terms, a: End, b: End) -> f64 {
     let (mut low, mut high) = (a.x, b.x);
@@ -83,7 +82,8 @@ fn maximum_of_concave(terms: &Terms, a: End, b: End) -> f64 {
         let step = slope / curvature;
         let newton = x - step;
         let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        // The next step would be its square, and the value at the top is flat.
+        // Newton converges quadratically: the next step would be about the square of this one, and the value is flat
+        // here.
         if step.abs() <= 1e-7 * (b.x - a.x) {
             return if newton >= a.x && newton <= b.x { newton } else { x };
         }
@@ -92,7 +92,7 @@ fn maximum_of_concave(terms: &Terms, a: End, b: End) -> f64 {
     x
 }
 
-/// About where the cubic interpolant of a piece that rises first and falls then is highest, somewhere in the piece.
+/// The approximate maximum of the cubic interpolant of a piece that rises first and then falls, inside the piece.
 fn maximum_of_cubic(a: End, b: End) -> f64 {
     let w = b.x - a.x;
     let middle = 3.0 * (b.value - a.value) / w - (a.slope + b.slope);
@@ -108,8 +108,8 @@ fn maximum_of_cubic(a: End, b: End) -> f64 {
     a.x + w * s
 }
 
-/// x to eight digits. The value at a top is flat: there it is right to sixteen, and the same to the last bit however far a
-/// curve is looked at, so that no peak falls by a rounding.
+/// x rounded to eight digits. Near a maximum the value is flat, so that it keeps sixteen digits; and it is the same to
+/// the last bit however much of the curve is searched, so that no peak ever falls by a rounding.
 pub fn roughly(x: f64) -> f64 {
     const LEFT_OUT: u64 = (1 << 26) - 1;
     f64::from_bits((x.to_bits() + (LEFT_OUT >> 1)) & !LEFT_OUT)

@@ -1,20 +1,21 @@
-//! A polynomial in blocks of four terms, each by Horner's rule, which wide instructions evaluate abreast.
+//! A polynomial in blocks of four terms: four polynomials in x^4, evaluated side by side by Horner's rule.
 
 use super::hermite::End;
 use crate::numerics::polynomial::{Coefficients, FOURTH, MAX_TERMS, each};
 
-/// Terms that are worked on without a question in between.
+/// Number of terms that are worked on side by side.
 pub const BLOCK: usize = 4;
 
-/// The terms of a polynomial, filled up with zeros to whole blocks.
+/// The coefficients of a polynomial, filled up with zeros to whole blocks.
 ///
-/// With y = x^[`BLOCK`] it is P0(y) + x P1(y) + x^2 P2(y) + ..., which are evaluated abreast, each by Horner's rule.
+/// With y = x^[`BLOCK`] it is P0(y) + x P1(y) + x^2 P2(y) + x^3 P3(y); the four are evaluated side by side.
 pub struct Terms {
     pub all: Coefficients,
+    /// Number of blocks in use.
     blocks: usize,
 }
 
-/// What a block of terms comes to.
+/// Values of P0, P1, P2 and P3, or four coefficients, one for each of them.
 pub type Block = [f64; BLOCK];
 
 /// The powers of x up to y = x^[`BLOCK`].
@@ -33,13 +34,13 @@ impl Place {
         Place { x, x2, x3: x * x2, y: x2 * x2 }
     }
 
-    /// P0 + x P1 + ...
+    /// P0 + x P1 + x^2 P2 + x^3 P3, from the values of the four.
     #[inline(always)]
     pub fn total(self, [a, b, c, d]: Block) -> f64 {
         (a + c * self.x2) + (b * self.x + d * self.x3)
     }
 
-    /// P1 + 2 x P2 + ...: the slope as far as y stays as it is.
+    /// P1 + 2 x P2 + 3 x^2 P3: the slope at constant y, from the values of the four.
     #[inline(always)]
     pub fn slope(self, [_, b, c, d]: Block) -> f64 {
         (b + 3.0 * d * self.x2) + 2.0 * c * self.x
@@ -47,6 +48,7 @@ impl Place {
 }
 
 impl Terms {
+    /// A polynomial with these coefficients.
     pub fn of(coefficients: &[f64]) -> Terms {
         let mut terms = Terms::empty();
         terms.all[..coefficients.len()].copy_from_slice(coefficients);
@@ -54,26 +56,29 @@ impl Terms {
         terms
     }
 
+    /// No terms, to be filled and completed.
     pub fn empty() -> Terms {
         Terms { all: [0.0; MAX_TERMS], blocks: 0 }
     }
 
-    /// Fills up what follows on the coefficients, of which there are `count`.
+    /// Fills up with zeros after the first `count` coefficients, which are in place.
     pub fn complete(&mut self, count: usize) {
         self.blocks = count.div_ceil(BLOCK).min(MAX_TERMS / BLOCK);
         self.all[count..self.blocks * BLOCK].fill(0.0);
     }
 
+    /// The coefficients in blocks.
     #[inline(always)]
     pub fn blocks(&self) -> &[Block] {
         &self.all.as_chunks::<BLOCK>().0[..self.blocks]
     }
 
-    /// A point of the curve.
+    /// Value, slope and bound on the fourth derivative at x.
     pub fn at(&self, x: f64) -> End {
         point(self.blocks(), x)
     }
 
+    /// Value at x.
     #[inline(always)]
     pub fn value(&self, x: f64) -> f64 {
         let at = Place::at(x);
@@ -84,12 +89,13 @@ impl Terms {
         at.total(value)
     }
 
+    /// Value and slope at x.
     #[inline(always)]
     pub fn value_and_slope(&self, x: f64) -> (f64, f64) {
         value_and_slope(self.blocks(), Place::at(x))
     }
 
-    /// Slope and curvature.
+    /// Slope and curvature at x.
     #[inline(always)]
     pub fn bend(&self, x: f64) -> (f64, f64) {
         let at = Place::at(x);
@@ -107,7 +113,7 @@ impl Terms {
         (slope, own + 2.0 * rate * at.slope(by_y) + bend_of_y)
     }
 
-    /// Sum of the sizes of all terms at x.
+    /// Sum of the magnitudes of all terms at x >= 0.
     pub fn size(&self, x: f64) -> f64 {
         let at = Place::at(x);
         let mut size = [0.0; BLOCK];
@@ -118,6 +124,7 @@ impl Terms {
     }
 }
 
+/// Value and slope at a point, as [`Terms::value_and_slope`], from the blocks.
 #[inline(always)]
 pub fn value_and_slope(blocks: &[Block], at: Place) -> (f64, f64) {
     let (mut value, mut by_y) = ([0.0; BLOCK], [0.0; BLOCK]);
@@ -128,7 +135,7 @@ pub fn value_and_slope(blocks: &[Block], at: Place) -> (f64, f64) {
     (at.total(value), at.slope(value) + 4.0 * at.x3 * at.total(by_y))
 }
 
-/// See [`Terms::at`]. Wide instructions give the same bits.
+/// See [`Terms::at`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 pub fn point(blocks: &[Block], x: f64) -> End {
     let at = Place::at(x);

@@ -49,7 +49,7 @@ fn a_single_rise_is_found_to_rounding() {
 
 #[test]
 fn a_curve_has_passed_at_its_root() {
-    // So have others that are the same: what meets at one instant is not taken for two impacts.
+    // So does every other curve that agrees with it: contacts that meet at one instant are not taken for two impacts.
     for k in 1..1000 {
         let mut curve = polynomial(1.0, &[1e-3 * f64::from(k), 1.1 + 1e-4 * f64::from(k), 1.7, -0.3]);
         let root = first_upcrossing(&mut curve, 1.0, 0.0).unwrap();
@@ -60,7 +60,7 @@ fn a_curve_has_passed_at_its_root() {
 
 #[test]
 fn two_passages_between_the_ends_are_seen() {
-    // Below 0 at both ends, above 0 for a short while: what sampling misses.
+    // Below 0 at both ends, above 0 for a short while: a crossing that sampling misses.
     for width in [0.3, 1e-2, 1e-4, 1e-6] {
         let found = rise(-1.0, &[0.4, 0.4 + width]).unwrap();
         assert!((found - 0.4).abs() < 1e-16 / width + 1e-15, "{found}, width {width}");
