@@ -5,8 +5,7 @@
 use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::At;
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::excitation::inputs::Inputs;
-use crate::engine::excitation::linear_input::LinearInput;
+use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::flight::accounted::MOST_PIECES;
 use crate::engine::step::{Dense, Step};
 use crate::engine::system::System;

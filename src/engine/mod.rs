@@ -66,7 +66,7 @@ mod window;
 pub use crate::engine::base::contact::Episode;
 pub use crate::engine::base::counters::Counters;
 pub use crate::engine::error::EngineError;
-pub use crate::engine::excitation::linear_input::LinearInput;
+pub use crate::engine::excitation::inputs::LinearInput;
 pub use crate::engine::model::Model;
 pub use crate::engine::output::feedthrough::Response;
 pub use crate::engine::output::point::{ContactPoint, EnergyPoint, Point};

@@ -3,8 +3,7 @@
 use crate::collocation::Workspace as WindowWorkspace;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::{Account, Base};
-use crate::engine::excitation::inputs::Inputs;
-use crate::engine::excitation::linear_input::LinearInput;
+use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::flight::workspace::Look;
 use crate::engine::model::Model;
 use crate::engine::peaks::room::{PeakRoom, PeakWork};

@@ -4,8 +4,7 @@
 use crate::engine::base::contact::{Contact, Episode};
 use crate::engine::base::counters::Counters;
 use crate::engine::base::{Account, Base};
-use crate::engine::excitation::inputs::Inputs;
-use crate::engine::excitation::linear_input::LinearInput;
+use crate::engine::excitation::inputs::{Inputs, LinearInput};
 
 impl Inputs {
     pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {

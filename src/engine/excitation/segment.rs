@@ -1,6 +1,6 @@
 //! An interval of time in which the ground acceleration is linear.
 
-use crate::engine::excitation::linear_input::LinearInput;
+use crate::engine::excitation::inputs::LinearInput;
 use serde::{Deserialize, Serialize};
 
 /// An interval of time in which the ground acceleration is linear.

@@ -1,7 +1,7 @@
 //! Rates of the energy account: powers and their rates, from the motion and its derivatives.
 
 use crate::engine::base::Coordinates;
-use crate::engine::excitation::linear_input::LinearInput;
+use crate::engine::excitation::inputs::LinearInput;
 use crate::engine::model::Model;
 use crate::engine::output::point::Point;
 use crate::engine::output::point_rates::{EnergyRates, PointRates};

@@ -6,7 +6,7 @@
 
 use crate::engine::base::contact::Phase;
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::excitation::linear_input::LinearInput;
+use crate::engine::excitation::inputs::LinearInput;
 use crate::engine::model::Model;
 use crate::engine::output::point::Point;
 use crate::engine::output::point_rates::{ContactRates, PEAK_ROUNDING, PointRates, Rates};

@@ -4,8 +4,7 @@
 use crate::collocation::MOST_PAIRS;
 use crate::contact::onset::{MOST_TERMS, Terms, value_and_slope};
 use crate::engine::base::Base;
-use crate::engine::excitation::inputs::Inputs;
-use crate::engine::excitation::linear_input::LinearInput;
+use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::model::Model;
 use crate::engine::onset::series::OnsetSeries;
 use crate::engine::peaks::room::{PeakWork, ReadingRoom};
