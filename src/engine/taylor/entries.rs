@@ -45,8 +45,8 @@ impl System {
         mut first: Option<(f64, Event)>,
     ) -> Option<(f64, Event)> {
         let stays_apart = course.stays_apart(end.x);
-        // A tracked pair's stored penetration is more accurate than one recomputed from the motion: it is tested by its
-        // own series.
+        // The stored penetration of a pair at the surface, or tracked, is more accurate than the one that the motion
+        // gives: bounds by the motion do not exclude it.
         let is_sure = |lane: usize, contact: &Contact| stays_apart[lane] && !contact.at_surface && !contact.tracked;
         let may_meet = |&(lane, p): &(usize, usize)| {
             let contact = &base.contacts[p];

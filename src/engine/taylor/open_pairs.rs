@@ -167,8 +167,8 @@ impl<'a> Horizon<'a> {
         let relative = |motion: &[f64]| motion[left] - motion[right];
         let tracked = self.reach * relative(self.tracked).max(0.0);
         let nearest = relative(self.start) - gap + tracked + (self.wandered[left] + self.wandered[right]);
-        // A tracked pair's stored penetration is more accurate than one recomputed from the motion, so it is never
-        // excluded here.
+        // The stored penetration of a pair at the surface, or tracked, is more accurate than the one that the motion
+        // gives: bounds by the motion do not exclude it.
         nearest < 0.0 && !contact.at_surface && !contact.tracked
     }
 }
