@@ -1,5 +1,6 @@
 //! Arithmetic without mechanics: polynomials and power series, their roots and largest values, quadrature, linear
 //! complementarity.
+//! For functions marked `multiversion` see [`crate::structure`].
 
 pub mod complementarity;
 pub mod polynomial;

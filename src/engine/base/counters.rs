@@ -7,9 +7,10 @@ use serde::{Deserialize, Serialize};
 pub struct Counters {
     /// Internal flight steps.
     pub flight_steps: u64,
-    /// Pieces of flights that were expanded into a series, or tried without one, to look for a contact.
+    /// Pieces of flights that were searched for an entry: expanded into a power series, or cleared by both of their
+    /// ends.
     pub narrow_phase_pieces: u64,
-    /// Flights for which no pair had to be looked at: none can close that fast.
+    /// Flights for which no pair had to be evaluated: bounds on the closing velocities had cleared all of them.
     pub flights_cleared: u64,
     /// Evaluations of a pair's penetration for a flight.
     pub pairs_evaluated: u64,

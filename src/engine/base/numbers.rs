@@ -1,5 +1,4 @@
-//! All numbers of a state, for the test that they are finite. Patterns without `..` make a new field a compile error
-//! here.
+//! All numbers of a state, for the checks of a saved one. Patterns without `..` make a new field a compile error here.
 
 use crate::engine::base::contact::{Contact, Episode};
 use crate::engine::base::counters::Counters;

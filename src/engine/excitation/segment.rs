@@ -34,7 +34,7 @@ impl Segment {
         Segment { start, length, acceleration: input.at(start), slope: input.slope(), place: RecordPlace::Outside }
     }
 
-    /// Whether it can be a segment under an input: consistent and finite.
+    /// Whether it can be a segment under an input: outside a record, with finite numbers and a length of 0 or more.
     pub fn is_under_input(&self) -> bool {
         let Segment { start, length, acceleration, slope, place } = *self;
         let numbers = [start, length, acceleration, slope];

@@ -75,8 +75,7 @@ impl System {
             found = Some(grid);
             let pair = &self.pairs[p];
             scale = scale.min(turning_time(&force, pair.mass, contact.rate));
-            // If the acceleration changes the approach velocity before the force matters, that velocity is as good as
-            // 0.
+            // If other accelerations change the approach velocity before the force matters, the velocity is too small.
             let overtaken = contact.rate / self.pairs[p].relative(base.coordinates, &work.q).abs();
             let gained = force.value(1.5 * contact.rate * overtaken, contact.rate) * overtaken / pair.mass;
             if gained < allowed {

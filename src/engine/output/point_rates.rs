@@ -48,8 +48,8 @@ pub struct ContactRates {
     pub dissipated_energy: Rates,
 }
 
-/// First and second derivatives of the energy account, W and W/s. Names as in [`crate::engine::EnergyPoint`]; the
-/// residual has none.
+/// First and second derivatives of the energy account, W and W/s. Names as in [`super::point::EnergyPoint`]; the
+/// residual has no derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyRates {
     /// Of the work of the ground motion.

@@ -1,5 +1,5 @@
-//! The contact Jacobian J: relative motions J q of the pairs from the motion of the floors or modes, and the loads -J'
-//! F of contact forces F on them, per unit of mass.
+//! The contact Jacobian J: relative motions J q of the pairs from the motion q of the floors or modes, and their
+//! accelerations -M^-1 J'F by contact forces F.
 
 use crate::contact::taylor::{Each, PAIRS};
 use crate::engine::pairs::packing::PackedPairs;

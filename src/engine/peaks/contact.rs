@@ -104,7 +104,7 @@ impl Model {
                     (PeakOf::Drift(side, floor), start.u[lane] - below),
                     (PeakOf::Acceleration(side, floor), start.resisted[lane] + work.peaks.first_push[lane]),
                 ];
-                // An acceleration would depend on the floor forces.
+                // Accelerations depend on the floor forces, which may have just been set.
                 let known = if self.system.floor_forces { &now[..2] } else { &now };
                 known.iter().for_each(|&(of, value)| peaks.raise(self.peak_rows.place(of), value));
             }

@@ -1,4 +1,4 @@
-//! Rigid contacts (`stereomechanical`): impulses, rebounds that die out, floors held together by a reaction.
+//! Impulses between rigid floors (`stereomechanical`), until the rebounds have died out and the floors stay together.
 //!
 //! An impulse p between two floors changes the approach velocity from V to -e V at once (seed paper, eqs. 1 and 2).
 //! Pairs that meet at the same instant are solved together: p >= 0, w = v + e V <= 0, p . w = 0 \[Moreau1988\]. As only

@@ -22,11 +22,11 @@ impl System {
         open.assign(&self.pairs, base.coordinates);
         open.follow(base, &self.pairs, (series, substitution), end, &mut work.node_q);
         let mut first = None;
-        for (block, course) in open.apart.iter().zip(&open.bounds) {
+        for (block, bounds) in open.apart.iter().zip(&open.bounds) {
             first = self.first_of_lanes(
                 base,
                 open.members[*block].lanes(),
-                course,
+                bounds,
                 ((series, substitution), end, work),
                 first,
             );
@@ -40,13 +40,13 @@ impl System {
         &self,
         base: &Base,
         lanes: impl Iterator<Item = (usize, usize)>,
-        course: &PenetrationBounds,
+        bounds: &PenetrationBounds,
         ((series, substitution), end, work): ((&MotionSeries, &Substitution), &mut Powers, &mut Buffers),
         mut first: Option<(f64, Event)>,
     ) -> Option<(f64, Event)> {
-        let stays_apart = course.stays_apart(end.x);
-        // A tracked pair's stored penetration is more accurate than one recomputed from the motion: it is tested by its
-        // own series.
+        let stays_apart = bounds.stays_apart(end.x);
+        // The stored penetration of a pair at the surface, or tracked, is more accurate than the one that the motion
+        // gives: bounds by the motion do not exclude it.
         let is_sure = |lane: usize, contact: &Contact| stays_apart[lane] && !contact.at_surface && !contact.tracked;
         let may_meet = |&(lane, p): &(usize, usize)| {
             let contact = &base.contacts[p];

@@ -146,7 +146,7 @@ struct Horizon<'a> {
     /// Displacements of all floors at the start, m.
     start: &'a [f64],
     /// Terms of power 1: their velocities times the series' scale, m.
-    tracked: &'a [f64],
+    velocity: &'a [f64],
     /// Number of these terms by which the floors move at most: x, or the time there if that is more.
     reach: f64,
     /// Sum of the magnitudes of all other terms of each floor's motion, m.
@@ -159,16 +159,16 @@ impl<'a> Horizon<'a> {
     fn of(series: &'a MotionSeries, x: f64, wandered: &'a mut [f64]) -> Horizon<'a> {
         let reach = x + series.time_map.curvature.abs() * (x * x);
         series.sum_sizes(2, reach, wandered);
-        Horizon { start: series.term(0), tracked: series.term(1), reach, wandered }
+        Horizon { start: series.term(0), velocity: series.term(1), reach, wandered }
     }
 
     /// Whether two floors are too far apart to meet in the step.
     fn is_beyond(&self, contact: &Contact, [left, right]: [usize; 2], gap: f64) -> bool {
         let relative = |motion: &[f64]| motion[left] - motion[right];
-        let tracked = self.reach * relative(self.tracked).max(0.0);
-        let nearest = relative(self.start) - gap + tracked + (self.wandered[left] + self.wandered[right]);
-        // A tracked pair's stored penetration is more accurate than one recomputed from the motion, so it is never
-        // excluded here.
+        let approached = self.reach * relative(self.velocity).max(0.0);
+        let nearest = relative(self.start) - gap + approached + (self.wandered[left] + self.wandered[right]);
+        // The stored penetration of a pair at the surface, or tracked, is more accurate than the one that the motion
+        // gives: bounds by the motion do not exclude it.
         nearest < 0.0 && !contact.at_surface && !contact.tracked
     }
 }
@@ -197,7 +197,7 @@ fn read(
     powers: &Powers,
     bounds: &mut [PenetrationBounds],
 ) {
-    for (i, (b, course)) in apart.iter().zip(bounds).enumerate() {
-        *course = PenetrationBounds::of(terms, (i, apart.len()), count, powers, &members[*b].gap);
+    for (i, (b, bounds)) in apart.iter().zip(bounds).enumerate() {
+        *bounds = PenetrationBounds::of(terms, (i, apart.len()), count, powers, &members[*b].gap);
     }
 }

@@ -1,3 +1,5 @@
+//! Crossings and maxima of polynomials with known roots, near double roots, and at the edge of rounding.
+
 #![allow(clippy::unwrap_used)]
 
 use super::terms::Terms;
