@@ -1,6 +1,8 @@
 //! Arithmetic without mechanics: polynomials and power series, their roots and largest values, quadrature, linear
 //! complementarity.
-//! For functions marked `multiversion` see [`crate::structure`].
+//!
+//! Here and in all other modules a function marked `multiversion` is compiled twice, with wide instructions and without: the
+//! same operations in the same order, so the same bits.
 
 pub mod complementarity;
 pub mod polynomial;

@@ -18,9 +18,6 @@
 //! | `short_flight.rs` | a flight by one such series, without keeping the terms |
 //! | `impulse_response.rs` | the response to an impulse as a power series in time |
 //! | `lanes.rs`, `lane_matrix.rs` | vectors in blocks of four, their sums of products, matrices between them |
-//!
-//! A function marked `multiversion` is compiled twice, with wide instructions and without: the same operations in the same
-//! order, so the same bits.
 
 mod equations;
 mod first_mode;
