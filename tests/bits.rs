@@ -32,7 +32,10 @@ fn fingerprint(case: &Case) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
     for k in 1..=40 {
         run.to(0.1 * f64::from(k));
-        let energies = run.point.energy.map(|energy| [energy.input, energy.viscous, energy.impact].map(f64::to_bits));
+        let energies = run
+            .model
+            .energy(&run.state, &run.point)
+            .map(|energy| [energy.input, energy.viscous, energy.impact].map(f64::to_bits));
         for byte in run.bits().into_iter().chain(energies.into_iter().flatten()).flat_map(u64::to_le_bytes) {
             hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
         }

@@ -63,7 +63,7 @@ fn worst_motion(golden: &Golden, run: &mut Run, mut advance: impl FnMut(&mut Run
                 worst = worst.max((run.velocity(side, floor) - exact("velocity")).abs() / v / sensitivity);
             }
         }
-        let energy = run.point.energy.unwrap();
+        let energy = run.energy();
         for (name, value) in [
             // Of the ground's motion, or of the forces in its place.
             ("input", energy.input + energy.external),

@@ -2,7 +2,6 @@
 //!
 //! Every term is integrated by itself and none is computed as a remainder, so that their sum tests the solution.
 
-use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::At;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
@@ -12,9 +11,9 @@ use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
 use crate::engine::window::solution::Window;
-use crate::numerics::polynomial::MAX_TERMS;
-use crate::numerics::quadrature::{EIGHT, Rule, TWELVE, gauss, graded};
-use crate::structure::{MotionSeries, dot, flight_order};
+use crate::numerics::powers::Powers;
+use crate::numerics::quadrature::{TWELVE, TWELVE_POINTS, gauss, graded};
+use crate::structure::{FlightWork, LANES, MotionSeries, dot, flight_order};
 
 /// Work over an interval of time, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -51,9 +50,17 @@ impl System {
             return;
         }
         let length = step.planned.length;
+        if let Some(work) = self.work_of_segment(base, step) {
+            let (q, v) = (base.q.as_chunks::<LANES>().0, base.v.as_chunks::<LANES>().0);
+            let flight = work.over((q, v), (base.segment.acceleration_at(0.0), base.segment.slope));
+            let impact = base.dissipated_by_contacts();
+            counters.energy_steps += 1;
+            base.energy.iter_mut().for_each(|account| account.add_flight(&flight, impact));
+            return;
+        }
         counters.energy_steps += if step.is_flight() { self.pieces(length).min(MOST_PIECES as u64) } else { 1 };
         let done = self.work_over(base, step, inputs, work, length);
-        let impact: f64 = base.contacts.iter().map(Contact::dissipated_energy).sum();
+        let impact = base.dissipated_by_contacts();
         let (kinetic, strain) = self.structure_energies(base.coordinates, &base.q, &base.v);
         if let Some(account) = &mut base.energy {
             account.input += done.input;
@@ -61,6 +68,14 @@ impl System {
             account.external += done.external;
             account.update_largest([kinetic, strain, impact]);
         }
+    }
+
+    /// The work over the planned step, where it is a flight over a whole segment of the record without forces on the
+    /// floors, and has been prepared.
+    fn work_of_segment(&self, base: &Base, step: &Step) -> Option<&FlightWork> {
+        let is_whole = step.is_flight() && base.elapsed == 0.0 && step.planned.length == base.segment.length;
+        let (ground, _) = self.watched_segment(base).filter(|_| is_whole && base.coordinates == Coordinates::Modes)?;
+        ground.work_over(&base.segment)
     }
 
     /// The work from the base over `length` seconds.
@@ -71,12 +86,13 @@ impl System {
             _ if length == 0.0 => return done,
             Dense::Flight => self.integrate_flight(base, inputs, work, length, &mut done),
             Dense::Taylor(Solution { series, .. }) => {
-                self.integrate_series::<12>(base, series, TWELVE, (0.0, length), work, &mut done);
+                self.integrate_series(base, series, (0.0, length), work, &mut done);
                 series.set_powers(length, &mut work.powers);
                 series.evaluate(&work.powers, &mut work.q, &mut work.v);
             }
             Dense::Onset(onset) => {
-                let motion = |t: f64, q: &mut [f64], v: &mut [f64]| onset.evaluate(t / onset.scale, q, v);
+                let motion =
+                    |t: f64, _: &mut Powers, q: &mut [f64], v: &mut [f64]| onset.evaluate(t / onset.scale, q, v);
                 self.integrate(base, motion, graded(TWELVE, length), 0.0, work, &mut done);
                 onset.evaluate(length / onset.scale, &mut work.q, &mut work.v);
             }
@@ -129,16 +145,11 @@ impl System {
         work: &mut Buffers,
         done: &mut Work,
     ) {
-        let nodes = window.nodes(length);
-        let mut powers = std::mem::take(&mut work.powers);
-        let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
-        window.evaluate(self, series, length, &mut powers, (&mut q, &mut v));
-        let room = std::cell::RefCell::new(powers);
-        let motion =
-            |t: f64, q: &mut [f64], v: &mut [f64]| window.evaluate(self, series, t, &mut room.borrow_mut(), (q, v));
-        self.integrate(base, motion, nodes, 0.0, work, done);
-        work.powers = room.into_inner();
-        (work.q, work.v) = (q, v);
+        let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
+            window.evaluate(self, series, t, powers, (q, v));
+        };
+        self.integrate(base, motion, window.nodes(length), 0.0, work, done);
+        motion(length, &mut work.powers, &mut work.q, &mut work.v);
     }
 
     /// Work over a flight, by quadrature over pieces within reach of one series each; leaves the motion at the end in
@@ -160,7 +171,7 @@ impl System {
         for i in 0..pieces {
             let start = (work.q.as_slice(), work.v.as_slice());
             series.expand_flight(&self.structure, start, (&work.load, &work.slope), (h, order));
-            self.integrate_series::<8>(base, &series, EIGHT, (i as f64 * h, h), work, done);
+            self.integrate_series(base, &series, (i as f64 * h, h), work, done);
             work.powers.set(1.0, series.order);
             series.evaluate(&work.powers, &mut work.q, &mut work.v);
             for (load, slope) in work.load.iter_mut().zip(&work.slope) {
@@ -170,61 +181,48 @@ impl System {
         work.series = series;
     }
 
-    /// Adds the work over a series that begins `from` seconds after the base, over `length` seconds, by a rule of N
-    /// points. Uncoupled modes are evaluated at all points side by side.
-    fn integrate_series<const N: usize>(
+    /// Adds the work over a series that begins `from` seconds after the base, over `length` seconds. Uncoupled modes are
+    /// evaluated at all nodes side by side.
+    fn integrate_series(
         &self,
         base: &Base,
         series: &MotionSeries,
-        rule: &Rule,
         (from, length): (f64, f64),
         work: &mut Buffers,
         done: &mut Work,
     ) {
         let is_plain = base.coordinates == Coordinates::Modes && work.force_slope.is_empty();
-        if !is_plain || !self.structure.is_classical() {
-            let motion = |t: f64, q: &mut [f64], v: &mut [f64]| series.evaluate(&series.powers_at(t), q, v);
-            return self.integrate(base, motion, gauss(rule, length), from, work, done);
+        if !is_plain || !self.structure.is_classical() || series.time_map.is_curved() {
+            let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
+                series.set_powers(t, powers);
+                series.evaluate(powers, q, v);
+            };
+            return self.integrate(base, motion, gauss(TWELVE, length), from, work, done);
         }
-        let (mut times, mut weights) = ([0.0; N], [0.0; N]);
-        for (i, (t, weight)) in gauss(rule, length).enumerate().take(N) {
-            (times[i], weights[i]) = (t, weight);
-        }
-        let mut rates = [[0.0; N]; MAX_TERMS];
-        for (i, t) in times.iter().enumerate() {
-            let powers = series.powers_at(*t);
-            rates.iter_mut().zip(powers.in_time().1).for_each(|(rates, rate)| rates[i] = *rate);
-        }
-        let (mut push, mut power) = ([0.0; N], [0.0; N]);
-        for (m, (participation, c)) in self.structure.participation.iter().zip(&self.structure.damping).enumerate() {
-            let v = series.velocities(m, &rates);
-            for i in 0..N {
-                push[i] += participation * v[i];
-                power[i] += c * v[i] * v[i];
-            }
-        }
-        for i in 0..N {
+        let times = TWELVE_POINTS.map(|(node, _)| node * length);
+        let [momentum, viscous] = series.powers_at_nodes(&self.structure, &times.map(|t| t / series.scale));
+        for (i, (_, weight)) in TWELVE_POINTS.iter().enumerate() {
             let acceleration = base.segment.acceleration_at(base.elapsed + from + times[i]);
-            done.input -= weights[i] * acceleration * push[i];
-            done.viscous += weights[i] * power[i];
+            done.input -= weight * length * acceleration * momentum[i];
+            done.viscous += weight * length * viscous[i];
         }
     }
 
     /// Adds the work of the ground motion, of structural damping and of the change of the floor forces since the base,
     /// over a solution that begins `from` seconds after the base, by the nodes and weights of a quadrature. `motion`(t,
-    /// q, v) writes the velocities at t to v, with q as scratch.
+    /// powers, q, v) writes the velocities at t to v, with q and the tables of powers as scratch.
     fn integrate(
         &self,
         base: &Base,
-        motion: impl Fn(f64, &mut [f64], &mut [f64]),
+        motion: impl Fn(f64, &mut Powers, &mut [f64], &mut [f64]),
         nodes: impl Iterator<Item = (f64, f64)>,
         from: f64,
         work: &mut Buffers,
         done: &mut Work,
     ) {
-        let Buffers { node_q: q, node_v: v, v: damped, force_slope, .. } = work;
+        let Buffers { node_q: q, node_v: v, v: damped, force_slope, powers, .. } = work;
         for (t, weight) in nodes {
-            motion(t, q, v);
+            motion(t, powers, q, v);
             let acceleration = base.segment.acceleration_at(base.elapsed + from + t);
             let (momentum, viscous) = match base.coordinates {
                 Coordinates::Modes => (dot(&self.structure.participation, v), self.structure.viscous_power(v)),

@@ -128,6 +128,11 @@ impl Structure {
         self.modes(side).omega.len()
     }
 
+    /// Number of modes of both buildings, which is that of their floors.
+    pub fn modes_of_both(&self) -> usize {
+        self.floors(Side::Left) + self.floors(Side::Right)
+    }
+
     /// Where a building's modes begin in a modal vector.
     pub fn offset(&self, side: Side) -> usize {
         match side {

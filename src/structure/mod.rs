@@ -14,6 +14,7 @@
 //! | `equations.rs` | both buildings mode by mode: equation of motion, forces, energies |
 //! | `floors.rs` | the same floor by floor, for shear buildings |
 //! | `propagator.rs`, `interval.rs` | exact response over a time, of one mode and of all |
+//! | `flight_work.rs` | work of the ground and of damping over a whole flight |
 //! | `series/` | the motion as a power series in time: its terms, their sums |
 //! | `short_flight.rs` | a flight by one such series, without keeping the terms |
 //! | `impulse_response.rs` | the response to an impulse as a power series in time |
@@ -21,6 +22,7 @@
 
 mod equations;
 mod first_mode;
+mod flight_work;
 mod floors;
 mod impulse_response;
 mod interval;
@@ -33,6 +35,7 @@ mod short_flight;
 
 pub use equations::{Scratch, Side, Structure};
 pub use first_mode::FirstMode;
+pub use flight_work::{FlightEnergy, FlightWork};
 pub use floors::Floors;
 pub use impulse_response::{ImpulseResponse, RESPONSE_POWERS};
 pub use interval::{Interval, ModeIncrements};

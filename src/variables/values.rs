@@ -342,7 +342,7 @@ impl Instant<'_> {
             Output::Peak(of) => model.peak(state, point, of),
             Output::Contact(p, output) => return read_contact(&model.contact(state, point, p), output),
             Output::Impacts => return count(point.impacts),
-            Output::Energy(term) => read_energy(&point.energy.unwrap_or_default(), term),
+            Output::Energy(term) => read_energy(&model.energy(state, point).unwrap_or_default(), term),
         })
     }
 }

@@ -4,7 +4,7 @@
 #[path = "../problems/mod.rs"]
 pub mod problems;
 
-use pounding::engine::{ContactPoint, Episode, Model, PeakOf, Point, Side, State};
+use pounding::engine::{ContactPoint, EnergyPoint, Episode, Model, PeakOf, Point, Side, State};
 use pounding::record::Record;
 use pounding::scene::Scene;
 use problems::two_masses::{Mass, TwoMasses};
@@ -79,6 +79,11 @@ impl Run {
 
     pub fn contacts(&self) -> Vec<ContactPoint> {
         (0..self.model.contacts()).map(|p| self.contact(p)).collect()
+    }
+
+    /// The energy account of a scene that keeps one.
+    pub fn energy(&self) -> EnergyPoint {
+        self.model.energy(&self.state, &self.point).unwrap()
     }
 
     /// Everything that a floor or contact shows, as bits.

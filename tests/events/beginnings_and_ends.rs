@@ -69,7 +69,7 @@ fn a_floor_force_is_a_shifted_vibration() {
     let w = 2.0 * PI;
     let exact = 3.0 / (w * w) * (1.0 - (w * 1.1).cos());
     assert_close(run.displacement(Side::Left, 0), exact, 1e-13, "displacement");
-    let energy = run.point.energy.unwrap();
+    let energy = run.energy();
     assert_close(energy.external, 3.0 * exact, 1e-13, "work of the force");
     assert!(energy.residual.abs() < 1e-14, "{energy:?}");
 }
@@ -332,7 +332,7 @@ fn floors_that_touch_at_rest_are_pressed_by_the_motion_alone() {
                 // Damping tells first: the building with more damping per mass lags behind.
                 assert!(early.penetration.abs() < 1e-9 && early.force.abs() < 1.0, "{law}: {early:?}");
                 run.to(1.0);
-                let residual = run.point.energy.unwrap().residual;
+                let residual = run.energy().residual;
                 assert!(residual.abs() < 1e-12, "{law} {left:?} {right:?} {sign}: residual {residual:e}");
                 assert!(run.point.impacts > 0);
             }

@@ -38,7 +38,7 @@ fn an_entry_is_seen_however_soon_after_another() {
             assert!((start(0) - 0.002).abs() < 1e-17, "{} first", start(0));
             let error = (start(1) - (0.002 + 2.0 * later)).abs();
             assert!(error < 4e-18, "{} instead of {}: {error:e}, {laws:?}", start(1), 0.002 + 2.0 * later);
-            assert!(run.point.energy.unwrap().residual.abs() < 1e-14, "{:?}", run.point.energy);
+            assert!(run.energy().residual.abs() < 1e-14, "{:?}", run.energy());
         }
     }
 }
@@ -245,7 +245,7 @@ fn the_account_closes_beside_a_fast_damped_mode() {
             let mut run = Run::new(&scene, None);
             run.to(0.1);
             assert_eq!(run.contact(0).impacts, 1);
-            let account = run.point.energy.unwrap();
+            let account = run.energy();
             assert!(account.residual.abs() < 1e-14, "{law}, {stiffness:e} N/m, {ratio}: {account:?}");
         }
     }

@@ -41,7 +41,7 @@ impl Impact {
         let lost = 0.5 * m * (speed * speed - episode.separation_velocity * episode.separation_velocity);
         let error = (episode.dissipated_energy - lost) / energy;
         assert!(error.abs() < 1e-12, "loss of {what}: {} and {lost}", episode.dissipated_energy);
-        assert!(run.point.energy.unwrap().residual.abs() < 2e-13, "{what}: {:?}", run.point.energy);
+        assert!(run.energy().residual.abs() < 2e-13, "{what}: {:?}", run.energy());
         Impact { episode, speed, length, force: stiffness * length.powf(exponent) }
     }
 

@@ -48,7 +48,7 @@ fn a_ramp_in_flight_is_exact_in_any_communication_step() {
             let allowed = if start == 0.0 { 2e-14 } else { 1e-10 };
             assert_close(run.displacement(Side::Left, 0), on_spring(3.0, -5.7, 3.1), allowed, "displacement");
             assert_close(run.point.ground_acceleration, -1.0 + 0.7 * 3.1, allowed, "acceleration of the ground");
-            let energy = run.point.energy.unwrap();
+            let energy = run.energy();
             assert!(energy.residual.abs() < 1e-13, "step {step}: {energy:?}");
         }
     }
@@ -64,7 +64,7 @@ fn the_work_of_a_ramp_is_that_of_its_closed_form() {
     let (s, c) = (W * t).sin_cos();
     let first = f * f / W * (1.0 - c) + f * r / W * (t - s / W);
     let second = f * r / W * (s / W - t * c) + r * r / W * (0.5 * t * t * W - (c - 1.0) / W - t * s) / W;
-    assert_close(run.point.energy.unwrap().external, (first + second) / W, 1e-13, "work");
+    assert_close(run.energy().external, (first + second) / W, 1e-13, "work");
 }
 
 /// Two equal storeys: modes (1, g) and (g, -1) with g = (1 + sqrt 5) / 2, w^2 = k/m (2 - g) and k/m (g + 1).
@@ -115,7 +115,7 @@ fn a_ramp_in_contact_is_exact() {
             assert_close(contact.penetration, d, 2e-12, law);
             assert_close(run.displacement(Side::Left, 0), centre + m / m1 * d, 1e-12, law);
             assert_close(run.displacement(Side::Right, 0), centre - m / m2 * d, 1e-12, law);
-            let energy = run.point.energy.unwrap();
+            let energy = run.energy();
             assert!(energy.residual.abs() < 1e-12, "{law}: {energy:?}");
         }
     }
@@ -139,7 +139,7 @@ fn rigid_floors_part_when_a_falling_force_says() {
         let (x, v) = (16.0 / 3.0 / (m1 + m2), 4.0 / (m1 + m2));
         assert_close(run.displacement(Side::Right, 0), x + v, 1e-13, "right");
         assert_close(run.displacement(Side::Left, 0), x + v + r / 6.0 / m1, 1e-13, "left");
-        assert!(run.point.energy.unwrap().residual.abs() < 1e-13);
+        assert!(run.energy().residual.abs() < 1e-13);
     }
 }
 
@@ -252,7 +252,7 @@ fn difference(inside: &mut Run, driven: &mut Run, record: &Record, set: impl Fn(
             apart = apart.max((a - b).abs());
             largest = largest.max(a.abs());
         }
-        let energy = driven.point.energy.unwrap();
+        let energy = driven.energy();
         assert!(energy.residual.abs() < 1e-12, "{energy:?}");
     }
     assert!(inside.point.impacts > 5, "{} impacts", inside.point.impacts);
@@ -301,7 +301,7 @@ fn linear_forces_in_proportion_to_the_masses_are_a_moving_ground() {
             };
             let error = difference(&mut runs.0, &mut runs.1, &record, set);
             assert!(error < 2e-14, "{law}, {damping}: {error:e}");
-            let [inside, driven] = [runs.0, runs.1].map(|run| run.point.energy.unwrap());
+            let [inside, driven] = [runs.0, runs.1].map(|run| run.energy());
             assert!((driven.external - inside.input).abs() < 1e-12 * inside.input, "{inside:?} and {driven:?}");
             assert_eq!(driven.input, 0.0);
         }

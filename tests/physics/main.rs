@@ -4,6 +4,7 @@
 mod bodies;
 #[path = "../common/mod.rs"]
 mod common;
+mod flight_work;
 mod impacts;
 mod linear_inputs;
 mod many_storeys;

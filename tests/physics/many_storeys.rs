@@ -58,7 +58,7 @@ fn forces_on_floors_do_their_work_in_contact() {
         let force = if k % 7 < 3 { 3e5 } else { -2e5 };
         run.state.set_floor_force(Side::Left, 7, force);
         run.to(0.01 * f64::from(k));
-        let energy = run.point.energy.unwrap();
+        let energy = run.energy();
         assert!(energy.residual.abs() < 1e-13, "t = {} s: residual {:e}", 0.01 * f64::from(k), energy.residual);
         work = work.max(energy.external.abs());
         closed += i32::from(run.contacts().iter().any(|contact| contact.active));

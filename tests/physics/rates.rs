@@ -30,7 +30,7 @@ fn shown(run: &mut Run, rates: &mut PointRates) -> Vec<(String, f64, Rates)> {
             all.push((format!("{name} {p}"), value, rates));
         }
     }
-    if let (Some(energy), Some(rates)) = (&point.energy, &rates.energy) {
+    if let (Some(energy), Some(rates)) = (run.model.energy(&run.state, point), &rates.energy) {
         for (name, value, rates) in [
             ("input", energy.input, rates.input),
             ("kinetic", energy.kinetic, rates.kinetic),

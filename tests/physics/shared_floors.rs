@@ -33,7 +33,7 @@ fn one_floor_meets_two_at_once() {
             let lost = bodies.energy(&bodies.velocities()) - bodies.energy(&expected);
             let account = run.contacts().iter().map(|contact| contact.dissipated_energy).sum::<f64>();
             assert!((account - lost).abs() < 1e-14 * l * v * v, "loss, {what}: {account} and {lost}");
-            assert!(run.point.energy.unwrap().residual.abs() < 1e-14, "{what}: {:?}", run.point.energy);
+            assert!(run.energy().residual.abs() < 1e-14, "{what}: {:?}", run.energy());
         }
     }
 }
@@ -242,7 +242,7 @@ fn an_impulse_changes_the_rate_of_a_soft_contact_of_the_same_floor() {
             let slope = (-s * tau).exp() * (after * (wd * tau).cos() - (s * after + w * w * r) / wd * (wd * tau).sin());
             assert_close(run.contact(1).force, k * swing + c * slope, 1e-12, "force after the impulse");
         }
-        assert!(run.point.energy.unwrap().residual.abs() < 1e-13, "{:?}", run.point.energy);
+        assert!(run.energy().residual.abs() < 1e-13, "{:?}", run.energy());
     }
 }
 
@@ -347,7 +347,7 @@ fn floors_that_are_pressed_together_come_to_rest() {
             let deepest = run.contacts().iter().map(|contact| contact.penetration).fold(0.0, f64::max);
             assert!(deepest < 1e-15, "{floors:?}: {deepest} m deep");
         }
-        let residual = run.point.energy.unwrap().residual;
+        let residual = run.energy().residual;
         assert!(residual.abs() < 1e-13, "{floors:?}: residual {residual}");
         assert!(run.point.impacts < 20_000, "{floors:?}: {} impacts", run.point.impacts);
     }

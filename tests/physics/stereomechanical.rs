@@ -53,7 +53,7 @@ fn velocities_after_an_impact_are_those_of_equations_1_and_2() {
                 let lost = exact.loss(e);
                 let energy = 0.5 * (m1 * v1 * v1 + m2 * v2 * v2);
                 assert!((first.dissipated_energy - lost).abs() < 1e-15 * energy, "loss, {what}");
-                let account = run.point.energy.unwrap();
+                let account = run.energy();
                 assert!((account.impact - lost).abs() < 1e-15 * energy, "loss in the account, {what}");
                 assert!(account.residual.abs() < 4e-15, "{what}: {account:?}");
                 // Two floors that go on together touch; whether they count as in contact is a matter of rounding.
@@ -123,7 +123,7 @@ fn rebounds_of_a_pressed_pair_end_when_the_geometric_series_says() {
             assert_close(point.dissipated_energy, 0.5 * m * v0 * v0, 10.0 * allowed, "energy lost in all");
             assert_close(run.velocity(Side::Left, 0), together, allowed, "left velocity");
             assert_close(run.velocity(Side::Right, 0), together, allowed, "right velocity");
-            assert!(run.point.energy.unwrap().residual.abs() < 1e-13, "{:?}", run.point.energy);
+            assert!(run.energy().residual.abs() < 1e-13, "{:?}", run.energy());
         }
     }
 }
@@ -164,7 +164,7 @@ fn rebounds_of_two_equal_oscillators_are_arcs_of_a_circle() {
         assert_close(episode.approach_velocity, speed, 1e-12, "as fast as at the start");
         assert_eq!(episode.dissipated_energy, 0.0);
     }
-    assert!(run.point.energy.unwrap().residual.abs() < 1e-13, "{:?}", run.point.energy);
+    assert!(run.energy().residual.abs() < 1e-13, "{:?}", run.energy());
 }
 
 #[test]
@@ -244,7 +244,7 @@ fn two_oscillators_swing_as_one_until_the_reaction_is_0() {
             let integral = -(v + 2.0 * s * (u - u0)) / w2;
             assert_close(episode.impulse, by_u * integral + by_v * (u - u0), 1e-12, "impulse");
             assert!(episode.separation_velocity.abs() < 1e-15 && run.contact(0).penetration < 0.0);
-            assert!(run.point.energy.unwrap().residual.abs() < 1e-13, "{:?}", run.point.energy);
+            assert!(run.energy().residual.abs() < 1e-13, "{:?}", run.energy());
         }
     }
 }

@@ -19,7 +19,7 @@ pub fn rattle(law: &str) -> Scene {
 
 /// J, all that there is: in motion, in the storeys, in the contact.
 pub fn energy(run: &Run) -> f64 {
-    let account = run.point.energy.unwrap();
+    let account = run.energy();
     account.kinetic + account.strain + account.impact
 }
 
@@ -33,7 +33,7 @@ fn thousands_of_elastic_impacts_keep_the_energy() {
         for k in 1..=60 {
             run.to(f64::from(k));
             worst = worst.max((energy(&run) / 0.5 - 1.0).abs());
-            assert!(run.point.energy.unwrap().viscous == 0.0);
+            assert!(run.energy().viscous == 0.0);
         }
         let impacts = run.point.impacts as f64;
         assert!(impacts > 1500.0, "{law}: {impacts} impacts");

@@ -143,7 +143,7 @@ impl Extreme {
         model.observe(&state, &mut point);
         (trial.counters, trial.impacts) = (state.counters(), point.impacts);
         trial.outcome = match end {
-            Ok(()) => Outcome::Ended(point.energy.map_or(f64::NAN, |energy| energy.residual)),
+            Ok(()) => Outcome::Ended(model.energy(&state, &point).map_or(f64::NAN, |energy| energy.residual)),
             Err(error) => Outcome::Stopped(error.to_string()),
         };
         trial

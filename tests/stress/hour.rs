@@ -34,7 +34,7 @@ pub fn run(law: &str, seconds: f64) -> (u64, f64, f64) {
         let mut worst = 0.0_f64;
         while run.state.time() < seconds {
             run.to(f64::min(run.state.time() + step, seconds));
-            worst = worst.max(run.point.energy.unwrap().residual.abs());
+            worst = worst.max(run.energy().residual.abs());
         }
         (run, worst)
     });

@@ -128,7 +128,7 @@ impl Units {
             shown.push(contact.dissipated_energy / (mass * length * length / (time * time)));
             shown.push(contact.impacts as f64);
         }
-        let energy = run.point.energy.unwrap();
+        let energy = run.energy();
         let joule = mass * length * length / (time * time);
         shown.extend([energy.input, energy.kinetic, energy.strain, energy.viscous, energy.impact].map(|e| e / joule));
         shown
@@ -169,7 +169,7 @@ proptest! {
                 let pushed = contact.impulse >= -1e-15 * case.scene.left.mass[0];
                 prop_assert!(may_pull || contact.force >= 0.0 && pushed, "{contact:?}");
             }
-            let residual = run.point.energy.unwrap().residual;
+            let residual = run.energy().residual;
             prop_assert!(residual.abs() < 1e-11, "residual {residual:e} at {}", run.state.time());
         }
     }
@@ -267,6 +267,6 @@ proptest! {
         prop_assume!(added.impacts == 0);
         let plain = case.run();
         prop_assert_eq!(plain.bits(), more_run.bits_with(&contacts));
-        prop_assert_eq!(plain.point.energy.unwrap().impact.to_bits(), more_run.point.energy.unwrap().impact.to_bits());
+        prop_assert_eq!(plain.energy().impact.to_bits(), more_run.energy().impact.to_bits());
     }
 }

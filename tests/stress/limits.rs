@@ -29,7 +29,7 @@ fn a_light_floor_and_a_heavy_one_exchange_the_right_momentum() {
             let got = [run.velocity(Side::Left, 0), run.velocity(Side::Right, 0)];
             assert!((got[0] - left).abs() < 4e-12, "{what}: left {} instead of {left}", got[0]);
             assert!((got[1] - right).abs() < 4e-12 * right, "{what}: right {} instead of {right}", got[1]);
-            assert!(run.point.energy.unwrap().residual.abs() < 1e-12, "{what}: {:?}", run.point.energy);
+            assert!(run.energy().residual.abs() < 1e-12, "{what}: {:?}", run.energy());
         }
     }
 }
@@ -86,7 +86,7 @@ fn a_nearly_rigid_building_is_a_spring_in_series() {
         assert!((episode.end.unwrap() - episode.start - lasting).abs() < share * lasting, "{episode:?}");
         assert_close(episode.separation_velocity, 0.5, share, "nothing is lost");
         assert_close(episode.peak_force, 0.5 * (1e4 * in_series).sqrt(), share, "peak force");
-        assert!(run.point.energy.unwrap().residual.abs() < 1e-11, "{:?}", run.point.energy);
+        assert!(run.energy().residual.abs() < 1e-11, "{:?}", run.energy());
     }
 }
 
@@ -116,7 +116,7 @@ fn a_nearly_rigid_building_follows_the_ground() {
         passed = (u + v * h - (before / 3.0 + a / 6.0) * h * h, v - 0.5 * (before + a) * h);
         assert!((run.displacement(Side::Right, 0) - passed.0).abs() < 1e-12 * (1.0 + passed.0.abs()), "knot {k}");
     }
-    assert!(run.point.energy.unwrap().residual.abs() < 1e-11, "{:?}", run.point.energy);
+    assert!(run.energy().residual.abs() < 1e-11, "{:?}", run.energy());
 }
 
 /// `kelvin_voigt` returns e by its definition, down to e = 1e-12, where all but a trillionth of the speed is lost.

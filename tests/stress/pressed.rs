@@ -32,7 +32,7 @@ fn a_linear_contact_swings_about_its_equilibrium_for_ever() {
     }
     assert_eq!(run.point.impacts, 1);
     assert_close(run.model.open_episode(&run.state, 0).unwrap().peak_penetration, 3e-3, 1e-11, "peak");
-    assert!(run.point.energy.unwrap().residual.abs() < 1e-11, "{:?}", run.point.energy);
+    assert!(run.energy().residual.abs() < 1e-11, "{:?}", run.energy());
 }
 
 /// Pressed with F from the penetration d0 at rest, hertz swings between d0 and the d1 at which the spring has taken what
@@ -63,7 +63,7 @@ fn a_hertz_contact_swings_between_the_same_depths() {
         let (first, last) = (peaks[0], peaks[4]);
         assert_close(first, low, 1e-11, &format!("n = {n}: the first second"));
         assert_close(last, low, 1e-11, &format!("n = {n}: 800 oscillations"));
-        let energy = run.point.energy.unwrap();
+        let energy = run.energy();
         assert!(energy.residual.abs() < 1e-11, "n = {n}: {energy:?}");
     }
 }
@@ -96,7 +96,7 @@ fn a_graze_that_is_pressed_on_comes_to_the_equilibrium_of_the_spring() {
             // m (v_end - v_start) of the relative motion is what force and contact have done to it.
             let passed = force * 2.0 + 0.5 * MASS * speed;
             assert_close(contact.impulse, passed, 1e-9, &format!("{what}: impulse"));
-            assert!(run.point.energy.unwrap().residual.abs() < 1e-9, "{what}: {:?}", run.point.energy);
+            assert!(run.energy().residual.abs() < 1e-9, "{what}: {:?}", run.energy());
             let steps = run.state.counters().contact_steps;
             assert!(steps < 400_000, "{what}: {steps} steps");
         }

@@ -139,7 +139,7 @@ fn a_hundred_thousand_rebounds_in_one_step_are_counted() {
     let last = run.episodes.last().unwrap();
     assert_close(last.approach_velocity, 1e-3, 1e-9, "as fast as the first");
     // A rounding error, 2e-16, for each.
-    assert!(run.point.energy.unwrap().residual.abs() < 2e-11, "{:?}", run.point.energy);
+    assert!(run.energy().residual.abs() < 2e-11, "{:?}", run.energy());
 }
 
 /// A step of twelve days: what has died out, or never reaches the other floor, costs nothing.
@@ -152,7 +152,7 @@ fn quiet_time_costs_nothing_however_long() {
     damped.to(1e6);
     assert!(damped.point.impacts > 3, "{}", damped.point.impacts);
     assert_close(damped.displacement(Side::Left, 0), 2e-3, 1e-12, "held");
-    let energy = damped.point.energy.unwrap();
+    let energy = damped.energy();
     assert!(energy.residual.abs() < 1e-11, "{energy:?}");
     assert!(damped.state.counters().narrow_phase_pieces < 20_000, "{:?}", damped.state.counters());
     // Undamped, below the gap: u = v / w sin(w t), its phase of 3e7 rad known to 4 eps of it.
@@ -164,7 +164,7 @@ fn quiet_time_costs_nothing_however_long() {
     assert!(error < 0.3 / w * 4.0 * f64::EPSILON * w * 1e6, "{error:e}");
     assert_eq!(undamped.point.impacts, 0);
     assert!(undamped.state.counters().narrow_phase_pieces < 10, "{:?}", undamped.state.counters());
-    assert!(undamped.point.energy.unwrap().residual.abs() < 1e-11, "{:?}", undamped.point.energy);
+    assert!(undamped.energy().residual.abs() < 1e-11, "{:?}", undamped.energy());
     // A load that grows until it brings the floors together must not be slept through: k u = F t, u = gap.
     let mut growing = masses(1e6, 0.02, 0.0, 0.01, law);
     growing.energy = false;
@@ -188,7 +188,7 @@ fn shake(scene_text: &str) {
     run.to(2.0);
     assert!(clock.elapsed().as_secs_f64() < 20.0, "{:?}", clock.elapsed());
     assert!(run.point.impacts > 10, "{}", run.point.impacts);
-    assert!(run.point.energy.unwrap().residual.abs() < 1e-11, "{:?}", run.point.energy);
+    assert!(run.energy().residual.abs() < 1e-11, "{:?}", run.energy());
 }
 
 /// Four light storeys pressed against four heavy ones by very stiff contacts of three laws, and a rigid one beside them:

@@ -6,6 +6,7 @@ use crate::engine::base::counters::Counters;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::excitation::segment::Segment;
+use crate::engine::flight::fast_account::{EnergyAccount, NoAccount, SegmentAccount};
 use crate::engine::flight::fast_certificate::{NearPairs, SegmentCheck};
 use crate::engine::model::Model;
 use crate::engine::state::{State, Workspace};
@@ -51,7 +52,8 @@ impl Model {
             let is_free =
                 state.base.clearance.are_all_free(next) || !is_planned && self.look_ahead(ground, state, next);
             let State { base, step, counters, work, .. } = &mut *state;
-            if next - first >= most || !is_free && is_planned {
+            let is_accounted = self.system.is_accounted_at_once(ground, base);
+            if next - first >= most || !is_free && is_planned || !is_accounted {
                 break false;
             }
             if ends_after(&base.segment, until) {
@@ -79,6 +81,7 @@ impl Model {
             if flown == 0 {
                 break false;
             }
+            counters.energy_steps += if base.energy.is_some() { flown } else { 0 };
             if is_free {
                 // No contact has a flag to clear: none was at the surface at the start, and tracked ones are not
                 // cleared.
@@ -160,7 +163,6 @@ impl Model {
             && matches!(step.kind, StepKind::NotPlanned | StepKind::Deferred | StepKind::Flight)
             && base.elapsed == 0.0
             && base.coordinates == Coordinates::Modes
-            && base.energy.is_none()
             && self.system.structure.is_classical()
             && !base.contacts.iter().any(|contact| contact.in_contact() || contact.at_surface);
         if is_plain { self.system.watched_segment(base) } else { None }
@@ -200,24 +202,54 @@ fn fly_over(
     segments: Range<u64>,
     until: f64,
 ) -> u64 {
+    match EnergyAccount::of(ground, base) {
+        Some(account) => fly_cleared(model, ground, (base, step), account, segments, until),
+        None => fly_cleared(model, ground, (base, step), NoAccount, segments, until),
+    }
+}
+
+#[inline(always)]
+fn fly_cleared(
+    model: &Model,
+    ground: &GroundMotion,
+    (base, step): (&mut Base, &mut Step),
+    account: impl SegmentAccount,
+    segments: Range<u64>,
+    until: f64,
+) -> u64 {
     let is_simple = ground.is_in_record(segments.start);
     match model.system.structure.lanes / LANES {
-        1 if is_simple => fly_few::<1>(model, ground, base, NothingNear, segments, until),
-        2 if is_simple => fly_few::<2>(model, ground, base, NothingNear, segments, until),
-        3 if is_simple => fly_few::<3>(model, ground, base, NothingNear, segments, until),
-        _ => {
-            let mut flown = 0;
-            while segments.start + flown < segments.end {
-                let segment = ground.segment(segments.start + flown);
-                if ends_after(&segment, until) || !fly_segment(model, ground, &segment, base, step) {
-                    break;
-                }
-                model.move_base(base, step);
-                flown += 1;
-            }
-            flown
-        }
+        1 if is_simple => fly_few::<1>(model, ground, base, (NothingNear, account), segments, until),
+        2 if is_simple => fly_few::<2>(model, ground, base, (NothingNear, account), segments, until),
+        3 if is_simple => fly_few::<3>(model, ground, base, (NothingNear, account), segments, until),
+        _ => fly_many(model, ground, (base, step), account, segments, until),
     }
+}
+
+/// The loop for any number of modes, and after the record's end.
+#[inline(always)]
+fn fly_many(
+    model: &Model,
+    ground: &GroundMotion,
+    (base, step): (&mut Base, &mut Step),
+    mut account: impl SegmentAccount,
+    segments: Range<u64>,
+    until: f64,
+) -> u64 {
+    let mut flown = 0;
+    while segments.start + flown < segments.end {
+        let segment = ground.segment(segments.start + flown);
+        let is_last = ends_after(&segment, until) || !account.covers(segment.length);
+        if is_last || !fly_segment(model, ground, &segment, base, step) {
+            break;
+        }
+        let motion = (base.q.as_chunks::<LANES>().0, base.v.as_chunks::<LANES>().0);
+        account.add(motion, (segment.acceleration_at(0.0), segment.slope));
+        model.move_base(base, step);
+        flown += 1;
+    }
+    account.store(base);
+    flown
 }
 
 /// The loop over segments that end by `until` while some pairs are near, as long as their check proves that none meets;
@@ -231,10 +263,26 @@ fn fly_near(
     segments: Range<u64>,
     until: f64,
 ) -> u64 {
+    match EnergyAccount::of(ground, base) {
+        Some(account) => fly_checked(model, near, ground, base, account, segments, until),
+        None => fly_checked(model, near, ground, base, NoAccount, segments, until),
+    }
+}
+
+#[inline(always)]
+fn fly_checked(
+    model: &Model,
+    near: &NearPairs,
+    ground: &GroundMotion,
+    base: &mut Base,
+    account: impl SegmentAccount,
+    segments: Range<u64>,
+    until: f64,
+) -> u64 {
     match model.system.structure.lanes / LANES {
-        1 => fly_with_check::<1>(model, near, ground, base, segments, until),
-        2 => fly_with_check::<2>(model, near, ground, base, segments, until),
-        3 => fly_with_check::<3>(model, near, ground, base, segments, until),
+        1 => fly_with_check::<1>(model, near, ground, base, account, segments, until),
+        2 => fly_with_check::<2>(model, near, ground, base, account, segments, until),
+        3 => fly_with_check::<3>(model, near, ground, base, account, segments, until),
         _ => 0,
     }
 }
@@ -245,11 +293,12 @@ fn fly_with_check<const WIDTH: usize>(
     near: &NearPairs,
     ground: &GroundMotion,
     base: &mut Base,
+    account: impl SegmentAccount,
     segments: Range<u64>,
     until: f64,
 ) -> u64 {
     let check = near.from((&few::<WIDTH>(&base.q), &few::<WIDTH>(&base.v)), base.segment.length);
-    fly_few(model, ground, base, check, segments, until)
+    fly_few(model, ground, base, (check, account), segments, until)
 }
 
 #[inline(always)]
@@ -270,7 +319,7 @@ fn fly_few<const WIDTH: usize>(
     model: &Model,
     ground: &GroundMotion,
     base: &mut Base,
-    mut check: impl SegmentCheck<WIDTH>,
+    (mut check, mut account): (impl SegmentCheck<WIDTH>, impl SegmentAccount),
     segments: Range<u64>,
     until: f64,
 ) -> u64 {
@@ -290,6 +339,7 @@ fn fly_few<const WIDTH: usize>(
         if !check.stays_apart((&q, &v), (&end_q, &end_v), load) {
             break;
         }
+        account.add((&q, &v), load);
         (q, v) = (end_q, end_v);
         flown += 1;
     }
@@ -304,6 +354,7 @@ fn fly_few<const WIDTH: usize>(
     }
     base.q.copy_from_slice(q.as_flattened());
     base.v.copy_from_slice(v.as_flattened());
+    account.store(base);
     flown
 }
 

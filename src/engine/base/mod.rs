@@ -12,6 +12,7 @@ use crate::engine::base::clearance::Clearance;
 use crate::engine::base::contact::{Contact, Episode, Phase};
 use crate::engine::base::peaks::Peaks;
 use crate::engine::excitation::segment::Segment;
+use crate::structure::FlightEnergy;
 use serde::{Deserialize, Serialize};
 
 /// The coordinates of a vector of motion: floor by floor or mode by mode.
@@ -74,6 +75,11 @@ impl Base {
         self.contacts.iter().filter(is_pressed).count() as u64
     }
 
+    /// Energy dissipated by all contacts so far, J.
+    pub fn dissipated_by_contacts(&self) -> f64 {
+        self.contacts.iter().map(Contact::dissipated_energy).sum()
+    }
+
     /// Time of the base, s.
     pub fn time(&self) -> f64 {
         self.segment.start + self.elapsed
@@ -97,6 +103,14 @@ impl Base {
 }
 
 impl Account {
+    /// Adds a flight without forces on the floors, while the contacts have dissipated `impact`, J.
+    #[inline(always)]
+    pub fn add_flight(&mut self, flight: &FlightEnergy, impact: f64) {
+        self.input += flight.input;
+        self.viscous += flight.viscous;
+        self.update_largest([flight.kinetic, flight.strain, impact]);
+    }
+
     /// Raises `largest` to the magnitudes of the account's terms and of the `others`.
     pub fn update_largest(&mut self, others: [f64; 3]) {
         let terms = [self.initial, self.input, self.external, self.viscous];

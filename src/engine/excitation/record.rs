@@ -2,7 +2,7 @@
 
 use crate::engine::excitation::segment::{RecordPlace, Segment};
 use crate::record::Record;
-use crate::structure::{Interval, Structure};
+use crate::structure::{FlightWork, Interval, Structure};
 use std::ops::Range;
 
 /// Largest number of different segment lengths, from the shortest on, for which the exact flight is prepared.
@@ -24,11 +24,13 @@ pub struct GroundMotion {
     passed: Vec<(f64, f64)>,
     /// The exact flight over a segment, one for each length of a segment up to [`MOST_PREPARED`].
     prepared: Vec<Interval>,
+    /// The work over these flights, where an energy account is kept and damping couples no modes.
+    work: Vec<FlightWork>,
 }
 
 impl GroundMotion {
     /// Prepares a record, its accelerations times `factor`, for a structure.
-    pub fn new(record: &Record, factor: f64, structure: &Structure) -> GroundMotion {
+    pub fn new(record: &Record, factor: f64, structure: &Structure, has_account: bool) -> GroundMotion {
         let times = record.times.clone();
         let accelerations: Vec<f64> = record.accelerations.iter().map(|a| a * factor).collect();
         let lengths = segment_lengths(&times);
@@ -38,8 +40,10 @@ impl GroundMotion {
         distinct.sort_by(f64::total_cmp);
         distinct.dedup();
         distinct.truncate(MOST_PREPARED);
+        let accounted = if has_account { &distinct[..] } else { &[] };
+        let work = accounted.iter().filter_map(|length| FlightWork::of(structure, *length)).collect();
         let prepared = distinct.into_iter().map(|length| Interval::new(structure, length)).collect();
-        GroundMotion { times, accelerations, spacing, lengths, passed, prepared }
+        GroundMotion { times, accelerations, spacing, lengths, passed, prepared, work }
     }
 
     /// The segment that contains a time, s.
@@ -107,6 +111,11 @@ impl GroundMotion {
     /// The exact flight over a whole segment, where its length has been prepared.
     pub fn prepared(&self, segment: &Segment) -> Option<&Interval> {
         self.prepared.iter().find(|interval| interval.length == segment.length)
+    }
+
+    /// The work over flights of the length of a segment, where it has been prepared.
+    pub fn work_over(&self, segment: &Segment) -> Option<&FlightWork> {
+        self.work.iter().find(|work| work.length == segment.length)
     }
 
     /// The number of a segment, counted on after the record's end; `None` before the first sample.
@@ -275,7 +284,7 @@ mod tests {
         let scene = Scene::from_toml(&scene).unwrap();
         let structure = Structure::new(&scene.left, &scene.right).ok().unwrap();
         let record = Record { times: vec![1.0, 2.0, 3.0], accelerations: vec![0.0, 1.0, 0.0] };
-        let motion = GroundMotion::new(&record, 1.0, &structure);
+        let motion = GroundMotion::new(&record, 1.0, &structure, false);
         for time in [0.0, 1.5, 10.0] {
             let segment = motion.segment_at(time);
             assert!(motion.has(&segment));

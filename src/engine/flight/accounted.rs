@@ -1,6 +1,8 @@
 //! Length limit of flights for the energy account, which is integrated piece by piece.
 
 use crate::engine::base::Base;
+use crate::engine::excitation::record::GroundMotion;
+use crate::engine::excitation::segment::Segment;
 use crate::engine::system::System;
 
 /// Length of a piece of a flight, in units of 1 / (fastest rate): within reach of one series.
@@ -26,6 +28,13 @@ impl System {
             Some(account) if length > most && !self.is_quiet(base, loads, account.largest) => most,
             _ => length,
         }
+    }
+
+    /// Whether the work over the whole segment of the base needs no integration: no account is kept, or it has been
+    /// prepared.
+    pub fn is_accounted_at_once(&self, ground: &GroundMotion, base: &Base) -> bool {
+        let Segment { length, .. } = base.segment;
+        base.energy.is_none() || length <= self.longest_pieces() && ground.work_over(&base.segment).is_some()
     }
 
     /// Length of the longest flight that is integrated in one step, s.

@@ -5,6 +5,7 @@ pub mod accounted;
 pub mod broad_phase;
 pub mod certificate;
 pub mod envelope;
+pub mod fast_account;
 pub mod fast_certificate;
 pub mod narrow_phase;
 pub mod propagate;

@@ -2,22 +2,30 @@
 
 use crate::engine::base::Account;
 use crate::engine::model::Model;
-use crate::engine::output::point::{EnergyPoint, Point};
+use crate::engine::output::point::{EnergyPoint, Known, Point};
 use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
 
 impl Model {
-    /// The terms of the energy account `elapsed` seconds after the base; `point` holds the motion and the contacts
-    /// then.
+    /// The energy account at the observed time; `None` where the scene keeps none. `state` has to be the one that
+    /// `point` was observed from.
+    pub fn energy(&self, state: &State, point: &Point) -> Option<EnergyPoint> {
+        let account = state.base.energy?;
+        let Known { observation, shown } = point.energy.get();
+        if observation == point.floors.observation {
+            return Some(shown);
+        }
+        let mut work = self.take_buffers(point);
+        let shown = self.read_energy(account, state, &mut work, point);
+        point.work.replace(Some(work));
+        point.energy.set(Known { observation: point.floors.observation, shown });
+        Some(shown)
+    }
+
+    /// The terms of the energy account; `point` holds the motion and the contacts.
     #[inline(never)]
-    pub(in crate::engine) fn read_energy(
-        &self,
-        mut account: Account,
-        state: &State,
-        elapsed: f64,
-        work: &mut Buffers,
-        point: &Point,
-    ) -> EnergyPoint {
+    fn read_energy(&self, mut account: Account, state: &State, work: &mut Buffers, point: &Point) -> EnergyPoint {
+        let elapsed = state.since_base();
         if elapsed > 0.0 {
             let done = self.system.work_over(&state.base, &state.step, &state.inputs, work, elapsed);
             account.input += done.input;

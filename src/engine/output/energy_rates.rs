@@ -21,7 +21,7 @@ impl Model {
         rates: &PointRates,
         work: &mut Buffers,
     ) -> Option<EnergyRates> {
-        point.energy?;
+        state.base.energy?;
         let coordinates = point.coordinates;
         let (u, v) = (&point.q[..], &point.v[..]);
         let (a, jerk) = rates.motion();

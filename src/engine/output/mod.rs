@@ -24,7 +24,7 @@ use std::cell::Cell;
 impl Model {
     /// Evaluates the state at its present time; the memory of `point` is reused.
     ///
-    /// Floors, accelerations and open contacts are worked out only when one is read.
+    /// Floors, accelerations, open contacts and the energy account are worked out only when one is read.
     pub fn observe(&self, state: &State, point: &mut Point) {
         if point.q.len() != self.system.structure.lanes || point.contacts.len() != self.system.pairs.len() {
             self.make_room(point);
@@ -39,7 +39,7 @@ impl Model {
             None => inputs.ground_acceleration.at(state.time),
         };
         let elapsed = state.since_base();
-        let mut work = point.work.take().unwrap_or_else(|| Box::new(self.buffers()));
+        let mut work = self.take_buffers(point);
         step.evaluate(&self.system, (base, inputs), elapsed, &mut work, (&mut point.q, &mut point.v));
         // In a flight no contact has a force.
         let is_flight = step.is_flight();
@@ -49,8 +49,12 @@ impl Model {
         if !is_flight || self.system.floor_forces {
             self.read_load(state, point);
         }
-        point.energy = base.energy.map(|account| self.read_energy(account, state, elapsed, &mut work, point));
-        point.work = Some(work);
+        point.work.replace(Some(work));
+    }
+
+    /// The scratch memory of a point, to be put back after use.
+    pub(in crate::engine) fn take_buffers(&self, point: &Point) -> Box<Buffers> {
+        point.work.take().unwrap_or_else(|| Box::new(self.buffers()))
     }
 
     #[cold]
@@ -59,7 +63,7 @@ impl Model {
         (point.q, point.v) = (vec![0.0; lanes], vec![0.0; lanes]);
         point.contacts = vec![Cell::default(); self.system.pairs.len()];
         point.floors.make_room(lanes);
-        point.work = None;
+        point.work.replace(None);
     }
 
     /// Works out the closed contacts.

@@ -3,7 +3,7 @@
 use crate::engine::base::Coordinates;
 use crate::engine::output::known::{FloorMotions, PeakCell};
 use crate::engine::system::buffers::Buffers;
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 
 /// The solution at one time, by floors and contacts, each of which is worked out when first read.
 #[derive(Clone, Debug, Default)]
@@ -14,8 +14,6 @@ pub struct Point {
     pub ground_acceleration: f64,
     /// Number of contact episodes begun so far, of all contacts.
     pub impacts: u64,
-    /// The energy account; present where the scene asks for it.
-    pub energy: Option<EnergyPoint>,
     /// The coordinates of the following vectors.
     pub(in crate::engine) coordinates: Coordinates,
     /// Displacements, of which `floors` is made.
@@ -24,8 +22,10 @@ pub struct Point {
     pub(in crate::engine) v: Vec<f64>,
     pub(in crate::engine) floors: FloorMotions,
     /// The contacts, as far as they have been worked out.
-    pub(in crate::engine) contacts: Vec<Cell<Known>>,
-    pub(in crate::engine) work: Option<Box<Buffers>>,
+    pub(in crate::engine) contacts: Vec<Cell<Known<ContactPoint>>>,
+    /// The energy account, once it has been worked out.
+    pub(in crate::engine) energy: Cell<Known<EnergyPoint>>,
+    pub(in crate::engine) work: RefCell<Option<Box<Buffers>>>,
     pub(in crate::engine) peaks: PeakCell,
 }
 
@@ -69,9 +69,9 @@ pub struct EnergyPoint {
     pub residual: f64,
 }
 
-/// The outputs of a contact, and the number of the observation to which they belong.
+/// Outputs, and the number of the observation to which they belong.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Known {
+pub struct Known<T> {
     pub observation: u64,
-    pub shown: ContactPoint,
+    pub shown: T,
 }

@@ -50,7 +50,7 @@ impl System {
             Some(record) if record.times.len() < 2 => return Err(too_short(record)),
             Some(record) => {
                 let factor = scene.ground.scaling.factor(record).map_err(|p| SceneError { problems: vec![p] })?;
-                Some(GroundMotion::new(record, factor, &structure))
+                Some(GroundMotion::new(record, factor, &structure, scene.energy))
             }
             None => None,
         };

@@ -1,6 +1,7 @@
 //! Power series in time of all modes, or of all floors: the dense solution of a step.
 
 pub mod expand;
+mod power;
 mod project;
 pub mod sums;
 
@@ -70,13 +71,6 @@ impl MotionSeries {
         powers.set_in_time(&self.time_map);
     }
 
-    /// The same in a table of its own.
-    pub fn powers_at(&self, time: f64) -> Powers {
-        let mut powers = Powers::default();
-        self.set_powers(time, &mut powers);
-        powers
-    }
-
     /// The coefficients of power `n`.
     pub fn term(&self, n: usize) -> &[f64] {
         &self.coefficients[n * self.lanes..(n + 1) * self.lanes]
@@ -130,17 +124,5 @@ impl MotionSeries {
     /// Writes the series of the scalar `row` . q from power `first` on to `out`, each term as [`super::dot`] has it.
     pub fn dot_each(&self, row: &[f64], first: usize, out: &mut [f64]) {
         dot_each(&self.coefficients[first * self.lanes..], row, &mut out[first..=self.order]);
-    }
-
-    /// v of one mode at N instants; `rates[n]` are the factors of term n at them.
-    pub fn velocities<const N: usize>(&self, mode: usize, rates: &[[f64; N]; MAX_TERMS]) -> [f64; N] {
-        let mut rate = [0.0; N];
-        for (n, rates) in rates.iter().enumerate().take(self.order + 1) {
-            let term = self.coefficients[n * self.lanes + mode];
-            for i in 0..N {
-                rate[i] += term * rates[i];
-            }
-        }
-        rate.map(|rate| rate / self.scale)
     }
 }
