@@ -56,7 +56,7 @@ impl Model {
             if next - first >= most || !is_free && is_planned || !is_accounted {
                 break false;
             }
-            if ends_after(&base.segment, until) {
+            if until < ground.end_of(&base.segment) {
                 if is_free && !is_planned {
                     step.kind = StepKind::Deferred;
                     self.count_flown(counters, 1);
@@ -188,10 +188,6 @@ impl Model {
     }
 }
 
-fn ends_after(segment: &Segment, time: f64) -> bool {
-    time - segment.start < segment.length
-}
-
 /// The loop over segments that end by `until` and for which all pairs are cleared; returns the number of segments.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn fly_over(
@@ -239,7 +235,7 @@ fn fly_many(
     let mut flown = 0;
     while segments.start + flown < segments.end {
         let segment = ground.segment(segments.start + flown);
-        let is_last = ends_after(&segment, until) || !account.covers(segment.length);
+        let is_last = until < ground.end_of(&segment) || !account.covers(segment.length);
         if is_last || !fly_segment(model, ground, &segment, base, step) {
             break;
         }
@@ -328,8 +324,8 @@ fn fly_few<const WIDTH: usize>(
     let participation = few::<WIDTH>(&model.system.structure.participation);
     let (mut q, mut v) = (few::<WIDTH>(&base.q), few::<WIDTH>(&base.v));
     let mut flown = 0;
-    for (start, length, load) in ground.of_record(segments) {
-        if until - start < length || length != interval.length {
+    for (end, length, load) in ground.of_record(segments) {
+        if until < end || length != interval.length {
             break;
         }
         let (mut end_q, mut end_v) = (q, v);

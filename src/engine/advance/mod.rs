@@ -60,7 +60,7 @@ impl Model {
                 self.plan(state, limit);
                 let segment = &state.base.segment;
                 let end = state.step_end(limit);
-                if until - segment.start < end {
+                if self.ends_after(segment, end, until) {
                     break;
                 }
                 progress.note(end > state.base.elapsed);
@@ -88,7 +88,19 @@ impl Model {
 
     /// The latest end of a step, s since the start of the segment.
     pub(in crate::engine) fn limit(&self, segment: &Segment, until: f64) -> f64 {
-        if self.system.is_driven() { segment.length.min(until - segment.start) } else { segment.length }
+        if self.system.is_driven() && self.ends_after(segment, segment.length, until) {
+            return segment.length.min(until - segment.start);
+        }
+        segment.length
+    }
+
+    /// Whether a step, which ends `end` seconds after the start of the segment, ends after a time, s. The end of a whole
+    /// segment of a record is the time of its sample, whatever rounding makes of the difference.
+    fn ends_after(&self, segment: &Segment, end: f64, time: f64) -> bool {
+        match &self.system.ground {
+            Some(ground) if end == segment.length => time < ground.end_of(segment),
+            _ => time - segment.start < end,
+        }
     }
 
     /// Takes the planned step, which ends at `end` (s since the segment's start), and handles its event.

@@ -93,19 +93,30 @@ impl GroundMotion {
         if number < samples { self.sample(number as usize) } else { self.after(number - samples) }
     }
 
+    /// The end of a segment, s: the start of the one that follows, from which the start and the length may differ by
+    /// rounding.
+    #[inline(always)]
+    pub fn end_of(&self, segment: &Segment) -> f64 {
+        match segment.place {
+            RecordPlace::Outside => segment.start + segment.length,
+            RecordPlace::Sample(i) => self.times[i + 1],
+            RecordPlace::After(k) => self.start_after(k + 1),
+        }
+    }
+
     /// Whether a number is that of a segment of the record.
     pub fn is_in_record(&self, number: u64) -> bool {
         number < self.lengths.len() as u64
     }
 
-    /// (start, length, (acceleration, slope)) of the segments of the record with these numbers.
+    /// (end, length, (acceleration, slope)) of the segments of the record with these numbers.
     #[inline(always)]
     pub fn of_record(&self, numbers: Range<u64>) -> impl Iterator<Item = (f64, f64, (f64, f64))> {
         let samples = self.lengths.len() as u64;
         let [first, end] = [numbers.start, numbers.end].map(|number| number.min(samples) as usize);
         let ends = self.accelerations[first..].windows(2);
-        let segments = self.times[first..end].iter().zip(&self.lengths[first..end]).zip(ends);
-        segments.map(|((start, length), ends)| (*start, *length, (ends[0], slope([ends[0], ends[1]], *length))))
+        let segments = self.times[first + 1..].iter().zip(&self.lengths[first..end]).zip(ends);
+        segments.map(|((end, length), ends)| (*end, *length, (ends[0], slope([ends[0], ends[1]], *length))))
     }
 
     /// The exact flight over a whole segment, where its length has been prepared.
@@ -170,11 +181,16 @@ impl GroundMotion {
         Segment { start, length, acceleration: ends[0], slope: slope(ends, length), place: RecordPlace::Sample(i) }
     }
 
+    /// The start of a segment after the record's end, s.
+    #[inline(always)]
+    fn start_after(&self, k: u64) -> f64 {
+        self.times[self.times.len() - 1] + k as f64 * self.spacing
+    }
+
     #[inline(always)]
     fn after(&self, k: u64) -> Segment {
-        let end = self.times[self.times.len() - 1];
         Segment {
-            start: end + k as f64 * self.spacing,
+            start: self.start_after(k),
             length: self.spacing,
             acceleration: 0.0,
             slope: 0.0,
