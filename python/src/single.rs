@@ -65,11 +65,12 @@ fn run(
     told_to_stop: &AtomicBool,
 ) -> Result<Kept, String> {
     let mut kept = Kept { columns: vec![Vec::new(); readings.len()], ..Kept::default() };
-    let solution = solve(model, instants::regular(step, stop), |now: Solved<'_>| {
+    let keep = |now: Solved<'_>| {
         kept.time.push(now.point.time);
         kept.columns.iter_mut().zip(readings).for_each(|(column, reading)| column.push(reading.at(&now)));
         if told_to_stop.load(Ordering::Relaxed) { Err("interrupted") } else { Ok(()) }
-    });
+    };
+    let solution = solve(model, instants::regular(step, stop), Some(keep));
     for episode in &solution.map_err(|error| error.to_string())?.episodes {
         let (contact, row) = impact(episode);
         kept.contacts.push(i32::try_from(contact).unwrap_or(i32::MAX));

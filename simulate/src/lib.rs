@@ -94,13 +94,13 @@ pub fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     let impacts = arguments.impacts.as_deref().map(tables::create).transpose()?;
     let mut page = arguments.html.as_deref().map(report::create).transpose()?;
 
-    let mut write = |solved: Solved| motion.as_mut().map_or(Ok(()), |motion| motion.write(solved));
+    let mut write = motion.as_mut().map(|motion| |solved: Solved| motion.write(solved));
     let regular = instants::regular(arguments.step, stop);
     let solution = match arguments.rows_per_impact {
-        None => solve(&model, regular, &mut write)?,
+        None => solve(&model, regular, write.as_mut())?,
         Some(count) => {
             let within = instants::within(&episodes(&model, stop)?, stop, count);
-            solve(&model, instants::merge(regular, within), &mut write)?
+            solve(&model, instants::merge(regular, within), write.as_mut())?
         }
     };
     if let Some(motion) = motion {

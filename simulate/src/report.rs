@@ -120,12 +120,13 @@ fn columns(
     let bin = if all <= MOST_NUMBERS { 1 } else { 2 * all.div_ceil(MOST_NUMBERS) };
 
     let mut columns: Vec<Column> = outputs.iter().map(|_| Column::new(bin)).collect();
-    solve(model, times.iter().copied(), |solved: Solved| {
+    let show = |solved: Solved| {
         for ((_, output), column) in outputs.iter().zip(&mut columns) {
             column.push(as_number(solved.read(*output)));
         }
         Ok::<(), Box<dyn Error>>(())
-    })?;
+    };
+    solve(model, times.iter().copied(), Some(show))?;
     let series = outputs.into_iter().zip(columns).map(|((row, _), column)| {
         let info = match row.ty {
             Type::Real(unit) => Some(unit.info()),

@@ -42,7 +42,7 @@ fn expected(model: &Model, state: &State) -> HashMap<String, f64> {
             values.insert(format!("contact[{p}].{name}"), value);
         }
     }
-    if let Some(energy) = model.energy(state, point) {
+    if let Some(energy) = model.energy(state, &point) {
         for (name, value) in [
             ("input", energy.input),
             ("kinetic", energy.kinetic),

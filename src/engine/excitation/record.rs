@@ -15,14 +15,15 @@ pub struct GroundMotion {
     times: Vec<f64>,
     /// Accelerations at the samples, m/s2.
     accelerations: Vec<f64>,
-    /// Typical sample spacing, s: also the length of segments outside the record.
+    /// Mean sample spacing, s: also the length of segments outside the record.
     spacing: f64,
     /// Length of each segment, s.
     lengths: Vec<f64>,
     /// At each sample, from the first: time, s, and the cumulative absolute velocity, m/s: the integral of
     /// |acceleration| or an upper bound.
     passed: Vec<(f64, f64)>,
-    /// The exact flight over a segment, one for each length of a segment up to [`MOST_PREPARED`].
+    /// The exact flight over a segment, one for each length of a segment up to [`MOST_PREPARED`], and one for those after
+    /// the record's end.
     prepared: Vec<Interval>,
     /// The work over these flights, where an energy account is kept and damping couples no modes.
     work: Vec<FlightWork>,
@@ -33,13 +34,16 @@ impl GroundMotion {
     pub fn new(record: &Record, factor: f64, structure: &Structure, has_account: bool) -> GroundMotion {
         let times = record.times.clone();
         let accelerations: Vec<f64> = record.accelerations.iter().map(|a| a * factor).collect();
+        let spacing = spacing_of(&times);
         let lengths = segment_lengths(&times);
         let passed = passed(&lengths, &accelerations);
-        let spacing = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
         let mut distinct: Vec<f64> = lengths.clone();
         distinct.sort_by(f64::total_cmp);
         distinct.dedup();
         distinct.truncate(MOST_PREPARED);
+        if !distinct.contains(&spacing) {
+            distinct.push(spacing);
+        }
         let accounted = if has_account { &distinct[..] } else { &[] };
         let work = accounted.iter().filter_map(|length| FlightWork::of(structure, *length)).collect();
         let prepared = distinct.into_iter().map(|length| Interval::new(structure, length)).collect();
@@ -277,11 +281,16 @@ impl Sum {
     }
 }
 
+/// The mean spacing of sample times, s.
+fn spacing_of(times: &[f64]) -> f64 {
+    let n = times.len() - 1;
+    (times[n] - times[0]) / n as f64
+}
+
 /// Differences of the sample times. If the times are multiples of one spacing but for their rounding, all segments get
 /// exactly that length, so that one prepared flight serves them all.
 fn segment_lengths(times: &[f64]) -> Vec<f64> {
-    let n = times.len() - 1;
-    let spacing = (times[n] - times[0]) / n as f64;
+    let (n, spacing) = (times.len() - 1, spacing_of(times));
     let rounding = 4.0 * f64::EPSILON * times[0].abs().max(times[n].abs());
     let even = times.iter().enumerate().all(|(k, t)| (t - (times[0] + k as f64 * spacing)).abs() <= rounding);
     if even { vec![spacing; n] } else { times.windows(2).map(|pair| pair[1] - pair[0]).collect() }
@@ -293,14 +302,32 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
 
-    #[test]
-    fn a_segment_that_starts_nowhere_is_none_of_the_motion() {
+    fn motion_of(times: Vec<f64>) -> GroundMotion {
         let building = "mass = [1e3]\nstiffness = [1e5]\ndamping = { ratio = 0.05 }\n";
         let scene = format!("name = \"Two\"\n[left]\n{building}[right]\n{building}");
         let scene = Scene::from_toml(&scene).unwrap();
         let structure = Structure::new(&scene.left, &scene.right).ok().unwrap();
-        let record = Record { times: vec![1.0, 2.0, 3.0], accelerations: vec![0.0, 1.0, 0.0] };
-        let motion = GroundMotion::new(&record, 1.0, &structure, false);
+        let record = Record { accelerations: times.iter().map(|time| time.sin()).collect(), times };
+        GroundMotion::new(&record, 1.0, &structure, true)
+    }
+
+    /// Without that a run long beyond its record costs ten times as much.
+    #[test]
+    fn the_flight_over_a_segment_after_the_end_is_prepared() {
+        let even = (0..2001).map(|k| f64::from(k) * 0.01).collect();
+        let uneven = (0..30).map(|k| 0.1 * f64::from(k) + 1e-3 * f64::from(k * k % 7)).collect();
+        for motion in [even, uneven].map(motion_of) {
+            let end = motion.times.len() as u64 - 1;
+            assert!(motion.prepared(&motion.segment(end - 1)).is_some() || motion.prepared.len() > MOST_PREPARED);
+            for segment in [motion.segment(end), motion.segment(end + 1000)] {
+                assert!(motion.prepared(&segment).is_some() && motion.work_over(&segment).is_some(), "{segment:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_segment_that_starts_nowhere_is_none_of_the_motion() {
+        let motion = motion_of(vec![1.0, 2.0, 3.0]);
         for time in [0.0, 1.5, 10.0] {
             let segment = motion.segment_at(time);
             assert!(motion.has(&segment));

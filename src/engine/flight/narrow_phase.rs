@@ -23,7 +23,7 @@ const MOST_PIECES: u32 = 10_000;
 
 /// A piece of this many times that length, doubled after each success, is first tested by both ends, without a series;
 /// where the test fails, as many pieces are searched by series.
-const LONGER: u32 = 4;
+const LONGER: u32 = 2;
 
 /// The search for the first entry in a planned flight.
 pub struct Search<'a> {
