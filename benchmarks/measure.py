@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 # The columns of the result file.
 COLUMNS = [
     "scene", "law", "solver", "parameter", "setting", "error", "impacts", "true_impacts", "best_s", "median_s",
-    "repeats", "setup_s", "remark",
+    "cold_s", "repeats", "setup_s", "remark",
 ]  # fmt: skip
 TOO_LONG = "left out: would take too long"
 
@@ -27,6 +27,7 @@ class Run:
     setting: float
     solver: object = None
     times: list = field(default_factory=list)
+    cold: list = field(default_factory=list)
     spent: float = 0.0
     error: float = float("nan")
     impacts: int | None = None
@@ -45,6 +46,7 @@ class Run:
             "true_impacts": truth.impacts,
             "best_s": f"{min(self.times):.4e}" if measured else "",
             "median_s": f"{statistics.median(self.times):.4e}" if measured else "",
+            "cold_s": f"{min(self.cold):.4e}" if measured else "",
             "repeats": len(self.times),
             "setup_s": f"{self.solver.setup:.3g}" if self.solver else "",
             "remark": self.remark,
@@ -89,5 +91,7 @@ def repeat(run, progress):
     start = time.perf_counter()
     outcome = run.solver.run(warm_up=bool(run.times) and run.times[0] < 0.5)
     run.spent += time.perf_counter() - start
+    if outcome.cold or not run.times:
+        run.cold.append(outcome.cold or outcome.seconds)
     run.times.append(outcome.seconds)
     return outcome

@@ -10,10 +10,10 @@ GOAL = 1e-9
 LOOP = "heyoka, the loop over the samples of the record with an equation that costs nothing:"
 
 
-def fastest(rows, solver, accuracy):
+def fastest(rows, solver, accuracy, column="best_s"):
     """Least time, s, in which a solver was within an error; None where it never was."""
     measured = [row for row in rows if row["solver"] == solver and row["best_s"]]
-    times = [float(row["best_s"]) for row in measured if float(row["error"]) <= accuracy]
+    times = [float(row[column]) for row in measured if float(row["error"]) <= accuracy]
     return min(times, default=None)
 
 
@@ -47,7 +47,7 @@ def write(rows, folder):
     parts = [
         "<!-- Written by benchmarks/work_precision.py. -->",
         f"Machine: {machine[0]}." if machine else "",
-        "\n".join(ratio_table(rows, loop_seconds(machine))),
+        *ratios(rows, loop_seconds(machine)),
         "\n".join(time_table(rows)),
         "\n".join(losses(rows)),
     ]
@@ -59,16 +59,24 @@ def loop_seconds(machine):
     return next((1e-3 * float(line.removeprefix(LOOP).split()[0]) for line in machine if line.startswith(LOOP)), 0.0)
 
 
-def ratio_table(rows, loop):
+def ratios(rows, loop):
+    """The tables of ratios, warm and cold, and what they are."""
+    yield f"heyoka's time over ours, each with its fastest setting whose displacements are within {GOAL:g}.\n" + (
+        f"In brackets: without the {milliseconds(loop)} ms of an empty loop over the samples of the record.\n"
+        "Warm, in a process that has done the same run before:"
+    )
+    yield "\n".join(ratio_table(rows, loop, "best_s"))
+    yield "Cold, the first run of a fresh process, or of a solver that has just been compiled:"
+    yield "\n".join(ratio_table(rows, loop, "cold_s"))
+
+
+def ratio_table(rows, loop, column):
     """Time of heyoka over ours, both with the fastest setting that is within the goal."""
     laws = [law for law in COMPARED if law in names(rows, "law")]
-    yield f"heyoka's time over ours, each with its fastest setting whose displacements are within {GOAL:g}."
-    yield f"In brackets: without the {milliseconds(loop)} ms of an empty loop over the samples of the record."
-    yield ""
     yield "| scene | " + " | ".join(f"`{law}`" for law in laws) + " | geometric mean |"
     yield "|---" * (len(laws) + 2) + "|"
     for scene in names(rows, "scene"):
-        times = [[fastest(of_problem(rows, scene, law), solver, GOAL) for solver in (OURS, "heyoka")] for law in laws]
+        times = [[fastest(of_problem(rows, scene, law), solver, GOAL, column) for solver in (OURS, "heyoka")] for law in laws]
         ratios = [ratio(ours, theirs, loop) if ours and theirs else None for ours, theirs in times]
         reached = [ratio for ratio in ratios if ratio]
         mean = tuple(map(geometric_mean, zip(*reached))) or None

@@ -1,6 +1,8 @@
 """Solvers of others and ours, each as a class with `setup` (s) and `run(warm_up)`.
 
 A run integrates the whole record once, and is timed; with `warm_up` the fast ones do so twice, and the second is timed.
+The first run of a program, or of a solver that has just been made ready, is cold: its code and its memory are new to the
+processor.
 """
 
 from dataclasses import dataclass, field
@@ -18,3 +20,4 @@ class Outcome:
     displacements: np.ndarray
     impacts: int | None
     counters: dict = field(default_factory=dict)
+    cold: float | None = None  # s, of a first run before this one

@@ -34,8 +34,9 @@ class Solver:
         times, impacts, *rest = done.stdout.splitlines()
         counters = {name: float(value) for name, value in (line.split("=") for line in rest)}
         self.setup = counters.pop("setup_s", 0.0)
-        impacts = int(impacts)
-        return Outcome(float(times.split()[-1]), displacements, impacts if impacts >= 0 else None, counters)
+        times = [float(time) for time in times.split()]
+        impacts = int(impacts) if int(impacts) >= 0 else None
+        return Outcome(times[-1], displacements, impacts, counters, times[0])
 
 
 def build_engine(environment=None):
