@@ -60,6 +60,8 @@ impl Model {
                 if is_free && !is_planned {
                     step.kind = StepKind::Deferred;
                     self.count_flown(counters, 1);
+                    // For whoever reads a peak within the segment.
+                    self.watch_peaks(ground, base, next, &mut work.for_peaks());
                 }
                 break is_free;
             }

@@ -1,6 +1,7 @@
 //! The peaks at the communication time: those of the base, raised over the planned step up to that time.
 
 use crate::engine::base::contact::Contact;
+use crate::engine::base::peaks::Peaks;
 use crate::engine::model::Model;
 use crate::engine::output::known::PointPeaks;
 use crate::engine::output::point::Point;
@@ -44,18 +45,43 @@ impl Model {
             _ if elapsed > 0.0 && step.is_in_contact() => {
                 self.raise_over_part((base, step, inputs), (elapsed, (&point.q, &point.v)), &mut known.peaks, work);
             }
-            _ => {
-                let (mut q, mut v) = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));
-                let length = self.end_of_flight(state, work, (&mut q, &mut v));
-                self.with_flight(base, inputs, (length, &q, &v), work, |whole, work| {
-                    let end = (&point.q[..], &point.v[..]);
-                    let part = Stretch { end, length: elapsed, whole: Some(whole), ..*whole };
-                    self.check_flight(&part, &mut known.peaks, work);
-                });
-                (work.buffers.q, work.buffers.v) = (q, v);
-            }
+            _ => self.read_peaks_of_flight(state, point, elapsed, &mut known.peaks, work),
         }
         known.work = Some(room);
+    }
+
+    /// Raises peaks over the first part of the planned flight, which ends at the observed time: of most blocks by what
+    /// is known about the segment, of the others by the motion at both ends.
+    fn read_peaks_of_flight(&self, state: &State, point: &Point, elapsed: f64, peaks: &mut Peaks, work: &mut PeakWork) {
+        let State { base, inputs, .. } = state;
+        let end = (&point.q[..], &point.v[..]);
+        if !self.raise_to_point(state, end, peaks, &mut work.peaks.open) {
+            return;
+        }
+        let (mut q, mut v) = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));
+        let length = self.end_of_flight(state, work, (&mut q, &mut v));
+        self.with_flight(base, inputs, (length, &q, &v), work, |whole, work| {
+            let part = Stretch { end, length: elapsed, whole: Some(whole), ..*whole };
+            self.check_blocks(&part, |block, room| room.open[block], peaks, work);
+        });
+        (work.buffers.q, work.buffers.v) = (q, v);
+    }
+
+    /// Raises peaks to the observed motion where what is known about the base's segment shows that they are not
+    /// exceeded before; notes the blocks of which that is open, and returns whether there are any.
+    fn raise_to_point(&self, state: &State, end: (&[f64], &[f64]), peaks: &mut Peaks, open: &mut [bool]) -> bool {
+        let (base, watch) = (&state.base, &state.work.peaks.watch);
+        let is_whole = base.elapsed == 0.0 && self.system.structure.is_classical();
+        let Some((_, segment)) = self.system.watched_segment(base).filter(|_| is_whole) else {
+            open.fill(true);
+            return true;
+        };
+        for building in &self.peak_rows.buildings {
+            for b in 0..building.blocks.len() {
+                open[building.first + b] = self.raise_to_part(building, b, (watch, segment), end, peaks);
+            }
+        }
+        open.contains(&true)
     }
 
     /// Works out the end of the planned flight; returns its length, s.

@@ -17,9 +17,10 @@
 //! needed. They change no result, so no saved state holds them.
 
 use crate::engine::base::Base;
+use crate::engine::base::peaks::Peaks;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::model::Model;
-use crate::engine::peaks::room::{ModeBounds, PeakWork, WatchedBlock};
+use crate::engine::peaks::room::{ModeBounds, PeakWatch, PeakWork, WatchedBlock};
 use crate::engine::watched::rows::{Block, BuildingRows};
 use crate::numerics::polynomial::{each, larger};
 use crate::structure::{LANES, Lane};
@@ -175,24 +176,53 @@ impl Model {
         }
         let modes = building.modes.clone();
         let end = values_of(&building.blocks[b], &base.q[modes.clone()], &base.v[modes]);
-        let start = std::mem::replace(&mut watched.value, end);
-        watched.known_at = Some(segment + 1);
         let peaks = &mut base.peaks.values.as_chunks_mut::<LANES>().0[building.first + b];
-        let mut may_exceed = false;
-        for i in 0..LANES {
-            let sag = watched.sag[i];
-            let is_below = larger(start[i].abs(), end[i].abs()) + sag <= peaks[i];
-            // A slope differs from that of the chord by at most h/2 |y''|: if that is less than the chord's slope, the
-            // quantity is monotonic.
-            let goes_one_way = (end[i] - start[i]).abs() > 4.0 * sag;
-            peaks[i] = larger(peaks[i], end[i].abs());
-            may_exceed |= !(is_below || goes_one_way);
-        }
+        let may_exceed = watched.raise_to(&end, peaks);
+        (watched.value, watched.known_at) = (end, Some(segment + 1));
         may_exceed
+    }
+
+    /// Raises the peaks of a block over a part of a flight, which began with the base's segment and ends with a motion;
+    /// returns whether they may have been exceeded before the end, or whether that is not known.
+    pub(in crate::engine) fn raise_to_part(
+        &self,
+        building: &BuildingRows,
+        b: usize,
+        (watch, segment): (&PeakWatch, u64),
+        (q, v): (&[f64], &[f64]),
+        peaks: &mut Peaks,
+    ) -> bool {
+        let (place, modes) = (building.first + b, building.modes.clone());
+        let watched = &watch.blocks[place];
+        if watched.clear_until > segment {
+            return false;
+        }
+        if watched.known_at != Some(segment) {
+            return true;
+        }
+        let end = values_of(&building.blocks[b], &q[modes.clone()], &v[modes]);
+        watched.raise_to(&end, &mut peaks.values.as_chunks_mut::<LANES>().0[place])
     }
 }
 
 impl WatchedBlock {
+    /// Raises peaks to the values at the end of a segment, or of a part of it, at whose start the values are known;
+    /// returns whether they may have been exceeded in between.
+    #[inline(always)]
+    fn raise_to(&self, end: &Lane, peaks: &mut Lane) -> bool {
+        let mut may_exceed = false;
+        for i in 0..LANES {
+            let (start, end, sag) = (self.value[i], end[i], self.sag[i]);
+            let is_below = larger(start.abs(), end.abs()) + sag <= peaks[i];
+            // A slope differs from that of the chord by at most h/2 |y''|: if that is less than the chord's slope, the
+            // quantity is monotonic.
+            let goes_one_way = (end - start).abs() > 4.0 * sag;
+            peaks[i] = larger(peaks[i], end.abs());
+            may_exceed |= !(is_below || goes_one_way);
+        }
+        may_exceed
+    }
+
     /// Number of segments of that length, s, for which all quantities of the block stay below their peaks.
     #[inline(always)]
     fn segments_to_peak(&self, peaks: &Lane, length: f64) -> u64 {

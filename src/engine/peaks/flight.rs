@@ -10,7 +10,7 @@ use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
-use crate::engine::peaks::room::{ModeBounds, PeakWork};
+use crate::engine::peaks::room::{ModeBounds, PeakRoom, PeakWork};
 use crate::engine::watched::rows::{Block, BuildingRows, PeakOf};
 use crate::numerics::polynomial::{each, larger};
 use crate::numerics::roots;
@@ -48,22 +48,11 @@ pub struct Course {
 }
 
 impl Model {
-    /// Raises peaks over a flight.
-    pub(in crate::engine) fn check_flight(&self, flight: &Stretch, peaks: &mut Peaks, work: &mut PeakWork) {
-        work.peaks.start_flight();
-        for building in &self.peak_rows.buildings {
-            self.bound_modes(building, flight, &mut work.peaks.bounds, &mut work.buffers.node_v);
-            for b in 0..building.blocks.len() {
-                self.check_block(building, b, flight, peaks, work);
-            }
-        }
-    }
-
-    /// Raises the peaks over a flight of those blocks that may exceed theirs in the segment with that number.
-    pub(in crate::engine) fn check_due_blocks(
+    /// Raises the peaks over a flight of those blocks, by their numbers, that may exceed theirs.
+    pub(in crate::engine) fn check_blocks(
         &self,
-        segment: u64,
         flight: &Stretch,
+        may_exceed: impl Fn(usize, &PeakRoom) -> bool,
         peaks: &mut Peaks,
         work: &mut PeakWork,
     ) {
@@ -71,7 +60,7 @@ impl Model {
         for building in &self.peak_rows.buildings {
             let mut is_bounded = false;
             for b in 0..building.blocks.len() {
-                if work.peaks.watch.is_clear(building.first + b, segment) {
+                if !may_exceed(building.first + b, work.peaks) {
                     continue;
                 }
                 if !std::mem::replace(&mut is_bounded, true) {

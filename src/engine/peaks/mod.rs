@@ -24,7 +24,7 @@ use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
-use crate::engine::peaks::room::PeakWork;
+use crate::engine::peaks::room::{PeakRoom, PeakWork};
 use crate::engine::step::Step;
 use flight::Stretch;
 
@@ -52,9 +52,11 @@ impl Model {
             inputs,
             (step.planned.length, &step.planned.q, &step.planned.v),
             work,
-            |flight, work| match watched {
-                Some((_, segment)) => self.check_due_blocks(segment, flight, &mut peaks, work),
-                None => self.check_flight(flight, &mut peaks, work),
+            |flight, work| {
+                let may_exceed = |block: usize, room: &PeakRoom| {
+                    watched.is_none_or(|(_, segment)| !room.watch.is_clear(block, segment))
+                };
+                self.check_blocks(flight, may_exceed, &mut peaks, work);
             },
         );
         base.peaks = peaks;

@@ -46,6 +46,8 @@ pub struct PeakRoom {
     pub reading: ReadingRoom,
     /// Bounds on the magnitudes of the contact forces over a step, N.
     pub strongest: Vec<f64>,
+    /// Whether each block may have exceeded its peaks in the part of a flight that is read.
+    pub open: Vec<bool>,
     /// The contact forces at the start of a step, N.
     pub first_forces: Vec<f64>,
     /// The contact forces at its end, N.
@@ -76,6 +78,7 @@ impl PeakRoom {
             floors: FloorRoom::new(lanes),
             reading: ReadingRoom::new(lanes),
             strongest: vec![0.0; pairs],
+            open: vec![true; rows.blocks()],
             first_forces: vec![0.0; pairs],
             last_forces: vec![0.0; pairs],
             starts: vec![(0.0, 0.0); pairs],
