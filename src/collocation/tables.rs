@@ -1,6 +1,8 @@
 //! Integrals over a window of powers of the time left, times the polynomials through its nodes.
 
 use super::nodes::{Matrix, NODES, Nodes, Row, Rule, nodes, rule};
+use super::rows::{NOTHING, fours, row};
+use crate::numerics::polynomial::each;
 use crate::structure::RESPONSE_POWERS;
 use std::sync::OnceLock;
 
@@ -88,7 +90,10 @@ impl Map {
         }
     }
 
-    const ALL: [Map; 6] =
+    /// Without fourth roots.
+    pub const SQUARE: [Map; 4] = [Map::Plain, Map::SquareStart, Map::SquareEnd, Map::SquareBoth];
+
+    pub const ALL: [Map; 6] =
         [Map::Plain, Map::SquareStart, Map::FourthStart, Map::SquareEnd, Map::SquareBoth, Map::FourthBoth];
 }
 
@@ -109,70 +114,142 @@ pub struct Tables {
 impl Tables {
     /// Those of a map and a rule, computed once: in memory of the library itself, which goes with it when it is unloaded.
     pub fn of(map: Map, rule: Rule) -> &'static Tables {
-        static ALL: [[OnceLock<Tables>; 6]; 3] = [const { [const { OnceLock::new() }; 6] }; 3];
-        ALL[rule as usize][map as usize].get_or_init(|| Tables::compute(map, nodes(rule)))
+        place(map, rule).get_or_init(|| {
+            let mut all = [(map, Tables::EMPTY)];
+            fill(&mut all, rule, &self::rule(FINE));
+            let [(_, tables)] = all;
+            tables
+        })
     }
 
-    /// Computes them all, if that has not been done: not in the middle of a run.
-    pub fn prepare() {
-        for (map, rule) in Map::ALL.into_iter().flat_map(|map| Rule::ALL.map(|rule| (map, rule))) {
-            Tables::of(map, rule);
+    /// Computes those of some maps and all rules, as far as that has not been done: not in the middle of a run.
+    pub fn prepare(maps: &[Map]) {
+        let mut fine = Vec::new();
+        for rule in Rule::ALL {
+            let missing = maps.iter().filter(|map| place(**map, rule).get().is_none());
+            let mut all: Vec<(Map, Tables)> = missing.map(|map| (*map, Tables::EMPTY)).collect();
+            if all.is_empty() {
+                continue;
+            }
+            if fine.is_empty() {
+                fine = self::rule(FINE);
+            }
+            fill(&mut all, rule, &fine);
+            for (map, tables) in all {
+                // Another thread may have been faster, with the same numbers.
+                place(map, rule).get_or_init(|| tables);
+            }
         }
     }
 
-    fn compute(map: Map, nodes: &Nodes) -> Tables {
-        // Exact for the highest degree: 15 of the polynomial, 4 of the map's derivative, 5 for each power.
-        let fine = rule((NODES + 4 + 5 * POWERS) / 2 + 1);
-        let count = nodes.count;
-        let mut tables = Tables {
-            theta: [0.0; NODES],
-            lag: [0.0; NODES],
-            weight: [0.0; NODES],
-            inner: [[[0.0; NODES]; NODES]; POWERS],
-            whole: [[0.0; NODES]; POWERS],
-        };
-        for i in 0..count {
+    /// Number of tables that the process has computed.
+    pub fn count() -> usize {
+        Map::ALL
+            .into_iter()
+            .flat_map(|map| Rule::ALL.map(|rule| place(map, rule)))
+            .filter(|one| one.get().is_some())
+            .count()
+    }
+
+    const EMPTY: Tables = Tables {
+        theta: [0.0; NODES],
+        lag: [0.0; NODES],
+        weight: [0.0; NODES],
+        inner: [[[0.0; NODES]; NODES]; POWERS],
+        whole: [[0.0; NODES]; POWERS],
+    };
+}
+
+/// Where the tables of a map and a rule are kept.
+fn place(map: Map, rule: Rule) -> &'static OnceLock<Tables> {
+    static ALL: [[OnceLock<Tables>; 6]; 3] = [const { [const { OnceLock::new() }; 6] }; 3];
+    &ALL[rule as usize][map as usize]
+}
+
+/// Points of a rule that is exact for the highest degree: 15 of the polynomial, 4 of the map's derivative, 5 for each
+/// power.
+const FINE: usize = (NODES + 4 + 5 * POWERS) / 2 + 1;
+
+/// Computes the tables of some maps, with nodes of one rule: integrals by a `fine` rule.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn fill(all: &mut [(Map, Tables)], rule: Rule, fine: &[(f64, f64)]) {
+    let nodes = nodes(rule);
+    for (map, tables) in all.iter_mut() {
+        for i in 0..nodes.count {
             let (theta, rate) = map.at(nodes.x[i]);
             tables.theta[i] = theta;
             tables.lag[i] = theta / rate;
             tables.weight[i] = rate * nodes.weight[i];
         }
-        for i in 0..=count {
-            let end = if i < count { nodes.x[i] } else { 1.0 };
-            for &(y, weight) in &fine {
-                let x = end * y;
-                let (theta, rate) = map.at(x);
-                let left = map.at(end).0 - theta;
-                let mut share = end * weight * rate;
-                let basis = basis(x, nodes);
-                for k in 0..POWERS {
-                    for (j, basis) in basis.iter().enumerate().take(count) {
-                        match i < count {
-                            true => tables.inner[k][j][i] += share * basis,
-                            false => tables.whole[k][j] += share * basis,
-                        }
+    }
+    for i in 0..=nodes.count {
+        let end = if i < nodes.count { nodes.x[i] } else { 1.0 };
+        let basis = basis(fine, end, nodes);
+        for (map, tables) in all.iter_mut() {
+            let shares = shares(*map, fine, end);
+            let integrals = match rule {
+                Rule::Eight => integrals::<{ Rule::Eight.count() }>(&shares, &basis),
+                Rule::Twelve => integrals::<{ Rule::Twelve.count() }>(&shares, &basis),
+                Rule::Sixteen => integrals::<{ Rule::Sixteen.count() }>(&shares, &basis),
+            };
+            match i < nodes.count {
+                true => {
+                    for (inner, integral) in tables.inner.iter_mut().zip(&integrals) {
+                        inner.iter_mut().zip(integral).for_each(|(column, share)| column[i] = *share);
                     }
-                    share *= left;
                 }
+                false => tables.whole = integrals,
             }
         }
-        tables
     }
 }
 
-/// The polynomials l_j at x that are 1 at node j and 0 at the others.
-fn basis(x: f64, nodes: &Nodes) -> Row {
-    let mut all = [0.0; NODES];
-    let z = 2.0 * x - 1.0;
-    let (mut last, mut before) = (1.0, 0.0);
-    for n in 0..nodes.count {
-        for (all, share) in all.iter_mut().zip(&nodes.legendre[n]) {
-            *all += share * last;
-        }
-        let k = n as f64;
-        (last, before) = (((2.0 * k + 1.0) * z * last - k * before) / (k + 1.0), last);
+/// Of each power k, at the points of a rule on 0..end: the weight times (theta(end) - theta)^k theta'.
+#[inline(always)]
+fn shares(map: Map, fine: &[(f64, f64)], end: f64) -> [[f64; FINE]; POWERS] {
+    let (mut shares, mut last, mut left) = ([[0.0; FINE]; POWERS], [0.0; FINE], [0.0; FINE]);
+    let until = map.at(end).0;
+    for (((y, weight), last), left) in fine.iter().zip(&mut last).zip(&mut left) {
+        let (theta, rate) = map.at(end * y);
+        (*last, *left) = (end * weight * rate, until - theta);
     }
-    all
+    for shares in &mut shares {
+        *shares = last;
+        last.iter_mut().zip(&left).for_each(|(last, left)| *last *= left);
+    }
+    shares
+}
+
+/// At the points of a rule on 0..end: the polynomials l_j that are 1 at node j and 0 at the others.
+#[inline(always)]
+fn basis(fine: &[(f64, f64)], end: f64, nodes: &Nodes) -> [Row; FINE] {
+    let mut basis = [[0.0; NODES]; FINE];
+    for (basis, (y, _)) in basis.iter_mut().zip(fine) {
+        let z = 2.0 * (end * y) - 1.0;
+        let (mut last, mut before) = (1.0, 0.0);
+        for (n, factors) in nodes.legendre[..nodes.count].iter().enumerate() {
+            basis.iter_mut().zip(factors).for_each(|(basis, factor)| *basis += factor * last);
+            let k = n as f64;
+            (last, before) = (((2.0 * k + 1.0) * z * last - k * before) / (k + 1.0), last);
+        }
+    }
+    basis
+}
+
+/// Sums of shares times polynomials, of each power.
+#[inline(always)]
+fn integrals<const N: usize>(shares: &[[f64; FINE]; POWERS], basis: &[Row; FINE]) -> [Row; POWERS] {
+    let mut integrals = [[0.0; NODES]; POWERS];
+    for (integral, shares) in integrals.iter_mut().zip(shares) {
+        let mut sum = NOTHING;
+        for (share, basis) in shares.iter().zip(basis) {
+            for (sum, basis) in sum.iter_mut().zip(fours(basis)).take(N / 4) {
+                *sum = each(|i| sum[i] + share * basis[i]);
+            }
+        }
+        *integral = row(&sum);
+    }
+    integrals
 }
 
 #[cfg(test)]
