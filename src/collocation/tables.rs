@@ -114,31 +114,22 @@ pub struct Tables {
 impl Tables {
     /// Those of a map and a rule, computed once: in memory of the library itself, which goes with it when it is unloaded.
     pub fn of(map: Map, rule: Rule) -> &'static Tables {
-        place(map, rule).get_or_init(|| {
-            let mut all = [(map, Tables::EMPTY)];
-            fill(&mut all, rule, &self::rule(FINE));
-            let [(_, tables)] = all;
-            tables
-        })
+        place(map, rule).get_or_init(|| compute(map, &Fine::new(rule, self::rule(FINE))))
     }
 
     /// Computes those of some maps and all rules, as far as that has not been done: not in the middle of a run.
     pub fn prepare(maps: &[Map]) {
-        let mut fine = Vec::new();
-        for rule in Rule::ALL {
-            let missing = maps.iter().filter(|map| place(**map, rule).get().is_none());
-            let mut all: Vec<(Map, Tables)> = missing.map(|map| (*map, Tables::EMPTY)).collect();
-            if all.is_empty() {
-                continue;
+        let is_missing = |map: Map, rule| place(map, rule).get().is_none();
+        let mut points = Vec::new();
+        for rule in Rule::ALL.into_iter().filter(|rule| maps.iter().any(|map| is_missing(*map, *rule))) {
+            if points.is_empty() {
+                points = self::rule(FINE);
             }
-            if fine.is_empty() {
-                fine = self::rule(FINE);
+            let fine = Fine::new(rule, points);
+            for map in maps {
+                place(*map, rule).get_or_init(|| compute(*map, &fine));
             }
-            fill(&mut all, rule, &fine);
-            for (map, tables) in all {
-                // Another thread may have been faster, with the same numbers.
-                place(map, rule).get_or_init(|| tables);
-            }
+            points = fine.points;
         }
     }
 
@@ -150,14 +141,6 @@ impl Tables {
             .filter(|one| one.get().is_some())
             .count()
     }
-
-    const EMPTY: Tables = Tables {
-        theta: [0.0; NODES],
-        lag: [0.0; NODES],
-        weight: [0.0; NODES],
-        inner: [[[0.0; NODES]; NODES]; POWERS],
-        whole: [[0.0; NODES]; POWERS],
-    };
 }
 
 /// Where the tables of a map and a rule are kept.
@@ -170,86 +153,105 @@ fn place(map: Map, rule: Rule) -> &'static OnceLock<Tables> {
 /// power.
 const FINE: usize = (NODES + 4 + 5 * POWERS) / 2 + 1;
 
-/// Computes the tables of some maps, with nodes of one rule: integrals by a `fine` rule.
+/// A fine rule from 0 to each node and to 1, with the polynomials l_j that are 1 at node j and 0 at the others.
+struct Fine {
+    rule: Rule,
+    /// Points and weights on 0..=1.
+    points: Vec<(f64, f64)>,
+    /// Of each end, the polynomials at each point.
+    basis: Vec<[Row; FINE]>,
+}
+
+impl Fine {
+    fn new(rule: Rule, points: Vec<(f64, f64)>) -> Fine {
+        let nodes = nodes(rule);
+        let mut basis = vec![[[0.0; NODES]; FINE]; nodes.count + 1];
+        basis.iter_mut().enumerate().for_each(|(i, basis)| fill_basis(nodes, end(nodes, i), &points, basis));
+        Fine { rule, points, basis }
+    }
+}
+
+/// Where the integrals to a node end, or those over the whole window.
+fn end(nodes: &Nodes, i: usize) -> f64 {
+    if i < nodes.count { nodes.x[i] } else { 1.0 }
+}
+
+/// The polynomials at the points of a rule up to an end.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn fill(all: &mut [(Map, Tables)], rule: Rule, fine: &[(f64, f64)]) {
-    let nodes = nodes(rule);
-    for (map, tables) in all.iter_mut() {
-        for i in 0..nodes.count {
-            let (theta, rate) = map.at(nodes.x[i]);
-            tables.theta[i] = theta;
-            tables.lag[i] = theta / rate;
-            tables.weight[i] = rate * nodes.weight[i];
-        }
-    }
-    for i in 0..=nodes.count {
-        let end = if i < nodes.count { nodes.x[i] } else { 1.0 };
-        let basis = basis(fine, end, nodes);
-        for (map, tables) in all.iter_mut() {
-            let shares = shares(*map, fine, end);
-            let integrals = match rule {
-                Rule::Eight => integrals::<{ Rule::Eight.count() }>(&shares, &basis),
-                Rule::Twelve => integrals::<{ Rule::Twelve.count() }>(&shares, &basis),
-                Rule::Sixteen => integrals::<{ Rule::Sixteen.count() }>(&shares, &basis),
-            };
-            match i < nodes.count {
-                true => {
-                    for (inner, integral) in tables.inner.iter_mut().zip(&integrals) {
-                        inner.iter_mut().zip(integral).for_each(|(column, share)| column[i] = *share);
-                    }
-                }
-                false => tables.whole = integrals,
-            }
-        }
-    }
-}
-
-/// Of each power k, at the points of a rule on 0..end: the weight times (theta(end) - theta)^k theta'.
-#[inline(always)]
-fn shares(map: Map, fine: &[(f64, f64)], end: f64) -> [[f64; FINE]; POWERS] {
-    let (mut shares, mut last, mut left) = ([[0.0; FINE]; POWERS], [0.0; FINE], [0.0; FINE]);
-    let until = map.at(end).0;
-    for (((y, weight), last), left) in fine.iter().zip(&mut last).zip(&mut left) {
-        let (theta, rate) = map.at(end * y);
-        (*last, *left) = (end * weight * rate, until - theta);
-    }
-    for shares in &mut shares {
-        *shares = last;
-        last.iter_mut().zip(&left).for_each(|(last, left)| *last *= left);
-    }
-    shares
-}
-
-/// At the points of a rule on 0..end: the polynomials l_j that are 1 at node j and 0 at the others.
-#[inline(always)]
-fn basis(fine: &[(f64, f64)], end: f64, nodes: &Nodes) -> [Row; FINE] {
-    let mut basis = [[0.0; NODES]; FINE];
-    for (basis, (y, _)) in basis.iter_mut().zip(fine) {
+fn fill_basis(nodes: &Nodes, end: f64, points: &[(f64, f64)], all: &mut [Row; FINE]) {
+    for (all, (y, _)) in all.iter_mut().zip(points) {
         let z = 2.0 * (end * y) - 1.0;
-        let (mut last, mut before) = (1.0, 0.0);
+        let (mut last, mut before, mut sum) = (1.0, 0.0, NOTHING);
         for (n, factors) in nodes.legendre[..nodes.count].iter().enumerate() {
-            basis.iter_mut().zip(factors).for_each(|(basis, factor)| *basis += factor * last);
+            for (sum, factors) in sum.iter_mut().zip(fours(factors)) {
+                *sum = each(|i| sum[i] + factors[i] * last);
+            }
             let k = n as f64;
             (last, before) = (((2.0 * k + 1.0) * z * last - k * before) / (k + 1.0), last);
         }
+        *all = row(&sum);
     }
-    basis
 }
 
-/// Sums of shares times polynomials, of each power.
-#[inline(always)]
-fn integrals<const N: usize>(shares: &[[f64; FINE]; POWERS], basis: &[Row; FINE]) -> [Row; POWERS] {
-    let mut integrals = [[0.0; NODES]; POWERS];
-    for (integral, shares) in integrals.iter_mut().zip(shares) {
-        let mut sum = NOTHING;
-        for (share, basis) in shares.iter().zip(basis) {
-            for (sum, basis) in sum.iter_mut().zip(fours(basis)).take(N / 4) {
-                *sum = each(|i| sum[i] + share * basis[i]);
-            }
-        }
-        *integral = row(&sum);
+/// Computes the tables of a map.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn compute(map: Map, fine: &Fine) -> Tables {
+    let nodes = nodes(fine.rule);
+    let mut tables = Tables {
+        theta: [0.0; NODES],
+        lag: [0.0; NODES],
+        weight: [0.0; NODES],
+        inner: [[[0.0; NODES]; NODES]; POWERS],
+        whole: [[0.0; NODES]; POWERS],
+    };
+    for i in 0..nodes.count {
+        let (theta, rate) = map.at(nodes.x[i]);
+        tables.theta[i] = theta;
+        tables.lag[i] = theta / rate;
+        tables.weight[i] = rate * nodes.weight[i];
     }
-    integrals
+    // Of the power at hand, at each point: the weight times (theta(end) - theta)^k theta'; theta(end) - theta.
+    let (mut shares, mut left) = ([0.0; FINE], [0.0; FINE]);
+    for (i, basis) in fine.basis.iter().enumerate() {
+        let end = end(nodes, i);
+        let until = map.at(end).0;
+        for (((y, weight), share), left) in fine.points.iter().zip(&mut shares).zip(&mut left) {
+            let (theta, rate) = map.at(end * y);
+            (*share, *left) = (end * weight * rate, until - theta);
+        }
+        for k in 0..POWERS {
+            let integrals = match fine.rule {
+                Rule::Eight => integrals::<{ Rule::Eight.count() }>(&shares, basis),
+                Rule::Twelve => integrals::<{ Rule::Twelve.count() }>(&shares, basis),
+                Rule::Sixteen => integrals::<{ Rule::Sixteen.count() }>(&shares, basis),
+            };
+            match i < nodes.count {
+                true => tables.inner[k].iter_mut().zip(&integrals).for_each(|(column, integral)| column[i] = *integral),
+                false => tables.whole[k] = integrals,
+            }
+            shares.iter_mut().zip(&left).for_each(|(share, left)| *share *= left);
+        }
+    }
+    tables
+}
+
+/// The sum of shares times polynomials.
+#[inline(always)]
+fn integrals<const N: usize>(shares: &[f64; FINE], basis: &[Row; FINE]) -> Row {
+    let mut sum = NOTHING;
+    let mut add = |share: f64, basis: &Row| {
+        for (sum, basis) in sum.iter_mut().zip(fours(basis)).take(N / 4) {
+            *sum = each(|i| sum[i] + share * basis[i]);
+        }
+    };
+    let ((shares, last_shares), (basis, last_basis)) = (shares.as_chunks::<4>(), basis.as_chunks::<4>());
+    for (shares, basis) in shares.iter().zip(basis) {
+        for i in 0..4 {
+            add(shares[i], &basis[i]);
+        }
+    }
+    last_shares.iter().zip(last_basis).for_each(|(share, basis)| add(*share, basis));
+    row(&sum)
 }
 
 #[cfg(test)]
