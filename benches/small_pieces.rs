@@ -169,15 +169,32 @@ type Component = *mut c_void;
 type DoStep = unsafe extern "C" fn(Component, f64, f64, c_int) -> c_int;
 type GetReal = unsafe extern "C" fn(Component, *const u32, usize, *mut f64) -> c_int;
 
-/// The FMU's own calls through its C interface, on 20 and 30 storeys with 20 contacts.
+/// The FMU's own calls through its C interface: for the scene that `cargo fmu` packs, and on 20 and 30 storeys with 20
+/// contacts.
 fn fmu(criterion: &mut Criterion) {
-    let fmu = Fmu::new(&scene_text([20, 30], 20, 100.0, &LAWS.hertz(), true));
-    let mut group = criterion.benchmark_group("fmu_20_30_storeys");
+    let (scene, record) =
+        (include_str!("../examples/scenes/feup.toml"), include_bytes!("../examples/records/el_centro_1940_ns.csv"));
+    let feup = Quiet { fmu: Fmu::with_record(scene, record), steps: 1000 };
+    let tall = Quiet { fmu: Fmu::new(&scene_text([20, 30], 20, 100.0, &LAWS.hertz(), true)), steps: 20_000 };
+    for (name, quiet) in [("fmu_feup", feup), ("fmu_20_30_storeys", tall)] {
+        calls(criterion, name, &quiet);
+    }
+}
+
+/// An FMU without contact for so many steps of 1 ms from the start.
+struct Quiet {
+    fmu: Fmu,
+    steps: u32,
+}
+
+fn calls(criterion: &mut Criterion, name: &str, quiet: &Quiet) {
+    let Quiet { fmu, .. } = quiet;
+    let mut group = criterion.benchmark_group(name);
     group.bench_function("instantiate and initialise", |bencher| {
-        bencher.iter_with_large_drop(|| started(&fmu));
+        bencher.iter_with_large_drop(|| started(fmu));
     });
     group.bench_function("quiet communication step of 1 ms", |bencher| {
-        bencher.iter_custom(|steps| at_each_step(&fmu, steps, |_| ()).0);
+        bencher.iter_custom(|steps| at_each_step(quiet, steps, |_| ()).0);
     });
 
     let get_real: GetReal = fmu.symbol("fmi2GetReal");
@@ -208,11 +225,11 @@ fn fmu(criterion: &mut Criterion) {
         group.bench_function(title, |bencher| {
             bencher.iter_custom(|steps| {
                 let read = |component| references.chunks(at_once).for_each(|some| get(component, some));
-                at_each_step(&fmu, steps, read).1
+                at_each_step(quiet, steps, read).1
             });
         });
     }
-    let instance = started(&fmu);
+    let instance = started(fmu);
     assert_eq!(instance.step(0.0, 5.0), OK);
     let mut state = instance.recorded();
     group.bench_function("record a state in place of another", |bencher| {
@@ -233,13 +250,14 @@ fn fmu(criterion: &mut Criterion) {
 }
 
 /// Does something after each step of 1 ms; the time of all steps, and that of what was done.
-fn at_each_step(fmu: &Fmu, steps: u64, mut then: impl FnMut(Component)) -> (Duration, Duration) {
-    const STEPS: u32 = 20_000;
+fn at_each_step(quiet: &Quiet, steps: u64, mut then: impl FnMut(Component)) -> (Duration, Duration) {
+    let Quiet { fmu, steps: quiet_steps } = quiet;
     let do_step: DoStep = fmu.symbol("fmi2DoStep");
     let (mut instance, mut step) = (started(fmu), 0);
     let (mut stepping, mut doing) = (Duration::ZERO, Duration::ZERO);
     for _ in 0..steps {
-        if step == STEPS {
+        if step == *quiet_steps {
+            assert_eq!(instance.integer("impacts"), 0, "no impact in {step} steps");
             (instance, step) = (started(fmu), 0);
         }
         let start = Instant::now();

@@ -50,7 +50,11 @@ pub fn rule(count: usize) -> Vec<(f64, f64)> {
         for _ in 0..8 {
             let (value, before) = legendre(count, x);
             slope = count as f64 * (x * value - before) / (x * x - 1.0);
-            x -= value / slope;
+            let better = x - value / slope;
+            if better == x {
+                break;
+            }
+            x = better;
         }
         (0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope))
     };

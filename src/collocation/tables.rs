@@ -1,6 +1,8 @@
 //! Integrals over a window of powers of the time left, times the polynomials through its nodes.
 
 use super::nodes::{Matrix, NODES, Nodes, Row, Rule, nodes, rule};
+use super::rows::{NOTHING, fours, row};
+use crate::numerics::polynomial::each;
 use crate::structure::RESPONSE_POWERS;
 use std::sync::OnceLock;
 
@@ -88,7 +90,10 @@ impl Map {
         }
     }
 
-    const ALL: [Map; 6] =
+    /// Without fourth roots.
+    pub const SQUARE: [Map; 4] = [Map::Plain, Map::SquareStart, Map::SquareEnd, Map::SquareBoth];
+
+    pub const ALL: [Map; 6] =
         [Map::Plain, Map::SquareStart, Map::FourthStart, Map::SquareEnd, Map::SquareBoth, Map::FourthBoth];
 }
 
@@ -109,70 +114,144 @@ pub struct Tables {
 impl Tables {
     /// Those of a map and a rule, computed once: in memory of the library itself, which goes with it when it is unloaded.
     pub fn of(map: Map, rule: Rule) -> &'static Tables {
-        static ALL: [[OnceLock<Tables>; 6]; 3] = [const { [const { OnceLock::new() }; 6] }; 3];
-        ALL[rule as usize][map as usize].get_or_init(|| Tables::compute(map, nodes(rule)))
+        place(map, rule).get_or_init(|| compute(map, &Fine::new(rule, self::rule(FINE))))
     }
 
-    /// Computes them all, if that has not been done: not in the middle of a run.
-    pub fn prepare() {
-        for (map, rule) in Map::ALL.into_iter().flat_map(|map| Rule::ALL.map(|rule| (map, rule))) {
-            Tables::of(map, rule);
-        }
-    }
-
-    fn compute(map: Map, nodes: &Nodes) -> Tables {
-        // Exact for the highest degree: 15 of the polynomial, 4 of the map's derivative, 5 for each power.
-        let fine = rule((NODES + 4 + 5 * POWERS) / 2 + 1);
-        let count = nodes.count;
-        let mut tables = Tables {
-            theta: [0.0; NODES],
-            lag: [0.0; NODES],
-            weight: [0.0; NODES],
-            inner: [[[0.0; NODES]; NODES]; POWERS],
-            whole: [[0.0; NODES]; POWERS],
-        };
-        for i in 0..count {
-            let (theta, rate) = map.at(nodes.x[i]);
-            tables.theta[i] = theta;
-            tables.lag[i] = theta / rate;
-            tables.weight[i] = rate * nodes.weight[i];
-        }
-        for i in 0..=count {
-            let end = if i < count { nodes.x[i] } else { 1.0 };
-            for &(y, weight) in &fine {
-                let x = end * y;
-                let (theta, rate) = map.at(x);
-                let left = map.at(end).0 - theta;
-                let mut share = end * weight * rate;
-                let basis = basis(x, nodes);
-                for k in 0..POWERS {
-                    for (j, basis) in basis.iter().enumerate().take(count) {
-                        match i < count {
-                            true => tables.inner[k][j][i] += share * basis,
-                            false => tables.whole[k][j] += share * basis,
-                        }
-                    }
-                    share *= left;
-                }
+    /// Computes those of some maps and all rules, as far as that has not been done: not in the middle of a run.
+    pub fn prepare(maps: &[Map]) {
+        let is_missing = |map: Map, rule| place(map, rule).get().is_none();
+        let mut points = Vec::new();
+        for rule in Rule::ALL.into_iter().filter(|rule| maps.iter().any(|map| is_missing(*map, *rule))) {
+            if points.is_empty() {
+                points = self::rule(FINE);
             }
+            let fine = Fine::new(rule, points);
+            for map in maps {
+                place(*map, rule).get_or_init(|| compute(*map, &fine));
+            }
+            points = fine.points;
         }
-        tables
+    }
+
+    /// Number of tables that the process has computed.
+    pub fn count() -> usize {
+        Map::ALL
+            .into_iter()
+            .flat_map(|map| Rule::ALL.map(|rule| place(map, rule)))
+            .filter(|one| one.get().is_some())
+            .count()
     }
 }
 
-/// The polynomials l_j at x that are 1 at node j and 0 at the others.
-fn basis(x: f64, nodes: &Nodes) -> Row {
-    let mut all = [0.0; NODES];
-    let z = 2.0 * x - 1.0;
-    let (mut last, mut before) = (1.0, 0.0);
-    for n in 0..nodes.count {
-        for (all, share) in all.iter_mut().zip(&nodes.legendre[n]) {
-            *all += share * last;
-        }
-        let k = n as f64;
-        (last, before) = (((2.0 * k + 1.0) * z * last - k * before) / (k + 1.0), last);
+/// Where the tables of a map and a rule are kept.
+fn place(map: Map, rule: Rule) -> &'static OnceLock<Tables> {
+    static ALL: [[OnceLock<Tables>; 6]; 3] = [const { [const { OnceLock::new() }; 6] }; 3];
+    &ALL[rule as usize][map as usize]
+}
+
+/// Points of a rule that is exact for the highest degree: 15 of the polynomial, 4 of the map's derivative, 5 for each
+/// power.
+const FINE: usize = (NODES + 4 + 5 * POWERS) / 2 + 1;
+
+/// A fine rule from 0 to each node and to 1, with the polynomials l_j that are 1 at node j and 0 at the others.
+struct Fine {
+    rule: Rule,
+    /// Points and weights on 0..=1.
+    points: Vec<(f64, f64)>,
+    /// Of each end, the polynomials at each point.
+    basis: Vec<[Row; FINE]>,
+}
+
+impl Fine {
+    fn new(rule: Rule, points: Vec<(f64, f64)>) -> Fine {
+        let nodes = nodes(rule);
+        let mut basis = vec![[[0.0; NODES]; FINE]; nodes.count + 1];
+        basis.iter_mut().enumerate().for_each(|(i, basis)| fill_basis(nodes, end(nodes, i), &points, basis));
+        Fine { rule, points, basis }
     }
-    all
+}
+
+/// Where the integrals to a node end, or those over the whole window.
+fn end(nodes: &Nodes, i: usize) -> f64 {
+    if i < nodes.count { nodes.x[i] } else { 1.0 }
+}
+
+/// The polynomials at the points of a rule up to an end.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn fill_basis(nodes: &Nodes, end: f64, points: &[(f64, f64)], all: &mut [Row; FINE]) {
+    for (all, (y, _)) in all.iter_mut().zip(points) {
+        let z = 2.0 * (end * y) - 1.0;
+        let (mut last, mut before, mut sum) = (1.0, 0.0, NOTHING);
+        for (n, factors) in nodes.legendre[..nodes.count].iter().enumerate() {
+            for (sum, factors) in sum.iter_mut().zip(fours(factors)) {
+                *sum = each(|i| sum[i] + factors[i] * last);
+            }
+            let k = n as f64;
+            (last, before) = (((2.0 * k + 1.0) * z * last - k * before) / (k + 1.0), last);
+        }
+        *all = row(&sum);
+    }
+}
+
+/// Computes the tables of a map.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn compute(map: Map, fine: &Fine) -> Tables {
+    let nodes = nodes(fine.rule);
+    let mut tables = Tables {
+        theta: [0.0; NODES],
+        lag: [0.0; NODES],
+        weight: [0.0; NODES],
+        inner: [[[0.0; NODES]; NODES]; POWERS],
+        whole: [[0.0; NODES]; POWERS],
+    };
+    for i in 0..nodes.count {
+        let (theta, rate) = map.at(nodes.x[i]);
+        tables.theta[i] = theta;
+        tables.lag[i] = theta / rate;
+        tables.weight[i] = rate * nodes.weight[i];
+    }
+    // Of the power at hand, at each point: the weight times (theta(end) - theta)^k theta'; theta(end) - theta.
+    let (mut shares, mut left) = ([0.0; FINE], [0.0; FINE]);
+    for (i, basis) in fine.basis.iter().enumerate() {
+        let end = end(nodes, i);
+        let until = map.at(end).0;
+        for (((y, weight), share), left) in fine.points.iter().zip(&mut shares).zip(&mut left) {
+            let (theta, rate) = map.at(end * y);
+            (*share, *left) = (end * weight * rate, until - theta);
+        }
+        for k in 0..POWERS {
+            let integrals = match fine.rule {
+                Rule::Eight => integrals::<{ Rule::Eight.count() }>(&shares, basis),
+                Rule::Twelve => integrals::<{ Rule::Twelve.count() }>(&shares, basis),
+                Rule::Sixteen => integrals::<{ Rule::Sixteen.count() }>(&shares, basis),
+            };
+            match i < nodes.count {
+                true => tables.inner[k].iter_mut().zip(&integrals).for_each(|(column, integral)| column[i] = *integral),
+                false => tables.whole[k] = integrals,
+            }
+            shares.iter_mut().zip(&left).for_each(|(share, left)| *share *= left);
+        }
+    }
+    tables
+}
+
+/// The sum of shares times polynomials.
+#[inline(always)]
+fn integrals<const N: usize>(shares: &[f64; FINE], basis: &[Row; FINE]) -> Row {
+    let mut sum = NOTHING;
+    let mut add = |share: f64, basis: &Row| {
+        for (sum, basis) in sum.iter_mut().zip(fours(basis)).take(N / 4) {
+            *sum = each(|i| sum[i] + share * basis[i]);
+        }
+    };
+    let ((shares, last_shares), (basis, last_basis)) = (shares.as_chunks::<4>(), basis.as_chunks::<4>());
+    for (shares, basis) in shares.iter().zip(basis) {
+        for i in 0..4 {
+            add(shares[i], &basis[i]);
+        }
+    }
+    last_shares.iter().zip(last_basis).for_each(|(share, basis)| add(*share, basis));
+    row(&sum)
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::xml;
 use crate::scene::Package;
+use crate::variables::Table;
 use uuid::Uuid;
 
 /// Namespace of the GUIDs: any constant will do, and it may never change.
@@ -10,7 +11,8 @@ const NAMESPACE: Uuid = Uuid::from_u128(0x8f8a_0c6e_51b7_4d0a_9d35_6f0b_7c1e_42a
 impl Package {
     /// The text of `modelDescription.xml`; the same package gives the same bytes.
     pub fn model_description(&self) -> String {
-        xml::document(self, &self.guid())
+        let table = Table::new(&self.scene);
+        xml::document(self, &table, &guid(self.fingerprint_with(&table)))
     }
 
     /// The GUID as the description writes it.
@@ -20,7 +22,12 @@ impl Package {
 
     /// What the GUID is: a name-based UUID of the description without it, the scene and the record.
     pub fn fingerprint(&self) -> Uuid {
-        let description = xml::document(self, "");
+        self.fingerprint_with(&Table::new(&self.scene))
+    }
+
+    /// The same where the variables of the scene are at hand.
+    pub(crate) fn fingerprint_with(&self, table: &Table) -> Uuid {
+        let description = xml::document(self, table, "");
         let record = self.record.as_ref().map_or(&[][..], |record| &record.bytes);
         let mut name = Vec::with_capacity(description.len() + self.scene_text.len() + record.len() + 24);
         for part in [description.as_bytes(), self.scene_text.as_bytes(), record] {

@@ -74,4 +74,5 @@ pub use crate::engine::output::point_rates::{ContactRates, EnergyRates, PEAK_ROU
 pub use crate::engine::saved::SavedState;
 pub use crate::engine::state::State;
 pub use crate::engine::watched::rows::PeakOf;
+pub use crate::engine::window::kernels::window_tables;
 pub use crate::structure::Side;

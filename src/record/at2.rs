@@ -1,12 +1,13 @@
 //! Records as PEER ground motion database files, `.AT2`.
 
 use super::accelerogram::{Record, RecordError, STANDARD_GRAVITY};
-use super::reading::{Reading, excerpt, on_line};
+use super::reading::{Reading, excerpt, on_line, text_of};
 
 const HEADER_LINES: usize = 4;
 
 pub(super) fn parse(bytes: &[u8]) -> Result<Record, RecordError> {
-    let mut lines = bytes.split(|&byte| byte == b'\n').enumerate().map(|(i, line)| (i + 1, line));
+    let text = text_of(bytes);
+    let mut lines = text.split('\n').enumerate().map(|(i, line)| (i + 1, line));
     let header: Vec<_> = lines.by_ref().take(HEADER_LINES).collect();
     let mut reading = Reading::with_capacity(0);
     check_unit(&header, &mut reading);
@@ -23,7 +24,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Record, RecordError> {
     reading.record.times.reserve(samples.min(bytes.len() / 2));
     reading.record.accelerations.reserve(samples.min(bytes.len() / 2));
     for (number, line) in lines {
-        for field in line.split(u8::is_ascii_whitespace).filter(|field| !field.is_empty()) {
+        for field in line.split_ascii_whitespace() {
             let time = reading.samples as f64 * step;
             match fortran_number(field) {
                 Some(value) => reading.add(time, value * STANDARD_GRAVITY, |problem| on_line(number, problem)),
@@ -48,8 +49,8 @@ struct Sampling {
 
 impl Sampling {
     /// Reads `NPTS=  4000, DT=  .0100 SEC` and the older `4000  0.0100  NPTS, DT`.
-    fn find(line: &[u8]) -> Option<Sampling> {
-        let text = String::from_utf8_lossy(line).to_ascii_uppercase();
+    fn find(line: &str) -> Option<Sampling> {
+        let text = line.to_ascii_uppercase();
         let separators = |c: char| c.is_whitespace() || matches!(c, ',' | '=' | ':');
         let words: Vec<&str> = text.split(separators).filter(|word| !word.is_empty()).collect();
         let place = |name: &str| words.iter().position(|&word| word == name);
@@ -60,15 +61,15 @@ impl Sampling {
 
     fn read(samples: Option<&&str>, step: Option<&&str>) -> Option<Sampling> {
         let step = step?.trim_end_matches("SEC");
-        let step = fortran_number(step.as_bytes()).filter(|step| step.is_finite() && *step > 0.0)?;
+        let step = fortran_number(step).filter(|step| step.is_finite() && *step > 0.0)?;
         Some(Sampling { samples: samples?.parse().ok()?, step })
     }
 }
 
 /// Velocity and displacement files of the same database (`.VT2`, `.DT2`) have the same form and another unit.
-fn check_unit(header: &[(usize, &[u8])], reading: &mut Reading) {
+fn check_unit(header: &[(usize, &str)], reading: &mut Reading) {
     for (number, line) in header {
-        let text = String::from_utf8_lossy(line).to_ascii_uppercase();
+        let text = line.to_ascii_uppercase();
         let words_after = text.split_once("UNITS OF").map(|(_, after)| after.split([' ', '\t', '\r', ',', '.']));
         if words_after.and_then(|mut words| words.find(|word| !word.is_empty())).is_some_and(|unit| unit != "G") {
             reading.refuse(|| on_line(*number, format!("{}: expected UNITS OF G", excerpt(line))));
@@ -77,8 +78,7 @@ fn check_unit(header: &[(usize, &[u8])], reading: &mut Reading) {
 }
 
 /// A number as Fortran writes it: `.1234E-02`, `-0.5D-03`, and `.1234-102` where the exponent has three digits.
-fn fortran_number(field: &[u8]) -> Option<f64> {
-    let text = std::str::from_utf8(field).ok()?;
+fn fortran_number(text: &str) -> Option<f64> {
     if let Ok(value) = text.parse() {
         return Some(value);
     }

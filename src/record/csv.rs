@@ -1,81 +1,86 @@
 //! Records as CSV: `time_s,accel_m_s2`.
 
 use super::accelerogram::{Record, RecordError};
-use super::reading::{Reading, excerpt, on_line};
-use ::csv::{ByteRecord, ReaderBuilder, Trim};
+use super::reading::{Reading, excerpt, on_line, text_of};
 
 const COLUMNS: [&str; 2] = ["time_s", "accel_m_s2"];
 
+/// Bytes of a short line: two numbers, a comma and the end of the line.
+const SHORT_LINE: usize = 12;
+
 pub(super) fn parse(bytes: &[u8]) -> Result<Record, RecordError> {
-    // Without quoting a stray quotation mark is an error on its own line instead of swallowing the lines that follow.
-    let mut reader = ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .quoting(false)
-        .comment(Some(b'#'))
-        .trim(Trim::All)
-        .from_reader(bytes);
-    let mut row = ByteRecord::new();
-    let mut header_read = false;
-    let mut reading = Reading::with_capacity(bytes.len() / 16);
-    loop {
-        let more = reader.read_byte_record(&mut row).map_err(|e| RecordError::new(e.to_string()))?;
-        if !more {
-            break;
-        }
-        let end = usize::try_from(reader.position().byte()).unwrap_or(usize::MAX);
-        let here = |problem: String| on_line(line_that_ends_at(bytes, end), problem);
-        if is_blank_or_comment(&row) {
-            continue;
-        }
-        if !header_read {
-            check_header(&row).map_err(|problem| RecordError::new(here(problem)))?;
-            header_read = true;
-            continue;
-        }
-        match sample(&row) {
-            Ok((time, acceleration)) => reading.add(time, acceleration, here),
-            Err(problem) => reading.skip(|| here(problem)),
-        }
-    }
-    if !header_read {
+    let text = text_of(bytes);
+    let mut rows = Rows { line: 1, rest: text.strip_prefix('\u{feff}').unwrap_or(&text) };
+    let Some((line, header)) = rows.next() else {
         return Err(RecordError::new(format!("no header line: expected {}", COLUMNS.join(","))));
+    };
+    check_header(header).map_err(|problem| RecordError::new(on_line(line, problem)))?;
+    let mut reading = Reading::with_capacity(bytes.len() / SHORT_LINE);
+    for (line, row) in rows {
+        match sample(row) {
+            Some((time, acceleration)) => reading.add(time, acceleration, |problem| on_line(line, problem)),
+            None => reading.skip(|| on_line(line, problem(row))),
+        }
     }
     reading.complete()
 }
 
-/// The `csv` crate skips empty lines and lines that start with `#`; these are the ones with blanks before.
-fn is_blank_or_comment(row: &ByteRecord) -> bool {
-    row.get(0).is_some_and(|first| first.starts_with(b"#") || (first.is_empty() && row.len() == 1))
+/// The rows of a text, each with its line, counted from 1: all but blank ones and comments. `\r` alone ends a row too, but
+/// not a line and no comment.
+struct Rows<'t> {
+    line: usize,
+    rest: &'t str,
 }
 
-fn check_header(row: &ByteRecord) -> Result<(), String> {
-    let unquoted = row.iter().map(|name| name.strip_prefix(b"\"").and_then(|n| n.strip_suffix(b"\"")).unwrap_or(name));
-    if unquoted.eq(COLUMNS.map(str::as_bytes)) {
+impl<'t> Iterator for Rows<'t> {
+    type Item = (usize, &'t str);
+
+    fn next(&mut self) -> Option<(usize, &'t str)> {
+        while !self.rest.is_empty() {
+            let (line, rest, is_comment) = (self.line, self.rest, self.rest.starts_with('#'));
+            // All but few bytes are greater than both: one comparison for each.
+            let ends = |byte| byte <= b'\r' && (byte == b'\n' || (byte == b'\r' && !is_comment));
+            let end = rest.bytes().position(ends);
+            let end = end.unwrap_or(rest.len());
+            self.line += usize::from(rest.as_bytes().get(end) == Some(&b'\n'));
+            self.rest = rest.get(end + 1..).unwrap_or_default();
+            let row = rest.get(..end).unwrap_or_default().trim_ascii();
+            if !row.is_empty() && !row.starts_with('#') {
+                return Some((line, row));
+            }
+        }
+        None
+    }
+}
+
+fn check_header(row: &str) -> Result<(), String> {
+    let values = values(row);
+    let unquoted = values.iter().map(|name| name.strip_prefix('"').and_then(|n| n.strip_suffix('"')).unwrap_or(name));
+    if unquoted.eq(COLUMNS) {
         return Ok(());
     }
-    Err(format!("header {}: expected {}", joined(row), COLUMNS.join(",")))
+    Err(format!("header {}: expected {}", excerpt(&values.join(",")), COLUMNS.join(",")))
 }
 
-fn sample(row: &ByteRecord) -> Result<(f64, f64), String> {
-    let (Some(time), Some(acceleration), 2) = (row.get(0), row.get(1), row.len()) else {
-        return Err(format!("{}: expected 2 values, {}, not {}", joined(row), COLUMNS.join(" and "), row.len()));
-    };
-    Ok((number(COLUMNS[0], time)?, number(COLUMNS[1], acceleration)?))
+/// Time and acceleration; `None` where the row does not hold them, see [`problem`].
+fn sample(row: &str) -> Option<(f64, f64)> {
+    let comma = row.bytes().position(|byte| byte == b',')?;
+    let (time, acceleration) = (row.get(..comma)?, row.get(comma + 1..)?);
+    Some((time.trim_ascii().parse().ok()?, acceleration.trim_ascii().parse().ok()?))
 }
 
-fn number(column: &str, field: &[u8]) -> Result<f64, String> {
-    let parsed = std::str::from_utf8(field).ok().and_then(|text| text.parse().ok());
-    parsed.ok_or_else(|| format!("{column} = {}: expected a number", excerpt(field)))
+/// What is wrong with a row that holds no sample.
+fn problem(row: &str) -> String {
+    let values = values(row);
+    if values.len() != COLUMNS.len() {
+        let (row, columns) = (excerpt(&values.join(",")), COLUMNS.join(" and "));
+        return format!("{row}: expected 2 values, {columns}, not {}", values.len());
+    }
+    let is_wrong = |(_, value): &(_, &str)| value.parse::<f64>().is_err();
+    let (column, value) = COLUMNS.into_iter().zip(values).find(is_wrong).unwrap_or_default();
+    format!("{column} = {}: expected a number", excerpt(value))
 }
 
-fn joined(row: &ByteRecord) -> String {
-    excerpt(&row.iter().collect::<Vec<_>>().join(&b','))
-}
-
-/// The line, counted from 1, of the row after which the reader stands at byte `end`. (The reader's own line is that of
-/// the row before, comments and blank lines not counted.) Called for errors only.
-fn line_that_ends_at(bytes: &[u8], end: usize) -> usize {
-    let row = bytes.get(..end.saturating_sub(1)).unwrap_or(bytes);
-    row.iter().filter(|&&byte| byte == b'\n').count() + 1
+fn values(row: &str) -> Vec<&str> {
+    row.split(',').map(str::trim_ascii).collect()
 }

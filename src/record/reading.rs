@@ -2,6 +2,7 @@
 
 use super::accelerogram::{Record, RecordError};
 use crate::figures::plain;
+use std::borrow::Cow;
 
 /// A file of the wrong kind has a problem in every line: nobody reads more than these.
 pub const MOST_PROBLEMS: usize = 10;
@@ -86,12 +87,17 @@ pub(super) fn on_line(number: usize, problem: impl std::fmt::Display) -> String 
     format!("line {number}: {problem}")
 }
 
-/// Bytes of a file as text for a message: one line, at most 40 characters.
-pub(super) fn excerpt(bytes: &[u8]) -> String {
-    let text = String::from_utf8_lossy(bytes.get(..200).unwrap_or(bytes));
+/// The text of a file. Only comments may be in another encoding: what is not UTF-8 is no part of a number.
+pub(super) fn text_of(bytes: &[u8]) -> Cow<'_, str> {
+    std::str::from_utf8(bytes).map_or_else(|_| String::from_utf8_lossy(bytes), Cow::Borrowed)
+}
+
+/// Text of a file for a message: one line, at most 40 characters.
+pub(super) fn excerpt(text: &str) -> String {
+    let text = text.trim();
     let printable = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
-    let mut short: String = text.trim().chars().take(40).map(printable).collect();
-    if text.trim().chars().nth(40).is_some() {
+    let mut short: String = text.chars().take(40).map(printable).collect();
+    if text.chars().nth(40).is_some() {
         short.push_str("...");
     }
     short

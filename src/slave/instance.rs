@@ -41,11 +41,12 @@ pub struct Slave {
 impl Slave {
     /// A fresh instance of what an FMU holds.
     pub fn new(package: Package, log: Log) -> Slave {
-        let fingerprint = package.fingerprint();
+        let table = Table::new(&package.scene);
+        let fingerprint = package.fingerprint_with(&table);
         let settings = Arc::new(Settings::new(package.scene, package.record.map(|packaged| packaged.record)));
         Slave {
             fingerprint,
-            table: Table::new(&settings.scene),
+            table,
             inputs: Inputs::new(&settings.scene),
             defaults: Arc::clone(&settings),
             settings,

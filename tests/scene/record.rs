@@ -56,6 +56,9 @@ fn csv_as_editors_leave_it() {
         "time_s,accel_m_s2\n0,1\n1,2\n2,3",
         "\n  # c, with \"comma\n  time_s , accel_m_s2 \n\n 0 ,\t1\n   \n1,2\n# in between\n2,3\n\n",
         "\"time_s\",\"accel_m_s2\"\n0.0,1.0\n+1,2.\n2,3\n",
+        // Lines of another system, and comments that end with their line only.
+        "time_s,accel_m_s2\r0,1\r1,2\r2,3\r",
+        "# c\r5,6\r\n\u{c}# d\rtime_s,accel_m_s2\r0,1\n1,2\r# e\r5,6\n2,3\r\r\n",
     ] {
         assert_eq!(parsed("a.csv", text), plain, "{text:?}");
     }
@@ -81,6 +84,14 @@ fn csv_that_is_refused() {
     let long = format!("0,1\n1,\0{}\n", "x".repeat(50));
     assert_eq!(rows(&long), format!("line 4: accel_m_s2 = \u{fffd}{}...: expected a number", "x".repeat(39)));
     assert_eq!(rows("0,1\n,2\n"), "line 4: time_s = : expected a number");
+    assert_eq!(rows("0,1\n1,2,\n"), "line 4: 1,2,: expected 2 values, time_s and accel_m_s2, not 3");
+    assert_eq!(
+        rows("0,1\r1\r\n2\n"),
+        "line 3: 1: expected 2 values, time_s and accel_m_s2, not 1\n\
+                                       line 4: 2: expected 2 values, time_s and accel_m_s2, not 1"
+    );
+    let latin = refused("a.csv", b"\xef\xbb\xbf# M\xe9xico\ntime_s,accel_m_s2\n0,1\n1,2\xb0\n");
+    assert_eq!(latin, "line 4: accel_m_s2 = 2\u{fffd}: expected a number");
     assert_eq!(rows("0,1\n1,nan\n"), "line 4: acceleration NaN m/s2: expected a finite acceleration");
     assert_eq!(rows("0,1\n1e999,2\n"), "line 4: time inf s: expected a finite time");
     assert_eq!(rows("0,1\n0.5,1\n0.5,2\n"), "line 5: time 0.5 s: expected more than the time before it, 0.5 s");

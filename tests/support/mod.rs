@@ -61,12 +61,17 @@ pub struct Fmu {
 impl Fmu {
     /// Lays out the resources of a scene and describes it; a record that the scene names is [`record`].
     pub fn new(scene: &str) -> Fmu {
+        Fmu::with_record(scene, record().as_bytes())
+    }
+
+    /// The same with another record in CSV.
+    pub fn with_record(scene: &str, record: &[u8]) -> Fmu {
         let directory = TempDir::new().unwrap();
         let resources = directory.path().join("resources");
         std::fs::create_dir(&resources).unwrap();
         std::fs::write(resources.join("scene.toml"), scene).unwrap();
         if scene.contains("record =") {
-            std::fs::write(resources.join("record.csv"), record()).unwrap();
+            std::fs::write(resources.join("record.csv"), record).unwrap();
         }
         let package = Package::from_resources(&resources).unwrap();
         let description = ModelDescription::from_string(&package.model_description()).unwrap();

@@ -1,6 +1,9 @@
 //! Data of windows that stay constant during a run: kernels of the pairs, error allowance, lengths.
 
-use crate::collocation::{Kernel, POWERS, Tables};
+use crate::collocation::{Kernel, Map, POWERS, Tables};
+use crate::contact::{EpisodeForce, Force};
+use crate::engine::base::Coordinates;
+use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
 use crate::engine::window::spring::Spring;
 
@@ -29,10 +32,15 @@ pub struct Windows {
 }
 
 impl Windows {
-    /// For a system; `None` where no law needs windows, or damping couples the modes.
-    pub fn of(System { impulse_response, pairs, tolerance, .. }: &System) -> Option<Windows> {
-        let response = impulse_response.as_ref().filter(|_| !cfg!(without = "windows"))?;
-        Tables::prepare();
+    /// For a system; `None` where there are no windows: no law is for them, damping couples the modes, or contacts are
+    /// worked out on floors.
+    pub fn of(system: &System) -> Option<Windows> {
+        let System { impulse_response, pairs, tolerance, contact_coordinates, .. } = system;
+        if cfg!(without = "windows") || *contact_coordinates != Coordinates::Modes {
+            return None;
+        }
+        let (response, maps) = (impulse_response.as_ref()?, maps(pairs)?);
+        Tables::prepare(maps);
         let known = if pairs.len() <= MOST_KNOWN { &pairs[..] } else { &[] };
         let kernels = known.iter().flat_map(|p| known.iter().map(|q| response.kernel(&p.row, &q.row))).collect();
         let allowed = BETWEEN_NODES / libm::cbrt(tolerance.step);
@@ -49,6 +57,27 @@ impl Windows {
             (None, None) => room.insert([0.0; POWERS]),
         }
     }
+}
+
+/// Number of tables of windows that the process has computed so far: all models share them.
+pub fn window_tables() -> usize {
+    Tables::count()
+}
+
+/// Whether windows are for a force: whether the motion under it has square or fourth roots of time at most.
+pub fn are_for(force: &Force) -> bool {
+    match force {
+        Force::Power { exponent, .. } => (2.0 * exponent).fract() == 0.0,
+        Force::Root { .. } => true,
+        Force::None | Force::Linear { .. } => false,
+    }
+}
+
+/// The maps of windows for some pairs; `None` where windows are for none of them.
+fn maps(pairs: &[Pair]) -> Option<&'static [Map]> {
+    let forces = pairs.iter().map(|pair| EpisodeForce::new(&pair.law, pair.mass, None).engaged);
+    let has_root = forces.filter(are_for).map(|force| matches!(force, Force::Root { .. })).reduce(|a, b| a || b)?;
+    Some(if has_root { &Map::ALL } else { &Map::SQUARE })
 }
 
 /// Length of windows at a step tolerance, relative to that at the usual one.

@@ -19,7 +19,7 @@ use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::window::certificate::keeps_off;
-use crate::engine::window::kernels::Windows;
+use crate::engine::window::kernels::{Windows, are_for};
 use crate::engine::window::solution::Window;
 use crate::engine::window::trial::Trial;
 use crate::structure::{EXACT, MotionSeries, dot, flight_order};
@@ -225,15 +225,10 @@ impl Window {
         self.equation.closed = 0;
         for (p, contact) in touching(base) {
             let force = contact.branch();
-            let fits = match force {
-                Force::Power { exponent, .. } => (2.0 * exponent).fract() == 0.0,
-                Force::Root { .. } => true,
-                Force::None | Force::Linear { .. } => false,
-            };
             // An entry with an approach velocity of only rounding is left to other kinds of step.
             let enters = contact.penetration > 0.0 || contact.rate > 0.0;
             let place = self.equation.closed;
-            if place == MOST_PAIRS || contact.is_held() || !fits || !enters {
+            if place == MOST_PAIRS || contact.is_held() || !are_for(&force) || !enters {
                 return false;
             }
             self.contacts[place] = p;
