@@ -48,8 +48,7 @@ def main():
         return measure(planned.cases, planned.materials)
     results = Results(options.output / "results.csv", planned.storeys)
     fill(results, planned, options)
-    results.finish(planned.cases)
-    rows = results.of(planned.cases)
+    rows = results.finish(planned.cases)
     results.close()
     failed = len(planned.cases) - len(rows)
     if failed:

@@ -10,7 +10,10 @@ TEMPORARY = ".new"
 
 
 class Results:
-    """Rows by case. `storeys` are those of each building that there must be room for."""
+    """A row for each case, in the file alone: while a study runs, only their keys are kept in memory.
+
+    `storeys` are those of each building that there must be room for.
+    """
 
     def __init__(self, path, storeys):
         self.path = path
@@ -22,9 +25,9 @@ class Results:
         self.parquet.unlink(missing_ok=True)
         found, rows = self.read(storeys)
         self.columns = study_table.columns({side: max(found[side], storeys[side]) for side in storeys})
-        self.rows = {key(row): row for row in rows}
+        self.failed = {key(row): bool(row["error"]) for row in rows}
         if found != study_table.storeys_of(self.columns) or not self.path.stat().st_size:
-            self.write(self.rows.values())
+            self.write(rows)
 
     def read(self, storeys):
         """Takes what is there; a row that a killed run has not finished is cut off."""
@@ -34,33 +37,37 @@ class Results:
             self.file.truncate(whole)
         return study_table.parse(self.path, content[:whole]) if whole else (storeys, [])
 
+    @property
+    def rows(self):
+        """All rows by case, read anew; of a case that was run again, the last."""
+        _, rows = study_table.parse(self.path, self.path.read_bytes())
+        return {key(row): row for row in rows}
+
     def add(self, rows):
         """Writes rows and waits until the disk has them."""
         table = csv.writer(self.file, lineterminator="\n")
         for known in rows:
             row = {name: known.get(name) for name in self.columns}
-            self.rows[key(row)] = row
+            self.failed[key(row)] = bool(row["error"])
             table.writerow(map(text, row.values()))
         self.file.flush()
         os.fsync(self.file.fileno())
 
     def missing(self, cases):
         """Cases without a result; those that failed are tried again."""
-        return [case for case in cases if (row := self.rows.get(key(columns_of(case)))) is None or row["error"]]
-
-    def of(self, cases):
-        """The rows of these cases, errors left out."""
-        found = (self.rows.get(key(columns_of(case))) for case in cases)
-        return [row for row in found if row and not row["error"]]
+        return [case for case in cases if self.failed.get(key(columns_of(case)), True)]
 
     def finish(self, cases):
-        """Adds the ratios and puts the rows in the order of the cases, whoever ran them; others stay behind them."""
-        study_table.add_ratios(list(self.rows.values()))
+        """Adds the ratios and puts the rows in the order of the cases, whoever ran them; others stay behind them.
+        Returns the rows of these cases, errors left out."""
+        rows = self.rows
+        study_table.add_ratios(list(rows.values()))
         keys = [key(columns_of(case)) for case in cases]
-        first = {case: self.rows[case] for case in keys if case in self.rows}
-        ordered = first | dict(sorted(self.rows.items()))
+        first = {case: rows[case] for case in keys if case in rows}
+        ordered = first | dict(sorted(rows.items()))
         self.write(ordered.values())
         write_parquet(self.parquet, self.columns, list(ordered.values()))
+        return [row for row in first.values() if not row["error"]]
 
     def write(self, rows):
         """Puts a table with these rows in the place of the one that is there."""

@@ -2,6 +2,7 @@
 
 import csv
 import sys
+import tracemalloc
 
 import pyarrow.parquet
 import pytest
@@ -39,8 +40,22 @@ def test_what_comes_after_a_torn_row_is_whole(tmp_path):
             file.write("A,a,R,r,9.0,0.0")
     opened = results_of(tmp_path)
     assert opened.missing(cases) == cases[2:] and len(opened.rows) == 2
-    assert [line["pga_m_s2"] for line in opened.of(cases)] == [1.0, 2.0]
-    assert opened.of(cases)[1]["peak_force_n"] == 1.5
+    found = opened.finish(cases)
+    assert [line["pga_m_s2"] for line in found] == [1.0, 2.0]
+    assert found[1]["peak_force_n"] == 1.5
+
+
+def test_rows_are_kept_in_the_file_alone(tmp_path):
+    """A study of any length: in memory is what names each case, and whether it failed, less than half of a row."""
+    opened, count = results_of(tmp_path), 5000
+    cases = [case_of(pga=float(pga)) for pga in range(1, count + 1)]
+    tracemalloc.start()
+    for first in range(0, count, 100):
+        opened.add(row_of(case, peak_force_n=1.1 * case.pga) for case in cases[first : first + 100])
+    kept = tracemalloc.get_traced_memory()[0] / count
+    tracemalloc.stop()
+    assert kept < 600, f"{kept:.0f} bytes a case"
+    assert not opened.missing(cases) and len(opened.rows) == count
 
 
 def test_a_taller_building_finds_room_in_a_table_that_is_there(tmp_path):
@@ -63,8 +78,7 @@ def test_a_ratio_needs_the_run_without_contact(tmp_path):
     near, far, lonely = case_of(), case_of(gap=NEVER_CLOSES), case_of(record="S")
     opened = results_of(tmp_path)
     opened.add([row_of(near, **{"right_drift_m[1]": 0.06, "right_drift_m[2]": 0.01}), row_of(far), row_of(lonely)])
-    opened.finish([near, far, lonely])
-    found = opened.of([near, far, lonely])
+    found = opened.finish([near, far, lonely])
     assert [row["right_drift_ratio"] for row in found] == [pytest.approx(3.0), 1.0, None]
     assert [row["left_drift_ratio"] for row in found] == [1.0, 1.0, None]
 
