@@ -11,6 +11,7 @@ use crate::engine::step::{Dense, Step};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
+use crate::engine::window::free::FreeMotion;
 use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::MAX_TERMS;
 use crate::numerics::quadrature::{EIGHT, Rule, TWELVE, gauss, graded};
@@ -80,7 +81,9 @@ impl System {
                 self.integrate(base, motion, graded(TWELVE, length), 0.0, work, &mut done);
                 onset.evaluate(length / onset.scale, &mut work.q, &mut work.v);
             }
-            Dense::Window(window, series) => self.integrate_window(base, (window, series), length, work, &mut done),
+            Dense::Window(window, series) => {
+                self.integrate_window((base, inputs), (window, series), length, work, &mut done);
+            }
         }
         // Work of the floor forces at their values at the base; the quadratures add that of their change.
         work.load.fill(0.0);
@@ -123,22 +126,28 @@ impl System {
     /// Work over a window, by quadrature in its own time map; leaves the motion at the end in `work.q`, `work.v`.
     fn integrate_window(
         &self,
-        base: &Base,
+        (base, inputs): (&Base, &Inputs),
         (window, series): (&Window, &MotionSeries),
         length: f64,
         work: &mut Buffers,
         done: &mut Work,
     ) {
         let nodes = window.nodes(length);
-        let mut powers = std::mem::take(&mut work.powers);
         let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
-        window.evaluate(self, series, length, &mut powers, (&mut q, &mut v));
-        let room = std::cell::RefCell::new(powers);
-        let motion =
-            |t: f64, q: &mut [f64], v: &mut [f64]| window.evaluate(self, series, t, &mut room.borrow_mut(), (q, v));
+        window.evaluate(self, FreeMotion::of(self, (base, inputs), series, work), length, (&mut q, &mut v));
+        let (load, slope) = (std::mem::take(&mut work.load), std::mem::take(&mut work.slope));
+        let room = std::cell::RefCell::new((std::mem::take(&mut work.powers), std::mem::take(&mut work.interval)));
+        let motion = |t: f64, q: &mut [f64], v: &mut [f64]| {
+            let (powers, interval) = &mut *room.borrow_mut();
+            let free = match self.flies_in_windows() {
+                true => FreeMotion::Flight(base, (&load, &slope), interval),
+                false => FreeMotion::Series(series, powers),
+            };
+            window.evaluate(self, free, t, (q, v));
+        };
         self.integrate(base, motion, nodes, 0.0, work, done);
-        work.powers = room.into_inner();
-        (work.q, work.v) = (q, v);
+        (work.powers, work.interval) = room.into_inner();
+        (work.load, work.slope, work.q, work.v) = (load, slope, q, v);
     }
 
     /// Work over a flight, by quadrature over pieces within reach of one series each; leaves the motion at the end in

@@ -9,6 +9,7 @@ use crate::engine::onset::series::OnsetSeries;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
+use crate::engine::window::free::FreeMotion;
 use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
 use crate::structure::{MotionSeries, exact_order, fly_in_one_series};
@@ -110,7 +111,10 @@ impl Step {
                 series.evaluate(&work.powers, q, v);
             }
             Dense::Onset(onset) => onset.evaluate(elapsed / onset.scale, q, v),
-            Dense::Window(window, series) => window.evaluate(system, series, elapsed, &mut work.powers, (q, v)),
+            Dense::Window(window, series) => {
+                let free = FreeMotion::of(system, (base, inputs), series, work);
+                window.evaluate(system, free, elapsed, (q, v));
+            }
         }
     }
 

@@ -1,13 +1,15 @@
-//! The impulse response of each mode as a power series in time: h'' + c h' + w^2 h = 0 from h = 0, h' = 1.
+//! The impulse response of each mode in powers of time: h'' + c h' + w^2 h = 0 from h = 0, h' = 1.
 
 use super::equations::Structure;
 use super::lanes::LANES;
+use super::mode_polynomials::{FURTHEST, POLYNOMIAL_TERMS, PolynomialMaker};
 use crate::numerics::polynomial::{COUNT, each};
 
 /// Powers of time of an impulse response.
-pub const RESPONSE_POWERS: usize = 20;
+pub const RESPONSE_POWERS: usize = POLYNOMIAL_TERMS;
 
-/// The series of all modes that damping does not couple.
+/// That of all modes, where damping couples none: a power series, or polynomials that are good up to some time, for
+/// which the quickest modes may be far too quick for a series of so few terms.
 #[derive(Clone, Debug)]
 pub struct ImpulseResponse {
     lanes: usize,
@@ -15,6 +17,8 @@ pub struct ImpulseResponse {
     terms: Vec<f64>,
     /// 1/s.
     fastest: f64,
+    /// The time up to which polynomials are good, s; `None` of a power series.
+    longest: Option<f64>,
 }
 
 impl ImpulseResponse {
@@ -35,7 +39,33 @@ impl ImpulseResponse {
                     -((k - 1.0) * structure.damping[m] * last[m] + structure.omega2[m] * before[m]) / (k * (k - 1.0));
             }
         }
-        Some(ImpulseResponse { lanes, terms, fastest: structure.fastest })
+        Some(ImpulseResponse { lanes, terms, fastest: structure.fastest, longest: None })
+    }
+
+    /// Polynomials that are good up to a time, s, where that is no more than [`FURTHEST`] allows.
+    pub fn over(structure: &Structure, time: f64) -> Option<ImpulseResponse> {
+        // Written so that a NaN is no time.
+        let is_possible = time > 0.0 && structure.fastest * time <= FURTHEST;
+        if !structure.is_classical() || !is_possible {
+            return None;
+        }
+        let lanes = structure.lanes;
+        let mut terms = vec![0.0; RESPONSE_POWERS * lanes];
+        let maker = PolynomialMaker::new(time);
+        for m in 0..lanes {
+            let [_, response, ..] = maker.mode(structure.omega2[m], structure.damping[m]).of;
+            let mut unit = 1.0;
+            for (k, term) in response.iter().enumerate() {
+                terms[k * lanes + m] = term * unit;
+                unit /= time;
+            }
+        }
+        Some(ImpulseResponse { lanes, terms, fastest: structure.fastest, longest: Some(time) })
+    }
+
+    /// The time up to which it is good, s, where it is no power series.
+    pub fn longest(&self) -> Option<f64> {
+        self.longest
     }
 
     /// Power k of all modes.
@@ -45,6 +75,9 @@ impl ImpulseResponse {
 
     /// How many powers are needed over a time, s, for a relative `remainder`; `None` where it is too long.
     pub fn powers(&self, time: f64, remainder: f64) -> Option<usize> {
+        if let Some(longest) = self.longest {
+            return (time <= longest).then_some(RESPONSE_POWERS);
+        }
         let reach = self.fastest * time;
         let (mut term, mut k) = (1.0, 1);
         while term > remainder {

@@ -1,21 +1,22 @@
 //! The exact flight of all modes over one interval of time.
 
+use super::block_increments::{halvings, increments};
 use super::equations::{Scratch, Side, Structure};
-use super::lanes::{LANES, Lane};
+use super::lanes::{FEW_BLOCKS, LANES, Lane};
 use super::modes::ModalDamping;
 use super::propagator::{CoupledIncrement, ModeIncrement};
 
 /// The increments of [`LANES`] modes side by side.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ModeIncrements {
-    dqq: [f64; LANES],
-    dqv: [f64; LANES],
-    dvq: [f64; LANES],
-    dvv: [f64; LANES],
-    rq0: [f64; LANES],
-    rq1: [f64; LANES],
-    rv0: [f64; LANES],
-    rv1: [f64; LANES],
+    pub(super) dqq: Lane,
+    pub(super) dqv: Lane,
+    pub(super) dvq: Lane,
+    pub(super) dvv: Lane,
+    pub(super) rq0: Lane,
+    pub(super) rq1: Lane,
+    pub(super) rv0: Lane,
+    pub(super) rv1: Lane,
 }
 
 impl ModeIncrements {
@@ -63,7 +64,7 @@ impl ModeIncrements {
 }
 
 /// The exact flight of all modes over one interval length.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Interval {
     /// s.
     pub length: f64,
@@ -75,7 +76,7 @@ impl Interval {
     /// Prepares the flight over `length` seconds.
     pub fn new(structure: &Structure, length: f64) -> Interval {
         let mut interval = Interval::room(structure);
-        interval.prepare(structure, length);
+        interval.prepare_mode_by_mode(structure, length);
         interval
     }
 
@@ -87,6 +88,14 @@ impl Interval {
 
     /// Prepares the flight over another length. Allocates only where damping couples modes.
     pub fn prepare(&mut self, structure: &Structure, length: f64) {
+        match structure.is_classical() && structure.lanes > FEW_BLOCKS * LANES && length > 0.0 {
+            true if self.length == length => {}
+            true => prepare_blocks(self, structure, length),
+            false => self.prepare_mode_by_mode(structure, length),
+        }
+    }
+
+    fn prepare_mode_by_mode(&mut self, structure: &Structure, length: f64) {
         self.length = length;
         self.coupled.clear();
         for side in [Side::Left, Side::Right] {
@@ -109,6 +118,12 @@ impl Interval {
     /// The increments of all modes, where they are so many blocks of them and damping couples none.
     pub fn blocks<const WIDTH: usize>(&self) -> Option<&[ModeIncrements; WIDTH]> {
         self.modes.as_slice().try_into().ok().filter(|_| self.coupled.is_empty())
+    }
+
+    /// Flies `q`, `v` over the interval under a modal load and its slope, into `end_q`, `end_v`, where damping couples
+    /// no modes.
+    pub fn fly_uncoupled(&self, motion: (&[f64], &[f64]), loads: (&[f64], &[f64]), end: (&mut [f64], &mut [f64])) {
+        fly_modes(&self.modes, motion, loads, end);
     }
 
     /// Flies `q`, `v` over the interval under a modal load and its slope, into `end_q`, `end_v`.
@@ -162,6 +177,29 @@ impl Interval {
             (q1[c], v1[c]) = (q, v);
         }
         sum.iter().sum::<f64>().is_finite()
+    }
+}
+
+/// Prepares the flight of many modes that damping does not couple, block by block.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn prepare_blocks(interval: &mut Interval, structure: &Structure, length: f64) {
+    interval.length = length;
+    interval.coupled.clear();
+    let [(omega2, _), (damping, _)] = [&structure.omega2, &structure.damping].map(|of| of.as_chunks::<LANES>());
+    for (c, (block, (omega2, damping))) in interval.modes.iter_mut().zip(omega2.iter().zip(damping)).enumerate() {
+        let mut fastest = 0.0_f64;
+        for i in 0..LANES {
+            fastest = fastest.max(omega2[i].sqrt()).max(damping[i]);
+        }
+        match halvings(fastest * length) {
+            Some(halvings) => *block = increments((omega2, damping), length, halvings),
+            None => {
+                for i in 0..LANES {
+                    let m = c * LANES + i;
+                    block.set(i, &ModeIncrement::new(structure.omega2[m].sqrt(), structure.damping[m], length));
+                }
+            }
+        }
     }
 }
 

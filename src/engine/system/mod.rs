@@ -4,6 +4,7 @@ pub mod buffers;
 pub mod error_norm;
 pub mod tolerance;
 
+use crate::collocation::MOST_PAIRS;
 use crate::engine::base::clearance::Clearance;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::peaks::Peaks;
@@ -54,18 +55,16 @@ impl System {
             }
             None => None,
         };
+        let tolerance = Tolerance::of(scene.solver.relative_tolerance);
+        let impulse_response = impulse_response(&structure, &pairs, ground.as_ref().filter(|_| !scene.floor_forces));
         Ok(System {
             initial: initial_state(scene, &structure),
             rigid: RigidPairs::of(&pairs),
             floor_forces: scene.floor_forces,
-            tolerance: Tolerance::of(scene.solver.relative_tolerance),
-            contact_coordinates: contact_coordinates(&structure),
+            tolerance,
+            contact_coordinates: contact_coordinates(&structure, impulse_response.as_ref()),
             least_approach: scene.solver.min_approach_velocity,
-            impulse_response: if pairs.iter().any(Pair::has_power_law) {
-                ImpulseResponse::of(&structure)
-            } else {
-                None
-            },
+            impulse_response,
             ones: structure.floors.ones(),
             structure,
             pairs,
@@ -96,6 +95,12 @@ impl System {
             q,
             v,
         }
+    }
+
+    /// Whether windows, in which few pairs of buildings of many modes are in contact, take the motion without contact
+    /// forces from exact flights.
+    pub fn flies_in_windows(&self) -> bool {
+        self.impulse_response.as_ref().is_some_and(|response| response.longest().is_some())
     }
 
     /// Whether a master's inputs act on the system, so that steps end at communication points.
@@ -205,9 +210,24 @@ impl System {
     }
 }
 
-/// The cheaper coordinates in contact: modes where they are few or where the floor matrices are full, else floors.
-fn contact_coordinates(structure: &Structure) -> Coordinates {
-    if !cfg!(without = "floors") && structure.lanes > FEW_BLOCKS * LANES && structure.floors.is_sparse() {
+/// The response to an impulse, of use where a law has a root: polynomials over the time between two samples for few pairs
+/// of buildings of many modes, else a power series.
+fn impulse_response(structure: &Structure, pairs: &[Pair], ground: Option<&GroundMotion>) -> Option<ImpulseResponse> {
+    if !pairs.iter().any(Pair::has_power_law) {
+        return None;
+    }
+    let are_few = pairs.len() <= MOST_PAIRS && pairs.iter().all(Pair::has_power_law);
+    let is_for_many_modes = are_few && structure.lanes > FEW_BLOCKS * LANES && !cfg!(without = "windows");
+    let ground = ground.filter(|_| is_for_many_modes);
+    ground.and_then(|ground| ImpulseResponse::over(structure, ground.usual_length())).or_else(|| ImpulseResponse::of(structure))
+}
+
+/// The cheaper coordinates in contact: modes where they are few, where windows take them all at once, or where the floor
+/// matrices are full; else floors.
+fn contact_coordinates(structure: &Structure, response: Option<&ImpulseResponse>) -> Coordinates {
+    let has_windows = response.is_some_and(|response| response.longest().is_some());
+    let are_many = structure.lanes > FEW_BLOCKS * LANES && !has_windows;
+    if !cfg!(without = "floors") && are_many && structure.floors.is_sparse() {
         Coordinates::Floors
     } else {
         Coordinates::Modes

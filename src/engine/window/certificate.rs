@@ -12,10 +12,10 @@ use crate::engine::base::Base;
 use crate::engine::base::contact::{Contact, Phase};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
+use crate::engine::window::free::FreeTerms;
 use crate::engine::window::kernels::Windows;
 use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::SECOND;
-use crate::structure::MotionSeries;
 
 /// Halvings of a piece of a window to show that a pair stays apart in it: down to a distance of rounding.
 const MOST_HALVINGS: u32 = 16;
@@ -26,7 +26,7 @@ impl Windows {
         &self,
         system: &System,
         base: &Base,
-        (window, series): (&Window, &MotionSeries),
+        (window, free): (&Window, FreeTerms),
         work: &mut Buffers,
         ending: Ending,
     ) -> bool {
@@ -34,15 +34,15 @@ impl Windows {
         let pairs_hold = (0..equation.pairs).all(|place| {
             let kernels = &equation.kernels[place].each_ref();
             let sense = if place < equation.closed { Sense::Up } else { Sense::Down };
-            let free = &equation.free[place][..equation.terms];
-            let bend = window.bend(sense, free, kernels, Some(place));
+            let terms = &equation.free[place][..equation.terms];
+            let bend = window.bend(sense, terms, kernels, Some(place));
             let passage = Passage { window, place, contact: &base.contacts[window.contacts[place]], bend, ending };
             if place < equation.closed {
                 return passage.stays_in_contact();
             }
-            passage.stays_apart(&Approach { window, free, kernels, bend })
+            passage.stays_apart(&Approach { window, free: terms, kernels, bend })
         });
-        pairs_hold && self.others_stay_apart(system, base, (window, series), work)
+        pairs_hold && self.others_stay_apart(system, base, (window, free), work)
     }
 
     /// Whether all pairs outside the window stay apart.
@@ -50,16 +50,15 @@ impl Windows {
         &self,
         system: &System,
         base: &Base,
-        (window, series): (&Window, &MotionSeries),
+        (window, free): (&Window, FreeTerms),
         work: &mut Buffers,
     ) -> bool {
         let Window { contacts, equation, solution, .. } = window;
         let is_other = |p: usize, contact: &Contact| !contact.in_contact() && window.place(p).is_none();
         let mut others = base.contacts.iter().enumerate().filter(|(p, contact)| is_other(*p, contact));
         others.all(|(p, contact)| {
-            let row = &system.pairs[p].row;
-            let terms = &mut work.scalar[..=series.order];
-            series.dot_each(row, 2, terms);
+            let terms = &mut work.scalar[..free.count()];
+            free.enter(system, p, terms);
             let (mut kernels, mut room) = ([&[0.0; POWERS]; MOST_PAIRS], [None; MOST_PAIRS]);
             for ((kernel, room), q) in kernels.iter_mut().zip(&mut room).zip(&contacts[..equation.closed]) {
                 *kernel = self.kernel(system, p, *q, room);
@@ -69,7 +68,7 @@ impl Windows {
                 return true;
             }
             let bend = bend(Sense::Down);
-            (terms[0], terms[1]) = (contact.flight_start(), contact.rate * series.scale);
+            (terms[0], terms[1]) = (contact.flight_start(), contact.rate * free.scale());
             let approach = Approach { window, free: terms, kernels: &kernels, bend };
             let end = (solution.length, approach.depth(solution.length));
             end.1 < 0.0 && approach.stays_below((0.0, terms[0]), end, MOST_HALVINGS)

@@ -3,6 +3,7 @@
 use crate::collocation::{Kernel, POWERS, Tables};
 use crate::engine::system::System;
 use crate::engine::window::spring::Spring;
+use crate::structure::FreeRows;
 
 /// Relative tolerance of a step at which windows have the lengths of [`longest_window`], and the exponent with which
 /// their lengths depend on the tolerance.
@@ -24,20 +25,24 @@ pub struct Windows {
     pub allowed: f64,
     /// Length of windows relative to that at the usual tolerance.
     pub length_factor: f64,
+    /// Polynomials of the pairs' distances without contact forces, where modes are many; else these are series.
+    pub free_rows: Option<FreeRows>,
     /// For each pair, the spring of its law, where the law is a power law.
     pub springs: Vec<Option<Spring>>,
 }
 
 impl Windows {
     /// For a system; `None` where no law needs windows, or damping couples the modes.
-    pub fn of(System { impulse_response, pairs, tolerance, .. }: &System) -> Option<Windows> {
+    pub fn of(System { structure, impulse_response, pairs, tolerance, .. }: &System) -> Option<Windows> {
         let response = impulse_response.as_ref().filter(|_| !cfg!(without = "windows"))?;
         Tables::prepare();
         let known = if pairs.len() <= MOST_KNOWN { &pairs[..] } else { &[] };
         let kernels = known.iter().flat_map(|p| known.iter().map(|q| response.kernel(&p.row, &q.row))).collect();
         let allowed = BETWEEN_NODES / libm::cbrt(tolerance.step);
         let springs = pairs.iter().map(Spring::of).collect();
-        Some(Windows { kernels, allowed, length_factor: length_factor(tolerance.step), springs })
+        let rows = || pairs.iter().map(|pair| &pair.row[..]);
+        let free_rows = response.longest().map(|length| FreeRows::new(structure, rows(), length));
+        Some(Windows { kernels, allowed, length_factor: length_factor(tolerance.step), free_rows, springs })
     }
 
     /// The kernel G_pq of two pairs; it is worked out in `room` if it is not stored.

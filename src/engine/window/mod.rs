@@ -6,12 +6,13 @@
 //! [`certificate`]); otherwise the step is taken by power series in time.
 
 pub mod certificate;
+pub mod free;
 pub mod kernels;
 pub mod solution;
 pub mod spring;
 pub mod trial;
 
-use crate::collocation::{Ending, MOST_PAIRS, Tables, Workspace as WindowWorkspace};
+use crate::collocation::{Ending, MOST_PAIRS, POWERS, Tables, Workspace as WindowWorkspace};
 use crate::contact::Force;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::{At, Event, Planned};
@@ -19,10 +20,11 @@ use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::window::certificate::keeps_off;
+use crate::engine::window::free::{FreeMotion, FreeTerms};
 use crate::engine::window::kernels::Windows;
 use crate::engine::window::solution::Window;
 use crate::engine::window::trial::Trial;
-use crate::structure::{EXACT, MotionSeries, dot, flight_order};
+use crate::structure::{EXACT, MotionSeries, flight_order};
 
 /// Allowed truncation error of a kernel, relative to the tolerance of one step.
 const KERNEL_SHARE: f64 = 0.03;
@@ -69,14 +71,13 @@ impl Windows {
         if base.coordinates != Coordinates::Modes || !window.gather(base) {
             return false;
         }
+        let (whole, remaining) = (remaining, remaining.min(self.longest(system)));
         let Some(mut trial) = self.trial(system, base, window, remaining) else { return false };
-        if !self.set_equation(system, base, (window, series), work, trial.room()) {
-            return false;
-        }
+        let Some(free) = self.set_equation(system, base, (window, series), work, trial.room()) else { return false };
         if (0..window.equation.closed).any(|place| window.is_at_rest(system, base, place)) {
             return false;
         }
-        self.watch(system, base, (window, series), trial.length);
+        self.watch(system, base, (window, free), trial.length);
         let tolerance = system.tolerance.step * base.velocity_scale;
         for _ in 0..MOST_TRIES {
             let Window { equation, solution, .. } = window;
@@ -93,11 +94,11 @@ impl Windows {
                 continue;
             }
             window.close();
-            match self.assess(system, base, (window, series), work, trial, tolerance) {
+            match self.assess(system, base, (window, free), work, trial, tolerance) {
                 Verdict::Good => {
                     at.counters.contact_steps += 1;
                     at.counters.law_evaluations += base.count_forces(Contact::branch);
-                    window.commit(system, series, planned, work, trial.ending, remaining);
+                    window.commit((system, base), free, planned, work, trial.ending, whole);
                     return true;
                 }
                 Verdict::Another(next) => trial = next,
@@ -107,42 +108,47 @@ impl Windows {
         false
     }
 
-    /// Sets the motion without contact forces and the kernels for windows up to `longest`, s; returns whether its
-    /// series reach that far.
-    fn set_equation(
-        &self,
+    /// Sets the motion without contact forces and the kernels for windows up to `longest`, s; returns where terms of
+    /// that motion come from, if they reach that far.
+    fn set_equation<'a>(
+        &'a self,
         system: &System,
-        base: &Base,
-        (window, series): (&mut Window, &mut MotionSeries),
+        base: &'a Base,
+        (window, series): (&mut Window, &'a mut MotionSeries),
         work: &Buffers,
         longest: f64,
-    ) -> bool {
+    ) -> Option<FreeTerms<'a>> {
         let System { structure, tolerance, impulse_response, .. } = system;
         let equation = &mut window.equation;
-        let remainder = (KERNEL_SHARE * tolerance.step).max(1e-17);
-        let powers = impulse_response.as_ref().and_then(|response| response.powers(longest, remainder));
-        let exact = (FREE_SHARE * tolerance.step).max(EXACT);
-        let (Some(powers), Some(order)) = (powers, flight_order(structure.fastest * longest, exact)) else {
-            return false;
+        equation.remainder = (KERNEL_SHARE * tolerance.step).max(1e-17);
+        let free = match &self.free_rows {
+            Some(rows) => {
+                equation.powers = POWERS;
+                FreeTerms::Rows(rows, base)
+            }
+            None => {
+                equation.powers = impulse_response.as_ref()?.powers(longest, equation.remainder)?;
+                let order = flight_order(structure.fastest * longest, (FREE_SHARE * tolerance.step).max(EXACT))?;
+                series.expand_flight(structure, (&base.q, &base.v), (&work.load, &work.slope), (longest, order));
+                FreeTerms::Series(series)
+            }
         };
-        series.expand_flight(structure, (&base.q, &base.v), (&work.load, &work.slope), (longest, order));
-        equation.remainder = remainder;
-        (equation.scale, equation.powers, equation.terms) = (longest, powers, series.order + 1);
+        (equation.scale, equation.terms) = (free.scale(), free.count());
         for place in 0..equation.closed {
-            self.set_pair(system, base, (window, series), place);
+            self.set_pair(system, base, (window, free), place);
         }
-        true
+        Some(free)
     }
 
     /// Sets the data of one pair of the window.
-    fn set_pair(&self, system: &System, base: &Base, (window, series): (&mut Window, &MotionSeries), place: usize) {
+    fn set_pair(&self, system: &System, base: &Base, (window, terms): (&mut Window, FreeTerms), place: usize) {
         let Window { equation, contacts, .. } = window;
         let p = contacts[place];
-        let (contact, row) = (&base.contacts[p], &system.pairs[p].row);
+        let contact = &base.contacts[p];
         let free = &mut equation.free[place];
         free[0] = if contact.in_contact() { contact.penetration.max(0.0) } else { contact.flight_start() };
         free[1] = contact.rate * equation.scale;
-        series.dot_each(row, 2, free);
+        terms.enter(system, p, free);
         equation.kernels[place][place] = *self.kernel(system, p, p, &mut None);
         for (other, q) in contacts.iter().enumerate().take(equation.closed).filter(|(other, _)| *other != place) {
             equation.kernels[place][other] = *self.kernel(system, p, *q, &mut None);
@@ -150,20 +156,19 @@ impl Windows {
     }
 
     /// Adds the open pairs that may come into contact within `length` seconds, as many as there is room for.
-    fn watch(&self, system: &System, base: &Base, (window, series): (&mut Window, &MotionSeries), length: f64) {
+    fn watch(&self, system: &System, base: &Base, (window, free): (&mut Window, FreeTerms), length: f64) {
         for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| !contact.in_contact()) {
             let place = window.equation.pairs;
             if place == MOST_PAIRS || system.pairs[p].law.is_rigid() {
                 return;
             }
-            let (row, scale) = (&system.pairs[p].row, series.scale);
-            let bend = 2.0 * dot(row, series.term(2)).max(0.0) / (scale * scale);
+            let bend = free.bend_at_start(system, p, &mut window.equation.free[place]);
             if keeps_off(contact, 2.0 * bend, length) {
                 continue;
             }
             window.contacts[place] = p;
             window.equation.pairs += 1;
-            self.set_pair(system, base, (window, series), place);
+            self.set_pair(system, base, (window, free), place);
         }
     }
 
@@ -172,7 +177,7 @@ impl Windows {
         &self,
         system: &System,
         base: &Base,
-        (window, series): (&Window, &MotionSeries),
+        (window, free): (&Window, FreeTerms),
         work: &mut Buffers,
         trial: Trial,
         tolerance: f64,
@@ -196,7 +201,7 @@ impl Windows {
             let share = libm::pow(allowed / error, 0.1);
             return Verdict::Another(trial.shorter((0.9 * share).max(0.3)));
         }
-        match self.is_certain(system, base, (window, series), work, trial.ending) {
+        match self.is_certain(system, base, (window, free), work, trial.ending) {
             true => Verdict::Good,
             // An event may be so near that bounds cannot exclude it: power series find it.
             false if trial.ending != Ending::Given || trial.halved => Verdict::Reject,
@@ -261,8 +266,8 @@ impl Window {
     /// Makes a solved window the planned step.
     fn commit(
         &self,
-        system: &System,
-        series: &MotionSeries,
+        (system, base): (&System, &Base),
+        terms: FreeTerms,
         planned: &mut Planned,
         work: &mut Buffers,
         ending: Ending,
@@ -279,7 +284,11 @@ impl Window {
             Ending::Turn(place) => Some(Event::Branch(contacts[place])),
             Ending::Touch(place) => Some(Event::Entry(contacts[place])),
         };
-        self.evaluate(system, series, length, &mut work.powers, (&mut planned.q, &mut planned.v));
+        let free = match terms {
+            FreeTerms::Series(series) => FreeMotion::Series(series, &mut work.powers),
+            FreeTerms::Rows(..) => FreeMotion::Flight(base, (&work.load, &work.slope), &mut work.interval),
+        };
+        self.evaluate(system, free, length, (&mut planned.q, &mut planned.v));
         planned.next_length = Some(length);
     }
 

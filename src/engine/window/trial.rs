@@ -21,7 +21,7 @@ const BEFORE_RELEASE: f64 = 0.8;
 /// most 24 sweeps are made, and a window that has failed is halved at most four times: 12.5^24 / 24! is above 1.
 const TOO_STIFF: f64 = 200.0;
 
-/// Largest (fastest rate) x (length) of a window.
+/// Largest (fastest rate) x (length) of a window where motion and kernels are power series.
 const MODES_REACH: f64 = 1.0;
 
 /// A window to be tried.
@@ -76,6 +76,11 @@ impl Trial {
 }
 
 impl Windows {
+    /// Length of the longest window for which terms of the motion and kernels are good, s.
+    pub fn longest(&self, system: &System) -> f64 {
+        self.free_rows.as_ref().map_or(MODES_REACH / system.structure.fastest, |rows| rows.length)
+    }
+
     /// The window to try first within the `remaining` seconds; `None` where numbers of a contact overflow or its
     /// damping is too stiff.
     pub fn trial(&self, system: &System, base: &Base, window: &mut Window, remaining: f64) -> Option<Trial> {
@@ -114,7 +119,7 @@ impl Windows {
         }
         // With fewer nodes the length depends on a higher power of the tolerance.
         let (reach, least) = (self.length_factor * longest, Rule::Eight);
-        longest = longest.min(MODES_REACH / system.structure.fastest);
+        longest = longest.min(self.longest(system));
         if dashpot * time.min(longest).min(remaining) > TOO_STIFF {
             return None;
         }
