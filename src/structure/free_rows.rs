@@ -2,15 +2,10 @@
 //! power, prepared once, instead of a series of all modes.
 
 use super::equations::Structure;
-use super::lanes::{LANES, Lane, from_left_to_right};
+use super::lane_matrix::LaneMatrix;
+use super::lanes::LANES;
 use super::mode_polynomials::{POLYNOMIAL_TERMS, PolynomialMaker};
 use crate::numerics::polynomial::each;
-
-/// Powers that have rows: all but the first two, which are the distance and its rate.
-const ROWS: usize = POLYNOMIAL_TERMS - 2;
-
-/// Rows that are multiplied side by side.
-const ABREAST: usize = 3;
 
 /// The rows of some pairs over a length of time.
 #[derive(Clone, Debug)]
@@ -20,85 +15,86 @@ pub struct FreeRows {
     pairs: Vec<PairRows>,
 }
 
-/// The rows of one pair, from power 2 on.
+/// The rows of one pair; those of the first two powers, which are the distance and its rate, are empty.
 #[derive(Clone, Debug)]
 struct PairRows {
-    /// Power by power, for the displacements of all modes.
-    by_q: Vec<Lane>,
-    /// For their velocities.
-    by_v: Vec<Lane>,
+    /// For the displacements and the velocities of all modes.
+    by_motion: [LaneMatrix; 2],
     /// For the ground acceleration and its slope.
-    by_ground: [[f64; 2]; ROWS],
+    by_ground: [[f64; POLYNOMIAL_TERMS]; 2],
 }
 
 impl FreeRows {
+    /// Number of terms of a polynomial.
+    pub const TERMS: usize = POLYNOMIAL_TERMS;
+
     /// For the rows of the modal Jacobian of some pairs, where damping couples no modes.
     pub fn new<'a>(structure: &Structure, pairs: impl Iterator<Item = &'a [f64]>, length: f64) -> FreeRows {
         let maker = PolynomialMaker::new(length);
-        let modes: Vec<_> = (0..structure.lanes)
-            .map(|m| maker.mode(structure.omega2[m], structure.damping[m]).of)
-            .collect();
+        let mode = |m: usize| maker.mode(structure.omega2[m], structure.damping[m]).of;
+        let modes: Vec<_> = (0..structure.lanes).map(mode).collect();
         let pair = |row: &[f64]| {
-            let blocks = row.len() / LANES;
-            let rows = |of: usize| {
-                let mut rows = vec![[0.0; LANES]; ROWS * blocks];
-                for (n, rows) in rows.chunks_exact_mut(blocks.max(1)).enumerate() {
-                    for (m, entry) in rows.as_flattened_mut().iter_mut().enumerate() {
-                        *entry = row[m] * modes[m][of][n + 2];
-                    }
-                }
-                rows
+            let entry = |of: usize, n: usize, m: usize| if n < 2 { 0.0 } else { row[m] * modes[m][of][n] };
+            let matrix =
+                |of: usize| LaneMatrix::rectangular([POLYNOMIAL_TERMS, row.len()], 0, 0, |n, m| entry(of, n, m));
+            let share = |of: usize, n: usize| {
+                structure.participation.iter().enumerate().map(|(m, share)| -entry(of, n, m) * share).sum()
             };
-            let mut by_ground = [[0.0; 2]; ROWS];
-            for (n, by_ground) in by_ground.iter_mut().enumerate() {
-                for (m, share) in structure.participation.iter().enumerate() {
-                    for (k, by_ground) in by_ground.iter_mut().enumerate() {
-                        *by_ground -= row[m] * share * modes[m][2 + k][n + 2];
-                    }
-                }
-            }
-            PairRows { by_q: rows(0), by_v: rows(1), by_ground }
+            let by_ground = [2, 3].map(|of| std::array::from_fn(|n| share(of, n)));
+            PairRows { by_motion: [0, 1].map(matrix), by_ground }
         };
         FreeRows { length, pairs: pairs.map(pair).collect() }
     }
 
-    /// Number of terms of a polynomial.
-    pub fn terms(&self) -> usize {
-        POLYNOMIAL_TERMS
-    }
-
     /// Writes the terms of a pair's distance from power 2 on, m, from the motion at the start, the ground acceleration
     /// there, m/s2, and its slope.
-    pub fn enter(&self, pair: usize, motion: (&[f64], &[f64]), ground: (f64, f64), out: &mut [f64]) {
-        enter(&self.pairs[pair], motion, ground, &mut out[2..POLYNOMIAL_TERMS]);
+    pub fn enter(&self, pair: usize, (q, v): (&[f64], &[f64]), (acceleration, slope): (f64, f64), out: &mut [f64]) {
+        let PairRows { by_motion: [by_q, by_v], by_ground: [by_acceleration, by_slope] } = &self.pairs[pair];
+        let mut terms = [[0.0; LANES]; POLYNOMIAL_TERMS / LANES];
+        let ground = by_acceleration.as_chunks::<LANES>().0.iter().zip(by_slope.as_chunks::<LANES>().0);
+        for (terms, (by_acceleration, by_slope)) in terms.iter_mut().zip(ground) {
+            *terms = each(|i| by_acceleration[i] * acceleration + by_slope[i] * slope);
+        }
+        by_q.add(q, &mut terms);
+        by_v.add(v, &mut terms);
+        out[2..POLYNOMIAL_TERMS].copy_from_slice(&terms.as_flattened()[2..]);
     }
 }
 
-/// See [`FreeRows::enter`].
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn enter(pair: &PairRows, (q, v): (&[f64], &[f64]), (acceleration, slope): (f64, f64), out: &mut [f64]) {
-    let [(q, _), (v, _)] = [q, v].map(<[f64]>::as_chunks::<LANES>);
-    let (blocks, v) = (q.len(), &v[..q.len()]);
-    let rows = pair.by_q.chunks_exact(ABREAST * blocks).zip(pair.by_v.chunks_exact(ABREAST * blocks));
-    let out = out.as_chunks_mut::<ABREAST>().0.iter_mut().zip(pair.by_ground.as_chunks::<ABREAST>().0);
-    for ((by_q, by_v), (out, by_ground)) in rows.zip(out) {
-        // Equal lengths: no bounds checks below.
-        let mut of_q = [&by_q[..blocks]; ABREAST];
-        let mut of_v = [&by_v[..blocks]; ABREAST];
-        for n in 1..ABREAST {
-            of_q[n] = &by_q[n * blocks..][..blocks];
-            of_v[n] = &by_v[n * blocks..][..blocks];
-        }
-        let mut sums = [[[0.0; LANES]; 2]; ABREAST];
-        for c in 0..blocks {
-            for n in 0..ABREAST {
-                sums[n][0] = each(|i| sums[n][0][i] + of_q[n][c][i] * q[c][i]);
-                sums[n][1] = each(|i| sums[n][1][i] + of_v[n][c][i] * v[c][i]);
-            }
-        }
-        for n in 0..ABREAST {
-            let of_modes = from_left_to_right(each(|i| sums[n][0][i] + sums[n][1][i]));
-            out[n] = of_modes + (by_ground[n][0] * acceleration + by_ground[n][1] * slope);
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::structure::{Interval, Scratch, dot};
+
+    /// Both buildings flown exactly to some times, against the polynomial of a distance between their floors.
+    #[test]
+    fn they_are_the_distance_of_buildings_that_fly() {
+        let building = |n: usize, stiffness: f64| {
+            let damping = "damping = { rayleigh = { ratio = 0.05, modes = [1, 2] } }";
+            format!("mass = {:?}\nstiffness = {:?}\n{damping}", vec![2.0; n], vec![stiffness; n])
+        };
+        let text = format!("name = \"Two\"\n[left]\n{}\n[right]\n{}", building(14, 900.0), building(11, 500.0));
+        let scene = Scene::from_toml(&text).unwrap();
+        let structure = Structure::new(&scene.left, &scene.right).unwrap();
+        let length = 6.0 / structure.fastest;
+        let vector = |seed: f64| (0..structure.lanes).map(|m| (seed + 1.3 * m as f64).sin()).collect::<Vec<_>>();
+        let (row, q, v) = (vector(0.1), vector(0.7), vector(1.9));
+        let rows = FreeRows::new(&structure, [&row[..]].into_iter(), length);
+        let (acceleration, slope) = (2.5, -40.0);
+        let mut terms = [dot(&row, &q), dot(&row, &v) * length].to_vec();
+        terms.resize(FreeRows::TERMS, f64::NAN);
+        rows.enter(0, (&q, &v), (acceleration, slope), &mut terms);
+        let [load, rate] = [acceleration, slope].map(|a| structure.participation.iter().map(|p| -p * a).collect::<Vec<_>>());
+        let (mut end_q, mut end_v) = (vector(0.0), vector(0.0));
+        for i in 1..=20 {
+            let x = f64::from(i) / 20.0;
+            let interval = Interval::new(&structure, x * length);
+            interval.fly((&q, &v), (&load, &rate), (&mut end_q, &mut end_v), &mut Scratch::new(structure.lanes));
+            let value = terms.iter().rev().fold(0.0, |sum, term| sum * x + term);
+            let exact = dot(&row, &end_q);
+            assert!((value - exact).abs() < 2e-13, "{value} instead of {exact} at {x}");
         }
     }
 }

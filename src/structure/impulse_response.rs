@@ -1,8 +1,9 @@
 //! The impulse response of each mode in powers of time: h'' + c h' + w^2 h = 0 from h = 0, h' = 1.
 
 use super::equations::Structure;
-use super::lanes::LANES;
+use super::lanes::{LANES, Lane};
 use super::mode_polynomials::{FURTHEST, POLYNOMIAL_TERMS, PolynomialMaker};
+use super::series::sums::sum_blocks;
 use crate::numerics::polynomial::{COUNT, each};
 
 /// Powers of time of an impulse response.
@@ -105,6 +106,16 @@ impl ImpulseResponse {
         kernel
     }
 
+    /// A bound on the integral of the magnitude of the second derivative of a kernel over a time, s, 1/kg: a mode that
+    /// swings reverses its velocity, of at most 1, once in half a period, one that creeps loses it.
+    pub fn bend(&self, structure: &Structure, row: &[f64], other: &[f64], time: f64) -> f64 {
+        let of_mode = |m: usize| {
+            let swings = structure.omega2[m].sqrt() * time / std::f64::consts::PI;
+            (structure.quickness[m] * time).min(2.0 * (swings.ceil() + 1.0))
+        };
+        (0..self.lanes).map(|m| (row[m] * other[m]).abs() * of_mode(m)).sum()
+    }
+
     /// Subtracts the effect of a contact force from a motion, by the moments of the force, N s^(k+1): the integrals of
     /// (time left)^k F. The terms are summed first, from the smallest on, and meet the larger motion as one sum.
     pub fn push(&self, row: &[f64], moments: &[f64], motion: (&mut [f64], &mut [f64])) {
@@ -117,19 +128,40 @@ impl ImpulseResponse {
 fn push(response: &ImpulseResponse, row: &[f64], moments: &[f64], (q, v): (&mut [f64], &mut [f64])) {
     let width = response.lanes / LANES;
     let (terms, row) = (response.terms.as_chunks::<LANES>().0, row.as_chunks::<LANES>().0);
-    let terms = &terms[width..moments.len() * width];
-    let motion = q.as_chunks_mut::<LANES>().0.iter_mut().zip(v.as_chunks_mut::<LANES>().0);
-    for (c, ((q, v), row)) in motion.zip(row).enumerate() {
-        let (mut moved, mut slowed) = ([0.0; LANES], [0.0; LANES]);
-        let moments = moments.iter().zip(&moments[1..]).zip(&COUNT[1..]);
-        for (term, ((before, now), k)) in terms.chunks_exact(width).zip(moments).rev() {
-            let (term, before) = (&term[c], k * before);
-            moved = each(|i| moved[i] + term[i] * now);
-            slowed = each(|i| slowed[i] + term[i] * before);
-        }
-        *q = each(|i| q[i] - row[i] * moved[i]);
-        *v = each(|i| v[i] - row[i] * slowed[i]);
+    let terms = (&terms[width..moments.len() * width], width);
+    let (q, v) = (q.as_chunks_mut::<LANES>().0, v.as_chunks_mut::<LANES>().0);
+    let mut before = [0.0; RESPONSE_POWERS];
+    for ((before, moment), k) in before.iter_mut().zip(moments).zip(&COUNT[1..]) {
+        *before = k * moment;
     }
+    let moments = (&moments[1..], &before[..moments.len() - 1]);
+    let mut first = 0;
+    while first < width {
+        first += match width - first {
+            1 => push_next::<1>(terms, first, moments, row, (q, v)),
+            2 => push_next::<2>(terms, first, moments, row, (q, v)),
+            3 => push_next::<3>(terms, first, moments, row, (q, v)),
+            _ => push_next::<4>(terms, first, moments, row, (q, v)),
+        };
+    }
+}
+
+/// Pushes `N` blocks, from the `first` on; returns how many that are.
+#[inline(always)]
+fn push_next<const N: usize>(
+    terms: (&[Lane], usize),
+    first: usize,
+    moments: (&[f64], &[f64]),
+    row: &[Lane],
+    (q, v): (&mut [Lane], &mut [Lane]),
+) -> usize {
+    let (moved, slowed) = sum_blocks::<N>(terms, first, moments, 1.0);
+    let (row, q, v) = (&row[first..first + N], &mut q[first..first + N], &mut v[first..first + N]);
+    for c in 0..N {
+        q[c] = each(|i| q[c][i] - row[c][i] * moved[c][i]);
+        v[c] = each(|i| v[c][i] - row[c][i] * slowed[c][i]);
+    }
+    N
 }
 
 #[cfg(test)]

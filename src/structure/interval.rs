@@ -5,6 +5,7 @@ use super::equations::{Scratch, Side, Structure};
 use super::lanes::{FEW_BLOCKS, LANES, Lane};
 use super::modes::ModalDamping;
 use super::propagator::{CoupledIncrement, ModeIncrement};
+use crate::numerics::polynomial::each;
 
 /// The increments of [`LANES`] modes side by side.
 #[derive(Clone, Copy, Debug, Default)]
@@ -40,14 +41,11 @@ impl ModeIncrements {
         load: &[f64; LANES],
         slope: &[f64; LANES],
     ) -> ([f64; LANES], [f64; LANES]) {
-        let mut end = ([0.0; LANES], [0.0; LANES]);
-        for i in 0..LANES {
-            let from_load =
-                (self.rq0[i] * load[i] + self.rq1[i] * slope[i], self.rv0[i] * load[i] + self.rv1[i] * slope[i]);
-            end.0[i] = q[i] + (self.dqq[i] * q[i] + self.dqv[i] * v[i] + from_load.0);
-            end.1[i] = v[i] + (self.dvq[i] * q[i] + self.dvv[i] * v[i] + from_load.1);
-        }
-        end
+        let pushed = each(|i| self.rq0[i] * load[i] + self.rq1[i] * slope[i]);
+        let end_q = each(|i| q[i] + (self.dqq[i] * q[i] + self.dqv[i] * v[i] + pushed[i]));
+        let pushed = each(|i| self.rv0[i] * load[i] + self.rv1[i] * slope[i]);
+        let end_v = each(|i| v[i] + (self.dvq[i] * q[i] + self.dvv[i] * v[i] + pushed[i]));
+        (end_q, end_v)
     }
 
     /// The same under the ground's acceleration and its slope alone.
@@ -218,6 +216,8 @@ fn fly_modes(
     let (q, v, load, slope) = (&q[..width], &v[..width], &load[..width], &slope[..width]);
     let (end_q, end_v) = (&mut end_q[..width], &mut end_v[..width]);
     for c in 0..width {
-        (end_q[c], end_v[c]) = modes[c].end(&q[c], &v[c], &load[c], &slope[c]);
+        let (q, v) = modes[c].end(&q[c], &v[c], &load[c], &slope[c]);
+        end_q[c] = q;
+        end_v[c] = v;
     }
 }

@@ -16,6 +16,10 @@ use crate::engine::window::free::FreeTerms;
 use crate::engine::window::kernels::Windows;
 use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::SECOND;
+use crate::structure::FreeRows;
+use std::array::from_fn;
+use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// Halvings of a piece of a window to show that a pair stays apart in it: down to a distance of rounding.
 const MOST_HALVINGS: u32 = 16;
@@ -35,7 +39,8 @@ impl Windows {
             let kernels = &equation.kernels[place].each_ref();
             let sense = if place < equation.closed { Sense::Up } else { Sense::Down };
             let terms = &equation.free[place][..equation.terms];
-            let bend = window.bend(sense, terms, kernels, Some(place));
+            let bends = self.bends(system, window, window.contacts[place]);
+            let bend = window.bend(sense, terms, (kernels, &bends), Some(place));
             let passage = Passage { window, place, contact: &base.contacts[window.contacts[place]], bend, ending };
             if place < equation.closed {
                 return passage.stays_in_contact();
@@ -43,6 +48,11 @@ impl Windows {
             passage.stays_apart(&Approach { window, free: terms, kernels, bend })
         });
         pairs_hold && self.others_stay_apart(system, base, (window, free), work)
+    }
+
+    /// Bounds on the integrals of the second derivatives of a pair's kernels, for the closed pairs of a window.
+    fn bends(&self, system: &System, window: &Window, p: usize) -> [f64; MOST_PAIRS] {
+        window.contacts.map(|q| self.bend_of_kernel(system, p, q))
     }
 
     /// Whether all pairs outside the window stay apart.
@@ -63,7 +73,8 @@ impl Windows {
             for ((kernel, room), q) in kernels.iter_mut().zip(&mut room).zip(&contacts[..equation.closed]) {
                 *kernel = self.kernel(system, p, *q, room);
             }
-            let bend = |sense: Sense| window.bend(sense, terms, &kernels, None);
+            let bends = self.bends(system, window, p);
+            let bend = |sense: Sense| window.bend(sense, terms, (&kernels, &bends), None);
             if keeps_off(contact, bend(Sense::Up), solution.length) {
                 return true;
             }
@@ -95,19 +106,67 @@ impl Window {
     /// Bound on the second derivative of a pair's penetration over the window, in that sense, m/s2: of its motion
     /// without contact forces, from the terms `free`, and of all contact forces, from the `kernels`. The direct effect
     /// of its own force is left out if it is number `itself` in the window.
-    fn bend(&self, sense: Sense, free: &[f64], kernels: &[&Kernel; MOST_PAIRS], itself: Option<usize>) -> f64 {
+    fn bend(
+        &self,
+        sense: Sense,
+        free: &[f64],
+        (kernels, bends): (&[&Kernel; MOST_PAIRS], &[f64; MOST_PAIRS]),
+        itself: Option<usize>,
+    ) -> f64 {
         let Window { equation, solution, greatest, .. } = self;
         let (x, h) = (solution.length / equation.scale, solution.length);
-        let later = sum_of_sizes(free, 3, x);
-        let at_start = if sense == Sense::Up { 2.0 * free[2] } else { -2.0 * free[2] };
-        let mut bend = (at_start + later * x) / (equation.scale * equation.scale);
+        let mut bend = match free.len() == FreeRows::TERMS {
+            // Powers of quick modes cancel: their magnitudes would say nothing.
+            true => highest_curvature(free, x, sense),
+            false => {
+                let at_start = if sense == Sense::Up { 2.0 * free[2] } else { -2.0 * free[2] };
+                at_start + sum_of_sizes(free, 3, x) * x
+            }
+        };
+        bend /= equation.scale * equation.scale;
         for q in 0..equation.closed {
             let at_once = if itself == Some(q) { 0.0 } else { kernels[q][1].abs() };
             let later = sum_of_sizes(&kernels[q][..equation.powers], 2, h);
-            bend += greatest[q] * (at_once + later * h);
+            bend += greatest[q] * (at_once + (later * h).min(bends[q]));
         }
         bend.max(0.0)
     }
+}
+
+/// Points at which the second derivative of a polynomial of [`FreeRows::TERMS`] terms is evaluated for a bound on it.
+const POINTS: usize = 36;
+
+/// The zeros of the Chebyshev polynomial of that degree on 0..=1, by fours.
+static CHEBYSHEV: LazyLock<[[f64; 4]; POINTS / 4]> = LazyLock::new(|| {
+    from_fn(|c| from_fn(|i| 0.5 - 0.5 * libm::cos((2 * (4 * c + i) + 1) as f64 * PI / (2 * POINTS) as f64)))
+});
+
+/// A polynomial of degree n is at most 1 / cos(n pi / (2 N)) times as large as at N such points [EhlichZeller1964]: for
+/// the second derivative of one of [`FreeRows::TERMS`] terms.
+const BETWEEN_POINTS: f64 = 1.36;
+
+/// A bound on the second derivative of a polynomial, of that sense, over 0..=x.
+fn highest_curvature(terms: &[f64], x: f64, sense: Sense) -> f64 {
+    let (lowest, highest) = curvatures(&CHEBYSHEV, terms, x);
+    let (middle, half) = (0.5 * (highest + lowest), 0.5 * (highest - lowest));
+    let bound = BETWEEN_POINTS * half + if sense == Sense::Up { middle } else { -middle };
+    if bound.is_nan() { f64::INFINITY } else { bound }
+}
+
+/// The least and the largest second derivative at the points.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn curvatures(points: &[[f64; 4]; POINTS / 4], terms: &[f64], x: f64) -> (f64, f64) {
+    let mut sums = [[0.0; 4]; POINTS / 4];
+    for (term, count) in terms[2..].iter().zip(&SECOND[2..]).rev() {
+        let factor = term * count;
+        for c in 0..POINTS / 4 {
+            for i in 0..4 {
+                sums[c][i] = sums[c][i] * (points[c][i] * x) + factor;
+            }
+        }
+    }
+    let sums = sums.as_flattened();
+    sums.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), sum| (sum.min(low), sum.max(high)))
 }
 
 /// Sum of the magnitudes of the second derivatives of the terms from number `first` on, divided by the power of x in

@@ -30,7 +30,7 @@ impl FreeTerms<'_> {
     pub fn count(&self) -> usize {
         match self {
             FreeTerms::Series(series) => series.order + 1,
-            FreeTerms::Rows(rows, _) => rows.terms(),
+            FreeTerms::Rows(..) => FreeRows::TERMS,
         }
     }
 

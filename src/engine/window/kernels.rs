@@ -1,6 +1,7 @@
 //! Data of windows that stay constant during a run: kernels of the pairs, error allowance, lengths.
 
 use crate::collocation::{Kernel, POWERS, Tables};
+use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
 use crate::engine::window::spring::Spring;
 use crate::structure::FreeRows;
@@ -25,6 +26,9 @@ pub struct Windows {
     pub allowed: f64,
     /// Length of windows relative to that at the usual tolerance.
     pub length_factor: f64,
+    /// Bounds on the integrals of their second derivatives over [`Windows::longest`], 1/kg; empty where the kernels'
+    /// terms bound these well.
+    bends: Vec<f64>,
     /// Polynomials of the pairs' distances without contact forces, where modes are many; else these are series.
     pub free_rows: Option<FreeRows>,
     /// For each pair, the spring of its law, where the law is a power law.
@@ -40,9 +44,18 @@ impl Windows {
         let kernels = known.iter().flat_map(|p| known.iter().map(|q| response.kernel(&p.row, &q.row))).collect();
         let allowed = BETWEEN_NODES / libm::cbrt(tolerance.step);
         let springs = pairs.iter().map(Spring::of).collect();
+        let bends = response.longest().map_or(Vec::new(), |time| {
+            let of = |p: &Pair, q: &Pair| response.bend(structure, &p.row, &q.row, time);
+            pairs.iter().flat_map(|p| pairs.iter().map(move |q| of(p, q))).collect()
+        });
         let rows = || pairs.iter().map(|pair| &pair.row[..]);
         let free_rows = response.longest().map(|length| FreeRows::new(structure, rows(), length));
-        Some(Windows { kernels, allowed, length_factor: length_factor(tolerance.step), free_rows, springs })
+        Some(Windows { kernels, allowed, length_factor: length_factor(tolerance.step), bends, free_rows, springs })
+    }
+
+    /// A bound on the integral of the magnitude of the second derivative of a kernel over any window, 1/kg.
+    pub fn bend_of_kernel(&self, system: &System, p: usize, q: usize) -> f64 {
+        self.bends.get(p * system.pairs.len() + q).copied().unwrap_or(f64::INFINITY)
     }
 
     /// The kernel G_pq of two pairs; it is worked out in `room` if it is not stored.
