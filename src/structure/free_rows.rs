@@ -2,10 +2,10 @@
 //! power, prepared once, instead of a series of all modes.
 
 use super::equations::Structure;
-use super::lane_matrix::LaneMatrix;
-use super::lanes::LANES;
+use super::lanes::{LANES, Lane};
 use super::mode_polynomials::{POLYNOMIAL_TERMS, PolynomialMaker};
 use crate::numerics::polynomial::each;
+use std::array::from_fn;
 
 /// The rows of some pairs over a length of time.
 #[derive(Clone, Debug)]
@@ -15,11 +15,14 @@ pub struct FreeRows {
     pairs: Vec<PairRows>,
 }
 
+/// Blocks of powers.
+const BLOCKS: usize = POLYNOMIAL_TERMS / LANES;
+
 /// The rows of one pair; those of the first two powers, which are the distance and its rate, are empty.
 #[derive(Clone, Debug)]
 struct PairRows {
-    /// For the displacements and the velocities of all modes.
-    by_motion: [LaneMatrix; 2],
+    /// All powers by the displacement of a mode and by its velocity, mode by mode.
+    by_motion: Vec<[[Lane; BLOCKS]; 2]>,
     /// For the ground acceleration and its slope.
     by_ground: [[f64; POLYNOMIAL_TERMS]; 2],
 }
@@ -35,13 +38,13 @@ impl FreeRows {
         let modes: Vec<_> = (0..structure.lanes).map(mode).collect();
         let pair = |row: &[f64]| {
             let entry = |of: usize, n: usize, m: usize| if n < 2 { 0.0 } else { row[m] * modes[m][of][n] };
-            let matrix =
-                |of: usize| LaneMatrix::rectangular([POLYNOMIAL_TERMS, row.len()], 0, 0, |n, m| entry(of, n, m));
+            let powers = |of: usize, m: usize| from_fn(|c| each(|i| entry(of, LANES * c + i, m)));
+            let by_motion = (0..row.len()).map(|m| [powers(0, m), powers(1, m)]).collect();
             let share = |of: usize, n: usize| {
                 structure.participation.iter().enumerate().map(|(m, share)| -entry(of, n, m) * share).sum()
             };
-            let by_ground = [2, 3].map(|of| std::array::from_fn(|n| share(of, n)));
-            PairRows { by_motion: [0, 1].map(matrix), by_ground }
+            let by_ground = [2, 3].map(|of| from_fn(|n| share(of, n)));
+            PairRows { by_motion, by_ground }
         };
         FreeRows { length, pairs: pairs.map(pair).collect() }
     }
@@ -49,16 +52,38 @@ impl FreeRows {
     /// Writes the terms of a pair's distance from power 2 on, m, from the motion at the start, the ground acceleration
     /// there, m/s2, and its slope.
     pub fn enter(&self, pair: usize, (q, v): (&[f64], &[f64]), (acceleration, slope): (f64, f64), out: &mut [f64]) {
-        let PairRows { by_motion: [by_q, by_v], by_ground: [by_acceleration, by_slope] } = &self.pairs[pair];
-        let mut terms = [[0.0; LANES]; POLYNOMIAL_TERMS / LANES];
+        let PairRows { by_motion, by_ground: [by_acceleration, by_slope] } = &self.pairs[pair];
+        let mut terms = add_up(by_motion, q, v);
         let ground = by_acceleration.as_chunks::<LANES>().0.iter().zip(by_slope.as_chunks::<LANES>().0);
         for (terms, (by_acceleration, by_slope)) in terms.iter_mut().zip(ground) {
-            *terms = each(|i| by_acceleration[i] * acceleration + by_slope[i] * slope);
+            *terms = each(|i| terms[i] + (by_acceleration[i] * acceleration + by_slope[i] * slope));
         }
-        by_q.add(q, &mut terms);
-        by_v.add(v, &mut terms);
         out[2..POLYNOMIAL_TERMS].copy_from_slice(&terms.as_flattened()[2..]);
     }
+}
+
+/// The sums over all modes.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn add_up(rows: &[[[Lane; BLOCKS]; 2]], q: &[f64], v: &[f64]) -> [Lane; BLOCKS] {
+    let (mut moved, mut moving) = ([[0.0; LANES]; BLOCKS], [[0.0; LANES]; BLOCKS]);
+    for (([by_q, by_v], q), v) in rows.iter().zip(q).zip(v) {
+        for c in 0..BLOCKS {
+            for i in 0..LANES {
+                moved[c][i] += by_q[c][i] * q;
+            }
+        }
+        for c in 0..BLOCKS {
+            for i in 0..LANES {
+                moving[c][i] += by_v[c][i] * v;
+            }
+        }
+    }
+    for c in 0..BLOCKS {
+        for i in 0..LANES {
+            moved[c][i] += moving[c][i];
+        }
+    }
+    moved
 }
 
 #[cfg(test)]

@@ -201,23 +201,29 @@ fn prepare_blocks(interval: &mut Interval, structure: &Structure, length: f64) {
     }
 }
 
-/// The end of all modes from q, v, load and slope, as if damping coupled none.
+/// The end of all modes from q, v, load and slope, as if damping coupled none. Returns the sum of all numbers at the end,
+/// which goes from block to block: else the compiler takes four blocks at a time and spends its time sorting them.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn fly_modes(
     modes: &[ModeIncrements],
     (q, v): (&[f64], &[f64]),
     (load, slope): (&[f64], &[f64]),
     (end_q, end_v): (&mut [f64], &mut [f64]),
-) {
+) -> Lane {
     let [(q, _), (v, _), (load, _), (slope, _)] = [q, v, load, slope].map(<[f64]>::as_chunks::<LANES>);
     let [(end_q, _), (end_v, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
     // Equal lengths: no bounds checks below.
     let width = modes.len();
     let (q, v, load, slope) = (&q[..width], &v[..width], &load[..width], &slope[..width]);
     let (end_q, end_v) = (&mut end_q[..width], &mut end_v[..width]);
+    let mut sum = [0.0; LANES];
     for c in 0..width {
         let (q, v) = modes[c].end(&q[c], &v[c], &load[c], &slope[c]);
+        for i in 0..LANES {
+            sum[i] += q[i] + v[i];
+        }
         end_q[c] = q;
         end_v[c] = v;
     }
+    sum
 }

@@ -17,27 +17,17 @@ pub struct LaneMatrix {
 impl LaneMatrix {
     /// `size` rows from lane `target` on and columns from lane `source` on.
     pub fn new(size: usize, source: usize, target: usize, entry: impl Fn(usize, usize) -> f64) -> LaneMatrix {
-        LaneMatrix::rectangular([size, size], source, target, entry)
-    }
-
-    /// The same for any numbers of rows and columns.
-    pub fn rectangular(
-        [rows, columns]: [usize; 2],
-        source: usize,
-        target: usize,
-        entry: impl Fn(usize, usize) -> f64,
-    ) -> LaneMatrix {
-        let blocks = target / LANES..(target + rows).div_ceil(LANES);
+        let blocks = target / LANES..(target + size).div_ceil(LANES);
         let of_row = |lane: usize, column: usize| match lane.checked_sub(target) {
-            Some(row) if row < rows => entry(row, column),
+            Some(row) if row < size => entry(row, column),
             _ => 0.0,
         };
         let entries = blocks
             .clone()
-            .flat_map(|block| (0..columns).map(move |column| (block, column)))
+            .flat_map(|block| (0..size).map(move |column| (block, column)))
             .map(|(block, column)| std::array::from_fn(|i| of_row(block * LANES + i, column)))
             .collect();
-        LaneMatrix { source, columns, target: blocks.start, entries }
+        LaneMatrix { source, columns: size, target: blocks.start, entries }
     }
 
     /// The rows of one block of the target, where any of them is of this matrix.

@@ -3,6 +3,7 @@
 use crate::collocation::{Kernel, POWERS, Tables};
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
+use crate::engine::window::prepared_push::PreparedPush;
 use crate::engine::window::spring::Spring;
 use crate::structure::FreeRows;
 
@@ -31,6 +32,8 @@ pub struct Windows {
     bends: Vec<f64>,
     /// Polynomials of the pairs' distances without contact forces, where modes are many; else these are series.
     pub free_rows: Option<FreeRows>,
+    /// For each pair, the effect of its force over windows of that length; empty where these distances are series.
+    pub prepared_pushes: Vec<PreparedPush>,
     /// For each pair, the spring of its law, where the law is a power law.
     pub springs: Vec<Option<Spring>>,
 }
@@ -48,9 +51,11 @@ impl Windows {
             let of = |p: &Pair, q: &Pair| response.bend(structure, &p.row, &q.row, time);
             pairs.iter().flat_map(|p| pairs.iter().map(move |q| of(p, q))).collect()
         });
+        let push = |pair: &Pair| Some(PreparedPush::new(response, &pair.row, response.longest()?));
+        let prepared_pushes = pairs.iter().filter_map(push).collect();
         let rows = || pairs.iter().map(|pair| &pair.row[..]);
         let free_rows = response.longest().map(|length| FreeRows::new(structure, rows(), length));
-        Some(Windows { kernels, allowed, length_factor: length_factor(tolerance.step), bends, free_rows, springs })
+        Some(Windows { kernels, allowed, length_factor: length_factor(tolerance.step), bends, free_rows, prepared_pushes, springs })
     }
 
     /// A bound on the integral of the magnitude of the second derivative of a kernel over any window, 1/kg.

@@ -8,6 +8,7 @@
 pub mod certificate;
 pub mod free;
 pub mod kernels;
+pub mod prepared_push;
 pub mod solution;
 pub mod spring;
 pub mod trial;
@@ -101,7 +102,7 @@ impl Windows {
                 Verdict::Good => {
                     at.counters.contact_steps += 1;
                     at.counters.law_evaluations += base.count_forces(Contact::branch);
-                    window.commit((system, base), free, planned, work, trial.ending, whole);
+                    window.commit((system, base), (self, free), planned, work, trial.ending, whole);
                     return true;
                 }
                 Verdict::Another(next) => trial = next,
@@ -274,7 +275,7 @@ impl Window {
     fn commit(
         &self,
         (system, base): (&System, &Base),
-        terms: FreeTerms,
+        (windows, terms): (&Windows, FreeTerms),
         planned: &mut Planned,
         work: &mut Buffers,
         ending: Ending,
@@ -295,7 +296,11 @@ impl Window {
             FreeTerms::Series(series) => FreeMotion::Series(series, &mut work.powers),
             FreeTerms::Rows(..) => FreeMotion::Flight(base, (&work.load, &work.slope), &mut work.interval),
         };
-        self.evaluate(system, free, length, (&mut planned.q, &mut planned.v));
+        let end = (&mut planned.q[..], &mut planned.v[..]);
+        match windows.prepared_pushes.is_empty() {
+            true => self.evaluate(system, free, length, end),
+            false => self.end_by_nodes(system, windows, free, end),
+        }
         planned.next_length = Some(length);
     }
 

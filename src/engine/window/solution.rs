@@ -6,6 +6,7 @@ use crate::collocation::{
 use crate::engine::base::contact::Contact;
 use crate::engine::system::System;
 use crate::engine::window::free::FreeMotion;
+use crate::engine::window::kernels::Windows;
 use crate::numerics::polynomial::{each, value_and_slope};
 use crate::numerics::roots;
 
@@ -188,6 +189,20 @@ impl Window {
         }
         for (place, pair) in pairs.iter_mut().enumerate().take(self.equation.closed) {
             *pair = self.depth(place, elapsed, moments);
+        }
+    }
+}
+
+impl Window {
+    /// The motion at the end, with prepared matrices where there are any for this window.
+    pub fn end_by_nodes(&self, system: &System, windows: &Windows, free: FreeMotion, (q, v): (&mut [f64], &mut [f64])) {
+        let Some(response) = &system.impulse_response else { return };
+        let Solution { map, rule, length, ref force, .. } = self.solution;
+        free.evaluate(system, length, (q, v));
+        for ((&p, force), moments) in self.contacts.iter().zip(force).zip(&self.whole).take(self.equation.closed) {
+            if !windows.prepared_pushes[p].push((map, rule, length), force, (q, v)) {
+                response.push(&system.pairs[p].row, &moments[..self.equation.powers], (q, v));
+            }
         }
     }
 }
