@@ -5,7 +5,6 @@ use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
 use crate::engine::window::prepared_push::PreparedPush;
 use crate::engine::window::spring::Spring;
-use crate::structure::FreeRows;
 
 /// Relative tolerance of a step at which windows have the lengths of [`longest_window`], and the exponent with which
 /// their lengths depend on the tolerance.
@@ -30,8 +29,6 @@ pub struct Windows {
     /// Bounds on the integrals of their second derivatives over [`Windows::longest`], 1/kg; empty where the kernels'
     /// terms bound these well.
     bends: Vec<f64>,
-    /// Polynomials of the pairs' distances without contact forces, where modes are many; else these are series.
-    pub free_rows: Option<FreeRows>,
     /// For each pair, the effect of its force over windows of that length; empty where these distances are series.
     pub prepared_pushes: Vec<PreparedPush>,
     /// For each pair, the spring of its law, where the law is a power law.
@@ -53,9 +50,7 @@ impl Windows {
         });
         let push = |pair: &Pair| Some(PreparedPush::new(response, &pair.row, response.longest()?));
         let prepared_pushes = pairs.iter().filter_map(push).collect();
-        let rows = || pairs.iter().map(|pair| &pair.row[..]);
-        let free_rows = response.longest().map(|length| FreeRows::new(structure, rows(), length));
-        Some(Windows { kernels, allowed, length_factor: length_factor(tolerance.step), bends, free_rows, prepared_pushes, springs })
+        Some(Windows { kernels, allowed, length_factor: length_factor(tolerance.step), bends, prepared_pushes, springs })
     }
 
     /// A bound on the integral of the magnitude of the second derivative of a kernel over any window, 1/kg.

@@ -115,8 +115,8 @@ impl Windows {
     /// Sets the motion without contact forces and the kernels for windows up to `longest`, s; returns where terms of
     /// that motion come from, if they reach that far.
     fn set_equation<'a>(
-        &'a self,
-        system: &System,
+        &self,
+        system: &'a System,
         base: &'a Base,
         (window, series): (&mut Window, &'a mut MotionSeries),
         work: &Buffers,
@@ -125,7 +125,7 @@ impl Windows {
         let System { structure, tolerance, impulse_response, .. } = system;
         let equation = &mut window.equation;
         equation.remainder = (KERNEL_SHARE * tolerance.step).max(1e-17);
-        let free = match &self.free_rows {
+        let free = match &system.free_rows {
             Some(rows) => {
                 equation.powers = POWERS;
                 FreeTerms::Rows(rows, base)

@@ -82,7 +82,7 @@ impl Trial {
 impl Windows {
     /// Length of the longest window for which terms of the motion and kernels are good, s.
     pub fn longest(&self, system: &System) -> f64 {
-        self.free_rows.as_ref().map_or(MODES_REACH / system.structure.fastest, |rows| rows.length)
+        system.free_rows.as_ref().map_or(MODES_REACH / system.structure.fastest, |rows| rows.length)
     }
 
     /// The window to try first within the `remaining` seconds; `None` where numbers of a contact overflow or its
@@ -124,7 +124,7 @@ impl Windows {
         // With fewer nodes the length depends on a higher power of the tolerance.
         let (mut reach, least) = (self.length_factor * longest, Rule::Eight);
         longest = longest.min(self.longest(system));
-        if self.free_rows.is_some() && changes_little(base, window, longest.min(remaining)) {
+        if system.free_rows.is_some() && changes_little(base, window, longest.min(remaining)) {
             reach *= LITTLE_CHANGE.1;
         }
         if dashpot * time.min(longest).min(remaining) > TOO_STIFF {
@@ -137,7 +137,7 @@ impl Windows {
             _ => trial.until(Ending::Given, (time / (time / longest).ceil().max(2.0)).min(longest)),
         };
         // Where buildings lean on each other for many samples, no window is cut short of the next one.
-        let goes_through = self.free_rows.is_some() && remaining <= BEFORE_RELEASE * time && remaining <= longest;
+        let goes_through = system.free_rows.is_some() && remaining <= BEFORE_RELEASE * time && remaining <= longest;
         if trial.length <= remaining && !goes_through {
             return Some(trial);
         }
