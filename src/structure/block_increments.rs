@@ -17,7 +17,7 @@ const TERMS: usize = 12;
 const MOST_DOUBLINGS: i32 = 7;
 
 /// 1 / ((n + 1) (n + 2)) for n from 2 on, and (n + 2).
-const FACTORS: [[f64; 2]; TERMS] = {
+static FACTORS: [[f64; 2]; TERMS] = {
     let mut table = [[0.0; 2]; TERMS];
     let mut i = 0;
     while i < TERMS {
@@ -68,15 +68,21 @@ fn series((omega2, damping): (&Lane, &Lane), h: f64) -> ModeIncrements {
     let (mut before, mut last) = ([0.0; LANES], [1.0 / 6.0; LANES]);
     let (mut value, mut slope) = (last, [0.5; LANES]);
     let mut terms = [[0.0; LANES]; TERMS];
-    for ((n, [reciprocal, _]), term) in (2..).zip(FACTORS).zip(&mut terms) {
-        let count = f64::from(n + 1);
-        *term = each(|i| -(count * c[i] * last[i] + k[i] * before[i]) * reciprocal);
-        (before, last) = (last, *term);
+    // By numbers: iterators would copy the table.
+    for n in 0..TERMS {
+        let [reciprocal, count] = [FACTORS[n][0], FACTORS[n][1] - 1.0];
+        for i in 0..LANES {
+            terms[n][i] = -(count * c[i] * last[i] + k[i] * before[i]) * reciprocal;
+        }
+        (before, last) = (last, terms[n]);
     }
     let (mut small, mut steep) = ([0.0; LANES], [0.0; LANES]);
-    for (term, [_, power]) in terms.iter().zip(FACTORS).rev() {
-        small = each(|i| small[i] + term[i]);
-        steep = each(|i| steep[i] + power * term[i]);
+    for n in (0..TERMS).rev() {
+        let power = FACTORS[n][1];
+        for i in 0..LANES {
+            small[i] += terms[n][i];
+            steep[i] += power * terms[n][i];
+        }
     }
     (value, slope) = (each(|i| value[i] + small[i]), each(|i| slope[i] + steep[i]));
     // Responses to a sloped and to a constant load, to a velocity and to a displacement, in units of h.

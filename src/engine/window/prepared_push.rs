@@ -2,7 +2,6 @@
 //! forces at the nodes, with a matrix that is made once.
 
 use crate::collocation::{Map, POWERS, Row, Rule, Tables};
-use crate::numerics::polynomial::each;
 use crate::structure::{ImpulseResponse, LANES, Lane};
 
 /// Matrices of one pair for windows of one length without a map.
@@ -60,9 +59,10 @@ impl NodeMatrix {
     }
 }
 
-/// See [`PreparedPush::push`].
+/// See [`PreparedPush::push`]. Returns the sum of all that is subtracted, which goes from block to block: else the
+/// compiler takes four blocks at a time and spends its time sorting them.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn push(entries: &[[Lane; 2]], forces: &[f64], motion: (&mut [f64], &mut [f64])) {
+fn push(entries: &[[Lane; 2]], forces: &[f64], motion: (&mut [f64], &mut [f64])) -> Lane {
     match forces.len() {
         8 => push_blocks::<8>(entries, forces, motion),
         _ => push_blocks::<12>(entries, forces, motion),
@@ -71,17 +71,29 @@ fn push(entries: &[[Lane; 2]], forces: &[f64], motion: (&mut [f64], &mut [f64]))
 
 /// The same for `N` nodes, whose forces stay in registers.
 #[inline(always)]
-fn push_blocks<const N: usize>(entries: &[[Lane; 2]], forces: &[f64], (q, v): (&mut [f64], &mut [f64])) {
+fn push_blocks<const N: usize>(entries: &[[Lane; 2]], forces: &[f64], (q, v): (&mut [f64], &mut [f64])) -> Lane {
+    let mut sum = [0.0; LANES];
     let blocks = q.as_chunks_mut::<LANES>().0.iter_mut().zip(v.as_chunks_mut::<LANES>().0);
     let forces: &[f64; N] = forces.first_chunk().unwrap_or(&[0.0; N]);
     for (entries, (q, v)) in entries.as_chunks::<N>().0.iter().zip(blocks) {
         let (mut moved, mut slowed) = ([0.0; LANES], [0.0; LANES]);
         for j in 0..N {
-            let [of_q, of_v] = &entries[j];
-            moved = each(|i| moved[i] + of_q[i] * forces[j]);
-            slowed = each(|i| slowed[i] + of_v[i] * forces[j]);
+            for i in 0..LANES {
+                moved[i] += entries[j][0][i] * forces[j];
+            }
+            for i in 0..LANES {
+                slowed[i] += entries[j][1][i] * forces[j];
+            }
         }
-        *q = each(|i| q[i] - moved[i]);
-        *v = each(|i| v[i] - slowed[i]);
+        for i in 0..LANES {
+            q[i] -= moved[i];
+        }
+        for i in 0..LANES {
+            v[i] -= slowed[i];
+        }
+        for i in 0..LANES {
+            sum[i] += slowed[i];
+        }
     }
+    sum
 }
