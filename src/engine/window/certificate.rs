@@ -165,8 +165,15 @@ fn curvatures(points: &[[f64; 4]; POINTS / 4], terms: &[f64], x: f64) -> (f64, f
             }
         }
     }
-    let sums = sums.as_flattened();
-    sums.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), sum| (sum.min(low), sum.max(high)))
+    let (mut low, mut high) = (sums[0], sums[0]);
+    for sum in &sums[1..] {
+        for i in 0..4 {
+            low[i] = if sum[i] >= low[i] { low[i] } else { sum[i] };
+            high[i] = if sum[i] <= high[i] { high[i] } else { sum[i] };
+        }
+    }
+    let spoiled = 0.0 * sums.iter().flatten().sum::<f64>();
+    (low.into_iter().fold(low[0], f64::min) + spoiled, high.into_iter().fold(high[0], f64::max) + spoiled)
 }
 
 /// Sum of the magnitudes of the second derivatives of the terms from number `first` on, divided by the power of x in
