@@ -153,26 +153,28 @@ fn highest_curvature(terms: &[f64], x: f64, sense: Sense) -> f64 {
     if bound.is_nan() { f64::INFINITY } else { bound }
 }
 
-/// The least and the largest second derivative at the points.
+/// The least and the largest second derivative at the points; NaN where any is.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn curvatures(points: &[[f64; 4]; POINTS / 4], terms: &[f64], x: f64) -> (f64, f64) {
-    let mut sums = [[0.0; 4]; POINTS / 4];
-    for (term, count) in terms[2..].iter().zip(&SECOND[2..]).rev() {
-        let factor = term * count;
-        for c in 0..POINTS / 4 {
+    let mut factors = [0.0; FreeRows::TERMS];
+    for n in 2..FreeRows::TERMS {
+        factors[n] = terms[n] * SECOND[n];
+    }
+    let (mut low, mut high, mut all) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4], [0.0; 4]);
+    for points in points {
+        let mut sum = [0.0; 4];
+        for n in (2..FreeRows::TERMS).rev() {
             for i in 0..4 {
-                sums[c][i] = sums[c][i] * (points[c][i] * x) + factor;
+                sum[i] = sum[i] * (points[i] * x) + factors[n];
             }
         }
-    }
-    let (mut low, mut high) = (sums[0], sums[0]);
-    for sum in &sums[1..] {
         for i in 0..4 {
-            low[i] = if sum[i] >= low[i] { low[i] } else { sum[i] };
-            high[i] = if sum[i] <= high[i] { high[i] } else { sum[i] };
+            low[i] = if sum[i] < low[i] { sum[i] } else { low[i] };
+            high[i] = if sum[i] > high[i] { sum[i] } else { high[i] };
+            all[i] += 0.0 * sum[i];
         }
     }
-    let spoiled = 0.0 * sums.iter().flatten().sum::<f64>();
+    let spoiled: f64 = all.iter().sum();
     (low.into_iter().fold(low[0], f64::min) + spoiled, high.into_iter().fold(high[0], f64::max) + spoiled)
 }
 
