@@ -23,6 +23,9 @@ pub struct ImpulseResponse {
 }
 
 impl ImpulseResponse {
+    /// Largest (fastest rate) x (time) of polynomials.
+    pub const FURTHEST: f64 = FURTHEST;
+
     /// Of a structure; `None` where damping couples its modes.
     pub fn of(structure: &Structure) -> Option<ImpulseResponse> {
         if !structure.is_classical() {
@@ -43,7 +46,7 @@ impl ImpulseResponse {
         Some(ImpulseResponse { lanes, terms, fastest: structure.fastest, longest: None })
     }
 
-    /// Polynomials that are good up to a time, s, where that is no more than [`FURTHEST`] allows.
+    /// Polynomials that are good up to a time, s, where that is no more than [`ImpulseResponse::FURTHEST`] allows.
     pub fn over(structure: &Structure, time: f64) -> Option<ImpulseResponse> {
         // Written so that a NaN is no time.
         let is_possible = time > 0.0 && structure.fastest * time <= FURTHEST;

@@ -9,8 +9,10 @@ pub const POLYNOMIAL_TERMS: usize = 20;
 /// Terms of the power series that they come from.
 const SERIES_TERMS: usize = 64;
 
-/// Largest (rate) x (time): beyond it that series has not converged, and its terms cancel.
-pub const FURTHEST: f64 = 14.0;
+/// Largest (rate) x (time). Beyond it the series converges too late and its terms cancel. At it the quickest modes, which
+/// damping stops at once, are right to 1e-10 of what they do, which is next to nothing: the floors of the tallest buildings
+/// were right to rounding (measured).
+pub const FURTHEST: f64 = 13.5;
 
 /// The motions of a mode from q = 1, from v = 1, and from rest under a load of 1 and under a load t, in powers of
 /// t / `length`.

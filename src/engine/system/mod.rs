@@ -57,8 +57,7 @@ impl System {
             }
             None => None,
         };
-        let tolerance = Tolerance::of(scene.solver.relative_tolerance);
-        let impulse_response = impulse_response(&structure, &pairs, tolerance, ground.as_ref().filter(|_| !scene.floor_forces));
+        let impulse_response = impulse_response(&structure, &pairs, ground.as_ref().filter(|_| !scene.floor_forces));
         let rows = || pairs.iter().map(|pair| &pair.row[..]);
         let longest = impulse_response.as_ref().and_then(ImpulseResponse::longest);
         let free_rows = longest.map(|length| FreeRows::new(&structure, rows(), length));
@@ -66,7 +65,7 @@ impl System {
             initial: initial_state(scene, &structure),
             rigid: RigidPairs::of(&pairs),
             floor_forces: scene.floor_forces,
-            tolerance,
+            tolerance: Tolerance::of(scene.solver.relative_tolerance),
             contact_coordinates: contact_coordinates(&structure, free_rows.is_some()),
             least_approach: scene.solver.min_approach_velocity,
             free_rows,
@@ -225,7 +224,6 @@ fn set_load(shares: &[f64], (acceleration, rate): (f64, f64), load: &mut [f64], 
 fn impulse_response(
     structure: &Structure,
     pairs: &[Pair],
-    tolerance: Tolerance,
     ground: Option<&GroundMotion>,
 ) -> Option<ImpulseResponse> {
     if !pairs.iter().any(Pair::has_power_law) {
@@ -235,16 +233,10 @@ fn impulse_response(
     let is_for_many_modes = are_few && structure.lanes > FEW_BLOCKS * LANES && !cfg!(without = "windows");
     let length = ground.filter(|_| is_for_many_modes).map(GroundMotion::usual_length);
     let of_parts = length.and_then(|length| {
-        let parts = (structure.fastest * length / polynomial_reach(tolerance)).ceil().max(1.0);
+        let parts = (structure.fastest * length / ImpulseResponse::FURTHEST).ceil().max(1.0);
         ImpulseResponse::over(structure, length / parts)
     });
     of_parts.or_else(|| ImpulseResponse::of(structure))
-}
-
-/// Largest (fastest rate) x (time) over which polynomials are good enough: at the first, the results of the tallest
-/// buildings were right to 1e-12, at the second to rounding (measured).
-fn polynomial_reach(tolerance: Tolerance) -> f64 {
-    if tolerance.step >= 1e-13 { 13.5 } else { 7.0 }
 }
 
 /// The cheaper coordinates in contact: modes where they are few, where windows take them all at once, or where the floor

@@ -41,7 +41,10 @@ const SWEEP_SHARE: f64 = 0.3;
 const AT_REST: f64 = 0.1;
 
 /// Relative rounding error of the velocity that a force has given at the end of a window.
-const CANCELLED: f64 = 64.0 * f64::EPSILON;
+const CANCELLED: f64 = 2.0 * f64::EPSILON;
+
+/// Rounding error of velocities in any kind of step, relative to the velocity scale.
+const ROUNDED: f64 = 8.0 * f64::EPSILON;
 
 /// Largest number of pairs with dashpots in a window: with two, series in a time map cost about as much (measured).
 const MOST_DAMPED: usize = 1;
@@ -265,7 +268,7 @@ impl Window {
         let left = 2.0 * equation.free[place][2] / (equation.scale * equation.scale) - pushed;
         let stored = force.stored_energy(d) / system.pairs[p].mass;
         let lost = CANCELLED * pushed * equation.scale;
-        if system.flies_in_windows() && lost < system.tolerance.step * base.velocity_scale {
+        if system.flies_in_windows() && lost < (system.tolerance.step + ROUNDED) * base.velocity_scale {
             return false;
         }
         left.abs() < AT_REST * pushed && 0.5 * rate * rate < AT_REST * AT_REST * stored
