@@ -229,7 +229,8 @@ fn impulse_response(
     if !pairs.iter().any(Pair::has_power_law) {
         return None;
     }
-    let are_few = pairs.len() <= MOST_PAIRS && pairs.iter().all(Pair::has_power_law);
+    // Where a law changes with the sense of the motion, no bound shows which one acts in buildings that lean.
+    let are_few = pairs.len() <= MOST_PAIRS && pairs.iter().all(Pair::has_one_power_law);
     let is_for_many_modes = are_few && structure.lanes > FEW_BLOCKS * LANES && !cfg!(without = "windows");
     let length = ground.filter(|_| is_for_many_modes).map(GroundMotion::usual_length);
     let of_parts = length.and_then(|length| {
