@@ -12,7 +12,7 @@ use common::{Run, record, scene};
 struct Case {
     law: String,
     damping: &'static str,
-    /// Of both buildings. From 8 on contacts are followed floor by floor.
+    /// Of both buildings. From 8 on contacts are followed floor by floor, or in windows of many modes.
     storeys: usize,
     /// Without the account flights take a shorter way.
     energy: bool,
@@ -57,7 +57,7 @@ fn whole_runs_have_the_bits_of_every_other_machine() {
         (case(laws.jankowski(), RATIO), 0x78fc_f3e6_91ac_b9e4),
         (case(damped(), MATRIX), 0x476c_03e6_5691_63c9),
         (Case { storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0x9630_91c9_17f0_c417),
-        (Case { storeys: 9, ..case(damped(), RAYLEIGH) }, 0x1efd_b670_bece_7a5e),
+        (Case { storeys: 9, ..case(damped(), RAYLEIGH) }, 0xde41_1de3_0290_8b44),
         (Case { energy: false, ..case(damped(), RATIO) }, 0x2a0d_0bd6_3b32_da6f),
     ];
     let got = cases.each_ref().map(|(case, _)| fingerprint(case));

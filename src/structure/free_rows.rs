@@ -111,7 +111,8 @@ mod tests {
         let mut terms = [dot(&row, &q), dot(&row, &v) * length].to_vec();
         terms.resize(FreeRows::TERMS, f64::NAN);
         rows.enter(0, (&q, &v), (acceleration, slope), &mut terms);
-        let [load, rate] = [acceleration, slope].map(|a| structure.participation.iter().map(|p| -p * a).collect::<Vec<_>>());
+        let [load, rate] =
+            [acceleration, slope].map(|a| structure.participation.iter().map(|p| -p * a).collect::<Vec<_>>());
         let (mut end_q, mut end_v) = (vector(0.0), vector(0.0));
         for i in 1..=20 {
             let x = f64::from(i) / 20.0;

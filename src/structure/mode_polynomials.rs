@@ -36,8 +36,12 @@ impl PolynomialMaker {
     /// what is economized, so that errors are integrated twice.
     pub fn mode(&self, omega2: f64, damping: f64) -> ModePolynomials {
         let h = self.length;
-        let starts =
-            [([1.0, 0.0], [0.0, 0.0]), ([0.0, h], [0.0, 0.0]), ([0.0, 0.0], [h * h, 0.0]), ([0.0, 0.0], [0.0, h * h * h])];
+        let starts = [
+            ([1.0, 0.0], [0.0, 0.0]),
+            ([0.0, h], [0.0, 0.0]),
+            ([0.0, 0.0], [h * h, 0.0]),
+            ([0.0, 0.0], [0.0, h * h * h]),
+        ];
         ModePolynomials { of: starts.map(|(start, load)| self.motion((omega2 * h * h, damping * h), start, load)) }
     }
 
@@ -81,7 +85,8 @@ mod tests {
                 let exact = ModeIncrement::new(w, c, t);
                 let of = polynomials.of.map(|terms| terms.iter().rev().fold(0.0, |sum, term| sum * x + term));
                 let exact = [1.0 + exact.dqq, exact.dqv, exact.rq0, exact.rq1];
-                for ((got, exact), unit) in of.iter().zip(exact).zip([1.0, length, length * length, length * length * length])
+                for ((got, exact), unit) in
+                    of.iter().zip(exact).zip([1.0, length, length * length, length * length * length])
                 {
                     assert!((got - exact).abs() <= allowed * unit, "{w} {c} at {x}: {got} instead of {exact}");
                 }

@@ -65,7 +65,8 @@ fn compare(storeys: [usize; 2], contacts: &[(usize, &str)], allowed: f64) {
     }
     assert_eq!(run.point.impacts, series.point.impacts);
     assert!(closed > 50, "closed at {closed} times");
-    for of in [PeakOf::Displacement(Side::Left, storeys[0] - 1), PeakOf::Drift(Side::Right, 1), PeakOf::BaseShear(Side::Left)]
+    for of in
+        [PeakOf::Displacement(Side::Left, storeys[0] - 1), PeakOf::Drift(Side::Right, 1), PeakOf::BaseShear(Side::Left)]
     {
         near("peak", 8.0, run.peak(of), series.peak(of), series.peak(of));
     }
@@ -125,7 +126,10 @@ fn a_window_is_continuous_at_its_ends() {
         closed += i32::from(run.contact(0).active);
         let (_, u, v) = seen[2];
         for (off, displacement, velocity) in seen {
-            assert!((displacement - (u + off * v)).abs() < 1e-14, "{displacement} instead of {u} {off} s after {time} s");
+            assert!(
+                (displacement - (u + off * v)).abs() < 1e-14,
+                "{displacement} instead of {u} {off} s after {time} s"
+            );
             assert!((velocity - v).abs() < 1e-13 + 1e3 * off.abs(), "{velocity} instead of {v} {off} s after {time} s");
         }
     }

@@ -54,14 +54,7 @@ impl System {
 
     /// The same by series of all modes, one after another: where damping couples modes, matrices for a flight of a length
     /// that no other flight has would cost much more.
-    fn fly_in_pieces(
-        &self,
-        base: &Base,
-        h: f64,
-        pieces: usize,
-        work: &mut Buffers,
-        (q, v): (&mut [f64], &mut [f64]),
-    ) {
+    fn fly_in_pieces(&self, base: &Base, h: f64, pieces: usize, work: &mut Buffers, (q, v): (&mut [f64], &mut [f64])) {
         let Buffers { load, slope, scratch, series, powers, .. } = work;
         let piece = h / pieces as f64;
         let order = exact_order(self.structure.fastest * piece).unwrap_or(MAX_ORDER);
@@ -70,7 +63,10 @@ impl System {
         for i in 0..pieces {
             let start = i as f64 * piece;
             let moved = &mut scratch.room()[..load.len()];
-            moved.iter_mut().zip(load.iter().zip(&*slope)).for_each(|(moved, (load, slope))| *moved = load + slope * start);
+            moved
+                .iter_mut()
+                .zip(load.iter().zip(&*slope))
+                .for_each(|(moved, (load, slope))| *moved = load + slope * start);
             series.expand_flight(&self.structure, (q, v), (moved, slope), (piece, order));
             powers.set(1.0, series.order);
             series.evaluate(powers, q, v);

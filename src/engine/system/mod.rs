@@ -221,11 +221,7 @@ fn set_load(shares: &[f64], (acceleration, rate): (f64, f64), load: &mut [f64], 
 
 /// The response to an impulse, of use where a law has a root: polynomials over the time between two samples, or an equal
 /// part of it, for few pairs of buildings of many modes; else a power series.
-fn impulse_response(
-    structure: &Structure,
-    pairs: &[Pair],
-    ground: Option<&GroundMotion>,
-) -> Option<ImpulseResponse> {
+fn impulse_response(structure: &Structure, pairs: &[Pair], ground: Option<&GroundMotion>) -> Option<ImpulseResponse> {
     if !pairs.iter().any(Pair::has_power_law) {
         return None;
     }

@@ -50,7 +50,14 @@ impl Windows {
         });
         let push = |pair: &Pair| Some(PreparedPush::new(response, &pair.row, response.longest()?));
         let prepared_pushes = pairs.iter().filter_map(push).collect();
-        Some(Windows { kernels, allowed, length_factor: length_factor(tolerance.step), bends, prepared_pushes, springs })
+        Some(Windows {
+            kernels,
+            allowed,
+            length_factor: length_factor(tolerance.step),
+            bends,
+            prepared_pushes,
+            springs,
+        })
     }
 
     /// A bound on the integral of the magnitude of the second derivative of a kernel over any window, 1/kg.
