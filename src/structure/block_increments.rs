@@ -31,17 +31,7 @@ static FACTORS: [[f64; 2]; TERMS] = {
 /// How often an interval is halved for a block of modes whose quickest rate times the interval is `reach`; `None` where
 /// that would be too often.
 pub fn halvings(reach: f64) -> Option<i32> {
-    let mut halvings = 0;
-    let mut reach = reach;
-    // Written so that a NaN is never within reach.
-    while !(reach <= SERIES_REACH) {
-        halvings += 1;
-        reach *= 0.5;
-        if halvings > MOST_DOUBLINGS {
-            return None;
-        }
-    }
-    Some(halvings)
+    (0..=MOST_DOUBLINGS).find(|halvings| libm::ldexp(reach, -halvings) <= SERIES_REACH)
 }
 
 /// The increments of modes of squared frequencies w^2, 1/s2, and damping, 1/s, over an interval of `h` seconds that is

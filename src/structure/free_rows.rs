@@ -105,7 +105,9 @@ mod tests {
         let structure = Structure::new(&scene.left, &scene.right).unwrap();
         let length = 6.0 / structure.fastest;
         let vector = |seed: f64| (0..structure.lanes).map(|m| (seed + 1.3 * m as f64).sin()).collect::<Vec<_>>();
-        let (row, q, v) = (vector(0.1), vector(0.7), vector(1.9));
+        let (mut row, q, v) = (vector(0.1), vector(0.7), vector(1.9));
+        // Lanes that are no modes stay at rest.
+        row.iter_mut().zip(&structure.omega2).for_each(|(row, omega2)| *row *= f64::from(*omega2 > 0.0));
         let rows = FreeRows::new(&structure, [&row[..]].into_iter(), length);
         let (acceleration, slope) = (2.5, -40.0);
         let mut terms = [dot(&row, &q), dot(&row, &v) * length].to_vec();

@@ -113,7 +113,8 @@ impl ImpulseResponse {
     /// swings reverses its velocity, of at most 1, once in half a period, one that creeps loses it.
     pub fn bend(&self, structure: &Structure, row: &[f64], other: &[f64], time: f64) -> f64 {
         let of_mode = |m: usize| {
-            let swings = structure.omega2[m].sqrt() * time / std::f64::consts::PI;
+            let omega = structure.omega2[m].sqrt();
+            let swings = if structure.damping[m] < 2.0 * omega { omega * time / std::f64::consts::PI } else { 0.0 };
             (structure.quickness[m] * time).min(2.0 * (swings.ceil() + 1.0))
         };
         (0..self.lanes).map(|m| (row[m] * other[m]).abs() * of_mode(m)).sum()
@@ -202,5 +203,25 @@ mod tests {
             assert!((sum(powers) / sum(RESPONSE_POWERS) - 1.0).abs() < 1e-12, "{time}: {powers}");
         }
         assert_eq!(response.powers(10.0, 1e-12), None);
+    }
+
+    /// The velocity after an impulse, at many times: by how much it goes up and down in all.
+    #[test]
+    fn a_bound_on_the_bend_is_one() {
+        use crate::structure::ModeIncrement;
+        for (w, c) in [(3.0, 0.0), (3.0, 0.3), (1.0, 1.9), (4.0, 13.0), (0.1, 0.0)] {
+            let building = format!("mass = [1.0]\nstiffness = [{:?}]\ndamping = {{ matrix = [[{c:?}]] }}", w * w);
+            let text = format!("name = \"Two\"\n[left]\n{building}\n[right]\n{building}");
+            let scene = Scene::from_toml(&text).unwrap();
+            let structure = Structure::new(&scene.left, &scene.right).unwrap();
+            let response = ImpulseResponse::of(&structure).unwrap();
+            for time in [0.1, 1.0, 3.0, 10.0] {
+                let velocity = |k: i32| ModeIncrement::new(w, c, time * f64::from(k) / 1000.0).dvv;
+                let way: f64 = (1..1000).map(|k| (velocity(k + 1) - velocity(k)).abs()).sum();
+                let row: Vec<f64> = (0..structure.lanes).map(|m| f64::from(m == 0)).collect();
+                let bound = response.bend(&structure, &row, &row, time);
+                assert!(way <= bound && bound <= 6.0 * way + 4.0, "{w} {c} over {time}: {way}, {bound}");
+            }
+        }
     }
 }

@@ -141,7 +141,7 @@ static CHEBYSHEV: LazyLock<[[f64; 4]; POINTS / 4]> = LazyLock::new(|| {
     from_fn(|c| from_fn(|i| 0.5 - 0.5 * libm::cos((2 * (4 * c + i) + 1) as f64 * PI / (2 * POINTS) as f64)))
 });
 
-/// A polynomial of degree n is at most 1 / cos(n pi / (2 N)) times as large as at N such points [EhlichZeller1964]: for
+/// A polynomial of degree n is at most 1 / cos(n pi / (2 N)) times as large as at N such points \[EhlichZeller1964\]: for
 /// the second derivative of one of [`FreeRows::TERMS`] terms.
 const BETWEEN_POINTS: f64 = 1.36;
 
@@ -365,5 +365,39 @@ impl Passage<'_> {
             rate = rate.min((piece.to - piece.from) / piece.gone) + self.bend * piece.gone;
             recedes
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Polynomials with terms that cancel, such as quick modes have: the bound is above the curvature at all times, and not
+    /// far above the largest.
+    #[test]
+    fn a_bound_by_values_at_points_holds_between_them() {
+        for (rate, swing) in [(0.0, 3.0), (-13.0, 0.0), (-2.0, 9.0), (0.5, 1.0)] {
+            // exp(rate x) cos(swing x), by its first terms.
+            let (mut power, mut terms) = ([1.0, 0.0], [0.0; FreeRows::TERMS]);
+            for (n, term) in terms.iter_mut().enumerate() {
+                *term = power[0];
+                let k = n as f64 + 1.0;
+                power = [(rate * power[0] - swing * power[1]) / k, (rate * power[1] + swing * power[0]) / k];
+            }
+            for end in [0.1, 0.77, 1.0] {
+                let at = |k: u32| end * f64::from(k) / 1000.0;
+                let curvature = |x: f64| (2..terms.len()).rev().fold(0.0, |sum, n| sum * x + SECOND[n] * terms[n]);
+                for (sense, sign) in [(Sense::Up, 1.0), (Sense::Down, -1.0)] {
+                    let largest = (0..=1000).map(|k| sign * curvature(at(k))).fold(f64::NEG_INFINITY, f64::max);
+                    let size = (0..=1000).map(|k| curvature(at(k)).abs()).fold(0.0, f64::max);
+                    let bound = highest_curvature(&terms, end, sense);
+                    assert!(
+                        bound >= largest && bound <= largest + 0.5 * size,
+                        "{rate} {swing} {end}: {bound}, {largest}"
+                    );
+                }
+            }
+        }
+        assert_eq!(highest_curvature(&[f64::NAN; FreeRows::TERMS], 1.0, Sense::Up), f64::INFINITY);
     }
 }

@@ -41,10 +41,11 @@ impl NodeMatrix {
         let whole = &Tables::of(Map::Plain, rule).whole;
         let entry = |m: usize, j: usize| {
             let (mut moved, mut slowed, mut unit) = (0.0, 0.0, length);
-            for k in 0..POWERS {
-                moved += response.term(k)[m] * unit * whole[k][j];
+            for (k, whole) in whole.iter().enumerate() {
+                let moment = unit * whole[j];
+                moved += response.term(k)[m] * moment;
                 if k + 1 < POWERS {
-                    slowed += (k + 1) as f64 * response.term(k + 1)[m] * unit * whole[k][j];
+                    slowed += (k + 1) as f64 * response.term(k + 1)[m] * moment;
                 }
                 unit *= length;
             }
