@@ -1,5 +1,4 @@
 //! Fewer terms for a polynomial of any degree, by Chebyshev economization: done where a model is made, not in steps.
-//! (Windows have tables of their own for this, [`crate::collocation`].)
 
 /// Chebyshev polynomials of 0..=1, each divided by the factor of its highest power.
 pub struct Economization {

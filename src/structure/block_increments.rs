@@ -3,8 +3,8 @@
 //! [`super::propagator`] does the same mode by mode, with more care for each: for intervals that are prepared once. Here
 //! a mode takes some 50 instructions, for flights of a length that no other flight has.
 
-use super::interval::ModeIncrements;
 use super::lanes::{LANES, Lane};
+use super::propagator::ModeIncrement;
 use crate::numerics::polynomial::each;
 
 /// Largest (rate) x (time) over which the series is summed.
@@ -27,6 +27,61 @@ static FACTORS: [[f64; 2]; TERMS] = {
     }
     table
 };
+
+/// The increments of [`LANES`] modes side by side.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ModeIncrements {
+    dqq: Lane,
+    dqv: Lane,
+    dvq: Lane,
+    dvv: Lane,
+    rq0: Lane,
+    rq1: Lane,
+    rv0: Lane,
+    rv1: Lane,
+}
+
+impl ModeIncrements {
+    /// Enters one of the modes.
+    pub fn set(&mut self, i: usize, mode: &ModeIncrement) {
+        self.dqq[i] = mode.dqq;
+        self.dqv[i] = mode.dqv;
+        self.dvq[i] = mode.dvq;
+        self.dvv[i] = mode.dvv;
+        self.rq0[i] = mode.rq0;
+        self.rq1[i] = mode.rq1;
+        self.rv0[i] = mode.rv0;
+        self.rv1[i] = mode.rv1;
+    }
+
+    /// q and v at the end, from q, v and the load and its slope at the start.
+    #[inline(always)]
+    pub fn end(
+        &self,
+        q: &[f64; LANES],
+        v: &[f64; LANES],
+        load: &[f64; LANES],
+        slope: &[f64; LANES],
+    ) -> ([f64; LANES], [f64; LANES]) {
+        let pushed = each(|i| self.rq0[i] * load[i] + self.rq1[i] * slope[i]);
+        let end_q = each(|i| q[i] + (self.dqq[i] * q[i] + self.dqv[i] * v[i] + pushed[i]));
+        let pushed = each(|i| self.rv0[i] * load[i] + self.rv1[i] * slope[i]);
+        let end_v = each(|i| v[i] + (self.dvq[i] * q[i] + self.dvv[i] * v[i] + pushed[i]));
+        (end_q, end_v)
+    }
+
+    /// The same under the ground's acceleration and its slope alone.
+    #[inline(always)]
+    pub fn end_on_ground(
+        &self,
+        (q, v): (&Lane, &Lane),
+        participation: &Lane,
+        (acceleration, slope): (f64, f64),
+    ) -> (Lane, Lane) {
+        let (pull, rate) = (-acceleration, -slope);
+        self.end(q, v, &participation.map(|p| p * pull), &participation.map(|p| p * rate))
+    }
+}
 
 /// How often an interval is halved for a block of modes whose quickest rate times the interval is `reach`; `None` where
 /// that would be too often.
@@ -112,7 +167,6 @@ fn twice(of: &ModeIncrements, h: f64) -> ModeIncrements {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::structure::ModeIncrement;
 
     /// Against the closed form or the longer series of [`ModeIncrement`], from resting to heavily damped modes.
     #[test]

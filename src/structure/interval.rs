@@ -1,65 +1,10 @@
 //! The exact flight of all modes over one interval of time.
 
-use super::block_increments::{halvings, increments};
+use super::block_increments::{ModeIncrements, halvings, increments};
 use super::equations::{Scratch, Side, Structure};
 use super::lanes::{FEW_BLOCKS, LANES, Lane};
 use super::modes::ModalDamping;
 use super::propagator::{CoupledIncrement, ModeIncrement};
-use crate::numerics::polynomial::each;
-
-/// The increments of [`LANES`] modes side by side.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct ModeIncrements {
-    pub(super) dqq: Lane,
-    pub(super) dqv: Lane,
-    pub(super) dvq: Lane,
-    pub(super) dvv: Lane,
-    pub(super) rq0: Lane,
-    pub(super) rq1: Lane,
-    pub(super) rv0: Lane,
-    pub(super) rv1: Lane,
-}
-
-impl ModeIncrements {
-    fn set(&mut self, i: usize, mode: &ModeIncrement) {
-        self.dqq[i] = mode.dqq;
-        self.dqv[i] = mode.dqv;
-        self.dvq[i] = mode.dvq;
-        self.dvv[i] = mode.dvv;
-        self.rq0[i] = mode.rq0;
-        self.rq1[i] = mode.rq1;
-        self.rv0[i] = mode.rv0;
-        self.rv1[i] = mode.rv1;
-    }
-
-    /// q and v at the end, from q, v and the load and its slope at the start.
-    #[inline(always)]
-    fn end(
-        &self,
-        q: &[f64; LANES],
-        v: &[f64; LANES],
-        load: &[f64; LANES],
-        slope: &[f64; LANES],
-    ) -> ([f64; LANES], [f64; LANES]) {
-        let pushed = each(|i| self.rq0[i] * load[i] + self.rq1[i] * slope[i]);
-        let end_q = each(|i| q[i] + (self.dqq[i] * q[i] + self.dqv[i] * v[i] + pushed[i]));
-        let pushed = each(|i| self.rv0[i] * load[i] + self.rv1[i] * slope[i]);
-        let end_v = each(|i| v[i] + (self.dvq[i] * q[i] + self.dvv[i] * v[i] + pushed[i]));
-        (end_q, end_v)
-    }
-
-    /// The same under the ground's acceleration and its slope alone.
-    #[inline(always)]
-    pub fn end_on_ground(
-        &self,
-        (q, v): (&Lane, &Lane),
-        participation: &Lane,
-        (acceleration, slope): (f64, f64),
-    ) -> (Lane, Lane) {
-        let (pull, rate) = (-acceleration, -slope);
-        self.end(q, v, &participation.map(|p| p * pull), &participation.map(|p| p * rate))
-    }
-}
 
 /// The exact flight of all modes over one interval length.
 #[derive(Clone, Debug, Default)]

@@ -36,12 +36,13 @@ mod propagator;
 mod series;
 mod short_flight;
 
+pub use block_increments::ModeIncrements;
 pub use equations::{Scratch, Side, Structure};
 pub use first_mode::FirstMode;
 pub use floors::Floors;
 pub use free_rows::FreeRows;
 pub use impulse_response::{ImpulseResponse, RESPONSE_POWERS};
-pub use interval::{Interval, ModeIncrements};
+pub use interval::Interval;
 pub use lanes::{FEW_BLOCKS, LANES, Lane, difference, dot};
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
 pub use propagator::{CoupledIncrement, ModeIncrement};
