@@ -12,7 +12,7 @@ use common::{Run, record, scene};
 struct Case {
     law: String,
     damping: &'static str,
-    /// Of both buildings. From 8 on contacts are followed floor by floor, or in windows of many modes.
+    /// Of both buildings. From 8 on contacts are followed floor by floor, from 41 on in windows of many modes.
     storeys: usize,
     /// Without the account flights take a shorter way.
     energy: bool,
@@ -37,7 +37,9 @@ fn fingerprint(case: &Case) -> u64 {
             hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
         }
     }
-    assert!(run.point.impacts >= 10, "{law}: {} impacts", run.point.impacts);
+    // Tall buildings swing slowly.
+    let least = if storeys > 9 { 5 } else { 10 };
+    assert!(run.point.impacts >= least, "{law}: {} impacts", run.point.impacts);
     hash
 }
 
@@ -57,8 +59,9 @@ fn whole_runs_have_the_bits_of_every_other_machine() {
         (case(laws.jankowski(), RATIO), 0x78fc_f3e6_91ac_b9e4),
         (case(damped(), MATRIX), 0x476c_03e6_5691_63c9),
         (Case { storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0x9630_91c9_17f0_c417),
-        (Case { storeys: 9, ..case(damped(), RAYLEIGH) }, 0xde41_1de3_0290_8b44),
+        (Case { storeys: 9, ..case(damped(), RAYLEIGH) }, 0x1efd_b670_bece_7a5e),
         (Case { energy: false, ..case(damped(), RATIO) }, 0x2a0d_0bd6_3b32_da6f),
+        (Case { storeys: 45, ..case(laws.hertz(), RAYLEIGH) }, 0x4005_fe90_cf7a_e2dc),
     ];
     let got = cases.each_ref().map(|(case, _)| fingerprint(case));
     let expected = cases.map(|(_, expected)| expected);

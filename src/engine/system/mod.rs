@@ -19,6 +19,10 @@ use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
 use crate::structure::{FEW_BLOCKS, FreeRows, ImpulseResponse, LANES, Side, Structure};
 
+/// From more modes on windows take less time than power series floor by floor: these need more instructions from some 30
+/// on, of which more go at once (measured).
+const MANY_MODES: usize = 80;
+
 /// The part of a model that all kinds of steps share; constant during a run.
 #[derive(Debug)]
 pub struct System {
@@ -229,7 +233,7 @@ fn impulse_response(structure: &Structure, pairs: &[Pair], ground: Option<&Groun
     // floors touch from the start, some differ by less than the rounding of a sum over all modes.
     let is_fit = |pair: &Pair| pair.has_one_power_law() && pair.gap > 0.0;
     let are_few = pairs.len() <= MOST_PAIRS && pairs.iter().all(is_fit);
-    let is_for_many_modes = are_few && structure.lanes > FEW_BLOCKS * LANES && !cfg!(without = "windows");
+    let is_for_many_modes = are_few && structure.lanes > MANY_MODES && !cfg!(without = "windows");
     let length = ground.filter(|_| is_for_many_modes).map(GroundMotion::usual_length);
     let of_parts = length.and_then(|length| {
         let parts = (structure.fastest * length / ImpulseResponse::FURTHEST).ceil().max(1.0);
