@@ -81,3 +81,33 @@ fn a_run_allocates_nothing_after_its_start() {
         assert_eq!(calls, 0, "{law}, record inside: {with_record}, forces: {forces}");
     }
 }
+
+/// Tall buildings, whose windows have prepared rows, and damping that couples modes, for which flights between samples
+/// make no matrices.
+#[test]
+fn many_modes_and_coupled_modes_allocate_nothing_either() {
+    let many = |mass: f64, stiffness: f64| {
+        let damping = "damping = { rayleigh = { ratio = 0.05, modes = [1, 2] } }";
+        format!("mass = {:?}\nstiffness = {:?}\n{damping}", vec![mass; 45], vec![stiffness; 45])
+    };
+    let coupled = |mass: f64, stiffness: f64| {
+        let damping = "damping = { matrix = [[9.0e6, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 3.0e7]] }";
+        format!("mass = {:?}\nstiffness = {:?}\n{damping}", vec![mass; 3], vec![stiffness; 3])
+    };
+    let contact = "[[contact]]\nleft_floor = 3\nright_floor = 3\ngap = 0.001\nlaw = \"hertz\"\nstiffness = 2.0e9";
+    for (left, right) in [(many(3e5, 2.5e9), many(4e5, 1.5e9)), (coupled(3e5, 8e7), coupled(4e5, 4e7))] {
+        let mut scene = scene(&format!("name = \"A\"\n[left]\n{left}\n[right]\n{right}\n{contact}\n"));
+        scene.ground.record = Some("r.csv".into());
+        scene.peaks = scene.left.mass.len() < 45;
+        let motion = record(0.01, &(0..800).map(|k| 3.0 * (f64::from(k) * 0.09).sin()).collect::<Vec<_>>());
+        let mut run = Run::new(&scene, Some(&motion));
+        run.episodes.reserve(10_000);
+        run.to(0.01);
+        let before = CALLS.get();
+        for k in 3..=1800 {
+            run.to(0.0043 * f64::from(k));
+        }
+        assert!(run.point.impacts > 3, "{} impacts", run.point.impacts);
+        assert_eq!(CALLS.get() - before, 0);
+    }
+}

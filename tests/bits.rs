@@ -12,7 +12,7 @@ use common::{Run, record, scene};
 struct Case {
     law: String,
     damping: &'static str,
-    /// Of both buildings. From 8 on contacts are followed floor by floor.
+    /// Of both buildings. From 8 on contacts are followed floor by floor, from 41 on in windows of many modes.
     storeys: usize,
     /// Without the account flights take a shorter way.
     energy: bool,
@@ -26,6 +26,8 @@ fn case(law: String, damping: &'static str) -> Case {
 fn fingerprint(case: &Case) -> u64 {
     let &Case { ref law, damping, storeys, energy } = case;
     let mut scene = scene(&Frames { storeys, damping, gap: 0.01, law, energy, floor_forces: false }.toml());
+    // With peaks contacts of many storeys are followed floor by floor.
+    scene.peaks = storeys <= 9;
     scene.ground.record = Some("zigzag.csv".into());
     let samples: Vec<f64> = (0..400).map(|k| zigzag(k) / 4.0).collect();
     let mut run = Run::new(&scene, Some(&record(1.0 / 64.0, &samples)));
@@ -40,7 +42,9 @@ fn fingerprint(case: &Case) -> u64 {
             hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
         }
     }
-    assert!(run.point.impacts >= 10, "{law}: {} impacts", run.point.impacts);
+    // Tall buildings swing slowly.
+    let least = if storeys > 9 { 5 } else { 10 };
+    assert!(run.point.impacts >= least, "{law}: {} impacts", run.point.impacts);
     hash
 }
 
@@ -51,17 +55,18 @@ fn whole_runs_have_the_bits_of_every_other_machine() {
     let laws = Laws { spring: 2e8, hertz: 2e9, exponent: 1.7, restitution: 0.6 };
     let damped = || laws.hertz_damped("exact");
     let cases = [
-        (case(laws.stereomechanical(), RATIO), 0x4889_160d_347e_ef95),
-        (case(laws.linear(), RATIO), 0x7cf6_afed_1480_a4df),
-        (case(laws.kelvin_voigt(), RAYLEIGH), 0x20a8_82b6_e872_a4f7),
-        (case(laws.kelvin_voigt_no_tension(), RATIO), 0x51ca_93e2_705c_44fc),
-        (case(laws.hertz(), RATIO), 0xbf3f_6c8d_fbcc_b09a),
-        (case(laws.hertz_of_another_exponent(), RATIO), 0x9371_1eae_9b8e_754f),
-        (case(laws.jankowski(), RATIO), 0x78fc_f3e6_91ac_b9e4),
-        (case(damped(), MATRIX), 0x476c_03e6_5691_63c9),
+        (case(laws.stereomechanical(), RATIO), 0xdb4f_62fb_f13e_9f45),
+        (case(laws.linear(), RATIO), 0xa531_af96_f027_dc97),
+        (case(laws.kelvin_voigt(), RAYLEIGH), 0xdf91_bc6f_dd3a_7486),
+        (case(laws.kelvin_voigt_no_tension(), RATIO), 0xffbf_229c_1f5c_646f),
+        (case(laws.hertz(), RATIO), 0x2920_8686_ee98_7037),
+        (case(laws.hertz_of_another_exponent(), RATIO), 0x7a8f_54b2_38d5_9d09),
+        (case(laws.jankowski(), RATIO), 0x8972_646d_98ce_1a18),
+        (case(damped(), MATRIX), 0x90e3_e093_6f46_1eba),
         (Case { storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0x9630_91c9_17f0_c417),
-        (Case { storeys: 9, ..case(damped(), RAYLEIGH) }, 0x1efd_b670_bece_7a5e),
+        (Case { storeys: 9, ..case(damped(), RAYLEIGH) }, 0x0a18_7a01_3815_4e95),
         (Case { energy: false, ..case(damped(), RATIO) }, 0x2a0d_0bd6_3b32_da6f),
+        (Case { storeys: 45, ..case(laws.hertz(), RAYLEIGH) }, 0xfdad_47b9_0ab7_c325),
     ];
     let got = cases.each_ref().map(|(case, _)| fingerprint(case));
     let expected = cases.map(|(_, expected)| expected);

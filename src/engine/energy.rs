@@ -10,6 +10,7 @@ use crate::engine::step::{Dense, Step};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
+use crate::engine::window::free::FreeMotion;
 use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
 use crate::numerics::quadrature::{TWELVE, TWELVE_POINTS, gauss, graded};
@@ -96,7 +97,9 @@ impl System {
                 self.integrate(base, motion, graded(TWELVE, length), 0.0, work, &mut done);
                 onset.evaluate(length / onset.scale, &mut work.q, &mut work.v);
             }
-            Dense::Window(window, series) => self.integrate_window(base, (window, series), length, work, &mut done),
+            Dense::Window(window, series) => {
+                self.integrate_window((base, inputs), (window, series), length, work, &mut done);
+            }
         }
         // Work of the floor forces at their values at the base; the quadratures add that of their change.
         work.load.fill(0.0);
@@ -139,17 +142,25 @@ impl System {
     /// Work over a window, by quadrature in its own time map; leaves the motion at the end in `work.q`, `work.v`.
     fn integrate_window(
         &self,
-        base: &Base,
+        (base, inputs): (&Base, &Inputs),
         (window, series): (&Window, &MotionSeries),
         length: f64,
         work: &mut Buffers,
         done: &mut Work,
     ) {
+        let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
+        window.evaluate(self, FreeMotion::of(self, (base, inputs), series, work), length, (&mut q, &mut v));
+        let (load, slope) = (std::mem::take(&mut work.load), std::mem::take(&mut work.slope));
+        let mut interval = std::mem::take(&mut work.interval);
         let motion = |t: f64, powers: &mut Powers, q: &mut [f64], v: &mut [f64]| {
-            window.evaluate(self, series, t, powers, (q, v));
+            let free = match self.flies_in_windows() {
+                true => FreeMotion::Flight(base, (&load, &slope), &mut interval),
+                false => FreeMotion::Series(series, powers),
+            };
+            window.evaluate(self, free, t, (q, v));
         };
         self.integrate(base, motion, window.nodes(length), 0.0, work, done);
-        motion(length, &mut work.powers, &mut work.q, &mut work.v);
+        (work.interval, work.load, work.slope, work.q, work.v) = (interval, load, slope, q, v);
     }
 
     /// Work over a flight, by quadrature over pieces within reach of one series each; leaves the motion at the end in
@@ -214,7 +225,7 @@ impl System {
     fn integrate(
         &self,
         base: &Base,
-        motion: impl Fn(f64, &mut Powers, &mut [f64], &mut [f64]),
+        mut motion: impl FnMut(f64, &mut Powers, &mut [f64], &mut [f64]),
         nodes: impl Iterator<Item = (f64, f64)>,
         from: f64,
         work: &mut Buffers,

@@ -5,6 +5,7 @@
 //! same operations in the same order, so the same bits.
 
 pub mod complementarity;
+pub mod economization;
 pub mod polynomial;
 pub mod powers;
 pub mod quadrature;

@@ -217,12 +217,8 @@ impl Structure {
     /// `out` -= factor * (off-diagonal damping) * `velocity`.
     pub fn subtract_coupling(&self, velocity: &[f64], factor: f64, out: &mut [f64]) {
         for Coupling { offset, matrix } in &self.coupling {
-            for (j, column) in matrix.column_iter().enumerate() {
-                let v = factor * velocity[offset + j];
-                for (c, out) in column.iter().zip(&mut out[*offset..]) {
-                    *out -= c * v;
-                }
-            }
+            let own = *offset..*offset + matrix.nrows();
+            subtract_product(matrix.as_slice(), factor, &velocity[own.clone()], &mut out[own]);
         }
     }
 
@@ -305,6 +301,17 @@ impl Structure {
     }
 }
 
+/// `out` -= a square matrix, column by column, times `factor` times a vector.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn subtract_product(matrix: &[f64], factor: f64, vector: &[f64], out: &mut [f64]) {
+    for (column, x) in matrix.chunks_exact(out.len().max(1)).zip(vector) {
+        let x = factor * x;
+        for (out, c) in out.iter_mut().zip(column) {
+            *out -= c * x;
+        }
+    }
+}
+
 /// Modal vectors for intermediate results.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
@@ -317,5 +324,10 @@ impl Scratch {
     /// For modal vectors of that length.
     pub fn new(lanes: usize) -> Scratch {
         Scratch { y: vec![0.0; lanes], jerk: vec![0.0; lanes], ahead: vec![0.0; 2 * lanes] }
+    }
+
+    /// Room for two modal vectors.
+    pub fn room(&mut self) -> &mut [f64] {
+        &mut self.ahead
     }
 }

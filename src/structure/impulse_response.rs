@@ -1,13 +1,16 @@
-//! The impulse response of each mode as a power series in time: h'' + c h' + w^2 h = 0 from h = 0, h' = 1.
+//! The impulse response of each mode in powers of time: h'' + c h' + w^2 h = 0 from h = 0, h' = 1.
 
 use super::equations::Structure;
-use super::lanes::LANES;
+use super::lanes::{LANES, Lane};
+use super::mode_polynomials::{FURTHEST, POLYNOMIAL_TERMS, PolynomialMaker};
+use super::series::sums::sum_blocks;
 use crate::numerics::polynomial::{COUNT, each};
 
 /// Powers of time of an impulse response.
-pub const RESPONSE_POWERS: usize = 20;
+pub const RESPONSE_POWERS: usize = POLYNOMIAL_TERMS;
 
-/// The series of all modes that damping does not couple.
+/// That of all modes, where damping couples none: a power series, or polynomials that are good up to some time, for
+/// which the quickest modes may be far too quick for a series of so few terms.
 #[derive(Clone, Debug)]
 pub struct ImpulseResponse {
     lanes: usize,
@@ -15,9 +18,14 @@ pub struct ImpulseResponse {
     terms: Vec<f64>,
     /// 1/s.
     fastest: f64,
+    /// The time up to which polynomials are good, s; `None` of a power series.
+    longest: Option<f64>,
 }
 
 impl ImpulseResponse {
+    /// Largest (fastest rate) x (time) of polynomials.
+    pub const FURTHEST: f64 = FURTHEST;
+
     /// Of a structure; `None` where damping couples its modes.
     pub fn of(structure: &Structure) -> Option<ImpulseResponse> {
         if !structure.is_classical() {
@@ -35,7 +43,33 @@ impl ImpulseResponse {
                     -((k - 1.0) * structure.damping[m] * last[m] + structure.omega2[m] * before[m]) / (k * (k - 1.0));
             }
         }
-        Some(ImpulseResponse { lanes, terms, fastest: structure.fastest })
+        Some(ImpulseResponse { lanes, terms, fastest: structure.fastest, longest: None })
+    }
+
+    /// Polynomials that are good up to a time, s, where that is no more than [`ImpulseResponse::FURTHEST`] allows.
+    pub fn over(structure: &Structure, time: f64) -> Option<ImpulseResponse> {
+        // Written so that a NaN is no time.
+        let is_possible = time > 0.0 && structure.fastest * time <= FURTHEST;
+        if !structure.is_classical() || !is_possible {
+            return None;
+        }
+        let lanes = structure.lanes;
+        let mut terms = vec![0.0; RESPONSE_POWERS * lanes];
+        let maker = PolynomialMaker::new(time);
+        for m in 0..lanes {
+            let [_, response, ..] = maker.mode(structure.omega2[m], structure.damping[m]).of;
+            let mut unit = 1.0;
+            for (k, term) in response.iter().enumerate() {
+                terms[k * lanes + m] = term * unit;
+                unit /= time;
+            }
+        }
+        Some(ImpulseResponse { lanes, terms, fastest: structure.fastest, longest: Some(time) })
+    }
+
+    /// The time up to which it is good, s, where it is no power series.
+    pub fn longest(&self) -> Option<f64> {
+        self.longest
     }
 
     /// Power k of all modes.
@@ -45,6 +79,9 @@ impl ImpulseResponse {
 
     /// How many powers are needed over a time, s, for a relative `remainder`; `None` where it is too long.
     pub fn powers(&self, time: f64, remainder: f64) -> Option<usize> {
+        if let Some(longest) = self.longest {
+            return (time <= longest).then_some(RESPONSE_POWERS);
+        }
         let reach = self.fastest * time;
         let (mut term, mut k) = (1.0, 1);
         while term > remainder {
@@ -72,6 +109,17 @@ impl ImpulseResponse {
         kernel
     }
 
+    /// A bound on the integral of the magnitude of the second derivative of a kernel over a time, s, 1/kg: a mode that
+    /// swings reverses its velocity, of at most 1, once in half a period, one that creeps loses it.
+    pub fn bend(&self, structure: &Structure, row: &[f64], other: &[f64], time: f64) -> f64 {
+        let of_mode = |m: usize| {
+            let omega = structure.omega2[m].sqrt();
+            let swings = if structure.damping[m] < 2.0 * omega { omega * time / std::f64::consts::PI } else { 0.0 };
+            (structure.quickness[m] * time).min(2.0 * (swings.ceil() + 1.0))
+        };
+        (0..self.lanes).map(|m| (row[m] * other[m]).abs() * of_mode(m)).sum()
+    }
+
     /// Subtracts the effect of a contact force from a motion, by the moments of the force, N s^(k+1): the integrals of
     /// (time left)^k F. The terms are summed first, from the smallest on, and meet the larger motion as one sum.
     pub fn push(&self, row: &[f64], moments: &[f64], motion: (&mut [f64], &mut [f64])) {
@@ -84,19 +132,40 @@ impl ImpulseResponse {
 fn push(response: &ImpulseResponse, row: &[f64], moments: &[f64], (q, v): (&mut [f64], &mut [f64])) {
     let width = response.lanes / LANES;
     let (terms, row) = (response.terms.as_chunks::<LANES>().0, row.as_chunks::<LANES>().0);
-    let terms = &terms[width..moments.len() * width];
-    let motion = q.as_chunks_mut::<LANES>().0.iter_mut().zip(v.as_chunks_mut::<LANES>().0);
-    for (c, ((q, v), row)) in motion.zip(row).enumerate() {
-        let (mut moved, mut slowed) = ([0.0; LANES], [0.0; LANES]);
-        let moments = moments.iter().zip(&moments[1..]).zip(&COUNT[1..]);
-        for (term, ((before, now), k)) in terms.chunks_exact(width).zip(moments).rev() {
-            let (term, before) = (&term[c], k * before);
-            moved = each(|i| moved[i] + term[i] * now);
-            slowed = each(|i| slowed[i] + term[i] * before);
-        }
-        *q = each(|i| q[i] - row[i] * moved[i]);
-        *v = each(|i| v[i] - row[i] * slowed[i]);
+    let terms = (&terms[width..moments.len() * width], width);
+    let (q, v) = (q.as_chunks_mut::<LANES>().0, v.as_chunks_mut::<LANES>().0);
+    let mut before = [0.0; RESPONSE_POWERS];
+    for ((before, moment), k) in before.iter_mut().zip(moments).zip(&COUNT[1..]) {
+        *before = k * moment;
     }
+    let moments = (&moments[1..], &before[..moments.len() - 1]);
+    let mut first = 0;
+    while first < width {
+        first += match width - first {
+            1 => push_next::<1>(terms, first, moments, row, (q, v)),
+            2 => push_next::<2>(terms, first, moments, row, (q, v)),
+            3 => push_next::<3>(terms, first, moments, row, (q, v)),
+            _ => push_next::<4>(terms, first, moments, row, (q, v)),
+        };
+    }
+}
+
+/// Pushes `N` blocks, from the `first` on; returns how many that are.
+#[inline(always)]
+fn push_next<const N: usize>(
+    terms: (&[Lane], usize),
+    first: usize,
+    moments: (&[f64], &[f64]),
+    row: &[Lane],
+    (q, v): (&mut [Lane], &mut [Lane]),
+) -> usize {
+    let (moved, slowed) = sum_blocks::<N>(terms, first, moments, 1.0);
+    let (row, q, v) = (&row[first..first + N], &mut q[first..first + N], &mut v[first..first + N]);
+    for c in 0..N {
+        q[c] = each(|i| q[c][i] - row[c][i] * moved[c][i]);
+        v[c] = each(|i| v[c][i] - row[c][i] * slowed[c][i]);
+    }
+    N
 }
 
 #[cfg(test)]
@@ -134,5 +203,25 @@ mod tests {
             assert!((sum(powers) / sum(RESPONSE_POWERS) - 1.0).abs() < 1e-12, "{time}: {powers}");
         }
         assert_eq!(response.powers(10.0, 1e-12), None);
+    }
+
+    /// The velocity after an impulse, at many times: by how much it goes up and down in all.
+    #[test]
+    fn a_bound_on_the_bend_is_one() {
+        use crate::structure::ModeIncrement;
+        for (w, c) in [(3.0, 0.0), (3.0, 0.3), (1.0, 1.9), (4.0, 13.0), (0.1, 0.0)] {
+            let building = format!("mass = [1.0]\nstiffness = [{:?}]\ndamping = {{ matrix = [[{c:?}]] }}", w * w);
+            let text = format!("name = \"Two\"\n[left]\n{building}\n[right]\n{building}");
+            let scene = Scene::from_toml(&text).unwrap();
+            let structure = Structure::new(&scene.left, &scene.right).unwrap();
+            let response = ImpulseResponse::of(&structure).unwrap();
+            for time in [0.1, 1.0, 3.0, 10.0] {
+                let velocity = |k: i32| ModeIncrement::new(w, c, time * f64::from(k) / 1000.0).dvv;
+                let way: f64 = (1..1000).map(|k| (velocity(k + 1) - velocity(k)).abs()).sum();
+                let row: Vec<f64> = (0..structure.lanes).map(|m| f64::from(m == 0)).collect();
+                let bound = response.bend(&structure, &row, &row, time);
+                assert!(way <= bound && bound <= 6.0 * way + 4.0, "{w} {c} over {time}: {way}, {bound}");
+            }
+        }
     }
 }

@@ -1,69 +1,13 @@
 //! The exact flight of all modes over one interval of time.
 
+use super::block_increments::{ModeIncrements, halvings, increments};
 use super::equations::{Scratch, Side, Structure};
-use super::lanes::{LANES, Lane};
+use super::lanes::{FEW_BLOCKS, LANES, Lane};
 use super::modes::ModalDamping;
 use super::propagator::{CoupledIncrement, ModeIncrement};
 
-/// The increments of [`LANES`] modes side by side.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct ModeIncrements {
-    dqq: [f64; LANES],
-    dqv: [f64; LANES],
-    dvq: [f64; LANES],
-    dvv: [f64; LANES],
-    rq0: [f64; LANES],
-    rq1: [f64; LANES],
-    rv0: [f64; LANES],
-    rv1: [f64; LANES],
-}
-
-impl ModeIncrements {
-    fn set(&mut self, i: usize, mode: &ModeIncrement) {
-        self.dqq[i] = mode.dqq;
-        self.dqv[i] = mode.dqv;
-        self.dvq[i] = mode.dvq;
-        self.dvv[i] = mode.dvv;
-        self.rq0[i] = mode.rq0;
-        self.rq1[i] = mode.rq1;
-        self.rv0[i] = mode.rv0;
-        self.rv1[i] = mode.rv1;
-    }
-
-    /// q and v at the end, from q, v and the load and its slope at the start.
-    #[inline(always)]
-    fn end(
-        &self,
-        q: &[f64; LANES],
-        v: &[f64; LANES],
-        load: &[f64; LANES],
-        slope: &[f64; LANES],
-    ) -> ([f64; LANES], [f64; LANES]) {
-        let mut end = ([0.0; LANES], [0.0; LANES]);
-        for i in 0..LANES {
-            let from_load =
-                (self.rq0[i] * load[i] + self.rq1[i] * slope[i], self.rv0[i] * load[i] + self.rv1[i] * slope[i]);
-            end.0[i] = q[i] + (self.dqq[i] * q[i] + self.dqv[i] * v[i] + from_load.0);
-            end.1[i] = v[i] + (self.dvq[i] * q[i] + self.dvv[i] * v[i] + from_load.1);
-        }
-        end
-    }
-
-    /// The same under the ground's acceleration and its slope alone.
-    #[inline(always)]
-    pub fn end_on_ground(
-        &self,
-        (q, v): (&Lane, &Lane),
-        participation: &Lane,
-        (acceleration, slope): (f64, f64),
-    ) -> (Lane, Lane) {
-        let (pull, rate) = (-acceleration, -slope);
-        self.end(q, v, &participation.map(|p| p * pull), &participation.map(|p| p * rate))
-    }
-}
-
 /// The exact flight of all modes over one interval length.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Interval {
     /// s.
     pub length: f64,
@@ -75,7 +19,7 @@ impl Interval {
     /// Prepares the flight over `length` seconds.
     pub fn new(structure: &Structure, length: f64) -> Interval {
         let mut interval = Interval::room(structure);
-        interval.prepare(structure, length);
+        interval.prepare_mode_by_mode(structure, length);
         interval
     }
 
@@ -87,6 +31,14 @@ impl Interval {
 
     /// Prepares the flight over another length. Allocates only where damping couples modes.
     pub fn prepare(&mut self, structure: &Structure, length: f64) {
+        match structure.is_classical() && structure.lanes > FEW_BLOCKS * LANES && length > 0.0 {
+            true if self.length == length => {}
+            true => prepare_blocks(self, structure, length),
+            false => self.prepare_mode_by_mode(structure, length),
+        }
+    }
+
+    fn prepare_mode_by_mode(&mut self, structure: &Structure, length: f64) {
         self.length = length;
         self.coupled.clear();
         for side in [Side::Left, Side::Right] {
@@ -109,6 +61,12 @@ impl Interval {
     /// The increments of all modes, where they are so many blocks of them and damping couples none.
     pub fn blocks<const WIDTH: usize>(&self) -> Option<&[ModeIncrements; WIDTH]> {
         self.modes.as_slice().try_into().ok().filter(|_| self.coupled.is_empty())
+    }
+
+    /// Flies `q`, `v` over the interval under a modal load and its slope, into `end_q`, `end_v`, where damping couples
+    /// no modes.
+    pub fn fly_uncoupled(&self, motion: (&[f64], &[f64]), loads: (&[f64], &[f64]), end: (&mut [f64], &mut [f64])) {
+        fly_modes(&self.modes, motion, loads, end);
     }
 
     /// Flies `q`, `v` over the interval under a modal load and its slope, into `end_q`, `end_v`.
@@ -165,21 +123,52 @@ impl Interval {
     }
 }
 
-/// The end of all modes from q, v, load and slope, as if damping coupled none.
+/// Prepares the flight of many modes that damping does not couple, block by block.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn prepare_blocks(interval: &mut Interval, structure: &Structure, length: f64) {
+    interval.length = length;
+    interval.coupled.clear();
+    let [(omega2, _), (damping, _)] = [&structure.omega2, &structure.damping].map(|of| of.as_chunks::<LANES>());
+    for (c, (block, (omega2, damping))) in interval.modes.iter_mut().zip(omega2.iter().zip(damping)).enumerate() {
+        let mut fastest = 0.0_f64;
+        for i in 0..LANES {
+            fastest = fastest.max(omega2[i].sqrt()).max(damping[i]);
+        }
+        match halvings(fastest * length) {
+            Some(halvings) => *block = increments((omega2, damping), length, halvings),
+            None => {
+                for i in 0..LANES {
+                    let m = c * LANES + i;
+                    block.set(i, &ModeIncrement::new(structure.omega2[m].sqrt(), structure.damping[m], length));
+                }
+            }
+        }
+    }
+}
+
+/// The end of all modes from q, v, load and slope, as if damping coupled none. Returns the sum of all numbers at the end,
+/// which goes from block to block: else the compiler takes four blocks at a time and spends its time sorting them.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn fly_modes(
     modes: &[ModeIncrements],
     (q, v): (&[f64], &[f64]),
     (load, slope): (&[f64], &[f64]),
     (end_q, end_v): (&mut [f64], &mut [f64]),
-) {
+) -> Lane {
     let [(q, _), (v, _), (load, _), (slope, _)] = [q, v, load, slope].map(<[f64]>::as_chunks::<LANES>);
     let [(end_q, _), (end_v, _)] = [end_q, end_v].map(<[f64]>::as_chunks_mut::<LANES>);
     // Equal lengths: no bounds checks below.
     let width = modes.len();
     let (q, v, load, slope) = (&q[..width], &v[..width], &load[..width], &slope[..width]);
     let (end_q, end_v) = (&mut end_q[..width], &mut end_v[..width]);
+    let mut sum = [0.0; LANES];
     for c in 0..width {
-        (end_q[c], end_v[c]) = modes[c].end(&q[c], &v[c], &load[c], &slope[c]);
+        let (q, v) = modes[c].end(&q[c], &v[c], &load[c], &slope[c]);
+        for i in 0..LANES {
+            sum[i] += q[i] + v[i];
+        }
+        end_q[c] = q;
+        end_v[c] = v;
     }
+    sum
 }

@@ -15,30 +15,37 @@
 //! | `floors.rs` | the same floor by floor, for shear buildings |
 //! | `propagator.rs`, `interval.rs` | exact response over a time, of one mode and of all |
 //! | `flight_work.rs` | work of the ground and of damping over a whole flight |
+//! | `block_increments.rs` | the same of many modes, for one flight only |
 //! | `series/` | the motion as a power series in time: its terms, their sums |
 //! | `short_flight.rs` | a flight by one such series, without keeping the terms |
 //! | `impulse_response.rs` | the response to an impulse as a power series in time |
+//! | `mode_polynomials.rs`, `free_rows.rs` | the motion of one mode, or of a distance, over a time as a polynomial |
 //! | `lanes.rs`, `lane_matrix.rs` | vectors in blocks of four, their sums of products, matrices between them |
 
+mod block_increments;
 mod equations;
 mod first_mode;
 mod flight_work;
 mod floors;
+mod free_rows;
 mod impulse_response;
 mod interval;
 mod lane_matrix;
 mod lanes;
+mod mode_polynomials;
 mod modes;
 mod propagator;
 mod series;
 mod short_flight;
 
+pub use block_increments::ModeIncrements;
 pub use equations::{Scratch, Side, Structure};
 pub use first_mode::FirstMode;
 pub use flight_work::{FlightEnergy, FlightWork};
 pub use floors::Floors;
+pub use free_rows::FreeRows;
 pub use impulse_response::{ImpulseResponse, RESPONSE_POWERS};
-pub use interval::{Interval, ModeIncrements};
+pub use interval::Interval;
 pub use lanes::{FEW_BLOCKS, LANES, Lane, difference, dot};
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
 pub use propagator::{CoupledIncrement, ModeIncrement};

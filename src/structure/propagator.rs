@@ -145,6 +145,16 @@ impl ModeIncrement {
     }
 }
 
+/// `out` += a matrix, column by column, times a vector.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn add_product(matrix: &[f64], vector: &[f64], out: &mut [f64]) {
+    for (column, x) in matrix.chunks_exact(out.len().max(1)).zip(vector) {
+        for (out, a) in out.iter_mut().zip(column) {
+            *out += a * x;
+        }
+    }
+}
+
 /// The same for modes that damping couples: increment of (q, v) from (q, v, l0, l1), all vectors.
 #[derive(Clone, Debug)]
 pub struct CoupledIncrement {
@@ -171,11 +181,8 @@ impl CoupledIncrement {
         let n = self.matrix.nrows() / 2;
         out.fill(0.0);
         for (block, input) in [q, v, load, slope].into_iter().enumerate() {
-            for (column, x) in self.matrix.columns(block * n, n).column_iter().zip(&input[offset..]) {
-                for (out, a) in out.iter_mut().zip(column.iter()) {
-                    *out += a * x;
-                }
-            }
+            let columns = &self.matrix.as_slice()[block * n * out.len()..(block + 1) * n * out.len()];
+            add_product(columns, &input[offset..offset + n], out);
         }
     }
 

@@ -15,4 +15,5 @@ mod shared_floors;
 mod simultaneous_impacts;
 mod stereomechanical;
 mod structure;
+mod tall_buildings;
 mod tension;

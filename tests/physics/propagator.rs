@@ -1,6 +1,8 @@
 //! The exact flight over an interval, against a matrix exponential in 60 digits (tests/reference/propagator.py).
 
+use crate::common::{Run, record, scene};
 use nalgebra::{DMatrix, DVector};
+use pounding::engine::Side;
 use pounding::structure::{CoupledIncrement, ModeIncrement};
 
 struct Case {
@@ -88,5 +90,46 @@ fn coupled_modes_of_one_frequency_can_be_rotated() {
         let expected = &rotation * diagonal * rotation.transpose();
         let got = coupled.view((row, column), (2, 2));
         assert!((got - &expected).amax() <= 1e-14 * expected.amax(), "block {i}: {got} instead of {expected}");
+    }
+}
+
+/// Between samples a flight with coupled damping goes in pieces, each by a series; over whole samples it has matrices. So a
+/// record with more samples on the same lines is the same motion by the other way.
+#[test]
+fn a_flight_in_pieces_is_that_of_the_matrices() {
+    let building = |mass: f64, stiffness: f64, dashpot: f64| {
+        let row = |i: usize| (0..6).map(|j| if i == j && i % 2 == 1 { dashpot } else { 0.0 }).collect::<Vec<_>>();
+        let damping = (0..6).map(row).collect::<Vec<_>>();
+        format!(
+            "mass = {:?}\nstiffness = {:?}\ndamping = {{ matrix = {damping:?} }}",
+            vec![mass; 6],
+            vec![stiffness; 6]
+        )
+    };
+    // (Fastest rate) x (half a sample) of about 1, 10 and 70: one series, several, and matrices where these are too many.
+    for dashpot in [1e7, 2e8, 1.5e9] {
+        let (left, right) = (building(2e5, 2e8, dashpot), building(3e5, 4e8, 0.5 * dashpot));
+        let mut scene = scene(&format!("name = \"C\"\n[left]\n{left}\n[right]\n{right}"));
+        scene.ground.record = Some("r.csv".into());
+        let samples: Vec<f64> = (0..200).map(|k| (0.7 * f64::from(k)).sin() * 3.0).collect();
+        let middle = |pair: &[f64]| [pair[0], 0.5 * (pair[0] + pair[1])];
+        let finer: Vec<f64> = samples.windows(2).flat_map(middle).collect();
+        let step = 1.0 / 64.0;
+        let mut run = Run::new(&scene, Some(&record(step, &samples)));
+        let mut other = Run::new(&scene, Some(&record(0.5 * step, &finer)));
+        let mut largest = 0.0_f64;
+        for k in 0..190 {
+            let time = (f64::from(k) + 0.5) * step;
+            run.to(time);
+            other.to(time);
+            for (side, floor) in [(Side::Left, 0), (Side::Left, 5), (Side::Right, 2), (Side::Right, 5)] {
+                let [got, exact] = [&run, &other].map(|run| run.displacement(side, floor));
+                largest = largest.max(exact.abs());
+                assert!((got - exact).abs() <= 1e-13 * largest, "{dashpot} at {time} s: {got} instead of {exact}");
+                let [got, exact] = [&run, &other].map(|run| run.velocity(side, floor));
+                assert!((got - exact).abs() <= 2e-12 * largest, "{dashpot} at {time} s: {got} instead of {exact} m/s");
+            }
+        }
+        assert!(largest > 1e-3, "{largest} m");
     }
 }

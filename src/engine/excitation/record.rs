@@ -133,6 +133,11 @@ impl GroundMotion {
         self.work.iter().find(|work| work.length == segment.length)
     }
 
+    /// The longest of the prepared lengths, s: that of all segments of an even record.
+    pub fn usual_length(&self) -> f64 {
+        self.prepared.iter().fold(0.0, |longest, interval| interval.length.max(longest))
+    }
+
     /// The number of a segment, counted on after the record's end; `None` before the first sample.
     pub fn number(&self, segment: &Segment) -> Option<u64> {
         match segment.place {

@@ -13,7 +13,7 @@ use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::ALL;
 use crate::numerics::roots;
-use crate::structure::{EXACT, flight_order};
+use crate::structure::{EXACT, FreeRows, difference, flight_order};
 
 /// Length of a piece, in units of 1 / (fastest rate), that one series reaches.
 const REACH: f64 = 1.5;
@@ -43,6 +43,10 @@ impl Search<'_> {
         let mut unit =
             if system.structure.fastest * remaining > REACH { REACH / system.structure.fastest } else { remaining };
         let is_tracked = base.contacts.iter().any(|contact| contact.tracked);
+        if let Some(rows) = system.free_rows.as_ref().filter(|rows| !is_tracked && remaining <= rows.length) {
+            counters.narrow_phase_pieces += 1;
+            return self.first_entry_by_rows(rows, planned);
+        }
         self.look.start(base, &self.work.load);
         if is_tracked {
             system.structure.accelerate(&base.q, &base.v, &self.work.load, &mut self.work.q);
@@ -79,6 +83,32 @@ impl Search<'_> {
         planned.q.copy_from_slice(&self.look.q);
         planned.v.copy_from_slice(&self.look.v);
         (planned.length, planned.reaches_limit) = (self.look.from, false);
+    }
+
+    /// The same in one piece, by prepared polynomials of the penetrations.
+    fn first_entry_by_rows(&mut self, rows: &FreeRows, planned: &mut Planned) {
+        let Search { system, base, look, work, .. } = self;
+        let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
+        let mut first: Option<(f64, usize)> = None;
+        for (p, (pair, contact)) in system.pairs.iter().zip(&base.contacts).enumerate() {
+            if look.stay_apart[p] {
+                continue;
+            }
+            let terms = &mut work.scalar[..FreeRows::TERMS];
+            rows.enter(p, (&base.q, &base.v), ground, terms);
+            let [(moved, size), (moving, speed)] = [&base.q, &base.v].map(|motion| difference(&pair.row, motion));
+            (terms[0], terms[1]) = (moved, moving * rows.length);
+            let later: f64 = terms[2..].iter().map(|term| term.abs()).sum();
+            let noise = contact.begin_flight(terms, rows.length, pair.noise(size + speed * rows.length + later));
+            let end = first.map_or(planned.length / rows.length, |(x, _)| x);
+            if let Some(x) = roots::first_upcrossing(terms, end, noise) {
+                first = Some((x, p));
+            }
+        }
+        let Some((x, p)) = first else { return };
+        (planned.length, planned.reaches_limit) = (x * rows.length, false);
+        planned.event = Some(Event::Entry(p));
+        system.fly(base, planned.length, work, (&mut planned.q, &mut planned.v));
     }
 
     /// Ends the step at the entry found in the series of the last piece, or at the end of that piece.

@@ -3,28 +3,79 @@
 use crate::engine::base::Base;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
-use crate::structure::{exact_order, fly_in_one_series};
+use crate::numerics::polynomial::MAX_ORDER;
+use crate::structure::{Interval, exact_order, fly_in_one_series};
+
+/// Largest (fastest rate) x (time) that one series reaches.
+const SERIES_REACH: f64 = 2.0;
+
+/// Up to so many series cost less than matrices and lose no digits.
+const MOST_PIECES: f64 = 32.0;
 
 impl System {
     /// Writes to q, v the motion `h` seconds after the base, under `work.load` and its slope.
     pub fn fly(&self, base: &Base, h: f64, work: &mut Buffers, (q, v): (&mut [f64], &mut [f64])) {
-        let Buffers { load, slope, scratch, series, interval, powers, .. } = work;
-        let whole = base.elapsed == 0.0 && h == base.segment.length;
-        let prepared = self.ground.as_ref().filter(|_| whole).and_then(|ground| ground.prepared(&base.segment));
-        if prepared.is_none()
-            && let Some(order) = exact_order(self.structure.fastest * h)
-        {
-            if !cfg!(without = "short_flight") && self.structure.is_classical() {
-                return fly_in_one_series(&self.structure, (&base.q, &base.v), (load, slope), (h, order), (q, v));
-            }
-            series.expand_flight(&self.structure, (&base.q, &base.v), (load, slope), (h, order));
-            powers.set(1.0, series.order);
-            return series.evaluate(powers, q, v);
+        let Buffers { load, slope, scratch, interval, .. } = work;
+        if self.structure.is_classical() && !cfg!(without = "short_flight") {
+            return self.fly_uncoupled(base, h, (load, slope), interval, (q, v));
+        }
+        let prepared = self.prepared(base, h);
+        let pieces = (self.structure.fastest * h / SERIES_REACH).ceil().max(1.0);
+        // Written so that a NaN is not few.
+        if prepared.is_none() && pieces <= MOST_PIECES {
+            return self.fly_in_pieces(base, h, pieces as usize, work, (q, v));
         }
         let interval = prepared.unwrap_or_else(|| {
             interval.prepare(&self.structure, h);
             interval
         });
         interval.fly((&base.q, &base.v), (load, slope), (q, v), scratch);
+    }
+
+    /// The same where damping couples no modes, under a load and its slope; `interval` is memory.
+    pub fn fly_uncoupled(
+        &self,
+        base: &Base,
+        h: f64,
+        loads: (&[f64], &[f64]),
+        interval: &mut Interval,
+        end: (&mut [f64], &mut [f64]),
+    ) {
+        let start = (&base.q[..], &base.v[..]);
+        if let Some(prepared) = self.prepared(base, h) {
+            return prepared.fly_uncoupled(start, loads, end);
+        }
+        if let Some(order) = exact_order(self.structure.fastest * h) {
+            return fly_in_one_series(&self.structure, start, loads, (h, order), end);
+        }
+        interval.prepare(&self.structure, h);
+        interval.fly_uncoupled(start, loads, end);
+    }
+
+    /// The same by series of all modes, one after another: where damping couples modes, matrices for a flight of a length
+    /// that no other flight has would cost much more.
+    fn fly_in_pieces(&self, base: &Base, h: f64, pieces: usize, work: &mut Buffers, (q, v): (&mut [f64], &mut [f64])) {
+        let Buffers { load, slope, scratch, series, powers, .. } = work;
+        let piece = h / pieces as f64;
+        let order = exact_order(self.structure.fastest * piece).unwrap_or(MAX_ORDER);
+        q.copy_from_slice(&base.q);
+        v.copy_from_slice(&base.v);
+        for i in 0..pieces {
+            let start = i as f64 * piece;
+            let moved = &mut scratch.room()[..load.len()];
+            moved
+                .iter_mut()
+                .zip(load.iter().zip(&*slope))
+                .for_each(|(moved, (load, slope))| *moved = load + slope * start);
+            series.expand_flight(&self.structure, (q, v), (moved, slope), (piece, order));
+            powers.set(1.0, series.order);
+            series.evaluate(powers, q, v);
+        }
+    }
+
+    /// The prepared flight from the base over `h` seconds, if that is a whole segment.
+    fn prepared(&self, base: &Base, h: f64) -> Option<&Interval> {
+        let whole = base.elapsed == 0.0 && h == base.segment.length;
+        self.ground.as_ref().filter(|_| whole).and_then(|ground| ground.prepared(&base.segment))
     }
 }

@@ -60,6 +60,11 @@ impl Pair {
         matches!(EpisodeForce::new(&self.law, self.mass, None).engaged, Force::Power { .. } | Force::Root { .. })
     }
 
+    /// Whether its force is a power of the penetration throughout, from the entry to the release.
+    pub fn has_one_power_law(&self) -> bool {
+        matches!(EpisodeForce::new(&self.law, self.mass, None).engaged, Force::Power { .. })
+    }
+
     /// Penetration, m, and its rate, m/s, for a modal motion.
     pub fn penetration(&self, q: &[f64], v: &[f64]) -> (f64, f64) {
         use crate::structure::dot;

@@ -11,6 +11,7 @@ use crate::engine::peaks::room::{PeakWork, ReadingRoom};
 use crate::engine::peaks::search::Quantity;
 use crate::engine::step::Step;
 use crate::engine::watched::rows::PeakOf;
+use crate::engine::window::free::FreeMotion;
 use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::larger;
 use crate::structure::MotionSeries;
@@ -110,7 +111,8 @@ impl Model {
             v.copy_from_slice(&step.planned.v);
             pairs.copy_from_slice(&solution.end);
         } else {
-            window.evaluate_with_pairs(&self.system, series, time, &mut work.buffers.powers, (q, v), &mut pairs);
+            let free = FreeMotion::of(&self.system, (base, inputs), series, work.buffers);
+            window.evaluate_with_pairs(&self.system, free, time, (q, v), &mut pairs);
         }
         let (ground, ground_slope) = quantity.ground;
         let ground = ground + ground_slope * time;

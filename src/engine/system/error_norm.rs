@@ -3,7 +3,7 @@
 
 use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::system::System;
-use crate::structure::LANES;
+use crate::structure::{FEW_BLOCKS, LANES, Lane};
 
 impl System {
     /// Largest component over all floors of a vector of motion; of modal coordinates, the largest that one mode
@@ -13,7 +13,10 @@ impl System {
             Coordinates::Floors => largest_of(motion, |_, size| size),
             Coordinates::Modes => {
                 let weights = self.structure.weight.as_chunks::<LANES>().0;
-                largest_of(motion, |(c, i), size| size * weights[c][i])
+                match weights.len() <= FEW_BLOCKS {
+                    true => largest_of(motion, |(c, i), size| size * weights[c][i]),
+                    false => largest_of_many(weights, motion),
+                }
             }
         }
     }
@@ -56,6 +59,12 @@ fn largest_of(motion: &[f64], weighed: impl Fn((usize, usize), f64) -> f64) -> f
         }
     }
     largest.iter().fold(0.0, |a, b| a.max(*b))
+}
+
+/// The same where modes are many.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn largest_of_many(weights: &[Lane], motion: &[f64]) -> f64 {
+    largest_of(motion, |(c, i), size| size * weights[c][i])
 }
 
 /// The power of two at or below x > 0: scaling by it makes no rounding error.

@@ -4,6 +4,7 @@ pub mod buffers;
 pub mod error_norm;
 pub mod tolerance;
 
+use crate::collocation::MOST_PAIRS;
 use crate::engine::base::clearance::Clearance;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::peaks::Peaks;
@@ -16,7 +17,11 @@ use crate::engine::pairs::rigid::RigidPairs;
 use crate::engine::system::tolerance::Tolerance;
 use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
-use crate::structure::{FEW_BLOCKS, ImpulseResponse, LANES, Side, Structure};
+use crate::structure::{FEW_BLOCKS, FreeRows, ImpulseResponse, LANES, Side, Structure};
+
+/// From more modes on windows take less time than power series floor by floor: these need more instructions from some 30
+/// on, of which more go at once (measured).
+const MANY_MODES: usize = 80;
 
 /// The part of a model that all kinds of steps share; constant during a run.
 #[derive(Debug)]
@@ -35,6 +40,8 @@ pub struct System {
     pub least_approach: f64,
     /// Response to an impulse as a series in time; present where a law has a root and damping couples no modes.
     pub impulse_response: Option<ImpulseResponse>,
+    /// Polynomials of the pairs' distances apart from contact, where that response is one of polynomials.
+    pub free_rows: Option<FreeRows>,
     /// Modal displacements, m kg^1/2, and velocities at the start of a run.
     initial: [Vec<f64>; 2],
     /// 1 for every floor: the influence vector of the ground motion.
@@ -54,18 +61,21 @@ impl System {
             }
             None => None,
         };
+        // The search for peaks reads a window many times, by exact flights of all modes where these are many.
+        let is_read_seldom = !scene.floor_forces && !scene.peaks;
+        let impulse_response = impulse_response(&structure, &pairs, ground.as_ref().filter(|_| is_read_seldom));
+        let rows = || pairs.iter().map(|pair| &pair.row[..]);
+        let longest = impulse_response.as_ref().and_then(ImpulseResponse::longest);
+        let free_rows = longest.map(|length| FreeRows::new(&structure, rows(), length));
         Ok(System {
             initial: initial_state(scene, &structure),
             rigid: RigidPairs::of(&pairs),
             floor_forces: scene.floor_forces,
             tolerance: Tolerance::of(scene.solver.relative_tolerance),
-            contact_coordinates: contact_coordinates(&structure),
+            contact_coordinates: contact_coordinates(&structure, free_rows.is_some()),
             least_approach: scene.solver.min_approach_velocity,
-            impulse_response: if pairs.iter().any(Pair::has_power_law) {
-                ImpulseResponse::of(&structure)
-            } else {
-                None
-            },
+            free_rows,
+            impulse_response,
             ones: structure.floors.ones(),
             structure,
             pairs,
@@ -98,6 +108,12 @@ impl System {
         }
     }
 
+    /// Whether windows, in which few pairs of buildings of many modes are in contact, take the motion without contact
+    /// forces from exact flights.
+    pub fn flies_in_windows(&self) -> bool {
+        self.free_rows.is_some()
+    }
+
     /// Whether a master's inputs act on the system, so that steps end at communication points.
     pub fn is_driven(&self) -> bool {
         self.ground.is_none() || self.floor_forces
@@ -113,14 +129,7 @@ impl System {
     pub fn load(&self, base: &Base, inputs: &Inputs, load: &mut [f64], slope: &mut [f64]) {
         let Base { segment, elapsed, coordinates, .. } = base;
         let (acceleration, rate) = (segment.acceleration_at(*elapsed), segment.slope);
-        let (shares, _) = self.participation(*coordinates).as_chunks::<LANES>();
-        let blocks = load.as_chunks_mut::<LANES>().0.iter_mut().zip(slope.as_chunks_mut::<LANES>().0).zip(shares);
-        for ((load, slope), share) in blocks {
-            for i in 0..LANES {
-                load[i] = -share[i] * acceleration;
-                slope[i] = -share[i] * rate;
-            }
-        }
+        set_load(self.participation(*coordinates), (acceleration, rate), load, slope);
         if self.floor_forces {
             self.add_floor_forces(inputs, *coordinates, |force| force.after(segment.start, *elapsed), load);
             self.add_floor_forces(inputs, *coordinates, LinearInput::slope, slope);
@@ -205,9 +214,41 @@ impl System {
     }
 }
 
-/// The cheaper coordinates in contact: modes where they are few or where the floor matrices are full, else floors.
-fn contact_coordinates(structure: &Structure) -> Coordinates {
-    if !cfg!(without = "floors") && structure.lanes > FEW_BLOCKS * LANES && structure.floors.is_sparse() {
+/// The load by the ground's acceleration and its slope.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn set_load(shares: &[f64], (acceleration, rate): (f64, f64), load: &mut [f64], slope: &mut [f64]) {
+    for (load, share) in load.iter_mut().zip(shares) {
+        *load = -share * acceleration;
+    }
+    for (slope, share) in slope.iter_mut().zip(shares) {
+        *slope = -share * rate;
+    }
+}
+
+/// The response to an impulse, of use where a law has a root: polynomials over the time between two samples, or an equal
+/// part of it, for few pairs of buildings of many modes; else a power series.
+fn impulse_response(structure: &Structure, pairs: &[Pair], ground: Option<&GroundMotion>) -> Option<ImpulseResponse> {
+    if !pairs.iter().any(Pair::has_power_law) {
+        return None;
+    }
+    // Where a law changes with the sense of the motion, no bound shows which one acts in buildings that lean; and where
+    // floors touch from the start, some differ by less than the rounding of a sum over all modes.
+    let is_fit = |pair: &Pair| pair.has_one_power_law() && pair.gap > 0.0;
+    let are_few = pairs.len() <= MOST_PAIRS && pairs.iter().all(is_fit);
+    let is_for_many_modes = are_few && structure.lanes > MANY_MODES && !cfg!(without = "windows");
+    let length = ground.filter(|_| is_for_many_modes).map(GroundMotion::usual_length);
+    let of_parts = length.and_then(|length| {
+        let parts = (structure.fastest * length / ImpulseResponse::FURTHEST).ceil().max(1.0);
+        ImpulseResponse::over(structure, length / parts)
+    });
+    of_parts.or_else(|| ImpulseResponse::of(structure))
+}
+
+/// The cheaper coordinates in contact: modes where they are few, where windows take them all at once, or where the floor
+/// matrices are full; else floors.
+fn contact_coordinates(structure: &Structure, has_windows: bool) -> Coordinates {
+    let are_many = structure.lanes > FEW_BLOCKS * LANES && !has_windows;
+    if !cfg!(without = "floors") && are_many && structure.floors.is_sparse() {
         Coordinates::Floors
     } else {
         Coordinates::Modes

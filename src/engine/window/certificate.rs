@@ -12,10 +12,14 @@ use crate::engine::base::Base;
 use crate::engine::base::contact::{Contact, Phase};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
+use crate::engine::window::free::FreeTerms;
 use crate::engine::window::kernels::Windows;
 use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::SECOND;
-use crate::structure::MotionSeries;
+use crate::structure::FreeRows;
+use std::array::from_fn;
+use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// Halvings of a piece of a window to show that a pair stays apart in it: down to a distance of rounding.
 const MOST_HALVINGS: u32 = 16;
@@ -26,7 +30,7 @@ impl Windows {
         &self,
         system: &System,
         base: &Base,
-        (window, series): (&Window, &MotionSeries),
+        (window, free): (&Window, FreeTerms),
         work: &mut Buffers,
         ending: Ending,
     ) -> bool {
@@ -34,15 +38,21 @@ impl Windows {
         let pairs_hold = (0..equation.pairs).all(|place| {
             let kernels = &equation.kernels[place].each_ref();
             let sense = if place < equation.closed { Sense::Up } else { Sense::Down };
-            let free = &equation.free[place][..equation.terms];
-            let bend = window.bend(sense, free, kernels, Some(place));
+            let terms = &equation.free[place][..equation.terms];
+            let bends = self.bends(system, window, window.contacts[place]);
+            let bend = window.bend(sense, terms, (kernels, &bends), Some(place));
             let passage = Passage { window, place, contact: &base.contacts[window.contacts[place]], bend, ending };
             if place < equation.closed {
                 return passage.stays_in_contact();
             }
-            passage.stays_apart(&Approach { window, free, kernels, bend })
+            passage.stays_apart(&Approach { window, free: terms, kernels, bend })
         });
-        pairs_hold && self.others_stay_apart(system, base, (window, series), work)
+        pairs_hold && self.others_stay_apart(system, base, (window, free), work)
+    }
+
+    /// Bounds on the integrals of the second derivatives of a pair's kernels, for the closed pairs of a window.
+    fn bends(&self, system: &System, window: &Window, p: usize) -> [f64; MOST_PAIRS] {
+        window.contacts.map(|q| self.bend_of_kernel(system, p, q))
     }
 
     /// Whether all pairs outside the window stay apart.
@@ -50,26 +60,26 @@ impl Windows {
         &self,
         system: &System,
         base: &Base,
-        (window, series): (&Window, &MotionSeries),
+        (window, free): (&Window, FreeTerms),
         work: &mut Buffers,
     ) -> bool {
         let Window { contacts, equation, solution, .. } = window;
         let is_other = |p: usize, contact: &Contact| !contact.in_contact() && window.place(p).is_none();
         let mut others = base.contacts.iter().enumerate().filter(|(p, contact)| is_other(*p, contact));
         others.all(|(p, contact)| {
-            let row = &system.pairs[p].row;
-            let terms = &mut work.scalar[..=series.order];
-            series.dot_each(row, 2, terms);
+            let terms = &mut work.scalar[..free.count()];
+            free.enter(system, p, terms);
             let (mut kernels, mut room) = ([&[0.0; POWERS]; MOST_PAIRS], [None; MOST_PAIRS]);
             for ((kernel, room), q) in kernels.iter_mut().zip(&mut room).zip(&contacts[..equation.closed]) {
                 *kernel = self.kernel(system, p, *q, room);
             }
-            let bend = |sense: Sense| window.bend(sense, terms, &kernels, None);
+            let bends = self.bends(system, window, p);
+            let bend = |sense: Sense| window.bend(sense, terms, (&kernels, &bends), None);
             if keeps_off(contact, bend(Sense::Up), solution.length) {
                 return true;
             }
             let bend = bend(Sense::Down);
-            (terms[0], terms[1]) = (contact.flight_start(), contact.rate * series.scale);
+            (terms[0], terms[1]) = (contact.flight_start(), contact.rate * free.scale());
             let approach = Approach { window, free: terms, kernels: &kernels, bend };
             let end = (solution.length, approach.depth(solution.length));
             end.1 < 0.0 && approach.stays_below((0.0, terms[0]), end, MOST_HALVINGS)
@@ -96,19 +106,76 @@ impl Window {
     /// Bound on the second derivative of a pair's penetration over the window, in that sense, m/s2: of its motion
     /// without contact forces, from the terms `free`, and of all contact forces, from the `kernels`. The direct effect
     /// of its own force is left out if it is number `itself` in the window.
-    fn bend(&self, sense: Sense, free: &[f64], kernels: &[&Kernel; MOST_PAIRS], itself: Option<usize>) -> f64 {
+    fn bend(
+        &self,
+        sense: Sense,
+        free: &[f64],
+        (kernels, bends): (&[&Kernel; MOST_PAIRS], &[f64; MOST_PAIRS]),
+        itself: Option<usize>,
+    ) -> f64 {
         let Window { equation, solution, greatest, .. } = self;
         let (x, h) = (solution.length / equation.scale, solution.length);
-        let later = sum_of_sizes(free, 3, x);
-        let at_start = if sense == Sense::Up { 2.0 * free[2] } else { -2.0 * free[2] };
-        let mut bend = (at_start + later * x) / (equation.scale * equation.scale);
+        let mut bend = match free.len() == FreeRows::TERMS {
+            // Powers of quick modes cancel: their magnitudes would say nothing.
+            true => highest_curvature(free, x, sense),
+            false => {
+                let at_start = if sense == Sense::Up { 2.0 * free[2] } else { -2.0 * free[2] };
+                at_start + sum_of_sizes(free, 3, x) * x
+            }
+        };
+        bend /= equation.scale * equation.scale;
         for q in 0..equation.closed {
             let at_once = if itself == Some(q) { 0.0 } else { kernels[q][1].abs() };
             let later = sum_of_sizes(&kernels[q][..equation.powers], 2, h);
-            bend += greatest[q] * (at_once + later * h);
+            bend += greatest[q] * (at_once + (later * h).min(bends[q]));
         }
         bend.max(0.0)
     }
+}
+
+/// Points at which the second derivative of a polynomial of [`FreeRows::TERMS`] terms is evaluated for a bound on it.
+const POINTS: usize = 36;
+
+/// The zeros of the Chebyshev polynomial of that degree on 0..=1, by fours.
+static CHEBYSHEV: LazyLock<[[f64; 4]; POINTS / 4]> = LazyLock::new(|| {
+    from_fn(|c| from_fn(|i| 0.5 - 0.5 * libm::cos((2 * (4 * c + i) + 1) as f64 * PI / (2 * POINTS) as f64)))
+});
+
+/// A polynomial of degree n is at most 1 / cos(n pi / (2 N)) times as large as at N such points \[EhlichZeller1964\]: for
+/// the second derivative of one of [`FreeRows::TERMS`] terms.
+const BETWEEN_POINTS: f64 = 1.36;
+
+/// A bound on the second derivative of a polynomial, of that sense, over 0..=x.
+fn highest_curvature(terms: &[f64], x: f64, sense: Sense) -> f64 {
+    let (lowest, highest) = curvatures(&CHEBYSHEV, terms, x);
+    let (middle, half) = (0.5 * (highest + lowest), 0.5 * (highest - lowest));
+    let bound = BETWEEN_POINTS * half + if sense == Sense::Up { middle } else { -middle };
+    if bound.is_nan() { f64::INFINITY } else { bound }
+}
+
+/// The least and the largest second derivative at the points; NaN where any is.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn curvatures(points: &[[f64; 4]; POINTS / 4], terms: &[f64], x: f64) -> (f64, f64) {
+    let mut factors = [0.0; FreeRows::TERMS];
+    for n in 2..FreeRows::TERMS {
+        factors[n] = terms[n] * SECOND[n];
+    }
+    let (mut low, mut high, mut all) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4], [0.0; 4]);
+    for points in points {
+        let mut sum = [0.0; 4];
+        for n in (2..FreeRows::TERMS).rev() {
+            for i in 0..4 {
+                sum[i] = sum[i] * (points[i] * x) + factors[n];
+            }
+        }
+        for i in 0..4 {
+            low[i] = if sum[i] < low[i] { sum[i] } else { low[i] };
+            high[i] = if sum[i] > high[i] { sum[i] } else { high[i] };
+            all[i] += 0.0 * sum[i];
+        }
+    }
+    let spoiled: f64 = all.iter().sum();
+    (low.into_iter().fold(low[0], f64::min) + spoiled, high.into_iter().fold(high[0], f64::max) + spoiled)
 }
 
 /// Sum of the magnitudes of the second derivatives of the terms from number `first` on, divided by the power of x in
@@ -298,5 +365,39 @@ impl Passage<'_> {
             rate = rate.min((piece.to - piece.from) / piece.gone) + self.bend * piece.gone;
             recedes
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Polynomials with terms that cancel, such as quick modes have: the bound is above the curvature at all times, and not
+    /// far above the largest.
+    #[test]
+    fn a_bound_by_values_at_points_holds_between_them() {
+        for (rate, swing) in [(0.0, 3.0), (-13.0, 0.0), (-2.0, 9.0), (0.5, 1.0)] {
+            // exp(rate x) cos(swing x), by its first terms.
+            let (mut power, mut terms) = ([1.0, 0.0], [0.0; FreeRows::TERMS]);
+            for (n, term) in terms.iter_mut().enumerate() {
+                *term = power[0];
+                let k = n as f64 + 1.0;
+                power = [(rate * power[0] - swing * power[1]) / k, (rate * power[1] + swing * power[0]) / k];
+            }
+            for end in [0.1, 0.77, 1.0] {
+                let at = |k: u32| end * f64::from(k) / 1000.0;
+                let curvature = |x: f64| (2..terms.len()).rev().fold(0.0, |sum, n| sum * x + SECOND[n] * terms[n]);
+                for (sense, sign) in [(Sense::Up, 1.0), (Sense::Down, -1.0)] {
+                    let largest = (0..=1000).map(|k| sign * curvature(at(k))).fold(f64::NEG_INFINITY, f64::max);
+                    let size = (0..=1000).map(|k| curvature(at(k)).abs()).fold(0.0, f64::max);
+                    let bound = highest_curvature(&terms, end, sense);
+                    assert!(
+                        bound >= largest && bound <= largest + 0.5 * size,
+                        "{rate} {swing} {end}: {bound}, {largest}"
+                    );
+                }
+            }
+        }
+        assert_eq!(highest_curvature(&[f64::NAN; FreeRows::TERMS], 1.0, Sense::Up), f64::INFINITY);
     }
 }

@@ -6,12 +6,14 @@
 //! [`certificate`]); otherwise the step is taken by power series in time.
 
 pub mod certificate;
+pub mod free;
 pub mod kernels;
+pub mod prepared_push;
 pub mod solution;
 pub mod spring;
 pub mod trial;
 
-use crate::collocation::{Ending, MOST_PAIRS, Tables, Workspace as WindowWorkspace};
+use crate::collocation::{Ending, MOST_PAIRS, POWERS, Tables, Workspace as WindowWorkspace};
 use crate::contact::Force;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::{At, Event, Planned};
@@ -19,10 +21,11 @@ use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::window::certificate::keeps_off;
+use crate::engine::window::free::{FreeMotion, FreeTerms};
 use crate::engine::window::kernels::{Windows, are_for};
 use crate::engine::window::solution::Window;
 use crate::engine::window::trial::Trial;
-use crate::structure::{EXACT, MotionSeries, dot, flight_order};
+use crate::structure::{EXACT, MotionSeries, flight_order};
 
 /// Allowed truncation error of a kernel, relative to the tolerance of one step.
 const KERNEL_SHARE: f64 = 0.03;
@@ -36,6 +39,12 @@ const SWEEP_SHARE: f64 = 0.3;
 
 /// A contact is at rest if the part of its force that is not balanced, and its velocity, are below this share.
 const AT_REST: f64 = 0.1;
+
+/// Relative rounding error of the velocity that a force has given at the end of a window.
+const CANCELLED: f64 = 2.0 * f64::EPSILON;
+
+/// Rounding error of velocities in any kind of step, relative to the velocity scale.
+const ROUNDED: f64 = 8.0 * f64::EPSILON;
 
 /// Largest number of pairs with dashpots in a window: with two, series in a time map cost about as much (measured).
 const MOST_DAMPED: usize = 1;
@@ -69,14 +78,13 @@ impl Windows {
         if base.coordinates != Coordinates::Modes || !window.gather(base) {
             return false;
         }
+        let (whole, remaining) = (remaining, remaining.min(self.longest(system)));
         let Some(mut trial) = self.trial(system, base, window, remaining) else { return false };
-        if !self.set_equation(system, base, (window, series), work, trial.room()) {
-            return false;
-        }
+        let Some(free) = self.set_equation(system, base, (window, series), work, trial.room()) else { return false };
         if (0..window.equation.closed).any(|place| window.is_at_rest(system, base, place)) {
             return false;
         }
-        self.watch(system, base, (window, series), trial.length);
+        self.watch(system, base, (window, free), trial.length);
         let tolerance = system.tolerance.step * base.velocity_scale;
         for _ in 0..MOST_TRIES {
             let Window { equation, solution, .. } = window;
@@ -93,11 +101,11 @@ impl Windows {
                 continue;
             }
             window.close();
-            match self.assess(system, base, (window, series), work, trial, tolerance) {
+            match self.assess(system, base, (window, free), work, trial, tolerance) {
                 Verdict::Good => {
                     at.counters.contact_steps += 1;
                     at.counters.law_evaluations += base.count_forces(Contact::branch);
-                    window.commit(system, series, planned, work, trial.ending, remaining);
+                    window.commit((system, base), (self, free), planned, work, trial.ending, whole);
                     return true;
                 }
                 Verdict::Another(next) => trial = next,
@@ -107,42 +115,47 @@ impl Windows {
         false
     }
 
-    /// Sets the motion without contact forces and the kernels for windows up to `longest`, s; returns whether its
-    /// series reach that far.
-    fn set_equation(
+    /// Sets the motion without contact forces and the kernels for windows up to `longest`, s; returns where terms of
+    /// that motion come from, if they reach that far.
+    fn set_equation<'a>(
         &self,
-        system: &System,
-        base: &Base,
-        (window, series): (&mut Window, &mut MotionSeries),
+        system: &'a System,
+        base: &'a Base,
+        (window, series): (&mut Window, &'a mut MotionSeries),
         work: &Buffers,
         longest: f64,
-    ) -> bool {
+    ) -> Option<FreeTerms<'a>> {
         let System { structure, tolerance, impulse_response, .. } = system;
         let equation = &mut window.equation;
-        let remainder = (KERNEL_SHARE * tolerance.step).max(1e-17);
-        let powers = impulse_response.as_ref().and_then(|response| response.powers(longest, remainder));
-        let exact = (FREE_SHARE * tolerance.step).max(EXACT);
-        let (Some(powers), Some(order)) = (powers, flight_order(structure.fastest * longest, exact)) else {
-            return false;
+        equation.remainder = (KERNEL_SHARE * tolerance.step).max(1e-17);
+        let free = match &system.free_rows {
+            Some(rows) => {
+                equation.powers = POWERS;
+                FreeTerms::Rows(rows, base)
+            }
+            None => {
+                equation.powers = impulse_response.as_ref()?.powers(longest, equation.remainder)?;
+                let order = flight_order(structure.fastest * longest, (FREE_SHARE * tolerance.step).max(EXACT))?;
+                series.expand_flight(structure, (&base.q, &base.v), (&work.load, &work.slope), (longest, order));
+                FreeTerms::Series(series)
+            }
         };
-        series.expand_flight(structure, (&base.q, &base.v), (&work.load, &work.slope), (longest, order));
-        equation.remainder = remainder;
-        (equation.scale, equation.powers, equation.terms) = (longest, powers, series.order + 1);
+        (equation.scale, equation.terms) = (free.scale(), free.count());
         for place in 0..equation.closed {
-            self.set_pair(system, base, (window, series), place);
+            self.set_pair(system, base, (window, free), place);
         }
-        true
+        Some(free)
     }
 
     /// Sets the data of one pair of the window.
-    fn set_pair(&self, system: &System, base: &Base, (window, series): (&mut Window, &MotionSeries), place: usize) {
+    fn set_pair(&self, system: &System, base: &Base, (window, terms): (&mut Window, FreeTerms), place: usize) {
         let Window { equation, contacts, .. } = window;
         let p = contacts[place];
-        let (contact, row) = (&base.contacts[p], &system.pairs[p].row);
+        let contact = &base.contacts[p];
         let free = &mut equation.free[place];
         free[0] = if contact.in_contact() { contact.penetration.max(0.0) } else { contact.flight_start() };
         free[1] = contact.rate * equation.scale;
-        series.dot_each(row, 2, free);
+        terms.enter(system, p, free);
         equation.kernels[place][place] = *self.kernel(system, p, p, &mut None);
         for (other, q) in contacts.iter().enumerate().take(equation.closed).filter(|(other, _)| *other != place) {
             equation.kernels[place][other] = *self.kernel(system, p, *q, &mut None);
@@ -150,20 +163,19 @@ impl Windows {
     }
 
     /// Adds the open pairs that may come into contact within `length` seconds, as many as there is room for.
-    fn watch(&self, system: &System, base: &Base, (window, series): (&mut Window, &MotionSeries), length: f64) {
+    fn watch(&self, system: &System, base: &Base, (window, free): (&mut Window, FreeTerms), length: f64) {
         for (p, contact) in base.contacts.iter().enumerate().filter(|(_, contact)| !contact.in_contact()) {
             let place = window.equation.pairs;
             if place == MOST_PAIRS || system.pairs[p].law.is_rigid() {
                 return;
             }
-            let (row, scale) = (&system.pairs[p].row, series.scale);
-            let bend = 2.0 * dot(row, series.term(2)).max(0.0) / (scale * scale);
+            let bend = free.bend_at_start(system, p, &mut window.equation.free[place]);
             if keeps_off(contact, 2.0 * bend, length) {
                 continue;
             }
             window.contacts[place] = p;
             window.equation.pairs += 1;
-            self.set_pair(system, base, (window, series), place);
+            self.set_pair(system, base, (window, free), place);
         }
     }
 
@@ -172,7 +184,7 @@ impl Windows {
         &self,
         system: &System,
         base: &Base,
-        (window, series): (&Window, &MotionSeries),
+        (window, free): (&Window, FreeTerms),
         work: &mut Buffers,
         trial: Trial,
         tolerance: f64,
@@ -196,7 +208,7 @@ impl Windows {
             let share = libm::pow(allowed / error, 0.1);
             return Verdict::Another(trial.shorter((0.9 * share).max(0.3)));
         }
-        match self.is_certain(system, base, (window, series), work, trial.ending) {
+        match self.is_certain(system, base, (window, free), work, trial.ending) {
             true => Verdict::Good,
             // An event may be so near that bounds cannot exclude it: power series find it.
             false if trial.ending != Ending::Given || trial.halved => Verdict::Reject,
@@ -242,7 +254,7 @@ impl Window {
 
     /// Whether a pair is pressed together almost without motion: its contact force and the forces that it balances
     /// nearly cancel. A window would add up both separately and lose digits; a power series adds up their small
-    /// difference.
+    /// difference. Buildings that lean on each other do not lose any that the tolerance asks for.
     fn is_at_rest(&self, system: &System, base: &Base, place: usize) -> bool {
         let Window { equation, contacts, .. } = self;
         let (p, force) = (contacts[place], equation.forces[place]);
@@ -250,14 +262,18 @@ impl Window {
         let pushed = equation.kernels[place][place][1] * force.value(d, rate);
         let left = 2.0 * equation.free[place][2] / (equation.scale * equation.scale) - pushed;
         let stored = force.stored_energy(d) / system.pairs[p].mass;
+        let lost = CANCELLED * pushed * equation.scale;
+        if system.flies_in_windows() && lost < (system.tolerance.step + ROUNDED) * base.velocity_scale {
+            return false;
+        }
         left.abs() < AT_REST * pushed && 0.5 * rate * rate < AT_REST * AT_REST * stored
     }
 
     /// Makes a solved window the planned step.
     fn commit(
         &self,
-        system: &System,
-        series: &MotionSeries,
+        (system, base): (&System, &Base),
+        (windows, terms): (&Windows, FreeTerms),
         planned: &mut Planned,
         work: &mut Buffers,
         ending: Ending,
@@ -274,7 +290,15 @@ impl Window {
             Ending::Turn(place) => Some(Event::Branch(contacts[place])),
             Ending::Touch(place) => Some(Event::Entry(contacts[place])),
         };
-        self.evaluate(system, series, length, &mut work.powers, (&mut planned.q, &mut planned.v));
+        let free = match terms {
+            FreeTerms::Series(series) => FreeMotion::Series(series, &mut work.powers),
+            FreeTerms::Rows(..) => FreeMotion::Flight(base, (&work.load, &work.slope), &mut work.interval),
+        };
+        let end = (&mut planned.q[..], &mut planned.v[..]);
+        match windows.prepared_pushes.is_empty() {
+            true => self.evaluate(system, free, length, end),
+            false => self.end_by_nodes(system, windows, free, end),
+        }
         planned.next_length = Some(length);
     }
 

@@ -5,10 +5,10 @@ use crate::collocation::{
 };
 use crate::engine::base::contact::Contact;
 use crate::engine::system::System;
+use crate::engine::window::free::FreeMotion;
+use crate::engine::window::kernels::Windows;
 use crate::numerics::polynomial::{each, value_and_slope};
-use crate::numerics::powers::Powers;
 use crate::numerics::roots;
-use crate::structure::MotionSeries;
 
 /// The node next to a peak has at least this share of it.
 const NEARLY: f64 = 0.97;
@@ -166,31 +166,22 @@ fn weigh(nodes: &Nodes, force: &Row, part: &Part, elapsed: f64, moments: &mut [f
 }
 
 impl Window {
-    /// Displacements and velocities, `elapsed` seconds into the window; `series` is the motion without contact forces.
-    pub fn evaluate(
-        &self,
-        system: &System,
-        series: &MotionSeries,
-        elapsed: f64,
-        powers: &mut Powers,
-        motion: (&mut [f64], &mut [f64]),
-    ) {
-        self.evaluate_with_pairs(system, series, elapsed, powers, motion, &mut []);
+    /// Displacements and velocities, `elapsed` seconds into the window, from the motion without contact forces.
+    pub fn evaluate(&self, system: &System, free: FreeMotion, elapsed: f64, motion: (&mut [f64], &mut [f64])) {
+        self.evaluate_with_pairs(system, free, elapsed, motion, &mut []);
     }
 
     /// The same motion, and the (penetration, m, rate, m/s) of the closed pairs, as many as `pairs` has room for.
     pub fn evaluate_with_pairs(
         &self,
         system: &System,
-        series: &MotionSeries,
+        free: FreeMotion,
         elapsed: f64,
-        powers: &mut Powers,
         (q, v): (&mut [f64], &mut [f64]),
         pairs: &mut [(f64, f64)],
     ) {
         let Some(response) = &system.impulse_response else { return };
-        powers.set(elapsed / series.scale, series.order);
-        series.evaluate(powers, q, v);
+        free.evaluate(system, elapsed, (q, v));
         let mut room = None;
         let moments = self.moments(elapsed, &mut room);
         for (p, moments) in self.contacts.iter().zip(moments).take(self.equation.closed) {
@@ -198,6 +189,20 @@ impl Window {
         }
         for (place, pair) in pairs.iter_mut().enumerate().take(self.equation.closed) {
             *pair = self.depth(place, elapsed, moments);
+        }
+    }
+}
+
+impl Window {
+    /// The motion at the end, with prepared matrices where there are any for this window.
+    pub fn end_by_nodes(&self, system: &System, windows: &Windows, free: FreeMotion, (q, v): (&mut [f64], &mut [f64])) {
+        let Some(response) = &system.impulse_response else { return };
+        let Solution { map, rule, length, ref force, .. } = self.solution;
+        free.evaluate(system, length, (q, v));
+        for ((&p, force), moments) in self.contacts.iter().zip(force).zip(&self.whole).take(self.equation.closed) {
+            if !windows.prepared_pushes[p].push((map, rule, length), force, (q, v)) {
+                response.push(&system.pairs[p].row, &moments[..self.equation.powers], (q, v));
+            }
         }
     }
 }

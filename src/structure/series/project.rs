@@ -27,9 +27,12 @@ fn project_blocks<const N: usize>(terms: &[Lane], row: &[Lane], factors: &[f64],
         let (mut sums, mut sizes) = ([[0.0; LANES]; LANES], [[0.0; LANES]; LANES]);
         for ((term, sum), size) in terms.chunks_exact(width).zip(&mut sums).zip(&mut sizes) {
             for c in 0..width {
-                let product = each(|i| row[c][i] * term[c][i]);
-                *sum = each(|i| sum[i] + product[i]);
-                *size = each(|i| size[i] + product[i].abs());
+                // Without closures, whose code would not be compiled for wide instructions.
+                for i in 0..LANES {
+                    let product = row[c][i] * term[c][i];
+                    sum[i] += product;
+                    size[i] += product.abs();
+                }
             }
         }
         let [values, sizes] = [sums, sizes].map(|of| each(|k| from_left_to_right(of[k])));
