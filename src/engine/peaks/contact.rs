@@ -8,7 +8,7 @@ use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::peaks::reading::{ContactStep, highest_in_onset};
-use crate::engine::peaks::room::{FloorRoom, PeakWork};
+use crate::engine::peaks::room::{FloorRoom, PeakRoom, PeakWork};
 use crate::engine::peaks::search::{Quantity, highest};
 use crate::engine::step::{Dense, Step};
 use crate::engine::taylor::solution::Solution;
@@ -115,8 +115,12 @@ impl Model {
     fn check_contact_step(&self, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
         self.find_ends(part, work);
         self.find_pushes(part.base, work);
+        let has_series = bound_by_series(part, work);
         for side in [Side::Left, Side::Right] {
-            self.bound_building(side, part, work);
+            match has_series {
+                true => self.bound_building_by_series(side, part, work),
+                false => self.bound_building(side, part, work),
+            }
             self.check_building(side, part, peaks, work);
         }
     }
@@ -181,6 +185,18 @@ impl Model {
             room.largest[lane] = resisted + larger(room.most[lane], -room.least[lane]) + ground;
         }
         self.find_strays(side, part.length, room);
+    }
+
+    /// Works out upper bounds on the floors' accelerations from those at both ends and the deviations in between.
+    fn bound_building_by_series(&self, side: Side, part: &ContactStep, work: &mut PeakWork) {
+        let (ground, slope) = part.ground();
+        let ground = larger(ground.abs(), (ground + slope * part.length).abs());
+        let PeakRoom { floors, first_push, last_push, .. } = &mut *work.peaks;
+        let FloorRoom { start, end, largest, strays, .. } = floors;
+        for lane in self.system.structure.floors.lanes_of(side as usize) {
+            let ends = [start.resisted[lane] + first_push[lane], end.resisted[lane] + last_push[lane]];
+            largest[lane] = larger(ends[0].abs(), ends[1].abs()) + strays[lane] + ground;
+        }
     }
 
     /// Raises the peaks of a building over the step.
@@ -295,6 +311,30 @@ impl Model {
         work.peaks.rows = rows;
         peak
     }
+}
+
+/// Bounds by the series of a step in time, between floors: a floor's absolute acceleration deviates from the chord of its
+/// values at both ends by at most h^2/8 max|u''''|. Writes these deviations, m/s2, and takes the forces at both ends for
+/// the least and largest ones, since the chord has them; returns whether the step has such a series.
+///
+/// However long the step, and however quick the building's highest modes: the bounds of `floors.rs` need a short step.
+fn bound_by_series(part: &ContactStep, work: &mut PeakWork) -> bool {
+    let Dense::Taylor(Solution { series, end, .. }) = part.step.dense() else { return false };
+    if part.base.coordinates != Coordinates::Floors || series.time_map.is_curved() {
+        return false;
+    }
+    let PeakRoom { floors: FloorRoom { strays, least, most, .. }, first_push, last_push, .. } = &mut *work.peaks;
+    series.bound_fourths(end, strays);
+    let sag = 0.125 * part.length * part.length;
+    strays.iter_mut().for_each(|stray| *stray *= sag);
+    for (lane, (first, last)) in first_push.iter().zip(&*last_push).enumerate() {
+        (least[lane], most[lane]) = (smaller(*first, *last), larger(*first, *last));
+    }
+    true
+}
+
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
 }
 
 /// Bounds on the excess of the floors of a building, or the storeys below them, over their peaks of displacement, drift

@@ -102,6 +102,15 @@ impl MotionSeries {
         sum_sizes(terms, &powers[first..], &mut sizes[..self.lanes]);
     }
 
+    /// Bounds on the fourth derivatives up to the x of the powers, m/s4, for each mode or floor of a series in time.
+    pub fn bound_fourths(&self, powers: &Powers, bounds: &mut [f64]) {
+        let order = self.order.min(MAX_TERMS - 1);
+        let (_, _, factors) = powers.all();
+        sum_sizes(&self.coefficients[4 * self.lanes..(order + 1) * self.lanes], &factors[4..=order], bounds);
+        let square = 1.0 / (self.scale * self.scale);
+        bounds.iter_mut().for_each(|bound| *bound *= square * square);
+    }
+
     /// The last two terms of the series of dq/dx, m, from which the step size follows; returns their powers of x.
     pub fn last_rates(&self, last: &mut [f64], before: &mut [f64]) -> [usize; 2] {
         let powers = [self.order - 1, self.order - 2];
