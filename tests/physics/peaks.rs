@@ -203,6 +203,27 @@ fn peaks_with_contacts_are_those_of_a_dense_reading() {
     }
 }
 
+/// Contacts so soft that steps in contact go from sample to sample, over much of a swing of the quicker modes.
+#[test]
+fn peaks_within_long_steps_of_many_storeys_are_those_of_a_dense_reading() {
+    let contact = |floor: usize| {
+        format!(
+            "[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = 0.004\nlaw = \"linear\"\nstiffness = 1e5\n"
+        )
+    };
+    let text = format!(
+        "name = \"Long\"\n{}{}{}{}",
+        frame("left", 10, 1e3, 14.0, 0.01),
+        frame("right", 9, 2e3, 11.0, 0.01),
+        contact(5),
+        contact(9)
+    );
+    // Which keeps contacts floor by floor.
+    let text = text.replace("{ ratio = 0.01 }", "{ rayleigh = { ratio = 0.01, modes = [1, 2] } }");
+    let record = shaking(0.02, 100, 6.0);
+    compare("long steps", &with_record(&text), Some(&record), 2.5, 20_000);
+}
+
 #[test]
 fn stiff_slow_and_coupled_buildings_have_the_peaks_of_a_dense_reading() {
     let record = shaking(0.02, 100, 5.0);
