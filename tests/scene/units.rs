@@ -5,6 +5,7 @@ use crate::two_and_three_storeys::{RECORD_SCENE, RICH, SCENE as DRIVEN};
 use pounding::contact::LawKind;
 use pounding::engine::{Episode, Model, Point, Side};
 use pounding::scene::{Package, PackagedRecord, Scene, Units, law_key};
+use pounding::variables::{Parameter, Settings, Value};
 use proptest::prelude::*;
 
 /// A decimal number with its point moved to the left by three digits.
@@ -254,4 +255,19 @@ fn units_that_there_are_not() {
         );
         assert!(slip[0].ends_with(&expected), "{slip:?}");
     }
+}
+
+/// Parameters are those of the FMU.
+#[test]
+fn parameters_are_in_si_units() {
+    let scene = Scene::from_toml(&in_kn_t(DRIVEN)).unwrap();
+    let mut settings = Settings::new(scene, None);
+    assert_eq!(settings.read(Parameter::Mass(Side::Left, 0)), Value::Real(3.65));
+    settings.write(Parameter::Mass(Side::Left, 0), Value::Real(-3.0)).unwrap();
+    let error = settings.check().unwrap_err().to_string();
+    assert_eq!(error, "left.mass[1] = -3.0: expected a finite mass > 0 kg");
+    settings.write(Parameter::Mass(Side::Left, 0), Value::Real(3.65e6)).unwrap();
+    settings.check().unwrap();
+    let warnings = settings.warnings();
+    assert_eq!((warnings[0].path.as_str(), warnings[0].value.as_str()), ("left.mass[1]", "3.65e6"));
 }
