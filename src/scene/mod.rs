@@ -30,6 +30,8 @@
 //! # Ok::<(), pounding::scene::SceneError>(())
 //! ```
 //!
+//! Masses are in t and forces in kN where the scene begins with `units = "kN-t"`; what has been read is in SI units.
+//!
 //! The optional tables `[ground]` (`record`, `scale` or `pga`), `[inputs]` (`floor_forces`), `[outputs]` (`energy`,
 //! `peaks`) and
 //! `[solver]` (`relative_tolerance`, `min_approach_velocity`) fill the fields of the same names in [`Scene`].
