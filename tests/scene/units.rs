@@ -24,7 +24,7 @@ fn in_kn_t(text: &str) -> String {
         };
         let (before, value) = value.split_at(value.rfind("matrix").map_or(0, |place| place + "matrix =".len()));
         let mut moved = String::new();
-        for part in value.split_inclusive(|c: char| matches!(c, '[' | ']' | ',' | ' ')) {
+        for part in value.split_inclusive(['[', ']', ',', ' ']) {
             let number = part.trim_end_matches(['[', ']', ',', ' ']);
             let is_number = number.parse::<f64>().is_ok();
             moved += &if is_number { thousandth(number) } else { number.to_owned() };
