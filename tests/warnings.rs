@@ -198,6 +198,10 @@ fn units_of_a_scene_in_t_and_kn() {
             .text
             .contains("masses are in t and stiffnesses in kN/m, were those of this building given in kg and N/m?")
     );
+    let masses = edited(&tonnes, &[(TONNES[0].1, MASSES), (TONNES[1].1, TONNES[1].0)]);
+    let told = found(&format!("units = \"kN-t\"\n{masses}"), None);
+    assert_eq!(paths(&told), ["left.mass", "right.mass"], "{told:?}");
+    assert!(told.iter().all(|warning| warning.text.contains("in t, were they given in kg?")), "{told:?}");
     let told = found(&format!("units = \"kN-t\"\n{OFFICES}"), None);
     assert_eq!(paths(&told), ["left.mass"], "{told:?}");
     assert!(told[0].text.contains("(units = \"SI\")") && told[0].text.contains("189000 t on average"), "{}", told[0]);
