@@ -2,17 +2,33 @@
 
 import json
 import tomllib
+from decimal import Decimal
 from math import pi, sin
 
 import engine
 
 
+# What is in t or with kN in a scene with units = "kN-t", in the tables of buildings, dampings and contacts.
+SCALED = {"mass", "stiffness", "stiffness_matrix", "matrix"}
+
+
 def read(file):
-    """A scene file, its record by an absolute path so that its text can lie anywhere."""
+    """A scene file in SI units, its record by an absolute path so that its text can lie anywhere."""
     scene = tomllib.loads(file.read_text())
+    if scene.pop("units", "SI") == "kN-t":
+        scene = in_si_units(scene)
     if "record" in scene.get("ground", {}):
         scene["ground"]["record"] = str((file.parent / scene["ground"]["record"]).resolve())
     return scene
+
+
+def in_si_units(value, is_scaled=False):
+    """The numbers of a scene in t and kN in kg and N: the doubles that their digits with the point moved are."""
+    if isinstance(value, dict):
+        return {key: in_si_units(inner, key in SCALED) for key, inner in value.items()}
+    if isinstance(value, list):
+        return [in_si_units(inner, is_scaled) for inner in value]
+    return float(Decimal(repr(value)).scaleb(3)) if is_scaled else value
 
 
 def text(scene):

@@ -94,6 +94,17 @@ fn the_guide_quotes_its_scene_up_to_the_first_contact() {
 }
 
 #[test]
+fn the_guide_has_the_buildings_of_its_scene_in_t_and_kn() {
+    let (guide, scene) = (read("docs/guide.md"), read("examples/scenes/offices.toml"));
+    let blocks = between(&guide, "```toml\n", "```").collect::<Vec<_>>();
+    let [quoted] = blocks.iter().filter(|block| block.starts_with("units = ")).collect::<Vec<_>>()[..] else {
+        panic!("one scene in t and kN")
+    };
+    let [scene, in_kn_t] = [scene.as_str(), quoted].map(|text| Scene::from_toml(text).unwrap());
+    assert_eq!((scene.left, scene.right), (in_kn_t.left, in_kn_t.right));
+}
+
+#[test]
 fn the_readme_quotes_its_scene_without_the_first_line() {
     let (readme, scene) = (read("README.md"), read("examples/scenes/two_blocks.toml"));
     let scenes: Vec<&str> = between(&readme, "```toml\n", "```").collect();

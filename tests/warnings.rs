@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use pounding::record::Record;
-use pounding::scene::{Scene, load};
+use pounding::scene::{Scene, Units, load};
 use pounding::warnings::{self, Warning};
 use std::fs;
 use std::path::PathBuf;
@@ -95,6 +95,116 @@ fn units_of_a_building() {
             "given in kN/m (or",
         ),
     ]);
+}
+
+/// [`OFFICES`] in t and kN, without saying so.
+const TONNES: &[(&str, &str)] = &[
+    (MASSES, "198, 198, 198, 198, 154"),
+    ("165e3, 165e3, 128e3", "165, 165, 128"),
+    (STOREYS, "300e3, 300e3, 300e3, 300e3, 300e3"),
+    ("141e6, 141e6, 141e6", "141e3, 141e3, 141e3"),
+    ("2.75e9", "2.75e6"),
+];
+
+#[test]
+fn a_scene_in_t_and_kn_that_does_not_say_so() {
+    const UNITS: &str = "units = \"kN-t\"";
+    let silent = edited(OFFICES, TONNES);
+    let told = found(&silent, None);
+    assert_eq!(paths(&told), ["left.mass"], "{told:?}");
+    assert!(told[0].text.contains(UNITS) && told[0].text.contains("189 kg on average"), "{}", told[0]);
+    assert_eq!(found(&format!("{UNITS}\n{silent}"), None), []);
+    // Beside a wall, which may have any mass.
+    let isolated =
+        [("320.0e3", "320.0"), ("12.6e6", "12.6e3"), ("600.0e6", "600.0e3"), ("1.0e9", "1.0e6"), ("1.0e16", "1e13")];
+    let silent = edited(ISOLATED, &isolated);
+    assert_eq!(paths(&found(&silent, None)), ["left.mass"]);
+    assert_eq!(found(&format!("{UNITS}\n{silent}"), None), []);
+    assert_eq!(paths(&found(&format!("{UNITS}\n{ISOLATED}"), None)), ["left.mass"]);
+    // Frames of laboratories are as light, and faster, closer to each other or lower.
+    for sound in [FILIATRAULT.to_owned(), edited(OFFICES, TONNES).replace("gap = 0.03", "gap = 0.01")] {
+        assert_eq!(found(&sound, None), []);
+    }
+    // Where only some numbers are in t or kN, too.
+    for change in [TONNES[0], TONNES[2], TONNES[4]] {
+        let told = found(&edited(OFFICES, &[change]), None);
+        assert!(told[0].text.contains(UNITS), "{told:?}");
+    }
+}
+
+#[test]
+fn units_of_a_scene_in_t_and_kn() {
+    let tonnes = edited(OFFICES, TONNES);
+    for (from, to, path, value, words) in [
+        (
+            TONNES[0].1,
+            MASSES,
+            "left.mass",
+            "[198000.0, 198000.0, 198000.0, 198000.0, 154000.0]",
+            "in t, were they given in kg?",
+        ),
+        (
+            TONNES[2].1,
+            "300e6, 300e6, 300e6, 300e6, 300e6",
+            "left.stiffness",
+            "[300000000.0, 300000000.0, 300000000.0, 300000000.0, 3000...",
+            "in kN/m, were they given in N/m?",
+        ),
+        (
+            TONNES[2].1,
+            "300, 300, 300, 300, 300",
+            "left.stiffness",
+            "[300.0, 300.0, 300.0, 300.0, 300.0]",
+            "kN/mm or MN/m",
+        ),
+        (TONNES[0].1, "198, 198, 198e3, 198, 154", "left.mass[3]", "198000.0", "all are in t; was it given in kg?"),
+        (
+            TONNES[2].1,
+            "300e6, 300e3, 300e3, 300e3, 300e3",
+            "left.stiffness[1]",
+            "3e8",
+            "all are in kN/m; was it given in N/m?",
+        ),
+        (TONNES[0].1, "198, 198, 0.198, 198, 154", "left.mass[3]", "0.198", "is its power of ten right?"),
+        ("2.75e6", "2.75e9", "contact[1].stiffness", "2.75e9", "in kN/m^exponent, was it given in N/m^exponent?"),
+        ("2.75e6", "2.75e3", "contact[1].stiffness", "2750.0", "in kN/m^exponent, was it given in MN/m^exponent?"),
+        ("gap = 0.03\n", "gap = -0.03\n", "contact[1].gap", "-0.03", "kN, "),
+        (
+            "stiffness = 2.75e6",
+            "exponent = 3.0\nstiffness = 2.75e6",
+            "contact[1].exponent",
+            "3.0",
+            "the stiffness is in kN/m^exponent",
+        ),
+        (
+            "128]\nstiffness = [141e3, 141e3, 141e3]\ndamping = { rayleigh = { ratio = 0.05, modes = [1, 3] } }",
+            "128]\nstiffness = [141e3, 141e3, 141e3]\ndamping = { matrix = [[9e6, 0, 0], [0, 9e6, 0], [0, 0, 9e6]] }",
+            "right.damping.matrix",
+            "[[9000000.0, 0.0, 0.0], [0.0, 9000000.0, 0.0], [0.0, 0.0,...",
+            "entries are in kN s/m",
+        ),
+    ] {
+        let found = found(&format!("units = \"kN-t\"\n{}", edited(&tonnes, &[(from, to)])), None);
+        assert_eq!((paths(&found).first(), found.len()), (Some(&path), 1), "{to}: {found:?}");
+        assert_eq!(found[0].value, value);
+        assert!(found[0].text.contains(words), "{words:?} is not in {}", found[0]);
+    }
+    // One building in SI units, then all of them.
+    let left = edited(&tonnes, &[(TONNES[0].1, MASSES), (TONNES[2].1, STOREYS)]);
+    let told = found(&format!("units = \"kN-t\"\n{left}"), None);
+    assert_eq!(paths(&told), ["left.mass"], "{told:?}");
+    assert!(
+        told[0]
+            .text
+            .contains("masses are in t and stiffnesses in kN/m, were those of this building given in kg and N/m?")
+    );
+    let masses = edited(&tonnes, &[(TONNES[0].1, MASSES), (TONNES[1].1, TONNES[1].0)]);
+    let told = found(&format!("units = \"kN-t\"\n{masses}"), None);
+    assert_eq!(paths(&told), ["left.mass", "right.mass"], "{told:?}");
+    assert!(told.iter().all(|warning| warning.text.contains("in t, were they given in kg?")), "{told:?}");
+    let told = found(&format!("units = \"kN-t\"\n{OFFICES}"), None);
+    assert_eq!(paths(&told), ["left.mass"], "{told:?}");
+    assert!(told[0].text.contains("(units = \"SI\")") && told[0].text.contains("189000 t on average"), "{}", told[0]);
 }
 
 #[test]
@@ -312,9 +422,12 @@ fn scenes_of_this_repository_are_sound() {
     assert!(scenes.len() > 15);
     for path in scenes {
         let (scene, record) = load(&path).unwrap();
-        let found = warnings::of(&scene, record.as_ref());
         let expected: &[&str] = if path.ends_with("leaning.toml") { &["ground.record"] } else { &[] };
-        assert_eq!(paths(&found), expected, "{}: {found:?}", path.display());
+        // The same numbers, whatever the units of the file.
+        for units in Units::ALL {
+            let found = warnings::of(&Scene { units, ..scene.clone() }, record.as_ref());
+            assert_eq!(paths(&found), expected, "{}: {found:?}", path.display());
+        }
     }
 }
 

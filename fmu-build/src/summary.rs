@@ -110,52 +110,84 @@ impl Run<'_> {
     }
 
     fn buildings(&self) -> Option<Table> {
-        let mut table = Table::new(&[("building", ""), ("peak base shear", "N")]);
+        let shear = |side: &str| self.seen(&format!("{side}.peak_base_shear")).map(|seen| seen.last);
+        let scale = Scale::of("N", SIDES.into_iter().filter_map(shear));
+        let mut table = Table::new(&[("building", ""), ("peak base shear", &scale.unit)]);
         for side in SIDES {
-            if let Some(shear) = self.seen(&format!("{side}.peak_base_shear")) {
-                table.row([side.into(), digits(shear.last)]);
+            if let Some(shear) = shear(side) {
+                table.row([side.into(), scale.cell(shear)]);
             }
         }
         table.unless_empty()
     }
 
     fn contacts(&self) -> Option<Table> {
+        let contacts = 1..=self.count_contacts();
+        let last =
+            |contact: usize, quantity: &str| self.seen(&format!("contact[{contact}].{quantity}")).map(|s| s.last);
+        let scale = |quantity, unit| Scale::of(unit, contacts.clone().filter_map(|contact| last(contact, quantity)));
+        let scaled = [("peak_force", "N"), ("impulse", "N s"), ("dissipated_energy", "J")];
+        let scales = scaled.map(|(quantity, unit)| scale(quantity, unit));
         let mut table = Table::new(&[
             ("contact", ""),
             ("gap", "m"),
             ("impacts", ""),
-            ("peak force", "N"),
+            ("peak force", &scales[0].unit),
             ("largest approach velocity", "m/s"),
-            ("impulse", "N s"),
-            ("dissipated", "J"),
+            ("impulse", &scales[1].unit),
+            ("dissipated", &scales[2].unit),
         ]);
-        for contact in 1..=self.count_contacts() {
+        for contact in contacts.clone() {
             let number = |quantity, pick| self.cell(&format!("contact[{contact}].{quantity}"), pick);
+            let scaled = |k: usize| last(contact, scaled[k].0).map_or(String::new(), |value| scales[k].cell(value));
             let gap = self.seen(&format!("contact[{contact}].gap"));
             table.row([
                 contact.to_string(),
                 gap.map_or(String::new(), |seen| format!("{}", seen.last)),
                 number("impacts", |seen| seen.last),
-                number("peak_force", |seen| seen.last),
+                scaled(0),
                 number("approach_velocity", |seen| seen.largest),
-                number("impulse", |seen| seen.last),
-                number("dissipated_energy", |seen| seen.last),
+                scaled(1),
+                scaled(2),
             ]);
         }
         table.unless_empty()
     }
 
     fn energy(&self) -> Option<Table> {
-        let mut table = Table::new(&[("energy at the end", ""), ("", "J")]);
-        for name in ["input", "external", "kinetic", "strain", "viscous", "impact"] {
-            if let Some(energy) = self.seen(&format!("energy.{name}")) {
-                table.row([name.into(), digits(energy.last)]);
+        let names = ["input", "external", "kinetic", "strain", "viscous", "impact"];
+        let energy = |name: &str| self.seen(&format!("energy.{name}")).map(|seen| seen.last);
+        let scale = Scale::of("J", names.into_iter().filter_map(energy));
+        let mut table = Table::new(&[("energy at the end", ""), ("", &scale.unit)]);
+        for name in names {
+            if let Some(energy) = energy(name) {
+                table.row([name.into(), scale.cell(energy)]);
             }
         }
         if let Some(residual) = self.seen("energy.residual") {
             table.row(["residual / largest".into(), format!("{:.1e}", residual.last)]);
         }
         table.unless_empty()
+    }
+}
+
+/// What the numbers of one kind in a table are shown in: the unit of the FMU, or a thousand of it where they are large.
+struct Scale {
+    unit: String,
+    size: f64,
+}
+
+impl Scale {
+    fn of(unit: &str, values: impl Iterator<Item = f64>) -> Scale {
+        const LARGE: f64 = 1e4;
+        match values.fold(0.0, |largest: f64, value| largest.max(value.abs())) >= LARGE {
+            true => Scale { unit: format!("k{unit}"), size: 1e3 },
+            false => Scale { unit: unit.to_owned(), size: 1.0 },
+        }
+    }
+
+    fn cell(&self, value: f64) -> String {
+        digits(value / self.size)
     }
 }
 
@@ -211,7 +243,7 @@ impl Table {
 
 #[cfg(test)]
 mod tests {
-    use super::digits;
+    use super::{Scale, digits};
 
     #[test]
     fn five_digits_whatever_the_size() {
@@ -226,5 +258,21 @@ mod tests {
         ] {
             assert_eq!(digits(value), text);
         }
+    }
+
+    #[test]
+    fn a_column_is_in_thousands_where_one_of_its_numbers_is_large() {
+        for (values, unit, cells) in [
+            (&[9999.0, -3.0][..], "N s", ["9999", "-3"]),
+            (&[250.0, -1.2e4], "kN s", ["0.25000", "-12"]),
+            (&[2_883_456.7, 0.0], "kN s", ["2883.5", "0"]),
+        ] {
+            let scale = Scale::of("N s", values.iter().copied());
+            assert_eq!(
+                (scale.unit.as_str(), [0, 1].map(|k| scale.cell(values[k])).as_slice()),
+                (unit, &cells.map(str::to_owned)[..])
+            );
+        }
+        assert_eq!(Scale::of("J", std::iter::empty()).unit, "J");
     }
 }

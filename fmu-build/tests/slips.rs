@@ -59,6 +59,40 @@ fn the_summary_begins_with_what_went_in() {
 }
 
 #[test]
+fn a_scene_in_t_and_kn_is_built_as_the_same_one_in_si_units() {
+    let directory = TempDir::new().unwrap();
+    let fmu = directory.path().join("a.fmu");
+    let summary = |units: &str, changes: &[(&str, &str)]| {
+        let scene = changed_feup(directory.path(), |text| {
+            changes.iter().fold(format!("units = \"{units}\"\n{text}"), |text, (from, to)| text.replace(from, to))
+        });
+        let output = cargo_fmu(&[scene.to_str().unwrap(), "-o", fmu.to_str().unwrap()]);
+        assert!(output.status.success() && stderr(&output).is_empty(), "{}", stderr(&output));
+        let said = stdout(&output);
+        // From the masses on, but for the time that it took.
+        let results = said.split_once("  left  ").unwrap_or_else(|| panic!("no masses in\n{said}")).1;
+        results.lines().filter(|line| !line.contains("solved in")).flat_map(|line| [line, "\n"]).collect::<String>()
+    };
+    let in_si = summary("SI", &[]);
+    assert!(in_si.contains("7.3 kg in all"), "{in_si}");
+    assert_eq!(units_of(&in_si, "contact"), ["m", "N", "m/s", "N", "s", "J"]);
+    let in_kn_t = [("3.65", "0.00365"), ("2910.0", "2.91"), ("1.0e6", "1.0e3")];
+    assert_eq!(summary("kN-t", &in_kn_t), in_si);
+    // A million times as heavy and as stiff: numbers are large.
+    let large = summary("kN-t", &[("3.65", "3650"), ("2910.0", "2910e3"), ("1.0e6", "1.0e7")]);
+    assert!(large.contains("7300 t in all"), "{large}");
+    assert_eq!(units_of(&large, "contact"), ["m", "kN", "m/s", "kN", "s", "kJ"]);
+    assert_eq!(units_of(&large, "building"), ["kN"]);
+    assert_eq!(units_of(&large, "energy at the end"), ["kJ"]);
+}
+
+/// The units below the headings of a table.
+fn units_of<'t>(summary: &'t str, table: &str) -> Vec<&'t str> {
+    let mut lines = summary.lines().skip_while(|line| !format!("{line} ").starts_with(&format!("  {table} ")));
+    lines.nth(1).unwrap_or_else(|| panic!("no {table} in\n{summary}")).split_whitespace().collect()
+}
+
+#[test]
 fn an_fmu_is_called_one() {
     let directory = TempDir::new().unwrap();
     let scene = changed_feup(directory.path(), str::to_owned);

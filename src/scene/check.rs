@@ -22,7 +22,7 @@ impl Scene {
 
 /// Everything that is wrong with the values of a scene, in the order of the fields.
 pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
-    let mut check = Checker::default();
+    let mut check = Checker { units: scene.units, ..Checker::default() };
     check.texts(scene);
     scene.stop_time.inspect(|&time| check.number("stop_time", time, rule::STOP_TIME));
     check.building("left", &scene.left);
@@ -57,7 +57,7 @@ impl Checker {
         }
         self.numbers(format_args!("{path}.mass"), &building.mass, rule::MASS);
         if floors > rule::MOST_FLOORS {
-            let found = problem::excerpt(&problem::numbers(&building.mass));
+            let found = self.written(&building.mass, rule::MASS);
             let expected =
                 format!("at most {} floors, not {floors}, which would take minutes to prepare", rule::MOST_FLOORS);
             self.refuse(format_args!("{path}.mass"), found, expected);

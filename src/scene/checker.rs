@@ -2,11 +2,14 @@
 
 use super::problem::{Problem, count, excerpt, numbers};
 use super::rule::Rule;
+use super::units::Units;
 use std::fmt::Display;
 
 /// What has been found so far.
 #[derive(Default)]
 pub(super) struct Checker {
+    /// Those of the file, in which messages show masses and forces.
+    pub units: Units,
     pub problems: Vec<Problem>,
 }
 
@@ -16,7 +19,7 @@ impl Checker {
     }
 
     pub fn number(&mut self, path: impl Display, value: f64, rule: Rule) {
-        self.problems.extend(rule.problem(path, value));
+        self.problems.extend(rule.problem_in(self.units, path, value));
     }
 
     pub fn numbers(&mut self, path: impl Display, values: &[f64], rule: Rule) {
@@ -29,8 +32,14 @@ impl Checker {
     pub fn list(&mut self, path: impl Display, values: &[f64], rule: Rule, floors: usize, each: &str) {
         if floors > 0 && values.len() != floors {
             let expected = format!("{}, one per {each}, not {}", count(floors, "number"), values.len());
-            self.refuse(&path, excerpt(&numbers(values)), expected);
+            self.refuse(&path, self.written(values, rule), expected);
         }
         self.numbers(path, values, rule);
+    }
+
+    /// A list of numbers under a rule as the file may have it.
+    pub fn written(&self, values: &[f64], rule: Rule) -> String {
+        let units = rule.units(self.units);
+        excerpt(&numbers(&values.iter().map(|&value| units.written(value)).collect::<Vec<_>>()))
     }
 }

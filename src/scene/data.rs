@@ -2,6 +2,7 @@
 
 use super::problem::{Problem, number};
 use super::rule;
+use super::units::Units;
 use crate::contact::ImpactLaw;
 use crate::record::Record;
 
@@ -12,6 +13,8 @@ pub struct Scene {
     pub name: String,
     /// One line for a reader.
     pub description: String,
+    /// How the file gives masses and forces, for messages about it: all numbers here are in SI units.
+    pub units: Units,
     /// s, end of the default experiment.
     pub stop_time: Option<f64>,
     /// The building on the left.

@@ -4,6 +4,7 @@
 
 use super::problem::{Problem, SceneError, excerpt};
 use super::syntax;
+use super::units::Units;
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::ops::Range;
@@ -169,20 +170,26 @@ impl<'t> Item<'t> {
         self.document.report(&self.path, self.document.source(self.value), expected);
     }
 
-    /// Neutral: NaN.
+    /// A number in a unit without mass and force. Neutral: NaN.
     pub(super) fn number(&self) -> f64 {
+        self.quantity(Units::Si)
+    }
+
+    /// The SI number of one in a unit with a mass or a force. Neutral: NaN.
+    pub(super) fn quantity(&self, units: Units) -> f64 {
         let value = match self.value.get_ref() {
             // What TOML calls a number but is too large for a double would read as infinite.
-            DeValue::Float(float) => match float.as_str().parse() {
-                Ok(v) if f64::is_finite(v) || float.as_str().contains(['n', 'N']) => Some(v),
+            DeValue::Float(float) => match units.read(float.as_str()) {
+                Some(v) if v.is_finite() || float.as_str().contains(['n', 'N']) => Some(v),
                 _ => {
-                    self.refuse("a number that double precision holds, up to 1.8e308");
+                    self.refuse(format!("a number that double precision holds, up to {}", units.largest()));
                     return f64::NAN;
                 }
             },
-            DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
+            DeValue::Integer(integer) if integer.radix() == 10 => units.read(integer.as_str()),
             DeValue::Integer(integer) => {
-                u64::from_str_radix(integer.as_str(), integer.radix()).ok().map(|value| value as f64)
+                let value = u64::from_str_radix(integer.as_str(), integer.radix()).ok();
+                value.and_then(|value| units.read(&value.to_string()))
             }
             _ => None,
         };
@@ -228,8 +235,13 @@ impl<'t> Item<'t> {
         Some(entries.iter().enumerate().map(item).collect())
     }
 
-    /// Neutral: empty.
+    /// As [`Item::number`]. Neutral: empty.
     pub(super) fn numbers(&self) -> Vec<f64> {
+        self.quantities(Units::Si)
+    }
+
+    /// As [`Item::quantity`]. Neutral: empty.
+    pub(super) fn quantities(&self, units: Units) -> Vec<f64> {
         // One number is what it takes for one floor, and brackets; rows of matrices are another matter.
         let what = match self.value.get_ref() {
             DeValue::Float(_) | DeValue::Integer(_) if !self.path.ends_with(']') => {
@@ -238,7 +250,7 @@ impl<'t> Item<'t> {
             }
             _ => "a list of numbers".to_owned(),
         };
-        self.list(&what).iter().flatten().map(Item::number).collect()
+        self.list(&what).iter().flatten().map(|entry| entry.quantity(units)).collect()
     }
 
     /// Whether it is a number.
@@ -256,9 +268,10 @@ impl<'t> Item<'t> {
         self.value.get_ref().as_table().is_some()
     }
 
-    /// Neutral: empty.
-    pub(super) fn rows(&self) -> Vec<Vec<f64>> {
-        self.list("a list of rows, each a list of numbers").iter().flatten().map(Item::numbers).collect()
+    /// As [`Item::quantity`]. Neutral: empty.
+    pub(super) fn rows(&self, units: Units) -> Vec<Vec<f64>> {
+        let rows = self.list("a list of rows, each a list of numbers");
+        rows.iter().flatten().map(|row| row.quantities(units)).collect()
     }
 
     /// Neutral: absent.

@@ -1,7 +1,7 @@
 //! Rules about the matrices of a building.
 
 use super::checker::Checker;
-use super::problem::{count, excerpt, number, numbers};
+use super::problem::{count, matrix_text, number};
 use super::rule;
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -41,9 +41,10 @@ impl Checker {
         let [smallest, largest] = extreme_eigenvalues(rows);
         if !(definiteness.holds)(smallest, largest) {
             let Definiteness { name, unit, .. } = definiteness;
-            let (smallest, largest) = (six_digits(smallest), six_digits(largest));
+            let [smallest, largest] = [smallest, largest].map(|value| six_digits(self.units.written(value)));
+            let unit = self.units.unit(unit);
             let expected = format!("a {name} matrix, but its eigenvalues go from {smallest} to {largest} {unit}");
-            self.refuse(path, text(rows), expected);
+            self.refuse(path, self.text(rows), expected);
         }
     }
 
@@ -51,13 +52,13 @@ impl Checker {
         let size = if floors > 0 { floors } else { rows.len() };
         let mut square = rows.len() == size && size > 0;
         if rows.len() != size {
-            self.refuse(path, text(rows), format!("{}, one per floor, not {}", count(size, "row"), rows.len()));
+            self.refuse(path, self.text(rows), format!("{}, one per floor, not {}", count(size, "row"), rows.len()));
         }
         // The rows of a square matrix of another size are wrong as a whole, which has been said.
         let is_wrong = |row: &[f64]| row.len() != size && row.len() != rows.len();
         for (i, row) in rows.iter().enumerate().filter(|(_, row)| is_wrong(row)) {
             let expected = format!("{}, one per floor, not {}", count(size, "number"), row.len());
-            self.refuse(format_args!("{path}[{}]", i + 1), excerpt(&numbers(row)), expected);
+            self.refuse(format_args!("{path}[{}]", i + 1), self.written(row, rule::FORCE_ENTRY), expected);
             square = false;
         }
         square
@@ -65,9 +66,13 @@ impl Checker {
 
     fn entries(&mut self, path: &str, rows: &[Vec<f64>]) -> bool {
         for (i, row) in rows.iter().enumerate() {
-            self.numbers(format_args!("{path}[{}]", i + 1), row, rule::ENTRY);
+            self.numbers(format_args!("{path}[{}]", i + 1), row, rule::FORCE_ENTRY);
         }
-        rows.iter().flatten().all(|&entry| rule::ENTRY.holds(entry))
+        rows.iter().flatten().all(|&entry| rule::FORCE_ENTRY.holds(entry))
+    }
+
+    fn text(&self, rows: &[Vec<f64>]) -> String {
+        matrix_text(rows, self.units)
     }
 
     /// Every entry below the diagonal is compared with the one above.
@@ -80,8 +85,9 @@ impl Checker {
                 if (below - above).abs() <= allowed {
                     continue;
                 }
-                let expected = format!("{}, as in [{}][{}]: a symmetric matrix", number(above), j + 1, i + 1);
-                self.refuse(format_args!("{path}[{}][{}]", i + 1, j + 1), number(below), expected);
+                let [above, below] = [above, below].map(|entry| number(self.units.written(entry)));
+                let expected = format!("{above}, as in [{}][{}]: a symmetric matrix", j + 1, i + 1);
+                self.refuse(format_args!("{path}[{}][{}]", i + 1, j + 1), below, expected);
                 symmetric = false;
             }
         }
@@ -112,9 +118,4 @@ fn extreme_eigenvalues(rows: &[Vec<f64>]) -> [f64; 2] {
 /// For a person.
 fn six_digits(value: f64) -> String {
     number(format!("{value:.5e}").parse().unwrap_or(value))
-}
-
-fn text(rows: &[Vec<f64>]) -> String {
-    let rows: Vec<_> = rows.iter().map(|row| numbers(row)).collect();
-    excerpt(&format!("[{}]", rows.join(", ")))
 }

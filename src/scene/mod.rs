@@ -30,6 +30,8 @@
 //! # Ok::<(), pounding::scene::SceneError>(())
 //! ```
 //!
+//! Masses are in t and forces in kN where the scene begins with `units = "kN-t"`; what has been read is in SI units.
+//!
 //! The optional tables `[ground]` (`record`, `scale` or `pga`), `[inputs]` (`floor_forces`), `[outputs]` (`energy`,
 //! `peaks`) and
 //! `[solver]` (`relative_tolerance`, `min_approach_velocity`) fill the fields of the same names in [`Scene`].
@@ -52,7 +54,7 @@
 //!
 //! Where things are: `data` is the scene, [`rule`] says which numbers are allowed, `check` which shapes and combinations,
 //! `read` goes through the keys of the file, `document` is the file as a tree, `syntax` knows what is often written instead
-//! of TOML, `files` loads scenes with their records.
+//! of TOML, `units` converts masses and forces, `files` loads scenes with their records.
 
 mod check;
 mod checker;
@@ -66,9 +68,11 @@ mod problem;
 mod read;
 pub mod rule;
 mod syntax;
+mod units;
 
 pub use data::{Building, ContactPair, Damping, Ground, Scaling, Scene, Solver, Stiffness};
 pub use files::{Package, PackagedRecord, load};
 pub(crate) use files::{SCENE_RESOURCE, read_record_file, record_problems};
 pub use problem::{Problem, SceneError};
-pub(crate) use problem::{excerpt, number, numbers, quoted};
+pub(crate) use problem::{excerpt, matrix_text, number, numbers, quoted};
+pub use units::Units;

@@ -1,5 +1,6 @@
 //! What is wrong with a scene, and how values are written in messages.
 
+use super::units::Units;
 use std::fmt;
 
 /// One thing that is wrong with a scene.
@@ -70,6 +71,12 @@ pub(crate) fn number(value: f64) -> String {
 /// A list of numbers as a scene may write it.
 pub(crate) fn numbers(values: &[f64]) -> String {
     format!("[{}]", values.iter().copied().map(number).collect::<Vec<_>>().join(", "))
+}
+
+/// The beginning of a matrix of stiffnesses or dashpots as a scene in these units may write it.
+pub(crate) fn matrix_text(rows: &[Vec<f64>], units: Units) -> String {
+    let row = |row: &Vec<f64>| numbers(&row.iter().map(|&entry| units.written(entry)).collect::<Vec<_>>());
+    excerpt(&format!("[{}]", rows.iter().map(row).collect::<Vec<_>>().join(", ")))
 }
 
 /// A text as a scene may write it.

@@ -3,6 +3,7 @@
 use super::data::{Building, ContactPair, Damping, Ground, Scaling, Scene, Solver, Stiffness};
 use super::document::{self, Document, Item, Section, Span, one_of};
 use super::problem::{Problem, SceneError, excerpt};
+use super::units::{self, Units};
 use super::{check, law_key, rule};
 use crate::contact::{DampingFormula, ImpactLaw, LawKind};
 use std::collections::HashMap;
@@ -82,9 +83,10 @@ const KEY: &str = "a known key";
 fn scene(mut root: Section<'_>) -> Scene {
     let name = root.require("name", "a C identifier").and_then(|item| item.text()).unwrap_or_default();
     let description = root.get("description").and_then(|item| item.text()).unwrap_or_default();
+    let units = root.get("units").and_then(|item| self::units(&item)).unwrap_or_default();
     let stop_time = root.get("stop_time").map(|item| item.number());
-    let left = building(root.require_section("left", "the building on the left"));
-    let right = building(root.require_section("right", "the building on the right"));
+    let left = building(root.require_section("left", "the building on the left"), units);
+    let right = building(root.require_section("right", "the building on the right"), units);
     let ground = ground(root.section("ground"));
     let floor_forces = inputs(root.section("inputs"));
     let contacts = root.get("contact").and_then(|item| match item.is_table() {
@@ -94,26 +96,36 @@ fn scene(mut root: Section<'_>) -> Scene {
             None
         }
     });
-    let contacts = contacts.iter().flatten().map(|item| contact(item.section())).collect();
+    let contacts = contacts.iter().flatten().map(|item| contact(item.section(), units)).collect();
     let (energy, peaks) = outputs(root.section("outputs"));
     let solver = solver(root.section("solver"));
     root.close(KEY);
     let (name, description) = (name.to_owned(), description.to_owned());
-    Scene { name, description, stop_time, left, right, ground, floor_forces, contacts, energy, peaks, solver }
+    Scene { name, description, units, stop_time, left, right, ground, floor_forces, contacts, energy, peaks, solver }
 }
 
-fn building(mut section: Section<'_>) -> Building {
-    let mass = section.require("mass", "a list of masses in kg, one per floor").map(|item| item.numbers());
+fn units(item: &Item<'_>) -> Option<Units> {
+    let name = item.text()?;
+    let units = Units::from_name(name);
+    if units.is_none() {
+        item.refuse(units::expected(name));
+    }
+    units
+}
+
+fn building(mut section: Section<'_>, units: Units) -> Building {
+    let what = format!("a list of masses in {}, one per floor", units.unit("kg"));
+    let mass = section.require("mass", &what).map(|item| item.quantities(units));
     let mass = mass.unwrap_or_default();
     let at_rest = || vec![0.0; mass.len()];
-    let stiffness = stiffness(&mut section);
+    let stiffness = stiffness(&mut section, units);
     let damping = section.require("damping", "a table with one of ratio, ratios, rayleigh, matrix");
     let damping = match damping {
         Some(item) if item.is_number() => {
             item.refuse(format!("a table, such as {{ ratio = {} }}", item.written()));
             Damping::Ratio(0.0)
         }
-        Some(item) => self::damping(item.section()),
+        Some(item) => self::damping(item.section(), units),
         None => Damping::Ratio(0.0),
     };
     let initial_displacement = section.get("initial_displacement").map_or_else(at_rest, |item| item.numbers());
@@ -122,34 +134,35 @@ fn building(mut section: Section<'_>) -> Building {
     Building { stiffness, damping, initial_displacement, initial_velocity, mass }
 }
 
-fn stiffness(section: &mut Section<'_>) -> Stiffness {
+fn stiffness(section: &mut Section<'_>, units: Units) -> Stiffness {
     match (section.get("stiffness"), section.get("stiffness_matrix")) {
-        (None, Some(matrix)) => Stiffness::Matrix(matrix.rows()),
-        (Some(storeys), None) => Stiffness::Shear(storeys.numbers()),
+        (None, Some(matrix)) => Stiffness::Matrix(matrix.rows(units)),
+        (Some(storeys), None) => Stiffness::Shear(storeys.quantities(units)),
         (Some(storeys), Some(matrix)) => {
             matrix.refuse("either stiffness or stiffness_matrix, not both");
-            Stiffness::Shear(storeys.numbers())
+            Stiffness::Shear(storeys.quantities(units))
         }
         (None, None) => {
-            section.missing("stiffness", "a list in N/m, one per storey, or stiffness_matrix");
+            let what = format!("a list in {}, one per storey, or stiffness_matrix", units.unit("N/m"));
+            section.missing("stiffness", &what);
             Stiffness::Shear(Vec::new())
         }
     }
 }
 
-fn damping(mut section: Section<'_>) -> Damping {
-    type Kind = (&'static str, fn(&Item<'_>) -> Damping);
+fn damping(mut section: Section<'_>, units: Units) -> Damping {
+    type Kind = (&'static str, fn(&Item<'_>, Units) -> Damping);
     const KINDS: [Kind; 4] = [
-        ("ratio", |item| Damping::Ratio(item.number())),
-        ("ratios", |item| Damping::Ratios(item.numbers())),
-        ("rayleigh", |item| rayleigh(item.section())),
-        ("matrix", |item| Damping::Matrix(item.rows())),
+        ("ratio", |item, _| Damping::Ratio(item.number())),
+        ("ratios", |item, _| Damping::Ratios(item.numbers())),
+        ("rayleigh", |item, _| rayleigh(item.section())),
+        ("matrix", |item, units| Damping::Matrix(item.rows(units))),
     ];
     let mut damping = None;
     for (kind, read) in KINDS {
         match (section.get(kind), &damping) {
             (None, _) => {}
-            (Some(item), None) => damping = Some(read(&item)),
+            (Some(item), None) => damping = Some(read(&item, units)),
             (Some(item), Some(_)) => item.refuse("one kind of damping only"),
         }
     }
@@ -194,7 +207,7 @@ fn ground(mut section: Section<'_>) -> Ground {
     let scaling = match (scale, pga.map(|item| (item.number(), item))) {
         (Some(scale), Some((pga, item))) => {
             if pga.is_finite() && !rule::PGA.holds(pga) {
-                item.refuse(rule::PGA.expected);
+                item.refuse(rule::PGA.expected(Units::Si));
             }
             Scaling::Scale(scale)
         }
@@ -230,16 +243,16 @@ fn solver(mut section: Section<'_>) -> Solver {
     Solver { relative_tolerance, min_approach_velocity }
 }
 
-fn contact(mut section: Section<'_>) -> ContactPair {
+fn contact(mut section: Section<'_>, units: Units) -> ContactPair {
     let floor = "a floor, counted from 1";
     let left_floor = section.require("left_floor", floor).map_or(0, |item| item.count());
     let right_floor = section.require("right_floor", floor).map_or(0, |item| item.count());
     let gap = section.require("gap", "the clear distance at rest in m").map_or(f64::NAN, |item| item.number());
-    let law = law(section);
+    let law = law(section, units);
     ContactPair { left_floor, right_floor, gap, law }
 }
 
-fn law(mut section: Section<'_>) -> ImpactLaw {
+fn law(mut section: Section<'_>, units: Units) -> ImpactLaw {
     let Some(kind) = law_kind(&mut section) else {
         // Which keys belong here, and what they may be, is the law's business: only their types can be looked at.
         for key in law_key::all() {
@@ -253,10 +266,10 @@ fn law(mut section: Section<'_>) -> ImpactLaw {
     for &key in kind.info().keys {
         let key = law_key::number(key);
         let item = match key.default {
-            None => section.require(key.name, key.rule.expected),
+            None => section.require(key.name, key.rule.expected(units)),
             Some(_) => section.get(key.name),
         };
-        let value = item.map(|item| item.number()).or(key.default);
+        let value = item.map(|item| item.quantity(key.rule.units(units))).or(key.default);
         (key.set)(&mut law, value.unwrap_or(f64::NAN));
     }
     if kind.info().has_damping_formula {

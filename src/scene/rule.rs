@@ -1,16 +1,33 @@
 //! Which numbers a scene may hold: one rule per kind of number, for the file and for the FMU's parameters alike.
 
 use super::problem::{Problem, number};
+use super::units::Units;
 
 /// What one number of a scene must satisfy.
 #[derive(Clone, Copy, Debug)]
 pub struct Rule {
     /// For a person, after "expected".
-    pub expected: &'static str,
+    expected: &'static str,
+    /// The same where masses are in t and forces in kN, if its unit has one of them.
+    in_kn_t: Option<&'static str>,
+    /// Of the SI number.
     holds: fn(f64) -> bool,
 }
 
 impl Rule {
+    /// For a person, after "expected", about a scene in these units.
+    pub const fn expected(&self, units: Units) -> &'static str {
+        match (units, self.in_kn_t) {
+            (Units::KilonewtonTonne, Some(expected)) => expected,
+            _ => self.expected,
+        }
+    }
+
+    /// The units that its number has in a scene in these units: those of the SI where there is neither mass nor force.
+    pub const fn units(&self, units: Units) -> Units {
+        if self.in_kn_t.is_some() { units } else { Units::Si }
+    }
+
     /// Whether the number is allowed; never so for one that is not finite.
     pub fn holds(&self, value: f64) -> bool {
         value.is_finite() && (self.holds)(value)
@@ -25,7 +42,13 @@ impl Rule {
     /// assert_eq!(problem.to_string(), "contact[2].restitution = 1.4: expected 0 < e <= 1");
     /// ```
     pub fn problem(&self, path: impl ToString, value: f64) -> Option<Problem> {
-        (!self.holds(value)).then(|| Problem::new(path.to_string(), number(value), self.expected))
+        self.problem_in(Units::Si, path, value)
+    }
+
+    /// The same about a scene in these units, whose number is shown as the scene has it.
+    pub(super) fn problem_in(&self, units: Units, path: impl ToString, value: f64) -> Option<Problem> {
+        let found = || number(self.units(units).written(value));
+        (!self.holds(value)).then(|| Problem::new(path.to_string(), found(), self.expected(units)))
     }
 }
 
@@ -45,35 +68,47 @@ pub const MOST_FLOORS: usize = 1000;
 pub const MOST_CONTACTS_TIMES_FLOORS: usize = 20_000_000;
 
 /// Any finite number: entries of matrices.
-pub const ENTRY: Rule = Rule { expected: "a finite number", holds: |_| true };
+pub const ENTRY: Rule = Rule { expected: "a finite number", in_kn_t: None, holds: |_| true };
+/// The same where they are stiffnesses or of dashpots.
+pub const FORCE_ENTRY: Rule = Rule { in_kn_t: Some(ENTRY.expected), ..ENTRY };
 /// `stop_time`, s.
-pub const STOP_TIME: Rule = Rule { expected: "a time > 0 s and at most 1e12 s", holds: |t| t > 0.0 && t <= MOST_TIME };
+pub const STOP_TIME: Rule =
+    Rule { expected: "a time > 0 s and at most 1e12 s", in_kn_t: None, holds: |t| t > 0.0 && t <= MOST_TIME };
 /// `mass`, kg.
-pub const MASS: Rule = Rule { expected: "a finite mass > 0 kg", holds: |m| m > 0.0 };
+pub const MASS: Rule =
+    Rule { expected: "a finite mass > 0 kg", in_kn_t: Some("a finite mass > 0 t"), holds: |m| m > 0.0 };
 /// `stiffness` of a storey, N/m.
-pub const STOREY_STIFFNESS: Rule = Rule { expected: "a finite stiffness > 0 N/m", holds: |k| k > 0.0 };
+pub const STOREY_STIFFNESS: Rule =
+    Rule { expected: "a finite stiffness > 0 N/m", in_kn_t: Some("a finite stiffness > 0 kN/m"), holds: |k| k > 0.0 };
 /// Every damping ratio, 1 = critical.
-pub const DAMPING_RATIO: Rule = Rule { expected: "a finite damping ratio >= 0", holds: |ratio| ratio >= 0.0 };
+pub const DAMPING_RATIO: Rule =
+    Rule { expected: "a finite damping ratio >= 0", in_kn_t: None, holds: |ratio| ratio >= 0.0 };
 /// `initial_displacement`, m.
-pub const DISPLACEMENT: Rule = Rule { expected: "a finite displacement in m", holds: |_| true };
+pub const DISPLACEMENT: Rule = Rule { expected: "a finite displacement in m", in_kn_t: None, holds: |_| true };
 /// `initial_velocity`, m/s.
-pub const VELOCITY: Rule = Rule { expected: "a finite velocity in m/s", holds: |_| true };
+pub const VELOCITY: Rule = Rule { expected: "a finite velocity in m/s", in_kn_t: None, holds: |_| true };
 /// `ground.scale`.
-pub const SCALE: Rule = Rule { expected: "a finite factor", holds: |_| true };
+pub const SCALE: Rule = Rule { expected: "a finite factor", in_kn_t: None, holds: |_| true };
 /// `ground.pga`, m/s2.
-pub const PGA: Rule = Rule { expected: "a finite peak acceleration > 0 m/s2", holds: |a| a > 0.0 };
+pub const PGA: Rule = Rule { expected: "a finite peak acceleration > 0 m/s2", in_kn_t: None, holds: |a| a > 0.0 };
 /// `gap`, m: 0 is contact at rest, less is pre-compressed.
-pub const GAP: Rule = Rule { expected: "a finite distance in m", holds: |_| true };
+pub const GAP: Rule = Rule { expected: "a finite distance in m", in_kn_t: None, holds: |_| true };
 /// `stiffness` of a contact, N/m^exponent.
-pub const CONTACT_STIFFNESS: Rule = Rule { expected: "a finite stiffness > 0", holds: |k| k > 0.0 };
+pub const CONTACT_STIFFNESS: Rule =
+    Rule { expected: "a finite stiffness > 0", in_kn_t: Some("a finite stiffness > 0 kN/m^n"), holds: |k| k > 0.0 };
 /// `exponent` of a contact.
-pub const EXPONENT: Rule = Rule { expected: "1 <= n <= 3", holds: |n| (1.0..=3.0).contains(&n) };
+pub const EXPONENT: Rule = Rule { expected: "1 <= n <= 3", in_kn_t: None, holds: |n| (1.0..=3.0).contains(&n) };
 /// `restitution` of a contact.
-pub const RESTITUTION: Rule = Rule { expected: "0 < e <= 1", holds: |e| e > 0.0 && e <= 1.0 };
+pub const RESTITUTION: Rule = Rule { expected: "0 < e <= 1", in_kn_t: None, holds: |e| e > 0.0 && e <= 1.0 };
 /// `restitution` of an instantaneous impact; 0 is a plastic one.
-pub const IMPULSE_RESTITUTION: Rule = Rule { expected: "0 <= e <= 1", holds: |e| (0.0..=1.0).contains(&e) };
+pub const IMPULSE_RESTITUTION: Rule =
+    Rule { expected: "0 <= e <= 1", in_kn_t: None, holds: |e| (0.0..=1.0).contains(&e) };
 /// `relative_tolerance`: from rounding errors to a solution that is one in name only.
-pub const RELATIVE_TOLERANCE: Rule =
-    Rule { expected: "1e-15 < tolerance <= 1e-2", holds: |tolerance| tolerance > 1e-15 && tolerance <= 1e-2 };
+pub const RELATIVE_TOLERANCE: Rule = Rule {
+    expected: "1e-15 < tolerance <= 1e-2",
+    in_kn_t: None,
+    holds: |tolerance| tolerance > 1e-15 && tolerance <= 1e-2,
+};
 /// `min_approach_velocity`, m/s.
-pub const MIN_APPROACH_VELOCITY: Rule = Rule { expected: "a finite velocity > 0 m/s", holds: |v| v > 0.0 };
+pub const MIN_APPROACH_VELOCITY: Rule =
+    Rule { expected: "a finite velocity > 0 m/s", in_kn_t: None, holds: |v| v > 0.0 };

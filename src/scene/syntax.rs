@@ -23,7 +23,9 @@ fn hint(line: &str, message: &str) -> Option<String> {
             Some(format!("a decimal point, {key} = {number}.{decimals}, not a comma"))
         }
         None if rest.trim_start().starts_with(|c: char| c.is_alphabetic() || c == '%') => {
-            Some(format!("a number alone, {key} = {number}: units are fixed, see the documentation of the key"))
+            let is_kn_t = rest.trim_start().starts_with("kN") || rest.trim() == "t";
+            let more = if is_kn_t { "; units = \"kN-t\" at the top takes t and kN throughout" } else { "" };
+            Some(format!("a number alone, {key} = {number}: units are fixed, see the documentation of the key{more}"))
         }
         _ => None,
     }

@@ -4,7 +4,9 @@ use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot, b
 use super::table::{Row, Table};
 use crate::engine::{ContactPoint, EnergyPoint, LinearInput, Model, Point, SavedState, Side, State};
 use crate::record::{KnownRecords, Record};
-use crate::scene::{Building, Damping, Scaling, Scene, SceneError, Stiffness, read_record_file, record_problems};
+use crate::scene::{
+    Building, Damping, Scaling, Scene, SceneError, Stiffness, Units, read_record_file, record_problems,
+};
 use crate::warnings::{self, Warning};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -69,10 +71,10 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// The parameters as the scene gives them.
+    /// The parameters as the scene gives them, in SI units as all variables of an FMU.
     pub fn new(scene: Scene, record: Option<Record>) -> Settings {
         Settings {
-            scene,
+            scene: Scene { units: Units::Si, ..scene },
             packaged_record: record.map(Arc::new),
             other_record: None,
             known_records: Arc::new(KnownRecords::new(1)),

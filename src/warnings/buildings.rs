@@ -2,9 +2,10 @@
 
 use super::facts::{Facts, Pace, median, name, opposite, stiffness_key};
 use super::found::Found;
+use super::whole::{HEAVY, IN_KN_T};
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
-use crate::scene::{Building, Damping, Stiffness, excerpt, number, numbers};
+use crate::scene::{Building, Damping, Stiffness, Units, number};
 use crate::structure::Side;
 use std::f64::consts::PI;
 
@@ -30,13 +31,15 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
 /// Entries of a list that the others speak against.
 fn look_at_entries(facts: &Facts<'_>, side: Side, found: &mut Found) {
     let (building, other) = (facts.building(side), facts.building(opposite(side)));
+    let units = facts.scene.units;
     for (index, factor) in odd_entries(&building.mass, &other.mass, |_| false) {
         let text = format!(
-            "{} the masses of the floors beside it; all are in kg{}",
+            "{} the masses of the floors beside it; all are in {}{}",
             how_many_times(factor),
-            missing_unit(factor, "t")
+            units.unit("kg"),
+            other_unit(factor, units, "kg")
         );
-        found.number(format!("{}.mass[{}]", name(side), index + 1), building.mass[index], text);
+        found.quantity(format!("{}.mass[{}]", name(side), index + 1), building.mass[index], text);
     }
     let Stiffness::Shear(storeys) = &building.stiffness else { return };
     let others = match &other.stiffness {
@@ -47,11 +50,12 @@ fn look_at_entries(facts: &Facts<'_>, side: Side, found: &mut Found) {
     let is_isolated = |(index, factor): (usize, f64)| index == 0 && factor < 1.0 && facts.pace(side) == Pace::Usual;
     for (index, factor) in odd_entries(storeys, others, is_isolated) {
         let text = format!(
-            "{} the stiffness of the storeys beside it; all are in N/m{}",
+            "{} the stiffness of the storeys beside it; all are in {}{}",
             how_many_times(factor),
-            missing_unit(factor, "kN/m")
+            units.unit("N/m"),
+            other_unit(factor, units, "N/m")
         );
-        found.number(format!("{}.stiffness[{}]", name(side), index + 1), storeys[index], text);
+        found.quantity(format!("{}.stiffness[{}]", name(side), index + 1), storeys[index], text);
     }
 }
 
@@ -105,10 +109,11 @@ fn how_many_times(factor: f64) -> String {
     if factor > 1.0 { format!("{} times", short(factor)) } else { format!("1/{} of", short(1.0 / factor)) }
 }
 
-/// What may have been meant by an entry that is off by a factor.
-fn missing_unit(factor: f64, larger_unit: &str) -> String {
-    match factor {
-        f if (3e-4..3e-3).contains(&f) => format!("; was it given in {larger_unit}?"),
+/// What may have been meant by an entry that is off by a factor: `unit` is that of the SI.
+fn other_unit(factor: f64, units: Units, unit: &str) -> String {
+    match (factor, units) {
+        (3e-4..3e-3, Units::Si) => format!("; was it given in {}?", Units::KilonewtonTonne.unit(unit)),
+        (300.0..3000.0, Units::KilonewtonTonne) => format!("; was it given in {unit}?"),
         _ => "; is its power of ten right?".to_owned(),
     }
 }
@@ -119,51 +124,52 @@ fn look_at_period(facts: &Facts<'_>, side: Side, found: &mut Found) {
     let count = building.mass.len();
     let usual = format!("{} with some {} s", storeys(count), short(0.1 * count as f64));
     let found_here = format!("the first natural frequency is {} Hz, period {} s", short(1.0 / period), short(period));
-    // The neighbour, where it is sound, tells whether it is the masses.
-    let lighter = mean(&other.mass) / mean(&building.mass);
     let neighbour_is_usual = facts.pace(opposite(side)) == Pace::Usual;
-    match facts.pace(side) {
-        Pace::Fast => {
-            let text = format!("{found_here}, far too fast for {usual}");
-            if neighbour_is_usual && lighter < 10.0 {
-                stiffness(
-                    side,
-                    building,
-                    format!("{text}; stiffnesses are in N/m, is their power of ten right?"),
-                    found,
-                );
-            } else {
-                let meant = "masses are in kg, were they given in t?";
-                found.numbers(format!("{}.mass", name(side)), &building.mass, format!("{text}; {meant}"));
-            }
-        }
-        Pace::Slow => {
-            let text = format!("{found_here}, far too slow for {usual}");
-            if neighbour_is_usual && lighter < 0.02 {
-                let meant = "masses are in kg, were they given in g?";
-                found.numbers(format!("{}.mass", name(side)), &building.mass, format!("{text}; {meant}"));
-            } else {
-                let meant = if period > 100.0 { "kN/m or kN/mm" } else { "kN/m" };
-                let text =
-                    format!("{text}; stiffnesses are in N/m, were they given in {meant} (or masses, in kg, in g)?");
-                stiffness(side, building, text, found);
-            }
-        }
-        Pace::Usual | Pace::Wall | Pace::Free | Pace::Unknown => {}
-    }
-}
-
-fn stiffness(side: Side, building: &Building, text: String, found: &mut Found) {
-    let path = format!("{}.{}", name(side), stiffness_key(building));
+    // The neighbour, where it is sound, tells whether it is the masses.
+    let lighter = neighbour_is_usual.then(|| mean(&other.mass) / mean(&building.mass));
+    let units = facts.scene.units;
+    let (far_too, (is_mass, meant)) = match facts.pace(side) {
+        Pace::Fast => ("fast", meant_by_fast(units, lighter)),
+        Pace::Slow => ("slow", meant_by_slow(units, lighter, mean(&building.mass), period)),
+        Pace::Usual | Pace::Wall | Pace::Free | Pace::Unknown => return,
+    };
+    let text = format!("{found_here}, far too {far_too} for {usual}; {meant}");
+    let path = |key: &str| format!("{}.{key}", name(side));
     match &building.stiffness {
-        Stiffness::Shear(storeys) => found.numbers(path, storeys, text),
-        Stiffness::Matrix(rows) => found.add(path, matrix(rows), text),
+        _ if is_mass => found.quantities(path("mass"), &building.mass, text),
+        Stiffness::Shear(storeys) => found.quantities(path(stiffness_key(building)), storeys, text),
+        Stiffness::Matrix(rows) => found.matrix(path(stiffness_key(building)), rows, text),
     }
 }
 
-fn matrix(rows: &[Vec<f64>]) -> String {
-    let rows: Vec<String> = rows.iter().map(|row| numbers(row)).collect();
-    excerpt(&format!("[{}]", rows.join(", ")))
+/// Whether it is the masses, or else the stiffnesses, and what they may have been given in. `lighter` is how many times
+/// lighter than those of a sound neighbour the floors are.
+fn meant_by_fast(units: Units, lighter: Option<f64>) -> (bool, String) {
+    match (units, lighter) {
+        (Units::Si, Some(..10.0)) => (false, "stiffnesses are in N/m, is their power of ten right?".to_owned()),
+        (Units::Si, _) => (true, format!("masses are in kg, were they given in t?{IN_KN_T}")),
+        (Units::KilonewtonTonne, Some(10.0..)) => (true, "masses are in t, is their power of ten right?".to_owned()),
+        (Units::KilonewtonTonne, _) => (false, "stiffnesses are in kN/m, were they given in N/m?".to_owned()),
+    }
+}
+
+/// The same of a building that is too slow; `mass` is that of a floor, kg, and `period` that of the building, s.
+fn meant_by_slow(units: Units, lighter: Option<f64>, mass: f64, period: f64) -> (bool, String) {
+    let is_heavy = lighter.is_some_and(|lighter| lighter < 0.02);
+    match units {
+        Units::Si if is_heavy => (true, "masses are in kg, were they given in g?".to_owned()),
+        Units::Si => {
+            let meant = if period > 100.0 { "kN/m or kN/mm" } else { "kN/m" };
+            let text = format!("stiffnesses are in N/m, were they given in {meant} (or masses, in kg, in g)?{IN_KN_T}");
+            (false, text)
+        }
+        Units::KilonewtonTonne if is_heavy || mass >= HEAVY => {
+            (true, "masses are in t, were they given in kg?".to_owned())
+        }
+        Units::KilonewtonTonne => {
+            (false, "stiffnesses are in kN/m, were they given in kN/mm or MN/m (or masses, in t, in kg)?".to_owned())
+        }
+    }
 }
 
 /// Two buildings of usual periods, one of them in other units throughout.
@@ -171,15 +177,26 @@ fn look_at_storey_masses(facts: &Facts<'_>, side: Side, found: &mut Found) {
     let (building, other) = (facts.building(side), facts.building(opposite(side)));
     let both_usual = facts.pace == [Pace::Usual; 2] && other.mass.len() > 1;
     let heavier = mean(&other.mass) / mean(&building.mass);
-    if both_usual && heavier >= 200.0 {
-        let (side, other) = (name(side), name(opposite(side)));
-        let text = format!(
-            "a floor has 1/{} of the mass of one of the {other} building, at usual periods of both; masses are in kg and \
-             stiffnesses in N/m, were those of this building given in t and kN/m?",
-            short(heavier)
-        );
-        found.numbers(format!("{side}.mass"), &building.mass, text);
+    if !both_usual || heavier < 200.0 {
+        return;
     }
+    // In kg and N the lighter building has been given in t and kN, in t and kN the heavier one in kg and N.
+    let units = facts.scene.units;
+    let (odd, beside, factor, meant) = match units {
+        Units::Si => (side, opposite(side), 1.0 / heavier, Units::KilonewtonTonne),
+        Units::KilonewtonTonne => (opposite(side), side, heavier, Units::Si),
+    };
+    let text = format!(
+        "a floor has {} the mass of one of the {} building, at usual periods of both; masses are in {} and stiffnesses in \
+         {}, were those of this building given in {} and {}?",
+        how_many_times(factor),
+        name(beside),
+        units.unit("kg"),
+        units.unit("N/m"),
+        meant.unit("kg"),
+        meant.unit("N/m")
+    );
+    found.quantities(format!("{}.mass", name(odd)), &facts.building(odd).mass, text);
 }
 
 fn mean(values: &[f64]) -> f64 {
@@ -231,11 +248,12 @@ fn look_at_damping_matrix(facts: &Facts<'_>, side: Side, rows: &[Vec<f64>], foun
     let ratio = damped / (2.0 * first.omega * inertia);
     if odd_damping(ratio).is_some() {
         let text = format!(
-            "the first mode has {} of critical damping, where buildings have 0.01 to 0.1; entries are in N s/m, were they \
+            "the first mode has {} of critical damping, where buildings have 0.01 to 0.1; entries are in {}, were they \
              given in another unit?",
-            short(ratio)
+            short(ratio),
+            facts.scene.units.unit("N s/m")
         );
-        found.add(format!("{}.damping.matrix", name(side)), matrix(rows), text);
+        found.matrix(format!("{}.damping.matrix", name(side)), rows, text);
     }
 }
 

@@ -3,10 +3,11 @@
 use super::facts::{Facts, Pace, median};
 use super::found::Found;
 use super::touch::{Touch, exponent};
+use super::whole::IN_KN_T;
 use crate::contact::LawKey;
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
-use crate::scene::{ContactPair, Scene, law_key};
+use crate::scene::{ContactPair, Scene, Units, law_key};
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
@@ -29,10 +30,12 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     if !(1..=scene.contacts.len()).any(|contact| found.has(&format!("contact[{contact}].gap"))) {
         group(facts, found, "gap", |pair| lost_gap(facts, pair));
     }
-    group(facts, found, "exponent", high_exponent);
+    group(facts, found, "exponent", |pair| high_exponent(pair, scene.units));
     if !has_odd_building(found) {
         // Another exponent gives the stiffness another meaning.
-        group(facts, found, "stiffness", |pair| high_exponent(pair).is_none().then(|| duration(facts, pair)).flatten());
+        group(facts, found, "stiffness", |pair| {
+            high_exponent(pair, scene.units).is_none().then(|| duration(facts, pair)).flatten()
+        });
     }
     group(facts, found, "restitution", low_restitution);
     let least = scene.solver.min_approach_velocity;
@@ -109,7 +112,11 @@ fn group(facts: &Facts<'_>, found: &mut Found, key: &str, odd: impl Fn(&ContactP
         [one] => format!(" (likewise {one})"),
         [one, .., last] => format!(" (likewise {} more, {one} to {last})", more.len()),
     };
-    found.number(path(first), value, format!("{text}{also}"));
+    let text = format!("{text}{also}");
+    match key {
+        "stiffness" => found.quantity(path(first), value, text),
+        _ => found.number(path(first), value, text),
+    }
 }
 
 /// Floors that are deep in each other at the start.
@@ -125,10 +132,12 @@ fn overlap(facts: &Facts<'_>, pair: &ContactPair) -> Odd {
     if overlap < 2e-3 && (overlap <= 0.0 || weights < 20.0) {
         return None;
     }
+    let units = facts.scene.units;
     let depth = format!(
-        "the floors start {} mm deep in each other, pressed with {} N, {} times the weight of the lighter one",
+        "the floors start {} mm deep in each other, pressed with {} {}, {} times the weight of the lighter one",
         short(1e3 * overlap),
-        short(force),
+        short(units.written(force)),
+        units.unit("N"),
         short(weights)
     );
     let meant = if pair.gap < 0.0 {
@@ -180,27 +189,39 @@ fn lost_gap(facts: &Facts<'_>, pair: &ContactPair) -> Odd {
 
 fn duration(facts: &Facts<'_>, pair: &ContactPair) -> Odd {
     let touch = Touch::of(facts, pair)?;
-    let unit = pair.law.kind.info().stiffness_unit.map_or("", |unit| unit.name());
-    let kilo = unit.replacen('N', "kN", 1);
+    let units = facts.scene.units;
+    let si = pair.law.kind.info().stiffness_unit.map_or("", |unit| unit.name());
+    let unit = units.unit(si);
+    let (when_soft, when_hard) = match units {
+        Units::Si => (
+            format!("was it given in {}?{IN_KN_T}", Units::KilonewtonTonne.unit(si)),
+            "is its power of ten right?".to_owned(),
+        ),
+        Units::KilonewtonTonne => {
+            (format!("was it given in {}?", si.replacen('N', "MN", 1)), format!("was it given in {si}?"))
+        }
+    };
     let lasts = format!("an impact would last some {} ms", touch.milliseconds());
     let text = match () {
         () if touch.is_soft() => format!(
             "{lasts}, longer than floors of these buildings swing, and they would pass deep into each other; it is in \
-             {unit}, was it given in {kilo}?"
+             {unit}, {when_soft}"
         ),
-        () if touch.is_hard() => format!(
-            "{lasts}, shorter than the floors themselves would let it; it is in {unit}, is its power of ten right?"
-        ),
+        () if touch.is_hard() => {
+            format!("{lasts}, shorter than the floors themselves would let it; it is in {unit}, {when_hard}")
+        }
         () => return None,
     };
     Some((pair.law.stiffness, text))
 }
 
-fn high_exponent(pair: &ContactPair) -> Odd {
+fn high_exponent(pair: &ContactPair, units: Units) -> Odd {
     let exponent = has(pair, LawKey::Exponent).then_some(pair.law.exponent)?;
-    let text = "published exponents are 1 to 2, and Hertz's is 1.5; the stiffness is in N/m^exponent, so it means another \
-                one with each";
-    (exponent > 2.2).then(|| (exponent, text.to_owned()))
+    let text = format!(
+        "published exponents are 1 to 2, and Hertz's is 1.5; the stiffness is in {}, so it means another one with each",
+        units.unit("N/m^exponent")
+    );
+    (exponent > 2.2).then_some((exponent, text))
 }
 
 fn low_restitution(pair: &ContactPair) -> Odd {

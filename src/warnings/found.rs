@@ -1,6 +1,6 @@
 //! What the rules have found.
 
-use crate::scene::{excerpt, number, numbers, quoted};
+use crate::scene::{Units, excerpt, matrix_text, number, numbers, quoted};
 use std::fmt;
 
 /// One thing that looks like a slip.
@@ -24,9 +24,30 @@ impl fmt::Display for Warning {
 
 /// What has been found so far.
 #[derive(Default)]
-pub(super) struct Found(pub Vec<Warning>);
+pub(super) struct Found {
+    pub warnings: Vec<Warning>,
+    /// Those of the scene, in which masses and forces are shown.
+    units: Units,
+}
 
 impl Found {
+    pub fn new(units: Units) -> Found {
+        Found { warnings: Vec::new(), units }
+    }
+
+    /// The SI number of one with a mass or a force in its unit.
+    pub fn quantity(&mut self, path: impl Into<String>, value: f64, text: impl Into<String>) {
+        self.number(path, self.units.written(value), text);
+    }
+
+    pub fn quantities(&mut self, path: impl Into<String>, values: &[f64], text: impl Into<String>) {
+        self.numbers(path, &values.iter().map(|&value| self.units.written(value)).collect::<Vec<_>>(), text);
+    }
+
+    pub fn matrix(&mut self, path: impl Into<String>, rows: &[Vec<f64>], text: impl Into<String>) {
+        self.add(path, matrix_text(rows, self.units), text);
+    }
+
     pub fn number(&mut self, path: impl Into<String>, value: f64, text: impl Into<String>) {
         // 2.75e9, not 2750000000.0.
         self.add(path, if value.abs() >= 1e6 { format!("{value:e}") } else { number(value) }, text);
@@ -41,12 +62,12 @@ impl Found {
     }
 
     pub fn add(&mut self, path: impl Into<String>, value: String, text: impl Into<String>) {
-        self.0.push(Warning { path: path.into(), value, text: text.into() });
+        self.warnings.push(Warning { path: path.into(), value, text: text.into() });
     }
 
     /// Whether anything has been found at a path or below it.
     pub fn has(&self, path: &str) -> bool {
         let below = |rest: &str| rest.is_empty() || rest.starts_with(['.', '[']);
-        self.0.iter().any(|warning| warning.path.strip_prefix(path).is_some_and(below))
+        self.warnings.iter().any(|warning| warning.path.strip_prefix(path).is_some_and(below))
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Rules compare the scene with itself wherever that says enough: a period with the number of storeys, a contact with a
 //! storey, a storey with the next one. Laboratory frames, towers and isolated buildings are no slips, nor are walls
-//! and floors that nothing holds.
+//! and floors that nothing holds. All rules judge numbers of the SI; texts show masses and forces in the units of the scene.
 //!
 //! ```
 //! use pounding::scene::Scene;
@@ -25,6 +25,7 @@
 //! | file | looks at |
 //! |---|---|
 //! | `buildings.rs` | masses, stiffnesses, damping and initial motion of each building |
+//! | `whole.rs` | scenes in which every mass and stiffness is in other units |
 //! | `ground.rs` | the record, its scaling, `stop_time` |
 //! | `contacts.rs` | gaps and numbers of the laws |
 //! | `touch.rs` | how long a contact lasts |
@@ -37,6 +38,7 @@ mod facts;
 mod found;
 mod ground;
 mod touch;
+mod whole;
 
 pub use crate::figures::short;
 pub use found::Warning;
@@ -50,16 +52,17 @@ use found::Found;
 /// `scene.ground.record`, not yet scaled. What one slip entails is not listed beside it.
 pub fn of(scene: &Scene, record: Option<&Record>) -> Vec<Warning> {
     let facts = Facts::of(scene, record);
-    let mut found = Found::default();
+    let mut found = Found::new(scene.units);
     ground::look(&facts, &mut found);
     buildings::look(&facts, &mut found);
+    whole::look(&facts, &mut found);
     contacts::look(&facts, &mut found);
-    found.0
+    found.warnings
 }
 
 /// A value of the input `ground.acceleration`, m/s2, that no earthquake has had.
 pub fn of_ground_input(value: f64) -> Option<Warning> {
     let mut found = Found::default();
     ground::look_at_input(value, &mut found);
-    found.0.pop()
+    found.warnings.pop()
 }

@@ -7,6 +7,18 @@ Python 3.11, standard library only. Numbers go through float64, as in the engine
 import argparse
 import os
 import tomllib
+from decimal import Decimal
+
+# What is in t or with kN where a scene says so.
+IN_KN_T = {"mass", "stiffness", "stiffness_matrix", "matrix"}
+
+
+def in_si_units(value, is_scaled=False):
+    if isinstance(value, dict):
+        return {key: in_si_units(inner, key in IN_KN_T) for key, inner in value.items()}
+    if isinstance(value, list):
+        return [in_si_units(inner, is_scaled) for inner in value]
+    return float(Decimal(repr(value)) * 1000) if is_scaled else value
 
 
 def numbers(values):
@@ -69,6 +81,8 @@ def record_lines(ground, scene_folder, other_record):
 def convert(path, step, stop, record):
     with open(path, "rb") as file:
         scene = tomllib.load(file)
+    if scene.get("units") == "kN-t":
+        scene = in_si_units(scene)
     lines = [f"stop {numbers([scene['stop_time'] if stop is None else stop])}", f"output_step {numbers([step])}"]
     lines += record_lines(scene.get("ground", {}), os.path.dirname(path), record)
     if "min_approach_velocity" in scene.get("solver", {}):

@@ -8,6 +8,7 @@ mod refusals;
 mod robustness;
 #[path = "../problems/two_and_three_storeys.rs"]
 mod two_and_three_storeys;
+mod units;
 
 use pounding::scene::Scene;
 use two_and_three_storeys::WITHOUT_REPETITION as SCENE;
