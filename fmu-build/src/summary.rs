@@ -3,13 +3,14 @@
 use crate::experiment::{Outcome, Seen, Variables};
 use crate::went_in;
 use pounding::description::Package;
+use pounding::scene::{Heights, Scene, Side, in_metres};
 use std::fmt::Write;
 
 /// The summary; `stop_reason` says where the end of the experiment comes from, `package` what is known of the ground.
 pub fn text(outcome: &Outcome, package: Option<&Package>, stop_reason: &str) -> String {
-    let run = Run(outcome);
+    let run = Run(outcome, package.map(|package| &package.scene));
     let mut text = overview(&run, package, stop_reason);
-    for table in [run.floors(), run.buildings(), run.contacts(), run.energy()].into_iter().flatten() {
+    for table in [run.floors(), run.buildings(), run.contacts(), run.struck_columns(), run.energy()].into_iter().flatten() {
         text.push('\n');
         text.push_str(&table.aligned());
     }
@@ -54,7 +55,7 @@ fn overview(run: &Run, package: Option<&Package>, stop_reason: &str) -> String {
 const SIDES: [&str; 2] = ["left", "right"];
 
 /// The run by the names of the FMU's variables. What an FMU does not have is left out.
-struct Run<'a>(&'a Outcome);
+struct Run<'a>(&'a Outcome, Option<&'a Scene>);
 
 impl Run<'_> {
     fn seen(&self, name: &str) -> Option<Seen> {
@@ -87,26 +88,50 @@ impl Run<'_> {
     fn floors(&self) -> Option<Table> {
         let heading = |quantity: &str| format!("{} {quantity}", if self.has_peaks() { "peak" } else { "largest" });
         let headings = [heading("displacement"), heading("acceleration")];
-        let mut columns = vec![("floor", ""), (&*headings[0], "m"), (&*headings[1], "m/s2")];
+        let mut columns = vec![("floor", "")];
+        let levels = SIDES.map(|side| self.levels(side));
+        let has_levels = levels.iter().any(Option::is_some);
+        if has_levels {
+            columns.push(("level", "m"));
+        }
+        columns.extend([(&*headings[0], "m"), (&*headings[1], "m/s2")]);
         if self.has_peaks() {
             columns.push(("peak storey drift", "m"));
         }
+        if self.has_peaks() && has_levels {
+            columns.push(("over its height", ""));
+        }
         let mut table = Table::new(&columns);
-        for side in SIDES {
+        for (side, levels) in SIDES.into_iter().zip(levels) {
             for floor in 1..=self.count(&format!("{side}.displacement")) {
                 let number = |quantity: &str, pick| self.cell(&format!("{side}.{quantity}[{floor}]"), pick);
                 let largest = |quantity: &str| match self.has_peaks() {
                     true => number(&format!("peak_{quantity}"), |seen| seen.last),
                     false => number(quantity, |seen| seen.largest),
                 };
-                let mut row = vec![format!("{side} {floor}"), largest("displacement"), largest("acceleration")];
+                let mut row = vec![format!("{side} {floor}")];
+                if has_levels {
+                    let level = levels.as_ref().map(|heights| in_metres(heights.level(floor)).to_string());
+                    row.push(level.unwrap_or_default());
+                }
+                row.extend([largest("displacement"), largest("acceleration")]);
                 if self.has_peaks() {
                     row.push(number("peak_drift", |seen| seen.last));
+                }
+                if self.has_peaks() && has_levels {
+                    row.push(number("peak_drift_ratio", |seen| seen.last));
                 }
                 table.row(row);
             }
         }
         table.unless_empty()
+    }
+
+    /// Where the floors of a building are, if that is known.
+    fn levels(&self, side: &str) -> Option<&Heights> {
+        let scene = self.1?;
+        let building = if side == Side::Left.name() { &scene.left } else { &scene.right };
+        building.heights.as_ref()
     }
 
     fn buildings(&self) -> Option<Table> {
@@ -128,6 +153,7 @@ impl Run<'_> {
         let scale = |quantity, unit| Scale::of(unit, contacts.clone().filter_map(|contact| last(contact, quantity)));
         let scaled = [("peak_force", "N"), ("impulse", "N s"), ("dissipated_energy", "J")];
         let scales = scaled.map(|(quantity, unit)| scale(quantity, unit));
+        let meetings = self.1.map_or(&[][..], |scene| &scene.contacts);
         let mut table = Table::new(&[
             ("contact", ""),
             ("gap", "m"),
@@ -141,8 +167,9 @@ impl Run<'_> {
             let number = |quantity, pick| self.cell(&format!("contact[{contact}].{quantity}"), pick);
             let scaled = |k: usize| last(contact, scaled[k].0).map_or(String::new(), |value| scales[k].cell(value));
             let gap = self.seen(&format!("contact[{contact}].gap"));
+            let meeting = meetings.get(contact - 1).map_or(String::new(), |pair| format!(": {}", pair.brief()));
             table.row([
-                contact.to_string(),
+                format!("{contact}{meeting}"),
                 gap.map_or(String::new(), |seen| format!("{}", seen.last)),
                 number("impacts", |seen| seen.last),
                 scaled(0),
@@ -150,6 +177,30 @@ impl Run<'_> {
                 scaled(1),
                 scaled(2),
             ]);
+        }
+        table.unless_empty()
+    }
+
+    /// What slabs do to columns, beside what the storey carries anyway: bending of the columns is not in the model.
+    fn struck_columns(&self) -> Option<Table> {
+        let last = |name: String| self.seen(&name).map(|seen| seen.last);
+        let storeys = SIDES.into_iter().flat_map(|side| {
+            let of_storey = move |quantity: &str, storey: usize| last(format!("{side}.{quantity}[{storey}]"));
+            (1..=self.count(&format!("{side}.displacement"))).filter_map(move |storey| {
+                let force = of_storey("peak_column_force", storey)?;
+                Some((format!("{side} {storey}"), force, of_storey("peak_storey_shear", storey)))
+            })
+        });
+        let storeys: Vec<(String, f64, Option<f64>)> = storeys.collect();
+        let numbers = storeys.iter().flat_map(|(_, force, shear)| [Some(*force), *shear]).flatten();
+        let scale = Scale::of("N", numbers);
+        let mut table = Table::new(&[
+            ("columns of storey", ""),
+            ("largest force of a slab", &scale.unit),
+            ("peak storey shear", &scale.unit),
+        ]);
+        for (storey, force, shear) in storeys {
+            table.row([storey, scale.cell(force), shear.map_or(String::new(), |shear| scale.cell(shear))]);
         }
         table.unless_empty()
     }

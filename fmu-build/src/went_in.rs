@@ -9,7 +9,8 @@ use pounding::warnings::short;
 /// Name and text of each line. The ground motion is known where the package is.
 pub fn lines(outcome: &Outcome, package: Option<&Package>) -> Vec<(&'static str, String)> {
     let mut lines = package.map_or_else(Vec::new, ground);
-    lines.extend(["left", "right"].map(|side| (side, building(outcome, side))));
+    let buildings = ["left", "right"].into_iter().filter(|side| array(outcome, side, "displacement").next().is_some());
+    lines.extend(buildings.map(|side| (side, building(outcome, side))));
     lines.push(("contacts", contacts(outcome)));
     lines
 }
@@ -76,7 +77,7 @@ fn contacts(outcome: &Outcome) -> String {
     let (least, most) = gaps.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), gap| (a.min(*gap), b.max(*gap)));
     let number = contacts.len();
     match (number, least == most) {
-        (0, _) => "none: the buildings pass through each other".to_owned(),
+        (0, _) => "none: nothing meets".to_owned(),
         (1, _) => format!("1, gap {}", millimetres(least)),
         (_, true) => format!("{number}, all gaps {}", millimetres(least)),
         (_, false) => format!("{number}, gaps from {} to {}", millimetres(least), millimetres(most)),

@@ -126,9 +126,9 @@ pub(crate) fn summary(scene: &Scene, stop: f64, solution: &Solution) -> String {
 
 /// Natural frequencies of each building alone, ascending.
 pub(crate) fn frequencies(model: &Model) -> String {
-    let line = |name: &str, side: Side| {
+    let line = |side: Side| {
         let numbers: Vec<String> = model.natural_frequencies(side).iter().map(|f| format!("{f:.4}")).collect();
-        format!("  {name} frequencies: {} Hz\n", numbers.join(", "))
+        if numbers.is_empty() { String::new() } else { format!("  {side} frequencies: {} Hz\n", numbers.join(", ")) }
     };
-    line("left", Side::Left) + &line("right", Side::Right)
+    line(Side::Left) + &line(Side::Right)
 }

@@ -74,5 +74,6 @@ pub use crate::engine::output::point_rates::{ContactRates, EnergyRates, PEAK_ROU
 pub use crate::engine::saved::SavedState;
 pub use crate::engine::state::State;
 pub use crate::engine::watched::rows::PeakOf;
+pub use crate::engine::watched::storeys::StoreyPeak;
 pub use crate::engine::window::kernels::window_tables;
 pub use crate::structure::Side;

@@ -5,6 +5,7 @@ use crate::engine::flight::Flight;
 use crate::engine::system::System;
 use crate::engine::watched::resistance::FloorResistance;
 use crate::engine::watched::rows::PeakRows;
+use crate::engine::watched::storeys::Storeys;
 use crate::engine::window::kernels::Windows;
 use crate::record::Record;
 use crate::scene::{Scene, SceneError};
@@ -21,6 +22,7 @@ pub struct Model {
     pub(in crate::engine) windows: Option<Windows>,
     pub(in crate::engine) peak_rows: PeakRows,
     pub(in crate::engine) resistance: FloorResistance,
+    pub(in crate::engine) storeys: Storeys,
     /// Natural frequencies of the left and the right building, ascending, Hz.
     pub(in crate::engine) frequencies: [Vec<f64>; 2],
     /// Limit on the work of one communication step, in flights.
@@ -39,6 +41,7 @@ impl Model {
             resistance: FloorResistance::of(structure),
             frequencies: [Side::Left, Side::Right]
                 .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
+            storeys: Storeys::of(scene),
             energy: scene.energy,
             most_flights: most_flights(structure, system.pairs.len(), MOST_WORK),
             system,

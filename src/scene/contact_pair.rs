@@ -129,6 +129,14 @@ impl ContactPair {
         }
     }
 
+    /// Whose columns of which storey, counted from 1, are hit, if any are.
+    pub const fn columns(&self) -> Option<(Side, usize)> {
+        match (self.left, self.right) {
+            (Face::Columns { side, storey, .. }, _) | (_, Face::Columns { side, storey, .. }) => Some((side, storey)),
+            _ => None,
+        }
+    }
+
     /// Whether a building takes part.
     pub fn is_with(&self, side: Side) -> bool {
         self.left.side() == Some(side) || self.right.side() == Some(side)

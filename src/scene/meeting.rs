@@ -37,27 +37,44 @@ impl ContactPair {
         (moved - self.gap, size + self.gap.abs())
     }
 
+    /// What meets, from left to right, for a table: "left 1 | right 1", "left 3 | columns of right 4 at 0.35".
+    pub fn brief(&self) -> String {
+        format!("{} | {}", self.left.brief(), self.right.brief())
+    }
+
     /// What meets, for a person: "between left floor 1 and right floor 1", "of left floor 3, level 11.1 m, against columns
     /// of right storey 4 at 0.35".
     pub fn meeting(&self, scene: &Scene) -> String {
         let [left, right] = [&self.left, &self.right].map(|face| face.name(scene));
-        match (self.left, self.right) {
+        let text = match (self.left, self.right) {
             (Face::Floor(..), Face::Floor(..)) => format!("between {left} and {right}"),
             (Face::Floor(..), Face::Wall) => format!("of {left} against the wall on its right"),
             (Face::Wall, _) => format!("of {right} against the wall on its left"),
             (Face::Floor(..), _) => format!("of {left} against {right}"),
             (_, _) => format!("of {right} against {left}"),
-        }
+        };
+        text.trim_end_matches(',').to_owned()
     }
 }
 
 impl Face {
+    /// As short as a column of a table wants it.
+    fn brief(&self) -> String {
+        match *self {
+            Face::Floor(side, floor) => format!("{side} {floor}"),
+            Face::Columns { side, storey, position, .. } => {
+                format!("columns of {side} {storey} at {}", in_metres(position))
+            }
+            Face::Wall => "wall".to_owned(),
+        }
+    }
+
     /// For a person, in a scene whose buildings may have levels.
     fn name(&self, scene: &Scene) -> String {
         match *self {
             Face::Floor(side, floor) => {
                 let heights = scene.building(side).heights.as_ref();
-                let level = heights.map(|heights| format!(", level {} m", in_metres(heights.level(floor))));
+                let level = heights.map(|heights| format!(", level {} m,", in_metres(heights.level(floor))));
                 format!("{side} floor {floor}{}", level.unwrap_or_default())
             }
             Face::Columns { side, storey, position, .. } => {

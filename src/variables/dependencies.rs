@@ -38,6 +38,7 @@ pub fn at_communication_points(scene: &Scene, output: Output, input: Input) -> O
             | Output::Acceleration(..)
             | Output::BaseShear(_)
             | Output::Peak(_)
+            | Output::OfStorey(..)
             | Output::Contact(..)
             | Output::Impacts
             | Output::Energy(_),

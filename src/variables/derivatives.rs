@@ -3,7 +3,7 @@
 use super::initial_dependencies::at_start;
 use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot};
 use super::values::Instant;
-use crate::engine::{EnergyRates, Model, PEAK_ROUNDING, PeakOf, PointRates, Rates, Response};
+use crate::engine::{EnergyRates, Model, PEAK_ROUNDING, PeakOf, PointRates, Rates, Response, StoreyPeak};
 use crate::scene::Scene;
 
 /// The highest order of the derivatives of outputs with respect to time.
@@ -12,7 +12,7 @@ pub const HIGHEST_OUTPUT_DERIVATIVE: u8 = 2;
 impl Instant<'_> {
     /// First and second derivative of an output with respect to time.
     pub fn differentiate(&self, rates: &PointRates, output: Output) -> Rates {
-        let Instant { model, point, .. } = *self;
+        let Instant { model, state, point } = *self;
         match output {
             Output::GroundAcceleration => rates.ground_acceleration,
             Output::Displacement(side, floor) => model.displacement_rates(point, rates, side, floor),
@@ -29,6 +29,14 @@ impl Instant<'_> {
             Output::Contact(_, ContactOutput::ApproachVelocity | ContactOutput::Active | ContactOutput::Impacts)
             | Output::Impacts => [0.0; 2],
             Output::Peak(of) => self.differentiate_peak(rates, of),
+            Output::OfStorey(StoreyPeak::ColumnForce, side, storey) => {
+                let hardest = model.hardest_on(state, point, (side, storey));
+                hardest.map_or([0.0; 2], |(p, _)| rates.contacts[p].peak_force)
+            }
+            Output::OfStorey(of, side, storey) => {
+                let factor = model.per_drift(of, (side, storey));
+                self.differentiate_peak(rates, PeakOf::Drift(side, storey)).map(|rate| factor * rate)
+            }
         }
     }
 }
@@ -98,6 +106,7 @@ impl Output {
             | Output::Velocity(..)
             | Output::BaseShear(_)
             | Output::Peak(_)
+            | Output::OfStorey(..)
             | Output::Contact(..)
             | Output::Impacts
             | Output::Energy(_) => 0.0,

@@ -7,7 +7,7 @@
 use super::dependencies::floors;
 use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot};
 use crate::contact::EpisodeForce;
-use crate::engine::{PeakOf, Side};
+use crate::engine::{PeakOf, Side, StoreyPeak};
 use crate::scene::{Building, Damping, Scene, Share, Stiffness};
 
 /// Whether an unknown may depend on a known at the start time; `unknown` is an output or a calculated parameter,
@@ -25,6 +25,15 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
         }
         Output::Displacement(..) | Output::Velocity(..) => false,
         Output::Peak(PeakOf::Displacement(..) | PeakOf::Drift(..)) => false,
+        // The largest drift so far is known; the stiffness of the storey is a parameter.
+        Output::OfStorey(StoreyPeak::DriftRatio, ..) => false,
+        Output::OfStorey(StoreyPeak::Shear, side, storey) => {
+            known == Slot::Parameter(Parameter::Stiffness(side, storey)) && drifts(scene.building(side), storey)
+        }
+        Output::OfStorey(StoreyPeak::ColumnForce, side, storey) => {
+            let hits = |p: &usize| scene.contacts[*p].columns() == Some((side, storey + 1));
+            (0..scene.contacts.len()).filter(hits).any(|p| contact_force(scene, p, known))
+        }
         // No floor force has acted yet, without which an acceleration is not known.
         Output::Peak(PeakOf::Acceleration(..)) if scene.floor_forces => false,
         Output::Peak(_) if matches!(known, Slot::Input(_)) => false,

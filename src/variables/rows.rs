@@ -4,7 +4,7 @@ use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot};
 use super::table::{Row, Table, Type, Variability};
 use super::unit::Unit;
 use crate::contact::LawKey;
-use crate::engine::{PeakOf, Side};
+use crate::engine::{PeakOf, Side, StoreyPeak};
 use crate::scene::{Building, ContactPair, Damping, Scaling, Scene, Stiffness, rule};
 
 // The motion that the nominal values stand for: m, m/s and m/s2.
@@ -37,6 +37,12 @@ impl Table {
                 table.add_floor(building, (side, name), floor, scene.floor_forces);
                 if scene.peaks {
                     table.add_peaks((side, name), floor);
+                    table.add_drift_ratio(building, (side, name), floor);
+                }
+            }
+            for storey in 0..building.mass.len() {
+                if scene.contacts.iter().any(|pair| pair.columns() == Some((side, storey + 1))) {
+                    table.add_struck_storey(building, (side, name), storey, scene.peaks);
                 }
             }
             table.add_building(building, (side, name), scene.peaks);
@@ -123,6 +129,30 @@ impl Table {
                 format!("largest {about} {i} so far, of either sign, between communication points and in impacts too");
             let row = self.add(Output::Peak(of), &format!("{name}.peak_{quantity}[{i}]"), ty, &about);
             row.at_least(0.0).nominal(scale);
+        }
+    }
+
+    fn add_drift_ratio(&mut self, building: &Building, (side, name): (Side, &str), storey: usize) {
+        let Some(height) = building.heights.as_ref().and_then(|heights| heights.storeys.get(storey)) else { return };
+        let (i, output) = (storey + 1, Output::OfStorey(StoreyPeak::DriftRatio, side, storey));
+        let about = format!("largest drift of storey {i} so far over its height of {height:?} m");
+        let row = self.add(output, &format!("{name}.peak_drift_ratio[{i}]"), ONE, &about);
+        row.at_least(0.0).nominal(DISPLACEMENT / height);
+    }
+
+    /// What is checked where slabs hit columns.
+    fn add_struck_storey(&mut self, building: &Building, (side, name): (Side, &str), storey: usize, peaks: bool) {
+        let (i, force) = (storey + 1, building.mass.iter().sum::<f64>() * ACCELERATION);
+        let about = format!("largest force so far of one slab on the columns of storey {i}");
+        let output = Output::OfStorey(StoreyPeak::ColumnForce, side, storey);
+        let row = self.add(output, &format!("{name}.peak_column_force[{i}]"), NEWTON, &about);
+        row.at_least(0.0).nominal(force);
+        if peaks && matches!(building.stiffness, Stiffness::Shear(_)) {
+            let about =
+                format!("largest storey shear of storey {i} so far, stiffness times drift, to compare with that force");
+            let output = Output::OfStorey(StoreyPeak::Shear, side, storey);
+            let row = self.add(output, &format!("{name}.peak_storey_shear[{i}]"), NEWTON, &about);
+            row.at_least(0.0).nominal(force);
         }
     }
 

@@ -1,6 +1,6 @@
 //! What the variables stand for.
 
-use crate::engine::{PeakOf, Side};
+use crate::engine::{PeakOf, Side, StoreyPeak};
 
 /// What a variable stands for. Floors, storeys and contacts are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,6 +68,8 @@ pub enum Output {
     BaseShear(Side),
     /// The largest magnitude so far.
     Peak(PeakOf),
+    /// The largest so far of a quantity of a storey.
+    OfStorey(StoreyPeak, Side, usize),
     /// One contact.
     Contact(usize, ContactOutput),
     /// Contact episodes so far.

@@ -357,6 +357,7 @@ impl Instant<'_> {
             Output::Acceleration(side, floor) => model.acceleration(point, side, floor),
             Output::BaseShear(side) => model.base_shear(point, side),
             Output::Peak(of) => model.peak(state, point, of),
+            Output::OfStorey(of, side, storey) => model.storey_peak(state, point, of, (side, storey)),
             Output::Contact(p, output) => return read_contact(&model.contact(state, point, p), output),
             Output::Impacts => return count(point.impacts),
             Output::Energy(term) => read_energy(&model.energy(state, point).unwrap_or_default(), term),

@@ -10,6 +10,7 @@ pub mod peaks;
 pub mod point;
 pub mod point_rates;
 pub mod rates;
+mod storeys;
 
 use crate::engine::base::Base;
 use crate::engine::base::contact::{Contact, Episode};

@@ -2,3 +2,4 @@
 
 pub mod resistance;
 pub mod rows;
+pub mod storeys;

@@ -1,0 +1,34 @@
+//! What is checked storey by storey: the peak drift as a share of the height, the peak storey shear, and the largest force
+//! of a slab on the columns.
+
+use crate::engine::model::Model;
+use crate::engine::output::point::Point;
+use crate::engine::state::State;
+use crate::engine::watched::rows::PeakOf;
+use crate::engine::watched::storeys::StoreyPeak;
+use crate::structure::Side;
+
+impl Model {
+    /// The value of a storey's quantity; 0 where the scene does not have what it is made of. `state` has to be the one that
+    /// `point` was observed from.
+    pub fn storey_peak(&self, state: &State, point: &Point, of: StoreyPeak, (side, storey): (Side, usize)) -> f64 {
+        match of {
+            StoreyPeak::DriftRatio | StoreyPeak::Shear => {
+                self.storeys.per_drift(of, (side, storey)) * self.peak(state, point, PeakOf::Drift(side, storey))
+            }
+            StoreyPeak::ColumnForce => self.hardest_on(state, point, (side, storey)).map_or(0.0, |(_, force)| force),
+        }
+    }
+
+    /// The contact that has pressed hardest on the columns of a storey, and its largest force.
+    pub fn hardest_on(&self, state: &State, point: &Point, storey: (Side, usize)) -> Option<(usize, f64)> {
+        let contacts = (0..).zip(&self.storeys.struck).filter(|(_, struck)| **struck == Some(storey));
+        let forces = contacts.map(|(p, _)| (p, self.contact(state, point, p).peak_force));
+        forces.max_by(|(_, one), (_, other)| one.total_cmp(other))
+    }
+
+    /// How much of a quantity there is per m of drift; 0 where it is none of the drift.
+    pub fn per_drift(&self, of: StoreyPeak, storey: (Side, usize)) -> f64 {
+        self.storeys.per_drift(of, storey)
+    }
+}

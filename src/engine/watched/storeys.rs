@@ -1,0 +1,55 @@
+//! Quantities of single storeys that follow from what is watched anyway.
+
+use crate::scene::{Building, ContactPair, Scene, Stiffness};
+use crate::structure::Side;
+
+/// A quantity of one storey. Each is a factor times another output, or the largest of some.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StoreyPeak {
+    /// Peak drift over the storey's height.
+    DriftRatio,
+    /// Peak drift times the stiffness of a shear building's storey, N: without damping forces.
+    Shear,
+    /// Largest force of one slab on the columns, N.
+    ColumnForce,
+}
+
+/// What is known of the storeys of both buildings.
+#[derive(Debug)]
+pub struct Storeys {
+    /// m, where the scene has heights.
+    heights: [Vec<f64>; 2],
+    /// N/m, of a shear building.
+    stiffness: [Vec<f64>; 2],
+    /// The storey whose columns are hit at each contact.
+    pub struck: Vec<Option<(Side, usize)>>,
+}
+
+impl Storeys {
+    /// Of a checked scene.
+    pub fn of(scene: &Scene) -> Storeys {
+        let stiffness = |building: &Building| match &building.stiffness {
+            Stiffness::Shear(storeys) => storeys.clone(),
+            Stiffness::Matrix(_) => Vec::new(),
+        };
+        let heights = |building: &Building| building.heights.as_ref().map_or_else(Vec::new, |h| h.storeys.clone());
+        let struck = |pair: &ContactPair| pair.columns().map(|(side, storey)| (side, storey - 1));
+        let buildings = [&scene.left, &scene.right];
+        Storeys {
+            heights: buildings.map(heights),
+            stiffness: buildings.map(stiffness),
+            struck: scene.contacts.iter().map(struck).collect(),
+        }
+    }
+
+    /// How much of a quantity there is per m of drift.
+    pub fn per_drift(&self, of: StoreyPeak, (side, storey): (Side, usize)) -> f64 {
+        let of_storey = |all: &[Vec<f64>; 2]| all[side as usize].get(storey).copied();
+        let factor = match of {
+            StoreyPeak::DriftRatio => of_storey(&self.heights).map(f64::recip),
+            StoreyPeak::Shear => of_storey(&self.stiffness),
+            StoreyPeak::ColumnForce => None,
+        };
+        factor.unwrap_or(0.0)
+    }
+}
