@@ -1,6 +1,6 @@
 """Run time against error, beside other solvers, measured in one session.
 
-    python3 examples/run.py benchmarks/work_precision.py            # the long run: hours; renews docs/benchmark/
+    python3 examples/run.py benchmarks/work_precision.py            # the long run: 40 minutes; renews docs/benchmark/
     python3 examples/run.py benchmarks/work_precision.py --quick    # a minute: shows that the command works
     python3 examples/run.py benchmarks/work_precision.py --draw     # pictures and table of the last long run again
 
