@@ -10,7 +10,9 @@ use std::fmt::Write;
 pub fn text(outcome: &Outcome, package: Option<&Package>, stop_reason: &str) -> String {
     let run = Run(outcome, package.map(|package| &package.scene));
     let mut text = overview(&run, package, stop_reason);
-    for table in [run.floors(), run.buildings(), run.contacts(), run.struck_columns(), run.energy()].into_iter().flatten() {
+    for table in
+        [run.floors(), run.buildings(), run.contacts(), run.struck_columns(), run.energy()].into_iter().flatten()
+    {
         text.push('\n');
         text.push_str(&table.aligned());
     }

@@ -35,6 +35,7 @@ pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
     for (i, pair) in scene.contacts.iter().enumerate() {
         check.contact(&format!("contact[{}]", i + 1), pair, scene);
     }
+    scene.facing.inspect(|&tolerance| check.number("facing.level_tolerance", tolerance, rule::LEVEL_TOLERANCE));
     check.pairs_differ(&scene.contacts);
     check.count_contacts(scene);
     check.number("solver.relative_tolerance", scene.solver.relative_tolerance, rule::RELATIVE_TOLERANCE);

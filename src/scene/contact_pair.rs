@@ -113,6 +113,12 @@ impl ContactPair {
         self.left.shares().chain(right)
     }
 
+    /// Whether the ground takes part: as a wall, or as the lower end of the columns of a first storey.
+    pub fn has_ground(&self) -> bool {
+        let is_of_ground = |face: &Face| matches!(face, Face::Wall | Face::Columns { storey: 1, .. });
+        is_of_ground(&self.left) || is_of_ground(&self.right)
+    }
+
     /// Where columns are hit, if they are.
     pub const fn position(&self) -> Option<f64> {
         match (self.left, self.right) {

@@ -28,6 +28,8 @@ pub struct Scene {
     pub floor_forces: bool,
     /// What may collide.
     pub contacts: Vec<ContactPair>,
+    /// m, `facing.level_tolerance` where `[facing]` has made the contacts.
+    pub facing: Option<f64>,
     /// `outputs.energy`: the energy account exists.
     pub energy: bool,
     /// `outputs.peaks`: the largest displacements, drifts, accelerations and base shears so far exist.

@@ -35,7 +35,7 @@ impl<'t> Draft<'t> {
         let mut problems = document.into_problems();
         // A value that does not fit is represented in the scene by a neutral one, about which there is nothing to say.
         let mut wrong_values = check::problems(&scene);
-        if table.contains_key("facing") {
+        if scene.facing.is_some() {
             tell_of_facing(&mut wrong_values);
         }
         write_as_found(&mut wrong_values, text, &document::spans(&table));
@@ -101,8 +101,9 @@ fn scene(mut root: Section<'_>) -> Scene {
     let right = root.get("right").map(|item| building(item.section(), units));
     let ground = ground(root.section("ground"));
     let floor_forces = inputs(root.section("inputs"));
-    let contacts = read_contacts::all(&mut root, [&left, right.as_ref().unwrap_or(&Building::absent())], units);
-    if right.is_none() && (contacts.iter().any(|pair| pair.is_with(Side::Right)) || root.get("facing").is_some()) {
+    let (contacts, facing) =
+        read_contacts::all(&mut root, [&left, right.as_ref().unwrap_or(&Building::absent())], units);
+    if right.is_none() && (contacts.iter().any(|pair| pair.is_with(Side::Right)) || facing.is_some()) {
         root.missing("right", "the building on the right, which contacts are with");
     }
     let right = right.unwrap_or(Building::absent());
@@ -110,7 +111,21 @@ fn scene(mut root: Section<'_>) -> Scene {
     let solver = solver(root.section("solver"));
     root.close(KEY);
     let (name, description) = (name.to_owned(), description.to_owned());
-    Scene { name, description, units, stop_time, left, right, ground, floor_forces, contacts, energy, peaks, solver }
+    Scene {
+        name,
+        description,
+        units,
+        stop_time,
+        left,
+        right,
+        ground,
+        floor_forces,
+        contacts,
+        facing,
+        energy,
+        peaks,
+        solver,
+    }
 }
 
 fn units(item: &Item<'_>) -> Option<Units> {

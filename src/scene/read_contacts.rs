@@ -11,12 +11,14 @@ use crate::contact::{DampingFormula, ImpactLaw, LawKind};
 
 const FLOOR: &str = "a floor, counted from 1";
 
-/// All contacts of a scene with these buildings.
-pub(super) fn all(root: &mut Section<'_>, buildings: [&Building; 2], units: Units) -> Vec<ContactPair> {
+/// All contacts of a scene with these buildings, and the tolerance of `[facing]` where that makes them.
+pub(super) fn all(root: &mut Section<'_>, buildings: [&Building; 2], units: Units) -> (Vec<ContactPair>, Option<f64>) {
     let tables = root.get("contact");
     if let Some(facing) = root.get("facing") {
         tables.inspect(|item| item.refuse("either [[contact]] tables or [facing], not both"));
-        return self::facing(root, facing.section(), buildings, units);
+        let mut section = facing.section();
+        let tolerance = section.get("level_tolerance").map_or(LEVEL_TOLERANCE, |item| item.number());
+        return (self::facing(root, section, tolerance, buildings, units), Some(tolerance));
     }
     let tables = tables.and_then(|item| match item.is_table() {
         false => item.list("[[contact]] tables"),
@@ -25,16 +27,16 @@ pub(super) fn all(root: &mut Section<'_>, buildings: [&Building; 2], units: Unit
             None
         }
     });
-    tables.iter().flatten().map(|item| contact(item.section(), buildings, units)).collect()
+    (tables.iter().flatten().map(|item| contact(item.section(), buildings, units)).collect(), None)
 }
 
 fn facing(
     root: &mut Section<'_>,
     mut section: Section<'_>,
+    tolerance: f64,
     buildings: [&Building; 2],
     units: Units,
 ) -> Vec<ContactPair> {
-    let tolerance = section.get("level_tolerance").map_or(LEVEL_TOLERANCE, |item| item.number());
     let gap = gap(&mut section);
     let law = law(section, units);
     let heights = [Side::Left, Side::Right].map(|side| {

@@ -18,13 +18,22 @@ pub enum Dependence {
 ///
 /// Displacements, velocities and all that follows from them do not; a force on a floor accelerates that floor, and
 /// where floors are held together it accelerates all of them and changes the forces between them. The ground
-/// acceleration cancels out of the absolute accelerations.
+/// acceleration cancels out of the absolute accelerations, but for floors that are held to a wall or to columns in which
+/// the ground has a share.
 pub fn at_communication_points(scene: &Scene, output: Output, input: Input) -> Option<Dependence> {
     match (output, input) {
         (Output::Acceleration(side, floor), Input::Force(forced_side, forced_floor)) => {
             let group = held_with(scene, (side, floor));
             let answers = group.contains(&(forced_side, forced_floor));
-            answers.then_some(if group.len() == 1 { Dependence::Fixed } else { Dependence::Dependent })
+            let is_free = !rigid_rows(scene).any(|mut row| row.any(|other| other == (side, floor)));
+            answers.then_some(if is_free { Dependence::Fixed } else { Dependence::Dependent })
+        }
+        (Output::Acceleration(side, floor), Input::GroundAcceleration) => {
+            is_held_to_ground(scene, (side, floor)).then_some(Dependence::Dependent)
+        }
+        (Output::Contact(p, ContactOutput::Force), Input::GroundAcceleration) => {
+            let answers = scene.contacts[p].law.is_rigid() && is_held_to_ground(scene, floors(scene, p)[0]);
+            answers.then_some(Dependence::Dependent)
         }
         (Output::Contact(p, ContactOutput::Force), Input::Force(side, floor)) => {
             let answers =
@@ -35,7 +44,6 @@ pub fn at_communication_points(scene: &Scene, output: Output, input: Input) -> O
             Output::GroundAcceleration
             | Output::Displacement(..)
             | Output::Velocity(..)
-            | Output::Acceleration(..)
             | Output::BaseShear(_)
             | Output::Peak(_)
             | Output::OfStorey(..)
@@ -52,19 +60,32 @@ pub(super) fn floors(scene: &Scene, p: usize) -> Vec<(Side, usize)> {
     scene.contacts[p].row().map(|share| (share.side, share.floor)).collect()
 }
 
-/// The floors that move as one with a floor while all rigid contacts are closed, that floor included.
+/// The floors in the row of each rigid contact.
+fn rigid_rows(scene: &Scene) -> impl Iterator<Item = impl Iterator<Item = (Side, usize)> + '_> + '_ {
+    let rigid = scene.contacts.iter().filter(|pair| pair.law.is_rigid());
+    rigid.map(|pair| pair.row().map(|share| (share.side, share.floor)))
+}
+
+/// The floors whose motions depend on each other while all rigid contacts are closed, with a given one of them.
 fn held_with(scene: &Scene, floor: (Side, usize)) -> Vec<(Side, usize)> {
+    let rows: Vec<Vec<(Side, usize)>> = rigid_rows(scene).map(Iterator::collect).collect();
     let mut group = vec![floor];
     let mut reached = 0;
     while reached < group.len() {
         let floor = group[reached];
-        let rigid = (0..scene.contacts.len()).filter(|&p| scene.contacts[p].law.is_rigid());
-        for facing in rigid.map(|p| floors(scene, p)).filter(|row| row.contains(&floor)).flatten() {
-            if !group.contains(&facing) {
-                group.push(facing);
+        for &together in rows.iter().filter(|row| row.contains(&floor)).flatten() {
+            if !group.contains(&together) {
+                group.push(together);
             }
         }
         reached += 1;
     }
     group
+}
+
+/// Whether the ground has a share in any rigid contact of the floors that move with a floor.
+fn is_held_to_ground(scene: &Scene, floor: (Side, usize)) -> bool {
+    let group = held_with(scene, floor);
+    let rigid = scene.contacts.iter().filter(|pair| pair.law.is_rigid() && pair.has_ground());
+    rigid.flat_map(|pair| pair.row()).any(|share| group.contains(&(share.side, share.floor)))
 }

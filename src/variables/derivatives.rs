@@ -88,8 +88,7 @@ impl Input {
     /// Adds the direct effect of the change of an input to a response.
     pub fn push(self, change: f64, model: &Model, response: &mut Response) {
         match self {
-            // It moves all floors alike.
-            Input::GroundAcceleration => {}
+            Input::GroundAcceleration => model.push_ground(change, response),
             Input::Force(side, floor) => model.push_floor(side, floor, change, response),
         }
     }

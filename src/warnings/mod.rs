@@ -28,6 +28,7 @@
 //! | `whole.rs` | scenes in which every mass and stiffness is in other units |
 //! | `ground.rs` | the record, its scaling, `stop_time` |
 //! | `contacts.rs` | gaps and numbers of the laws |
+//! | `levels.rs` | levels of what meets |
 //! | `touch.rs` | how long a contact lasts |
 //! | `facts.rs` | what the rules share: periods, the peak of the ground |
 //! | `found.rs` | the warnings, as the rules add them |
@@ -37,6 +38,7 @@ mod contacts;
 mod facts;
 mod found;
 mod ground;
+mod levels;
 mod touch;
 mod whole;
 
@@ -57,6 +59,7 @@ pub fn of(scene: &Scene, record: Option<&Record>) -> Vec<Warning> {
     buildings::look(&facts, &mut found);
     whole::look(&facts, &mut found);
     contacts::look(&facts, &mut found);
+    levels::look(&facts, &mut found);
     found.warnings
 }
 

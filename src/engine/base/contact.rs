@@ -148,6 +148,13 @@ impl Contact {
         };
     }
 
+    /// Adds an impulse, N s, that goes through floors that are held together and stay so: one against another contact.
+    pub fn pass_on(&mut self, impulse: f64) {
+        self.rate = 0.0;
+        self.impulse += impulse;
+        self.episode.impulse += impulse;
+    }
+
     /// Penetration at the start of a flight, m: exactly 0 just after a release, never above 0.
     pub fn flight_start(&self) -> f64 {
         if self.at_surface { 0.0 } else { self.penetration.min(0.0) }

@@ -2,21 +2,23 @@
 //! in which it cannot meet. This is conservative advancement \[Mirtich1996\] with bounds of structural dynamics.
 //!
 //! Apart from contact, the amplitude e = sqrt(q'^2 + w^2 q^2) of each mode grows at most by A = |participation| x the
-//! integral of |ground acceleration|, as damping only reduces it. Without the ground's part |q''| <= (w + c) e, and the
-//! ground accelerates both floors of a pair alike. Hence, with the present e, after a time t
+//! integral of |ground acceleration|, as damping only reduces it. Without the ground's part |q''| <= (w + c) e. The ground
+//! accelerates all floors alike, and so a pair by its acceleration times |W|, W the sum of the weights in its row: 0
+//! between two floors, not so at a wall and where the ground has a share. With S, the integral of |ground acceleration|,
+//! and the present e, after a time t
 //!
 //! ```text
 //! penetration <= penetration now + t sum over modes of |row| (e + A)
-//! penetration <= penetration now + t (rate now + t/2 sum over modes of |row| (w + c) (e + A))
+//! penetration <= penetration now + t (rate now + |W| S + t/2 sum over modes of |row| (w + c) (e + A))
 //! ```
 //!
 //! The first bound never falls with t and the second is convex: if it is below 0 at the end of an interval, it was
 //! below 0 throughout. Where damping couples no modes, the pair's relative acceleration by springs and dashpots, a =
 //! -row (c v + w^2 q), changes at a rate |a'| <= sum of |row| (k (e + A) + c |participation| |ground acceleration|)
-//! with k^2 = (w^2 + c^2)^2 + c^2 w^2. With S, the integral of |ground acceleration|, this gives
+//! with k^2 = (w^2 + c^2)^2 + c^2 w^2. This gives
 //!
 //! ```text
-//! penetration <= penetration now + t rate now + t^2/2 (a now + S sum of |row| c |participation|)
+//! penetration <= penetration now + t (rate now + |W| S) + t^2/2 (a now + S sum of |row| c |participation|)
 //!                + t^3/6 sum over modes of |row| k (e + A)
 //! ```
 //!
@@ -83,6 +85,8 @@ struct Growth {
     sums: Sums,
     /// Increase of the relative acceleration by dashpots, m/s2: sum over modes of |row| c |participation|.
     dragged: f64,
+    /// Increase of the closing velocity by the ground itself, |W|.
+    shaken: f64,
 }
 
 /// Sums over modes of |row| e, m/s, of |row| (w + c) e, m/s2, and of |row| k e, m/s3.
@@ -122,8 +126,11 @@ impl ClosingBounds {
             let of_modes = pair.row.iter().zip(&structure.damping).zip(&structure.participation);
             of_modes.map(|((row, c), participation)| (row * c * participation).abs()).sum()
         };
-        let growth =
-            |pair: &Pair| Growth { sums: Sums::of(&pair.row, &growth, &quickness, &bend), dragged: dragged(pair) };
+        let growth = |pair: &Pair| Growth {
+            sums: Sums::of(&pair.row, &growth, &quickness, &bend),
+            dragged: dragged(pair),
+            shaken: pair.share_of_ground().abs(),
+        };
         let block = |c: usize| {
             let lane = |all: &[f64]| -> Lane { std::array::from_fn(|i| all[c * LANES + i]) };
             BoundedModes {
@@ -290,7 +297,7 @@ impl Closing<'_> {
 /// NaN of the cubic bound is ignored, one of the others is returned.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn nearest(closing: &Closing, Ends { time, cumulative }: &Ends) -> Lane {
-    let &Closing { start, rate, pull, ref sums, growth: &Growth { sums: ref growth, dragged } } = closing;
+    let &Closing { start, rate, pull, ref sums, growth: &Growth { sums: ref growth, dragged, shaken } } = closing;
     let (smaller, larger) = (|a: f64, b: f64| if a < b { a } else { b }, |a: f64, b: f64| if a > b { a } else { b });
     let mut nearest = [0.0; LANES];
     for i in 0..LANES {
@@ -298,7 +305,7 @@ fn nearest(closing: &Closing, Ends { time, cumulative }: &Ends) -> Lane {
         let speed = sums.speed + growth.speed * cumulative;
         let change = sums.change + growth.change * cumulative;
         let bend = sums.bend + growth.bend * cumulative;
-        let rate = rate + MARGIN * speed;
+        let rate = rate + shaken * cumulative + MARGIN * speed;
         let (line, parabola) = (start + time * speed, start + time * (rate + 0.5 * time * change));
         let (first, second) = (time * rate, 0.5 * time * time * (pull + cumulative * dragged));
         let end = start + (first + second + time * time * time * (bend * (1.0 / 6.0)));
@@ -350,7 +357,7 @@ struct Seen {
     bounds: Sums,
     /// Relative acceleration by springs and dashpots, m/s2, where damping couples no modes.
     pull: f64,
-    /// Displacement of the left floor relative to the right one, m, and its rate, m/s: positive when they approach.
+    /// Displacement of the left face relative to the right one, m, and its rate, m/s: positive when they approach.
     moved: f64,
     rate: f64,
 }

@@ -2,8 +2,10 @@
 //! instant.
 //!
 //! At a given instant, for a given motion, both are linear in the forces as long as the same rigid pairs press. The
-//! ground's acceleration moves all floors alike: absolute accelerations and reactions have no feedthrough from it.
+//! ground's acceleration moves all floors alike: absolute accelerations and reactions have feedthrough from it only where
+//! the ground has a share in a rigid contact, as at a wall.
 
+use crate::engine::base::Coordinates;
 use crate::engine::model::Model;
 use crate::engine::output::point::Point;
 use crate::engine::pairs::pair::relative;
@@ -16,8 +18,10 @@ use crate::structure::Side;
 pub struct Response {
     /// Reaction of each contact, N, positive in compression.
     pub reactions: Vec<f64>,
-    /// Acceleration of each floor, m/s2.
+    /// Acceleration of each floor relative to the ground, m/s2.
     accelerations: Vec<f64>,
+    /// Acceleration of the ground, m/s2.
+    ground: f64,
     /// Scratch vectors, kept for the next call.
     work: Option<Box<Buffers>>,
 }
@@ -31,6 +35,16 @@ impl Model {
         ] {
             vector.clear();
             vector.resize(length, 0.0);
+        }
+        response.ground = 0.0;
+    }
+
+    /// Adds an acceleration of the ground, m/s2, without reactions.
+    pub fn push_ground(&self, acceleration: f64, response: &mut Response) {
+        response.ground += acceleration;
+        let shares = self.system.participation(Coordinates::Floors);
+        for (floor, share) in response.accelerations.iter_mut().zip(shares) {
+            *floor -= share * acceleration;
         }
     }
 
@@ -60,8 +74,8 @@ impl Model {
         response.work = Some(work);
     }
 
-    /// Acceleration of a floor, m/s2.
+    /// Absolute acceleration of a floor, m/s2.
     pub fn response_at(&self, response: &Response, side: Side, floor: usize) -> f64 {
-        response.accelerations[self.system.structure.floors.lane(side as usize, floor)]
+        response.accelerations[self.system.structure.floors.lane(side as usize, floor)] + response.ground
     }
 }

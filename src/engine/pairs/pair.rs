@@ -132,6 +132,11 @@ impl Pair {
         }
     }
 
+    /// Minus the relative acceleration by that of the ground: 0 between two floors.
+    pub fn share_of_ground(&self) -> f64 {
+        self.floors.iter().map(|floor| floor.weight).sum()
+    }
+
     /// Whether it is between two floors, so that their motions are subtracted as they are.
     pub fn is_of_floors(&self) -> bool {
         self.floors.map(|floor| floor.weight) == [1.0, -1.0, 0.0]

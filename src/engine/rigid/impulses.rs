@@ -64,6 +64,7 @@ impl System {
         for (k, &p) in self.rigid.pairs.iter().enumerate() {
             let taken = rigid.pairs.iter().position(|&other| other == k).filter(|&i| rigid.found[i] > 0.0);
             match taken {
+                Some(i) if base.contacts[p].is_held() => base.contacts[p].pass_on(rigid.found[i]),
                 Some(i) => self.book_impulse(base, p, rigid.known[i], rigid.found[i], on_episode),
                 None => {
                     let change = |(&other, impulse): (&usize, &f64)| self.rigid.matrix[(k, other)] * impulse;
