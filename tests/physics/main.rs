@@ -17,3 +17,4 @@ mod stereomechanical;
 mod structure;
 mod tall_buildings;
 mod tension;
+mod walls;
