@@ -242,7 +242,7 @@ function usual() {
   const isShown = (c) =>
     c.of in top
       ? ["displacement", "acceleration"].includes(c.quantity) &&
-        (c.index === top[c.of] || facing.some((pair) => pair[`${c.of}_floor`] === c.index))
+        (c.index === top[c.of] || facing.some(({ floors }) => floors.some(([side, floor]) => side === c.of && floor === c.index)))
       : hardest.includes(c);
   choose(run.columns.filter(isShown), true);
 }
@@ -303,13 +303,13 @@ function tableOf(table, headings, rows) {
 function contactTable() {
   const most = [["approach up to", APPROACH], ["force up to", FORCE], ["penetration up to", PENETRATION]];
   const sums = [["impulse", IMPULSE], ["dissipated", DISSIPATED]];
-  const headings = ["contact", "floors left, right", withUnit("gap", "m"), "law", "impacts"];
+  const headings = ["contact", "what meets", withUnit("gap", "m"), "law", "impacts"];
   for (const [name, by] of [...most, ...sums]) headings.push(withUnit(name, IMPACTS[by][1]));
   const rows = run.contacts.map((pair, at) => {
     const own = run.impacts.filter((impact) => impact[CONTACT] === at + 1);
     const numbers = [...most.map(([, by]) => [by, largestOf(own, by)]), ...sums.map(([, by]) => [by, sumOf(own, by)])];
     const cells = numbers.map(([by, value]) => scaled(value, IMPACTS[by][1]));
-    return [at + 1, `${pair.left_floor}, ${pair.right_floor}`, scaled(pair.gap, "m"), pair.law, own.length, ...cells];
+    return [at + 1, pair.meeting.replace(/^(between|of) /, ""), scaled(pair.gap, "m"), pair.law, own.length, ...cells];
   });
   tableOf(element("contact-table"), headings, rows);
 }
@@ -381,9 +381,8 @@ function happened() {
   const hardest = run.impacts.reduce((most, impact) => (most && most[by] >= impact[by] ? most : impact), null);
   const text = `0 s to ${digits(run.stop)} s: ${count} impact${count === 1 ? "" : "s"}`;
   if (!hardest) return `${text}.`;
-  const { left_floor, right_floor } = run.contacts[hardest[CONTACT] - 1];
-  const where = `left floor ${left_floor} and right floor ${right_floor}`;
-  return `${text}, the hardest between ${where} at ${hardest[START].toFixed(3)} s with ${digits(scaled(hardest[by], unit))} ${unitText(unit)}.`;
+  const { meeting } = run.contacts[hardest[CONTACT] - 1];
+  return `${text}, the hardest ${meeting} at ${hardest[START].toFixed(3)} s with ${digits(scaled(hardest[by], unit))} ${unitText(unit)}.`;
 }
 
 document.title = run.name;

@@ -53,8 +53,10 @@ struct Run<'a> {
 
 #[derive(Serialize)]
 struct Contact {
-    left_floor: usize,
-    right_floor: usize,
+    /// What meets, in words.
+    meeting: String,
+    /// Side and number of the floors that take part.
+    floors: Vec<(&'static str, usize)>,
     gap: f64,
     law: &'static str,
 }
@@ -98,8 +100,8 @@ pub fn page(package: &Package, model: &Model, stop: f64, episodes: &[Episode]) -
 
 fn contacts(scene: &Scene) -> Vec<Contact> {
     let contact = |pair: &pounding::scene::ContactPair| Contact {
-        left_floor: pair.left_floor,
-        right_floor: pair.right_floor,
+        meeting: pair.meeting(scene),
+        floors: pair.row().map(|share| (share.side.name(), share.floor + 1)).collect(),
         gap: pair.gap,
         law: pair.law.kind.info().name,
     };

@@ -111,11 +111,10 @@ pub(crate) fn summary(scene: &Scene, stop: f64, solution: &Solution) -> String {
         let of_this: Vec<&Episode> = episodes.iter().filter(|episode| episode.contact == index).collect();
         let largest = |pick: fn(&Episode) -> f64| of_this.iter().map(|episode| pick(episode)).fold(0.0, f64::max);
         text += &format!(
-            "  contact {} (left {}, right {}): {} impacts, approach up to {:.4} m/s, force up to {:.4e} N, \
+            "  contact {} ({}): {} impacts, approach up to {:.4} m/s, force up to {:.4e} N, \
              penetration up to {:.4e} m\n",
             index + 1,
-            pair.left_floor,
-            pair.right_floor,
+            pair.meeting(scene),
             of_this.len(),
             largest(|episode| episode.approach_velocity),
             largest(|episode| episode.peak_force),

@@ -3,8 +3,10 @@
 //! Where the number of floors is unknown (no mass at all, a problem by itself) nothing is compared with it.
 
 use super::checker::Checker;
-use super::data::{Building, ContactPair, Damping, Ground, Scaling, Scene, Stiffness};
+use super::contact_pair::{ContactPair, Face};
+use super::data::{Building, Damping, Ground, Scaling, Scene, Stiffness};
 use super::problem::{self, Problem, SceneError};
+use super::side::Side;
 use super::{identifier, law_key, matrix, rule};
 use crate::contact::ImpactLaw;
 use std::collections::HashMap;
@@ -26,7 +28,9 @@ pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
     check.texts(scene);
     scene.stop_time.inspect(|&time| check.number("stop_time", time, rule::STOP_TIME));
     check.building("left", &scene.left);
-    check.building("right", &scene.right);
+    if !scene.right.is_absent() || scene.contacts.iter().any(|pair| pair.is_with(Side::Right)) {
+        check.building("right", &scene.right);
+    }
     check.ground(&scene.ground);
     for (i, pair) in scene.contacts.iter().enumerate() {
         check.contact(&format!("contact[{}]", i + 1), pair, scene);
@@ -75,6 +79,10 @@ impl Checker {
         self.list(format_args!("{path}.initial_displacement"), displacement, rule::DISPLACEMENT, floors, "floor");
         let velocity = &building.initial_velocity;
         self.list(format_args!("{path}.initial_velocity"), velocity, rule::VELOCITY, floors, "floor");
+        if let Some(heights) = &building.heights {
+            self.list(format_args!("{path}.height"), &heights.storeys, rule::STOREY_HEIGHT, floors, "storey");
+            self.number(format_args!("{path}.base_level"), heights.base_level, rule::LEVEL);
+        }
     }
 
     fn damping(&mut self, path: &str, damping: &Damping, floors: usize) {
@@ -86,6 +94,9 @@ impl Checker {
             Damping::Rayleigh { ratio, modes } => {
                 self.number(format_args!("{path}.rayleigh.ratio"), *ratio, rule::DAMPING_RATIO);
                 self.rayleigh_modes(&format!("{path}.rayleigh.modes"), *modes, floors);
+            }
+            Damping::Dashpots(storeys) => {
+                self.list(format_args!("{path}.dashpots"), storeys, rule::DASHPOT, floors, "storey");
             }
             Damping::Matrix(rows) => self.matrix(&format!("{path}.matrix"), rows, floors, matrix::DAMPING),
         }
@@ -125,8 +136,8 @@ impl Checker {
     }
 
     fn contact(&mut self, path: &str, pair: &ContactPair, scene: &Scene) {
-        self.floor(path, "left", pair.left_floor, &scene.left);
-        self.floor(path, "right", pair.right_floor, &scene.right);
+        self.face(path, pair.left, scene);
+        self.face(path, pair.right, scene);
         self.number(format_args!("{path}.gap"), pair.gap, rule::GAP);
         if pair.law.is_rigid() {
             self.no_overlap(path, pair, scene);
@@ -136,29 +147,34 @@ impl Checker {
 
     /// Floors that cannot overlap cannot begin so, but for the rounding of the numbers that say where they are.
     fn no_overlap(&mut self, path: &str, pair: &ContactPair, scene: &Scene) {
-        let at_start = |building: &Building, floor: usize| {
-            floor.checked_sub(1).and_then(|floor| building.initial_displacement.get(floor)).copied().unwrap_or(0.0)
-        };
-        let (left, right) = (at_start(&scene.left, pair.left_floor), at_start(&scene.right, pair.right_floor));
-        let overlap = left - right - pair.gap;
-        if overlap > 4.0 * f64::EPSILON * (left.abs() + right.abs() + pair.gap.abs()) {
+        let (overlap, size) = pair.at_start(scene);
+        if overlap > 4.0 * f64::EPSILON * size {
             let expected = format!(
                 "at least {} for law {}: the floors must not overlap at the start",
-                problem::number(left - right),
+                problem::number(overlap + pair.gap),
                 pair.law.kind.info().name
             );
             self.refuse(format_args!("{path}.gap"), problem::number(pair.gap), expected);
         }
     }
 
-    fn floor(&mut self, path: &str, side: &str, floor: usize, building: &Building) {
-        let floors = building.mass.len();
-        if floor >= 1 && (floors == 0 || floor <= floors) {
+    /// Whether a building has that floor or storey, and where its columns are hit.
+    fn face(&mut self, path: &str, face: Face, scene: &Scene) {
+        let (side, number, what) = match face {
+            Face::Floor(side, floor) => (side, floor, "floor"),
+            Face::Columns { side, storey, position, .. } => {
+                self.number(format_args!("{path}.{side}_position"), position, rule::POSITION);
+                (side, storey, "storey")
+            }
+            Face::Wall => return,
+        };
+        let floors = scene.building(side).mass.len();
+        if number >= 1 && (floors == 0 || number <= floors) {
             return;
         }
         let range = if floors == 0 { "from 1 on".to_owned() } else { format!("from 1 to {floors}") };
-        let expected = format!("a floor of the {side} building, {range}");
-        self.refuse(format_args!("{path}.{side}_floor"), floor.to_string(), expected);
+        let expected = format!("a {what} of the {side} building, {range}");
+        self.refuse(format_args!("{path}.{side}_{what}"), number.to_string(), expected);
     }
 
     fn law(&mut self, path: &str, law: &ImpactLaw) {
@@ -183,13 +199,31 @@ impl Checker {
     fn pairs_differ(&mut self, contacts: &[ContactPair]) {
         let mut seen = HashMap::new();
         for (i, pair) in contacts.iter().enumerate() {
-            let floors = (pair.left_floor, pair.right_floor);
-            let first = *seen.entry(floors).or_insert(i);
-            if first != i && floors.0 > 0 && floors.1 > 0 {
-                let found = format!("left_floor {}, right_floor {}", floors.0, floors.1);
-                let expected = format!("a pair of floors other than that of contact[{}]", first + 1);
-                self.refuse(format_args!("contact[{}]", i + 1), found, expected);
+            let keys = [key(pair.left), key(pair.right)];
+            let first = *seen.entry(keys).or_insert(i);
+            let is_known = keys.iter().all(|key| key.is_none_or(|(_, _, number)| number > 0));
+            if first != i && is_known {
+                let expected = format!("a pair other than that of contact[{}]", first + 1);
+                self.refuse(format_args!("contact[{}]", i + 1), written(pair), expected);
             }
         }
     }
+}
+
+/// The key of a scene that a face has, and its number; none for a wall.
+fn key(face: Face) -> Option<(Side, &'static str, usize)> {
+    match face {
+        Face::Floor(side, floor) => Some((side, "floor", floor)),
+        Face::Columns { side, storey, .. } => Some((side, "storey", storey)),
+        Face::Wall => None,
+    }
+}
+
+/// What meets, as a scene has it.
+fn written(pair: &ContactPair) -> String {
+    let key = |face, side| match key(face) {
+        Some((side, key, number)) => format!("{side}_{key} {number}"),
+        None => format!("wall {}", problem::quoted(side)),
+    };
+    format!("{}, {}", key(pair.left, "left"), key(pair.right, "right"))
 }

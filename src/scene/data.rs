@@ -1,9 +1,10 @@
-//! The scene as data, field by field.
+//! The scene as data, field by field. Contacts: `contact_pair`.
 
+use super::contact_pair::ContactPair;
+use super::levels::Heights;
 use super::problem::{Problem, number};
 use super::rule;
 use super::units::Units;
-use crate::contact::ImpactLaw;
 use crate::record::Record;
 
 /// A scene whose numbers have been checked.
@@ -19,13 +20,13 @@ pub struct Scene {
     pub stop_time: Option<f64>,
     /// The building on the left.
     pub left: Building,
-    /// The building on the right.
+    /// The building on the right; without floors where there is none.
     pub right: Building,
     /// Ground motion.
     pub ground: Ground,
     /// `inputs.floor_forces`: every floor gets an external force input.
     pub floor_forces: bool,
-    /// Pairs of facing floors.
+    /// What may collide.
     pub contacts: Vec<ContactPair>,
     /// `outputs.energy`: the energy account exists.
     pub energy: bool,
@@ -48,6 +49,8 @@ pub struct Building {
     pub initial_displacement: Vec<f64>,
     /// m/s relative to the ground, one per floor.
     pub initial_velocity: Vec<f64>,
+    /// Heights of the storeys, where the scene has them.
+    pub heights: Option<Heights>,
 }
 
 /// Stiffness of a building.
@@ -73,6 +76,8 @@ pub enum Damping {
         /// The two modes, different, in any order.
         modes: [usize; 2],
     },
+    /// N s/m, one per storey.
+    Dashpots(Vec<f64>),
     /// N s/m, symmetric (within 1e-12 of the largest entry) positive semidefinite; need not be classical.
     Matrix(Vec<Vec<f64>>),
 }
@@ -95,19 +100,6 @@ pub enum Scaling {
     Pga(f64),
 }
 
-/// Two facing floors.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ContactPair {
-    /// Floor of the left building, counted from 1.
-    pub left_floor: usize,
-    /// Floor of the right building, counted from 1.
-    pub right_floor: usize,
-    /// m, clear distance at rest; may be 0 or negative.
-    pub gap: f64,
-    /// Force of the contact.
-    pub law: ImpactLaw,
-}
-
 /// Accuracy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solver {
@@ -115,6 +107,25 @@ pub struct Solver {
     pub relative_tolerance: f64,
     /// m/s, floor on the approach velocity where a law divides by it.
     pub min_approach_velocity: f64,
+}
+
+impl Building {
+    /// No building.
+    pub const fn absent() -> Building {
+        Building {
+            mass: Vec::new(),
+            stiffness: Stiffness::Shear(Vec::new()),
+            damping: Damping::Ratio(0.0),
+            initial_displacement: Vec::new(),
+            initial_velocity: Vec::new(),
+            heights: None,
+        }
+    }
+
+    /// Whether there is no such building.
+    pub const fn is_absent(&self) -> bool {
+        self.mass.is_empty()
+    }
 }
 
 impl Default for Solver {

@@ -11,6 +11,9 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+/// What is expected where a key is not known.
+pub(super) const KEY: &str = "a known key";
+
 /// The text and what was found wrong with it so far.
 pub(super) struct Document<'t> {
     text: &'t str,
@@ -261,6 +264,11 @@ impl<'t> Item<'t> {
     /// As it is written.
     pub(super) fn written(&self) -> String {
         excerpt(self.document.source(self.value))
+    }
+
+    /// Whether it is a list.
+    pub(super) fn is_list(&self) -> bool {
+        self.value.get_ref().as_array().is_some()
     }
 
     /// Whether it is a table.

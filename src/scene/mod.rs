@@ -58,21 +58,30 @@
 
 mod check;
 mod checker;
+mod contact_pair;
 mod data;
 mod document;
+mod facing;
 mod files;
 mod identifier;
 pub mod law_key;
+mod levels;
 mod matrix;
+mod meeting;
 mod problem;
 mod read;
+mod read_contacts;
 pub mod rule;
+mod side;
 mod syntax;
 mod units;
 
-pub use data::{Building, ContactPair, Damping, Ground, Scaling, Scene, Solver, Stiffness};
+pub use contact_pair::{ColumnShape, ContactPair, Face, Share};
+pub use data::{Building, Damping, Ground, Scaling, Scene, Solver, Stiffness};
 pub use files::{Package, PackagedRecord, load};
 pub(crate) use files::{SCENE_RESOURCE, read_record_file, record_problems};
+pub use levels::{Heights, LEVEL_TOLERANCE, in_metres};
 pub use problem::{Problem, SceneError};
 pub(crate) use problem::{excerpt, matrix_text, number, numbers, quoted};
+pub use side::Side;
 pub use units::Units;

@@ -1,12 +1,13 @@
 //! The keys of a scene file, one after the other.
 
-use super::data::{Building, ContactPair, Damping, Ground, Scaling, Scene, Solver, Stiffness};
-use super::document::{self, Document, Item, Section, Span, one_of};
+use super::data::{Building, Damping, Ground, Scaling, Scene, Solver, Stiffness};
+use super::document::{self, Document, Item, KEY, Section, Span};
+use super::levels::Heights;
 use super::problem::{Problem, SceneError, excerpt};
+use super::side::Side;
 use super::units::{self, Units};
-use super::{check, law_key, rule};
-use crate::contact::{DampingFormula, ImpactLaw, LawKind};
-use std::collections::HashMap;
+use super::{check, read_contacts, rule};
+use std::collections::{HashMap, HashSet};
 
 impl Scene {
     /// Reads a scene from TOML text. The record file is not touched: see [`super::load`].
@@ -34,6 +35,9 @@ impl<'t> Draft<'t> {
         let mut problems = document.into_problems();
         // A value that does not fit is represented in the scene by a neutral one, about which there is nothing to say.
         let mut wrong_values = check::problems(&scene);
+        if table.contains_key("facing") {
+            tell_of_facing(&mut wrong_values);
+        }
         write_as_found(&mut wrong_values, text, &document::spans(&table));
         wrong_values.retain(|wrong| !problems.iter().any(|unfit| unfit.covers(&wrong.path)));
         problems.append(&mut wrong_values);
@@ -59,6 +63,16 @@ impl<'t> Draft<'t> {
     }
 }
 
+/// What is wrong with all contacts that `[facing]` has made is wrong with it, and told once.
+fn tell_of_facing(problems: &mut Vec<Problem>) {
+    for problem in problems.iter_mut().filter(|problem| problem.path.starts_with("contact[")) {
+        let key = problem.path.split_once("].").map(|(_, key)| format!("facing.{key}"));
+        problem.path = key.unwrap_or_else(|| "facing".to_owned());
+    }
+    let mut told = HashSet::new();
+    problems.retain(|problem| !problem.path.starts_with("facing") || told.insert(problem.path.clone()));
+}
+
 /// Position of a path in the text; a missing key has the position of the table that lacks it.
 fn position(path: &str, spans: &HashMap<String, Span>) -> usize {
     let ends = path.char_indices().rev().filter(|&(_, c)| matches!(c, '.' | '[')).map(|(end, _)| end);
@@ -78,25 +92,20 @@ fn write_as_found(problems: &mut [Problem], text: &str, spans: &HashMap<String, 
     }
 }
 
-const KEY: &str = "a known key";
-
 fn scene(mut root: Section<'_>) -> Scene {
     let name = root.require("name", "a C identifier").and_then(|item| item.text()).unwrap_or_default();
     let description = root.get("description").and_then(|item| item.text()).unwrap_or_default();
     let units = root.get("units").and_then(|item| self::units(&item)).unwrap_or_default();
     let stop_time = root.get("stop_time").map(|item| item.number());
     let left = building(root.require_section("left", "the building on the left"), units);
-    let right = building(root.require_section("right", "the building on the right"), units);
+    let right = root.get("right").map(|item| building(item.section(), units));
     let ground = ground(root.section("ground"));
     let floor_forces = inputs(root.section("inputs"));
-    let contacts = root.get("contact").and_then(|item| match item.is_table() {
-        false => item.list("[[contact]] tables"),
-        true => {
-            item.refuse("[[contact]], with two brackets on either side, above every contact");
-            None
-        }
-    });
-    let contacts = contacts.iter().flatten().map(|item| contact(item.section(), units)).collect();
+    let contacts = read_contacts::all(&mut root, [&left, right.as_ref().unwrap_or(&Building::absent())], units);
+    if right.is_none() && (contacts.iter().any(|pair| pair.is_with(Side::Right)) || root.get("facing").is_some()) {
+        root.missing("right", "the building on the right, which contacts are with");
+    }
+    let right = right.unwrap_or(Building::absent());
     let (energy, peaks) = outputs(root.section("outputs"));
     let solver = solver(root.section("solver"));
     root.close(KEY);
@@ -115,11 +124,17 @@ fn units(item: &Item<'_>) -> Option<Units> {
 
 fn building(mut section: Section<'_>, units: Units) -> Building {
     let what = format!("a list of masses in {}, one per floor", units.unit("kg"));
-    let mass = section.require("mass", &what).map(|item| item.quantities(units));
+    let mass = section.require("mass", &what).map(|item| {
+        let mass = item.quantities(units);
+        if mass.is_empty() && item.is_list() {
+            item.refuse("at least one floor");
+        }
+        mass
+    });
     let mass = mass.unwrap_or_default();
     let at_rest = || vec![0.0; mass.len()];
     let stiffness = stiffness(&mut section, units);
-    let damping = section.require("damping", "a table with one of ratio, ratios, rayleigh, matrix");
+    let damping = section.require("damping", "a table with one of ratio, ratios, rayleigh, dashpots, matrix");
     let damping = match damping {
         Some(item) if item.is_number() => {
             item.refuse(format!("a table, such as {{ ratio = {} }}", item.written()));
@@ -130,8 +145,18 @@ fn building(mut section: Section<'_>, units: Units) -> Building {
     };
     let initial_displacement = section.get("initial_displacement").map_or_else(at_rest, |item| item.numbers());
     let initial_velocity = section.get("initial_velocity").map_or_else(at_rest, |item| item.numbers());
+    let heights = heights(&mut section);
     section.close(KEY);
-    Building { stiffness, damping, initial_displacement, initial_velocity, mass }
+    Building { stiffness, damping, initial_displacement, initial_velocity, heights, mass }
+}
+
+fn heights(section: &mut Section<'_>) -> Option<Heights> {
+    let (storeys, base_level) = (section.get("height"), section.get("base_level"));
+    let Some(storeys) = storeys else {
+        base_level.inspect(|item| item.refuse("height as well, the heights of the storeys above that level"));
+        return None;
+    };
+    Some(Heights { storeys: storeys.numbers(), base_level: base_level.map_or(0.0, |item| item.number()) })
 }
 
 fn stiffness(section: &mut Section<'_>, units: Units) -> Stiffness {
@@ -152,10 +177,11 @@ fn stiffness(section: &mut Section<'_>, units: Units) -> Stiffness {
 
 fn damping(mut section: Section<'_>, units: Units) -> Damping {
     type Kind = (&'static str, fn(&Item<'_>, Units) -> Damping);
-    const KINDS: [Kind; 4] = [
+    const KINDS: [Kind; 5] = [
         ("ratio", |item, _| Damping::Ratio(item.number())),
         ("ratios", |item, _| Damping::Ratios(item.numbers())),
         ("rayleigh", |item, _| rayleigh(item.section())),
+        ("dashpots", |item, units| Damping::Dashpots(item.quantities(units))),
         ("matrix", |item, units| Damping::Matrix(item.rows(units))),
     ];
     let mut damping = None;
@@ -167,7 +193,7 @@ fn damping(mut section: Section<'_>, units: Units) -> Damping {
         }
     }
     if damping.is_none() {
-        section.refuse("one of ratio, ratios, rayleigh, matrix");
+        section.refuse("one of ratio, ratios, rayleigh, dashpots, matrix");
     }
     section.close(KEY);
     damping.unwrap_or(Damping::Ratio(0.0))
@@ -241,62 +267,4 @@ fn solver(mut section: Section<'_>) -> Solver {
         section.get("min_approach_velocity").map_or(default.min_approach_velocity, |item| item.number());
     section.close(KEY);
     Solver { relative_tolerance, min_approach_velocity }
-}
-
-fn contact(mut section: Section<'_>, units: Units) -> ContactPair {
-    let floor = "a floor, counted from 1";
-    let left_floor = section.require("left_floor", floor).map_or(0, |item| item.count());
-    let right_floor = section.require("right_floor", floor).map_or(0, |item| item.count());
-    let gap = section.require("gap", "the clear distance at rest in m").map_or(f64::NAN, |item| item.number());
-    let law = law(section, units);
-    ContactPair { left_floor, right_floor, gap, law }
-}
-
-fn law(mut section: Section<'_>, units: Units) -> ImpactLaw {
-    let Some(kind) = law_kind(&mut section) else {
-        // Which keys belong here, and what they may be, is the law's business: only their types can be looked at.
-        for key in law_key::all() {
-            section.get(law_key::number(key).name).inspect(|item| _ = item.number());
-        }
-        section.get("damping_formula").inspect(|item| _ = item.text());
-        section.close(KEY);
-        return law_key::neutral(LawKind::Linear);
-    };
-    let mut law = law_key::neutral(kind);
-    for &key in kind.info().keys {
-        let key = law_key::number(key);
-        let item = match key.default {
-            None => section.require(key.name, key.rule.expected(units)),
-            Some(_) => section.get(key.name),
-        };
-        let value = item.map(|item| item.quantity(key.rule.units(units))).or(key.default);
-        (key.set)(&mut law, value.unwrap_or(f64::NAN));
-    }
-    if kind.info().has_damping_formula {
-        law.damping_formula = damping_formula(&mut section);
-    }
-    section.close(&format!("a key of law {}", kind.info().name));
-    law
-}
-
-fn damping_formula(section: &mut Section<'_>) -> Option<DampingFormula> {
-    let names: Vec<_> = DampingFormula::ALL.iter().map(|formula| formula.info().name).collect();
-    let item = section.require("damping_formula", &format!("a damping formula ({})", names.join(", ")))?;
-    let name = item.text()?;
-    let formula = DampingFormula::from_name(name);
-    if formula.is_none() {
-        item.refuse(one_of("a known damping formula", &names, name));
-    }
-    formula
-}
-
-fn law_kind(section: &mut Section<'_>) -> Option<LawKind> {
-    let names: Vec<_> = LawKind::ALL.iter().map(|kind| kind.info().name).collect();
-    let item = section.require("law", &format!("a law ({})", names.join(", ")))?;
-    let name = item.text()?;
-    let kind = LawKind::from_name(name);
-    if kind.is_none() {
-        item.refuse(one_of("a known law", &names, name));
-    }
-    kind
 }

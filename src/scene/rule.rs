@@ -87,6 +87,20 @@ pub const DAMPING_RATIO: Rule =
 pub const DISPLACEMENT: Rule = Rule { expected: "a finite displacement in m", in_kn_t: None, holds: |_| true };
 /// `initial_velocity`, m/s.
 pub const VELOCITY: Rule = Rule { expected: "a finite velocity in m/s", in_kn_t: None, holds: |_| true };
+/// `height` of a storey, m.
+pub const STOREY_HEIGHT: Rule = Rule { expected: "a finite height > 0 m", in_kn_t: None, holds: |h| h > 0.0 };
+/// `base_level`, m.
+pub const LEVEL: Rule = Rule { expected: "a finite level in m", in_kn_t: None, holds: |_| true };
+/// `left_position`, `right_position`: where columns are hit.
+pub const POSITION: Rule = Rule { expected: "0 < s < 1", in_kn_t: None, holds: |s| s > 0.0 && s < 1.0 };
+/// `level_tolerance`, m.
+pub const LEVEL_TOLERANCE: Rule = Rule { expected: "a finite distance >= 0 m", in_kn_t: None, holds: |d| d >= 0.0 };
+/// `dashpots` of a storey, N s/m.
+pub const DASHPOT: Rule = Rule {
+    expected: "a finite dashpot >= 0 N s/m",
+    in_kn_t: Some("a finite dashpot >= 0 kN s/m"),
+    holds: |c| c >= 0.0,
+};
 /// `ground.scale`.
 pub const SCALE: Rule = Rule { expected: "a finite factor", in_kn_t: None, holds: |_| true };
 /// `ground.pga`, m/s2.

@@ -4,18 +4,9 @@ use super::floors::Floors;
 use super::lane_matrix::{LaneMatrix, block_of_both};
 use super::lanes::{LANES, Lane};
 use super::modes::{ModalDamping, Modes, NotPositiveDefinite};
-use crate::scene::Building;
+use crate::scene::{Building, Side};
 use nalgebra::DMatrix;
 use std::ops::Range;
-
-/// Which building.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Side {
-    /// On the left.
-    Left,
-    /// On the right.
-    Right,
-}
 
 /// Both buildings in modal coordinates.
 #[derive(Clone, Debug)]

@@ -1,10 +1,11 @@
 //! The exact flight of all modes over one interval of time.
 
 use super::block_increments::{ModeIncrements, halvings, increments};
-use super::equations::{Scratch, Side, Structure};
+use super::equations::{Scratch, Structure};
 use super::lanes::{FEW_BLOCKS, LANES, Lane};
 use super::modes::ModalDamping;
 use super::propagator::{CoupledIncrement, ModeIncrement};
+use crate::scene::Side;
 
 /// The exact flight of all modes over one interval length.
 #[derive(Clone, Debug, Default)]

@@ -22,6 +22,8 @@
 //! | `mode_polynomials.rs`, `free_rows.rs` | the motion of one mode, or of a distance, over a time as a polynomial |
 //! | `lanes.rs`, `lane_matrix.rs` | vectors in blocks of four, their sums of products, matrices between them |
 
+pub use crate::scene::Side;
+
 mod block_increments;
 mod equations;
 mod first_mode;
@@ -39,7 +41,7 @@ mod series;
 mod short_flight;
 
 pub use block_increments::ModeIncrements;
-pub use equations::{Scratch, Side, Structure};
+pub use equations::{Scratch, Structure};
 pub use first_mode::FirstMode;
 pub use flight_work::{FlightEnergy, FlightWork};
 pub use floors::Floors;

@@ -36,6 +36,9 @@ impl Modes {
     /// refinement of Ogita and Aishima (2018), on a factor R of K = R'R instead of K itself, makes the lowest
     /// frequencies as accurate: they carry the motion, and their error grows with time.
     pub fn of(building: &Building) -> Result<Modes, NotPositiveDefinite> {
+        if building.is_absent() {
+            return Ok(Modes::none());
+        }
         let mass = DVector::from_column_slice(&building.mass);
         let factor = stiffness_factor(&building.stiffness)?;
         let root_mass = mass.map(f64::sqrt);
@@ -66,6 +69,12 @@ impl Modes {
 }
 
 impl Modes {
+    /// Those of no building.
+    fn none() -> Modes {
+        let shape = DMatrix::zeros(0, 0);
+        Modes { omega: Vec::new(), shape, participation: Vec::new(), damping: ModalDamping::Diagonal(Vec::new()) }
+    }
+
     /// Whether no other mode has nearly the frequency of this one.
     pub fn is_single(&self, mode: usize) -> bool {
         let near = |w: f64| (w - self.omega[mode]).abs() <= 1e-6 * self.omega[mode];
@@ -77,17 +86,9 @@ impl Modes {
 fn stiffness_factor(stiffness: &Stiffness) -> Result<DMatrix<f64>, NotPositiveDefinite> {
     match stiffness {
         Stiffness::Shear(k) => {
-            let n = k.len();
-            Ok(DMatrix::from_fn(n, n, |storey, floor| {
-                let drift = if floor == storey {
-                    1.0
-                } else if floor + 1 == storey {
-                    -1.0
-                } else {
-                    0.0
-                };
-                drift * k[storey].sqrt()
-            }))
+            let mut factor = drifts(k.len());
+            factor.row_iter_mut().zip(k).for_each(|(mut row, k)| row *= k.sqrt());
+            Ok(factor)
         }
         Stiffness::Matrix(rows) => {
             let n = rows.len();
@@ -95,6 +96,15 @@ fn stiffness_factor(stiffness: &Stiffness) -> Result<DMatrix<f64>, NotPositiveDe
             Ok(Cholesky::new(k).ok_or(NotPositiveDefinite)?.l().transpose())
         }
     }
+}
+
+/// The drifts of all storeys from the displacements of all floors.
+fn drifts(floors: usize) -> DMatrix<f64> {
+    DMatrix::from_fn(floors, floors, |storey, floor| match storey {
+        _ if storey == floor => 1.0,
+        _ if storey == floor + 1 => -1.0,
+        _ => 0.0,
+    })
 }
 
 /// One step of refinement of all shapes at once; returns the squared frequencies.
@@ -136,6 +146,12 @@ fn modal_damping(damping: &Damping, omega: &[f64], shape: &DMatrix<f64>) -> Moda
         Damping::Rayleigh { ratio, modes } => {
             let (alpha, beta) = rayleigh_factors(*ratio, *modes, omega);
             ModalDamping::Diagonal(omega.iter().map(|w| alpha + beta * w * w).collect())
+        }
+        Damping::Dashpots(storeys) => {
+            let drift = drifts(storeys.len()) * shape;
+            let weighted =
+                DMatrix::from_fn(drift.nrows(), drift.ncols(), |storey, m| storeys[storey] * drift[(storey, m)]);
+            classical_or_coupled(drift.tr_mul(&weighted))
         }
         Damping::Matrix(rows) => {
             let n = rows.len();

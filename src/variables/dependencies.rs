@@ -46,10 +46,9 @@ pub fn at_communication_points(scene: &Scene, output: Output, input: Input) -> O
     }
 }
 
-/// Those that a contact is between.
-pub(super) fn floors(scene: &Scene, p: usize) -> [(Side, usize); 2] {
-    let pair = &scene.contacts[p];
-    [(Side::Left, pair.left_floor - 1), (Side::Right, pair.right_floor - 1)]
+/// Those in the row of a contact.
+pub(super) fn floors(scene: &Scene, p: usize) -> Vec<(Side, usize)> {
+    scene.contacts[p].row().map(|share| (share.side, share.floor)).collect()
 }
 
 /// The floors that move as one with a floor while all rigid contacts are closed, that floor included.
@@ -59,7 +58,7 @@ fn held_with(scene: &Scene, floor: (Side, usize)) -> Vec<(Side, usize)> {
     while reached < group.len() {
         let floor = group[reached];
         let rigid = (0..scene.contacts.len()).filter(|&p| scene.contacts[p].law.is_rigid());
-        for facing in rigid.map(|p| floors(scene, p)).filter(|pair| pair.contains(&floor)).flatten() {
+        for facing in rigid.map(|p| floors(scene, p)).filter(|row| row.contains(&floor)).flatten() {
             if !group.contains(&facing) {
                 group.push(facing);
             }

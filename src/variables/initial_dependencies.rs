@@ -5,10 +5,10 @@
 //! matter. Whether floors overlap at the start is up to the gaps, which are parameters.
 
 use super::dependencies::floors;
-use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot, building};
+use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot};
 use crate::contact::EpisodeForce;
 use crate::engine::{PeakOf, Side};
-use crate::scene::{Building, Damping, Scene, Stiffness};
+use crate::scene::{Building, Damping, Scene, Share, Stiffness};
 
 /// Whether an unknown may depend on a known at the start time; `unknown` is an output or a calculated parameter,
 /// `known` an input or a parameter.
@@ -32,12 +32,12 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
         Output::Acceleration(side, floor) | Output::Peak(PeakOf::Acceleration(side, floor)) => {
             acceleration(scene, (side, floor), known)
         }
-        Output::Contact(p, C::Penetration) => known == gap(p),
-        Output::Contact(p, C::Active | C::Impacts) => known == gap(p) && is_pushed(scene, p),
+        Output::Contact(p, C::Penetration) => is_of_distance(scene, p, known),
+        Output::Contact(p, C::Active | C::Impacts) => is_of_distance(scene, p, known) && is_pushed(scene, p),
         Output::Contact(p, C::Force | C::PeakForce) => contact_force(scene, p, known),
         // Nothing has been done yet, and an overlap at the start has no approach velocity.
         Output::Contact(_, C::Impulse | C::DissipatedEnergy | C::ApproachVelocity) => false,
-        Output::Impacts => (0..scene.contacts.len()).any(|p| known == gap(p) && is_pushed(scene, p)),
+        Output::Impacts => (0..scene.contacts.len()).any(|p| is_of_distance(scene, p, known) && is_pushed(scene, p)),
         Output::Energy(term) => energy(scene, term, known),
     }
 }
@@ -47,19 +47,22 @@ fn is_of_modes(side: Side, known: Slot) -> bool {
     matches!(known, Slot::Parameter(Parameter::Mass(s, _) | Parameter::Stiffness(s, _)) if s == side)
 }
 
-const fn gap(p: usize) -> Slot {
-    Slot::Parameter(Parameter::Gap(p))
+/// What decides how far a contact is open: the gap, and where columns are hit that start out of place.
+fn is_of_distance(scene: &Scene, p: usize, known: Slot) -> bool {
+    let is_displaced = |share: Share| scene.building(share.side).initial_displacement[share.floor] != 0.0;
+    known == Slot::Parameter(Parameter::Gap(p))
+        || known == Slot::Parameter(Parameter::Position(p)) && scene.contacts[p].row().any(is_displaced)
 }
 
 /// The sum of K u is the force of the lowest storey.
 fn base_shear(scene: &Scene, side: Side, known: Slot) -> bool {
-    known == Slot::Parameter(Parameter::Stiffness(side, 0)) && drifts(building(scene, side), 0)
+    known == Slot::Parameter(Parameter::Stiffness(side, 0)) && drifts(scene.building(side), 0)
         || damping_force(scene, side, known)
 }
 
 /// Forces on a floor over its mass.
 fn acceleration(scene: &Scene, (side, floor): (Side, usize), known: Slot) -> bool {
-    let building = building(scene, side);
+    let building = scene.building(side);
     let contacts = || (0..scene.contacts.len()).filter(|&p| floors(scene, p).contains(&(side, floor)));
     let storeys = [floor, floor + 1];
     match known {
@@ -82,9 +85,10 @@ fn acceleration(scene: &Scene, (side, floor): (Side, usize), known: Slot) -> boo
 
 /// C v of any floor of a building.
 fn damping_force(scene: &Scene, side: Side, known: Slot) -> bool {
-    let building = building(scene, side);
-    let by_modes = !matches!(building.damping, Damping::Matrix(_));
-    let is_number = known == Slot::Parameter(Parameter::DampingRatio(side));
+    let building = scene.building(side);
+    let by_modes = !matches!(building.damping, Damping::Matrix(_) | Damping::Dashpots(_));
+    let is_number =
+        matches!(known, Slot::Parameter(Parameter::DampingRatio(s) | Parameter::Dashpot(s, _)) if s == side);
     is_damped(building) && (is_number || by_modes && is_of_modes(side, known))
 }
 
@@ -94,6 +98,7 @@ fn is_damped(building: &Building) -> bool {
         Damping::Ratio(_) => true, // a parameter
         Damping::Ratios(ratios) => ratios.iter().any(|&ratio| ratio != 0.0),
         Damping::Rayleigh { ratio, .. } => *ratio != 0.0,
+        Damping::Dashpots(_) => true, // parameters
         Damping::Matrix(rows) => rows.iter().flatten().any(|&entry| entry != 0.0),
     };
     can_be && building.initial_velocity.iter().any(|&v| v != 0.0)
@@ -115,6 +120,9 @@ fn contact_force(scene: &Scene, p: usize, known: Slot) -> bool {
     is_pushed(scene, p)
         && match known {
             Slot::Parameter(Parameter::Gap(q) | Parameter::ContactStiffness(q) | Parameter::Exponent(q)) => q == p,
+            Slot::Parameter(Parameter::Position(q)) => {
+                q == p && (is_of_distance(scene, p, known) || dashpot_acts(scene, p))
+            }
             Slot::Parameter(Parameter::Restitution(q)) => q == p && dashpot_acts(scene, p),
             Slot::Parameter(Parameter::Mass(side, floor)) => {
                 floors(scene, p).contains(&(side, floor)) && dashpot_acts(scene, p)
@@ -129,8 +137,8 @@ const DEEP: f64 = 1e6;
 /// Whether an overlap at the start is damped, at the rate that the scene gives it and with some restitution: the dashpot
 /// depends on the restitution and on the masses of both floors.
 fn dashpot_acts(scene: &Scene, p: usize) -> bool {
-    let [(_, left), (_, right)] = floors(scene, p);
-    let rate = scene.left.initial_velocity[left] - scene.right.initial_velocity[right];
+    let velocity = |share: Share| share.weight * scene.building(share.side).initial_velocity[share.floor];
+    let rate: f64 = scene.contacts[p].row().map(velocity).sum();
     let mut law = scene.contacts[p].law;
     law.restitution = 0.5;
     let force = EpisodeForce::new(&law, 1.0, None);
@@ -141,10 +149,10 @@ fn dashpot_acts(scene: &Scene, p: usize) -> bool {
 fn energy(scene: &Scene, term: EnergyOutput, known: Slot) -> bool {
     match (term, known) {
         (EnergyOutput::Kinetic, Slot::Parameter(Parameter::Mass(side, floor))) => {
-            building(scene, side).initial_velocity[floor] != 0.0
+            scene.building(side).initial_velocity[floor] != 0.0
         }
         (EnergyOutput::Strain, Slot::Parameter(Parameter::Stiffness(side, storey))) => {
-            drifts(building(scene, side), storey)
+            drifts(scene.building(side), storey)
         }
         _ => false,
     }

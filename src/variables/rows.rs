@@ -1,6 +1,6 @@
 //! The rows of the table: which variables a scene has, and what a user reads about them.
 
-use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot, building};
+use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot};
 use super::table::{Row, Table, Type, Variability};
 use super::unit::Unit;
 use crate::contact::LawKey;
@@ -29,7 +29,10 @@ impl Table {
         let mut table = Table { rows: Vec::new() };
         table.add_ground(scene);
         for (side, name) in [(Side::Left, "left"), (Side::Right, "right")] {
-            let building = building(scene, side);
+            let building = scene.building(side);
+            if building.is_absent() {
+                continue;
+            }
             for floor in 0..building.mass.len() {
                 table.add_floor(building, (side, name), floor, scene.floor_forces);
                 if scene.peaks {
@@ -39,10 +42,11 @@ impl Table {
             table.add_building(building, (side, name), scene.peaks);
         }
         for (p, pair) in scene.contacts.iter().enumerate() {
-            table.add_contact(p, pair);
-            table.add_law(p, pair);
-            let mass = scene.left.mass[pair.left_floor - 1] + scene.right.mass[pair.right_floor - 1];
-            table.add_contact_outputs(p, pair, mass);
+            let meeting = &pair.meeting(scene);
+            table.add_contact(p, pair, meeting);
+            table.add_law(p, pair, meeting);
+            let mass = pair.row().map(|share| scene.building(share.side).mass[share.floor]).sum();
+            table.add_contact_outputs(p, pair, (mass, meeting));
         }
         table
             .add(Output::Impacts, "impacts", Type::Integer, "contact episodes begun so far, all contacts")
@@ -137,6 +141,14 @@ impl Table {
             let row = self.add(Parameter::DampingRatio(side), &format!("{name}.damping_ratio"), ONE, about);
             row.at_least(0.0).nominal(if ratio > 0.0 { ratio } else { DAMPING_RATIO });
         }
+        if let Damping::Dashpots(storeys) = &building.damping {
+            for (storey, dashpot) in storeys.iter().enumerate() {
+                let (i, ty) = (storey + 1, Type::Real(Unit::NewtonSecondPerMetre));
+                let about = format!("dashpot between the floors of storey {i}");
+                let row = self.add(Parameter::Dashpot(side, storey), &format!("{name}.dashpot[{i}]"), ty, &about);
+                row.at_least(0.0).nominal(*dashpot);
+            }
+        }
         for mode in 0..building.mass.len() {
             let (i, ty) = (mode + 1, Type::Real(Unit::Hertz));
             let about = format!("natural frequency of mode {i} of the {name} building alone");
@@ -145,13 +157,19 @@ impl Table {
         }
     }
 
-    fn add_contact(&mut self, p: usize, pair: &ContactPair) {
-        let about = format!("clear distance at rest {}", between(pair));
+    fn add_contact(&mut self, p: usize, pair: &ContactPair, meeting: &str) {
+        let about = format!("clear distance at rest {meeting}");
         let row = self.add(Parameter::Gap(p), &format!("contact[{}].gap", p + 1), METRE, &about);
         row.nominal(if pair.gap == 0.0 { DISPLACEMENT } else { pair.gap.abs() });
+        if pair.position().is_some() {
+            let about =
+                format!("share of the storey's height, from its lower end, at which columns are hit, {meeting}");
+            let row = self.add(Parameter::Position(p), &format!("contact[{}].position", p + 1), ONE, &about);
+            row.between(0.0, 1.0).nominal(1.0);
+        }
     }
 
-    fn add_law(&mut self, p: usize, pair: &ContactPair) {
+    fn add_law(&mut self, p: usize, pair: &ContactPair, meeting: &str) {
         let keys = pair.law.kind.info().keys;
         let stiffness_unit = pair.law.kind.info().stiffness_unit.map_or(Unit::One, Unit::of_stiffness);
         for key in keys {
@@ -167,14 +185,14 @@ impl Table {
                 }
             };
             let name = format!("contact[{}].{name}", p + 1);
-            let row = self.add(parameter, &name, Type::Real(unit), &format!("{about} {}", between(pair)));
+            let row = self.add(parameter, &name, Type::Real(unit), &format!("{about} {meeting}"));
             row.max = max;
             row.at_least(if *key == LawKey::Exponent { 1.0 } else { 0.0 });
             row.nominal(if *key == LawKey::Stiffness { pair.law.stiffness } else { 1.0 });
         }
     }
 
-    fn add_contact_outputs(&mut self, p: usize, pair: &ContactPair, mass: f64) {
+    fn add_contact_outputs(&mut self, p: usize, pair: &ContactPair, (mass, meeting): (f64, &str)) {
         use ContactOutput as C;
         let (force, impulse, energy) = (mass * ACCELERATION, mass * VELOCITY, mass * VELOCITY * VELOCITY);
         for (output, name, ty, scale, about) in [
@@ -187,7 +205,7 @@ impl Table {
             (C::DissipatedEnergy, "dissipated_energy", JOULE, energy, "work done so far on the contact"),
             (C::ApproachVelocity, "approach_velocity", METRE_PER_SECOND, VELOCITY, "latest approach velocity"),
         ] {
-            let (name, about) = (format!("contact[{}].{name}", p + 1), format!("{about} {}", between(pair)));
+            let (name, about) = (format!("contact[{}].{name}", p + 1), format!("{about} {meeting}"));
             let row = self.add(Output::Contact(p, output), &name, ty, &about);
             row.nominal(scale);
             let is_compression = matches!(output, C::Force | C::Impulse) && !pair.law.kind.info().pulls;
@@ -258,10 +276,6 @@ impl Row {
         self.nominal = accepted.then_some(value);
         self
     }
-}
-
-fn between(pair: &ContactPair) -> String {
-    format!("between left floor {} and right floor {}", pair.left_floor, pair.right_floor)
 }
 
 /// Hz: that of a floor on its storeys, whatever the others do.

@@ -1,7 +1,6 @@
 //! What the variables stand for.
 
 use crate::engine::{PeakOf, Side};
-use crate::scene::{Building, Scene};
 
 /// What a variable stands for. Floors, storeys and contacts are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,8 +37,12 @@ pub enum Parameter {
     Stiffness(Side, usize),
     /// Of every mode of a building
     DampingRatio(Side),
+    /// N s/m, of a storey
+    Dashpot(Side, usize),
     /// m
     Gap(usize),
+    /// Where columns are hit, as a share of their storey's height
+    Position(usize),
     /// N/m^exponent
     ContactStiffness(usize),
     /// Of the penetration
@@ -165,13 +168,5 @@ impl Causality {
             Causality::Input => "input",
             Causality::Output => "output",
         }
-    }
-}
-
-/// The building on a side.
-pub(super) fn building(scene: &Scene, side: Side) -> &Building {
-    match side {
-        Side::Left => &scene.left,
-        Side::Right => &scene.right,
     }
 }

@@ -21,6 +21,8 @@ pub enum Unit {
     Newton,
     /// N s
     NewtonSecond,
+    /// N s/m
+    NewtonSecondPerMetre,
     /// N/m
     NewtonPerMetre,
     /// N/m^1.5, without base units for the same reason as the next.
@@ -48,7 +50,7 @@ const STANDARD_GRAVITY: f64 = 9.80665;
 
 impl Unit {
     /// All units, in the order of the description.
-    pub const ALL: [Unit; 12] = [
+    pub const ALL: [Unit; 13] = [
         Unit::One,
         Unit::Metre,
         Unit::MetrePerSecond,
@@ -57,6 +59,7 @@ impl Unit {
         Unit::Kilogram,
         Unit::Newton,
         Unit::NewtonSecond,
+        Unit::NewtonSecondPerMetre,
         Unit::NewtonPerMetre,
         Unit::NewtonPerMetreToTheThreeHalves,
         Unit::NewtonPerMetreToTheExponent,
@@ -85,6 +88,7 @@ impl Unit {
             Unit::Kilogram => unit("kg", Some(&[("kg", 1)]), Some(("t", 1e-3))),
             Unit::Newton => unit("N", Some(&[("kg", 1), ("m", 1), ("s", -2)]), Some(("kN", 1e-3))),
             Unit::NewtonSecond => unit("N.s", Some(&[("kg", 1), ("m", 1), ("s", -1)]), Some(("kN.s", 1e-3))),
+            Unit::NewtonSecondPerMetre => unit("N.s/m", Some(&[("kg", 1), ("s", -1)]), Some(("kN.s/m", 1e-3))),
             Unit::NewtonPerMetre => unit("N/m", Some(&[("kg", 1), ("s", -2)]), Some(("kN/m", 1e-3))),
             Unit::NewtonPerMetreToTheThreeHalves => {
                 unit(StiffnessUnit::NewtonPerMetreToTheThreeHalves.name(), None, None)

@@ -1,6 +1,6 @@
 //! Reading and writing what a slot stands for: each one match over all slots.
 
-use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot, building};
+use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot};
 use super::table::{Row, Table};
 use crate::engine::{ContactPoint, EnergyPoint, LinearInput, Model, Point, SavedState, Side, State};
 use crate::record::{KnownRecords, Record};
@@ -100,16 +100,21 @@ impl Settings {
                     self.record().and_then(|record| scaling.factor(record).ok()).unwrap_or_default()
                 }
             },
-            Parameter::Mass(side, floor) => building(scene, side).mass[floor],
-            Parameter::Stiffness(side, storey) => match &building(scene, side).stiffness {
+            Parameter::Mass(side, floor) => scene.building(side).mass[floor],
+            Parameter::Stiffness(side, storey) => match &scene.building(side).stiffness {
                 Stiffness::Shear(stiffness) => stiffness[storey],
                 Stiffness::Matrix(_) => 0.0,
             },
-            Parameter::DampingRatio(side) => match building(scene, side).damping {
+            Parameter::DampingRatio(side) => match scene.building(side).damping {
                 Damping::Ratio(ratio) => ratio,
-                Damping::Ratios(_) | Damping::Rayleigh { .. } | Damping::Matrix(_) => 0.0,
+                _ => 0.0,
+            },
+            Parameter::Dashpot(side, storey) => match &scene.building(side).damping {
+                Damping::Dashpots(storeys) => storeys[storey],
+                _ => 0.0,
             },
             Parameter::Gap(p) => scene.contacts[p].gap,
+            Parameter::Position(p) => scene.contacts[p].position().unwrap_or_default(),
             Parameter::ContactStiffness(p) => scene.contacts[p].law.stiffness,
             Parameter::Exponent(p) => scene.contacts[p].law.exponent,
             Parameter::Restitution(p) => scene.contacts[p].law.restitution,
@@ -173,7 +178,17 @@ impl Settings {
                 }
             }
             Parameter::DampingRatio(side) => building_mut(scene, side).damping = Damping::Ratio(number),
+            Parameter::Dashpot(side, storey) => {
+                if let Damping::Dashpots(storeys) = &mut building_mut(scene, side).damping {
+                    storeys[storey] = number;
+                }
+            }
             Parameter::Gap(p) => scene.contacts[p].gap = number,
+            Parameter::Position(p) => {
+                if let Some(position) = scene.contacts[p].position_mut() {
+                    *position = number;
+                }
+            }
             Parameter::ContactStiffness(p) => scene.contacts[p].law.stiffness = number,
             Parameter::Exponent(p) => scene.contacts[p].law.exponent = number,
             Parameter::Restitution(p) => scene.contacts[p].law.restitution = number,
@@ -378,8 +393,16 @@ fn read_energy(energy: &EnergyPoint, term: EnergyOutput) -> f64 {
 
 /// The only parameter whose name is not its path in the scene.
 fn name_variable(path: &mut String) {
-    if let Some(building) = path.strip_suffix(".damping.ratio") {
-        *path = format!("{building}.damping_ratio");
+    for (key, name) in [
+        (".damping.ratio", ".damping_ratio"),
+        (".damping.dashpots[", ".dashpot["),
+        (".left_position", ".position"),
+        (".right_position", ".position"),
+    ] {
+        if path.contains(key) {
+            *path = path.replacen(key, name, 1);
+            return;
+        }
     }
 }
 

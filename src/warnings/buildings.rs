@@ -6,7 +6,7 @@ use super::whole::{HEAVY, IN_KN_T};
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
 use crate::scene::{Building, Damping, Stiffness, Units, number};
-use crate::structure::Side;
+use crate::structure::{FirstMode, Side};
 use std::f64::consts::PI;
 
 /// Largest damping ratio without a warning: isolators and dampers of buildings stay below.
@@ -216,6 +216,7 @@ fn look_at_damping(facts: &Facts<'_>, side: Side, building: &Building, found: &m
             let Some(index) = ratios.iter().position(|&ratio| odd_damping(ratio).is_some()) else { return };
             (format!("{path}.ratios[{}]", index + 1), ratios[index])
         }
+        Damping::Dashpots(storeys) => return look_at_dashpots(facts, side, storeys, found),
         Damping::Matrix(rows) => return look_at_damping_matrix(facts, side, rows, found),
     };
     if let Some(text) = odd_damping(ratio) {
@@ -239,22 +240,48 @@ fn odd_damping(ratio: f64) -> Option<String> {
     Some(format!("{meaning}; 1 is critical damping and buildings have 0.01 to 0.1"))
 }
 
-/// The ratio of the first mode.
+/// The dashpots may be those of isolators, which have three tenths of critical damping and more.
+fn look_at_dashpots(facts: &Facts<'_>, side: Side, storeys: &[f64], found: &mut Found) {
+    const MOST_OF_ISOLATORS: f64 = 1.0;
+    let Some(first) = swinging(facts, side) else { return };
+    let drifts = first.shape.iter().zip([0.0].iter().chain(&first.shape)).map(|(above, below)| above - below);
+    let damped: f64 = storeys.iter().zip(drifts).map(|(c, drift)| c * drift * drift).sum();
+    let ratio = ratio_of(first, damped, facts.building(side));
+    if ratio > MOST_OF_ISOLATORS || ratio > 0.0 && ratio < LEAST_DAMPING {
+        let text = odd_first_mode(ratio, facts.scene.units);
+        found.quantities(format!("{}.damping.dashpots", name(side)), storeys, text);
+    }
+}
+
 fn look_at_damping_matrix(facts: &Facts<'_>, side: Side, rows: &[Vec<f64>], found: &mut Found) {
-    let Some(first) = facts.first[side as usize].as_ref().filter(|_| facts.pace(side) == Pace::Usual) else { return };
+    let Some(first) = swinging(facts, side) else { return };
     let resistance = |row: &Vec<f64>| row.iter().zip(&first.shape).map(|(c, x)| c * x).sum::<f64>();
     let damped: f64 = rows.iter().zip(&first.shape).map(|(row, x)| x * resistance(row)).sum();
-    let inertia: f64 = facts.building(side).mass.iter().zip(&first.shape).map(|(m, x)| m * x * x).sum();
-    let ratio = damped / (2.0 * first.omega * inertia);
+    let ratio = ratio_of(first, damped, facts.building(side));
     if odd_damping(ratio).is_some() {
-        let text = format!(
-            "the first mode has {} of critical damping, where buildings have 0.01 to 0.1; entries are in {}, were they \
-             given in another unit?",
-            short(ratio),
-            facts.scene.units.unit("N s/m")
-        );
+        let text = odd_first_mode(ratio, facts.scene.units);
         found.matrix(format!("{}.damping.matrix", name(side)), rows, text);
     }
+}
+
+/// The first mode of a building that swings as buildings do.
+fn swinging<'f>(facts: &'f Facts<'_>, side: Side) -> Option<&'f FirstMode> {
+    facts.first[side as usize].as_ref().filter(|_| facts.pace(side) == Pace::Usual)
+}
+
+/// Ratio of critical damping of the first mode: shape' C shape = 2 ratio omega shape' M shape.
+fn ratio_of(first: &FirstMode, damped: f64, building: &Building) -> f64 {
+    let inertia: f64 = building.mass.iter().zip(&first.shape).map(|(m, x)| m * x * x).sum();
+    damped / (2.0 * first.omega * inertia)
+}
+
+fn odd_first_mode(ratio: f64, units: Units) -> String {
+    format!(
+        "the first mode has {} of critical damping, where buildings have 0.01 to 0.1; entries are in {}, were they given \
+         in another unit?",
+        short(ratio),
+        units.unit("N s/m")
+    )
 }
 
 /// Initial motion beyond what a building stands.

@@ -2,7 +2,7 @@
 
 use super::facts::{Facts, Pace, median};
 use super::found::Found;
-use super::touch::{Touch, exponent};
+use super::touch::{Touch, exponent, lightest};
 use super::whole::IN_KN_T;
 use crate::contact::LawKey;
 use crate::figures::short;
@@ -67,7 +67,8 @@ fn look_for_crossed_floors(scene: &Scene, found: &mut Found) {
         return;
     }
     let is_crossed = |one: &ContactPair, other: &ContactPair| {
-        let (left, right) = (one.left_floor.cmp(&other.left_floor), one.right_floor.cmp(&other.right_floor));
+        let (Some([left, right]), Some(others)) = (one.floors(), other.floors()) else { return false };
+        let (left, right) = (left.cmp(&others[0]), right.cmp(&others[1]));
         left != Ordering::Equal && right != Ordering::Equal && left != right
     };
     let crossings = |one: &ContactPair| pairs.iter().filter(|other| is_crossed(one, other)).count();
@@ -78,7 +79,7 @@ fn look_for_crossed_floors(scene: &Scene, found: &mut Found) {
     if count == 0 || all != 2 * count {
         return;
     }
-    let ContactPair { left_floor, right_floor, .. } = pairs[index];
+    let Some([left_floor, right_floor]) = pairs[index].floors() else { return };
     let others = pairs.iter().enumerate().filter(|(_, other)| is_crossed(&pairs[index], other));
     let others: Vec<String> = others.take(3).map(|(other, _)| format!("contact[{}]", other + 1)).collect();
     let text = format!(
@@ -121,12 +122,8 @@ fn group(facts: &Facts<'_>, found: &mut Found, key: &str, odd: impl Fn(&ContactP
 
 /// Floors that are deep in each other at the start.
 fn overlap(facts: &Facts<'_>, pair: &ContactPair) -> Odd {
-    let building = |left: bool| if left { &facts.scene.left } else { &facts.scene.right };
-    let at_start = |left: bool, floor: usize| building(left).initial_displacement.get(floor.wrapping_sub(1)).copied();
-    let displaced = at_start(true, pair.left_floor)? - at_start(false, pair.right_floor)?;
-    let overlap = displaced - pair.gap;
-    let mass = |left: bool, floor: usize| building(left).mass.get(floor.wrapping_sub(1)).copied();
-    let lighter = mass(true, pair.left_floor)?.min(mass(false, pair.right_floor)?);
+    let (overlap, _) = pair.at_start(facts.scene);
+    let lighter = lightest(facts, pair)?;
     let force = pair.law.stiffness * overlap.max(0.0).powf(exponent(&pair.law)?);
     let weights = force / (lighter * STANDARD_GRAVITY);
     if overlap < 2e-3 && (overlap <= 0.0 || weights < 20.0) {

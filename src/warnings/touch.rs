@@ -30,9 +30,7 @@ impl Touch {
     /// None where no floor presses into another.
     pub fn of(facts: &Facts<'_>, pair: &ContactPair) -> Option<Touch> {
         let exponent = exponent(&pair.law)?;
-        let mass = |side: Side, floor: usize| facts.building(side).mass.get(floor.wrapping_sub(1)).copied();
-        let (left, right) = (mass(Side::Left, pair.left_floor)?, mass(Side::Right, pair.right_floor)?);
-        let reduced = left * right / (left + right);
+        let reduced = pair.reduced_mass(facts.scene);
         let speed = speed(facts);
         // The penetration that takes up the energy of the approach; a contact lasts some three times that over the speed.
         let energy = 0.5 * reduced * speed * speed;
@@ -44,7 +42,7 @@ impl Touch {
         let period = facts.usual_periods().map(|(_, period)| period).reduce(f64::max);
         Some(Touch {
             duration: 3.0 * depth / speed,
-            wave: PI * (left.min(right) / AREA_MASS).sqrt() / SOUND,
+            wave: PI * (lightest(facts, pair)? / AREA_MASS).sqrt() / SOUND,
             storey: facts.usual_periods().map(storey).chain(period.map(|period| 0.05 * period)).reduce(f64::max),
             period,
         })
@@ -69,6 +67,11 @@ impl Touch {
     pub fn milliseconds(&self) -> String {
         short(1e3 * self.duration)
     }
+}
+
+/// The mass of the lightest floor that takes part, kg.
+pub(super) fn lightest(facts: &Facts<'_>, pair: &ContactPair) -> Option<f64> {
+    pair.row().map(|share| facts.building(share.side).mass[share.floor]).reduce(f64::min)
 }
 
 /// Of the penetration; none for rigid floors.

@@ -46,9 +46,9 @@ impl System {
         let sizes = &mut sizes[..onset.lanes];
         sum_sizes(&onset.terms[2 * onset.lanes..powers.len() * onset.lanes], beyond, sizes);
         apart.all(|(p, contact)| {
-            let Pair { row, lanes: [left, right], .. } = &self.pairs[p];
+            let Pair { row, floors, .. } = &self.pairs[p];
             let most = match base.coordinates {
-                Coordinates::Floors => sizes[*left] + sizes[*right],
+                Coordinates::Floors => floors.iter().map(|floor| floor.weight.abs() * sizes[floor.lane]).sum(),
                 Coordinates::Modes => row.iter().zip(&*sizes).map(|(row, size)| row.abs() * size).sum(),
             };
             let stays =

@@ -6,7 +6,7 @@
 
 use crate::engine::model::Model;
 use crate::engine::output::point::Point;
-use crate::engine::pairs::pair::Pair;
+use crate::engine::pairs::pair::relative;
 use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
 use crate::structure::Side;
@@ -47,16 +47,15 @@ impl Model {
         self.list_pressing(&state.base, point, &mut work);
         let (rigid, accelerations) = (&mut work.rigid, &mut response.accelerations);
         for (&k, known) in rigid.pairs.iter().zip(&mut rigid.known) {
-            let [left, right] = self.system.pairs[self.system.rigid.pairs[k]].lanes;
-            *known = accelerations[left] - accelerations[right];
+            *known = relative(&self.system.pairs[self.system.rigid.pairs[k]].floors, accelerations);
         }
         rigid.solve();
         for (&k, reaction) in rigid.pairs.iter().zip(&rigid.found) {
             let p = self.system.rigid.pairs[k];
             response.reactions[p] = *reaction;
-            let Pair { lanes: [left, right], inverse_masses, .. } = &self.system.pairs[p];
-            accelerations[*left] -= reaction * inverse_masses[0];
-            accelerations[*right] += reaction * inverse_masses[1];
+            for floor in &self.system.pairs[p].floors {
+                accelerations[floor.lane] += reaction * floor.push;
+            }
         }
         response.work = Some(work);
     }

@@ -3,15 +3,15 @@
 
 use crate::contact::taylor::{Each, PAIRS};
 use crate::engine::pairs::packing::PackedPairs;
-use crate::engine::pairs::pair::{Pair, apart};
+use crate::engine::pairs::pair::{Pair, apart, difference, relative};
 use crate::numerics::polynomial::each;
-use crate::structure::{LANES, Lane, difference};
+use crate::structure::{self, LANES, Lane};
 
 /// The contact Jacobian for a packed block of pairs, of which the first `count` lanes may hold pairs.
 pub trait ContactJacobian {
-    /// Relative motion of each pair: that of its left floor less that of its right floor.
+    /// Relative motion of each pair: that of its left face less that of its right one.
     fn relative(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each;
-    /// Relative motion of each pair, set to 0 where the two floors' motions agree within rounding.
+    /// Relative motion of each pair, set to 0 where the two motions agree within rounding.
     fn difference(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each;
     /// Adds to the accelerations in `term` those by the pairs' forces, N, positive in compression.
     fn apply(&self, members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]);
@@ -29,7 +29,7 @@ pub trait ContactJacobian {
     }
 }
 
-/// The Jacobian where the motion is that of the floors: each row has only a 1 and a -1.
+/// The Jacobian where the motion is that of the floors: a row has a 1 and a -1, or the weights of up to three floors.
 pub struct FloorJacobian;
 
 impl ContactJacobian for FloorJacobian {
@@ -40,7 +40,7 @@ impl ContactJacobian for FloorJacobian {
             return each(|lane| left[lane] - right[lane]);
         }
         let term = term.as_flattened();
-        lane_by_lane(count, |lane| term[members.floors[lane][0]] - term[members.floors[lane][1]])
+        lane_by_lane(count, |lane| relative(&members.floors[lane], term))
     }
 
     #[inline(always)]
@@ -59,7 +59,7 @@ impl ContactJacobian for FloorJacobian {
             return each(|lane| apart(term[left][lane], term[right][lane]));
         }
         let term = term.as_flattened();
-        lane_by_lane(count, |lane| apart(term[members.floors[lane][0]], term[members.floors[lane][1]]))
+        lane_by_lane(count, |lane| difference(&members.floors[lane], term).0)
     }
 
     #[inline(always)]
@@ -75,7 +75,7 @@ impl ContactJacobian for FloorJacobian {
             return relative;
         };
         let Ok([left, right]) = term.get_disjoint_mut(blocks) else { return [0.0; PAIRS] };
-        let (was_left, was_right, [pushed_left, pushed_right]) = (*left, *right, &members.inverse_masses);
+        let (was_left, was_right, [pushed_left, pushed_right]) = (*left, *right, &members.pushes);
         *left = each(|lane| was_left[lane] + pushed_left[lane] * forces[lane]);
         *right = each(|lane| was_right[lane] + pushed_right[lane] * forces[lane]);
         each(|lane| was_left[lane] - was_right[lane])
@@ -86,9 +86,9 @@ impl FloorJacobian {
     #[inline(always)]
     fn push_floors(members: &PackedPairs, count: usize, forces: &Each, term: &mut [Lane]) {
         let term = term.as_flattened_mut();
-        for (lane, (floors, force)) in members.floors.iter().zip(forces).enumerate().take(count) {
-            for (floor, inverse_masses) in floors.iter().zip(&members.inverse_masses) {
-                term[*floor] += inverse_masses[lane] * force;
+        for (floors, force) in members.floors.iter().zip(forces).take(count) {
+            for floor in floors {
+                term[floor.lane] += floor.push * force;
             }
         }
     }
@@ -112,7 +112,7 @@ impl ContactJacobian for PackedModalJacobian {
     }
 
     fn difference(&self, members: &PackedPairs, _: usize, term: &[Lane]) -> Each {
-        lane_by_lane(PAIRS, |lane| difference(members.rows[lane].as_flattened(), term.as_flattened()).0)
+        lane_by_lane(PAIRS, |lane| structure::difference(members.rows[lane].as_flattened(), term.as_flattened()).0)
     }
 
     #[inline(always)]
@@ -140,7 +140,7 @@ impl ContactJacobian for ModalJacobian<'_> {
     }
 
     fn difference(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each {
-        lane_by_lane(count, |lane| difference(&self.0[members.pairs[lane]].row, term.as_flattened()).0)
+        lane_by_lane(count, |lane| structure::difference(&self.0[members.pairs[lane]].row, term.as_flattened()).0)
     }
 
     #[inline(always)]

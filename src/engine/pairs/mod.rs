@@ -1,4 +1,4 @@
-//! Pairs of facing floors: gap and law, the contact Jacobian, and the blocks of four in which pairs are worked on.
+//! Pairs of facing floors, or of a floor and columns or a wall: gap and law, the contact Jacobian, and the blocks of four in which pairs are worked on.
 
 pub mod jacobian;
 pub mod packing;

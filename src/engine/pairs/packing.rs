@@ -2,7 +2,7 @@
 
 use crate::contact::taylor::{Each, PAIRS};
 use crate::engine::base::Coordinates;
-use crate::engine::pairs::pair::Pair;
+use crate::engine::pairs::pair::{Pair, RowOfFloors};
 use crate::structure::{FEW_BLOCKS, LANES, Lane};
 
 /// The block, among those of pairs with the same kind of force, to which a pair may belong.
@@ -23,9 +23,9 @@ pub enum LanePlace {
 impl LanePlace {
     /// The place of a pair whose motion has these coordinates.
     pub fn of(pair: &Pair, coordinates: Coordinates) -> LanePlace {
-        let [left, right] = pair.lanes;
+        let [left, right, _] = pair.floors.map(|floor| floor.lane);
         match coordinates {
-            Coordinates::Floors if left % LANES == right % LANES => {
+            Coordinates::Floors if left % LANES == right % LANES && pair.is_of_floors() => {
                 LanePlace::Between { blocks: [left / LANES, right / LANES], lane: left % LANES }
             }
             _ => LanePlace::Any,
@@ -42,11 +42,10 @@ pub struct PackedPairs {
     taken: [bool; PAIRS],
     /// The left and the right block of floors, where each pair stands in the lane of its floors.
     pub between: Option<[usize; 2]>,
-    /// Lanes of the left and the right floor of each pair in a vector of all floors.
-    pub floors: [[usize; 2]; PAIRS],
-    /// Accelerations of the left and the right floor per unit of contact force, 1/kg: minus and plus the inverse
-    /// masses.
-    pub inverse_masses: [Each; 2],
+    /// The row of each pair, floor by floor.
+    pub floors: [RowOfFloors; PAIRS],
+    /// Accelerations of the first two floors of each row per unit of contact force, 1/kg.
+    pub pushes: [Each; 2],
     /// Gaps, m.
     pub gap: Each,
     /// Minus the relative acceleration of each pair per unit of its own force, 1/kg.
@@ -82,11 +81,10 @@ impl PackedPairs {
     pub fn set(&mut self, lane: usize, pair: usize, data: &Pair, coordinates: Coordinates) {
         self.pairs[lane] = pair;
         self.taken[lane] = true;
-        let Pair { lanes: floors, inverse_masses: [left, right], .. } = *data;
-        self.floors[lane] = floors;
+        self.floors[lane] = data.floors;
         self.gap[lane] = data.gap;
-        (self.inverse_masses[0][lane], self.inverse_masses[1][lane]) = (-left, right);
-        self.softness[lane] = left + right;
+        (self.pushes[0][lane], self.pushes[1][lane]) = (data.floors[0].push, data.floors[1].push);
+        self.softness[lane] = data.softness(data);
         if coordinates == Coordinates::Modes {
             self.rows[lane] = data.first_blocks;
             let modes = data.first_blocks.as_flattened();

@@ -1,12 +1,12 @@
-//! One pair of facing floors and its penetration.
+//! One contact: the row of weights that gives its penetration from the floors' displacements.
 
 use crate::contact::{EpisodeForce, Force, ImpactLaw};
 use crate::engine::base::Coordinates;
 use crate::engine::base::contact::{Contact, Episode, Phase};
 use crate::scene::Scene;
-use crate::structure::{FEW_BLOCKS, LANES, Lane, Side, Structure};
+use crate::structure::{FEW_BLOCKS, LANES, Lane, Structure};
 
-/// One pair of facing floors, left and right.
+/// One contact, between two floors or a floor and columns or a wall: a row of weights over the floors of both buildings.
 #[derive(Clone, Debug)]
 pub struct Pair {
     /// Row of the modal Jacobian, kg^-1/2: penetration = row . q - gap, and a contact force F loads the modes with -row
@@ -15,44 +15,44 @@ pub struct Pair {
     /// Gap at rest, m.
     pub gap: f64,
     pub law: ImpactLaw,
-    /// Reduced mass of the two floors, kg.
+    /// Reduced mass, kg.
     pub mass: f64,
-    /// Numbers of the left and the right floor, from 0.
-    pub floors: [usize; 2],
-    /// Masses of these floors, kg.
-    pub masses: [f64; 2],
-    /// Their inverses, 1/kg.
-    pub inverse_masses: [f64; 2],
-    /// Indices of the two floors in a vector of all floors.
-    pub lanes: [usize; 2],
+    /// The same row floor by floor; what is beyond its floors has no weight.
+    pub floors: RowOfFloors,
     /// The first blocks of `row`: all of it where modes are few.
     pub first_blocks: [Lane; FEW_BLOCKS],
+}
+
+/// A floor and columns between two others.
+pub type RowOfFloors = [FloorShare; 3];
+
+/// The part of a floor in the row of a contact.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FloorShare {
+    /// Index in a vector of all floors.
+    pub lane: usize,
+    /// How far a displacement of the floor goes into the penetration.
+    pub weight: f64,
+    /// Acceleration of the floor per unit of contact force, 1/kg: minus the weight over its mass.
+    pub push: f64,
 }
 
 impl Pair {
     /// A contact of the scene, with its masses and its row of the modal Jacobian.
     pub fn new(pair: &crate::scene::ContactPair, scene: &Scene, structure: &Structure) -> Pair {
-        let (left, right) = (pair.left_floor - 1, pair.right_floor - 1);
         let mut row = vec![0.0; structure.lanes];
-        structure.add_floor_force(Side::Left, left, 1.0, &mut row);
-        structure.add_floor_force(Side::Right, right, -1.0, &mut row);
-        let (m1, m2) = (scene.left.mass[left], scene.right.mass[right]);
-        let lanes = [structure.floors.lane(0, left), structure.floors.lane(1, right)];
+        let mut floors = RowOfFloors::default();
+        for (share, floor) in pair.row().zip(&mut floors) {
+            structure.add_floor_force(share.side, share.floor, share.weight, &mut row);
+            let mass = scene.building(share.side).mass[share.floor];
+            let lane = structure.floors.lane(share.side as usize, share.floor);
+            *floor = FloorShare { lane, weight: share.weight, push: -share.weight * (1.0 / mass) };
+        }
         let mut first_blocks = [[0.0; LANES]; FEW_BLOCKS];
         for (first, row) in first_blocks.as_flattened_mut().iter_mut().zip(&row) {
             *first = *row;
         }
-        Pair {
-            row,
-            gap: pair.gap,
-            law: pair.law,
-            mass: m1 * m2 / (m1 + m2),
-            floors: [left, right],
-            masses: [m1, m2],
-            inverse_masses: [1.0 / m1, 1.0 / m2],
-            lanes,
-            first_blocks,
-        }
+        Pair { row, gap: pair.gap, law: pair.law, mass: pair.reduced_mass(scene), floors, first_blocks }
     }
 
     /// Whether its force is a power of the penetration with a fractional exponent.
@@ -114,32 +114,58 @@ impl Pair {
         contact
     }
 
-    /// Motion (displacement, velocity, ...) of the left floor less that of the right floor.
+    /// Motion (displacement, velocity, ...) of the left face less that of the right one.
     #[inline(always)]
     pub fn relative(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
-        let Pair { row, lanes: [left, right], .. } = self;
         match coordinates {
-            Coordinates::Modes => crate::structure::dot(row, motion),
-            Coordinates::Floors => motion[*left] - motion[*right],
+            Coordinates::Modes => crate::structure::dot(&self.row, motion),
+            Coordinates::Floors => relative(&self.floors, motion),
         }
     }
 
-    /// (left minus right, size): the relative motion, set to 0 where the floors' motions agree within rounding, and the
+    /// (left minus right, size): the relative motion, set to 0 where the faces' motions agree within rounding, and the
     /// size of the numbers that were subtracted.
     pub fn difference(&self, coordinates: Coordinates, motion: &[f64]) -> (f64, f64) {
-        let Pair { row, lanes: [left, right], .. } = self;
         match coordinates {
-            Coordinates::Modes => crate::structure::difference(row, motion),
-            Coordinates::Floors => {
-                let (left, right) = (motion[*left], motion[*right]);
-                (apart(left, right), left.abs() + right.abs())
-            }
+            Coordinates::Modes => crate::structure::difference(&self.row, motion),
+            Coordinates::Floors => difference(&self.floors, motion),
         }
     }
+
+    /// Whether it is between two floors, so that their motions are subtracted as they are.
+    pub fn is_of_floors(&self) -> bool {
+        self.floors.map(|floor| floor.weight) == [1.0, -1.0, 0.0]
+    }
+
+    /// Sum of the products of its weights with its own accelerations by a unit force of another contact, 1/kg: minus what
+    /// that force adds to its relative acceleration. 0 where they have no floor in common.
+    pub fn softness(&self, other: &Pair) -> f64 {
+        let products = self.floors.iter().flat_map(|own| {
+            let same = other.floors.iter().filter(|floor| floor.lane == own.lane);
+            same.map(|floor| -own.weight * floor.push)
+        });
+        products.sum()
+    }
+}
+
+/// Relative motion from that of all floors.
+#[inline(always)]
+pub fn relative([one, two, three]: &RowOfFloors, motion: &[f64]) -> f64 {
+    one.weight * motion[one.lane] + two.weight * motion[two.lane] + three.weight * motion[three.lane]
+}
+
+/// The same, 0 where it is no more than rounding, and the size of the numbers that it is made of.
+pub fn difference(floors: &RowOfFloors, motion: &[f64]) -> (f64, f64) {
+    let size = floors.iter().map(|floor| (floor.weight * motion[floor.lane]).abs()).sum();
+    (beyond_rounding(relative(floors, motion), size), size)
 }
 
 /// Difference of the motions of two floors, set to 0 where they agree within rounding.
 pub fn apart(left: f64, right: f64) -> f64 {
-    let difference = left - right;
-    if difference.abs() <= 4.0 * f64::EPSILON * (left.abs() + right.abs()) { 0.0 } else { difference }
+    beyond_rounding(left - right, left.abs() + right.abs())
+}
+
+/// A sum of terms of that total size, or 0 where it is no more than their rounding.
+fn beyond_rounding(sum: f64, size: f64) -> f64 {
+    if sum.abs() <= 4.0 * f64::EPSILON * size { 0.0 } else { sum }
 }

@@ -17,13 +17,7 @@ impl RigidPairs {
     /// The rigid pairs among all.
     pub fn of(all: &[Pair]) -> RigidPairs {
         let pairs: Vec<usize> = (0..all.len()).filter(|&p| all[p].law.is_rigid()).collect();
-        let shared = |a: &Pair, b: &Pair, side: usize| {
-            if a.floors[side] == b.floors[side] { 1.0 / a.masses[side] } else { 0.0 }
-        };
-        let effect = |i: usize, j: usize| {
-            let (a, b) = (&all[pairs[i]], &all[pairs[j]]);
-            shared(a, b, 0) + shared(a, b, 1)
-        };
+        let effect = |i: usize, j: usize| all[pairs[i]].softness(&all[pairs[j]]);
         let matrix = DMatrix::from_fn(pairs.len(), pairs.len(), effect);
         RigidPairs { pairs, matrix }
     }

@@ -6,7 +6,7 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
-use crate::engine::pairs::pair::Pair;
+use crate::engine::pairs::pair::FloorShare;
 use crate::engine::peaks::reading::{ContactStep, highest_in_onset};
 use crate::engine::peaks::room::{FloorRoom, PeakRoom, PeakWork};
 use crate::engine::peaks::search::{Quantity, highest};
@@ -159,18 +159,16 @@ impl Model {
             vector.fill(0.0);
         }
         for (p, pair) in self.system.pairs.iter().enumerate().filter(|(p, _)| base.contacts[*p].in_contact()) {
-            let Pair { lanes: [left, right], inverse_masses: [of_left, of_right], .. } = pair;
             let (strongest, pulls) = (room.strongest[p], pair.law.kind.info().pulls);
             let pulled = if pulls { strongest } else { 0.0 };
-            room.floors.least[*left] -= strongest * of_left;
-            room.floors.most[*left] += pulled * of_left;
-            room.floors.most[*right] += strongest * of_right;
-            room.floors.least[*right] -= pulled * of_right;
-            for (push, force) in
-                [(&mut room.first_push, room.first_forces[p]), (&mut room.last_push, room.last_forces[p])]
-            {
-                push[*left] -= force * of_left;
-                push[*right] += force * of_right;
+            for FloorShare { lane, push, .. } in pair.floors {
+                // Pushed to the left, which a pull does to the right; or the other way round.
+                let (by_push, by_pull) = (push * strongest, -push * pulled);
+                let [least, most] = if push < 0.0 { [by_push, by_pull] } else { [by_pull, by_push] };
+                room.floors.least[lane] += least;
+                room.floors.most[lane] += most;
+                room.first_push[lane] += push * room.first_forces[p];
+                room.last_push[lane] += push * room.last_forces[p];
             }
         }
     }

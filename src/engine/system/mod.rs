@@ -188,13 +188,10 @@ impl System {
 
     /// Adds a contact force of pair `p`, N, positive in compression, to a load per unit of mass.
     pub fn push_apart_by(&self, p: usize, coordinates: Coordinates, force: f64, load: &mut [f64]) {
-        let Pair { row, lanes: [left, right], inverse_masses, .. } = &self.pairs[p];
+        let Pair { row, floors, .. } = &self.pairs[p];
         match coordinates {
             Coordinates::Modes => load.iter_mut().zip(row).for_each(|(load, row)| *load -= row * force),
-            Coordinates::Floors => {
-                load[*left] -= force * inverse_masses[0];
-                load[*right] += force * inverse_masses[1];
-            }
+            Coordinates::Floors => floors.iter().for_each(|floor| load[floor.lane] += force * floor.push),
         }
     }
 

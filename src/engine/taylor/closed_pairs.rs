@@ -55,14 +55,13 @@ impl ClosedPairs {
     /// Allocates for these pairs.
     pub fn new(all: &[Pair], on_floors: bool) -> ClosedPairs {
         let pairs = all.len();
-        let shares = |a: &Pair, b: &Pair| a.floors[0] == b.floors[0] || a.floors[1] == b.floors[1];
         let most = most_blocks(pairs, 5, on_floors);
         ClosedPairs {
             blocks: Vec::with_capacity(most),
             members: vec![PackedPairs::default(); most],
             readings: vec![BlockReading::default(); most],
             at_surface: vec![false; most],
-            neighbours: (0..pairs).map(|p| (0..p).filter(|&q| shares(&all[p], &all[q])).collect()).collect(),
+            neighbours: (0..pairs).map(|p| (0..p).filter(|&q| all[p].softness(&all[q]) != 0.0).collect()).collect(),
             assigned: Vec::with_capacity(pairs),
             coordinates: Coordinates::default(),
             waits: false,

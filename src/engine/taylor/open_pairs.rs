@@ -5,7 +5,7 @@ use crate::engine::base::contact::Contact;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::pairs::jacobian::{ContactJacobian, FloorJacobian, ModalJacobian, PackedModalJacobian};
 use crate::engine::pairs::packing::{LanePlace, PackedPairs, most_blocks};
-use crate::engine::pairs::pair::Pair;
+use crate::engine::pairs::pair::{Pair, RowOfFloors, relative};
 use crate::numerics::polynomial::{MAX_TERMS, each};
 use crate::numerics::powers::Powers;
 use crate::numerics::substitution::Substitution;
@@ -121,7 +121,7 @@ impl OpenPairs {
         let horizon = (base.coordinates == Coordinates::Floors).then(|| Horizon::of(series, powers.x, room));
         let may_meet = |(lane, p): (usize, usize), members: &PackedPairs| {
             let contact = &base.contacts[p];
-            let is_far = |horizon: &Horizon| horizon.is_beyond(contact, members.floors[lane], members.gap[lane]);
+            let is_far = |horizon: &Horizon| horizon.is_beyond(contact, &members.floors[lane], members.gap[lane]);
             !contact.in_contact() && !horizon.as_ref().is_some_and(is_far)
         };
         let has_to_be_followed = |members: &PackedPairs| members.lanes().any(|of_lane| may_meet(of_lane, members));
@@ -162,11 +162,11 @@ impl<'a> Horizon<'a> {
         Horizon { start: series.term(0), velocity: series.term(1), reach, wandered }
     }
 
-    /// Whether two floors are too far apart to meet in the step.
-    fn is_beyond(&self, contact: &Contact, [left, right]: [usize; 2], gap: f64) -> bool {
-        let relative = |motion: &[f64]| motion[left] - motion[right];
-        let approached = self.reach * relative(self.velocity).max(0.0);
-        let nearest = relative(self.start) - gap + approached + (self.wandered[left] + self.wandered[right]);
+    /// Whether a pair is too far apart to meet in the step.
+    fn is_beyond(&self, contact: &Contact, floors: &RowOfFloors, gap: f64) -> bool {
+        let approached = self.reach * relative(floors, self.velocity).max(0.0);
+        let wandered: f64 = floors.iter().map(|floor| floor.weight.abs() * self.wandered[floor.lane]).sum();
+        let nearest = relative(floors, self.start) - gap + approached + wandered;
         // The stored penetration of a pair at the surface, or tracked, is more accurate than the one that the motion
         // gives: bounds by the motion do not exclude it.
         nearest < 0.0 && !contact.at_surface && !contact.tracked

@@ -1,0 +1,144 @@
+//! What meets at a contact: a floor of one building with a floor or the columns of the other, or with a wall.
+
+use super::side::Side;
+use crate::contact::ImpactLaw;
+
+/// Two faces with a gap between them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactPair {
+    /// What is on the left of the gap.
+    pub left: Face,
+    /// What is on the right of the gap.
+    pub right: Face,
+    /// m, clear distance at rest; may be 0 or negative.
+    pub gap: f64,
+    /// Force of the contact.
+    pub law: ImpactLaw,
+}
+
+/// One side of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Face {
+    /// The edge of a floor, counted from 1.
+    Floor(Side, usize),
+    /// The columns of a storey, counted from 1, between two floors.
+    Columns {
+        /// Whose columns.
+        side: Side,
+        /// Storey `i` is below floor `i`.
+        storey: usize,
+        /// Where they are hit, as a share of the storey's height from its lower end: 0 < s < 1.
+        position: f64,
+        /// How they bend.
+        shape: ColumnShape,
+    },
+    /// A rigid wall, which moves with the ground.
+    Wall,
+}
+
+/// Deflection of columns between their floors: N(s) is the share of the upper floor's displacement in that of the
+/// columns at the height s, 1 - N that of the lower floor's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ColumnShape {
+    /// Ends that do not rotate, N(s) = 3 s^2 - 2 s^3: the cubic of Hermite, as for a beam between two rigid floors.
+    #[default]
+    Fixed,
+    /// Hinged ends, N(s) = s.
+    Straight,
+}
+
+/// How much a displacement of a floor moves a face, or the distance of two: the weight of a floor in a row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Share {
+    /// Whose floor.
+    pub side: Side,
+    /// Counted from 0.
+    pub floor: usize,
+    /// Positive on the left of a gap, negative on its right.
+    pub weight: f64,
+}
+
+impl ColumnShape {
+    /// All that there are.
+    pub const ALL: [ColumnShape; 2] = [ColumnShape::Fixed, ColumnShape::Straight];
+
+    /// As scenes write it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            ColumnShape::Fixed => "fixed",
+            ColumnShape::Straight => "straight",
+        }
+    }
+
+    /// N(s): the share of the upper floor.
+    pub fn share_of_upper_floor(self, s: f64) -> f64 {
+        match self {
+            ColumnShape::Fixed => s * s * (3.0 - 2.0 * s),
+            ColumnShape::Straight => s,
+        }
+    }
+}
+
+impl Face {
+    /// The building, if it belongs to one.
+    pub const fn side(&self) -> Option<Side> {
+        match self {
+            Face::Floor(side, _) | Face::Columns { side, .. } => Some(*side),
+            Face::Wall => None,
+        }
+    }
+
+    /// The floors that move it, with positive weights that add up to 1 together with that of the ground.
+    fn shares(self) -> impl Iterator<Item = Share> {
+        let shares = match self {
+            Face::Floor(side, floor) => [Some((side, floor, 1.0)), None],
+            Face::Columns { side, storey, position, shape } => {
+                let upper = shape.share_of_upper_floor(position);
+                [Some((side, storey.saturating_sub(1), 1.0 - upper)), Some((side, storey, upper))]
+            }
+            Face::Wall => [None, None],
+        };
+        // Floor 0 is the ground, at rest.
+        let of_floor =
+            |(side, floor, weight): (Side, usize, f64)| Some(Share { side, floor: floor.checked_sub(1)?, weight });
+        shares.into_iter().flatten().filter_map(of_floor)
+    }
+}
+
+impl ContactPair {
+    /// The row of the contact: its penetration is the sum of the weights times the floors' displacements, less the gap. A
+    /// contact force pushes each floor with its weight of it, against the weight's sign.
+    pub fn row(&self) -> impl Iterator<Item = Share> {
+        let right = self.right.shares().map(|share| Share { weight: -share.weight, ..share });
+        self.left.shares().chain(right)
+    }
+
+    /// Where columns are hit, if they are.
+    pub const fn position(&self) -> Option<f64> {
+        match (self.left, self.right) {
+            (Face::Columns { position, .. }, _) | (_, Face::Columns { position, .. }) => Some(position),
+            _ => None,
+        }
+    }
+
+    /// The same, to be changed.
+    pub const fn position_mut(&mut self) -> Option<&mut f64> {
+        match (&mut self.left, &mut self.right) {
+            (Face::Columns { position, .. }, _) | (_, Face::Columns { position, .. }) => Some(position),
+            _ => None,
+        }
+    }
+
+    /// Whether a building takes part.
+    pub fn is_with(&self, side: Side) -> bool {
+        self.left.side() == Some(side) || self.right.side() == Some(side)
+    }
+
+    /// Both floors, counted from 1, where a floor meets a floor.
+    pub const fn floors(&self) -> Option<[usize; 2]> {
+        match (self.left, self.right) {
+            (Face::Floor(_, left), Face::Floor(_, right)) => Some([left, right]),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! Where the floors of a building are: storey heights, levels, and what faces what by them.
+
+use std::fmt::Display;
+
+/// m: floors whose levels differ by no more meet each other, where a scene does not say otherwise.
+pub const LEVEL_TOLERANCE: f64 = 0.1;
+
+/// Heights of the storeys of a building.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Heights {
+    /// m, one per storey, lowest first.
+    pub storeys: Vec<f64>,
+    /// m, level of the ground floor.
+    pub base_level: f64,
+}
+
+impl Heights {
+    /// Level of a floor, m; floor 0 is the ground floor.
+    pub fn level(&self, floor: usize) -> f64 {
+        self.storeys.iter().take(floor).fold(self.base_level, |level, height| level + height)
+    }
+
+    /// Level of the highest floor, m.
+    pub fn roof(&self) -> f64 {
+        self.level(self.storeys.len())
+    }
+
+    /// Where in a storey, counted from 1, a level is: the share of the storey's height from its lower end, below 0 and
+    /// above 1 outside of it.
+    pub fn position(&self, storey: usize, level: f64) -> Option<f64> {
+        let height = self.storeys.get(storey.checked_sub(1)?)?;
+        Some((level - self.level(storey - 1)) / height)
+    }
+
+    /// The floor, counted from 1, whose level is nearest to a given one, and the difference, m.
+    pub fn nearest_floor(&self, level: f64) -> Option<(usize, f64)> {
+        let floors = (1..=self.storeys.len()).map(|floor| (floor, (self.level(floor) - level).abs()));
+        floors.min_by(|(_, one), (_, other)| one.total_cmp(other))
+    }
+
+    /// The storey, counted from 1, between whose floors a level is, and the position in it.
+    pub fn storey_at(&self, level: f64) -> Option<(usize, f64)> {
+        let inside = |storey| Some((storey, self.position(storey, level)?));
+        (1..=self.storeys.len()).filter_map(inside).find(|(_, position)| *position > 0.0 && *position < 1.0)
+    }
+}
+
+/// A length, level or share for a person: without the rounding of the sums that it comes from.
+pub fn in_metres(value: f64) -> impl Display {
+    let micrometres = (1e6 * value).round();
+    if micrometres.abs() < 1e15 { micrometres / 1e6 } else { value }
+}

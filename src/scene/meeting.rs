@@ -1,0 +1,69 @@
+//! A contact in its scene: its reduced mass, how far it is open at the start, and what it is called.
+
+use super::contact_pair::{ContactPair, Face, Share};
+use super::data::{Building, Scene};
+use super::levels::in_metres;
+use super::side::Side;
+
+impl Scene {
+    /// One of the two buildings.
+    pub const fn building(&self, side: Side) -> &Building {
+        match side {
+            Side::Left => &self.left,
+            Side::Right => &self.right,
+        }
+    }
+}
+
+impl ContactPair {
+    /// Reduced mass, kg: the inverse of the sum of weight^2 / mass over the row.
+    pub fn reduced_mass(&self, scene: &Scene) -> f64 {
+        let of_share = |share: Share| scene.building(share.side).mass[share.floor] / (share.weight * share.weight);
+        // A floor with next to no share is as good as infinitely heavy.
+        let masses = self.row().map(of_share).filter(|mass| mass.is_finite());
+        masses.reduce(|one, other| one * other / (one + other)).unwrap_or(f64::INFINITY)
+    }
+
+    /// Penetration at the start of a run, m, and the sum of the magnitudes that it is made of.
+    pub fn at_start(&self, scene: &Scene) -> (f64, f64) {
+        let displacement = |share: &Share| {
+            let all = &scene.building(share.side).initial_displacement;
+            share.weight * all.get(share.floor).copied().unwrap_or(0.0)
+        };
+        let (moved, size) = self
+            .row()
+            .map(|share| displacement(&share))
+            .fold((0.0, 0.0_f64), |(sum, size), u| (sum + u, size + u.abs()));
+        (moved - self.gap, size + self.gap.abs())
+    }
+
+    /// What meets, for a person: "between left floor 1 and right floor 1", "of left floor 3, level 11.1 m, against columns
+    /// of right storey 4 at 0.35".
+    pub fn meeting(&self, scene: &Scene) -> String {
+        let [left, right] = [&self.left, &self.right].map(|face| face.name(scene));
+        match (self.left, self.right) {
+            (Face::Floor(..), Face::Floor(..)) => format!("between {left} and {right}"),
+            (Face::Floor(..), Face::Wall) => format!("of {left} against the wall on its right"),
+            (Face::Wall, _) => format!("of {right} against the wall on its left"),
+            (Face::Floor(..), _) => format!("of {left} against {right}"),
+            (_, _) => format!("of {right} against {left}"),
+        }
+    }
+}
+
+impl Face {
+    /// For a person, in a scene whose buildings may have levels.
+    fn name(&self, scene: &Scene) -> String {
+        match *self {
+            Face::Floor(side, floor) => {
+                let heights = scene.building(side).heights.as_ref();
+                let level = heights.map(|heights| format!(", level {} m", in_metres(heights.level(floor))));
+                format!("{side} floor {floor}{}", level.unwrap_or_default())
+            }
+            Face::Columns { side, storey, position, .. } => {
+                format!("columns of {side} storey {storey} at {}", in_metres(position))
+            }
+            Face::Wall => "wall".to_owned(),
+        }
+    }
+}

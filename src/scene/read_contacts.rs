@@ -1,0 +1,275 @@
+//! The keys of contacts: `[[contact]]`, with what meets and by which law, and `[facing]`.
+
+use super::contact_pair::{ColumnShape, ContactPair, Face};
+use super::data::Building;
+use super::document::{Item, KEY, Section, one_of};
+use super::levels::{Heights, LEVEL_TOLERANCE, in_metres};
+use super::side::Side;
+use super::units::Units;
+use super::{facing, law_key};
+use crate::contact::{DampingFormula, ImpactLaw, LawKind};
+
+const FLOOR: &str = "a floor, counted from 1";
+
+/// All contacts of a scene with these buildings.
+pub(super) fn all(root: &mut Section<'_>, buildings: [&Building; 2], units: Units) -> Vec<ContactPair> {
+    let tables = root.get("contact");
+    if let Some(facing) = root.get("facing") {
+        tables.inspect(|item| item.refuse("either [[contact]] tables or [facing], not both"));
+        return self::facing(root, facing.section(), buildings, units);
+    }
+    let tables = tables.and_then(|item| match item.is_table() {
+        false => item.list("[[contact]] tables"),
+        true => {
+            item.refuse("[[contact]], with two brackets on either side, above every contact");
+            None
+        }
+    });
+    tables.iter().flatten().map(|item| contact(item.section(), buildings, units)).collect()
+}
+
+fn facing(
+    root: &mut Section<'_>,
+    mut section: Section<'_>,
+    buildings: [&Building; 2],
+    units: Units,
+) -> Vec<ContactPair> {
+    let tolerance = section.get("level_tolerance").map_or(LEVEL_TOLERANCE, |item| item.number());
+    let gap = gap(&mut section);
+    let law = law(section, units);
+    let heights = [Side::Left, Side::Right].map(|side| {
+        let building = buildings[side as usize];
+        if building.heights.is_none() && !building.is_absent() {
+            root.section(side.name()).missing("height", "the heights of the storeys in m, which [facing] needs");
+        }
+        building.heights.as_ref()
+    });
+    match heights {
+        [Some(left), Some(right)] => facing::contacts([left, right], tolerance, gap, law),
+        _ => Vec::new(),
+    }
+}
+
+fn contact(mut section: Section<'_>, buildings: [&Building; 2], units: Units) -> ContactPair {
+    let [left, right] = faces(&mut section, buildings);
+    let gap = gap(&mut section);
+    let law = law(section, units);
+    ContactPair { left, right, gap, law }
+}
+
+fn gap(section: &mut Section<'_>) -> f64 {
+    section.require("gap", "the clear distance at rest in m").map_or(f64::NAN, |item| item.number())
+}
+
+/// The keys that say what meets.
+struct Keys<'t> {
+    /// `left_floor` and `right_floor`.
+    floors: [Option<Item<'t>>; 2],
+    /// `left_storey` and `right_storey`.
+    storeys: [Option<Item<'t>>; 2],
+    /// `left_position` and `right_position`.
+    positions: [Option<Item<'t>>; 2],
+    shape: Option<Item<'t>>,
+    wall: Option<Item<'t>>,
+}
+
+fn faces<'t>(section: &mut Section<'t>, buildings: [&Building; 2]) -> [Face; 2] {
+    let keys = Keys {
+        floors: ["left_floor", "right_floor"].map(|key| section.get(key)),
+        storeys: ["left_storey", "right_storey"].map(|key| section.get(key)),
+        positions: ["left_position", "right_position"].map(|key| section.get(key)),
+        shape: section.get("column_shape"),
+        wall: section.get("wall"),
+    };
+    if let Some(wall) = &keys.wall {
+        return at_wall(section, &keys, wall);
+    }
+    for side in [Side::Left, Side::Right] {
+        keys.refuse_what_belongs_to_columns(side);
+    }
+    match &keys.storeys {
+        [Some(_), Some(right)] => {
+            right.refuse("a floor on one side: the columns of two storeys do not reach each other");
+            [Face::Floor(Side::Left, 0), Face::Floor(Side::Right, 0)]
+        }
+        [Some(storey), None] if keys.floors[0].is_none() => {
+            let floor = floor(section, &keys, Side::Right);
+            [
+                columns(section, &keys, (Side::Left, storey), (Side::Right, floor), buildings),
+                Face::Floor(Side::Right, floor),
+            ]
+        }
+        [None, Some(storey)] if keys.floors[1].is_none() => {
+            let floor = floor(section, &keys, Side::Left);
+            [
+                Face::Floor(Side::Left, floor),
+                columns(section, &keys, (Side::Right, storey), (Side::Left, floor), buildings),
+            ]
+        }
+        storeys => {
+            for (side, storey) in [Side::Left, Side::Right].into_iter().zip(storeys) {
+                storey.as_ref().inspect(|item| item.refuse(format!("either {side}_floor or {side}_storey, not both")));
+            }
+            [Side::Left, Side::Right].map(|side| Face::Floor(side, floor(section, &keys, side)))
+        }
+    }
+}
+
+impl Keys<'_> {
+    /// Refuses a position where there is no storey, and a shape where there are no columns at all.
+    fn refuse_what_belongs_to_columns(&self, side: Side) {
+        let side_number = side as usize;
+        if let (Some(position), None) = (&self.positions[side_number], &self.storeys[side_number]) {
+            position.refuse(format!("{side}_storey, whose columns are hit there, instead of {side}_floor"));
+        }
+        if let (Some(shape), [None, None], Side::Left) = (&self.shape, &self.storeys, side) {
+            shape.refuse("left_storey or right_storey, whose columns have a shape");
+        }
+    }
+}
+
+/// The number of a floor that must be there.
+fn floor(section: &Section<'_>, keys: &Keys<'_>, side: Side) -> usize {
+    match &keys.floors[side as usize] {
+        Some(item) => item.count(),
+        None => {
+            section.missing(&format!("{side}_floor"), FLOOR);
+            0
+        }
+    }
+}
+
+/// One floor, of either building, and a wall on one side of it.
+fn at_wall(section: &Section<'_>, keys: &Keys<'_>, wall: &Item<'_>) -> [Face; 2] {
+    let others = keys.storeys.iter().chain(&keys.positions).chain([&keys.shape]).flatten();
+    others.for_each(|item| item.refuse("no such key: a wall is hit by a floor, left_floor or right_floor"));
+    let floor = match &keys.floors {
+        [Some(left), None] => Face::Floor(Side::Left, left.count()),
+        [None, Some(right)] => Face::Floor(Side::Right, right.count()),
+        [Some(_), Some(right)] => {
+            right.refuse("one floor only at a wall");
+            Face::Floor(Side::Left, 0)
+        }
+        [None, None] => {
+            section.missing("left_floor", "a floor, counted from 1, here or as right_floor");
+            Face::Floor(Side::Left, 0)
+        }
+    };
+    match wall.text() {
+        Some("left") => [Face::Wall, floor],
+        Some("right") => [floor, Face::Wall],
+        Some(_) => {
+            wall.refuse("\"left\" or \"right\": the side of the floor that the wall is on");
+            [floor, Face::Wall]
+        }
+        None => [floor, Face::Wall],
+    }
+}
+
+/// The columns of a storey that a floor of the other building meets.
+fn columns(
+    section: &Section<'_>,
+    keys: &Keys<'_>,
+    (side, storey): (Side, &Item<'_>),
+    (floor_side, floor): (Side, usize),
+    buildings: [&Building; 2],
+) -> Face {
+    let number = storey.count();
+    let shape = keys.shape.as_ref().and_then(column_shape).unwrap_or_default();
+    let heights = [side, floor_side].map(|side| buildings[side as usize].heights.as_ref());
+    let position = match (&keys.positions[side as usize], heights) {
+        (Some(position), _) => Some(position.number()),
+        (None, [Some(own), Some(other)]) => position_by_levels(storey, number, (side, own), (floor_side, floor, other)),
+        (None, _) => {
+            let what = "where the columns are hit, 0 < s < 1 from the storey's lower end; only where both buildings have \
+                        their height it may be left out";
+            section.missing(&format!("{side}_position"), what);
+            None
+        }
+    };
+    // Where it is unknown, that has been said.
+    Face::Columns { side, storey: number, position: position.unwrap_or(0.5), shape }
+}
+
+fn column_shape(item: &Item<'_>) -> Option<ColumnShape> {
+    let name = item.text()?;
+    let shape = ColumnShape::ALL.into_iter().find(|shape| shape.name() == name);
+    if shape.is_none() {
+        item.refuse(one_of("a known shape", &ColumnShape::ALL.map(ColumnShape::name), name));
+    }
+    shape
+}
+
+/// The position of a floor in a storey of the other building by their levels; refused where it is outside.
+fn position_by_levels(
+    item: &Item<'_>,
+    storey: usize,
+    (side, own): (Side, &Heights),
+    (floor_side, floor, other): (Side, usize, &Heights),
+) -> Option<f64> {
+    // Numbers out of range are refused where the others of their kind are.
+    let level = (1..=other.storeys.len()).contains(&floor).then(|| other.level(floor))?;
+    let position = own.position(storey, level)?;
+    if position > 0.0 && position < 1.0 || !position.is_finite() {
+        return Some(position).filter(|position| position.is_finite());
+    }
+    let hits = match (own.storey_at(level), own.nearest_floor(level)) {
+        (Some((storey, position)), _) => format!("is in storey {storey}, at {}", in_metres(position)),
+        (None, Some((floor, 0.0))) => format!("is that of {side} floor {floor}"),
+        _ => format!("is not between {side} floors"),
+    };
+    item.refuse(format!(
+        "a storey that {floor_side} floor {floor} stands before, or {side}_position: its level, {} m, {hits}",
+        in_metres(level)
+    ));
+    None
+}
+
+fn law(mut section: Section<'_>, units: Units) -> ImpactLaw {
+    let Some(kind) = law_kind(&mut section) else {
+        // Which keys belong here, and what they may be, is the law's business: only their types can be looked at.
+        for key in law_key::all() {
+            section.get(law_key::number(key).name).inspect(|item| _ = item.number());
+        }
+        section.get("damping_formula").inspect(|item| _ = item.text());
+        section.close(KEY);
+        return law_key::neutral(LawKind::Linear);
+    };
+    let mut law = law_key::neutral(kind);
+    for &key in kind.info().keys {
+        let key = law_key::number(key);
+        let item = match key.default {
+            None => section.require(key.name, key.rule.expected(units)),
+            Some(_) => section.get(key.name),
+        };
+        let value = item.map(|item| item.quantity(key.rule.units(units))).or(key.default);
+        (key.set)(&mut law, value.unwrap_or(f64::NAN));
+    }
+    if kind.info().has_damping_formula {
+        law.damping_formula = damping_formula(&mut section);
+    }
+    section.close(&format!("a key of law {}", kind.info().name));
+    law
+}
+
+fn damping_formula(section: &mut Section<'_>) -> Option<DampingFormula> {
+    let names: Vec<_> = DampingFormula::ALL.iter().map(|formula| formula.info().name).collect();
+    let item = section.require("damping_formula", &format!("a damping formula ({})", names.join(", ")))?;
+    let name = item.text()?;
+    let formula = DampingFormula::from_name(name);
+    if formula.is_none() {
+        item.refuse(one_of("a known damping formula", &names, name));
+    }
+    formula
+}
+
+fn law_kind(section: &mut Section<'_>) -> Option<LawKind> {
+    let names: Vec<_> = LawKind::ALL.iter().map(|kind| kind.info().name).collect();
+    let item = section.require("law", &format!("a law ({})", names.join(", ")))?;
+    let name = item.text()?;
+    let kind = LawKind::from_name(name);
+    if kind.is_none() {
+        item.refuse(one_of("a known law", &names, name));
+    }
+    kind
+}
