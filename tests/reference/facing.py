@@ -25,7 +25,7 @@ def other(side):
 
 
 def position(scene, contact, side):
-    """Where a floor of the other building meets a storey of the building on this side; None where heights are missing."""
+    """Where a floor of the other building meets a storey of this side's building; None where heights are missing."""
     if not all("height" in scene[name] for name in ("left", "right")):
         return None
     level = levels(scene[other(side)])[contact[f"{other(side)}_floor"]]

@@ -278,7 +278,7 @@ void fire(Run *run, Guard guard);
 
 /* Takes the relative velocities of the floors of STUCK contacts away. */
 void hold_together(Run *run);
-/* The coefficient of restitution of an impact at this approach velocity: 0 where the rebound would be too slow to matter. */
+/* The coefficient of restitution at an approach velocity; 0 where the rebound would be too slow to matter. */
 real returned_share(const Run *run, int contact, real rate);
 /* The impulses of contact `first` and of those that touch with it. */
 void exchange_momentum(Run *run, int first);

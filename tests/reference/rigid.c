@@ -133,7 +133,8 @@ static void renew_modes(Run *run)
 void exchange_momentum(Run *run, int first)
 {
     static Impact impact;
-    bool last = run->now.rate[first] < 1e-13Q * run->solver.v_scale && returned_share(run, first, run->now.rate[first]) == 0;
+    real V = run->now.rate[first];
+    bool last = V < 1e-13Q * run->solver.v_scale && returned_share(run, first, V) == 0;
     gather(run, first, last, &impact);
     if (last)
         solve_set(run, &impact, (1UL << impact.count) - 1);
