@@ -287,6 +287,41 @@ fn many_storeys_under_every_analytic_law() {
     compare("tests/reference/scenes/eight_and_nine_storeys.toml", "eight_and_nine_storeys", 5e-14);
 }
 
+#[test]
+fn slabs_against_columns_under_soft_laws() {
+    compare("tests/reference/scenes/columns.toml", "columns", 3e-13);
+}
+
+#[test]
+fn slabs_against_columns_of_first_storeys() {
+    compare("tests/reference/scenes/columns_first_storey.toml", "columns_first_storey", 2e-13);
+}
+
+#[test]
+fn impulses_on_columns_and_shared_floors() {
+    compare("tests/reference/scenes/columns_stereomechanical.toml", "columns_stereomechanical", 1.2e-13);
+}
+
+#[test]
+fn frames_that_lean_on_columns_and_a_wall() {
+    compare("tests/reference/scenes/leaning_on_columns.toml", "leaning_on_columns", 5e-14);
+}
+
+#[test]
+fn an_isolated_building_between_the_walls_of_its_moat() {
+    compare("tests/reference/scenes/moat.toml", "moat", 1.5e-14);
+}
+
+#[test]
+fn two_buildings_between_walls() {
+    compare("tests/reference/scenes/walls_and_neighbour.toml", "walls_and_neighbour", 1e-13);
+}
+
+#[test]
+fn six_storeys_facing_four_of_other_heights() {
+    compare("tests/reference/scenes/facing.toml", "facing", 2e-13);
+}
+
 /// What the ground does to the motion, forces on the floors do as well: the independent solution is one of linear forces
 /// too, in flight, in contact under every kind of law, and between floors that are held together.
 #[test]

@@ -12,6 +12,7 @@ fn shear(mass: Vec<f64>, stiffness: Vec<f64>, damping: Damping) -> Building {
         damping,
         initial_displacement: rest.clone(),
         initial_velocity: rest,
+        heights: None,
     }
 }
 

@@ -1,91 +1,195 @@
-//! A wall moves with the ground: what that makes of the motion up to it, of reactions, and of impulses that go through
-//! floors which are held against it. Against closed forms.
+//! Floors against walls, by closed forms, and a wall as the limit of a heavy and stiff neighbour.
 
-use crate::common::{Run, assert_close, record, scene};
-use pounding::engine::{Response, Side};
+use crate::common::{Run, assert_close, scene};
+use crate::rows::{bisect, building};
+use pounding::engine::Side;
+use pounding::scene::Scene;
 use std::f64::consts::PI;
 
-/// A single mass, kg, of that period, s, and more of the scene.
-fn mass_and(mass: f64, period: f64, more: &str) -> String {
-    let stiffness = mass * (2.0 * PI / period) * (2.0 * PI / period);
-    format!(
-        "name = \"Wall\"\n[left]\nmass = [{mass:?}]\nstiffness = [{stiffness:?}]\ndamping = {{ ratio = 0.0 }}\n{more}\n"
-    )
+/// A mass on a spring without damping that starts at rest position with a velocity towards a wall.
+#[derive(Clone, Copy)]
+struct AtWall {
+    building: Side,
+    wall: Side,
 }
 
-fn wall(side: &str, gap: f64, law: &str) -> String {
-    format!("[[contact]]\nleft_floor = 1\nwall = \"{side}\"\ngap = {gap:?}\n{law}\n")
-}
+const MASS: f64 = 2.0;
+const SPRING: f64 = 50.0;
+const SPEED: f64 = 0.3;
+const GAP: f64 = 0.04;
 
-#[test]
-fn a_ground_that_begins_to_accelerate_carries_the_wall_to_the_mass() {
-    // u = -(a/w^2) (1 - cos w t) under an acceleration a from 0 on: at the gap when cos w t = 1 - gap w^2 / a.
-    let (period, gap) = (1.5, 0.02);
-    let omega = 2.0 * PI / period;
-    for acceleration in [0.5, 5.0, -5.0] {
-        let towards = if acceleration > 0.0 { "left" } else { "right" };
-        let law = "law = \"linear\"\nstiffness = 1e9";
-        let text = mass_and(1e3, period, "[ground]\nrecord = \"step.csv\"") + &wall(towards, gap, law);
-        let motion = record(0.01, &[acceleration; 101]);
-        let mut run = Run::new(&scene(&text), Some(&motion));
-        run.to(1.0);
-        let expected = (1.0 - gap * omega * omega / acceleration.abs()).acos() / omega;
-        assert_close(run.episodes[0].start, expected, 1e-12, &format!("entry under {acceleration} m/s2"));
+impl AtWall {
+    /// Floors of either building with a wall on either side.
+    const ALL: [AtWall; 4] = [
+        AtWall { building: Side::Left, wall: Side::Right },
+        AtWall { building: Side::Left, wall: Side::Left },
+        AtWall { building: Side::Right, wall: Side::Right },
+        AtWall { building: Side::Right, wall: Side::Left },
+    ];
+
+    /// Towards the wall is positive.
+    fn sign(self) -> f64 {
+        if self.wall == Side::Right { 1.0 } else { -1.0 }
+    }
+
+    fn scene(self, law: &str) -> Scene {
+        let mass = |side| building(side, &[MASS], &[SPRING], &[self.sign() * SPEED]);
+        let buildings = match self.building {
+            Side::Left => mass("left"),
+            // One that nothing meets.
+            Side::Right => building("left", &[1.0], &[1.0], &[0.0]) + &mass("right"),
+        };
+        let (floor, wall) = (self.building.name(), self.wall.name());
+        scene(&format!(
+            "name = \"Wall\"\n{buildings}[outputs]\nenergy = true\n\
+             [[contact]]\n{floor}_floor = 1\nwall = \"{wall}\"\ngap = {GAP:?}\n{law}\n"
+        ))
+    }
+
+    /// When the wall is met, s, and how fast, m/s: GAP = SPEED / w sin(w t).
+    fn entry() -> (f64, f64) {
+        let w = f64::sqrt(SPRING / MASS);
+        let angle = f64::asin(GAP * w / SPEED);
+        (angle / w, SPEED * angle.cos())
+    }
+
+    /// The state at a time after the end of the contact, from the one at its end.
+    fn after(self, run: &Run, end: (f64, f64), what: &str) {
+        let (time, speed) = end;
+        let w = f64::sqrt(SPRING / MASS);
+        let angle = w * (run.state.time() - time);
+        let u = self.sign() * (GAP * angle.cos() - speed / w * angle.sin());
+        let v = -self.sign() * (GAP * w * angle.sin() + speed * angle.cos());
+        let error = (run.displacement(self.building, 0) - u).abs() / GAP;
+        assert!(error < 1e-13, "displacement after it, {what}: off by {error:.1e}");
+        let error = (run.velocity(self.building, 0) - v).abs() / SPEED;
+        assert!(error < 1e-13, "velocity after it, {what}: off by {error:.1e}");
+        assert!(run.energy().residual.abs() < 1e-13, "{what}: {:?}", run.energy());
     }
 }
 
+/// From entry on x = u - g obeys m x'' = -(k + K) x - k g: a part of a circle around -c, c = k g / (k + K).
 #[test]
-fn an_impulse_goes_through_a_floor_that_is_held_against_a_wall() {
-    // The right mass leans on a wall; the left one meets it and rebounds as if from the wall itself, with e of its speed.
-    let (mass, speed, e, push) = (2.0, 0.4, 0.5, 30.0);
-    let rigid = |meeting: &str, gap: f64, e: f64| {
-        format!("[[contact]]\n{meeting}\ngap = {gap:?}\nlaw = \"stereomechanical\"\nrestitution = {e:?}\n")
-    };
-    let free = |side: &str, mass: f64, velocity: f64| {
-        format!(
-            "[{side}]\nmass = [{mass:?}]\nstiffness = [1e-20]\ndamping = {{ ratio = 0.0 }}\ninitial_velocity = [{velocity:?}]\n"
-        )
-    };
-    let text = format!(
-        "name = \"Through\"\n{}{}{}{}[inputs]\nfloor_forces = true\n[outputs]\nenergy = true\n",
-        free("left", mass, speed),
-        free("right", 3.0, 0.0),
-        rigid("left_floor = 1\nright_floor = 1", 0.1, e),
-        rigid("right_floor = 1\nwall = \"right\"", 0.0, 0.2),
-    );
-    let mut run = Run::new(&scene(&text), None);
-    run.state.set_floor_force(Side::Right, 0, push);
-    run.to(0.1);
-    let held = run.contact(1);
-    assert!(held.active && held.impacts == 1, "{held:?}");
-    run.to(0.5);
-    let (hit, leaning) = (run.contact(0), run.contact(1));
-    assert_eq!(hit.impacts, 1);
-    assert_close(run.velocity(Side::Left, 0), -e * speed, 1e-14, "rebound");
-    assert_close(hit.impulse, mass * (1.0 + e) * speed, 1e-14, "impulse of the impact");
-    assert_close(leaning.impulse, push * 0.5 + hit.impulse, 1e-13, "impulse on the wall");
-    assert!(leaning.active && leaning.impacts == 1, "the sustained contact goes on: {leaning:?}");
-    assert!(run.displacement(Side::Right, 0).abs() < 1e-15 && run.velocity(Side::Right, 0).abs() < 1e-15);
-    assert_close(leaning.force, push, 1e-14, "reaction of the wall");
-    assert!(run.energy().residual.abs() < 1e-14, "{:?}", run.energy());
+fn a_mass_on_a_spring_against_a_wall_under_the_linear_law() {
+    for case in AtWall::ALL {
+        for stiffness in [300.0, 2e5, 1e9] {
+            let what = format!("{:?} building, wall {:?}, {stiffness} N/m", case.building, case.wall);
+            let mut run = Run::new(&case.scene(&format!("law = \"linear\"\nstiffness = {stiffness:?}")), None);
+            let (entry, approach) = AtWall::entry();
+            let w = f64::sqrt((SPRING + stiffness) / MASS);
+            let c = SPRING * GAP / (SPRING + stiffness);
+            let (radius, angle) = (f64::hypot(c, approach / w), f64::atan2(approach / w, c));
+            run.to(entry + 2.0 * angle / w + 0.01);
+            let [episode] = run.episodes[..] else { panic!("{what}: {:?}", run.episodes) };
+            assert_close(episode.start, entry, 1e-14, &format!("entry, {what}"));
+            assert_close(episode.approach_velocity, approach, 1e-14, &format!("approach velocity, {what}"));
+            // radius - c, without the cancellation.
+            let deepest = (approach / w).powi(2) / (radius + c);
+            assert_close(episode.peak_penetration, deepest, 1e-13, &format!("penetration, {what}"));
+            assert_close(episode.peak_force, stiffness * deepest, 1e-13, &format!("force, {what}"));
+            let end = entry + 2.0 * angle / w;
+            assert_close(episode.end.unwrap(), end, 1e-14, &format!("end, {what}"));
+            assert_close(episode.separation_velocity, approach, 1e-13, &format!("separation, {what}"));
+            let impulse = 2.0 * stiffness * (approach / w - c * angle) / w;
+            assert_close(episode.impulse, impulse, 1e-12, &format!("impulse, {what}"));
+            case.after(&run, (end, approach), &what);
+        }
+    }
 }
 
+/// With a dashpot C beside the spring of the contact: x = -c + exp(-s t) (c cos(w t) + (V + s c) / w sin(w t)), and the
+/// force K x + C x' = -K c + exp(-s t) (a cos(w t) + b sin(w t)).
 #[test]
-fn a_reaction_of_a_wall_answers_to_the_ground_at_once() {
-    // Held against the wall on its right, the mass goes with the ground: R = -m a - k u, u the gap.
-    let (mass, period) = (1e3, 1.0);
-    let law = "law = \"stereomechanical\"\nrestitution = 0.0";
-    let text = mass_and(mass, period, "initial_displacement = [0.0]") + &wall("right", 0.0, law);
-    let mut run = Run::new(&scene(&text), None);
-    run.state.set_ground_acceleration(-2.0);
-    run.to(0.3);
-    assert!(run.contact(0).active);
-    assert_close(run.contact(0).force, 2.0 * mass, 1e-13, "reaction");
-    assert_close(run.model.acceleration(&run.point, Side::Left, 0), -2.0, 1e-13, "acceleration");
-    let mut response = Response::default();
-    run.model.clear_response(&mut response);
-    run.model.push_ground(1.0, &mut response);
-    run.model.settle_response(&run.state, &run.point, &mut response);
-    assert_close(response.reactions[0], -mass, 1e-14, "reaction by ground acceleration");
-    assert_close(run.model.response_at(&response, Side::Left, 0), 1.0, 1e-14, "acceleration by that of the ground");
+fn a_mass_on_a_spring_against_a_wall_under_kelvin_voigt() {
+    for case in AtWall::ALL {
+        for (stiffness, e) in [(2e4_f64, 0.9_f64), (2e5, 0.5), (1e8, 0.2)] {
+            let what = format!("{:?} building, wall {:?}, {stiffness} N/m, e = {e}", case.building, case.wall);
+            let law = format!("law = \"kelvin_voigt\"\nstiffness = {stiffness:?}\nrestitution = {e:?}");
+            let mut run = Run::new(&case.scene(&law), None);
+            let (entry, approach) = AtWall::entry();
+            let xi = -e.ln() / f64::hypot(PI, e.ln());
+            let damping = 2.0 * xi * f64::sqrt(stiffness * MASS);
+            let s = 0.5 * damping / MASS;
+            let w = f64::sqrt((SPRING + stiffness) / MASS - s * s);
+            let c = SPRING * GAP / (SPRING + stiffness);
+            let q = (approach + s * c) / w;
+            let x = |t: f64| (-s * t).exp() * (c * (w * t).cos() + q * (w * t).sin()) - c;
+            let rate = |t: f64| (-s * t).exp() * (approach * (w * t).cos() - (s * q + w * c) * (w * t).sin());
+            let deepest = f64::atan2(approach, s * q + w * c) / w;
+            // The force is largest where its derivative is 0, or at entry.
+            let (a, b) = (stiffness * c + damping * approach, stiffness * q - damping * (s * q + w * c));
+            let strongest = (f64::atan2(w * b - s * a, s * b + w * a) / w).max(0.0);
+            let duration = bisect(x, deepest, PI / w);
+            run.to(entry + duration + 0.01);
+            let [episode] = run.episodes[..] else { panic!("{what}: {:?}", run.episodes) };
+            assert_close(episode.start, entry, 1e-14, &format!("entry, {what}"));
+            assert_close(episode.peak_penetration, x(deepest), 1e-12, &format!("penetration, {what}"));
+            let force = stiffness * x(strongest) + damping * rate(strongest);
+            assert_close(episode.peak_force, force, 1e-12, &format!("force, {what}"));
+            assert_close(episode.end.unwrap(), entry + duration, 1e-14, &format!("end, {what}"));
+            assert_close(episode.separation_velocity, -rate(duration), 1e-12, &format!("separation, {what}"));
+            case.after(&run, (entry + duration, -rate(duration)), &what);
+        }
+    }
+}
+
+/// Rebounds at -e V; from a rebound at u = g with a speed v the mass is back after (2 pi - 2 atan(v / (w g))) / w.
+#[test]
+fn a_mass_on_a_spring_against_a_wall_with_impulses() {
+    let (w, e) = (f64::sqrt(SPRING / MASS), 0.7);
+    for case in AtWall::ALL {
+        let what = format!("{:?} building, wall {:?}", case.building, case.wall);
+        let mut run = Run::new(&case.scene(&format!("law = \"stereomechanical\"\nrestitution = {e:?}")), None);
+        let (mut time, mut approach) = AtWall::entry();
+        run.to(2.5);
+        assert_eq!(run.episodes.len(), 3, "{what}");
+        for episode in run.episodes.clone() {
+            assert_close(episode.start, time, 1e-14, &format!("time, {what}"));
+            assert_close(episode.approach_velocity, approach, 1e-13, &format!("approach, {what}"));
+            assert_close(episode.impulse, (1.0 + e) * MASS * approach, 1e-13, &format!("impulse, {what}"));
+            let lost = 0.5 * MASS * (1.0 - e * e) * approach * approach;
+            assert_close(episode.dissipated_energy, lost, 1e-13, &format!("loss, {what}"));
+            approach *= e;
+            let end = (time, approach);
+            time += 2.0 * (PI - f64::atan2(approach, w * GAP)) / w;
+            if time > 2.5 {
+                case.after(&run, end, &what);
+            }
+        }
+    }
+}
+
+/// A wall is a neighbour that nothing moves: 1e18 kg on 1e26 N/m give way by less than 1e-20 m.
+#[test]
+fn a_neighbour_of_any_weight_and_stiffness_is_a_wall() {
+    let laws = [
+        "law = \"hertz_damped\"\nstiffness = 3e5\nrestitution = 0.6\ndamping_formula = \"exact\"",
+        "law = \"jankowski\"\nstiffness = 3e5\nrestitution = 0.6",
+        "law = \"hertz\"\nstiffness = 3e5",
+        "law = \"kelvin_voigt_no_tension\"\nstiffness = 3e4\nrestitution = 0.6",
+        "law = \"stereomechanical\"\nrestitution = 0.6",
+    ];
+    let case = AtWall::ALL[0];
+    for law in laws {
+        let mut wall = Run::new(&case.scene(law), None);
+        let text = format!(
+            "name = \"Heavy\"\n{}{}[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = {GAP:?}\n{law}\n",
+            building("left", &[MASS], &[SPRING], &[SPEED]),
+            building("right", &[1e18], &[1e26], &[0.0])
+        );
+        let mut heavy = Run::new(&scene(&text), None);
+        for time in [0.145, 0.15, 0.4, 2.5] {
+            wall.to(time);
+            heavy.to(time);
+            let apart = (wall.displacement(Side::Left, 0) - heavy.displacement(Side::Left, 0)).abs() / GAP;
+            assert!(apart < 1e-13, "{law}: {apart:.1e} at {time} s");
+            let apart = (wall.velocity(Side::Left, 0) - heavy.velocity(Side::Left, 0)).abs() / SPEED;
+            assert!(apart < 1e-13, "{law}: {apart:.1e} at {time} s");
+        }
+        assert!(wall.episodes.len() >= 3 && wall.episodes.len() == heavy.episodes.len(), "{law}");
+        for (wall, heavy) in wall.episodes.iter().zip(&heavy.episodes) {
+            assert_close(wall.impulse, heavy.impulse, 1e-12, law);
+            assert_close(wall.approach_velocity, heavy.approach_velocity, 1e-12, law);
+        }
+    }
 }

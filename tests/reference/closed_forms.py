@@ -1,5 +1,5 @@
-"""Checks the reference solver itself against closed forms: free impacts of two masses, stereomechanical contact of two
-oscillators.
+"""Checks the reference solver itself against closed forms: free impacts of two masses, of a mass with columns and with
+a wall, stereomechanical contact of two oscillators, impacts of three masses at once.
 
     python3 tests/reference/closed_forms.py
 
@@ -94,6 +94,66 @@ def pressed_pairs():
         )
 
 
+def columns_and_walls(m1, below, above):
+    """(places of a contact, reduced mass): a mass meets the columns of a storey, or a wall."""
+    for s, shape, storey in ((0.3, "fixed", 1), (0.3, "fixed", 2), (0.8, "straight", 1), (0.65, "straight", 2)):
+        N = s if shape == "straight" else 3 * s**2 - 2 * s**3
+        lower = (1 - N) ** 2 / below if storey == 2 else 0.0
+        yield f"1 columns:{storey}:{s}:{shape}", 1 / (1 / m1 + lower + N * N / (above if storey == 2 else below))
+    yield "1 wall", m1
+
+
+def impacts_of_rows():
+    """All masses are free: as if two met of which m is the reduced mass."""
+    m1, below, above, speed, e, k = 5.0, 3.0, 2.0, 0.5, 0.6, 2.0e5
+    head = f"stop 2\nbuilding 1\nmass {m1}\nstiffness 0\nvelocity {speed}\n"
+    head += f"building 2\nmass {below} {above}\nstiffness 0 0\n"
+    for places, m in columns_and_walls(m1, below, above):
+        both = (("start_s", 0.02, 1e-17), ("approach_velocity", speed, 1e-16))
+        parting = ("separation_velocity", e * speed, 2e-16)
+        impulse = ("impulse", (1 + e) * m * speed, 4e-16 * m)
+        loss = ("dissipated_energy", m * (1 - e * e) * speed**2 / 2, 4e-16 * m)
+        returned = (*both, parting, impulse, loss)
+        yield head + f"contact {places} 0.01 stereomechanical restitution {e}\n", returned
+        yield head + f"contact {places} 0.01 kelvin_voigt stiffness {k} restitution {e}\n", returned
+        peak = ("peak_force", speed * math.sqrt(k * m), 1e-12)
+        yield head + f"contact {places} 0.01 linear stiffness {k}\n", (*both, peak)
+
+
+def impacts_at_once():
+    """Contacts that share a floor and meet at once: w = V' + e V <= 0 for each, complementary to its impulse."""
+    l, r1, r2, v, e1, e2 = 5.0, 2.0, 3.0, 0.7, 0.2, 0.9
+    after = (l * v - r1 * e1 * v - r2 * e2 * v) / (l + r1 + r2)
+    buildings = f"stop 0.1\nbuilding 1\nmass {l}\nstiffness 0\nvelocity {v}\n"
+    buildings += f"building 2\nmass {r1} {r2}\nstiffness 0 0\n"
+    law = "0.01 stereomechanical restitution"
+    yield (
+        buildings + f"contact 1 1 {law} {e1}\ncontact 1 2 {law} {e2}\n",
+        (("contact", 2, 0.0), ("impulse", r2 * (after + e2 * v), 1e-15)),
+    )
+    # L rests against a wall and is hit by R: it stays where it is, and the wall takes what R gives.
+    buildings = f"stop 0.1\nbuilding 1\nmass {l}\nstiffness 0\nbuilding 1\nmass {r1}\nstiffness 0\nvelocity {-v}\n"
+    hit, rests = f"contact 1 1 {law} {e2}\n", "contact wall left:1 0 stereomechanical restitution 0.3\n"
+    impulse = ("impulse", (1 + e2) * r1 * v, 1e-15)
+    yield buildings + hit + rests, (("contact", 2, 0.0), impulse, ("separation_velocity", 0.0, 1e-30))
+    yield buildings + rests + hit, (("contact", 2, 0.0), impulse, ("separation_velocity", e2 * v, 2e-16))
+
+
+def held_by_columns():
+    """A mass m on a spring k1 rests against the columns of a first storey k2 with a mass M, u = N w: w'' = -W^2 w with
+    W^2 = (k2 + N^2 k1) / (M + N^2 m). The reaction is N (m W^2 - k1) w, w = w0 cos(W t), and ends where w passes 0."""
+    m, M, k1, k2, N, w0 = 2.0, 3.0, 50.0, 700.0, 0.75, 0.0625
+    frequency = math.sqrt((k2 + N * N * k1) / (M + N * N * m))
+    peak = N * (m * frequency**2 - k1) * w0
+    yield (
+        f"stop 0.2\nbuilding 1\nmass {m}\nstiffness {k1}\ndisplacement {N * w0}\n"
+        f"building 1\nmass {M}\nstiffness {k2}\ndisplacement {w0}\n"
+        f"contact 1 columns:1:{N}:straight 0 stereomechanical restitution 0.5\n",
+        (("start_s", 0.0, 0.0), ("end_s", math.pi / 2 / frequency, 1e-15), ("peak_force", peak, 4e-15),
+         ("impulse", peak / frequency, 1e-15)),
+    )
+
+
 def episodes(program, folder, scene):
     subprocess.run([program, "-", folder / "case"], input=scene, text=True, check=True, stdout=subprocess.DEVNULL)
     lines = [line for line in (folder / "case.impacts.csv").read_text().splitlines() if not line.startswith("#")]
@@ -117,7 +177,8 @@ def main():
         sources = sorted(HERE.glob("*.c"))
         subprocess.run(["gcc", "-O2", "-o", program, *sources, "-lquadmath", "-lm"], check=True)
         checks = [(law, *case, impact(program, folder, law)) for law, *case in cases()]
-        for scene, expected in pressed_pairs():
+        scenes = (pressed_pairs, impacts_of_rows, impacts_at_once, held_by_columns)
+        for scene, expected in (case for some in scenes for case in some()):
             rows = episodes(program, folder, "output_step 1\n" + scene)
             checks += [(scene, *case, rows[-1]) for case in expected]
         for law, quantity, expected, tolerance, row in checks:

@@ -8,7 +8,24 @@
 typedef struct {
     double k_over_m[MAX_FLOORS][MAX_FLOORS], c_over_m[MAX_FLOORS][MAX_FLOORS];
     double by_d[MAX_STAGES][MAX_CONTACTS], by_rate[MAX_STAGES][MAX_CONTACTS]; /* of the contact forces */
+    double weight[MAX_CONTACTS][MAX_WEIGHTS], weight_over_m[MAX_CONTACTS][MAX_WEIGHTS];
+    double held_inverse[MAX_CONTACTS][MAX_CONTACTS];
 } Jacobian;
+
+static void round_rows(const Solver *solver, Jacobian *jacobian)
+{
+    const Scene *scene = solver->scene;
+    const Phases *phases = &solver->phases;
+    for (int c = 0; c < scene->contacts; c++)
+        for (int w = 0; w < scene->contact[c].weights; w++) {
+            real weight = scene->contact[c].weight[w];
+            jacobian->weight[c][w] = (double)weight;
+            jacobian->weight_over_m[c][w] = (double)(weight / scene->mass[scene->contact[c].floor[w]]);
+        }
+    for (int i = 0; i < phases->held; i++)
+        for (int j = 0; j < phases->held; j++)
+            jacobian->held_inverse[i][j] = (double)phases->held_inverse[i][j];
+}
 
 static void differentiate(const Solver *solver, const Step *step, Jacobian *jacobian)
 {
@@ -19,6 +36,7 @@ static void differentiate(const Solver *solver, const Step *step, Jacobian *jaco
             jacobian->k_over_m[i][k] = (double)solver->k_over_m[i][k];
             jacobian->c_over_m[i][k] = (double)solver->c_over_m[i][k];
         }
+    round_rows(solver, jacobian);
     for (int j = 0; j < solver->gauss.stages; j++)
         for (int c = 0; c < scene->contacts; c++) {
             const Point *p = &step->point[j + 1];
@@ -34,11 +52,42 @@ static void differentiate(const Solver *solver, const Step *step, Jacobian *jaco
         }
 }
 
+/* The row of contact c times a vector of all floors. */
+static double row_times(const Solver *solver, const Jacobian *jacobian, int c, const double *floors)
+{
+    const Contact *contact = &solver->scene->contact[c];
+    double sum = 0;
+    for (int w = 0; w < contact->weights; w++)
+        sum += jacobian->weight[c][w] * floors[contact->floor[w]];
+    return sum;
+}
+
+static void push(const Solver *solver, const Jacobian *jacobian, int c, double force, double *a)
+{
+    const Contact *contact = &solver->scene->contact[c];
+    for (int w = 0; w < contact->weights; w++)
+        a[contact->floor[w]] -= jacobian->weight_over_m[c][w] * force;
+}
+
+/* The reactions of the contacts that are held together. */
+static void push_held(const Solver *solver, const Jacobian *jacobian, double *a)
+{
+    const Phases *phases = &solver->phases;
+    double rate[MAX_CONTACTS];
+    for (int k = 0; k < phases->held; k++)
+        rate[k] = row_times(solver, jacobian, phases->held_contact[k], a);
+    for (int k = 0; k < phases->held; k++) {
+        double force = 0;
+        for (int l = 0; l < phases->held; l++)
+            force += jacobian->held_inverse[k][l] * rate[l];
+        push(solver, jacobian, phases->held_contact[k], force, a);
+    }
+}
+
 /* a = Jacobian at stage j times (u, v). */
 static void apply(const Solver *solver, const Jacobian *jacobian, int j, const double *u, const double *v, double *a)
 {
     const Scene *scene = solver->scene;
-    double force[MAX_CONTACTS];
     for (int i = 0; i < scene->floors; i++) {
         a[i] = 0;
         for (int e = 0; e < solver->entries[i]; e++) {
@@ -47,16 +96,12 @@ static void apply(const Solver *solver, const Jacobian *jacobian, int j, const d
         }
     }
     for (int c = 0; c < scene->contacts; c++) {
-        int l = scene->contact[c].left, r = scene->contact[c].right;
-        force[c] = solver->phases.mode[c] == STUCK
-                       ? (double)scene->contact[c].mass * (a[l] - a[r])
-                       : jacobian->by_d[j][c] * (u[l] - u[r]) + jacobian->by_rate[j][c] * (v[l] - v[r]);
+        double by_d = jacobian->by_d[j][c], by_rate = jacobian->by_rate[j][c];
+        if (by_d != 0 || by_rate != 0)
+            push(solver, jacobian, c,
+                 by_d * row_times(solver, jacobian, c, u) + by_rate * row_times(solver, jacobian, c, v), a);
     }
-    for (int c = 0; c < scene->contacts; c++) {
-        int l = scene->contact[c].left, r = scene->contact[c].right;
-        a[l] -= force[c] / (double)scene->mass[l];
-        a[r] += force[c] / (double)scene->mass[r];
-    }
+    push_held(solver, jacobian, a);
 }
 
 typedef double StageVectors[MAX_STAGES][MAX_FLOORS];

@@ -70,7 +70,9 @@ real guard_rate(const Solver *solver, Guard guard, const Point *p)
 real guard_scale(const Solver *solver, Guard guard)
 {
     const Contact *contact = &solver->scene->contact[guard.contact];
-    int i = contact->left;
+    real largest = 0; /* stiffness over mass */
+    for (int w = 0; w < contact->weights; w++)
+        largest = fmaxq(largest, solver->k_over_m[contact->floor[w]][contact->floor[w]]);
     switch (guard.quantity) {
     case PENETRATION:
         return solver->u_scale;
@@ -79,7 +81,7 @@ real guard_scale(const Solver *solver, Guard guard)
     case PUSH:
         return fabsq(law_push(&contact->law, solver->v_scale, solver->u_scale, solver->v_scale));
     case REACTION:
-        return contact->mass * solver->k_over_m[i][i] * solver->u_scale;
+        return contact->mass * largest * solver->u_scale;
     }
     return 0;
 }

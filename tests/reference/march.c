@@ -46,13 +46,13 @@ static void accept(Run *run)
         if (run->fresh[c])
             run->H_entry[c] = run->step.H;
         run->fresh[c] = false;
-        if (solver->phases.mode[c] == STUCK) { /* no drift from rounding */
+        if (solver->phases.mode[c] == STUCK)
             run->now.d[c] = 0;
-            equalise(run, c);
-        }
     }
+    hold_together(run); /* no drift from rounding */
     complete_point(solver, &run->now);
     update_scales(run);
+    run->events_now = 0;
     solver->steps++;
 }
 
@@ -185,6 +185,8 @@ static void try_step(Run *run, real t_end)
     bool found = find_event(run, limit, &event);
     real H_event = found ? clock_time(clock, H, event.x) : H;
     if (found && event.x == 0) {
+        if (++run->events_now > 1000)
+            fail("events without end at t = %.17g", (double)run->now.t);
         fire(run, event.guard);
     } else if (found && release_clock(run, event.guard).q > 1) {
         if (!step_to_release(run, event.guard, H_event))

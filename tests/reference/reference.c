@@ -1,5 +1,5 @@
 /*
- * Reference solver: two buildings that collide in an earthquake, in quadruple precision.
+ * Reference solver: buildings that collide in an earthquake, in quadruple precision.
  *
  *   gcc -O2 -o reference *.c -lquadmath -lm        (in this folder)
  *   ./reference INPUT OUTPUT [--stages N] [--tolerance T] [--proof] [--made-by TEXT]
@@ -30,11 +30,17 @@
  *     damping ratio 0.01           the same in every mode; after mass and stiffness
  *     damping ratios 0.01 0.02     per mode, lowest first
  *     damping rayleigh 0.05 1 2    ratio and two modes
+ *     damping dashpots 10 8        N s/m, per storey
  *     damping_row 10 -5            one line per row of the matrix
  *     displacement 0 0.01          at the start; optional, as is velocity
- *   building 3
+ *   building 3                     the right one; may be left out
  *     ...
- *   contact LEFT_FLOOR RIGHT_FLOOR GAP LAW [stiffness K] [exponent N] [restitution E] [damping_formula NAME]
+ *   contact LEFT RIGHT GAP LAW [stiffness K] [exponent N] [restitution E] [damping_formula NAME]
+ *
+ * LEFT and RIGHT say what is on the left and on the right of a contact: the number of a floor (of the left building on
+ * the left, of the right one on the right), the columns of a storey, columns:STOREY:POSITION:SHAPE with a position
+ * between 0 and 1 and the shape fixed or straight, or a wall. A floor of either building beside a wall may be on either
+ * side of it: left:FLOOR, right:FLOOR. Contacts follow the buildings.
  */
 #include "reference.h"
 

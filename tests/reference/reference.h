@@ -7,7 +7,7 @@
 
 typedef __float128 real;
 
-enum { MAX_FLOORS = 64, MAX_CONTACTS = 32, MAX_STAGES = 32 };
+enum { MAX_FLOORS = 64, MAX_CONTACTS = 32, MAX_STAGES = 32, MAX_WEIGHTS = 4 };
 
 /* ---- scene.c: what is to be solved ---- */
 
@@ -25,10 +25,13 @@ typedef struct {
     bool exact_clock; /* false: no such q up to 10 exists, s only tames the singularity */
 } Law;
 
+/* d = sum of weight times displacement of a few floors, minus the gap. A force F pushes each of them with -weight F. */
 typedef struct {
-    int left, right; /* floors, counted from 0 in the vector of all floors */
+    int weights;
+    int floor[MAX_WEIGHTS]; /* counted from 0 in the vector of all floors */
+    real weight[MAX_WEIGHTS];
     real gap;
-    real mass; /* m_left m_right / (m_left + m_right) */
+    real mass; /* 1 / (sum of weight^2 / mass of the floor) */
     Law law;
 } Contact;
 
@@ -53,6 +56,19 @@ void read_scene(const char *path, Scene *scene);
 
 /* Ends the program with a message. */
 _Noreturn void fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* ---- row.c: contacts as rows of weights over the floors ---- */
+
+void add_weight(Contact *contact, int floor, real weight);
+real reduced_mass(const Scene *scene, const Contact *contact);
+/* The row of a contact times a vector of all floors. */
+real along(const Contact *contact, const real *floors);
+/* What a force (impulse) of a contact does to accelerations (velocities) of all floors. */
+void push_apart(const Scene *scene, const Contact *contact, real force, real *floors);
+/* What a unit force of contact b takes from the relative acceleration of contact a. */
+real coupling(const Scene *scene, const Contact *a, const Contact *b);
+/* Solves a x = b for a symmetric positive definite a of order n, which is overwritten; x replaces b. */
+void solve_linear(int n, real a[MAX_CONTACTS][MAX_CONTACTS], real *b);
 
 /* ---- structure.c: damping matrices from ratios ---- */
 
@@ -112,8 +128,10 @@ typedef struct {
 
 /* State of the contacts during one step. */
 typedef struct {
-    Mode mode[MAX_CONTACTS];
+    Mode mode[MAX_CONTACTS]; /* changed by set_mode */
     real V[MAX_CONTACTS]; /* divisor of the law: approach velocity, not below the floor; 0: no damping */
+    int held, held_contact[MAX_CONTACTS]; /* those that are STUCK */
+    real held_inverse[MAX_CONTACTS][MAX_CONTACTS]; /* of their couplings: reactions from relative accelerations */
 } Phases;
 
 typedef struct {
@@ -140,6 +158,9 @@ typedef struct {
 } Solver;
 
 void prepare_solver(Solver *solver, const Scene *scene, int stages);
+void set_mode(Solver *solver, int contact, Mode mode);
+/* The forces that take the rates of change `rate` (of the STUCK contacts, in their order) away. */
+void held_forces(const Phases *phases, const real *rate, real *force);
 /* Fills rates, forces and accelerations of a point from its t, u, v, d. */
 void complete_point(const Solver *solver, Point *p);
 /* Time derivative of the force of a stuck contact. */
@@ -241,6 +262,7 @@ typedef struct {
     bool fresh[MAX_CONTACTS];   /* just entered: its law has a root where the next step starts */
     real H_open, H_closed;      /* proposed step */
     real H_entry[MAX_CONTACTS]; /* first step of the last episode */
+    int events_now;             /* since the last step */
     Energy energy;
     real initial_energy;
 } Run;
@@ -251,8 +273,15 @@ typedef struct {
 void close_at_start(Run *run);
 /* Changes the mode of the guard's contact, and of others whose guards are 0 at the same time. */
 void fire(Run *run, Guard guard);
-/* Gives both floors of a contact their common velocity, exactly. */
-void equalise(Run *run, int contact);
+
+/* ---- rigid.c: stereomechanical contacts, which share floors or not ---- */
+
+/* Takes the relative velocities of the floors of STUCK contacts away. */
+void hold_together(Run *run);
+/* The coefficient of restitution at an approach velocity; 0 where the rebound would be too slow to matter. */
+real returned_share(const Run *run, int contact, real rate);
+/* The impulses of contact `first` and of those that touch with it. */
+void exchange_momentum(Run *run, int first);
 
 /* ---- march.c ---- */
 

@@ -127,15 +127,16 @@ typedef struct {
     int stiffness_rows, damping_rows;
 } Reader;
 
-static void shear_stiffness(Scene *scene, int first, int n, const real *storey)
+/* Adds springs (dashpots) between the floors to K (C). */
+static void add_storeys(real matrix[MAX_FLOORS][MAX_FLOORS], int first, int n, const real *storey)
 {
     for (int i = 0; i < n; i++) {
         int floor = first + i;
-        scene->K[floor][floor] += storey[i];
+        matrix[floor][floor] += storey[i];
         if (i > 0) {
-            scene->K[floor - 1][floor - 1] += storey[i];
-            scene->K[floor][floor - 1] -= storey[i];
-            scene->K[floor - 1][floor] -= storey[i];
+            matrix[floor - 1][floor - 1] += storey[i];
+            matrix[floor][floor - 1] -= storey[i];
+            matrix[floor - 1][floor] -= storey[i];
         }
     }
 }
@@ -175,6 +176,9 @@ static void read_damping(Reader *reader, const Line *line)
         if (mode_1 < 1 || mode_1 > n || mode_2 < 1 || mode_2 > n)
             fail("line %d: modes out of range", line->number);
         damping_rayleigh(scene, reader->first, n, numbers[0], mode_1, mode_2);
+    } else if (strcmp(kind, "dashpots") == 0) {
+        values(line, 2, n, numbers);
+        add_storeys(scene->C, reader->first, n, numbers);
     } else {
         fail("line %d: unknown damping '%s'", line->number, kind);
     }
@@ -193,7 +197,7 @@ static bool read_building_line(Reader *reader, const Line *line)
     } else if (strcmp(key, "stiffness") == 0) {
         real storey[MAX_FLOORS];
         values(line, 1, n, storey);
-        shear_stiffness(scene, first, n, storey);
+        add_storeys(scene->K, first, n, storey);
     } else if (strcmp(key, "stiffness_row") == 0) {
         if (reader->stiffness_rows == n)
             fail("line %d: more rows than floors", line->number);
@@ -226,17 +230,63 @@ static LawKind law_kind(const char *name, int line)
     fail("line %d: unknown law '%s'", line, name);
 }
 
-/* contact LEFT_FLOOR RIGHT_FLOOR GAP LAW [key value ...] */
+/* The first floor of a building and, in `floors`, their number; 0: left, 1: right. */
+static int first_floor(const Scene *scene, int building, int *floors)
+{
+    *floors = building ? scene->right_floors : scene->left_floors;
+    return building ? scene->left_floors : 0;
+}
+
+static void add_floor(const Scene *scene, Contact *contact, int building, int number, real weight, int line)
+{
+    int floors, first = first_floor(scene, building, &floors);
+    if (number < 1 || number > floors)
+        fail("line %d: no such floor", line);
+    add_weight(contact, first + number - 1, weight);
+}
+
+/* columns:STOREY:POSITION:SHAPE: the columns move as the floors below and above do, in shares 1 - N and N. */
+static void add_columns(const Scene *scene, Contact *contact, int building, const char *place, real sign, int line)
+{
+    int storey;
+    char position[64], shape[16];
+    if (sscanf(place, "columns:%d:%63[^:]:%15s", &storey, position, shape) != 3)
+        fail("line %d: '%s' not understood", line, place);
+    real s = number(position, "input", line), N = strcmp(shape, "straight") == 0 ? s : s * s * (3 - 2 * s);
+    if (!(s > 0 && s < 1) || (strcmp(shape, "straight") != 0 && strcmp(shape, "fixed") != 0))
+        fail("line %d: '%s': a position between 0 and 1, fixed or straight", line, place);
+    if (storey > 1) /* the first storey stands on the ground */
+        add_floor(scene, contact, building, storey - 1, sign * (1 - N), line);
+    add_floor(scene, contact, building, storey, sign * N, line);
+}
+
+/* What is on the left (0) or right (1) of a contact. */
+static void add_place(const Scene *scene, Contact *contact, int side, const char *place, int line)
+{
+    real sign = side ? -1 : 1;
+    if (strcmp(place, "wall") == 0)
+        return;
+    if (strncmp(place, "columns:", 8) == 0)
+        add_columns(scene, contact, side, place, sign, line);
+    else if (strncmp(place, "left:", 5) == 0)
+        add_floor(scene, contact, 0, (int)number(place + 5, "input", line), sign, line);
+    else if (strncmp(place, "right:", 6) == 0)
+        add_floor(scene, contact, 1, (int)number(place + 6, "input", line), sign, line);
+    else
+        add_floor(scene, contact, side, (int)number(place, "input", line), sign, line);
+}
+
+/* contact LEFT RIGHT GAP LAW [key value ...] */
 static void read_contact(Scene *scene, const Line *line)
 {
     if (scene->contacts == MAX_CONTACTS)
         fail("at most %d contacts", MAX_CONTACTS);
     Contact *contact = &scene->contact[scene->contacts++];
-    int left = (int)value(line, 1), right = (int)value(line, 2);
-    if (left < 1 || left > scene->left_floors || right < 1 || right > scene->right_floors)
-        fail("line %d: no such floor", line->number);
-    contact->left = left - 1;
-    contact->right = scene->left_floors + right - 1;
+    *contact = (Contact){.weights = 0};
+    for (int side = 0; side < 2; side++)
+        add_place(scene, contact, side, word(line, 1 + side), line->number);
+    if (contact->weights == 0)
+        fail("line %d: a wall needs a floor", line->number);
     contact->gap = value(line, 3);
     contact->law = (Law){.kind = law_kind(word(line, 4), line->number), .n = 1, .e = 1};
     if (contact->law.kind == HERTZ || contact->law.kind == HERTZ_DAMPED)
@@ -255,21 +305,8 @@ static void read_contact(Scene *scene, const Line *line)
         else
             fail("line %d: unknown key '%s'", line->number, key);
     }
-    real left_mass = scene->mass[contact->left], right_mass = scene->mass[contact->right];
-    contact->mass = left_mass * right_mass / (left_mass + right_mass);
+    contact->mass = reduced_mass(scene, contact);
     prepare_law(&contact->law, contact->mass, formula);
-}
-
-/* The reaction of a stuck contact is computed for each contact by itself: no floor may have two. */
-static void check_shared_floors(const Scene *scene)
-{
-    for (int i = 0; i < scene->contacts; i++)
-        for (int j = 0; j < i; j++) {
-            const Contact *a = &scene->contact[i], *b = &scene->contact[j];
-            if ((a->left == b->left || a->right == b->right) &&
-                (a->law.kind == STEREOMECHANICAL || b->law.kind == STEREOMECHANICAL))
-                fail("a floor in two contacts, one of them stereomechanical, is not implemented");
-        }
 }
 
 void read_scene(const char *path, Scene *scene)
@@ -297,19 +334,18 @@ void read_scene(const char *path, Scene *scene)
             scene->min_approach_velocity = value(&line, 1);
         else if (strcmp(key, "building") == 0 && !scene->right_floors)
             begin_building(&reader, (int)value(&line, 1));
-        else if (strcmp(key, "contact") == 0 && scene->right_floors)
+        else if (strcmp(key, "contact") == 0 && scene->left_floors)
             read_contact(scene, &line);
         else if (!read_building_line(&reader, &line))
             fail("line %d: '%s' not understood here", line.number, key);
     }
     if (file != stdin)
         fclose(file);
-    if (!scene->right_floors || !(scene->stop > 0) || !(scene->output_step > 0))
-        fail("%s: two buildings, stop and output_step are needed", path);
+    if (!scene->left_floors || !(scene->stop > 0) || !(scene->output_step > 0))
+        fail("%s: a building, stop and output_step are needed", path);
     for (int i = 0; i < scene->floors; i++)
         if (!(scene->mass[i] > 0))
             fail("%s: every floor needs a mass > 0", path);
-    check_shared_floors(scene);
     if (scene->record.count)
         scale_record(&scene->record, scale, pga);
 }

@@ -2,15 +2,18 @@
 
     python3 tests/reference/scene_to_input.py SCENE.toml [--step S] [--stop T] [--record FILE] > INPUT
 
-Python 3.11, standard library only. Numbers go through float64, as in the engine.
+Python 3.11, standard library only. Numbers go through float64, as in the engine; levels and positions are worked out
+with the decimal numbers of the scene (`facing.py`).
 """
 import argparse
 import os
 import tomllib
 from decimal import Decimal
 
+from facing import contacts, position
+
 # What is in t or with kN where a scene says so.
-IN_KN_T = {"mass", "stiffness", "stiffness_matrix", "matrix"}
+IN_KN_T = {"mass", "stiffness", "stiffness_matrix", "matrix", "dashpots"}
 
 
 def in_si_units(value, is_scaled=False):
@@ -18,7 +21,7 @@ def in_si_units(value, is_scaled=False):
         return {key: in_si_units(inner, key in IN_KN_T) for key, inner in value.items()}
     if isinstance(value, list):
         return [in_si_units(inner, is_scaled) for inner in value]
-    return float(Decimal(repr(value)) * 1000) if is_scaled else value
+    return value * 1000 if is_scaled else value
 
 
 def numbers(values):
@@ -29,8 +32,8 @@ def damping_lines(damping):
     (kind, value), = damping.items()
     if kind == "ratio":
         return [f"damping ratio {numbers([value])}"]
-    if kind == "ratios":
-        return [f"damping ratios {numbers(value)}"]
+    if kind in ("ratios", "dashpots"):
+        return [f"damping {kind} {numbers(value)}"]
     if kind == "rayleigh":
         first, second = value["modes"]
         return [f"damping rayleigh {numbers([value['ratio']])} {first} {second}"]
@@ -52,8 +55,22 @@ def building_lines(building):
     return lines
 
 
-def contact_line(contact):
-    words = ["contact", str(contact["left_floor"]), str(contact["right_floor"])]
+def place(scene, contact, side):
+    """What is on one side of a contact."""
+    if contact.get("wall") == side:
+        return "wall"
+    if f"{side}_storey" in contact:
+        share = float(contact.get(f"{side}_position", position(scene, contact, side)))
+        return f"columns:{contact[f'{side}_storey']}:{share!r}:{contact.get('column_shape', 'fixed')}"
+    if f"{side}_floor" in contact:
+        return str(contact[f"{side}_floor"])
+    # A wall on the other side of a floor of the other building, which is named on its own side.
+    (building, floor), = ((key[:-6], value) for key, value in contact.items() if key.endswith("_floor"))
+    return f"{building}:{floor}"
+
+
+def contact_line(scene, contact):
+    words = ["contact", *(place(scene, contact, side) for side in ("left", "right"))]
     words += [numbers([contact["gap"]]), contact["law"]]
     for key in ("stiffness", "exponent", "restitution"):
         if key in contact:
@@ -80,16 +97,17 @@ def record_lines(ground, scene_folder, other_record):
 
 def convert(path, step, stop, record):
     with open(path, "rb") as file:
-        scene = tomllib.load(file)
+        scene = tomllib.load(file, parse_float=Decimal)
     if scene.get("units") == "kN-t":
         scene = in_si_units(scene)
     lines = [f"stop {numbers([scene['stop_time'] if stop is None else stop])}", f"output_step {numbers([step])}"]
     lines += record_lines(scene.get("ground", {}), os.path.dirname(path), record)
     if "min_approach_velocity" in scene.get("solver", {}):
         lines.append(f"min_approach_velocity {numbers([scene['solver']['min_approach_velocity']])}")
-    lines += building_lines(scene["left"]) + building_lines(scene["right"])
-    lines += [contact_line(contact) for contact in scene.get("contact", [])]
-    return lines
+    for side in ("left", "right"):
+        if side in scene:
+            lines += building_lines(scene[side])
+    return lines + [contact_line(scene, contact) for contact in contacts(scene)]
 
 
 def main():

@@ -104,7 +104,7 @@ static void start(Run *run)
     start_scales(run);
     for (int c = 0; c < scene->contacts; c++) {
         const Contact *contact = &scene->contact[c];
-        p->d[c] = p->u[contact->left] - p->u[contact->right] - contact->gap;
+        p->d[c] = along(contact, p->u) - contact->gap;
         run->solution->episodes.current[c] = -1;
     }
     complete_point(&run->solver, p);

@@ -55,54 +55,100 @@ void prepare_solver(Solver *solver, const Scene *scene, int stages)
             }
 }
 
-static real contact_force(const Solver *solver, int c, const Point *p)
+void set_mode(Solver *solver, int contact, Mode mode)
 {
-    const Contact *contact = &solver->scene->contact[c];
-    Mode mode = solver->phases.mode[c];
-    if (mode == STUCK) /* the force that makes both floors accelerate alike; p->a is without contacts here */
-        return contact->mass * (p->a[contact->left] - p->a[contact->right]);
-    return law_force(&contact->law, mode, solver->phases.V[c], p->d[c], p->rate[c]);
+    Phases *phases = &solver->phases;
+    const Contact *of = solver->scene->contact;
+    real matrix[MAX_CONTACTS][MAX_CONTACTS], column[MAX_CONTACTS];
+    phases->mode[contact] = mode;
+    phases->held = 0;
+    for (int c = 0; c < solver->scene->contacts; c++)
+        if (phases->mode[c] == STUCK)
+            phases->held_contact[phases->held++] = c;
+    int n = phases->held;
+    for (int k = 0; k < n; k++) {
+        for (int i = 0; i < n; i++) {
+            column[i] = i == k;
+            for (int j = 0; j < n; j++)
+                matrix[i][j] = coupling(solver->scene, &of[phases->held_contact[i]], &of[phases->held_contact[j]]);
+        }
+        solve_linear(n, matrix, column);
+        for (int i = 0; i < n; i++)
+            phases->held_inverse[i][k] = column[i];
+    }
 }
 
-real reaction_rate(const Solver *solver, int c, const Point *p)
+void held_forces(const Phases *phases, const real *rate, real *force)
 {
-    const Contact *contact = &solver->scene->contact[c];
-    int floor[2] = {contact->left, contact->right};
-    real jerk[2];
-    for (int side = 0; side < 2; side++) {
-        int i = floor[side];
-        jerk[side] = -solver->segment_slope;
+    for (int k = 0; k < phases->held; k++) {
+        force[k] = 0;
+        for (int l = 0; l < phases->held; l++)
+            force[k] += phases->held_inverse[k][l] * rate[l];
+    }
+}
+
+/* -(K x + C y) / m. */
+static void restore(const Solver *solver, const real *x, const real *y, real *out)
+{
+    for (int i = 0; i < solver->scene->floors; i++) {
+        real sum = 0;
         for (int e = 0; e < solver->entries[i]; e++) {
             int j = solver->column[i][e];
-            jerk[side] -= solver->k_over_m[i][j] * p->v[j] + solver->c_over_m[i][j] * p->a[j];
+            sum += solver->k_over_m[i][j] * x[j] + solver->c_over_m[i][j] * y[j];
         }
+        out[i] = -sum;
     }
-    return contact->mass * (jerk[0] - jerk[1]);
+}
+
+real reaction_rate(const Solver *solver, int contact, const Point *p)
+{
+    const Scene *scene = solver->scene;
+    const Phases *phases = &solver->phases;
+    real jerk[MAX_FLOORS], rate[MAX_CONTACTS] = {0}, force[MAX_CONTACTS];
+    restore(solver, p->v, p->a, jerk);
+    for (int i = 0; i < scene->floors; i++)
+        jerk[i] -= solver->segment_slope;
+    for (int c = 0; c < scene->contacts; c++)
+        if (phases->mode[c] != STUCK)
+            push_apart(scene, &scene->contact[c],
+                       law_force_rate(&scene->contact[c].law, phases->mode[c], phases->V[c], p->d[c], p->rate[c],
+                                      p->rate_change[c]),
+                       jerk);
+    for (int k = 0; k < phases->held; k++)
+        rate[k] = along(&scene->contact[phases->held_contact[k]], jerk);
+    held_forces(phases, rate, force);
+    for (int k = 0; k < phases->held; k++)
+        if (phases->held_contact[k] == contact)
+            return force[k];
+    return 0;
 }
 
 void complete_point(const Solver *solver, Point *p)
 {
     const Scene *scene = solver->scene;
+    const Phases *phases = &solver->phases;
+    real rate[MAX_CONTACTS], force[MAX_CONTACTS];
     p->ground = solver->segment_ground + solver->segment_slope * (p->t - solver->segment_time);
-    for (int i = 0; i < scene->floors; i++) {
-        real sum = 0;
-        for (int e = 0; e < solver->entries[i]; e++) {
-            int j = solver->column[i][e];
-            sum += solver->k_over_m[i][j] * p->u[j] + solver->c_over_m[i][j] * p->v[j];
-        }
-        p->a[i] = -p->ground - sum;
-    }
-    for (int c = 0; c < scene->contacts; c++) {
-        p->rate[c] = p->v[scene->contact[c].left] - p->v[scene->contact[c].right];
-        p->force[c] = contact_force(solver, c, p);
-    }
+    restore(solver, p->u, p->v, p->a);
+    for (int i = 0; i < scene->floors; i++)
+        p->a[i] -= p->ground;
     for (int c = 0; c < scene->contacts; c++) {
         const Contact *contact = &scene->contact[c];
-        p->a[contact->left] -= p->force[c] / scene->mass[contact->left];
-        p->a[contact->right] += p->force[c] / scene->mass[contact->right];
+        p->rate[c] = along(contact, p->v);
+        p->force[c] = law_force(&contact->law, phases->mode[c], phases->V[c], p->d[c], p->rate[c]);
+        if (p->force[c] != 0)
+            push_apart(scene, contact, p->force[c], p->a);
+    }
+    /* the reactions make the floors of contacts that are held together accelerate alike */
+    for (int k = 0; k < phases->held; k++)
+        rate[k] = along(&scene->contact[phases->held_contact[k]], p->a);
+    held_forces(phases, rate, force);
+    for (int k = 0; k < phases->held; k++) {
+        p->force[phases->held_contact[k]] = force[k];
+        push_apart(scene, &scene->contact[phases->held_contact[k]], force[k], p->a);
     }
     for (int c = 0; c < scene->contacts; c++)
-        p->rate_change[c] = p->a[scene->contact[c].left] - p->a[scene->contact[c].right];
+        p->rate_change[c] = along(&scene->contact[c], p->a);
 }
 
 /* ---- collocation ---- */
@@ -131,9 +177,7 @@ static void integrate_displacement(const Solver *solver, const Step *step, const
     }
     /* from the changes, not from u: so d keeps its leading digits where it is small */
     for (int c = 0; c < scene->contacts; c++)
-        p->d[c] = solver->phases.mode[c] == STUCK
-                      ? 0
-                      : start->d[c] + (change[scene->contact[c].left] - change[scene->contact[c].right]);
+        p->d[c] = solver->phases.mode[c] == STUCK ? 0 : start->d[c] + along(&scene->contact[c], change);
 }
 
 static void time_weights(const Solver *solver, const Step *step, const real *row, real *weight)
