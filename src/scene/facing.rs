@@ -1,7 +1,7 @@
 //! `[facing]`: the contacts of two buildings by the levels of their floors.
 
 use super::contact_pair::{ColumnShape, ContactPair, Face};
-use super::levels::Heights;
+use super::levels::{Heights, ROUNDING};
 use super::side::Side;
 use crate::contact::ImpactLaw;
 
@@ -31,7 +31,7 @@ pub(super) fn contacts(heights: [&Heights; 2], level_tolerance: f64, gap: f64, l
 /// What of a building a floor of that level faces, and the lower one of both levels.
 fn opposite(side: Side, building: &Heights, level: f64, tolerance: f64) -> Option<(Face, f64)> {
     if let Some((floor, apart)) = building.nearest_floor(level)
-        && apart <= tolerance
+        && apart <= tolerance + ROUNDING
     {
         return Some((Face::Floor(side, floor), level.min(building.level(floor))));
     }

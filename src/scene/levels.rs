@@ -5,6 +5,9 @@ use std::fmt::Display;
 /// m: floors whose levels differ by no more meet each other, where a scene does not say otherwise.
 pub const LEVEL_TOLERANCE: f64 = 0.1;
 
+/// m: levels are sums of heights; a smaller difference of two is rounding.
+pub const ROUNDING: f64 = 1e-9;
+
 /// Heights of the storeys of a building.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heights {
@@ -38,10 +41,15 @@ impl Heights {
         floors.min_by(|(_, one), (_, other)| one.total_cmp(other))
     }
 
+    /// Whether a level is between the floors of a storey, counted from 1.
+    pub fn is_inside(&self, storey: usize, level: f64) -> bool {
+        level > self.level(storey - 1) + ROUNDING && level < self.level(storey) - ROUNDING
+    }
+
     /// The storey, counted from 1, between whose floors a level is, and the position in it.
     pub fn storey_at(&self, level: f64) -> Option<(usize, f64)> {
-        let inside = |storey| Some((storey, self.position(storey, level)?));
-        (1..=self.storeys.len()).filter_map(inside).find(|(_, position)| *position > 0.0 && *position < 1.0)
+        let storey = (1..=self.storeys.len()).find(|storey| self.is_inside(*storey, level))?;
+        Some((storey, self.position(storey, level)?))
     }
 }
 

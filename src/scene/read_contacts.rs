@@ -92,7 +92,7 @@ fn faces<'t>(section: &mut Section<'t>, buildings: [&Building; 2]) -> [Face; 2] 
     match &keys.storeys {
         [Some(_), Some(right)] => {
             right.refuse("a floor on one side: the columns of two storeys do not reach each other");
-            [Face::Floor(Side::Left, 0), Face::Floor(Side::Right, 0)]
+            [Face::Wall, Face::Wall]
         }
         [Some(storey), None] if keys.floors[0].is_none() => {
             let floor = floor(section, &keys, Side::Right);
@@ -150,7 +150,7 @@ fn at_wall(section: &Section<'_>, keys: &Keys<'_>, wall: &Item<'_>) -> [Face; 2]
         [None, Some(right)] => Face::Floor(Side::Right, right.count()),
         [Some(_), Some(right)] => {
             right.refuse("one floor only at a wall");
-            Face::Floor(Side::Left, 0)
+            Face::Wall
         }
         [None, None] => {
             section.missing("left_floor", "a floor, counted from 1, here or as right_floor");
@@ -212,12 +212,12 @@ fn position_by_levels(
     // Numbers out of range are refused where the others of their kind are.
     let level = (1..=other.storeys.len()).contains(&floor).then(|| other.level(floor))?;
     let position = own.position(storey, level)?;
-    if position > 0.0 && position < 1.0 || !position.is_finite() {
+    if own.is_inside(storey, level) || !position.is_finite() {
         return Some(position).filter(|position| position.is_finite());
     }
     let hits = match (own.storey_at(level), own.nearest_floor(level)) {
         (Some((storey, position)), _) => format!("is in storey {storey}, at {}", in_metres(position)),
-        (None, Some((floor, 0.0))) => format!("is that of {side} floor {floor}"),
+        (None, Some((floor, apart))) if apart <= LEVEL_TOLERANCE => format!("is that of {side} floor {floor}"),
         _ => format!("is not between {side} floors"),
     };
     item.refuse(format!(

@@ -5,7 +5,7 @@ use super::table::{Row, Table, Type, Variability};
 use super::unit::Unit;
 use crate::contact::LawKey;
 use crate::engine::{PeakOf, Side, StoreyPeak};
-use crate::scene::{Building, ContactPair, Damping, Scaling, Scene, Stiffness, rule};
+use crate::scene::{Building, ContactPair, Damping, Scaling, Scene, Stiffness, in_metres, rule};
 
 // The motion that the nominal values stand for: m, m/s and m/s2.
 const DISPLACEMENT: f64 = 0.01;
@@ -94,12 +94,14 @@ impl Table {
             let most = building.mass[floor] * rule::MOST_ACCELERATION;
             row.between(-most, most).nominal(building.mass[floor] * ACCELERATION);
         }
+        let level = building.heights.as_ref().map(|heights| format!(", level {} m", in_metres(heights.level(i))));
+        let level = level.unwrap_or_default();
         for (output, quantity, ty, frame, scale) in [
             (Output::Displacement(side, floor), "displacement", METRE, "relative to the ground", DISPLACEMENT),
             (Output::Velocity(side, floor), "velocity", METRE_PER_SECOND, "relative to the ground", VELOCITY),
             (Output::Acceleration(side, floor), "acceleration", METRE_PER_SECOND_SQUARED, "absolute", ACCELERATION),
         ] {
-            let about = format!("{quantity} of floor {i}, {frame}");
+            let about = format!("{quantity} of floor {i}{level}, {frame}");
             self.add(output, &format!("{name}.{quantity}[{i}]"), ty, &about).nominal(scale);
         }
         let (about, ty) = (format!("mass of floor {i}"), Type::Real(Unit::Kilogram));

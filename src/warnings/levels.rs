@@ -2,7 +2,7 @@
 
 use super::facts::Facts;
 use super::found::Found;
-use crate::scene::{ContactPair, Face, Heights, LEVEL_TOLERANCE, Scene, Side, in_metres};
+use crate::scene::{ContactPair, Face, Heights, LEVEL_ROUNDING, LEVEL_TOLERANCE, Scene, Side, in_metres};
 
 /// Storeys beyond are in another unit, m.
 const HIGHEST_STOREY: f64 = 30.0;
@@ -42,7 +42,8 @@ fn look_for_buried_floors(scene: &Scene, found: &mut Found) {
     for (side, own, other) in [(Side::Left, left, right), (Side::Right, right, left)] {
         let base = other.base_level;
         let is_met = |floor: usize| scene.contacts.iter().any(|pair| has_floor(pair, side, floor));
-        let buried = (1..=own.storeys.len()).find(|floor| own.level(*floor) <= base && !is_met(*floor));
+        let buried =
+            (1..=own.storeys.len()).find(|floor| own.level(*floor) <= base + LEVEL_ROUNDING && !is_met(*floor));
         if let Some(floor) = buried {
             let text = format!(
                 "{side} floor {floor}, at {} m, is not above the ground floor of the other building, at {} m, and meets \
@@ -67,7 +68,7 @@ fn look_at_pair(scene: &Scene, (index, pair): (usize, &ContactPair), tolerance: 
         (Face::Floor(Side::Left, left), Face::Floor(Side::Right, right)) => {
             let (Some(of_left), Some(of_right)) = (heights(Side::Left), heights(Side::Right)) else { return };
             let levels = [of_left.level(left), of_right.level(right)];
-            if (levels[0] - levels[1]).abs() <= tolerance {
+            if (levels[0] - levels[1]).abs() <= tolerance + LEVEL_ROUNDING {
                 return;
             }
             let text = format!(

@@ -1,7 +1,7 @@
 //! Rubbish is refused, not fatal.
 
 use super::{SCENE, messages};
-use pounding::scene::{Damping, Scene, Stiffness};
+use pounding::scene::{Damping, Face, Scene, Side, Stiffness};
 use proptest::prelude::*;
 
 /// Pieces of TOML that are likely to reach far into the reader.
@@ -104,7 +104,7 @@ proptest! {
         scene.right.mass = mass;
         scene.right.stiffness = Stiffness::Shear(stiffness);
         scene.right.damping = Damping::Rayleigh { ratio: gap, modes };
-        scene.contacts[0].left_floor = floor;
+        scene.contacts[0].left = Face::Floor(Side::Left, floor);
         scene.contacts[0].gap = gap;
         if let Err(error) = scene.check() {
             prop_assert!(!error.problems.is_empty());

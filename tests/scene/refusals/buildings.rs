@@ -115,16 +115,16 @@ fn matrices() {
 
 #[test]
 fn dampings() {
-    const MISSING: &str = "expected one of ratio, ratios, rayleigh, matrix";
+    const MISSING: &str = "expected one of ratio, ratios, rayleigh, dashpots, matrix";
     assert_eq!(messages(&edited("{ ratio = 0.01 }", "{}")), [format!("left.damping = {{}}: {MISSING}")]);
-    let typo = "left.damping.rato = 0.01: expected a known key (ratio, ratios, rayleigh, matrix); did you mean ratio?";
+    let typo = "left.damping.rato = 0.01: expected a known key (ratio, ratios, rayleigh, dashpots, matrix); did you mean ratio?";
     let missing = format!("left.damping = {{ rato = 0.01 }}: {MISSING}");
     assert_eq!(messages(&edited("{ ratio = 0.01 }", "{ rato = 0.01 }")), [missing.as_str(), typo]);
     expect(&[
         (
             "damping = { ratio = 0.01 }",
             "",
-            &["left.damping: expected a table with one of ratio, ratios, rayleigh, matrix (missing)"],
+            &["left.damping: expected a table with one of ratio, ratios, rayleigh, dashpots, matrix (missing)"],
         ),
         ("{ ratio = 0.01 }", "0.01", &["left.damping = 0.01: expected a table, such as { ratio = 0.01 }"]),
         (

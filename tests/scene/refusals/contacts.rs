@@ -23,7 +23,7 @@ fn contacts() {
         (
             "left_floor = 2\nright_floor = 2",
             "left_floor = 1\nright_floor = 1",
-            &["contact[2] = left_floor 1, right_floor 1: expected a pair of floors other than that of contact[1]"],
+            &["contact[2] = left_floor 1, right_floor 1: expected a pair other than that of contact[1]"],
         ),
         ("gap = 0.002\n", "", &["contact[1].gap: expected the clear distance at rest in m (missing)"]),
         ("gap = 0.002\n", "gap = nan\n", &["contact[1].gap = nan: expected a finite distance in m"]),
@@ -32,7 +32,7 @@ fn contacts() {
             "gap = 0.002\n",
             "g = 1\ngap = nan\n",
             &[
-                "contact[1].g = 1: expected a key of law kelvin_voigt (left_floor, right_floor, gap, law, stiffness, \
+                "contact[1].g = 1: expected a key of law kelvin_voigt (left_floor, right_floor, left_storey, right_storey, left_position, right_position, column_shape, wall, gap, law, stiffness, \
                  restitution)",
                 "contact[1].gap = nan: expected a finite distance in m",
             ],
@@ -67,15 +67,17 @@ fn laws() {
         (
             "restitution = 0.65",
             "restitution = 0.65\nexponent = 1.5",
-            &["contact[1].exponent = 1.5: expected a key of law kelvin_voigt (left_floor, right_floor, gap, law, \
-               stiffness, restitution)"],
+            &[
+                "contact[1].exponent = 1.5: expected a key of law kelvin_voigt (left_floor, right_floor, left_storey, right_storey, left_position, right_position, column_shape, wall, gap, law, \
+               stiffness, restitution)",
+            ],
         ),
         (
             "stiffness = 2.0e6",
             "stifness = 2.0e6",
             &[
                 "contact[2].stiffness: expected a finite stiffness > 0 (missing)",
-                "contact[2].stifness = 2.0e6: expected a key of law hertz (left_floor, right_floor, gap, law, stiffness, \
+                "contact[2].stifness = 2.0e6: expected a key of law hertz (left_floor, right_floor, left_storey, right_storey, left_position, right_position, column_shape, wall, gap, law, stiffness, \
                  exponent); did you mean stiffness?",
             ],
         ),
@@ -120,7 +122,7 @@ fn rigid_floors() {
     let overlap = "for law stereomechanical: the floors must not overlap at the start";
     assert_eq!(rigid("-0.00101", ""), [format!("contact[2].gap = -0.00101: expected at least -0.001 {overlap}")]);
     assert_eq!(rigid("nan", ""), ["contact[2].gap = nan: expected a finite distance in m"]);
-    let keys = "a key of law stereomechanical (left_floor, right_floor, gap, law, restitution)";
+    let keys = "a key of law stereomechanical (left_floor, right_floor, left_storey, right_storey, left_position, right_position, column_shape, wall, gap, law, restitution)";
     for key in ["stiffness = 1.0e6", "exponent = 1.5"] {
         assert_eq!(rigid("0.0", key), [format!("contact[2].{key}: expected {keys}")]);
     }
@@ -136,7 +138,7 @@ fn laws_that_do_not_exist() {
     let said = messages(&edited("law = \"hertz\"\nstiffness = 2.0e6", "lav = 1\nstiffness = \"2\""));
     let [missing, lav, stiffness] = said.as_slice() else { panic!("{said:?}") };
     assert_eq!(*missing, format!("contact[2].law: expected a law ({names}) (missing)"));
-    assert!(lav.starts_with("contact[2].lav = 1: expected a known key (left_floor, right_floor, gap, law,"), "{lav}");
+    assert!(lav.starts_with("contact[2].lav = 1: expected a known key (left_floor, right_floor, left_storey, right_storey, left_position, right_position, column_shape, wall, gap, law,"), "{lav}");
     assert_eq!(lav.matches("restitution").count(), 1, "{lav}");
     assert!(lav.ends_with("; did you mean law?"), "{lav}");
     assert_eq!(stiffness, "contact[2].stiffness = \"2\": expected a number");
