@@ -2,17 +2,19 @@
 //!
 //! SI units everywhere: m, s, kg, N. "Left" and "right" are the two buildings and x points from left to right.
 //! Displacements and velocities of floors are relative to the ground, accelerations are absolute. A penetration is
-//! positive while two floors overlap and a contact force is positive in compression.
+//! positive while two faces overlap and a contact force is positive in compression.
 //!
 //! # From equations to files
 //!
 //! | equation | file | source |
 //! |---|---|---|
 //! | M u" + C u' + K u = -M 1 a(t) + forces on the floors, in modal coordinates | `structure/equations.rs` | |
-//! | natural frequencies and shapes; damping by ratios, Rayleigh or matrix | `structure/modes.rs` | \[OgitaAishima2018\], [Chopra2001, section 11.4] |
+//! | natural frequencies and shapes; damping by ratios, Rayleigh, dashpots or matrix | `structure/modes.rs` | \[OgitaAishima2018\], [Chopra2001, section 11.4] |
 //! | exact response to a load that is linear in time | `structure/propagator.rs` | \[NigamJennings1969\] |
 //! | a(t), linear between the samples of the record | `engine/excitation/record.rs` | |
-//! | penetration d = u_left - u_right - gap | `engine/pairs/pair.rs` | |
+//! | penetration d = sum of weight u - gap over the row of a contact: u_left - u_right - gap for two floors | `engine/pairs/pair.rs` | |
+//! | rows: columns move with the floors at their ends, N(s) = 3 s^2 - 2 s^3, and give them the force in the same shares; walls | `scene/contact_pair.rs` | [Przemieniecki1968, chapter 5] |
+//! | levels of floors, and which ones face each other by them | `scene/levels.rs`, `scene/facing.rs` | |
 //! | rigid contact (`stereomechanical`): impulse p = (1 + e) m V; floors held together by a reaction | `engine/rigid/impulses.rs`, `numerics/complementarity.rs` | \[Goldsmith1960\], [BarrosKhatami2013, eqs. 1, 2], \[Moreau1988\], \[LawsonHanson1974\] |
 //! | contact force F(d, v): one file per law, with its source, range and defect | `contact/laws/` | in each file |
 //! | a(e) of `hertz_damped` | `contact/damping_formula.rs` | at each formula |

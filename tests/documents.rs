@@ -3,7 +3,7 @@
 
 use pounding::contact::{DampingFormula, LawInfo, LawKind};
 use pounding::record::Record;
-use pounding::scene::{Scene, law_key};
+use pounding::scene::{ColumnShape, Scene, law_key};
 use pounding::variables::{HIGHEST_OUTPUT_DERIVATIVE, Row, Slot, Table, Type};
 use std::collections::BTreeSet;
 use std::fs;
@@ -85,12 +85,60 @@ fn the_readme_quotes_the_example_as_it_is() {
 }
 
 #[test]
-fn the_guide_quotes_its_scene_up_to_the_first_contact() {
+fn the_guide_quotes_its_scene_and_begins_with_its_heights() {
     let (guide, scene) = (read("docs/guide.md"), read("examples/scenes/offices.toml"));
-    let quoted = between(&guide, "```toml\n", "```").next().unwrap();
-    let (_comment, scene) = scene.split_once("name = ").unwrap();
-    assert_eq!(quoted.strip_prefix("name = ").unwrap().trim_end(), &scene[..quoted.trim_end().len() - "name = ".len()]);
-    assert_eq!(scene.matches("gap = 0.03\n").count(), 3);
+    let (_comment, scene) = scene.split_at(scene.find("name = ").unwrap());
+    let [beginning, whole] = between(&guide, "```toml\n", "```").take(2).collect::<Vec<_>>()[..] else { panic!() };
+    assert_eq!(whole, scene);
+    let mut lines = scene.lines();
+    for line in beginning.lines().filter(|line| !line.is_empty()) {
+        assert!(lines.any(|of_scene| of_scene == line), "{line}");
+    }
+}
+
+#[test]
+fn the_contacts_of_the_guide_are_those_that_one_would_write() {
+    let facing = Scene::from_toml(&read("examples/scenes/offices.toml")).unwrap();
+    let by_hand = Scene::from_toml(&read("tests/problems/offices_pair_by_pair.toml")).unwrap();
+    assert_eq!((facing.contacts, facing.left.mass), (by_hand.contacts, by_hand.left.mass));
+}
+
+#[test]
+fn the_contacts_of_their_page_are_allowed_and_those_of_facing_are_listed() {
+    let page = read("docs/contacts.md");
+    let blocks: Vec<&str> = between(&page, "```toml\n", "```").collect();
+    let (buildings, contacts) = blocks.split_first().unwrap();
+    let with = |contact: &str| Scene::from_toml(&format!("name = \"Page\"\n{buildings}\n{contact}")).unwrap();
+    let count = contacts.iter().map(|contact| with(contact).contacts.len()).collect::<Vec<_>>();
+    assert_eq!(count, [1, 1, 2, 6]);
+    let facing = with(contacts[3]);
+    let listed = facing.contacts.iter().zip(1..).map(|(pair, p)| format!("contact {p}: {}\n", pair.meeting(&facing)));
+    assert_eq!(between(&page, "```text\n", "```").next().unwrap(), listed.collect::<String>());
+    let thin = with(&contacts[3].replace("level_tolerance = 0.4", "level_tolerance = 0.1"));
+    assert_eq!(thin.contacts.len(), 7);
+    for (pair, position) in thin.contacts[4..6].iter().zip(["0.906", "0.1"]) {
+        let at = pair.position().unwrap();
+        assert!(
+            (at - position.parse::<f64>().unwrap()).abs() < 5e-4 && page.contains(&format!("columns at {position}"))
+        );
+    }
+    // Where a position may be left out it is the one that is written.
+    let position = |contact: &str| with(contact).contacts[0].position().unwrap();
+    let (written, left_out) =
+        (position(contacts[1]), position(&contacts[1].replace("right_position", "# right_position")));
+    assert!((left_out - written).abs() < 5e-4, "{left_out}");
+}
+
+/// N(s) of the page is that of the program.
+#[test]
+fn the_shares_of_columns_are_those_of_their_page() {
+    let page = read("docs/contacts.md");
+    for shape in ColumnShape::ALL {
+        let row = page.lines().find(|line| line.starts_with(&format!("| `\"{}\"`", shape.name()))).unwrap();
+        let shares = [0.1, 0.2, 0.5, 0.8].map(|s| shape.share_of_upper_floor(s));
+        let shares = shares.map(|share| format!("{}", (1e9 * share).round() / 1e9)).join(", ");
+        assert!(row.contains(&format!("| {shares} |")), "{row}: {shares}");
+    }
 }
 
 #[test]
@@ -157,14 +205,16 @@ fn every_scene_key_is_in_the_reference() {
     for law in LawKind::ALL {
         text += &format!("[[contact]]\nleft_floor = 1\nright_floor = 1\nlaw = \"{}\"\nx = 0\n", law.info().name);
     }
+    let facing = format!("name = \"A\"\n[left]\n{building}[facing]\nlaw = \"hertz_damped\"\nx = 0\n");
     let reference = section(&read("docs/reference.md"), "## The scene");
     let cells = first_cells(&reference);
     let mut sections = BTreeSet::new();
-    for problem in Scene::from_toml(&text).unwrap_err().problems {
+    for problem in [text, facing].iter().flat_map(|text| Scene::from_toml(text).unwrap_err().problems) {
         let Some(path) = problem.path.strip_suffix('x') else { continue };
         let section = path.split('[').next().unwrap().trim_end_matches('.').replace("right", "left");
         for key in between(&problem.expected, " (", ")").next().unwrap().split(", ") {
-            let is_table = ["left", "right", "ground", "inputs", "contact", "outputs", "solver"].contains(&key);
+            let is_table =
+                ["left", "right", "ground", "inputs", "contact", "facing", "outputs", "solver"].contains(&key);
             let name = format!("{section}.{key}");
             let known = is_table && section.is_empty()
                 || cells.contains(name.trim_start_matches('.'))
@@ -173,7 +223,7 @@ fn every_scene_key_is_in_the_reference() {
         }
         sections.insert(section);
     }
-    assert_eq!(sections.len(), 8, "{sections:?}");
+    assert_eq!(sections.len(), 9, "{sections:?}");
 }
 
 #[test]
@@ -205,7 +255,7 @@ fn the_variables_of_the_reference_are_those_of_the_table() {
     let driven = scene.lines().filter(|line| !line.starts_with("record") && !line.starts_with("pga"));
     let driven: String = driven.flat_map(|line| [line, "\n"]).collect();
     let mut variables = BTreeSet::new();
-    for scene in [&scene, &driven] {
+    for scene in [&scene, &driven, &facing_buildings()] {
         let scene =
             Scene::from_toml(&format!("{scene}[inputs]\nfloor_forces = true\n[outputs]\nenergy = true")).unwrap();
         for row in Table::new(&scene).rows {
@@ -221,14 +271,25 @@ fn the_variables_of_the_reference_are_those_of_the_table() {
     assert_eq!(described, variables);
 }
 
+/// The buildings of the page on contacts, where slabs hit columns.
+fn facing_buildings() -> String {
+    let page = read("docs/contacts.md");
+    let blocks: Vec<&str> = between(&page, "```toml\n", "```").collect();
+    let dashpots = blocks[0].replacen("{ ratio = 0.05 }", "{ dashpots = [1, 1, 1, 1, 1, 1] }", 1);
+    format!("name = \"Page\"\n{dashpots}\n{}", blocks.last().unwrap())
+}
+
 /// All outputs that are numbers have derivatives, which the table tells.
 #[test]
 fn the_derivatives_of_the_coupling_page_are_those_that_there_are() {
     let text = read("examples/scenes/two_blocks.toml");
     let scene = Scene::from_toml(&format!("{text}[outputs]\nenergy = true")).unwrap();
     let is_real_output = |row: &&Row| matches!((row.slot, &row.ty), (Slot::Output(_), Type::Real(_)));
-    let general = |name: &str| ["[1]", "[2]", "[3]"].iter().fold(name.to_owned(), |name, i| name.replace(i, "[i]"));
-    let expected: BTreeSet<String> = (Table::new(&scene).rows.iter().filter(is_real_output))
+    let numbers = (1..=6).map(|i| format!("[{i}]")).collect::<Vec<_>>();
+    let general = |name: &str| numbers.iter().fold(name.to_owned(), |name, i| name.replace(i, "[i]"));
+    let facing = Scene::from_toml(&facing_buildings()).unwrap();
+    let rows = [Table::new(&scene).rows, Table::new(&facing).rows].concat();
+    let expected: BTreeSet<String> = (rows.iter().filter(is_real_output))
         .map(|row| general(&row.name).replace("right", "left").replace("contact[i]", "contact[p]"))
         .collect();
     let table = section(&read("docs/coupling.md"), "## Derivatives of outputs with respect to time");

@@ -8,8 +8,8 @@ use std::fs;
 use std::path::PathBuf;
 
 const FEUP: &str = include_str!("../examples/scenes/feup.toml");
-const OFFICES: &str = include_str!("../examples/scenes/offices.toml");
-const ISOLATED: &str = include_str!("../examples/paper/scenes/isolated.toml");
+const OFFICES: &str = include_str!("problems/offices_pair_by_pair.toml");
+const ISOLATED: &str = include_str!("problems/isolated_beside_a_stiff_mass.toml");
 const FILIATRAULT: &str = include_str!("../examples/paper/scenes/filiatrault.toml");
 
 fn root() -> PathBuf {

@@ -95,7 +95,7 @@ def findings_table():
 def findings():
     return [
         ("two towers under a sine", "[Chau2003]", towers.statements()),
-        ("an isolated building hits a moat wall", "[Komodromos2007]", isolated.statements()),
+        ("an isolated building in its moat", "[Komodromos2007]", isolated.statements()),
         ("frames of 8 and 3 storeys on a shaking table", "[Filiatrault1995]", filiatrault.statements()[1:]),
     ]
 

@@ -9,16 +9,17 @@
 //!     [left]
 //!     mass = [3.65, 3.65]                 # kg, one per floor, lowest first
 //!     stiffness = [2910.0, 2910.0]        # N/m, one per storey; or stiffness_matrix = [[...], ...]
-//!     damping = { ratio = 0.01 }          # or ratios, rayleigh = { ratio, modes = [i, j] }, matrix
+//!     damping = { ratio = 0.01 }          # or ratios, rayleigh = { ratio, modes = [i, j] }, dashpots, matrix
+//!     height = [3.0, 3.0]                 # m, one per storey, and base_level (optional)
 //!
-//!     [right]
+//!     [right]                             # may be left out where no contact is with it
 //!     mass = [3.65]
 //!     stiffness = [2910.0]
 //!     damping = { ratio = 0.01 }
 //!     initial_velocity = [-0.5]           # m/s, likewise initial_displacement (optional)
 //!
 //!     [[contact]]                         # any number of pairs of facing floors
-//!     left_floor = 1                      # counted from 1
+//!     left_floor = 1                      # counted from 1; or right_storey, right_position, column_shape; or wall
 //!     right_floor = 1
 //!     gap = 0.002                         # m
 //!     law = "kelvin_voigt"                # decides which of the following keys there are
@@ -30,11 +31,11 @@
 //! # Ok::<(), pounding::scene::SceneError>(())
 //! ```
 //!
+//! The table `[facing]`, with the keys of a contact's gap and law, makes the contacts from the heights of both buildings.
 //! Masses are in t and forces in kN where the scene begins with `units = "kN-t"`; what has been read is in SI units.
 //!
-//! The optional tables `[ground]` (`record`, `scale` or `pga`), `[inputs]` (`floor_forces`), `[outputs]` (`energy`,
-//! `peaks`) and
-//! `[solver]` (`relative_tolerance`, `min_approach_velocity`) fill the fields of the same names in [`Scene`].
+//! The optional tables `[ground]` (`record`, `scale` or `pga`), `[inputs]` (`floor_forces`), `[outputs]` (`energy`, `peaks`)
+//! and `[solver]` (`relative_tolerance`, `min_approach_velocity`) fill the fields of the same names in [`Scene`].
 //!
 //! A scene is refused with all its problems at once, in the order of the file, each with its path, the value found and
 //! what was expected:
@@ -49,12 +50,13 @@
 //! left.mass[2] = -3.65: expected a finite mass > 0 kg
 //! left.stiffness = [2910.0]: expected 2 numbers, one per storey, not 1
 //! right.mas = [3.65]: expected a known key (mass, stiffness, stiffness_matrix, damping, initial_displacement, \
-//! initial_velocity); did you mean mass?");
+//! initial_velocity, height, base_level); did you mean mass?");
 //! ```
 //!
-//! Where things are: `data` is the scene, [`rule`] says which numbers are allowed, `check` which shapes and combinations,
-//! `read` goes through the keys of the file, `document` is the file as a tree, `syntax` knows what is often written instead
-//! of TOML, `units` converts masses and forces, `files` loads scenes with their records.
+//! Where things are: `data` is the scene, `contact_pair` what meets in it, [`rule`] says which numbers are allowed, `check`
+//! which shapes and combinations, `read` and `read_contacts` go through the keys of the file, `levels` adds up heights,
+//! `facing` makes contacts of them, `meeting` says in words what meets, `document` is the file as a tree, `syntax` knows what
+//! is often written instead of TOML, `units` converts masses and forces, `files` loads scenes with their records.
 
 mod check;
 mod checker;

@@ -61,6 +61,45 @@ def test_the_first_look_is_what_the_guide_says(offices):
         assert sentence in said
 
 
+@pytest.fixture(scope="module")
+def on_a_slope(build):
+    """The offices of section 7: the right one stands lower."""
+    (lower,) = [block.split("```")[0] for block in GUIDE.split("```toml\n") if block.startswith("base_level")]
+    return build(harness.replaced(SCENE, "[right]\n", f"[right]\n{lower}"))
+
+
+def test_the_summary_of_slabs_and_columns_is_what_the_guide_quotes(on_a_slope, tmp_path):
+    printed = harness.run(harness.CARGO_FMU, on_a_slope.scene, "-o", tmp_path / "Slope.fmu")
+    (quoted,) = [block.split("```")[0] for block in GUIDE.split("```text\n") if block.startswith("  contact ")]
+    assert quoted in printed
+
+
+def test_what_the_guide_makes_of_the_columns(on_a_slope):
+    stop = float(on_a_slope.description.defaultExperiment.stopTime)
+    last = on_a_slope.simulate(0.02, stop)[-1]
+    force, shear = last["left.peak_column_force[3]"], last["left.peak_storey_shear[3]"]
+    s, rigidity = 0.625, 30e9 * 0.45**4 / 12 / 2
+    share = 3 * s**2 - 2 * s**3
+    column = 3 * rigidity / (3.2 * s * (1 - s)) ** 3
+    together = shear / 16 + share * force / 4
+    softer = {f"contact[{p}].stiffness": 2.05e9 for p in range(1, 6)}
+    soft = on_a_slope.simulate(0.02, stop, start_values=softer)[-1]["left.peak_column_force[3]"]
+    said = " ".join(GUIDE.split())
+    for sentence in [
+        f"{last['impacts']} impacts instead of 11, and {1e3 * last['left.peak_drift[1]']:.0f} mm of drift",
+        f"with {force / 1e6:.1f} MN.",
+        f"storey shear, {shear / 16e6:.2f} MN, and above the blow N = {share:.3f} of a quarter of the force, "
+        f"{share * force / 4e6:.2f} MN. Together {together / 1e6:.2f} MN",
+        f"stress of {together / 0.45**2 / 1e6:.1f} N/mm2",
+        f"over {column / 1e6:.0f} MN/m, so the four of them by {1e3 * force / (4 * column):.1f} mm",
+        f"takes the force from {force / 1e6:.1f} to {soft / 1e6:.1f} MN.",
+    ]:
+        assert sentence in said, sentence
+    command = [sys.executable, harness.ROOT / "examples/choose_gap.py", on_a_slope.path]
+    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    assert "`contact[5]` closes by 77.5 mm" in said and "contact[5] closes by 77.5 mm" in printed
+
+
 def lasting(scene, folder):
     """The shortest and the longest contact of a run, ms."""
     table = folder / "impacts.csv"
