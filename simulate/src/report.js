@@ -317,7 +317,8 @@ function contactTable() {
 // The largest of each storey and floor, the top first, and of the base; as far as the scene asks for them. Where it has
 // heights each building has the levels of its floors beside them.
 function peakTable() {
-  const quantities = ["peak drift", "peak drift ratio", "peak displacement", "peak acceleration"];
+  const ofStoreys = ["peak drift", "peak drift ratio", "peak storey shear", "peak column force"];
+  const quantities = [...ofStoreys, "peak displacement", "peak acceleration"];
   const last = (column) => (column ? scaled(column.values.at(-1), column.unit) : "");
   const columns = ["left", "right"].flatMap((side) => {
     const of = (quantity) => (groups.get(quantity) ?? []).filter((column) => column.of === side);
