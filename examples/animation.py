@@ -5,9 +5,8 @@ from matplotlib.colors import to_rgb
 from matplotlib.ticker import MaxNLocator
 from PIL import Image
 
-from elevation import Elevation, inner_edges
+from elevation import Elevation, inner_edges, prepare_height
 from engine import ROOT
-from pictures import prepare_height
 from style import BLACK, BUILDINGS, YELLOW, pyplot
 
 plt = pyplot()

@@ -108,3 +108,12 @@ def inner_edges(scene):
         known = sorted((pair.height_on("right", scene.levels), 1e3 * pair.gap) for pair in both) or [(0.0, USUAL_GAP)]
         inner["right"] = np.interp(scene.levels["right"][1:], *zip(*known))
     return inner
+
+
+def prepare_height(axes, scene, more=None):
+    """An upright axis: levels to scale where the scene has them, else floors."""
+    said = "level [m]" if scene.has_levels else "floor; storeys drawn equally high"
+    axes.set_ylabel(f"{said}\n({more})" if more else said)
+    axes.set_ylim(scene.bottom, scene.top + 0.02 * (scene.top - scene.bottom))
+    if not scene.has_levels:
+        axes.set_yticks(range(0, round(scene.top) + 1, max(1, round(scene.top) // 12)))

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from elevation import prepare_height
 from engine import STANDARD_GRAVITY
 from style import ALONE, BLACK, BUILDINGS, FORCE, GREY, OPEN, OVERLAP, VERMILION, WALL, pyplot
 
@@ -227,12 +228,3 @@ def drifts(scene, run, alone, window):
     labels = sorted(lines, key="without contact".__eq__)
     figure.legend([lines[label] for label in labels], labels, loc="outside lower center", ncols=3)
     return figure
-
-
-def prepare_height(axes, scene, more=None):
-    """An upright axis: levels to scale where the scene has them, else floors."""
-    said = "level [m]" if scene.has_levels else "floor; storeys drawn equally high"
-    axes.set_ylabel(f"{said}\n({more})" if more else said)
-    axes.set_ylim(scene.bottom, scene.top + 0.02 * (scene.top - scene.bottom))
-    if not scene.has_levels:
-        axes.set_yticks(range(0, round(scene.top) + 1, max(1, round(scene.top) // 12)))

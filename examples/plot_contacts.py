@@ -13,11 +13,10 @@ from pathlib import Path
 import numpy as np
 
 import scenes
-from elevation import Elevation
 from engine import ROOT
 from layout import Scene, clamped
-from pictures import prepare_height
-from style import BLACK, BUILDINGS, GREY, VERMILION, pyplot, save
+from meetings import LABEL, meetings, number, stand
+from style import BLACK, GREY, VERMILION, pyplot, save
 
 plt = pyplot()
 
@@ -25,7 +24,6 @@ FOLDER = ROOT / "docs/images/contacts"
 WIDTH = 260.0  # mm, of a building that is 40 mm from its neighbour
 LAW = {"gap": 0.04, "law": "linear", "stiffness": 1e9}
 SPAN = {"arrowstyle": "<->", "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
-LABEL = {"ha": "center", "va": "center", "fontsize": 9.5, "zorder": 8}
 
 
 def main():
@@ -38,7 +36,7 @@ def main():
     save(floor_and_columns(pair([3.6, 3.3], [3.6, 4.4, 3.6], [upper])), folder / "columns.png")
     save(floor_and_columns(pair([2.6], [4.4, 3.4], [lowest])), folder / "first_storey.png")
     save(walls(Scene(ROOT / "examples/scenes/isolated.toml")), folder / "walls.png")
-    save(facing(Scene(ROOT / "examples/scenes/neighbours.toml")), folder / "facing.png")
+    save(meetings(Scene(ROOT / "examples/scenes/neighbours.toml")), folder / "facing.png")
 
 
 def pair(left, right, contacts):
@@ -52,22 +50,6 @@ def pair(left, right, contacts):
 
 def building(heights):
     return {**scenes.shear_building(2e5, 2e8, len(heights), 0.05), "height": heights}
-
-
-def stand(axes, scene, width, title, displacements=None, margin=0.5):
-    """The buildings of a scene; displacements, mm, of the floors of each."""
-    elevation = Elevation(axes, scene, width)
-    if displacements is not None:
-        elevation.place(displacements)
-    prepare_height(axes, scene)
-    left, right = elevation.ends()
-    xlim = left - margin * width, right + margin * width
-    height = scene.top - scene.bottom
-    axes.set(xlim=xlim, ylim=(scene.bottom - 0.06 * height, scene.top + 0.08 * height), title=title)
-    axes.set_xticks([])
-    axes.grid(False)
-    elevation.draw_surroundings(axes, xlim)
-    return elevation
 
 
 def push(axes, x, y, length, text, beside=False):
@@ -84,12 +66,6 @@ def dimension(axes, near, far, y, text):
     """A distance across."""
     axes.annotate("", (near, y), (far, y), arrowprops=SPAN)
     axes.annotate(text, ((near + far) / 2, y), (0, 9), textcoords="offset points", **LABEL)
-
-
-def number(axes, x, y, p):
-    """The number of a contact in a circle."""
-    look = {"boxstyle": "circle,pad=0.25", "facecolor": "white", "edgecolor": BLACK, "linewidth": 1.2}
-    axes.text(x, y, str(p), bbox=look, **LABEL)
 
 
 def leaning(scene, most):
@@ -192,36 +168,6 @@ def walls(scene):
     push(closed, reach - 10, right.height + 0.55, -0.3 * width, "F")
     push(closed, reach + 10, right.height + 0.55, 0.25 * width, "F")
     closed.set_ylabel("")
-    return figure
-
-
-def facing(scene):
-    """The contacts that follow from the heights of two buildings."""
-    figure, (axes, said) = plt.subplots(1, 2, figsize=(10, 5.2), width_ratios=[1.6, 1])
-    gap = 1e3 * scene.contacts[0].gap
-    stand(axes, scene, WIDTH, f"Two buildings, {gap:g} mm apart", margin=0.45)
-    for side, levels in scene.levels.items():
-        outer, align = (-WIDTH - 12, "right") if side == "left" else (gap + WIDTH + 12, "left")
-        for floor, level in enumerate(levels[1:], 1):
-            axes.text(outer, level, f"{floor}: {level:.4g} m", ha=align, va="center", color=BUILDINGS[side]["color"])
-    # Beside the columns that are hit: neighbours in height are on different sides then.
-    aside = {"left": -0.13 * WIDTH, "right": gap + 0.13 * WIDTH, None: gap / 2}
-    lines = []
-    for p, contact in enumerate(scene.contacts, 1):
-        hit = [surface for surface in contact.surfaces.values() if surface["kind"] == "columns"]
-        struck = hit[0]["side"] if hit else None
-        number(axes, aside[struck], contact.height if hit else contact.height + 0.9, p)
-        ends = ((gap, 0.0) if struck == "left" else (0.0, gap), contact.height)
-        arrow = {"arrowstyle": "-|>" if hit else "<|-|>", "color": BLACK, "linewidth": 1.2, "shrinkA": 0, "shrinkB": 0}
-        axes.annotate("", (ends[0][1], ends[1]), (ends[0][0], ends[1]), arrowprops=arrow)
-        lines.append(f"{p}   {contact.meeting}" + (f" at {hit[0]['position']:.3g}" if hit else ""))
-    faces = [surface for contact in scene.contacts for surface in contact.surfaces.values()]
-    floors = [(side, floor) for side, count in scene.floors.items() for floor in range(1, count + 1)]
-    alone = [(side, floor) for side, floor in floors if {"kind": "floor", "side": side, "floor": floor} not in faces]
-    lines += ["", "No contact: " + ", ".join(f"{side} floor {floor}" for side, floor in alone)]
-    said.axis("off")
-    said.set_title("Contacts by [facing]")
-    said.text(0.0, 1.0, "\n".join(lines), va="top", linespacing=1.7, transform=said.transAxes)
     return figure
 
 

@@ -16,10 +16,12 @@ import animation
 import pictures
 from engine import ROOT
 from layout import Scene
+from meetings import meetings
 from runs import simulate_finely
 from style import save
 
 STATIC = {
+    "contacts": meetings,
     "floors": pictures.floors,
     "forces": pictures.forces,
     "accelerations": pictures.accelerations,
