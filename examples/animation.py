@@ -1,12 +1,13 @@
-"""The two buildings in motion, as a GIF: displacements and gaps to one scale, heights and widths as they fit."""
+"""The buildings in motion, as a GIF: displacements and gaps to one scale, levels to another, widths as they fit."""
 
 import numpy as np
-from matplotlib.patches import Rectangle
+from matplotlib.colors import to_rgb
 from matplotlib.ticker import MaxNLocator
 from PIL import Image
 
+from elevation import Elevation, inner_edges, prepare_height
 from engine import ROOT
-from style import BLACK, BUILDINGS, GREY, YELLOW, pyplot
+from style import BLACK, BUILDINGS, YELLOW, pyplot
 
 plt = pyplot()
 
@@ -25,7 +26,7 @@ def write(path, scene, run, window):
         pixels = stage.frame(time, step)
         image = Image.fromarray(pixels)
         # One palette for all frames: what stands still stays the same to the bit and costs nothing.
-        palette = palette or Image.fromarray(stage.loudest(step)).quantize(COLOURS, dither=Image.Dither.NONE)
+        palette = palette or palette_of(stage.loudest(step))
         images.append(image.quantize(palette=palette, dither=Image.Dither.NONE))
     plt.close(stage.figure)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -35,83 +36,57 @@ def write(path, scene, run, window):
     print(f"{shown}: {len(images)} frames, {path.stat().st_size / 1e3:.0f} kB")
 
 
-class Building:
-    """Slabs and columns of one building, whose inner edge stands at `edges` at rest, one for each floor."""
-
-    def __init__(self, axes, side, edges, width, displacements):
-        self.side, self.edges, self.width, self.displacements = side, edges, width, displacements
-        colour = BUILDINGS[side]["color"]
-        inner = -width if side == "left" else 0.0
-        self.inner = inner
-        slab, column = max(0.12, 0.016 * len(edges)), max(1.2, 3.2 - 0.1 * len(edges))
-        # Columns stand a little inside of the slabs' ends.
-        self.columns = [inner + share * width for share in (0.06, 0.94)]
-        self.lines = [axes.plot([], [], color=colour, linewidth=column, solid_capstyle="butt")[0] for _ in self.columns]
-        self.slabs = [
-            axes.add_patch(Rectangle((0, floor - slab / 2), width, slab, facecolor=colour, edgecolor="none", zorder=3))
-            for floor in range(1, len(edges) + 1)
-        ]
-
-    def place(self, row):
-        """Where the inner edge of each floor is, after everything has been moved there."""
-        displacement = 1e3 * np.array([column[row] for column in self.displacements])
-        at = self.edges + displacement
-        for slab, x in zip(self.slabs, at):
-            slab.set_x(x + self.inner)
-        for line, offset in zip(self.lines, self.columns):
-            line.set_data(*bend(np.concatenate([[self.edges[0]], at]) + offset))
-        return at
-
-
-def bend(x, points=8):
-    """Columns, clamped in the slabs: across each storey an S."""
-    s = np.linspace(0.0, 1.0, points)
-    shape = s * s * (3.0 - 2.0 * s)
-    across = np.concatenate([low + (high - low) * shape for low, high in zip(x, x[1:])])
-    return across, np.concatenate([storey + s for storey in range(len(x) - 1)])
+def palette_of(pixels):
+    """The colours of a picture, and the stars' own, however small they are in it."""
+    yellow = np.uint8([round(255 * part) for part in to_rgb(YELLOW)])
+    band = np.broadcast_to(yellow, (20, *pixels.shape[1:]))
+    return Image.fromarray(np.concatenate([pixels, band])).quantize(COLOURS, dither=Image.Dither.NONE)
 
 
 class Stage:
     def __init__(self, scene, run, window):
         self.scene, self.run = scene, run
         shown = (run.time >= window[0]) & (run.time <= window[1])
-        motion = {
-            side: [run[f"{side}.displacement[{i}]"] for i in range(1, count + 1)]
+        # mm, a row for each floor.
+        self.motion = {
+            side: 1e3 * np.array([run[f"{side}.displacement[{i}]"] for i in range(1, count + 1)])
             for side, count in scene.floors.items()
         }
-        reach = 1e3 * max(np.abs(column[shown]).max() for columns in motion.values() for column in columns)
-        gaps = gap_of_floors(scene)
-        width = 1.5 * max(reach, 0.3 * gaps.max())
+        reach = max(np.abs(rows[:, shown]).max() for rows in self.motion.values())
         self.figure, (axes, strip) = plt.subplots(
             2, 1, figsize=(5.2, 4.6), dpi=100, height_ratios=[4, 1], layout="constrained"
         )
-        self.axes = axes
-        self.buildings = {
-            "left": Building(axes, "left", np.zeros(scene.floors["left"]), width, motion["left"]),
-            "right": Building(axes, "right", gaps, width, motion["right"]),
-        }
-        top = max(scene.floors.values())
-        self.prepare_axes(axes, (-width - 1.1 * reach, gaps.max() + width + 1.1 * reach), top)
+        width = 1.5 * max(reach, *(0.3 * edges.max() for edges in inner_edges(scene).values()))
+        self.elevation = Elevation(axes, scene, width)
+        # mm, both surfaces of each contact over time.
+        self.edges = [
+            [face + 1e3 * edge for edge in pair.edges(run)] for face, pair in zip(self.elevation.faces, scene.contacts)
+        ]
+        self.prepare_axes(axes, reach)
         self.burst = axes.scatter([], [], marker="*", s=[], facecolor=YELLOW, edgecolor=BLACK, linewidth=0.8, zorder=5)
         self.clock = axes.text(0.01, 1.0, "", transform=axes.transAxes, va="top", family="monospace")
         self.count = axes.text(0.99, 1.0, "", transform=axes.transAxes, va="top", ha="right", family="monospace")
         self.cursor = self.prepare_strip(strip, window)
         self.hardest = max((impact["impulse"] for impact in run.impacts), default=1.0)
 
-    def prepare_axes(self, axes, xlim, top):
-        axes.set(xlim=xlim, ylim=(-0.08 * top, 1.14 * top + 0.3), yticks=range(1, top + 1, max(1, top // 10)))
-        axes.set(xlabel="mm (displacements and gap to scale; heights and widths not)")
-        axes.set(ylabel="floor (storeys drawn equally high)")
+    def prepare_axes(self, axes, reach):
+        scene = self.scene
+        prepare_height(axes, scene)
+        left, right = self.elevation.ends()
+        xlim = left - 1.1 * reach, right + 1.1 * reach
+        above = 0.14 + 0.3 / max(scene.floors.values())
+        height = scene.top - scene.bottom
+        axes.set(xlim=xlim, ylim=(scene.bottom - 0.08 * height, scene.top + above * height))
+        axes.set(xlabel="mm (displacements and gap to scale; widths not)")
         axes.xaxis.set_major_locator(MaxNLocator(6))
         axes.grid(False)
-        axes.axhline(0, color=GREY, linewidth=3)
         axes.xaxis.label.set_size(9)
+        self.elevation.draw_surroundings(axes, xlim)
 
     def prepare_strip(self, strip, window):
         shown = (self.run.time >= window[0]) & (self.run.time <= window[1])
-        for side, style in BUILDINGS.items():
-            top = self.run[f"{side}.displacement[{self.scene.floors[side]}]"][shown]
-            strip.plot(self.run.time[shown], 1e3 * top, color=style["color"], linewidth=1.0, antialiased=True)
+        for side, (*_, top) in self.motion.items():
+            strip.plot(self.run.time[shown], top[shown], color=BUILDINGS[side]["color"], linewidth=1.0, antialiased=True)
         strip.set(xlim=window, xlabel="time [s]", ylabel="tops [mm]")
         for label in (strip.xaxis.label, strip.yaxis.label):
             label.set_size(9)
@@ -120,8 +95,8 @@ class Stage:
     def frame(self, time, step):
         """The pixels of one frame."""
         row = min(np.searchsorted(self.run.time, time), len(self.run.time) - 1)
-        at = {side: building.place(row) for side, building in self.buildings.items()}
-        self.show_impacts(time, step, at)
+        self.elevation.place({side: rows[:, row] for side, rows in self.motion.items()})
+        self.show_impacts(time, step, row)
         self.clock.set_text(f"{time:6.2f} s")
         self.cursor.set_xdata([time, time])
         self.figure.canvas.draw()
@@ -132,27 +107,17 @@ class Stage:
         hardest = self.run.hardest()
         return self.frame(self.run.time[0] if hardest is None else hardest["start_s"] + step / 2, step)
 
-    def show_impacts(self, time, step, at):
+    def show_impacts(self, time, step, row):
         """A star for every impact of the last few frames, as large as its impulse; it fades."""
         recent = [impact for impact in self.run.impacts if time - AFTERGLOW * step < impact["start_s"] <= time]
         begun = sum(impact["start_s"] <= time for impact in self.run.impacts)
         places, sizes = [], []
         for impact in recent:
-            pair = self.scene.contacts[impact["contact"] - 1]
-            x = (at["left"][pair["left_floor"] - 1] + at["right"][pair["right_floor"] - 1]) / 2
-            y = (pair["left_floor"] + pair["right_floor"]) / 2
-            places.append((x, y))
+            p = impact["contact"] - 1
+            left, right = self.edges[p]
+            places.append(((left[row] + right[row]) / 2, self.scene.contacts[p].height))
             age = (time - impact["start_s"]) / (AFTERGLOW * step)
             sizes.append((60 + 640 * impact["impulse"] / self.hardest) * (1.0 - 0.8 * age))
         self.burst.set_offsets(np.array(places).reshape(-1, 2))
         self.burst.set_sizes(sizes)
         self.count.set_text(f"{begun:4d} impacts")
-
-
-def gap_of_floors(scene):
-    """mm from the left building to each floor of the right one at rest: where no contact says it, as below or above."""
-    floors = np.arange(1, scene.floors["right"] + 1)
-    known = sorted((pair["right_floor"], 1e3 * pair["gap"]) for pair in scene.contacts)
-    if not known:
-        return np.full(len(floors), 50.0)
-    return np.interp(floors, *zip(*known))

@@ -8,6 +8,7 @@ building. Then the same FMU with smaller and smaller gaps at all contacts: its g
 """
 
 import argparse
+import itertools
 
 import numpy as np
 from fmpy import read_model_description, simulate_fmu
@@ -25,14 +26,16 @@ class Buildings:
         names = [variable.name for variable in description.modelVariables]
         self.stop = float(description.defaultExperiment.stopTime)
         self.contacts = [name.removesuffix(".gap") for name in names if name.startswith("contact[") and name.endswith(".gap")]
-        self.drifts = {side: [name for name in names if name.startswith(f"{side}.peak_drift")] for side in ("left", "right")}
+        drifts = {side: [n for n in names if n.startswith(f"{side}.peak_drift[")] for side in ("left", "right")}
+        # One building may stand alone, between walls.
+        self.drifts = {side: of_side for side, of_side in drifts.items() if of_side}
         self.displacements = [name for name in names if ".peak_displacement[" in name]
         if not (self.contacts and self.displacements):
             raise SystemExit(f"error: {fmu}: expected contacts and peaks (its scene may say outputs.peaks = false)")
 
     def run(self, gap, interval):
         """Time histories by name, a row every interval, s; peaks, counts and impulses miss nothing in between."""
-        wanted = ["impacts", *self.displacements, *self.drifts["left"], *self.drifts["right"]]
+        wanted = ["impacts", *self.displacements, *itertools.chain(*self.drifts.values())]
         wanted += [f"{contact}.{what}" for contact in self.contacts for what in ("penetration", "peak_force")]
         gaps = {f"{contact}.gap": gap for contact in self.contacts}
         return simulate_fmu(self.fmu, stop_time=self.stop, output_interval=interval, start_values=gaps, output=wanted)
@@ -52,17 +55,15 @@ def main():
     print("largest displacements: " + ", ".join(f"{name} {1e3 * peak:.1f} mm" for name, peak in peaks.items()))
 
     free = {side: np.array([apart[name][-1] for name in names]) for side, names in buildings.drifts.items()}
-    print("\n gap/mm  impacts  peak force/kN  storey drift, left  right (largest, relative to apart)")
+    print(f"\n gap/mm  impacts  peak force/kN  storey drift, {'  '.join(free)} (largest, relative to apart)")
     for share in SHARES:
         result = buildings.run(share * needed, buildings.stop)
         force = max(result[f"{contact}.peak_force"][-1] for contact in buildings.contacts)
         ratios = [
             max(np.array([result[name][-1] for name in names]) / free[side]) for side, names in buildings.drifts.items()
         ]
-        print(
-            f"{1e3 * share * needed:7.1f}  {result['impacts'][-1]:7d}  {force / 1e3:13.0f}"
-            f"  {ratios[0]:18.2f}  {ratios[1]:5.2f}"
-        )
+        said = "".join(f"  {ratio:5.2f}" for ratio in ratios)
+        print(f"{1e3 * share * needed:7.1f}  {result['impacts'][-1]:7d}  {force / 1e3:13.0f}{' ' * 13}{said}")
 
 
 if __name__ == "__main__":

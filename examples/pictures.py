@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from elevation import prepare_height
 from engine import STANDARD_GRAVITY
-from style import ALONE, BLACK, BUILDINGS, FORCE, GREY, LEFT, OPEN, OVERLAP, RIGHT, VERMILION, pyplot
+from style import ALONE, BLACK, BUILDINGS, FORCE, GREY, OPEN, OVERLAP, VERMILION, WALL, pyplot
 
 plt = pyplot()
 
@@ -15,13 +16,12 @@ def busiest(scene, run, most=MOST_PANELS):
     """Contacts (counted from 1) that are worth a panel, the highest first."""
     impulse = {p: sum(impact["impulse"] for impact in run.of_contact(p)) for p in range(1, len(scene.contacts) + 1)}
     chosen = sorted(impulse, key=impulse.get, reverse=True)[:most]
-    return sorted(chosen, key=lambda p: scene.contacts[p - 1]["left_floor"], reverse=True)
+    return sorted(chosen, key=lambda p: scene.contacts[p - 1].height, reverse=True)
 
 
-def name_of(scene, p):
-    pair = scene.contacts[p - 1]
-    left, right = pair["left_floor"], pair["right_floor"]
-    return f"floor {left} of both" if left == right else f"left floor {left}, right floor {right}"
+def name_of(scene, p, begins=False):
+    name = scene.contacts[p - 1].name
+    return name[:1].upper() + name[1:] if begins else name
 
 
 def handy(value, unit, digits=3):
@@ -53,27 +53,30 @@ def floors(scene, run, alone, window):
     for axes, p in zip(panels, contacts):
         pair = scene.contacts[p - 1]
         clock = run.time[shown]
-        left = 1e3 * run[f"left.displacement[{pair['left_floor']}]"][shown]
-        right = 1e3 * (run[f"right.displacement[{pair['right_floor']}]"][shown] + pair["gap"])
+        left, right = (1e3 * edge[shown] for edge in pair.edges(run))
         axes.fill_between(clock, left, right, where=right >= left, **OPEN)
         axes.fill_between(clock, left, right, where=left > right, **OVERLAP)
-        axes.plot(clock, right, label="right building", **RIGHT)
-        axes.plot(clock, left, label="left building", **LEFT)
+        for edge, surface in [(right, pair.surfaces["right"]), (left, pair.surfaces["left"])]:
+            draw_edge(axes, clock, edge, surface)
         hits = [impact["start_s"] for impact in run.of_contact(p) if window[0] <= impact["start_s"] <= window[1]]
         bottom = min(left.min(), right.min()) - 0.08 * np.ptp([left, right])
         axes.plot(hits, np.full(len(hits), bottom), "^", color=BLACK, markersize=4, label="impact")
         impacts = "1 impact" if len(hits) == 1 else f"{len(hits)} impacts"
-        axes.set_title(
-            f"Facing edges, {name_of(scene, p)}: {impacts}; shaded: the gap, {1e3 * pair['gap']:g} mm at rest"
-        )
+        axes.set_title(f"{name_of(scene, p, begins=True)}: {impacts}; shaded: the gap, {1e3 * pair.gap:g} mm at rest")
         axes.set_ylabel("position [mm]")
         axes.margins(y=0.12)
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper right", ncols=3)
+    lines = {label: line for axes in panels for line, label in zip(*axes.get_legend_handles_labels())}
+    figure.legend(lines.values(), lines.keys(), loc="outside upper right", ncols=len(lines))
     return figure
 
 
+def draw_edge(axes, clock, edge, surface):
+    side = surface.get("side")
+    axes.plot(clock, edge, label=f"{side} building" if side else "wall", **BUILDINGS.get(side, WALL))
+
+
 def is_rigid(scene, p):
-    return scene.contacts[p - 1]["law"] == "stereomechanical"
+    return scene.contacts[p - 1].law == "stereomechanical"
 
 
 def forces(scene, run, alone, window):
@@ -86,7 +89,7 @@ def forces(scene, run, alone, window):
     )
     factor, unit = force_unit(max(run.hardest(p)["peak_force"] for p in contacts))
     for (bursts, near), p in zip(panels, contacts):
-        title = f"{name_of(scene, p).capitalize()}: {len(run.of_contact(p))} impacts"
+        title = f"{name_of(scene, p, begins=True)}: {len(run.of_contact(p))} impacts"
         bursts.set(title=title, xlim=(0, run.time[-1]))
         if is_rigid(scene, p):
             draw_impulses(bursts, run.of_contact(p))
@@ -132,20 +135,19 @@ def accelerations(scene, run, alone, window):
     hardest = run.hardest()
     if hardest is None:
         return None
-    pair = scene.contacts[hardest["contact"] - 1]
-    figure, panels = over_time(2, 3.0, window)
-    for axes, (side, style) in zip(panels, BUILDINGS.items()):
-        name = f"{side}.acceleration[{pair[f'{side}_floor']}]"
+    row = scene.contacts[hardest["contact"] - 1].row
+    figure, panels = over_time(len(row), 3.0, window)
+    for axes, (side, floor, _) in zip(panels, row):
+        name = f"{side}.acceleration[{floor}]"
         largest = []
         for one, label, line in [
-            (run, "pounding", {**style, "linestyle": "-", "linewidth": 1.0}),
+            (run, "pounding", {**BUILDINGS[side], "linestyle": "-", "linewidth": 1.0}),
             (alone, "without contact", ALONE),
         ]:
             g = one[name] / STANDARD_GRAVITY
             shown = (one.time >= window[0]) & (one.time <= window[1])
             axes.plot(one.time[shown], g[shown], label=label, **line)
             largest.append(one[name.replace("acceleration", "peak_acceleration")][-1] / STANDARD_GRAVITY)
-        floor = pair[f"{side}_floor"]
         axes.set_title(
             f"Floor {floor}, {side} building: up to {largest[0]:.3g} g in the run, {largest[1]:.3g} g without contact"
         )
@@ -178,7 +180,9 @@ def hysteresis(scene, run, alone, window):
             axes.plot(penetration[loop], force[loop], **line)
         axes.axhline(0, color=GREY, linewidth=0.8)
         lost = handy(hardest["dissipated_energy"], "J")
-        title = f"{name_of(scene, p).capitalize()}, {scene.contacts[p - 1]['law']}"
+        name, law = name_of(scene, p, begins=True), scene.contacts[p - 1].law
+        # In a line of its own where both are too long for one.
+        title = f"{name}, {law}" if len(name) + len(law) < 45 else f"{name}\n{law}"
         axes.set_title(f"{title}\n{len(run.of_contact(p))} impacts; the hardest (black): {lost} lost")
         axes.set(xlabel="penetration [mm]", ylabel=f"force [{unit}]", xlim=(0, None))
     for axes in panels.flat[len(contacts) :]:
@@ -189,34 +193,38 @@ def hysteresis(scene, run, alone, window):
 
 def drifts(scene, run, alone, window):
     """Largest inter-storey drifts of either sign over the height, with and without contact."""
-    figure, panels = plt.subplots(1, 2, figsize=(8, 1.8 + 0.5 * min(12, max(scene.floors.values()))), sharey=True)
+    sides = list(scene.floors)
+    height = 1.8 + 0.5 * min(12, max(scene.floors.values()))
+    figure, panels = plt.subplots(1, len(sides), figsize=(4 * len(sides) + 0.4, height), sharey=True, squeeze=False)
+    panels = panels[0]
     largest = 0.0
-    for axes, (side, style) in zip(panels, BUILDINGS.items()):
-        for one, label, line in [(run, "pounding", {**style, "linestyle": "-"}), (alone, "without contact", ALONE)]:
-            levels = [np.zeros_like(one.time)]
-            levels += [one[f"{side}.displacement[{i}]"] for i in range(1, scene.floors[side] + 1)]
-            drift = 1e3 * np.diff(levels, axis=0)
+    for axes, side in zip(panels, sides):
+        style = BUILDINGS[side]
+        levels = scene.levels[side]
+        for one, label, line in [
+            (run, f"{side}, pounding", {**style, "linestyle": "-"}),
+            (alone, "without contact", ALONE),
+        ]:
+            at = [np.zeros_like(one.time)] + [one[f"{side}.displacement[{i}]"] for i in range(1, len(levels))]
+            drift = 1e3 * np.diff(at, axis=0)
             low, high = drift.min(axis=1), drift.max(axis=1)
             largest = max(largest, -low.min(), high.max())
-            edges = np.arange(len(low) + 1)
             if one is run:
                 axes.stairs(
-                    high, edges, baseline=low, orientation="horizontal", fill=True, alpha=0.2, color=line["color"]
+                    high, levels, baseline=low, orientation="horizontal", fill=True, alpha=0.2, color=line["color"]
                 )
             for bound in (low, high):
                 named = label if bound is low else None
-                axes.stairs(bound, edges, orientation="horizontal", baseline=None, label=named, **line)
+                axes.stairs(bound, levels, orientation="horizontal", baseline=None, label=named, **line)
         axes.axvline(0, color=GREY, linewidth=0.8)
         axes.set_title(f"{side.capitalize()} building")
         axes.set_xlabel("inter-storey drift, least and largest [mm]")
-        for p in {pair[f"{side}_floor"] for pair in scene.contacts}:
-            axes.plot([0], [p], "D", color=BLACK, markersize=4, zorder=3)
-    top = max(scene.floors.values())
-    every = max(1, top // 12)
-    panels[0].set(ylabel="floor (diamond: faces another);\nstoreys drawn equally high", yticks=range(0, top + 1, every), ylim=(0, top + 0.1))
+        touched = {pair.height_on(side, scene.levels) for pair in scene.contacts} - {None}
+        axes.plot(np.zeros(len(touched)), sorted(touched), "D", color=BLACK, markersize=4, zorder=3)
+    prepare_height(panels[0], scene, "diamond: a contact")
     for axes in panels:
         axes.set_xlim(-1.08 * largest, 1.08 * largest)
-    (left, free, *_), right = (axes.get_legend_handles_labels()[0] for axes in panels)
-    labels = ["left, pounding", "right, pounding", "without contact"]
-    figure.legend([left, right[0], free], labels, loc="outside lower center", ncols=3)
+    lines = {label: line for axes in panels for line, label in zip(*axes.get_legend_handles_labels())}
+    labels = sorted(lines, key="without contact".__eq__)
+    figure.legend([lines[label] for label in labels], labels, loc="outside lower center", ncols=3)
     return figure

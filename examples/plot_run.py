@@ -8,7 +8,8 @@ The engine runs twice, with the scene as it is and without its contacts: what po
 import numpy as np
 
 from engine import ROOT, STANDARD_GRAVITY
-from runs import Scene, simulate
+from layout import Scene
+from runs import simulate
 from style import ALONE, FORCE, LEFT, OPEN, OVERLAP, RIGHT, pyplot, save
 
 SCENE = ROOT / "examples/scenes/feup.toml"
@@ -28,7 +29,7 @@ def main():
 
 
 def draw(scene, motion, alone):
-    gap = scene.contacts[CONTACT - 1]["gap"]
+    gap = scene.contacts[CONTACT - 1].gap
     hardest = motion.hardest(CONTACT)
     start, force, penetration = (hardest[name] for name in ["start_s", "peak_force", "peak_penetration"])
 

@@ -15,10 +15,13 @@ import numpy as np
 import animation
 import pictures
 from engine import ROOT
-from runs import Scene, simulate_finely
+from layout import Scene
+from meetings import meetings
+from runs import simulate_finely
 from style import save
 
 STATIC = {
+    "contacts": meetings,
     "floors": pictures.floors,
     "forces": pictures.forces,
     "accelerations": pictures.accelerations,
@@ -78,7 +81,9 @@ def strongest(run, length):
         times, weights = run.time, top**2
     starts = np.linspace(0.0, end - length, 200)
     totals = [np.sum(weights[(times >= start) & (times < start + length)]) for start in starts]
-    start = starts[np.argmax(totals)]
+    best = starts[totals == np.max(totals)]
+    # In the middle of those that show as much: what happens is not at the edge.
+    start = best[len(best) // 2]
     return (start, start + length)
 
 

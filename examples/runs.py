@@ -3,26 +3,11 @@
 import csv
 import subprocess
 import tempfile
-import tomllib
 from pathlib import Path
 
 import numpy as np
 
 from engine import ROOT, program
-
-
-class Scene:
-    """A scene file and what pictures need to know of it."""
-
-    def __init__(self, path):
-        self.path = Path(path).resolve()
-        try:
-            content = tomllib.loads(self.path.read_text())
-            self.name = content["name"]
-            self.floors = {side: len(content[side]["mass"]) for side in ("left", "right")}
-        except (OSError, ValueError, KeyError, TypeError) as error:
-            raise SystemExit(f"{path}: not a scene: {error}") from None
-        self.contacts = content.get("contact", [])
 
 
 class Run:

@@ -9,7 +9,7 @@ import engine
 
 
 # What is in t or with kN in a scene with units = "kN-t", in the tables of buildings, dampings and contacts.
-SCALED = {"mass", "stiffness", "stiffness_matrix", "matrix"}
+SCALED = {"mass", "stiffness", "stiffness_matrix", "matrix", "dashpots"}
 
 
 def read(file):

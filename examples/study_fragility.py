@@ -42,11 +42,16 @@ class Curve:
 
 
 def drift(row):
-    return max(row[f"{side}_drift_m"] for side in SIDES)
+    return largest(row, "drift_m")
 
 
 def acceleration(row):
-    return max(row[f"{side}_acceleration_m_s2"] for side in SIDES)
+    return largest(row, "acceleration_m_s2")
+
+
+def largest(row, what):
+    """Of the buildings that are there."""
+    return max(row[f"{side}_{what}"] for side in SIDES if row[f"{side}_{what}"] is not None)
 
 
 def force(row):
@@ -78,6 +83,8 @@ def median(values):
 def curves(rows, demands, intensity):
     """A curve for each demand and each gap; without contact there is no force, and no pounding."""
     column = INTENSITIES[intensity][0]
+    if any(row[column] is None for row in rows):
+        raise SystemExit(f"{rows[0]['scene']} has no fragility by {intensity}: it has no such building")
     found = []
     for demand in demands:
         for gap in sorted({row["gap_m"] for row in rows}):

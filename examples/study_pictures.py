@@ -55,6 +55,9 @@ def gaps(rows, path):
     figure, axes = plt.subplots(2, 3, figsize=(12, 7.2), sharex=True)
     drawn = some(row["pga_m_s2"] for row in closing)
     for panel, (title, demand) in zip(axes.flat, panels.items()):
+        if all(demand(row) is None for row in closing):
+            panel.axis("off")
+            continue
         for pga, style in zip(drawn, CYCLE):
             of_pga = [row for row in closing if row["pga_m_s2"] == pga]
             draw_demand(panel, of_pga, demand, style, in_g(pga), shaded=panel is axes[0, 0])

@@ -7,6 +7,7 @@ import os
 import shlex
 import shutil
 import tempfile
+import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -15,7 +16,7 @@ import numpy as np
 import ground_motions
 import spectra
 from engine import EL_CENTRO, STANDARD_GRAVITY
-from runs import Scene, run_or_stop
+from runs import run_or_stop
 from study_table import NEVER_CLOSES, SIDES
 from study_worker import Case, Description, Materials
 
@@ -40,8 +41,8 @@ class Plan:
         """The row of a case with its case and with how strong the ground motion is for each building."""
         known = {"scene": case.scene, "scene_id": case.scene_id, "record": case.record, "record_id": case.record_id}
         known |= {"pga_m_s2": case.pga, "gap_m": case.gap, "stop_s": case.stop}
-        for side in SIDES:
-            known[f"{side}_period_s"] = self.periods[case.scene_id][side]
+        for side, period in self.periods[case.scene_id].items():
+            known[f"{side}_period_s"] = period
             known[f"{side}_sa_m_s2"] = case.pga * self.spectra[case.scene_id, case.record_id][side]
         return known | row
 
@@ -53,7 +54,8 @@ def plan(options):
     motions = {record: read_record(record) for record in records}
     with_module = uses_module(options)
     fmus = {name: build(file, options.output / "fmus" / f"{name}.fmu", with_module) for name, file in scenes.items()}
-    ids = {name: Description(fmu.read_bytes()).guid.strip("{}") for name, fmu in fmus.items()}
+    descriptions = {name: Description(fmu.read_bytes()) for name, fmu in fmus.items()}
+    ids = {name: description.guid.strip("{}") for name, description in descriptions.items()}
     contents = {record: record.read_bytes() for record in records}
     names = {record: hashlib.sha256(content).hexdigest()[:12] for record, content in contents.items()}
     peaks = {record: float(np.abs(motion[1]).max()) for record, motion in motions.items()}
@@ -69,11 +71,11 @@ def plan(options):
         for pga in dict.fromkeys(options.pga)
         for gap in dict.fromkeys([*options.gaps, NEVER_CLOSES])
     ]
-    floors = {side: max(Scene(file).floors[side] for file in scenes.values()) for side in SIDES}
+    storeys = {side: max(description.storeys(side) for description in descriptions.values()) for side in SIDES}
     # The same record twice, by two paths, is one.
-    found = Plan(list(dict.fromkeys(cases)), materials, floors)
+    found = Plan(list(dict.fromkeys(cases)), materials, storeys)
     for name, fmu in fmus.items():
-        found.periods[ids[name]] = first_periods(fmu, with_module)
+        found.periods[ids[name]] = first_periods(fmu, descriptions[name].sides, with_module)
         for record, motion in motions.items():
             found.spectra[ids[name], names[record]] = strengths(record, motion, found.periods[ids[name]])
     return found
@@ -83,11 +85,18 @@ def named_scenes(files):
     """The scenes by name: the name is that of the FMU, of pictures, and in the table."""
     scenes = {}
     for file in dict.fromkeys(file.resolve() for file in files):
-        name = Scene(file).name
+        name = name_of(file)
         if name in scenes:
             raise SystemExit(f"{scenes[name]} and {file} are both named {name!r}: give one another name")
         scenes[name] = file
     return scenes
+
+
+def name_of(file):
+    try:
+        return tomllib.loads(file.read_text())["name"]
+    except (OSError, ValueError, KeyError) as error:
+        raise SystemExit(f"{file}: not a scene: {error}") from None
 
 
 def chosen_records(options):
@@ -125,9 +134,9 @@ def build(scene, fmu, with_module):
     return fmu
 
 
-def first_periods(fmu, with_module):
+def first_periods(fmu, sides, with_module):
     """s, of each building of an FMU alone."""
-    names = [f"{side}.frequency[1]" for side in SIDES]
+    names = [f"{side}.frequency[1]" for side in sides]
     with tempfile.TemporaryDirectory(prefix="study") as folder:
         copy = shutil.copy(fmu, folder)
         if with_module:
@@ -138,7 +147,7 @@ def first_periods(fmu, with_module):
             import study_fmus
 
             frequencies = study_fmus.first_values(copy, names)
-    return {side: 1.0 / frequency for side, frequency in zip(SIDES, frequencies)}
+    return {side: 1.0 / frequency for side, frequency in zip(sides, frequencies)}
 
 
 def strengths(record, motion, periods):

@@ -100,7 +100,10 @@ def row_of(known, cells):
             problems.append(f"{name} = {cell!r}: expected {'a whole number' if kind is int else 'a number'}")
     problems += [f"{name}: expected a value" for name in CASE if row.get(name, "") is None]
     if not row["error"]:
-        needed = [*INTENSITY, *RESULT]
+        # A building that is not there has nothing at all.
+        found = {name.partition("_")[0] for name in known if row.get(name) is not None}
+        absent = tuple(f"{side}_" for side in SIDES if side not in found and not found.isdisjoint(SIDES))
+        needed = [name for name in [*INTENSITY, *RESULT] if not name.startswith(absent)]
         problems += [f"{name}: expected a value, or a reason in error" for name in needed if row.get(name, 0) is None]
     return row, problems
 

@@ -59,7 +59,12 @@ class Description:
         self._of_storeys = {
             (side, what): self._named(f"{side}.peak_{what}[") for side in SIDES for what in OF_STOREYS.values()
         }
-        self._base_shears = {side: f"{side}.peak_base_shear" for side in SIDES}
+        # One building may stand alone, between walls.
+        self.sides = [side for side in SIDES if self._of_storeys[side, "acceleration"]]
+        self._base_shears = {side: f"{side}.peak_base_shear" for side in self.sides}
+
+    def storeys(self, side):
+        return len(self._of_storeys[side, "drift"])
 
     def _named(self, start, end=""):
         return [name for name in self.names if name.startswith(start) and name.endswith(end)]
@@ -75,7 +80,7 @@ class Description:
         row = {"impacts": int(value["impacts"])}
         for column, (what, summary) in OF_CONTACTS.items():
             row[column] = summary(value[name] for name in self._of_contacts[what])
-        for side in SIDES:
+        for side in self.sides:
             peaks = {
                 column: [value[name] for name in self._of_storeys[side, what]] for column, what in OF_STOREYS.items()
             }

@@ -11,14 +11,16 @@ from engine import ROOT
 BLUE, SKY, GREEN, ORANGE, VERMILION, PURPLE = "#0072B2", "#56B4E9", "#009E73", "#E69F00", "#D55E00", "#CC79A7"
 WINE, OLIVE, YELLOW, BLACK, GREY = "#882255", "#8A8A1F", "#F0E442", "#000000", "#888888"
 
-# The two buildings, and one that stands free.
+# The two buildings, a wall beside them, and a building that stands free.
 LEFT = {"color": BLUE, "linestyle": "-", "linewidth": 1.4}
 RIGHT = {"color": VERMILION, "linestyle": "--", "linewidth": 1.4}
 BUILDINGS = {"left": LEFT, "right": RIGHT}
+WALL = {"color": BLACK, "linestyle": "-", "linewidth": 2.2}
 ALONE = {"color": GREEN, "linestyle": (0, (3, 1)), "linewidth": 2.0}
-# The force of a contact, the gap between two edges, and where they press.
+# The force of a contact, the gap between two edges, a wall that is cut, and where edges press.
 FORCE = {"color": BLACK, "linestyle": "-", "linewidth": 1.1}
 OPEN = {"color": "#999999", "alpha": 0.3, "linewidth": 0}
+SOLID = {"facecolor": "white", "edgecolor": BLACK, "hatch": "////", "linewidth": 1.0}
 OVERLAP = {"facecolor": YELLOW, "edgecolor": BLACK, "hatch": "////", "linewidth": 0}
 
 # Laws, and formulas of hertz_damped.

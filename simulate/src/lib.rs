@@ -1,7 +1,7 @@
 //! The engine without FMI: what the example `simulate` and the command `pounding-fmu simulate` do.
 //!
 //! `--csv` has `time` and one column per output of the scene's FMU, under the same names; `--impacts` has one row per
-//! contact episode; `--html` is one file with both, drawn, for a browser.
+//! contact episode; `--html` is one file with both, drawn, for a browser; `--layout` is what stands where.
 //!
 //! | file | holds |
 //! |---|---|
@@ -9,9 +9,11 @@
 //! | `instants.rs` | the instants at which a run is looked at |
 //! | `solve.rs` | the run over these instants |
 //! | `tables.rs` | the tables and the summary of a run |
+//! | `layout.rs` | floors, levels and contacts of the scene, for pictures |
 //! | `report.rs`, `thinning.rs` | the page, and as much of a long run as it can show |
 
 pub mod instants;
+mod layout;
 mod report;
 pub mod solve;
 pub mod tables;
@@ -61,6 +63,9 @@ pub struct Arguments {
     /// Report of the run: one file that any browser shows, without a network.
     #[arg(long, value_name = "OUT")]
     html: Option<PathBuf>,
+    /// Floors, their levels, and what meets at each contact, as JSON: what pictures are drawn from.
+    #[arg(long, value_name = "OUT")]
+    layout: Option<PathBuf>,
 }
 
 fn positive(text: &str) -> Result<f64, String> {
@@ -94,6 +99,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     let impacts = arguments.impacts.as_deref().map(tables::create).transpose()?;
     let mut page = arguments.html.as_deref().map(report::create).transpose()?;
 
+    if let Some(file) = &arguments.layout {
+        report::create(file)?.write_all(serde_json::to_string(&layout::Layout::of(scene))?.as_bytes())?;
+    }
     let mut write = motion.as_mut().map(|motion| |solved: Solved| motion.write(solved));
     let regular = instants::regular(arguments.step, stop);
     let solution = match arguments.rows_per_impact {

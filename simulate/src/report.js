@@ -242,7 +242,7 @@ function usual() {
   const isShown = (c) =>
     c.of in top
       ? ["displacement", "acceleration"].includes(c.quantity) &&
-        (c.index === top[c.of] || facing.some(({ floors }) => floors.some(([side, floor]) => side === c.of && floor === c.index)))
+        (c.index === top[c.of] || facing.some(({ row }) => row.some(([side, floor]) => side === c.of && floor === c.index)))
       : hardest.includes(c);
   choose(run.columns.filter(isShown), true);
 }
@@ -314,20 +314,28 @@ function contactTable() {
   tableOf(element("contact-table"), headings, rows);
 }
 
-// The largest of each storey and floor, the top first, and of the base; as far as the scene asks for them.
+// The largest of each storey and floor, the top first, and of the base; as far as the scene asks for them. Where it has
+// heights each building has the levels of its floors beside them.
 function peakTable() {
-  const quantities = ["peak drift", "peak displacement", "peak acceleration"];
-  const peaks = ["left", "right"].flatMap((side) =>
-    quantities.map((quantity) => (groups.get(quantity) ?? []).filter((column) => column.of === side)),
-  );
-  const known = peaks.filter((columns) => columns.length > 0);
-  element("peaks").hidden = known.length === 0;
-  const headings = known.map(([{ quantity, of, unit }]) => withUnit(quantity.replace("peak", of), unit));
+  const ofStoreys = ["peak drift", "peak drift ratio", "peak storey shear", "peak column force"];
+  const quantities = [...ofStoreys, "peak displacement", "peak acceleration"];
   const last = (column) => (column ? scaled(column.values.at(-1), column.unit) : "");
-  const storeys = Math.max(0, ...known.map((columns) => columns.length));
+  const columns = ["left", "right"].flatMap((side) => {
+    const of = (quantity) => (groups.get(quantity) ?? []).filter((column) => column.of === side);
+    const known = quantities.map(of).filter((peaks) => peaks.length > 0);
+    const cells = known.map((peaks) => ({
+      heading: withUnit(peaks[0].quantity.replace("peak", side), peaks[0].unit),
+      cell: (index) => last(peaks.find((column) => column.index === index)),
+    }));
+    const { floors, levels } = run[side];
+    const level = { heading: `${side} level`, cell: (index) => (index <= floors ? `${digits(levels[index])} m` : "") };
+    return levels && known.length > 0 ? [level, ...cells] : cells;
+  });
+  element("peaks").hidden = columns.length === 0;
+  const storeys = columns.length > 0 ? Math.max(run.left.floors, run.right.floors) : 0;
   const rows = Array.from({ length: storeys }, (_, i) => storeys - i);
-  const cells = rows.map((index) => [index, ...known.map((columns) => last(columns.find((c) => c.index === index)))]);
-  tableOf(element("peak-table"), ["storey, floor", ...headings], cells);
+  const cells = rows.map((index) => [index, ...columns.map(({ cell }) => cell(index))]);
+  tableOf(element("peak-table"), ["storey, floor", ...columns.map(({ heading }) => heading)], cells);
   const shears = (groups.get("peak base shear") ?? []).map((c) => `${digits(last(c))} ${unitText(c.unit)} (${c.of})`);
   element("peak-shears").textContent = shears.length > 0 ? `base shear: ${shears.join(", ")}` : "";
 }

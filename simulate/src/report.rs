@@ -5,6 +5,7 @@
 //! Content-Security-Policy forbids it to load anything.
 
 use crate::instants;
+use crate::layout::Layout;
 use crate::solve::{Solved, solve};
 use crate::tables::{impact, outputs};
 use crate::thinning::Column;
@@ -39,26 +40,16 @@ const DATA: &str = "/*data*/";
 /// The data of the page, under the names that report.js reads.
 #[derive(Serialize)]
 struct Run<'a> {
-    name: &'a str,
+    #[serde(flatten)]
+    layout: Layout<'a>,
     description: &'a str,
     scene: &'a str,
     stop: f64,
-    contacts: Vec<Contact>,
     /// s, of all rows.
     times: Vec<f64>,
     columns: Vec<Series>,
     /// One row per contact episode, in the order of `--impacts`; where it has not ended, `null`.
     impacts: Vec<Vec<Option<f64>>>,
-}
-
-#[derive(Serialize)]
-struct Contact {
-    /// What meets, in words.
-    meeting: String,
-    /// Side and number of the floors that take part.
-    floors: Vec<(&'static str, usize)>,
-    gap: f64,
-    law: &'static str,
 }
 
 /// An output of the FMU.
@@ -84,11 +75,10 @@ pub fn page(package: &Package, model: &Model, stop: f64, episodes: &[Episode]) -
     let Package { scene, scene_text, .. } = package;
     let (times, columns) = columns(scene, model, stop, episodes)?;
     let run = Run {
-        name: &scene.name,
+        layout: Layout::of(scene),
         description: &scene.description,
         scene: scene_text,
         stop,
-        contacts: contacts(scene),
         times,
         columns,
         impacts: episodes.iter().map(row).collect(),
@@ -96,16 +86,6 @@ pub fn page(package: &Package, model: &Model, stop: f64, episodes: &[Episode]) -
     let data = serde_json::to_string(&run)?.replace('<', "\\u003c");
     let page = PARTS.iter().fold(PAGE.to_owned(), |page, (mark, part)| page.replacen(mark, part, 1));
     Ok(page.replacen(DATA, &data, 1))
-}
-
-fn contacts(scene: &Scene) -> Vec<Contact> {
-    let contact = |pair: &pounding::scene::ContactPair| Contact {
-        meeting: pair.meeting(scene),
-        floors: pair.row().map(|share| (share.side.name(), share.floor + 1)).collect(),
-        gap: pair.gap,
-        law: pair.law.kind.info().name,
-    };
-    scene.contacts.iter().map(contact).collect()
 }
 
 /// The times of all rows, and of each output what is kept of it.

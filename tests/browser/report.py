@@ -18,7 +18,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-SCENE = ROOT / "examples/scenes/feup.toml"
+SCENES = ROOT / "examples/scenes"
 FOLDER = ROOT / "target/browser"
 SIMULATE = shlex.split(os.environ.get("SIMULATE", "cargo run --release --quiet --example simulate --"))
 BROWSERS = ["chromium", "chromium-headless-shell", "chromium-browser", "google-chrome", "google-chrome-stable"]
@@ -32,7 +32,7 @@ def main():
         return
     from playwright.sync_api import sync_playwright
 
-    html, scene, impacts = make_report()
+    html, scene, impacts = make_report("feup")
     arguments = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(executable_path=browser, args=arguments)
@@ -43,17 +43,23 @@ def main():
         for look in [reads, tells_apart, hovers, zooms, chooses, sorts, finds_an_impact, is_narrow]:
             look(page, scene, impacts)
             print(f"{look.__name__.replace('_', ' ')}: well")
+        for look, name in [(has_levels, "neighbours"), (stands_alone, "isolated")]:
+            page.set_viewport_size({"width": 1300, "height": 900})
+            html, _, impacts = make_report(name)
+            page.goto(html.as_uri())
+            look(page, impacts)
+            print(f"{look.__name__.replace('_', ' ')}: well")
         assert not troubles, troubles
         print(f"nothing loaded, no error, in {browser} {chromium.version}")
         chromium.close()
 
 
-def make_report():
-    """The report of the default scene with a description that would like to be markup; its text and its impacts."""
+def make_report(name):
+    """The report of an example with a description that would like to be markup; its text and its impacts."""
     FOLDER.mkdir(parents=True, exist_ok=True)
-    text = SCENE.read_text().replace("../records", str(ROOT / "examples/records"))
+    text = (SCENES / f"{name}.toml").read_text().replace("../records", str(ROOT / "examples/records"))
     text = re.sub(r'description = ".*"', f'description = "{HOSTILE}"', text)
-    scene, html, impacts = (FOLDER / name for name in ["scene.toml", "report.html", "impacts.csv"])
+    scene, html, impacts = (FOLDER / f"{name}.{ending}" for ending in ["toml", "html", "csv"])
     scene.write_text(text)
     subprocess.run([*SIMULATE, scene, "--html", html, "--impacts", impacts], cwd=ROOT, check=True, stdout=sys.stderr)
     return html, text, list(csv.DictReader(impacts.open()))
@@ -189,6 +195,39 @@ def is_narrow(page, scene, impacts):
     page.wait_for_timeout(200)
     assert page.evaluate("document.documentElement.scrollWidth") <= 420
     page.screenshot(path=FOLDER / "narrow.png")
+
+
+def table(page, name):
+    """Headings and rows of a table, as texts."""
+    rows = page.locator(f"#{name}-table tr")
+    cells = [rows.nth(row).locator("th, td").all_inner_texts() for row in range(rows.count())]
+    return cells[0], cells[1:]
+
+
+def has_levels(page, impacts):
+    """Buildings with heights: beside each floor its level, and what each slab meets."""
+    headings, rows = table(page, "peak")
+    assert [row[0] for row in rows] == [*"654321"]
+    for side, levels in [("left", ["20.2 m", "17 m", "13.8 m"]), ("right", ["", "", "15 m"])]:
+        assert [row[headings.index(f"{side} level")] for row in rows[:3]] == levels
+    meetings = [row[1] for row in table(page, "contact")[1]]
+    assert len(meetings) == 7 and "columns of left storey 5 at 0.375" in meetings[-1]
+    assert page.locator("#impact-table tbody tr").count() == len(impacts) > 0
+    page.screenshot(path=FOLDER / "levels.png", full_page=True)
+
+
+def stands_alone(page, impacts):
+    """One building between walls: nothing of another one, and no text where a number is missing."""
+    headings, rows = table(page, "peak")
+    assert len(rows) == 5 and rows[-1][headings.index("left level")] == "0 m"
+    assert not any("right" in heading for heading in headings)
+    assert page.locator(".chart").count() == 3
+    texts = page.locator("body").inner_text()
+    assert not re.search(r"NaN|undefined|null|Infinity", texts)
+    assert [row[1].partition(" against ")[2] for row in table(page, "contact")[1]] == [
+        "the wall on its left", "the wall on its right"
+    ]  # fmt: skip
+    page.screenshot(path=FOLDER / "alone.png", full_page=True)
 
 
 if __name__ == "__main__":

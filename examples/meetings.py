@@ -1,0 +1,88 @@
+"""What meets in a scene: its buildings at rest with their contacts, numbered as in the scene, and in words beside them."""
+
+from elevation import Elevation, prepare_height
+from style import BLACK, BUILDINGS, pyplot
+
+plt = pyplot()
+
+LABEL = {"ha": "center", "va": "center", "fontsize": 9.5, "zorder": 8}
+SMALLEST_GAP = 10.0  # mm, which can be seen
+
+
+def meetings(scene, *_):
+    """A picture of any scene: which of its floors face what."""
+    lines = words(scene)
+    # As high as the words and the floors need.
+    height = max(5.2, 0.6 + 0.26 * len(lines), 1.0 + 0.4 * max(scene.floors.values()))
+    figure, (axes, said) = plt.subplots(1, 2, figsize=(10, height), width_ratios=[1.6, 1])
+    # A gap is wide enough for a number.
+    width = 6.5 * max(SMALLEST_GAP, *(1e3 * pair.gap for pair in scene.contacts)) if scene.contacts else 300.0
+    elevation = stand(axes, scene, width, "At rest; gaps to scale, widths not", margin=0.2)
+    for side, levels in scene.levels.items():
+        write_levels(axes, elevation, side, levels)
+    for p, (face, pair) in enumerate(zip(elevation.faces, scene.contacts), 1):
+        mark(axes, p, pair, face, width, scene)
+    said.axis("off")
+    said.set_title("Contacts")
+    said.text(0.0, 1.0, "\n".join(lines), va="top", linespacing=1.7, transform=said.transAxes)
+    return figure
+
+
+def words(scene):
+    """A line for each contact, and the floors that have none."""
+    lines = []
+    for p, pair in enumerate(scene.contacts, 1):
+        at = [f" at {surface['position']:.3g}" for surface in pair.surfaces.values() if surface["kind"] == "columns"]
+        lines.append(f"{p}   {pair.meeting}{''.join(at)}: {1e3 * pair.gap:g} mm")
+    faces = [surface for pair in scene.contacts for surface in pair.surfaces.values()]
+    for side, count in scene.floors.items():
+        alone = [i for i in range(1, count + 1) if {"kind": "floor", "side": side, "floor": i} not in faces]
+        if alone:
+            lines += ["", f"no contact: {side} floor {', '.join(map(str, alone))}"]
+    return lines
+
+
+def write_levels(axes, elevation, side, levels):
+    """On each slab, far from the other building, its number and level."""
+    for floor, level in enumerate(levels[1:], 1):
+        inner = elevation.inner[side][floor - 1]
+        far = inner - 0.86 * elevation.width if side == "left" else inner + 0.86 * elevation.width
+        text = f"{floor}: {level:.4g} m" if elevation.scene.has_levels else f"{floor}"
+        look = {"ha": side, "color": BUILDINGS[side]["color"], "fontsize": 9.5}
+        axes.annotate(text, (far, level), (0, 7), textcoords="offset points", **look)
+
+
+def mark(axes, p, pair, face, width, scene):
+    """An arrow across the gap, from a slab to what it hits, and the number of the contact."""
+    gap = 1e3 * pair.gap
+    left, right = pair.surfaces["left"]["kind"], pair.surfaces["right"]["kind"]
+    hits = {"floor": "<|-|>", "columns": "-|>", "wall": "-|>"}
+    ends = (face + gap, face) if left != "floor" else (face, face + gap)
+    look = {"arrowstyle": hits[right if left == "floor" else left], "color": BLACK, "shrinkA": 0, "shrinkB": 0}
+    axes.annotate("", (ends[1], pair.height), (ends[0], pair.height), arrowprops=look)
+    # Beside columns that are hit: contacts of nearly one level are on different sides then.
+    aside = {"columns": face - 0.13 * width}.get(left) or {"columns": face + gap + 0.13 * width}.get(right)
+    above = 0.045 * (scene.top - scene.bottom)
+    number(axes, face + gap / 2 if aside is None else aside, pair.height + (above if aside is None else 0.0), p)
+
+
+def stand(axes, scene, width, title, displacements=None, margin=0.5):
+    """The buildings of a scene; displacements, mm, of the floors of each."""
+    elevation = Elevation(axes, scene, width)
+    if displacements is not None:
+        elevation.place(displacements)
+    prepare_height(axes, scene)
+    left, right = elevation.ends()
+    xlim = left - margin * width, right + margin * width
+    height = scene.top - scene.bottom
+    axes.set(xlim=xlim, ylim=(scene.bottom - 0.06 * height, scene.top + 0.08 * height), title=title)
+    axes.set_xticks([])
+    axes.grid(False)
+    elevation.draw_surroundings(axes, xlim)
+    return elevation
+
+
+def number(axes, x, y, p):
+    """The number of a contact in a circle."""
+    look = {"boxstyle": "circle,pad=0.25", "facecolor": "white", "edgecolor": BLACK, "linewidth": 1.2}
+    axes.text(x, y, str(p), bbox=look, **LABEL)

@@ -1,0 +1,78 @@
+//! What stands where: the floors of both buildings with their levels, and what meets at each contact.
+//!
+//! Pictures are drawn from it: what faces what is worked out in one place, the scene.
+
+use pounding::scene::{Building, ContactPair, Face, Scene};
+use serde::Serialize;
+
+/// As `--layout` writes it, and in the data of the page.
+#[derive(Serialize)]
+pub struct Layout<'a> {
+    name: &'a str,
+    left: Standing,
+    right: Standing,
+    contacts: Vec<Contact>,
+}
+
+/// A building; one without floors is not there.
+#[derive(Serialize)]
+struct Standing {
+    floors: usize,
+    /// m, from the ground floor up, where the scene has heights.
+    levels: Option<Vec<f64>>,
+}
+
+#[derive(Serialize)]
+struct Contact {
+    /// What meets, in words.
+    meeting: String,
+    left: Surface,
+    right: Surface,
+    /// Side and number of the floors that take part, and how much a displacement of each adds to the penetration: positive
+    /// on the left of the gap, negative on its right.
+    row: Vec<(&'static str, usize, f64)>,
+    /// m
+    gap: f64,
+    law: &'static str,
+}
+
+/// What is on one side of a gap.
+#[derive(Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+enum Surface {
+    Floor { side: &'static str, floor: usize },
+    Columns { side: &'static str, storey: usize, position: f64 },
+    Wall,
+}
+
+impl Layout<'_> {
+    pub fn of(scene: &Scene) -> Layout<'_> {
+        let contacts = scene.contacts.iter().map(|pair| contact(scene, pair)).collect();
+        Layout { name: &scene.name, left: standing(&scene.left), right: standing(&scene.right), contacts }
+    }
+}
+
+fn standing(building: &Building) -> Standing {
+    let floors = building.mass.len();
+    let levels = building.heights.as_ref().map(|heights| (0..=floors).map(|floor| heights.level(floor)).collect());
+    Standing { floors, levels }
+}
+
+fn contact(scene: &Scene, pair: &ContactPair) -> Contact {
+    Contact {
+        meeting: pair.meeting(scene),
+        left: surface(pair.left),
+        right: surface(pair.right),
+        row: pair.row().map(|share| (share.side.name(), share.floor + 1, share.weight)).collect(),
+        gap: pair.gap,
+        law: pair.law.kind.info().name,
+    }
+}
+
+fn surface(face: Face) -> Surface {
+    match face {
+        Face::Floor(side, floor) => Surface::Floor { side: side.name(), floor },
+        Face::Columns { side, storey, position, .. } => Surface::Columns { side: side.name(), storey, position },
+        Face::Wall => Surface::Wall,
+    }
+}
