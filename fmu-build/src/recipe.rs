@@ -79,7 +79,7 @@ fn read(scene_file: &Path) -> Result<Package> {
 /// What looks like a slip, a line each.
 fn warnings_of(package: &Package) -> Vec<String> {
     let record = package.record.as_ref().map(|packaged| &packaged.record);
-    pounding::warnings::of(&package.scene, record).iter().map(|warning| format!("warning: {warning}")).collect()
+    pounding::warnings::of_file(&package.scene, record).iter().map(|warning| format!("warning: {warning}")).collect()
 }
 
 /// What the FMU has logged but for the slips, which have been told by then.

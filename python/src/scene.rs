@@ -58,7 +58,7 @@ impl Scene {
         let found = if self.is_changed {
             self.settings.warnings()
         } else {
-            warnings::of(&self.package.scene, self.settings.record())
+            warnings::of_file(&self.package.scene, self.settings.record())
         };
         found.iter().map(ToString::to_string).collect()
     }

@@ -84,7 +84,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     if let Some(file) = &arguments.record {
         give_record(&mut package, file)?;
     }
-    for warning in warnings::of(&package.scene, package.record.as_ref().map(|packaged| &packaged.record)) {
+    for warning in warnings::of_file(&package.scene, package.record.as_ref().map(|packaged| &packaged.record)) {
         // Nobody may be there to read it.
         let _ = writeln!(std::io::stderr(), "warning: {warning}");
     }

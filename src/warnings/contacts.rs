@@ -14,6 +14,8 @@ use std::f64::consts::PI;
 /// Widest gap of neighbouring buildings, m; from [`FAR_AWAY`] on a gap is meant to be out of reach.
 const WIDEST_GAP: f64 = 1.0;
 const FAR_AWAY: f64 = 1000.0;
+/// What begins the list of other contacts of which the same is to be said.
+pub(super) const LIKEWISE: &str = " (likewise ";
 /// Largest `min_approach_velocity` without a warning, m/s: impacts of buildings begin at 0.1 to 1 m/s.
 const MOST_LEAST_APPROACH: f64 = 0.02;
 
@@ -110,8 +112,8 @@ fn group(facts: &Facts<'_>, found: &mut Found, key: &str, odd: impl Fn(&ContactP
     let more: Vec<String> = all.map(|(index, _)| format!("contact[{}]", index + 1)).collect();
     let also = match more.as_slice() {
         [] => String::new(),
-        [one] => format!(" (likewise {one})"),
-        [one, .., last] => format!(" (likewise {} more, {one} to {last})", more.len()),
+        [one] => format!("{LIKEWISE}{one})"),
+        [one, .., last] => format!("{LIKEWISE}{} more, {one} to {last})", more.len()),
     };
     let text = format!("{text}{also}");
     match key {

@@ -63,6 +63,21 @@ pub fn of(scene: &Scene, record: Option<&Record>) -> Vec<Warning> {
     found.warnings
 }
 
+/// The same for a scene file, where what is odd about the contacts that `[facing]` has made stands in that table.
+pub fn of_file(scene: &Scene, record: Option<&Record>) -> Vec<Warning> {
+    let mut warnings = of(scene, record);
+    if scene.facing.is_some() {
+        for warning in &mut warnings {
+            let key = warning.path.strip_prefix("contact[1].").filter(|key| !key.ends_with("_position"));
+            if let Some(key) = key.map(|key| format!("facing.{key}")) {
+                warning.path = key;
+                warning.text.truncate(warning.text.find(contacts::LIKEWISE).unwrap_or(warning.text.len()));
+            }
+        }
+    }
+    warnings
+}
+
 /// A value of the input `ground.acceleration`, m/s2, that no earthquake has had.
 pub fn of_ground_input(value: f64) -> Option<Warning> {
     let mut found = Found::default();
