@@ -35,6 +35,7 @@ pub const STOP: f64 = 10.0;
 
 /// What is solved, and which files are written.
 #[derive(Args)]
+#[group(id = "run")]
 pub struct Arguments {
     /// The scene.
     #[arg(value_name = "SCENE.toml")]

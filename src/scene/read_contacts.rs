@@ -37,6 +37,7 @@ fn facing(
     buildings: [&Building; 2],
     units: Units,
 ) -> Vec<ContactPair> {
+    let shape = section.get("column_shape").and_then(|item| column_shape(&item)).unwrap_or_default();
     let gap = gap(&mut section);
     let law = law(section, units);
     let heights = [Side::Left, Side::Right].map(|side| {
@@ -47,7 +48,7 @@ fn facing(
         building.heights.as_ref()
     });
     match heights {
-        [Some(left), Some(right)] => facing::contacts([left, right], tolerance, gap, law),
+        [Some(left), Some(right)] => facing::contacts([left, right], (tolerance, shape), gap, law),
         _ => Vec::new(),
     }
 }

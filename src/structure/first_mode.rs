@@ -96,6 +96,7 @@ mod tests {
             damping: Damping::Ratio(0.0),
             initial_displacement: rest.clone(),
             initial_velocity: rest,
+            heights: None,
         }
     }
 

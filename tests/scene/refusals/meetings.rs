@@ -198,6 +198,10 @@ fn facing() {
             "left 2 | columns of right 3 at 0.033333"
         ]
     );
+    let straight = contacts(&with_heights(&facing("column_shape = \"straight\"")));
+    let shape_of = |face: Face| if let Face::Columns { shape, .. } = face { Some(shape) } else { None };
+    let shapes = straight.iter().map(|pair| shape_of(pair.left).or(shape_of(pair.right)));
+    assert_eq!(shapes.collect::<Vec<_>>(), [Some(ColumnShape::Straight); 3]);
     // A neighbour on a slope: floors not above its ground floor face nothing.
     assert_eq!(all(level("height = [3.0, 3.0, 3.0]\nbase_level = 3.0", "")), ["left 2 | right 1"]);
 
