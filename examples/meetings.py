@@ -1,4 +1,4 @@
-"""What meets in a scene: its buildings at rest with their contacts, numbered as in the scene, and in words beside them."""
+"""What meets in a scene: its buildings at rest with their contacts, numbered, and in words beside them."""
 
 from elevation import Elevation, prepare_height
 from style import BLACK, BUILDINGS, pyplot

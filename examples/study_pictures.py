@@ -7,7 +7,7 @@ import numpy as np
 from engine import STANDARD_GRAVITY
 from pictures import force_unit
 from study_fragility import INTENSITIES, lognormal
-from study_table import NEVER_CLOSES
+from study_table import NEVER_CLOSES, SIDES
 from style import ALONE, BLACK, CYCLE, pyplot, save
 
 plt = pyplot()
@@ -44,20 +44,18 @@ def gaps(rows, path):
     if not closing:
         return
     factor, unit = force_unit(max(row["peak_force_n"] for row in closing))
+    sides = [side for side in SIDES if any(row[f"{side}_drift_m"] is not None for row in closing)]
+    of_building = lambda side, what: lambda row: row[f"{side}_{what}_ratio"]  # noqa: E731
     panels = {
         f"largest contact force [{unit}]": lambda row: row["peak_force_n"] / factor,
-        "left building: storey drift": lambda row: row["left_drift_ratio"],
-        "right building: storey drift": lambda row: row["right_drift_ratio"],
+        **{f"{side} building: storey drift": of_building(side, "drift") for side in sides},
         "impacts": lambda row: row["impacts"],
-        "left building: floor acceleration": lambda row: row["left_acceleration_ratio"],
-        "right building: floor acceleration": lambda row: row["right_acceleration_ratio"],
+        **{f"{side} building: floor acceleration": of_building(side, "acceleration") for side in sides},
     }
-    figure, axes = plt.subplots(2, 3, figsize=(12, 7.2), sharex=True)
+    columns = 1 + len(sides)
+    figure, axes = plt.subplots(2, columns, figsize=(4 * columns, 7.2), sharex=True)
     drawn = some(row["pga_m_s2"] for row in closing)
     for panel, (title, demand) in zip(axes.flat, panels.items()):
-        if all(demand(row) is None for row in closing):
-            panel.axis("off")
-            continue
         for pga, style in zip(drawn, CYCLE):
             of_pga = [row for row in closing if row["pga_m_s2"] == pga]
             draw_demand(panel, of_pga, demand, style, in_g(pga), shaded=panel is axes[0, 0])

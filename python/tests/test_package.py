@@ -83,7 +83,9 @@ def test_it_is_there_at_once_and_without_numpy():
 
 def test_data():
     data = pounding_fmu.example_scene.parent.parent
-    assert {file.name for file in (data / "scenes").iterdir()} >= {"feup.toml", "offices.toml", "two_blocks.toml"}
+    assert {file.name for file in (data / "scenes").iterdir()} >= {
+        f"{name}.toml" for name in ["feup", "isolated", "neighbours", "offices", "two_blocks"]
+    }
     for scene in (data / "scenes").iterdir():
         assert pounding_fmu.problems(scene) == []
     assert (data / "LICENSE-MIT").is_file() and (PACKAGE / "py.typed").is_file()

@@ -28,8 +28,8 @@ struct Contact {
     meeting: String,
     left: Surface,
     right: Surface,
-    /// Side and number of the floors that take part, and how much a displacement of each adds to the penetration: positive
-    /// on the left of the gap, negative on its right.
+    /// Side and number of the floors that take part, and how much a displacement of each adds to the penetration:
+    /// positive on the left of the gap, negative on its right.
     row: Vec<(&'static str, usize, f64)>,
     /// m
     gap: f64,

@@ -29,6 +29,27 @@ def test_the_gaps_are_those_that_the_guide_quotes(offices):
     assert f"```text\n{printed}```" in GUIDE
 
 
+def test_the_gaps_of_one_building_between_walls(build):
+    fmu = build(example_scene("isolated"))
+    command = [sys.executable, harness.ROOT / "examples/choose_gap.py", fmu.path]
+    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    stop = float(fmu.description.defaultExperiment.stopTime)
+    apart, near = (
+        fmu.simulate(stop, stop, start_values={f"contact[{p}].gap": gap for p in (1, 2)})[-1] for gap in (1000.0, 0.0)
+    )
+    assert f"left.displacement[1] {1e3 * apart['left.peak_displacement[1]']:.1f} mm" in printed
+    drift = max(near[f"left.peak_drift[{i}]"] / apart[f"left.peak_drift[{i}]"] for i in range(1, 6))
+    force = max(near[f"contact[{p}].peak_force"] for p in (1, 2)) / 1e3
+    *_, last = printed.splitlines()
+    assert last.split() == ["0.0", str(near["impacts"]), f"{force:.0f}", f"{drift:.2f}"]
+
+
+def example_scene(name):
+    """An example as text that can lie anywhere."""
+    text = (harness.ROOT / f"examples/scenes/{name}.toml").read_text()
+    return harness.replaced(text, "../records/el_centro_1940_ns.csv", str(harness.RECORD))
+
+
 def test_the_readme_quotes_what_its_ten_lines_print(feup, tmp_path):
     (tmp_path / "target/fmu").mkdir(parents=True)
     shutil.copy(feup.path, tmp_path / "target/fmu/FeupFrames.fmu")

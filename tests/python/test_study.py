@@ -236,6 +236,21 @@ def test_the_table_has_the_spectral_accelerations_of_its_buildings(serial):
                 assert float(row[f"{side}_sa_m_s2"]) == pytest.approx(strength, rel=1e-12)
 
 
+def test_of_one_building_between_walls_the_other_columns_are_empty(tmp_path):
+    scene = harness.ROOT / "examples/scenes/isolated.toml"
+    plan = ["--workers", 1, "--stop", 7.0, "--synthetic", 0, "--pga", 5.0]
+    text, _ = study(tmp_path, *plan, "--gaps", 0.1, "--", scene)
+    row, alone = csv.DictReader(text.splitlines())
+    assert not any(row[name] or alone[name] for name in row if name.startswith("right_") or name == "error")
+    engine = harness.engine(scene, tmp_path, 7.0, stop=7.0)[-1]
+    assert int(row["impacts"]) == engine["impacts"] > 0
+    assert float(row["left_drift_m"]) == pytest.approx(engine["left.peak_drift[1]"], rel=1e-10)
+    assert float(row["left_drift_ratio"]) > 2.0
+    # What is there is read again.
+    text_again, said = study(tmp_path, *plan, "--gaps", 0.1, "--", scene)
+    assert text_again == text and "2 cases, 2 of them done" in said
+
+
 def test_the_parameters_of_the_curves_are_in_a_table(tmp_path):
     study(tmp_path, "--workers", 1)
     lines = list(csv.DictReader((tmp_path / "fragility_FeupFrames.csv").open()))

@@ -115,6 +115,21 @@ def test_a_damaged_table_is_told_by_its_lines(tmp_path, damage, said):
     assert path.read_bytes() == before
 
 
+def test_a_building_that_is_not_there_may_lack_its_numbers_but_no_other_may(tmp_path):
+    whole = row_of(case_of())
+    one_lacks = row_of(case_of(pga=2.0), right_drift_m=None)
+    absent = {name: None if name.startswith("right_") else value for name, value in row_of(case_of(pga=3.0)).items()}
+    opened = results_of(tmp_path)
+    opened.add([whole, absent])
+    opened.close()
+    opened = results_of(tmp_path)
+    assert len(opened.rows) == 2
+    opened.add([one_lacks])
+    opened.close()
+    with pytest.raises(SystemExit, match="line 4: right_drift_m: expected a value, or a reason in error"):
+        results_of(tmp_path)
+
+
 NAMES = ["=1+1", "+1", "-1", "@SUM(A1)", "'quoted", "''=x", 'say "a,b"', "\tx", "plain", "ü\u2028"]
 
 
