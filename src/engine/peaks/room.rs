@@ -8,6 +8,10 @@ use crate::structure::{LANES, Lane, Structure};
 /// Number of motions within a flight that are kept.
 pub const MOST_FLOWN: usize = 16;
 
+/// Largest number of pieces in which a flight is searched for one quantity. Only the undamped free vibration of several
+/// modes over thousands of periods in one communication step needs more; maxima that it reaches later are missed.
+pub const MOST_PIECES: u32 = 10_000;
+
 /// The motion of all modes at a time of a flight, s since its start.
 #[derive(Clone, Debug, Default)]
 pub struct Flown {

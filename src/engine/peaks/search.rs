@@ -21,10 +21,6 @@ const REACH: f64 = 1.5;
 /// Largest number of halvings of pieces of a flight: then they are as short as rounding.
 const MOST_HALVINGS: u32 = 40;
 
-/// Largest number of pieces in which a flight is searched for one quantity. Only the undamped free vibration of several
-/// modes over thousands of periods in one communication step needs more; maxima that it reaches later are missed.
-pub const MOST_PIECES: u32 = 10_000;
-
 /// A piece of a flight, from one time since its start to another, s, and the number of times that it may be halved.
 #[derive(Clone, Copy)]
 struct Piece {
