@@ -314,10 +314,10 @@ impl Model {
     }
 }
 
-/// Bounds by the series of a step between floors: a floor's absolute acceleration a deviates from the chord of its values
-/// at both ends by at most h^2/8 max|u''''| in time, and by x^2/8 max|d^2a/dx^2| in the x of a time map. Writes these
-/// deviations, m/s2, and takes the forces at both ends for the least and largest ones, since the chord has them; returns
-/// whether the step has such a series.
+/// Bounds by the series of a step between floors: a floor's absolute acceleration a deviates from the chord of its
+/// values at both ends by at most h^2/8 max|u''''| in time, and by x^2/8 max|d^2a/dx^2| in the x of a time map. Writes
+/// these deviations, m/s2, and takes the forces at both ends for the least and largest ones, since the chord has them;
+/// returns whether the step has such a series.
 ///
 /// However long the step, and however quick the building's highest modes: the bounds of `floors.rs` need a short step.
 fn bound_by_series(part: &ContactStep, work: &mut PeakWork) -> bool {

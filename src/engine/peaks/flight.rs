@@ -183,8 +183,8 @@ impl Model {
         }
     }
 
-    /// Raises the peaks of block `b` to both ends of a flight, with the bounds on its modes, and notes the quantities that
-    /// have to be searched for; `known_ends` are the values at both ends, if they are known.
+    /// Raises the peaks of block `b` to both ends of a flight, with the bounds on its modes, and notes the quantities
+    /// that have to be searched for; `known_ends` are the values at both ends, if they are known.
     pub(in crate::engine) fn check_block(
         &self,
         building: &BuildingRows,

@@ -30,8 +30,8 @@ pub struct Suspect {
     pub peak: f64,
     /// Number of pieces in which the flight may still be searched for it.
     pub pieces_left: u32,
-    /// If it is known not to exceed its peak in the piece that is searched, or in one that this is a half of: the number
-    /// of times that the latter may be halved.
+    /// If it is known not to exceed its peak in the piece that is searched, or in one that this is a half of: the
+    /// number of times that the latter may be halved.
     pub cleared_in: Option<u32>,
 }
 

@@ -44,8 +44,8 @@ pub struct Quantity<'a> {
 
 impl Model {
     /// Raises the peaks of the quantities that may exceed theirs within a flight. They are searched for in the whole
-    /// flight, so that a turning point has the same bits whatever part is asked for, and all together: many of them turn at
-    /// about the same time.
+    /// flight, so that a turning point has the same bits whatever part is asked for, and all together: many of them
+    /// turn at about the same time.
     pub(in crate::engine) fn search_flight(&self, flight: &Stretch, peaks: &mut Peaks, work: &mut PeakWork) {
         if work.peaks.suspects.is_empty() {
             return;
@@ -58,8 +58,8 @@ impl Model {
         work.peaks.suspects = suspects;
     }
 
-    /// Searches a piece, as far as it lies in the first `until` seconds of the flight. A piece too long for one series is
-    /// halved, for the quantities that its ends do not prove to stay below their peaks in it.
+    /// Searches a piece, as far as it lies in the first `until` seconds of the flight. A piece too long for one series
+    /// is halved, for the quantities that its ends do not prove to stay below their peaks in it.
     fn search_piece(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
         let Piece { from, to, halvings } = piece;
         if from >= until {
@@ -152,8 +152,8 @@ impl Model {
         }
     }
 
-    /// Raises the peaks to the ends of a piece, whose motions are in `pieces`, and clears the quantities that cannot exceed
-    /// theirs in between.
+    /// Raises the peaks to the ends of a piece, whose motions are in `pieces`, and clears the quantities that cannot
+    /// exceed theirs in between.
     fn compare_ends(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
         self.set_load(flight, piece.from, work);
         let PeakWork { buffers: Buffers { node_v: jerk, .. }, peaks } = work;

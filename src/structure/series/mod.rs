@@ -126,8 +126,8 @@ impl MotionSeries {
         substitution.apply(self.coefficients[..end].as_chunks_mut::<LANES>().0, self.lanes / LANES);
     }
 
-    /// Bounds on the magnitudes of the second derivatives with respect to x, from 0 to that x, for each mode or floor of a
-    /// series whose variable x is.
+    /// Bounds on the magnitudes of the second derivatives with respect to x, from 0 to that x, for each mode or floor
+    /// of a series whose variable x is.
     pub fn bound_seconds(&self, x: f64, bounds: &mut [f64]) {
         let (mut factors, mut power) = ([0.0; MAX_TERMS], 1.0);
         for n in 2..=self.order {
