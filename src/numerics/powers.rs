@@ -61,8 +61,12 @@ impl Powers {
     /// Tables for x >= 0 and polynomials with powers up to `highest`.
     pub fn set(&mut self, x: f64, highest: usize) {
         let highest = highest.min(MAX_TERMS - 1);
-        self.highest = highest;
-        (self.x, self.stretch, self.is_curved, self.is_in_time) = (x, 0.0, false, false);
+        (self.stretch, self.is_curved, self.is_in_time) = (0.0, false, false);
+        // The power 0 is 1 once tables have been set.
+        if (self.x, self.highest, self.value[0]) == (x, highest, 1.0) {
+            return;
+        }
+        (self.x, self.highest) = (x, highest);
         self.blocks = highest / BLOCK + 1;
         let square = x * x;
         let mut last = [1.0, x];

@@ -203,25 +203,35 @@ fn peaks_with_contacts_are_those_of_a_dense_reading() {
     }
 }
 
-/// Contacts so soft that steps in contact go from sample to sample, over much of a swing of the quicker modes.
+/// Two contacts so soft that steps go from sample to sample, over much of a swing of the quicker modes.
+fn soft_contacts(law: &str) -> String {
+    let pair = |floor: usize| format!("[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = 0.004\n{law}\n");
+    [5, 9].map(|floor| pair(floor) + "stiffness = 1e5\n").concat()
+}
+
 #[test]
 fn peaks_within_long_steps_of_many_storeys_are_those_of_a_dense_reading() {
-    let contact = |floor: usize| {
-        format!(
-            "[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = 0.004\nlaw = \"linear\"\nstiffness = 1e5\n"
-        )
-    };
-    let text = format!(
-        "name = \"Long\"\n{}{}{}{}",
-        frame("left", 10, 1e3, 14.0, 0.01),
-        frame("right", 9, 2e3, 11.0, 0.01),
-        contact(5),
-        contact(9)
-    );
+    let buildings = frame("left", 10, 1e3, 14.0, 0.01) + &frame("right", 9, 2e3, 11.0, 0.01);
     // Which keeps contacts floor by floor.
-    let text = text.replace("{ ratio = 0.01 }", "{ rayleigh = { ratio = 0.01, modes = [1, 2] } }");
-    let record = shaking(0.02, 100, 6.0);
-    compare("long steps", &with_record(&text), Some(&record), 2.5, 20_000);
+    let buildings = buildings.replace("{ ratio = 0.01 }", "{ rayleigh = { ratio = 0.01, modes = [1, 2] } }");
+    let text = format!("name = \"Long\"\n{buildings}{}", soft_contacts("law = \"linear\""));
+    compare("long steps", &with_record(&text), Some(&shaking(0.02, 100, 6.0)), 2.5, 20_000);
+}
+
+/// Power laws, whose steps are in the x of a time map: over rough ground, accelerations turn within them.
+#[test]
+fn peaks_within_steps_in_a_time_map_are_those_of_a_dense_reading() {
+    let building = |side: &str, storeys: usize, mass: f64, frequency: f64| {
+        let stiffness = mass * (2.0 * PI * frequency) * (2.0 * PI * frequency);
+        let damping = "damping = { rayleigh = { ratio = 0.01, modes = [1, 2] } }";
+        format!("[{side}]\nmass = {:?}\nstiffness = {:?}\n{damping}\n", vec![mass; storeys], vec![stiffness; storeys])
+    };
+    let buildings = building("left", 10, 1e3, 14.0) + &building("right", 9, 2e3, 11.0);
+    let samples: Vec<f64> = (0..100).map(f64::from).map(|k| 6.0 * libm::sin(k * (0.7 * k + 1.0))).collect();
+    for law in ["law = \"hertz\"", "law = \"jankowski\"\nrestitution = 0.6"] {
+        let text = format!("name = \"Map\"\n{buildings}{}", soft_contacts(law));
+        compare(law, &with_record(&text), Some(&record(0.02, &samples)), 2.5, 20_000);
+    }
 }
 
 #[test]

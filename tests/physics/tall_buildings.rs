@@ -90,6 +90,15 @@ fn two_floors_lean_at_once() {
     compare([44, 40], &[(40, DAMPED)], 1e-11);
 }
 
+/// So soft that a contact is fresh, and its force still that of an entry, for a whole sample interval after the one in
+/// which it begins.
+#[test]
+fn fresh_contacts_last_from_sample_to_sample() {
+    for law in ["law = \"hertz\"\nstiffness = 2e7", "law = \"hertz\"\nstiffness = 2e6"] {
+        compare([42, 40], &[(40, law)], 1e-11);
+    }
+}
+
 /// Communication points within windows, at their ends but for rounding, and none at all.
 #[test]
 fn a_window_does_not_depend_on_where_it_is_read() {

@@ -160,8 +160,8 @@ impl Model {
         Amplitudes { own, over_w, quick, bent, damping }
     }
 
-    /// Raises the peaks of a block to the values at the end of a segment, which has been flown to the base; returns
-    /// whether they may have been exceeded before the end.
+    /// Raises the peaks of a block to the values at the end of a segment, which has been flown to the base; returns the
+    /// values at both ends if the peaks may have been exceeded in between.
     pub(in crate::engine) fn raise_to_end(
         &self,
         building: &BuildingRows,
@@ -169,17 +169,18 @@ impl Model {
         segment: u64,
         base: &mut Base,
         work: &mut PeakWork,
-    ) -> bool {
+    ) -> Option<[Lane; 2]> {
         let watched = &mut work.peaks.watch.blocks[building.first + b];
         if watched.clear_until > segment {
-            return false;
+            return None;
         }
         let modes = building.modes.clone();
         let end = values_of(&building.blocks[b], &base.q[modes.clone()], &base.v[modes]);
         let peaks = &mut base.peaks.values.as_chunks_mut::<LANES>().0[building.first + b];
         let may_exceed = watched.raise_to(&end, peaks);
-        (watched.value, watched.known_at) = (end, Some(segment + 1));
-        may_exceed
+        let start = std::mem::replace(&mut watched.value, end);
+        watched.known_at = Some(segment + 1);
+        may_exceed.then_some([start, end])
     }
 
     /// Raises the peaks of a block over a part of a flight, which began with the base's segment and ends with a motion;
@@ -240,7 +241,7 @@ impl WatchedBlock {
 
 /// The values of a block.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn values_of(block: &Block, q: &[f64], v: &[f64]) -> Lane {
+pub fn values_of(block: &Block, q: &[f64], v: &[f64]) -> Lane {
     block.values(q, v)
 }
 

@@ -15,7 +15,7 @@ use crate::engine::taylor::solution::Solution;
 use crate::engine::watched::rows::PeakOf;
 use crate::numerics::polynomial::{larger, value_and_slope};
 use crate::numerics::powers::Powers;
-use crate::structure::Side;
+use crate::structure::{MotionSeries, Side};
 use std::ops::Range;
 
 /// Largest error of a quantity's series at the end of a step, relative to its peak, with which the series is searched.
@@ -289,7 +289,8 @@ impl Model {
     ) -> f64 {
         let mut rows = std::mem::take(&mut work.peaks.rows);
         let lanes = self.set_rows(of, part.base.coordinates, &mut rows);
-        let quantity = Quantity { of, rows: &rows, lanes, ground: part.ground() };
+        let span = self.span_of(of.side(), part.base.coordinates);
+        let quantity = Quantity { of, rows: &rows, lanes, span, ground: part.ground() };
         let step = part.step;
         let peak = match step.dense() {
             Dense::Flight => known,
@@ -311,24 +312,45 @@ impl Model {
     }
 }
 
-/// Bounds by the series of a step in time, between floors: a floor's absolute acceleration deviates from the chord of its
-/// values at both ends by at most h^2/8 max|u''''|. Writes these deviations, m/s2, and takes the forces at both ends for
-/// the least and largest ones, since the chord has them; returns whether the step has such a series.
+/// Bounds by the series of a step between floors: a floor's absolute acceleration a deviates from the chord of its
+/// values at both ends by at most h^2/8 max|u''''| in time, and by x^2/8 max|d^2a/dx^2| in the x of a time map. Writes
+/// these deviations, m/s2, and takes the forces at both ends for the least and largest ones, since the chord has them;
+/// returns whether the step has such a series.
 ///
 /// However long the step, and however quick the building's highest modes: the bounds of `floors.rs` need a short step.
 fn bound_by_series(part: &ContactStep, work: &mut PeakWork) -> bool {
-    let Dense::Taylor(Solution { series, end, .. }) = part.step.dense() else { return false };
-    if part.base.coordinates != Coordinates::Floors || series.time_map.is_curved() {
+    let Dense::Taylor(solution) = part.step.dense() else { return false };
+    if part.base.coordinates != Coordinates::Floors {
         return false;
     }
     let PeakRoom { floors: FloorRoom { strays, least, most, .. }, first_push, last_push, .. } = &mut *work.peaks;
-    series.bound_fourths(end, strays);
-    let sag = 0.125 * part.length * part.length;
-    strays.iter_mut().for_each(|stray| *stray *= sag);
+    match solution.series.time_map.is_curved() {
+        false => {
+            solution.series.bound_fourths(&solution.end, strays);
+            let sag = 0.125 * part.length * part.length;
+            strays.iter_mut().for_each(|stray| *stray *= sag);
+        }
+        true => bound_in_time_map(solution, part, &mut work.buffers.series, strays),
+    }
     for (lane, (first, last)) in first_push.iter().zip(&*last_push).enumerate() {
         (least[lane], most[lane]) = (smaller(*first, *last), larger(*first, *last));
     }
     true
+}
+
+/// The deviations from the chord in the x of the step's time map; `accelerations` is scratch.
+fn bound_in_time_map(
+    Solution { series, substitution, .. }: &Solution,
+    part: &ContactStep,
+    accelerations: &mut MotionSeries,
+    strays: &mut [f64],
+) {
+    let x = series.x_at(part.length);
+    accelerations.set_accelerations(series, substitution);
+    accelerations.bound_seconds(x, strays);
+    // The ground's acceleration is linear in time, which is quadratic in x.
+    let of_ground = 2.0 * (series.time_map.curvature * series.scale * part.ground().1).abs();
+    strays.iter_mut().for_each(|stray| *stray = 0.125 * x * x * (*stray + of_ground));
 }
 
 fn smaller(a: f64, b: f64) -> f64 {

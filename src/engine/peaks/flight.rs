@@ -10,7 +10,8 @@ use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
-use crate::engine::peaks::room::{ModeBounds, PeakRoom, PeakWork};
+use crate::engine::peaks::ahead::values_of;
+use crate::engine::peaks::room::{MOST_PIECES, ModeBounds, PeakRoom, PeakWork, Suspect};
 use crate::engine::watched::rows::{Block, BuildingRows, PeakOf};
 use crate::numerics::polynomial::{each, larger};
 use crate::numerics::roots;
@@ -32,6 +33,9 @@ pub struct Stretch<'a> {
     pub ground: (f64, f64),
     /// Length, s.
     pub length: f64,
+    /// Whether the amplitudes of the modes have been compared with the peaks for some segments at once
+    /// ([`super::ahead`]), so that doing so for this one is seldom worth it.
+    pub is_watched: bool,
     /// The whole flight, of which this is the first part; `None` if it is whole itself.
     pub whole: Option<&'a Stretch<'a>>,
 }
@@ -66,9 +70,10 @@ impl Model {
                 if !std::mem::replace(&mut is_bounded, true) {
                     self.bound_modes(building, flight, &mut work.peaks.bounds, &mut work.buffers.node_v);
                 }
-                self.check_block(building, b, flight, peaks, work);
+                self.check_block(building, b, (flight, None), peaks, work);
             }
         }
+        self.search_flight(flight, peaks, work);
     }
 
     /// Raises peaks to the motion of the base, on modes and without contact forces. An input that has just been set
@@ -144,7 +149,9 @@ impl Model {
             room.quick[m] = change * room.slow[m];
             room.slow[m] *= speed;
         }
-        self.bound_swings(building, flight, room, is_coupled);
+        if !flight.is_watched {
+            self.bound_swings(building, flight, room, is_coupled);
+        }
     }
 
     /// Works out bounds on the oscillation of a building's modes about their quasi-static displacements (see
@@ -176,12 +183,13 @@ impl Model {
         }
     }
 
-    /// Raises the peaks of block `b` over a flight, with the bounds on its modes.
+    /// Raises the peaks of block `b` to both ends of a flight, with the bounds on its modes, and notes the quantities
+    /// that have to be searched for; `known_ends` are the values at both ends, if they are known.
     pub(in crate::engine) fn check_block(
         &self,
         building: &BuildingRows,
         b: usize,
-        flight: &Stretch,
+        (flight, known_ends): (&Stretch, Option<[Lane; 2]>),
         peaks: &mut Peaks,
         work: &mut PeakWork,
     ) {
@@ -190,10 +198,11 @@ impl Model {
         let place = (building.first + b) * LANES;
         let direct = &work.peaks.direct[place..];
         let known = *peaks.block(building.first + b);
-        if stays_below(&known, block, (bounds, &modes), self.system.floor_forces.then_some((direct, 0.0, h))) {
+        let added = self.system.floor_forces.then_some((direct, 0.0, h));
+        if !flight.is_watched && stay_below(&known, block, (bounds, &modes), added) == [true; LANES] {
             return;
         }
-        let mut course = course_of(block, flight, bounds, modes);
+        let mut course = course_of(block, (flight, known_ends), bounds, modes);
         if self.system.floor_forces {
             course.add(&work.peaks.direct[place..], 0.0, h);
         }
@@ -207,17 +216,20 @@ impl Model {
             if course.may_turn_above(i, h, peak)
                 && let Some(of) = self.peak_rows.at(place + i)
             {
-                // Searched for in the whole flight, so that a turning point has the same bits whatever part is asked
-                // for.
-                let peak = self.highest_in_flight(flight.whole.unwrap_or(flight), of, (peak, h), work);
-                peaks.raise(place + i, peak);
+                work.peaks.suspects.push(Suspect {
+                    of,
+                    place: place + i,
+                    peak,
+                    pieces_left: MOST_PIECES,
+                    cleared_in: None,
+                });
             }
         }
     }
 }
 
 impl Block {
-    /// The values of the quantities, added up in the same order as in `sum_course`.
+    /// The values of the quantities.
     #[inline(always)]
     pub fn values(&self, q: &[f64], v: &[f64]) -> Lane {
         let mut sum = [0.0; LANES];
@@ -241,14 +253,14 @@ fn share(modes: &mut [f64]) {
     modes.fill(whole);
 }
 
-/// Whether the modes' oscillations are too small for the quantities of a block to exceed their peaks by more than
-/// rounding; `direct` is an addition to them that is linear in time, with the start and the length of its interval, s.
-pub fn stays_below(
+/// Whether the modes' oscillations are too small for each quantity of a block to exceed its peak by more than rounding;
+/// `direct` is an addition to them that is linear in time, with the start and the length of its interval, s.
+pub fn stay_below(
     peaks: &Lane,
     block: &Block,
     (bounds, modes): (&ModeBounds, &Range<usize>),
     direct: Option<(&[[f64; 2]], f64, f64)>,
-) -> bool {
+) -> [bool; LANES] {
     let [held, held_end] = &bounds.held;
     let of_modes =
         [held, held_end, &bounds.held_rate, &bounds.swing_q, &bounds.swing].map(|vector| &vector[modes.clone()]);
@@ -259,7 +271,7 @@ pub fn stays_below(
             larger((value + rate * from).abs(), (value + rate * (from + h)).abs())
         })
     };
-    (0..LANES).all(|i| swings[i] + added(i) <= (1.0 + MARGIN) * peaks[i])
+    std::array::from_fn(|i| swings[i] + added(i) <= (1.0 + MARGIN) * peaks[i])
 }
 
 /// Bounds on the magnitudes of a block's quantities: from the quasi-static displacements at the start and at the end,
@@ -289,38 +301,44 @@ fn swing_of(block: &Block, [held, held_end, rate, swing_q, swing]: [&[f64]; 5]) 
     each(|i| larger(start[i].abs(), end[i].abs()) + sum[i])
 }
 
-/// The quantities of a block at both ends of a flight.
-pub fn course_of(block: &Block, flight: &Stretch, bounds: &ModeBounds, modes: Range<usize>) -> Course {
-    let ends = [flight.start.0, flight.start.1, &bounds.first, flight.end.0, flight.end.1, &bounds.last];
-    let [slow, quick] = [&bounds.slow[modes.clone()], &bounds.quick[modes.clone()]];
-    sum_course(block, ends.map(|vector| &vector[modes.clone()]), [slow, quick])
+/// The quantities of a block at both ends of a flight, of which its values may be known.
+pub fn course_of(
+    block: &Block,
+    (flight, known_ends): (&Stretch, Option<[Lane; 2]>),
+    bounds: &ModeBounds,
+    modes: Range<usize>,
+) -> Course {
+    let [q, rate] = [flight.start.0, flight.start.1].map(|vector| &vector[modes.clone()]);
+    let [end_q, end_rate] = [flight.end.0, flight.end.1].map(|vector| &vector[modes.clone()]);
+    let [first, last, slow, quick] =
+        [&bounds.first, &bounds.last, &bounds.slow, &bounds.quick].map(|vector| &vector[modes.clone()]);
+    let mut course = sum_course(block, [rate, first, end_rate, last], [slow, quick]);
+    [course.start[0], course.end[0]] =
+        known_ends.unwrap_or_else(|| [values_of(block, q, rate), values_of(block, end_q, end_rate)]);
+    course
 }
 
-/// The same quantities from the modes' q, v and accelerations at both ends and the factors of the bounds on their
-/// fourth derivatives.
+/// Their slopes and the bounds on their fourth derivatives, from the modes' v and accelerations at both ends and the
+/// factors of these bounds.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn sum_course(block: &Block, ends: [&[f64]; 6], [slow, quick]: [&[f64]; 2]) -> Course {
+fn sum_course(block: &Block, ends: [&[f64]; 4], [slow, quick]: [&[f64]; 2]) -> Course {
     let count = block.on_q.len();
     // Equal lengths: no bounds checks below.
-    let [q, v, a, end_q, end_v, end_a] = ends.map(|vector| &vector[..count]);
+    let [v, a, end_v, end_a] = ends.map(|vector| &vector[..count]);
     let (slow, quick) = (&slow[..count], &quick[..count]);
     let mut course = Course::default();
-    let Course { start: [start, rate], end: [end, end_rate], fourth } = &mut course;
+    let Course { start: [_, rate], end: [_, end_rate], fourth } = &mut course;
     for m in 0..count {
         let row = &block.on_q[m];
         for i in 0..LANES {
-            start[i] += row[i] * q[m];
             rate[i] += row[i] * v[m];
-            end[i] += row[i] * end_q[m];
             end_rate[i] += row[i] * end_v[m];
             fourth[i] += row[i].abs() * slow[m];
         }
     }
     for (m, row) in block.on_v.iter().enumerate().take(count) {
         for i in 0..LANES {
-            start[i] += row[i] * v[m];
             rate[i] += row[i] * a[m];
-            end[i] += row[i] * end_v[m];
             end_rate[i] += row[i] * end_a[m];
             fourth[i] += row[i].abs() * quick[m];
         }

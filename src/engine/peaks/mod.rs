@@ -53,6 +53,8 @@ impl Model {
             (step.planned.length, &step.planned.q, &step.planned.v),
             work,
             |flight, work| {
+                let is_watched = watched.is_some() && !cfg!(without = "peaks_ahead");
+                let flight = &Stretch { is_watched, ..*flight };
                 let may_exceed = |block: usize, room: &PeakRoom| {
                     watched.is_none_or(|(_, segment)| !room.watch.is_clear(block, segment))
                 };
@@ -80,19 +82,25 @@ impl Model {
         for building in &self.peak_rows.buildings {
             let mut is_bounded = false;
             for b in 0..building.blocks.len() {
-                if !cfg!(without = "peaks_ahead") && !self.raise_to_end(building, b, segment, base, work) {
-                    continue;
-                }
+                let known_ends = match cfg!(without = "peaks_ahead") {
+                    true => None,
+                    false => match self.raise_to_end(building, b, segment, base, work) {
+                        None => continue,
+                        ends => ends,
+                    },
+                };
                 let mut peaks = std::mem::take(&mut base.peaks);
-                let (end, loads) = ((&base.q[..], &base.v[..]), (&load[..], &slope[..]));
-                let flight = Stretch { start, end, loads, ground, length: base.segment.length, whole: None };
+                let flight = segment_flight(base, start, ground, (&load, &slope));
                 if !std::mem::replace(&mut is_bounded, true) {
                     self.bound_modes(building, &flight, &mut work.peaks.bounds, &mut work.buffers.node_v);
                 }
-                self.check_block(building, b, &flight, &mut peaks, work);
+                self.check_block(building, b, (&flight, known_ends), &mut peaks, work);
                 base.peaks = peaks;
             }
         }
+        let mut peaks = std::mem::take(&mut base.peaks);
+        self.search_flight(&segment_flight(base, start, ground, (&load, &slope)), &mut peaks, work);
+        base.peaks = peaks;
         (work.buffers.load, work.buffers.slope) = (load, slope);
     }
 
@@ -112,7 +120,19 @@ impl Model {
         }
         let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
         let loads = (&load[..], &slope[..]);
-        then(&Stretch { start: (&base.q, &base.v), end: (q, v), loads, ground, length, whole: None }, work);
+        let (start, is_watched) = ((&base.q[..], &base.v[..]), false);
+        then(&Stretch { start, end: (q, v), loads, ground, length, is_watched, whole: None }, work);
         (work.buffers.load, work.buffers.slope) = (load, slope);
     }
+}
+
+/// The flight over a whole segment of the record to the base.
+fn segment_flight<'a>(
+    base: &'a Base,
+    start: (&'a [f64], &'a [f64]),
+    ground: (f64, f64),
+    loads: (&'a [f64], &'a [f64]),
+) -> Stretch<'a> {
+    let (end, length) = ((&base.q[..], &base.v[..]), base.segment.length);
+    Stretch { start, end, loads, ground, length, is_watched: !cfg!(without = "peaks_ahead"), whole: None }
 }

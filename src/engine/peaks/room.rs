@@ -2,11 +2,15 @@
 //! it changes a result, so no saved state holds it.
 
 use crate::engine::system::buffers::Buffers;
-use crate::engine::watched::rows::PeakRows;
+use crate::engine::watched::rows::{PeakOf, PeakRows};
 use crate::structure::{LANES, Lane, Structure};
 
 /// Number of motions within a flight that are kept.
 pub const MOST_FLOWN: usize = 16;
+
+/// Largest number of pieces in which a flight is searched for one quantity. Only the undamped free vibration of several
+/// modes over thousands of periods in one communication step needs more; maxima that it reaches later are missed.
+pub const MOST_PIECES: u32 = 10_000;
 
 /// The motion of all modes at a time of a flight, s since its start.
 #[derive(Clone, Debug, Default)]
@@ -14,6 +18,21 @@ pub struct Flown {
     pub time: f64,
     pub q: Vec<f64>,
     pub v: Vec<f64>,
+}
+
+/// A quantity that may exceed its peak within a flight.
+#[derive(Clone, Copy, Debug)]
+pub struct Suspect {
+    pub of: PeakOf,
+    /// Its index among the quantities of all blocks.
+    pub place: usize,
+    /// The largest magnitude that has been found.
+    pub peak: f64,
+    /// Number of pieces in which the flight may still be searched for it.
+    pub pieces_left: u32,
+    /// If it is known not to exceed its peak in the piece that is searched, or in one that this is a half of: the
+    /// number of times that the latter may be halved.
+    pub cleared_in: Option<u32>,
 }
 
 /// Scratch memory; between calls only two parts mean anything: the end of the last step in `floors`, and the bounds for
@@ -25,10 +44,8 @@ pub struct PeakRoom {
     pub bounds: ModeBounds,
     /// Bounds on the modes over a piece of a flight.
     pub piece: ModeBounds,
-    /// The piece of a flight, from and to, s, whose series is in the workspace.
-    pub expanded: Option<(f64, f64)>,
-    /// Number of pieces in which the flight may still be searched.
-    pub pieces_left: u32,
+    /// The quantities for which the flight is to be searched, by their places.
+    pub suspects: Vec<Suspect>,
     /// Motions at times of the flight that is searched, in a ring: several quantities need those at the same halvings.
     pub flown: [Flown; MOST_FLOWN],
     /// Index of the next motion to be overwritten.
@@ -67,8 +84,7 @@ impl PeakRoom {
             watch: PeakWatch::new(rows.blocks()),
             bounds: ModeBounds::new(lanes),
             piece: ModeBounds::new(lanes),
-            expanded: None,
-            pieces_left: 0,
+            suspects: Vec::with_capacity(rows.blocks() * LANES),
             flown: std::array::from_fn(|_| Flown { time: f64::NAN, q: vec![0.0; lanes], v: vec![0.0; lanes] }),
             next_flown: 0,
             pieces: [(); 4].map(|()| vec![0.0; lanes]),
@@ -89,7 +105,7 @@ impl PeakRoom {
 
     /// Begins the search of another flight.
     pub fn start_flight(&mut self) {
-        self.expanded = None;
+        self.suspects.clear();
         self.flown.iter_mut().for_each(|flown| flown.time = f64::NAN);
     }
 

@@ -2,26 +2,24 @@
 //! contact.
 
 use crate::engine::base::Coordinates;
+use crate::engine::base::peaks::Peaks;
 use crate::engine::model::Model;
-use crate::engine::peaks::flight::{Stretch, course_of, stays_below};
-use crate::engine::peaks::room::{MOST_FLOWN, PeakWork};
+use crate::engine::peaks::flight::{Stretch, course_of, stay_below};
+use crate::engine::peaks::room::{MOST_FLOWN, ModeBounds, PeakWork, Suspect};
 use crate::engine::system::buffers::Buffers;
-use crate::engine::watched::rows::PeakOf;
+use crate::engine::watched::rows::{BuildingRows, PeakOf};
 use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS, larger};
 use crate::numerics::powers::{Powers, Reading};
 use crate::numerics::roots;
 use crate::numerics::substitution::Substitution;
-use crate::structure::{EXACT, LANES, MotionSeries, dot, flight_order};
+use crate::structure::{EXACT, LANES, MotionSeries, Side, dot, flight_order};
+use std::ops::Range;
 
 /// Length of a piece, in units of 1 / (fastest rate), that one series reaches.
 const REACH: f64 = 1.5;
 
 /// Largest number of halvings of pieces of a flight: then they are as short as rounding.
 const MOST_HALVINGS: u32 = 40;
-
-/// Largest number of pieces in which a flight is searched for one quantity. Only the undamped free vibration of several
-/// modes over thousands of periods in one communication step needs more; maxima that it reaches later are missed.
-const MOST_PIECES: u32 = 10_000;
 
 /// A piece of a flight, from one time since its start to another, s, and the number of times that it may be halved.
 #[derive(Clone, Copy)]
@@ -38,64 +36,78 @@ pub struct Quantity<'a> {
     pub rows: &'a [Vec<f64>; 2],
     /// The lanes of the first row's 1 and, for a drift, -1, where it has no other entries.
     pub lanes: Option<(usize, Option<usize>)>,
+    /// The first of the lanes outside of which both rows are 0, and the one after the last.
+    pub span: (usize, usize),
     /// Ground acceleration at the start of the series, m/s2, and its slope, m/s3.
     pub ground: (f64, f64),
 }
 
 impl Model {
-    /// The largest magnitude of a quantity over the first `until` seconds of a flight, or `known` if that is larger.
-    pub(in crate::engine) fn highest_in_flight(
-        &self,
-        flight: &Stretch,
-        of: PeakOf,
-        (known, until): (f64, f64),
-        work: &mut PeakWork,
-    ) -> f64 {
-        let mut rows = std::mem::take(&mut work.peaks.rows);
-        let lanes = self.set_rows(of, Coordinates::Modes, &mut rows);
-        let quantity = Quantity { of, rows: &rows, lanes, ground: flight.ground };
+    /// Raises the peaks of the quantities that may exceed theirs within a flight. They are searched for in the whole
+    /// flight, so that a turning point has the same bits whatever part is asked for, and all together: many of them
+    /// turn at about the same time.
+    pub(in crate::engine) fn search_flight(&self, flight: &Stretch, peaks: &mut Peaks, work: &mut PeakWork) {
+        if work.peaks.suspects.is_empty() {
+            return;
+        }
+        let mut suspects = std::mem::take(&mut work.peaks.suspects);
+        let (until, flight) = (flight.length, flight.whole.unwrap_or(flight));
         let whole = Piece { from: 0.0, to: flight.length, halvings: MOST_HALVINGS };
-        work.peaks.pieces_left = MOST_PIECES;
-        let peak = self.highest_in_piece(flight, &quantity, whole, (known, until), work);
-        work.peaks.rows = rows;
-        peak
+        self.search_piece(flight, whole, until, &mut suspects, work);
+        suspects.drain(..).for_each(|suspect| peaks.raise(suspect.place, suspect.peak));
+        work.peaks.suspects = suspects;
     }
 
-    /// The largest magnitude over a piece, or `known` if that is larger. A piece too long for one series is halved,
-    /// unless its ends prove that the quantity does not exceed `known` in it.
-    fn highest_in_piece(
-        &self,
-        flight: &Stretch,
-        quantity: &Quantity,
-        piece: Piece,
-        (known, until): (f64, f64),
-        work: &mut PeakWork,
-    ) -> f64 {
+    /// Searches a piece, as far as it lies in the first `until` seconds of the flight. A piece too long for one series
+    /// is halved, for the quantities that its ends do not prove to stay below their peaks in it.
+    fn search_piece(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
         let Piece { from, to, halvings } = piece;
-        let reach = self.system.structure.fastest * (to - from);
-        if from >= until || work.peaks.pieces_left == 0 {
-            return known;
+        if from >= until {
+            return;
         }
-        work.peaks.pieces_left -= 1;
-        if reach > REACH && halvings > 0 {
+        // Those that are cleared here are open again in the next piece.
+        for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
+            match suspect.pieces_left {
+                0 => suspect.cleared_in = Some(halvings),
+                _ => suspect.pieces_left -= 1,
+            }
+        }
+        let is_long = self.system.structure.fastest * (to - from) > REACH && halvings > 0;
+        if is_long && are_any_left(suspects) {
             self.fly_to(flight, from, [0, 1], work);
             self.fly_to(flight, to, [2, 3], work);
-            let (known, may_be_higher) = self.compare_ends(flight, quantity.of, piece, (known, until), work);
-            if !may_be_higher {
-                return known;
+            self.compare_ends(flight, piece, until, suspects, work);
+        }
+        if are_any_left(suspects) {
+            match is_long {
+                true => {
+                    let (middle, halvings) = (from + 0.5 * (to - from), halvings - 1);
+                    self.search_piece(flight, Piece { from, to: middle, halvings }, until, suspects, work);
+                    self.search_piece(flight, Piece { from: middle, to, halvings }, until, suspects, work);
+                }
+                false => self.read_piece(flight, piece, until, suspects, work),
             }
-            let (middle, halvings) = (from + 0.5 * (to - from), halvings - 1);
-            let first = Piece { from, to: middle, halvings };
-            let known = self.highest_in_piece(flight, quantity, first, (known, until), work);
-            return self.highest_in_piece(flight, quantity, Piece { from: middle, to, halvings }, (known, until), work);
         }
-        if work.peaks.expanded != Some((from, to)) {
-            self.expand_piece(flight, (from, to), work);
+        for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in == Some(halvings)) {
+            suspect.cleared_in = None;
         }
-        let (series, (ground, slope)) = (&work.buffers.series, quantity.ground);
-        let (terms, order) = Quantity { ground: (ground + slope * from, slope), ..*quantity }.terms(series, None);
+    }
+
+    /// Finds the largest magnitudes within a piece by its series.
+    fn read_piece(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
+        let Piece { from, to, .. } = piece;
+        let (mut rows, (ground, slope)) = (std::mem::take(&mut work.peaks.rows), flight.ground);
         let end = if until < to { (until - from) / (to - from) } else { 1.0 };
-        highest(&terms, (end, order), known, &mut work.buffers.powers)
+        self.expand_piece(flight, (from, to), work);
+        for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
+            let of = suspect.of;
+            let lanes = self.set_rows(of, Coordinates::Modes, &mut rows);
+            let span = self.span_of(of.side(), Coordinates::Modes);
+            let quantity = Quantity { of, rows: &rows, lanes, span, ground: (ground + slope * from, slope) };
+            let (terms, order) = quantity.terms(&work.buffers.series, None);
+            suspect.peak = highest(&terms, (end, order), suspect.peak, &mut work.buffers.powers);
+        }
+        work.peaks.rows = rows;
     }
 
     /// Expands a piece of a flight into a power series.
@@ -106,7 +118,6 @@ impl Model {
         let PeakWork { buffers: Buffers { series, .. }, peaks } = work;
         let ([q, v, ..], load) = (&peaks.pieces, &peaks.load);
         series.expand_flight(&self.system.structure, (q, v), (load, flight.loads.1), (to - from, order));
-        peaks.expanded = Some((from, to));
     }
 
     /// Works out the motion at a time of a flight in two of the vectors `pieces`.
@@ -141,46 +152,74 @@ impl Model {
         }
     }
 
-    /// The largest of `known` and the magnitudes at the ends of a piece, whose motions are in `pieces`, and whether the
-    /// quantity may exceed it in between.
-    fn compare_ends(
-        &self,
-        flight: &Stretch,
-        of: PeakOf,
-        piece: Piece,
-        (known, until): (f64, f64),
-        work: &mut PeakWork,
-    ) -> (f64, bool) {
-        let Piece { from, to, .. } = piece;
-        self.set_load(flight, from, work);
+    /// Raises the peaks to the ends of a piece, whose motions are in `pieces`, and clears the quantities that cannot
+    /// exceed theirs in between.
+    fn compare_ends(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
+        self.set_load(flight, piece.from, work);
         let PeakWork { buffers: Buffers { node_v: jerk, .. }, peaks } = work;
-        let building = &self.peak_rows.buildings[of.side() as usize];
-        let place = self.peak_rows.place(of);
-        let (block, lane) = (&building.blocks[place / LANES - building.first], place % LANES);
         let [q, v, end_q, end_v] = &peaks.pieces;
         let own = Stretch {
             start: (q, v),
             end: (end_q, end_v),
             loads: (&peaks.load, flight.loads.1),
-            length: to - from,
+            length: piece.to - piece.from,
+            is_watched: false,
             whole: None,
             ..*flight
         };
-        self.bound_modes(building, &own, &mut peaks.piece, jerk);
-        let direct = &peaks.direct[place - lane..];
-        let (known_lane, modes) =
-            (std::array::from_fn(|i| if i == lane { known } else { f64::INFINITY }), &building.modes);
-        let added = self.system.floor_forces.then_some((direct, from, own.length));
-        if stays_below(&known_lane, block, (&peaks.piece, modes), added) {
-            return (known, false);
+        let mut bounded = None;
+        for suspects in suspects.chunk_by_mut(|one, next| one.place / LANES == next.place / LANES) {
+            let Some(side) = suspects.iter().find(|s| s.cleared_in.is_none()).map(|s| s.of.side()) else { continue };
+            let building = &self.peak_rows.buildings[side as usize];
+            if bounded.replace(side) != Some(side) {
+                self.bound_modes(building, &own, &mut peaks.piece, jerk);
+            }
+            self.compare_block(building, (&own, piece, until), suspects, (&peaks.piece, &peaks.direct));
         }
-        let mut course = course_of(block, &own, &peaks.piece, building.modes.clone());
-        if self.system.floor_forces {
-            course.add(direct, from, own.length);
+    }
+
+    /// The same for the quantities of one block.
+    fn compare_block(
+        &self,
+        building: &BuildingRows,
+        (own, piece, until): (&Stretch, Piece, f64),
+        suspects: &mut [Suspect],
+        (bounds, direct): (&ModeBounds, &[[f64; 2]]),
+    ) {
+        let (number, modes) = (suspects[0].place / LANES, &building.modes);
+        let block = &building.blocks[number - building.first];
+        let direct = self.system.floor_forces.then_some((&direct[number * LANES..], piece.from, own.length));
+        let mut known = [f64::INFINITY; LANES];
+        let is_open = |suspect: &&mut Suspect| suspect.cleared_in.is_none();
+        suspects.iter_mut().filter(is_open).for_each(|suspect| known[suspect.place % LANES] = suspect.peak);
+        let are_below = stay_below(&known, block, (bounds, modes), direct);
+        if are_below == [true; LANES] {
+            suspects.iter_mut().filter(is_open).for_each(|suspect| suspect.cleared_in = Some(piece.halvings));
+            return;
         }
-        let end = if to <= until { course.end[0][lane].abs() } else { 0.0 };
-        let known = larger(known, larger(course.start[0][lane].abs(), end));
-        (known, course.may_turn_above(lane, own.length, known))
+        let mut course = course_of(block, (own, None), bounds, modes.clone());
+        if let Some((direct, from, length)) = direct {
+            course.add(direct, from, length);
+        }
+        for suspect in suspects.iter_mut().filter(is_open) {
+            let lane = suspect.place % LANES;
+            if !are_below[lane] {
+                let end = if piece.to <= until { course.end[0][lane].abs() } else { 0.0 };
+                suspect.peak = larger(suspect.peak, larger(course.start[0][lane].abs(), end));
+            }
+            if are_below[lane] || !course.may_turn_above(lane, own.length, suspect.peak) {
+                suspect.cleared_in = Some(piece.halvings);
+            }
+        }
+    }
+
+    /// The first lane of a building in some coordinates, and the one after its last.
+    pub(in crate::engine) fn span_of(&self, side: Side, coordinates: Coordinates) -> (usize, usize) {
+        let lanes = match coordinates {
+            Coordinates::Modes => self.system.structure.range(side),
+            Coordinates::Floors => self.system.structure.floors.lanes_of(side as usize),
+        };
+        (lanes.start, lanes.end)
     }
 
     /// Sets the rows of a quantity in some coordinates; returns the lanes of their entries if these are only 1 and -1.
@@ -224,7 +263,16 @@ impl Model {
     }
 }
 
+/// Whether any quantity may exceed its peak in the piece that is searched.
+fn are_any_left(suspects: &[Suspect]) -> bool {
+    suspects.iter().any(|suspect| suspect.cleared_in.is_none())
+}
+
 impl Quantity<'_> {
+    fn span(&self) -> Range<usize> {
+        self.span.0..self.span.1
+    }
+
     /// Product of the first row with a vector of motion.
     pub fn of_motion(&self, motion: &[f64]) -> f64 {
         match self.lanes {
@@ -251,7 +299,7 @@ impl Quantity<'_> {
                 let difference = |n: usize| series.term(n)[lane] - below.map_or(0.0, |below| series.term(n)[below]);
                 of_q.iter_mut().enumerate().take(count).for_each(|(n, term)| *term = difference(n));
             }
-            None => series.dot_each(&self.rows[0], 0, &mut of_q),
+            None => series.dot_each_in(self.span(), &self.rows[0], 0, &mut of_q),
         }
         // Each derivative loses a power.
         let order = match self.of {
@@ -269,7 +317,7 @@ impl Quantity<'_> {
             }
             PeakOf::BaseShear(_) => {
                 let mut of_v = [0.0; MAX_TERMS];
-                series.dot_each(&self.rows[1], 0, &mut of_v);
+                series.dot_each_in(self.span(), &self.rows[1], 0, &mut of_v);
                 for n in 0..series.order {
                     terms[n] = of_q[n] + (n + 1) as f64 * of_v[n + 1] * per_unit;
                 }

@@ -6,10 +6,12 @@ mod project;
 pub mod sums;
 
 use super::lanes::{LANES, Lane};
-use crate::numerics::polynomial::MAX_TERMS;
+use crate::numerics::polynomial::{MAX_TERMS, SECOND};
 use crate::numerics::powers::Powers;
+use crate::numerics::substitution::Substitution;
 use crate::numerics::time_map::TimeMap;
 use project::{dot_each, project};
+use std::ops::Range;
 use sums::{sum_sizes, sum_terms};
 
 /// q(t) = sum of term n times (t / scale)^n, of all modes or floors, evaluated at t / scale or at the x of a time map.
@@ -111,6 +113,31 @@ impl MotionSeries {
         bounds.iter_mut().for_each(|bound| *bound *= square * square);
     }
 
+    /// Becomes the series of the accelerations of another one, m/s2, in the x of its time map.
+    pub fn set_accelerations(&mut self, of: &MotionSeries, substitution: &Substitution) {
+        (self.order, self.scale, self.time_map) = (of.order.saturating_sub(2), of.scale, TimeMap::default());
+        let square = 1.0 / (of.scale * of.scale);
+        let end = (self.order + 1) * self.lanes;
+        let terms = self.coefficients[..end].chunks_exact_mut(self.lanes);
+        for (n, (terms, of)) in terms.zip(of.coefficients.chunks_exact(of.lanes).skip(2)).enumerate() {
+            let factor = SECOND[n + 2] * square;
+            terms.iter_mut().zip(of).for_each(|(term, of)| *term = factor * of);
+        }
+        substitution.apply(self.coefficients[..end].as_chunks_mut::<LANES>().0, self.lanes / LANES);
+    }
+
+    /// Bounds on the magnitudes of the second derivatives with respect to x, from 0 to that x, for each mode or floor
+    /// of a series whose variable x is.
+    pub fn bound_seconds(&self, x: f64, bounds: &mut [f64]) {
+        let (mut factors, mut power) = ([0.0; MAX_TERMS], 1.0);
+        for n in 2..=self.order {
+            factors[n] = SECOND[n] * power;
+            power *= x;
+        }
+        let terms = &self.coefficients[..(self.order + 1) * self.lanes];
+        sum_sizes(terms, &factors[..=self.order], &mut bounds[..self.lanes]);
+    }
+
     /// The last two terms of the series of dq/dx, m, from which the step size follows; returns their powers of x.
     pub fn last_rates(&self, last: &mut [f64], before: &mut [f64]) -> [usize; 2] {
         let powers = [self.order - 1, self.order - 2];
@@ -132,6 +159,45 @@ impl MotionSeries {
 
     /// Writes the series of the scalar `row` . q from power `first` on to `out`, each term as [`super::dot`] has it.
     pub fn dot_each(&self, row: &[f64], first: usize, out: &mut [f64]) {
-        dot_each(&self.coefficients[first * self.lanes..], row, &mut out[first..=self.order]);
+        self.dot_each_in(0..self.lanes, row, first, out);
+    }
+
+    /// The same for a row that is 0 outside of some lanes.
+    pub fn dot_each_in(&self, lanes: Range<usize>, row: &[f64], first: usize, out: &mut [f64]) {
+        let blocks = (lanes.start / LANES, lanes.end.div_ceil(LANES));
+        dot_each(&self.coefficients[first * self.lanes..], row, blocks, &mut out[first..=self.order]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// (1 + t)^3.5 and (1 - t)^3.5: in the x of the map that ends at the root, their accelerations are cubic, with the
+    /// terms of 8.75 (1 + x/2)^3 and 8.75 (1 - x/2)^3.
+    #[test]
+    fn accelerations_in_a_time_map_and_bounds_on_their_curvature() {
+        const ORDER: usize = 15;
+        const SIZES: Lane = [1.0, -2.0, 0.0, 0.5];
+        for sign in [1.0, -1.0] {
+            let (mut motion, mut term) = (MotionSeries::new(LANES, ORDER), 1.0);
+            (motion.order, motion.scale, motion.time_map.curvature) = (ORDER, 0.5, 0.25 * sign);
+            for (n, terms) in motion.coefficients.as_chunks_mut::<LANES>().0.iter_mut().enumerate() {
+                *terms = SIZES.map(|size| size * term);
+                term *= sign * (3.5 - n as f64) / (n + 1) as f64;
+            }
+            let mut substitution = Substitution::default();
+            substitution.set(&motion.time_map, ORDER + 1);
+            let mut accelerations = MotionSeries::new(LANES, ORDER);
+            accelerations.set_accelerations(&motion, &substitution);
+            for x in [0.0, 0.3, 1.0] {
+                let mut bounds = [f64::NAN; LANES];
+                accelerations.bound_seconds(x, &mut bounds);
+                for (bound, size) in bounds.iter().zip(SIZES) {
+                    let exact = 8.75 * (1.5 + 0.75 * x) * size.abs() / 0.25;
+                    assert!((bound - exact).abs() <= 1e-9 * exact, "{sign}, {size} at {x}: {bound}, not {exact}");
+                }
+            }
+        }
     }
 }

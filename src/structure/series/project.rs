@@ -44,13 +44,14 @@ fn project_blocks<const N: usize>(terms: &[Lane], row: &[Lane], factors: &[f64],
     whole
 }
 
-/// See [`super::MotionSeries::dot_each`].
+/// See [`super::MotionSeries::dot_each`]: over some blocks of the row, outside of which it is 0.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-pub fn dot_each(terms: &[f64], row: &[f64], out: &mut [f64]) {
+pub fn dot_each(terms: &[f64], row: &[f64], (from, to): (usize, usize), out: &mut [f64]) {
     let (terms, row) = (terms.as_chunks::<LANES>().0, row.as_chunks::<LANES>().0);
-    for (out, term) in out.iter_mut().zip(terms.chunks_exact(row.len())) {
+    let (width, row) = (row.len(), &row[from..to]);
+    for (out, term) in out.iter_mut().zip(terms.chunks_exact(width)) {
         let mut sum = [0.0; LANES];
-        for (row, term) in row.iter().zip(term) {
+        for (row, term) in row.iter().zip(&term[from..to]) {
             sum = each(|i| sum[i] + row[i] * term[i]);
         }
         *out = from_left_to_right(sum);
