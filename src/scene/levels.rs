@@ -18,14 +18,24 @@ pub struct Heights {
 }
 
 impl Heights {
+    /// Whether these may be the heights of so many storeys.
+    pub fn are_of(&self, storeys: usize) -> bool {
+        let are_heights = self.storeys.iter().all(|height| *height > 0.0 && height.is_finite());
+        self.storeys.len() == storeys && are_heights && self.base_level.is_finite()
+    }
+
     /// Level of a floor, m; floor 0 is the ground floor.
     pub fn level(&self, floor: usize) -> f64 {
         self.storeys.iter().take(floor).fold(self.base_level, |level, height| level + height)
     }
 
-    /// Level of the highest floor, m.
-    pub fn roof(&self) -> f64 {
-        self.level(self.storeys.len())
+    /// Levels of the floors, m, from floor 1 on.
+    fn levels(&self) -> impl Iterator<Item = f64> + '_ {
+        let above = |level: &mut f64, height: &f64| {
+            *level += height;
+            Some(*level)
+        };
+        self.storeys.iter().scan(self.base_level, above)
     }
 
     /// Where in a storey, counted from 1, a level is: the share of the storey's height from its lower end, below 0 and
@@ -37,7 +47,7 @@ impl Heights {
 
     /// The floor, counted from 1, whose level is nearest to a given one, and the difference, m.
     pub fn nearest_floor(&self, level: f64) -> Option<(usize, f64)> {
-        let floors = (1..=self.storeys.len()).map(|floor| (floor, (self.level(floor) - level).abs()));
+        let floors = (1..).zip(self.levels()).map(|(floor, own)| (floor, (own - level).abs()));
         floors.min_by(|(_, one), (_, other)| one.total_cmp(other))
     }
 
@@ -48,8 +58,9 @@ impl Heights {
 
     /// The storey, counted from 1, between whose floors a level is, and the position in it.
     pub fn storey_at(&self, level: f64) -> Option<(usize, f64)> {
-        let storey = (1..=self.storeys.len()).find(|storey| self.is_inside(*storey, level))?;
-        Some((storey, self.position(storey, level)?))
+        // The first whose upper floor is above the level.
+        let (storey, _) = (1..).zip(self.levels()).find(|(_, upper)| *upper > level + ROUNDING)?;
+        self.is_inside(storey, level).then(|| self.position(storey, level)).flatten().map(|position| (storey, position))
     }
 }
 

@@ -45,7 +45,8 @@ fn facing(
         if building.heights.is_none() && !building.is_absent() {
             root.section(side.name()).missing("height", "the heights of the storeys in m, which [facing] needs");
         }
-        building.heights.as_ref()
+        // Where heights are wrong, that is told where they stand.
+        building.heights.as_ref().filter(|heights| heights.are_of(building.mass.len()))
     });
     match heights {
         [Some(left), Some(right)] => facing::contacts([left, right], (tolerance, shape), gap, law),

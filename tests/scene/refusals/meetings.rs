@@ -210,6 +210,13 @@ fn facing() {
         said(scene("height = [3.0, 3.0]", "", &facing(""))),
         ["right.height: expected the heights of the storeys in m, which [facing] needs (missing)"]
     );
+    for (heights, expected) in [
+        ("[3.0, 3.0, 3.0]", "left.height = [3.0, 3.0, 3.0]: expected 2 numbers, one per storey, not 3"),
+        ("[3.0, -3.0]", "left.height[2] = -3.0: expected a finite height > 0 m"),
+    ] {
+        let text = scene(&format!("height = {heights}"), "height = [4.0, 3.0, 3.0]", &facing(""));
+        assert_eq!(said(text), [expected], "nothing about the contacts that come of it");
+    }
     assert_eq!(
         said(with_heights(&(facing("") + &contact("left_floor = 1\nright_floor = 1")))).len(),
         1,
