@@ -84,8 +84,8 @@ fn motion() -> Record {
     record(0.02, &(0..=100).map(|k| 4.0 * (9.0 * t(k)).sin() + 2.0 * (31.0 * t(k)).sin()).collect::<Vec<_>>())
 }
 
-/// Runs a scene for 2 s; `Err` says what is wrong with it.
-fn check(text: &str) -> Result<(), TestCaseError> {
+/// Runs a scene for 2 s, with its energy account closed to `bound`; `Err` says what is wrong with it.
+fn check(text: &str, bound: f64) -> Result<(), TestCaseError> {
     let mut scene = Scene::from_toml(&format!("{text}[outputs]\nenergy = true\n")).unwrap();
     scene.ground.record = Some("motion.csv".into());
     let mut run = Run::new(&scene, Some(&motion()));
@@ -98,8 +98,7 @@ fn check(text: &str) -> Result<(), TestCaseError> {
             prop_assert!(!pair.law.is_rigid() || depth < 1e-14, "overlap of {depth:e}\n{text}");
         }
         let residual = run.energy().residual;
-        // Elastic contacts of light frames multiply the rounding of every impact; the account still has to close.
-        prop_assert!(residual.abs() < 1e-11, "residual {residual:e}\n{text}");
+        prop_assert!(residual.abs() < bound, "residual {residual:e}\n{text}");
     }
     Ok(())
 }
@@ -112,7 +111,8 @@ proptest! {
         frames in [frame(4), frame(4)],
         laws in laws(),
     ) {
-        check(&text(&frames, &laws))?;
+        // Elastic contacts of light frames multiply the rounding of every impact; the account still has to close.
+        check(&text(&frames, &laws), 1e-11)?;
     }
 
     #[test]
@@ -121,6 +121,7 @@ proptest! {
         laws in laws(),
         positions in prop::collection::vec(0.01..0.99_f64, 4),
     ) {
-        check(&uneven_text(&frames, &laws, &positions))?;
+        // Floors held between walls for long: each of their steps may add the tolerance of 1e-12.
+        check(&uneven_text(&frames, &laws, &positions), 1e-9)?;
     }
 }

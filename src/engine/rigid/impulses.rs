@@ -6,11 +6,16 @@
 //! together follow each other ever faster and end after a finite time. They are followed until the rebound velocity is
 //! below rounding; from then on the floors stay together, and a reaction keeps their relative acceleration 0, power by
 //! power of the series.
+//!
+//! Where an impulse at one pair closes another, as between two walls, the pairs of a floor that is squeezed hit in turn at
+//! intervals that shrink faster than their velocities. Infinitely many impulses leave no velocity in any of them, in no
+//! time: pairs that are closed to rounding and would close each other are solved together without restitution.
 
 use crate::engine::base::Base;
 use crate::engine::base::contact::{Episode, Phase};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
+use crate::numerics::complementarity::Complementarity;
 
 /// A relative velocity below this share of the floors' velocities is rounding: some hundred rounding errors.
 const STILL: f64 = 3e-14;
@@ -57,7 +62,9 @@ impl System {
             }
         }
         rigid.push(&self.rigid.matrix);
-        let shares = rigid.pairs.iter().map(|&k| self.returned_share(base, self.rigid.pairs[k]));
+        let is_squeezed = self.close_squeezed(base, rigid);
+        let share = |&k: &usize| if is_squeezed { 0.0 } else { self.returned_share(base, self.rigid.pairs[k]) };
+        let shares = rigid.pairs.iter().map(share);
         rigid.known.clear();
         rigid.known.extend(shares);
         self.push_apart(rigid, &mut base.v);
@@ -78,6 +85,34 @@ impl System {
             }
         }
         self.update_soft_rates(base);
+    }
+
+    /// Where the impulses found would close pairs that are apart by rounding only, finds those of all such pairs together,
+    /// without restitution; returns whether there are any.
+    fn close_squeezed(&self, base: &Base, rigid: &mut Complementarity) -> bool {
+        let touches = |p: usize| {
+            let (contact, pair) = (&base.contacts[p], &self.pairs[p]);
+            let noise = pair.noise(pair.difference(base.coordinates, &base.q).1);
+            contact.tracked && contact.penetration >= -noise
+        };
+        let change = |k: usize| -> f64 {
+            rigid.pairs.iter().zip(&rigid.found).map(|(&other, impulse)| self.rigid.matrix[(k, other)] * impulse).sum()
+        };
+        let is_closed_by_others = |k: usize| {
+            let p = self.rigid.pairs[k];
+            let (rate, still) = self.approach(base, p);
+            rate < 0.0 && rate - change(k) > still && touches(p)
+        };
+        let count = self.rigid.pairs.len();
+        if !(0..count).any(|k| !rigid.pairs.contains(&k) && is_closed_by_others(k)) {
+            return false;
+        }
+        rigid.clear();
+        for (k, &p) in self.rigid.pairs.iter().enumerate().filter(|&(_, &p)| self.is_closed(base, p) || touches(p)) {
+            rigid.add(k, base.contacts[p].rate, 0.0);
+        }
+        rigid.push(&self.rigid.matrix);
+        true
     }
 
     /// Whether the floors of a rigid pair touch now.
@@ -105,6 +140,7 @@ impl System {
     ) {
         let time = base.time();
         let contact = &mut base.contacts[p];
+        // A pair that is squeezed may have been on its way apart.
         let approach = contact.rate;
         let lost = 0.5 * impulse * (1.0 - restitution) * approach;
         contact.rate = -restitution * approach;
@@ -118,8 +154,8 @@ impl System {
             contact: p,
             start: time,
             end: Some(time),
-            approach_velocity: approach,
-            separation_velocity: restitution * approach,
+            approach_velocity: approach.max(0.0),
+            separation_velocity: restitution * approach.max(0.0),
             peak_time: time,
             impulse,
             dissipated_energy: lost,
