@@ -66,7 +66,7 @@ fn is_of_distance(scene: &Scene, p: usize, known: Slot) -> bool {
 /// The sum of K u is the force of the lowest storey.
 fn base_shear(scene: &Scene, side: Side, known: Slot) -> bool {
     known == Slot::Parameter(Parameter::Stiffness(side, 0)) && drifts(scene.building(side), 0)
-        || damping_force(scene, side, known)
+        || damping_force(scene, side, known, [0, 0])
 }
 
 /// Forces on a floor over its mass.
@@ -86,18 +86,20 @@ fn acceleration(scene: &Scene, (side, floor): (Side, usize), known: Slot) -> boo
         _ => {
             let is_strain = |storey| known == Slot::Parameter(Parameter::Stiffness(side, storey));
             storeys.into_iter().any(|storey| is_strain(storey) && drifts(building, storey))
-                || damping_force(scene, side, known)
+                || damping_force(scene, side, known, storeys)
                 || contacts().any(|p| contact_force(scene, p, known))
         }
     }
 }
 
-/// C v of any floor of a building.
-fn damping_force(scene: &Scene, side: Side, known: Slot) -> bool {
+/// C v of some floors of a building, which storeys with dashpots of their own give.
+fn damping_force(scene: &Scene, side: Side, known: Slot, storeys: [usize; 2]) -> bool {
     let building = scene.building(side);
+    if let Slot::Parameter(Parameter::Dashpot(s, storey)) = known {
+        return s == side && storeys.contains(&storey) && differ(&building.initial_velocity, storey);
+    }
     let by_modes = !matches!(building.damping, Damping::Matrix(_) | Damping::Dashpots(_));
-    let is_number =
-        matches!(known, Slot::Parameter(Parameter::DampingRatio(s) | Parameter::Dashpot(s, _)) if s == side);
+    let is_number = known == Slot::Parameter(Parameter::DampingRatio(side));
     is_damped(building) && (is_number || by_modes && is_of_modes(side, known))
 }
 
@@ -115,9 +117,13 @@ fn is_damped(building: &Building) -> bool {
 
 /// Whether there is a drift of a storey at the start; there is none above the roof.
 fn drifts(building: &Building, storey: usize) -> bool {
-    let displacement = |floor: usize| building.initial_displacement.get(floor).copied();
-    let below = storey.checked_sub(1).map_or(Some(0.0), displacement);
-    displacement(storey).is_some_and(|above| Some(above) != below)
+    differ(&building.initial_displacement, storey)
+}
+
+/// Whether a motion of the floors of a storey differs; above the roof there is no storey.
+fn differ(motion: &[f64], storey: usize) -> bool {
+    let below = storey.checked_sub(1).map_or(Some(0.0), |floor| motion.get(floor).copied());
+    motion.get(storey).is_some_and(|above| Some(*above) != below)
 }
 
 /// Whether floors may push each other at the start: rigid ones begin with the first step.

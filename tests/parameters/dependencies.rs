@@ -1,7 +1,7 @@
 //! The model structure of the description, against what the library does: an unknown changes with the knowns that it is
 //! said to depend on, and with no others.
 
-use crate::support::{Fmu, Instance, OK, RICH, SCENE};
+use crate::support::{Fmu, Instance, OK, RICH, SCENE, UNEVEN};
 use fmi::model_description::fmi2::{Causality, ModelDescription, ScalarVariable, Unknown};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -65,6 +65,7 @@ fn seen_at_start(fmu: &Fmu, record: &str) -> Structure {
                     "restitution" => &[0.45],
                     "exponent" => &[value + 0.2],
                     "relative_tolerance" => &[1e-6],
+                    "position" => &[0.45],
                     _ => &[1.0 + 1.3 * value],
                 };
                 let mut differs = vec![false; before.len()];
@@ -115,7 +116,7 @@ fn initial_unknowns_depend_on_what_they_are_said_to_depend_on() {
         let lines = RICH.lines().filter(|line| !line.starts_with("initial_") || line.starts_with(kind));
         lines.collect::<Vec<_>>().join("\n")
     };
-    for scene in [RICH, SCENE, &at_rest, &only("initial_velocity"), &only("initial_displacement")] {
+    for scene in [RICH, SCENE, UNEVEN, &at_rest, &only("initial_velocity"), &only("initial_displacement")] {
         let fmu = Fmu::new(scene);
         let record = fmu.directory.path().join("other.csv");
         fs::write(&record, "time_s,accel_m_s2\n0.0,0.5\n1.0,0.0\n").unwrap();
@@ -153,6 +154,47 @@ fn outputs_answer_at_once_to_what_they_are_said_to_depend_on() {
             }
         }
         compare(&seen, &declared(&fmu.description, &fmu.description.outputs));
+    }
+}
+
+/// Held against a wall a floor goes with the ground, and so does one that is held against columns on the ground.
+#[test]
+fn floors_that_are_held_by_the_ground_answer_to_it_at_once() {
+    let building = |side: &str| format!("[{side}]\nmass = [3.0]\nstiffness = [400.0]\ndamping = {{ ratio = 0.05 }}\n");
+    let law = "gap = 0.0\nlaw = \"stereomechanical\"\nrestitution = 0.0\n";
+    for (meeting, held) in [
+        ("left_floor = 1\nwall = \"right\"", &["left"][..]),
+        ("left_floor = 1\nright_storey = 1\nright_position = 0.4", &["left", "right"]),
+        ("left_floor = 1\nright_floor = 1", &[]),
+    ] {
+        let scene = format!(
+            "name = \"Held\"\n{}{}[inputs]\nfloor_forces = true\n[[contact]]\n{meeting}\n{law}",
+            building("left"),
+            building("right")
+        );
+        let fmu = Fmu::new(&scene);
+        let said = declared(&fmu.description, &fmu.description.outputs);
+        for name in ["left.acceleration[1]", "right.acceleration[1]", "contact[1].force"] {
+            let expected =
+                held.iter().any(|side| name.starts_with(side)) || name.starts_with("contact") && !held.is_empty();
+            assert_eq!(said[name].contains("ground.acceleration"), expected, "{name} with {meeting}");
+        }
+        let instance = fmu.instance();
+        instance.start();
+        for (name, force) in [("left.force[1]", 40.0), ("right.force[1]", -40.0)] {
+            assert_eq!(instance.set_real(name, force), OK);
+        }
+        assert_eq!(instance.step(0.0, 0.2), OK, "{:?}", instance.log());
+        let accelerations = ["left.acceleration[1]", "right.acceleration[1]"];
+        let before = accelerations.map(|name| instance.real(name));
+        let force = instance.real("contact[1].force");
+        assert!(force > 1.0, "held: {force}");
+        assert_eq!(instance.set_real("ground.acceleration", -1.5), OK);
+        for (name, before) in accelerations.iter().zip(before) {
+            let expected = held.iter().any(|side| name.starts_with(side));
+            assert_eq!(differ(before, instance.real(name)), expected, "{name} with {meeting}");
+        }
+        assert_eq!(differ(force, instance.real("contact[1].force")), !held.is_empty(), "force with {meeting}");
     }
 }
 

@@ -28,3 +28,48 @@ pub fn package(scene_text: &str) -> Package {
     let record = scene.ground.record.as_deref().map(packaged);
     Package { scene_text: scene_text.to_owned(), scene, record }
 }
+
+/// What meets is not level: slabs against columns, a wall, dashpots, heights; all that moves at the start.
+pub const UNEVEN: &str = r#"
+name = "Uneven"
+[left]
+mass = [3.65, 4.2]
+stiffness = [2910.0, 2000.0]
+damping = { dashpots = [3.0, 2.0] }
+height = [0.5, 0.5]
+initial_displacement = [0.1, 0.02]
+initial_velocity = [0.1, -0.05]
+[right]
+mass = [3.0, 2.0]
+stiffness = [2500.0, 1500.0]
+damping = { ratio = 0.02 }
+height = [0.4, 0.45]
+initial_displacement = [0.02, 0.12]
+initial_velocity = [0.05, 0.2]
+[inputs]
+floor_forces = true
+[outputs]
+energy = true
+[[contact]]
+left_floor = 1
+right_storey = 2
+right_position = 0.3
+gap = 0.01
+law = "kelvin_voigt_no_tension"
+stiffness = 1.0e4
+restitution = 0.6
+[[contact]]
+right_floor = 1
+left_storey = 1
+gap = 0.01
+law = "jankowski"
+stiffness = 1.0e5
+restitution = 0.6
+[[contact]]
+left_floor = 2
+wall = "right"
+gap = 0.01
+law = "kelvin_voigt"
+stiffness = 1.0e4
+restitution = 0.6
+"#;

@@ -77,7 +77,7 @@ impl Model {
         }
         if step.kind == StepKind::NotPlanned && base.contacts.iter().any(Contact::is_held) {
             // An input that has just been set changes the reactions at the same instant.
-            self.system.solve_reactions(base, inputs, work);
+            self.system.solve_present_reactions(base, inputs, work);
             for (&k, &force) in work.rigid.pairs.iter().zip(&work.rigid.found) {
                 let p = self.system.rigid.pairs[k];
                 point.note_contact(p, ContactPoint { force, ..self.contact_in(base, point, p) });

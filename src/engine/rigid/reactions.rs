@@ -40,6 +40,24 @@ impl System {
     /// `work.rigid`. Returns a pair that is held together although its floors move apart.
     pub fn solve_reactions(&self, base: &Base, inputs: &Inputs, work: &mut Buffers) -> Option<usize> {
         self.load(base, inputs, &mut work.load, &mut work.slope);
+        self.solve_reactions_to_load(base, work)
+    }
+
+    /// The same under the inputs as they are now: the ground's acceleration may have been set since the base began its
+    /// segment, which matters where the ground has a share in a contact.
+    pub fn solve_present_reactions(&self, base: &Base, inputs: &Inputs, work: &mut Buffers) {
+        self.load(base, inputs, &mut work.load, &mut work.slope);
+        let has_ground = |p: &usize| self.pairs[*p].share_of_ground() != 0.0;
+        if self.ground.is_none() && self.rigid.pairs.iter().any(has_ground) {
+            let change = inputs.ground_acceleration.at(base.time()) - base.segment.acceleration_at(base.elapsed);
+            for (load, share) in work.load.iter_mut().zip(self.participation(base.coordinates)) {
+                *load -= share * change;
+            }
+        }
+        self.solve_reactions_to_load(base, work);
+    }
+
+    fn solve_reactions_to_load(&self, base: &Base, work: &mut Buffers) -> Option<usize> {
         work.node_q.copy_from_slice(&work.load);
         for (p, contact) in touching(base) {
             if !contact.is_held() {
