@@ -1,7 +1,7 @@
 //! Values that are taken: the run is, to the last bit, that of the scene that says the same.
 
 use crate::scene::edited;
-use crate::support::{ERROR, Fmu, Instance, OK, RECORD_SCENE, RICH, SCENE};
+use crate::support::{ERROR, Fmu, Instance, OK, RECORD_SCENE, RICH, SCENE, UNEVEN};
 use fmi::model_description::fmi2::{Causality, VariableType};
 use pounding::description::Package;
 use std::fs;
@@ -75,6 +75,32 @@ fn each_parameter_works_as_if_the_scene_had_said_so() {
             assert!(run_with(&fmu, &change, in_initialization) == expected, "{change:?} {in_initialization}");
         }
         assert!(expected != unchanged, "{name} has no effect");
+    }
+}
+
+#[test]
+fn positions_and_dashpots_work_as_if_the_scene_had_said_so() {
+    let fmu = Fmu::new(UNEVEN);
+    let unchanged = run_with(&fmu, &[], false);
+    for (name, value, from, to) in [
+        ("contact[1].position", 0.6, "right_position = 0.3", "right_position = 0.6"),
+        ("contact[2].position", 0.25, "left_storey = 1", "left_storey = 1\nleft_position = 0.25"),
+        ("left.dashpot[2]", 5.5, "dashpots = [3.0, 2.0]", "dashpots = [3.0, 5.5]"),
+    ] {
+        assert!(UNEVEN.contains(from));
+        let expected = run_with(&Fmu::new(&UNEVEN.replace(from, to)), &[], false);
+        for in_initialization in [false, true] {
+            assert!(run_with(&fmu, &[(name, value)], in_initialization) == expected, "{name} {in_initialization}");
+        }
+        assert!(expected != unchanged, "{name} has no effect");
+    }
+    for (name, value, expected) in [
+        ("contact[1].position", 1.0, "fmi2SetReal: contact[1].position = 1.0: expected 0 < s < 1"),
+        ("left.dashpot[1]", -1.0, "fmi2SetReal: left.dashpot[1] = -1.0: expected a finite dashpot >= 0 N s/m"),
+    ] {
+        let instance = fmu.instance();
+        assert_eq!(instance.set_real(name, value), ERROR);
+        assert_eq!(instance.log().last().unwrap().message, expected);
     }
 }
 
