@@ -12,6 +12,12 @@ pub fn short(value: f64) -> String {
     if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
+/// A length, level or share to six decimals: without the rounding of the sums that it comes from.
+pub fn six_decimals(value: f64) -> f64 {
+    let millionths = (1e6 * value).round();
+    if millionths.abs() < 1e15 { millionths / 1e6 } else { value }
+}
+
 #[cfg(test)]
 mod tests {
     use super::{plain, short};

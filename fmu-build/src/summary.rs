@@ -3,7 +3,8 @@
 use crate::experiment::{Outcome, Seen, Variables};
 use crate::went_in;
 use pounding::description::Package;
-use pounding::scene::{Heights, Scene, Side, in_metres};
+use pounding::scene::{Heights, Scene, Side};
+use pounding::warnings::six_decimals;
 use std::fmt::Write;
 
 /// The summary; `stop_reason` says where the end of the experiment comes from, `package` what is known of the ground.
@@ -113,7 +114,7 @@ impl Run<'_> {
                 };
                 let mut row = vec![format!("{side} {floor}")];
                 if has_levels {
-                    let level = levels.as_ref().map(|heights| in_metres(heights.level(floor)).to_string());
+                    let level = levels.as_ref().map(|heights| six_decimals(heights.level(floor)).to_string());
                     row.push(level.unwrap_or_default());
                 }
                 row.extend([largest("displacement"), largest("acceleration")]);

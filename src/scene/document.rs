@@ -228,6 +228,16 @@ impl<'t> Item<'t> {
         text
     }
 
+    /// What one of some names stands for; `what` says what kind of name is expected.
+    pub(super) fn choice<T>(&self, what: &str, names: &[&str], meaning: impl Fn(&str) -> Option<T>) -> Option<T> {
+        let name = self.text()?;
+        let found = meaning(name);
+        if found.is_none() {
+            self.refuse(one_of(what, names, name));
+        }
+        found
+    }
+
     /// `None` where it is no list; `what` says what kind of list is expected.
     pub(super) fn list(&self, what: &str) -> Option<Vec<Item<'t>>> {
         let Some(entries) = self.value.get_ref().as_array() else {

@@ -1,7 +1,5 @@
 //! Where the floors of a building are: storey heights, levels, and what faces what by them.
 
-use std::fmt::Display;
-
 /// m: floors whose levels differ by no more meet each other, where a scene does not say otherwise.
 pub const LEVEL_TOLERANCE: f64 = 0.1;
 
@@ -62,10 +60,4 @@ impl Heights {
         let (storey, _) = (1..).zip(self.levels()).find(|(_, upper)| *upper > level + ROUNDING)?;
         self.is_inside(storey, level).then(|| self.position(storey, level)).flatten().map(|position| (storey, position))
     }
-}
-
-/// A length, level or share for a person: without the rounding of the sums that it comes from.
-pub fn in_metres(value: f64) -> impl Display {
-    let micrometres = (1e6 * value).round();
-    if micrometres.abs() < 1e15 { micrometres / 1e6 } else { value }
 }

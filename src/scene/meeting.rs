@@ -2,8 +2,8 @@
 
 use super::contact_pair::{ContactPair, Face, Share};
 use super::data::{Building, Scene};
-use super::levels::in_metres;
 use super::side::Side;
+use crate::figures::six_decimals;
 
 impl Scene {
     /// One of the two buildings.
@@ -63,7 +63,7 @@ impl Face {
         match *self {
             Face::Floor(side, floor) => format!("{side} {floor}"),
             Face::Columns { side, storey, position, .. } => {
-                format!("columns of {side} {storey} at {}", in_metres(position))
+                format!("columns of {side} {storey} at {}", six_decimals(position))
             }
             Face::Wall => "wall".to_owned(),
         }
@@ -74,11 +74,11 @@ impl Face {
         match *self {
             Face::Floor(side, floor) => {
                 let heights = scene.building(side).heights.as_ref();
-                let level = heights.map(|heights| format!(", level {} m,", in_metres(heights.level(floor))));
+                let level = heights.map(|heights| format!(", level {} m,", six_decimals(heights.level(floor))));
                 format!("{side} floor {floor}{}", level.unwrap_or_default())
             }
             Face::Columns { side, storey, position, .. } => {
-                format!("columns of {side} storey {storey} at {}", in_metres(position))
+                format!("columns of {side} storey {storey} at {}", six_decimals(position))
             }
             Face::Wall => "wall".to_owned(),
         }

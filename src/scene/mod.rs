@@ -82,7 +82,7 @@ pub use contact_pair::{ColumnShape, ContactPair, Face, Share};
 pub use data::{Building, Damping, Ground, Scaling, Scene, Solver, Stiffness};
 pub use files::{Package, PackagedRecord, load};
 pub(crate) use files::{SCENE_RESOURCE, read_record_file, record_problems};
-pub use levels::{Heights, LEVEL_TOLERANCE, ROUNDING as LEVEL_ROUNDING, in_metres};
+pub use levels::{Heights, LEVEL_TOLERANCE, ROUNDING as LEVEL_ROUNDING};
 pub use problem::{Problem, SceneError};
 pub(crate) use problem::{excerpt, matrix_text, number, numbers, quoted};
 pub use side::Side;

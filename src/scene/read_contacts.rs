@@ -2,12 +2,13 @@
 
 use super::contact_pair::{ColumnShape, ContactPair, Face};
 use super::data::Building;
-use super::document::{Item, KEY, Section, one_of};
-use super::levels::{Heights, LEVEL_TOLERANCE, in_metres};
+use super::document::{Item, KEY, Section};
+use super::levels::{Heights, LEVEL_TOLERANCE};
 use super::side::Side;
 use super::units::Units;
 use super::{facing, law_key};
 use crate::contact::{DampingFormula, ImpactLaw, LawKind};
+use crate::figures::six_decimals;
 
 const FLOOR: &str = "a floor, counted from 1";
 
@@ -196,12 +197,8 @@ fn columns(
 }
 
 fn column_shape(item: &Item<'_>) -> Option<ColumnShape> {
-    let name = item.text()?;
-    let shape = ColumnShape::ALL.into_iter().find(|shape| shape.name() == name);
-    if shape.is_none() {
-        item.refuse(one_of("a known shape", &ColumnShape::ALL.map(ColumnShape::name), name));
-    }
-    shape
+    let of_name = |name: &str| ColumnShape::ALL.into_iter().find(|shape| shape.name() == name);
+    item.choice("a known shape", &ColumnShape::ALL.map(ColumnShape::name), of_name)
 }
 
 /// The position of a floor in a storey of the other building by their levels; refused where it is outside.
@@ -218,13 +215,13 @@ fn position_by_levels(
         return Some(position).filter(|position| position.is_finite());
     }
     let hits = match (own.storey_at(level), own.nearest_floor(level)) {
-        (Some((storey, position)), _) => format!("is in storey {storey}, at {}", in_metres(position)),
+        (Some((storey, position)), _) => format!("is in storey {storey}, at {}", six_decimals(position)),
         (None, Some((floor, apart))) if apart <= LEVEL_TOLERANCE => format!("is that of {side} floor {floor}"),
         _ => format!("is not between {side} floors"),
     };
     item.refuse(format!(
         "a storey that {floor_side} floor {floor} stands before, or {side}_position: its level, {} m, {hits}",
-        in_metres(level)
+        six_decimals(level)
     ));
     None
 }
@@ -259,21 +256,11 @@ fn law(mut section: Section<'_>, units: Units) -> ImpactLaw {
 fn damping_formula(section: &mut Section<'_>) -> Option<DampingFormula> {
     let names: Vec<_> = DampingFormula::ALL.iter().map(|formula| formula.info().name).collect();
     let item = section.require("damping_formula", &format!("a damping formula ({})", names.join(", ")))?;
-    let name = item.text()?;
-    let formula = DampingFormula::from_name(name);
-    if formula.is_none() {
-        item.refuse(one_of("a known damping formula", &names, name));
-    }
-    formula
+    item.choice("a known damping formula", &names, DampingFormula::from_name)
 }
 
 fn law_kind(section: &mut Section<'_>) -> Option<LawKind> {
     let names: Vec<_> = LawKind::ALL.iter().map(|kind| kind.info().name).collect();
     let item = section.require("law", &format!("a law ({})", names.join(", ")))?;
-    let name = item.text()?;
-    let kind = LawKind::from_name(name);
-    if kind.is_none() {
-        item.refuse(one_of("a known law", &names, name));
-    }
-    kind
+    item.choice("a known law", &names, LawKind::from_name)
 }

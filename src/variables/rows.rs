@@ -5,7 +5,8 @@ use super::table::{Row, Table, Type, Variability};
 use super::unit::Unit;
 use crate::contact::LawKey;
 use crate::engine::{PeakOf, Side, StoreyPeak};
-use crate::scene::{Building, ContactPair, Damping, Scaling, Scene, Stiffness, in_metres, rule};
+use crate::figures::six_decimals;
+use crate::scene::{Building, ContactPair, Damping, Scaling, Scene, Stiffness, rule};
 
 // The motion that the nominal values stand for: m, m/s and m/s2.
 const DISPLACEMENT: f64 = 0.01;
@@ -28,7 +29,7 @@ impl Table {
     pub fn new(scene: &Scene) -> Table {
         let mut table = Table { rows: Vec::new() };
         table.add_ground(scene);
-        for (side, name) in [(Side::Left, "left"), (Side::Right, "right")] {
+        for (side, name) in [Side::Left, Side::Right].map(|side| (side, side.name())) {
             let building = scene.building(side);
             if building.is_absent() {
                 continue;
@@ -94,7 +95,7 @@ impl Table {
             let most = building.mass[floor] * rule::MOST_ACCELERATION;
             row.between(-most, most).nominal(building.mass[floor] * ACCELERATION);
         }
-        let level = building.heights.as_ref().map(|heights| format!(", level {} m", in_metres(heights.level(i))));
+        let level = building.heights.as_ref().map(|heights| format!(", level {} m", six_decimals(heights.level(i))));
         let level = level.unwrap_or_default();
         for (output, quantity, ty, frame, scale) in [
             (Output::Displacement(side, floor), "displacement", METRE, "relative to the ground", DISPLACEMENT),

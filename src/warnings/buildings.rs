@@ -1,6 +1,6 @@
 //! Masses, stiffnesses, damping and initial motion of each building.
 
-use super::facts::{Facts, Pace, median, name, opposite, stiffness_key};
+use super::facts::{Facts, Pace, median, stiffness_key};
 use super::found::Found;
 use super::whole::{HEAVY, IN_KN_T};
 use crate::figures::short;
@@ -17,7 +17,7 @@ const LEAST_DAMPING: f64 = 2e-4;
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     for side in [Side::Left, Side::Right] {
         let building = facts.building(side);
-        let path = name(side);
+        let path = side;
         look_at_entries(facts, side, found);
         if !found.has(&format!("{path}.mass")) && !found.has(&format!("{path}.stiffness")) {
             look_at_period(facts, side, found);
@@ -30,7 +30,7 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
 
 /// Entries of a list that the others speak against.
 fn look_at_entries(facts: &Facts<'_>, side: Side, found: &mut Found) {
-    let (building, other) = (facts.building(side), facts.building(opposite(side)));
+    let (building, other) = (facts.building(side), facts.building(side.opposite()));
     let units = facts.scene.units;
     for (index, factor) in odd_entries(&building.mass, &other.mass, |_| false) {
         let text = format!(
@@ -39,7 +39,7 @@ fn look_at_entries(facts: &Facts<'_>, side: Side, found: &mut Found) {
             units.unit("kg"),
             other_unit(factor, units, "kg")
         );
-        found.quantity(format!("{}.mass[{}]", name(side), index + 1), building.mass[index], text);
+        found.quantity(format!("{}.mass[{}]", side, index + 1), building.mass[index], text);
     }
     let Stiffness::Shear(storeys) = &building.stiffness else { return };
     let others = match &other.stiffness {
@@ -55,7 +55,7 @@ fn look_at_entries(facts: &Facts<'_>, side: Side, found: &mut Found) {
             units.unit("N/m"),
             other_unit(factor, units, "N/m")
         );
-        found.quantity(format!("{}.stiffness[{}]", name(side), index + 1), storeys[index], text);
+        found.quantity(format!("{}.stiffness[{}]", side, index + 1), storeys[index], text);
     }
 }
 
@@ -119,12 +119,12 @@ fn other_unit(factor: f64, units: Units, unit: &str) -> String {
 }
 
 fn look_at_period(facts: &Facts<'_>, side: Side, found: &mut Found) {
-    let (building, other) = (facts.building(side), facts.building(opposite(side)));
+    let (building, other) = (facts.building(side), facts.building(side.opposite()));
     let Some(period) = facts.period(side) else { return };
     let count = building.mass.len();
     let usual = format!("{} with some {} s", storeys(count), short(0.1 * count as f64));
     let found_here = format!("the first natural frequency is {} Hz, period {} s", short(1.0 / period), short(period));
-    let neighbour_is_usual = facts.pace(opposite(side)) == Pace::Usual;
+    let neighbour_is_usual = facts.pace(side.opposite()) == Pace::Usual;
     // The neighbour, where it is sound, tells whether it is the masses.
     let lighter = neighbour_is_usual.then(|| mean(&other.mass) / mean(&building.mass));
     let units = facts.scene.units;
@@ -134,7 +134,7 @@ fn look_at_period(facts: &Facts<'_>, side: Side, found: &mut Found) {
         Pace::Usual | Pace::Wall | Pace::Free | Pace::Unknown => return,
     };
     let text = format!("{found_here}, far too {far_too} for {usual}; {meant}");
-    let path = |key: &str| format!("{}.{key}", name(side));
+    let path = |key: &str| format!("{}.{key}", side);
     match &building.stiffness {
         _ if is_mass => found.quantities(path("mass"), &building.mass, text),
         Stiffness::Shear(storeys) => found.quantities(path(stiffness_key(building)), storeys, text),
@@ -174,7 +174,7 @@ fn meant_by_slow(units: Units, lighter: Option<f64>, mass: f64, period: f64) -> 
 
 /// Two buildings of usual periods, one of them in other units throughout.
 fn look_at_storey_masses(facts: &Facts<'_>, side: Side, found: &mut Found) {
-    let (building, other) = (facts.building(side), facts.building(opposite(side)));
+    let (building, other) = (facts.building(side), facts.building(side.opposite()));
     let both_usual = facts.pace == [Pace::Usual; 2] && other.mass.len() > 1;
     let heavier = mean(&other.mass) / mean(&building.mass);
     if !both_usual || heavier < 200.0 {
@@ -183,20 +183,20 @@ fn look_at_storey_masses(facts: &Facts<'_>, side: Side, found: &mut Found) {
     // In kg and N the lighter building has been given in t and kN, in t and kN the heavier one in kg and N.
     let units = facts.scene.units;
     let (odd, beside, factor, meant) = match units {
-        Units::Si => (side, opposite(side), 1.0 / heavier, Units::KilonewtonTonne),
-        Units::KilonewtonTonne => (opposite(side), side, heavier, Units::Si),
+        Units::Si => (side, side.opposite(), 1.0 / heavier, Units::KilonewtonTonne),
+        Units::KilonewtonTonne => (side.opposite(), side, heavier, Units::Si),
     };
     let text = format!(
         "a floor has {} the mass of one of the {} building, at usual periods of both; masses are in {} and stiffnesses in \
          {}, were those of this building given in {} and {}?",
         how_many_times(factor),
-        name(beside),
+        beside,
         units.unit("kg"),
         units.unit("N/m"),
         meant.unit("kg"),
         meant.unit("N/m")
     );
-    found.quantities(format!("{}.mass", name(odd)), &facts.building(odd).mass, text);
+    found.quantities(format!("{}.mass", odd), &facts.building(odd).mass, text);
 }
 
 fn mean(values: &[f64]) -> f64 {
@@ -208,7 +208,7 @@ fn storeys(count: usize) -> String {
 }
 
 fn look_at_damping(facts: &Facts<'_>, side: Side, building: &Building, found: &mut Found) {
-    let path = format!("{}.damping", name(side));
+    let path = format!("{}.damping", side);
     let (path, ratio) = match &building.damping {
         Damping::Ratio(ratio) => (format!("{path}.ratio"), *ratio),
         Damping::Rayleigh { ratio, .. } => (format!("{path}.rayleigh.ratio"), *ratio),
@@ -249,7 +249,7 @@ fn look_at_dashpots(facts: &Facts<'_>, side: Side, storeys: &[f64], found: &mut 
     let ratio = ratio_of(first, damped, facts.building(side));
     if ratio > MOST_OF_ISOLATORS || ratio > 0.0 && ratio < LEAST_DAMPING {
         let text = odd_first_mode(ratio, facts.scene.units);
-        found.quantities(format!("{}.damping.dashpots", name(side)), storeys, text);
+        found.quantities(format!("{}.damping.dashpots", side), storeys, text);
     }
 }
 
@@ -260,7 +260,7 @@ fn look_at_damping_matrix(facts: &Facts<'_>, side: Side, rows: &[Vec<f64>], foun
     let ratio = ratio_of(first, damped, facts.building(side));
     if odd_damping(ratio).is_some() {
         let text = odd_first_mode(ratio, facts.scene.units);
-        found.matrix(format!("{}.damping.matrix", name(side)), rows, text);
+        found.matrix(format!("{}.damping.matrix", side), rows, text);
     }
 }
 
@@ -304,7 +304,7 @@ fn look_at_start(facts: &Facts<'_>, side: Side, building: &Building, found: &mut
             "the building starts up to {} m aside{held}; displacements are in m, were they given in mm?",
             short(displacement)
         );
-        found.numbers(format!("{}.initial_displacement", name(side)), &building.initial_displacement, text);
+        found.numbers(format!("{}.initial_displacement", side), &building.initial_displacement, text);
     }
     look_at_speed(side, building, omega, largest(&building.initial_velocity), found);
 }
@@ -316,6 +316,6 @@ fn look_at_speed(side: Side, building: &Building, omega: f64, speed: f64, found:
              m/s, were they given in mm/s or cm/s?",
             short(3.6 * speed)
         );
-        found.numbers(format!("{}.initial_velocity", name(side)), &building.initial_velocity, text);
+        found.numbers(format!("{}.initial_velocity", side), &building.initial_velocity, text);
     }
 }

@@ -44,10 +44,7 @@ impl<'a> Facts<'a> {
     }
 
     pub fn building(&self, side: Side) -> &'a Building {
-        match side {
-            Side::Left => &self.scene.left,
-            Side::Right => &self.scene.right,
-        }
+        self.scene.building(side)
     }
 
     pub fn pace(&self, side: Side) -> Pace {
@@ -90,7 +87,7 @@ impl<'a> Facts<'a> {
     /// Whether a structure that is too fast for a building is meant as a wall: heavy, or one floor that is not light,
     /// beside a building that is neither.
     fn is_wall(&self, side: Side, period: f64) -> bool {
-        let other = opposite(side);
+        let other = side.opposite();
         let Some(other_period) = self.period(other) else { return false };
         if other_period < fastest(self.building(other).mass.len()) {
             return false;
@@ -116,20 +113,6 @@ fn slowest(floors: usize) -> f64 {
 
 /// More are a way to divide a building into pieces, not storeys.
 const MOST_STOREYS: usize = 100;
-
-pub(super) fn opposite(side: Side) -> Side {
-    match side {
-        Side::Left => Side::Right,
-        Side::Right => Side::Left,
-    }
-}
-
-pub(super) fn name(side: Side) -> &'static str {
-    match side {
-        Side::Left => "left",
-        Side::Right => "right",
-    }
-}
 
 /// The key of a building's stiffness.
 pub(super) fn stiffness_key(building: &Building) -> &'static str {

@@ -2,7 +2,8 @@
 
 use super::facts::Facts;
 use super::found::Found;
-use crate::scene::{ContactPair, Face, Heights, LEVEL_ROUNDING, LEVEL_TOLERANCE, Scene, Side, in_metres};
+use crate::figures::six_decimals;
+use crate::scene::{ContactPair, Face, Heights, LEVEL_ROUNDING, LEVEL_TOLERANCE, Scene, Side};
 
 /// Storeys beyond are in another unit, m.
 const HIGHEST_STOREY: f64 = 30.0;
@@ -30,7 +31,7 @@ fn look_at_heights(scene: &Scene, side: Side, found: &mut Found) {
         let text = format!(
             "storeys are 2 to 6 m high; heights are in m, was it given in {} ({} m)?",
             meant.0,
-            in_metres(meant.1)
+            six_decimals(meant.1)
         );
         found.number(format!("{side}.height[{index}]"), *height, text);
     }
@@ -48,8 +49,8 @@ fn look_for_buried_floors(scene: &Scene, found: &mut Found) {
             let text = format!(
                 "{side} floor {floor}, at {} m, is not above the ground floor of the other building, at {} m, and meets \
                  nothing; what stands before it there may need a contact with a wall",
-                in_metres(own.level(floor)),
-                in_metres(base)
+                six_decimals(own.level(floor)),
+                six_decimals(base)
             );
             found.number(format!("{}.base_level", side.opposite()), base, text);
         }
@@ -73,8 +74,8 @@ fn look_at_pair(scene: &Scene, (index, pair): (usize, &ContactPair), tolerance: 
             }
             let text = format!(
                 "level {} m, meets left floor {left} at {} m, where it is not; {}",
-                in_metres(levels[1]),
-                in_metres(levels[0]),
+                six_decimals(levels[1]),
+                six_decimals(levels[0]),
                 meant(of_right, levels[0])
             );
             found.add(path("right_floor"), right.to_string(), text);
@@ -87,8 +88,8 @@ fn look_at_pair(scene: &Scene, (index, pair): (usize, &ContactPair), tolerance: 
             if (level - hit).abs() > tolerance {
                 let text = format!(
                     "there the columns of {struck} storey {storey} are at {} m, and {side} floor {floor} is at {} m; {}",
-                    in_metres(hit),
-                    in_metres(level),
+                    six_decimals(hit),
+                    six_decimals(level),
                     meant(own, level)
                 );
                 found.number(path(&format!("{struck}_position")), position, text);
@@ -104,7 +105,7 @@ fn meant(heights: &Heights, level: f64) -> String {
     match (floor, heights.storey_at(level)) {
         (Some((floor, _)), _) => format!("was floor {floor} meant?"),
         (None, Some((storey, position))) => {
-            format!("was storey {storey} meant, whose columns it hits at {}?", in_metres(position))
+            format!("was storey {storey} meant, whose columns it hits at {}?", six_decimals(position))
         }
         (None, None) => "no floor and no storey is there".to_owned(),
     }

@@ -42,7 +42,7 @@ mod levels;
 mod touch;
 mod whole;
 
-pub use crate::figures::short;
+pub use crate::figures::{short, six_decimals};
 pub use found::Warning;
 
 use crate::record::Record;

@@ -1,7 +1,7 @@
 //! Scenes in which every mass and every stiffness is in other units: periods and contacts are then as they should be, and
 //! only the size of the masses tells.
 
-use super::facts::{Facts, Pace, name};
+use super::facts::{Facts, Pace};
 use super::found::Found;
 use crate::figures::short;
 use crate::scene::{Building, Units};
@@ -41,7 +41,7 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
         ),
         _ => return,
     };
-    found.quantities(format!("{}.mass", name(first)), &facts.building(first).mass, text);
+    found.quantities(format!("{}.mass", first), &facts.building(first).mass, text);
 }
 
 /// Frames in laboratories may be as light, but seldom are as slow and as far apart, and have fewer floors.

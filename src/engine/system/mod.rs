@@ -268,10 +268,6 @@ fn too_short(record: &Record) -> SceneError {
 }
 
 fn not_positive_definite(side: Side) -> SceneError {
-    let building = match side {
-        Side::Left => "left",
-        Side::Right => "right",
-    };
     let expected = "a positive definite stiffness with natural frequencies that double precision can hold";
-    Problem::new(format!("{building}.stiffness"), "", expected).into()
+    Problem::new(format!("{side}.stiffness"), "", expected).into()
 }
