@@ -27,6 +27,8 @@
  *     mass 3.65 3.65
  *     stiffness 2910 2910          per storey (shear building), or one line per row of the matrix:
  *     stiffness_row 5820 -2910
+ *     yield_force 40 inf           per storey, after stiffness; inf: stays elastic; optional. Then, optional:
+ *     post_yield_ratio 0.05 0      stiffness after yield over that before, per storey; else 0
  *     damping ratio 0.01           the same in every mode; after mass and stiffness
  *     damping ratios 0.01 0.02     per mode, lowest first
  *     damping rayleigh 0.05 1 2    ratio and two modes
