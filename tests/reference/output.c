@@ -27,7 +27,8 @@ static void describe(FILE *file, const Solution *s)
 }
 
 /* proof: NULL without one. */
-static void write_header(FILE *file, const char *made_by, const Solution *best, const Proof *proof)
+static void write_header(FILE *file, const char *made_by, const Scene *scene, const Solution *best,
+                         const Proof *proof)
 {
     fprintf(file, "# made by: %s\n", made_by);
     describe(file, best);
@@ -36,6 +37,9 @@ static void write_header(FILE *file, const char *made_by, const Solution *best, 
         fprintf(file,
                 "# the two agree: displacements to %.1e of the largest, velocities to %.1e, impact times to %.1e s%s\n",
                 proof->u, proof->v, proof->time, proof->same_impacts ? "" : "; IMPACTS DIFFER");
+        if (scene->storeys)
+            fprintf(file, "# plastic drifts to %.1e of the largest, yields and turns to %.1e s%s\n", proof->plastic,
+                    proof->yield_time, proof->same_yields ? "" : "; YIELDS DIFFER");
         fprintf(file, "# sensitivity of the displacements to record and initial state: %.1e\n",
                 proof->sensitivity[best->rows - 1]);
     }
@@ -159,7 +163,7 @@ void write_files(const char *output, const char *made_by, const Scene *scene, co
     static const char *const kinds[] = {"displacements", "impacts", "storeys", "yields"};
     for (int i = 0; i < (scene->storeys ? 4 : 2); i++) {
         FILE *file = create(output, kinds[i]);
-        write_header(file, made_by, best, proof);
+        write_header(file, made_by, scene, best, proof);
         if (i == 0)
             write_displacements(file, scene, best, proof);
         else if (i == 1)

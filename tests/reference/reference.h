@@ -349,6 +349,8 @@ typedef struct {
     Solution second;
     double u, v, time; /* largest differences; u and v relative to the largest value, time in s */
     bool same_impacts;
+    double plastic, yield_time; /* largest differences of plastic drifts, relative, and of yields and turns, s */
+    bool same_yields;
     double *sensitivity; /* per row */
 } Proof;
 
