@@ -1,5 +1,5 @@
-/* Storeys that yield: bilinear, kinematic hardening. Their plastic drifts are further unknowns of a step: constant while
-   a storey is elastic, following its drift while it yields. The shear is continuous through every change of phase. */
+/* Storeys that yield: bilinear, kinematic hardening. Their plastic drifts are further unknowns of a step, constant in an
+   elastic storey, changing as the drift in one that yields. The shear is continuous through every change of phase. */
 #include "reference.h"
 
 #include <stdlib.h>
