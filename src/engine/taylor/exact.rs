@@ -29,7 +29,7 @@ impl System {
         }
         let length = remaining.min(REACH / self.structure.fastest);
         self.expand_exactly(base, solution, work, length);
-        at.counters.contact_steps += 1;
+        at.counters.yielding_steps += 1;
         self.end_at(1.0, solution, planned);
         let event = self.first_of_exact(base, (length, planned), solution, work);
         if let Some((x, _)) = event {
