@@ -28,14 +28,14 @@ def drift_of(run, side, storey):
 
 
 def loops(scene, run, alone, window):
-    """Storey shear against drift: what the loops enclose is dissipated by yielding."""
+    """Storey shear against drift: what the loops enclose is dissipated by yielding. In brackets what is without contact."""
     storeys = yielding_storeys(scene, run)
     if not storeys:
         return None
     most = lambda side: lambda i: run[f"{side}.ductility[{i}]"][-1]  # noqa: E731
     shown = {side: sorted(sorted(own, key=most(side))[-MOST_STOREYS:]) for side, own in storeys.items()}
     rows, columns = max(map(len, shown.values())), len(shown)
-    figure, panels = plt.subplots(rows, columns, figsize=(4.6 * columns, 2.3 * rows + 0.8), squeeze=False)
+    figure, panels = plt.subplots(rows, columns, figsize=(4.1 * columns, 1.9 * rows + 0.8), squeeze=False)
     for axes in panels.flat:
         axes.axis("off")
     largest = max(np.abs(run[f"{side}.storey_shear[{i}]"]).max() for side, own in shown.items() for i in own)
@@ -60,7 +60,7 @@ def draw_loops(axes, run, alone, side, storey, factor):
     axes.axhline(0, color=GREY, linewidth=0.8)
     axes.axvline(0, color=GREY, linewidth=0.8)
     both = [one[f"{side}.ductility[{storey}]"][-1] for one in (run, alone)]
-    axes.set_title(f"{side.capitalize()} storey {storey}: ductility {both[0]:.2g}, without contact {both[1]:.2g}")
+    axes.set_title(f"{side.capitalize()} storey {storey}: ductility {both[0]:.1f} ({both[1]:.1f})")
 
 
 def residual(scene, run, alone, window):
