@@ -38,8 +38,7 @@ impl Model {
         Ok(Model {
             flight: Flight::new(&system),
             windows: Windows::of(&system),
-            // The ductility of a storey is made of its peak drift.
-            peak_rows: PeakRows::of(structure, scene.peaks || !system.storeys.is_empty()),
+            peak_rows: PeakRows::of(structure, scene.peaks),
             resistance: FloorResistance::of(structure),
             frequencies: [Side::Left, Side::Right]
                 .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
