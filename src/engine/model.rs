@@ -53,7 +53,7 @@ impl Model {
     pub(in crate::engine) fn set_rest(&self, base: &mut Base) {
         self.system.set_rest(&base.storeys, &mut base.rest);
         base.rest.watched.resize(self.peak_rows.blocks() * LANES, 0.0);
-        if !base.storeys.is_empty() {
+        if !base.storeys.is_empty() && !self.peak_rows.are_none() {
             self.peak_rows.set_at_rest(&self.system.structure, &base.rest.floors, &mut base.rest.watched);
         }
     }
