@@ -118,8 +118,8 @@ impl ClosingBounds {
 }
 
 impl ClosingBounds {
-    /// Tests the pairs that are not cleared for the base's segment, which has that number; returns whether all are
-    /// cleared now. If not, the next broad phase is `segments_to_wait` segments later.
+    /// Tests the pairs that are not cleared for the base's segment, which has that number, and the storeys; returns whether
+    /// all are cleared now. If not, the next broad phase is `segments_to_wait` segments later.
     pub fn dismiss(
         &self,
         system: &System,
@@ -170,7 +170,7 @@ fn share_amplitude(modes: &mut [f64]) {
     modes.fill(whole);
 }
 
-/// Tests each pair that is not cleared for a segment.
+/// Tests each pair that is not cleared for a segment, and the storeys.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn bound_all(
     (closing, system): (&ClosingBounds, &System),

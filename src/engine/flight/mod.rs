@@ -46,8 +46,8 @@ impl Flight {
         }
     }
 
-    /// Broad phase: tests the pairs that are not cleared for the base's segment, which has that number; returns whether
-    /// all are cleared now.
+    /// Broad phase: tests the pairs that are not cleared for the base's segment, which has that number, and the storeys;
+    /// returns whether all are cleared now.
     pub fn dismiss(
         &self,
         system: &System,
