@@ -80,7 +80,7 @@ pub const MASS: Rule =
 /// `stiffness` of a storey, N/m.
 pub const STOREY_STIFFNESS: Rule =
     Rule { expected: "a finite stiffness > 0 N/m", in_kn_t: Some("a finite stiffness > 0 kN/m"), holds: |k| k > 0.0 };
-/// `yield_force` of a storey, N; infinite ones are allowed as well.
+/// `yield_force` of a storey, N; infinite ones are allowed as well, by the file and by the FMU's parameters.
 pub const YIELD_FORCE: Rule = Rule {
     expected: "a force > 0 N, or inf for a storey that stays elastic",
     in_kn_t: Some("a force > 0 kN, or inf for a storey that stays elastic"),

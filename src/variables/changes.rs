@@ -41,7 +41,8 @@ impl Settings {
     pub fn with(&self, changes: &Changes, table: &Table) -> Result<Settings, SceneError> {
         let mut settings = self.clone();
         for &(reference, number) in &changes.numbers {
-            let row = table.row(reference).filter(|row| matches!(row.ty, Type::Real(_)) && number.is_finite());
+            // Whether it may be infinite, as a yield force, is checked with the scene.
+            let row = table.row(reference).filter(|row| matches!(row.ty, Type::Real(_)) && !number.is_nan());
             let Some(Slot::Parameter(parameter)) = row.map(|row| row.slot) else {
                 let expected = "a finite number for a Real parameter";
                 return Err(Problem::new(format!("value reference {reference}"), number.to_string(), expected).into());

@@ -59,13 +59,8 @@ impl Instant<'_> {
         let now = match of {
             PeakOf::Displacement(side, floor) => Output::Displacement(side, floor),
             PeakOf::Drift(side, storey) => {
-                let [upper, lower] = [Some(storey), storey.checked_sub(1)].map(|floor| {
-                    let rates = |floor| model.displacement_rates(point, rates, side, floor);
-                    let [first, second] = floor.map_or([0.0; 2], rates);
-                    [floor.map_or(0.0, |floor| model.displacement(point, side, floor)), first, second]
-                });
-                let [value, rest @ ..] = [0, 1, 2].map(|k| upper[k] - lower[k]);
-                return rates_of_peak(value, rest, model.peak(state, point, of));
+                let (drift, rest) = (model.drift(point, (side, storey)), model.drift_rates(point, rates, (side, storey)));
+                return rates_of_peak(drift, rest, model.peak(state, point, of));
             }
             PeakOf::Acceleration(side, floor) => Output::Acceleration(side, floor),
             PeakOf::BaseShear(side) => Output::BaseShear(side),

@@ -3,6 +3,7 @@
 
 use crate::engine::model::Model;
 use crate::engine::output::point::Point;
+use crate::engine::output::point_rates::{PointRates, Rates};
 use crate::engine::state::State;
 use crate::engine::watched::rows::PeakOf;
 use crate::engine::watched::storeys::StoreyPeak;
@@ -21,6 +22,19 @@ impl Model {
             }
             StoreyPeak::ColumnForce => self.hardest_on(state, point, (side, storey)).map_or(0.0, |(_, force)| force),
         }
+    }
+
+    /// Drift of a storey, m.
+    pub fn drift(&self, point: &Point, (side, storey): (Side, usize)) -> f64 {
+        let below = storey.checked_sub(1).map_or(0.0, |floor| self.displacement(point, side, floor));
+        self.displacement(point, side, storey) - below
+    }
+
+    /// Rates of a drift, m/s and m/s2.
+    pub fn drift_rates(&self, point: &Point, rates: &PointRates, (side, storey): (Side, usize)) -> Rates {
+        let of = |floor: usize| self.displacement_rates(point, rates, side, floor);
+        let (above, below) = (of(storey), storey.checked_sub(1).map_or([0.0; 2], of));
+        [above[0] - below[0], above[1] - below[1]]
     }
 
     /// The contact that has pressed hardest on the columns of a storey, and its largest force.

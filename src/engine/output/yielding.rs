@@ -6,6 +6,7 @@ use crate::engine::output::point::Point;
 use crate::engine::output::point_rates::{PEAK_ROUNDING, PointRates, Rates};
 use crate::engine::state::State;
 use crate::engine::watched::rows::PeakOf;
+use crate::engine::watched::storeys::StoreyPeak;
 use crate::engine::yielding::storey::YieldingStorey;
 use crate::structure::Side;
 
@@ -27,10 +28,13 @@ pub enum YieldingOf {
 }
 
 impl Model {
-    /// A quantity of a storey, counted from 0; 0 where it cannot yield. `state` has to be the one that `point` was observed
-    /// from.
+    /// A quantity of a storey, counted from 0. Of one that cannot yield, as its yield force has been made infinite, the shear
+    /// is that of its drift, everything else 0. `state` has to be the one that `point` was observed from.
     pub fn of_yielding(&self, state: &State, point: &Point, of: YieldingOf, place: (Side, usize)) -> f64 {
-        let Some((storey, now)) = self.yielding_storey(point, place) else { return 0.0 };
+        let Some((storey, now)) = self.yielding_storey(point, place) else {
+            let elastic = self.storeys.per_drift(StoreyPeak::Shear, place);
+            return if of == YieldingOf::Shear { elastic * self.drift(point, place) } else { 0.0 };
+        };
         match of {
             YieldingOf::Shear => storey.shear(now, storey.drift(point.coordinates, &point.q)),
             YieldingOf::PlasticDrift => now.plastic,
@@ -50,9 +54,13 @@ impl Model {
         }
     }
 
-    /// Rates of a quantity of a storey: 0 where it cannot yield.
+    /// Rates of a quantity of a storey.
     pub fn yielding_rates(&self, point: &Point, rates: &PointRates, of: YieldingOf, place: (Side, usize)) -> Rates {
-        let Some((storey, now)) = self.yielding_storey(point, place) else { return [0.0; 2] };
+        let Some((storey, now)) = self.yielding_storey(point, place) else {
+            let elastic = self.storeys.per_drift(StoreyPeak::Shear, place);
+            let factor = if of == YieldingOf::Shear { elastic } else { 0.0 };
+            return self.drift_rates(point, rates, place).map(|rate| factor * rate);
+        };
         let drift = [&point.v, &rates.acceleration].map(|motion| storey.drift(point.coordinates, motion));
         let flow = now.yields.map_or(0.0, Sense::sign);
         let factor = match of {
