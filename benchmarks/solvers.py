@@ -66,7 +66,7 @@ def engine():
 def heyoka():
     make = lambda case, setting: heyoka_taylor.Solver(case.problem, case.ground, setting)
     settings = [1e-5, 1e-7, 1e-9, 1e-10, 1e-11, 1e-12, 1e-14]
-    return [Entry("heyoka", "tolerance", settings, [1e-7, 1e-11], make, heyoka_taylor.WITHOUT)]
+    return [Entry("heyoka", "tolerance", settings, [1e-7, 1e-11], make, heyoka_taylor.WITHOUT, yields=True)]
 
 
 def cvode():
