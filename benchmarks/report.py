@@ -82,7 +82,8 @@ def ratio_table(rows, loop, column):
         mean = tuple(map(geometric_mean, zip(*reached))) or None
         tried = [law for law in laws if of_problem(rows, scene, law)]
         partial = f", {len(reached)} laws" if len(reached) < len(tried) else ""
-        yield f"| {scene} | " + " | ".join(map(ratio_cell, ratios)) + f" | **{ratio_cell(mean)}**{partial} |"
+        cells = [ratio_cell(ratio) if law in tried else "" for law, ratio in zip(laws, ratios)]
+        yield f"| {scene} | " + " | ".join(cells) + f" | **{ratio_cell(mean)}**{partial} |"
 
 
 def ratio(ours, theirs, loop):
