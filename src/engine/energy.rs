@@ -3,6 +3,7 @@
 //! Every term is integrated by itself and none is computed as a remainder, so that their sum tests the solution.
 
 use crate::engine::base::planned::At;
+use crate::engine::base::storey::Storey;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::flight::accounted::MOST_PIECES;
@@ -28,17 +29,18 @@ pub struct Work {
 }
 
 impl System {
-    /// Kinetic and strain energy, J.
-    pub fn structure_energies(&self, coordinates: Coordinates, q: &[f64], v: &[f64]) -> (f64, f64) {
-        match coordinates {
+    /// Kinetic and recoverable strain energy, J, of a motion relative to the position of rest of some storeys.
+    pub fn energies(&self, (coordinates, storeys): (Coordinates, &[Storey]), q: &[f64], v: &[f64]) -> (f64, f64) {
+        let (kinetic, strain) = match coordinates {
             Coordinates::Modes => self.structure.energies(q, v),
             Coordinates::Floors => self.structure.floors.energies(q, v),
-        }
+        };
+        (kinetic, strain + self.locked_energy(storeys))
     }
 
     /// Opens the account with the energy at the start.
     pub fn open_account(&self, base: &mut Base) {
-        let (kinetic, strain) = self.structure_energies(base.coordinates, &base.q, &base.v);
+        let (kinetic, strain) = self.energies((base.coordinates, &base.storeys), &base.q, &base.v);
         if let Some(account) = &mut base.energy {
             account.initial = kinetic + strain;
             account.largest = account.initial;
@@ -62,12 +64,13 @@ impl System {
         counters.energy_steps += if step.is_flight() { self.pieces(length).min(MOST_PIECES as u64) } else { 1 };
         let done = self.work_over(base, step, inputs, work, length);
         let impact = base.dissipated_by_contacts();
-        let (kinetic, strain) = self.structure_energies(base.coordinates, &base.q, &base.v);
+        let (kinetic, strain) = self.energies((base.coordinates, &base.storeys), &base.q, &base.v);
+        let hysteretic = self.hysteretic_energy(&base.storeys);
         if let Some(account) = &mut base.energy {
             account.input += done.input;
             account.viscous += done.viscous;
             account.external += done.external;
-            account.update_largest([kinetic, strain, impact]);
+            account.update_largest([kinetic, strain, impact, hysteretic]);
         }
     }
 

@@ -62,6 +62,7 @@ mod system;
 mod taylor;
 mod watched;
 mod window;
+mod yielding;
 
 pub use crate::engine::base::contact::Episode;
 pub use crate::engine::base::counters::Counters;
@@ -71,6 +72,7 @@ pub use crate::engine::model::Model;
 pub use crate::engine::output::feedthrough::Response;
 pub use crate::engine::output::point::{ContactPoint, EnergyPoint, Point};
 pub use crate::engine::output::point_rates::{ContactRates, EnergyRates, PEAK_ROUNDING, PointRates, Rates};
+pub use crate::engine::output::yielding::YieldingOf;
 pub use crate::engine::saved::SavedState;
 pub use crate::engine::state::State;
 pub use crate::engine::watched::rows::PeakOf;

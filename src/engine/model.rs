@@ -37,7 +37,8 @@ impl Model {
         Ok(Model {
             flight: Flight::new(&system),
             windows: Windows::of(&system),
-            peak_rows: PeakRows::of(structure, scene.peaks),
+            // The ductility of a storey is made of its peak drift.
+            peak_rows: PeakRows::of(structure, scene.peaks || !system.storeys.is_empty()),
             resistance: FloorResistance::of(structure),
             frequencies: [Side::Left, Side::Right]
                 .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),

@@ -7,6 +7,7 @@ use crate::contact::EpisodeForce;
 use crate::engine::base::Base;
 use crate::engine::base::contact::Phase;
 use crate::engine::base::counters::Counters;
+use crate::engine::base::storey::Sense;
 use crate::engine::error::EngineError;
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::model::Model;
@@ -24,6 +25,9 @@ const MOST_MOTION: f64 = 1e12;
 
 /// Largest difference between the saved time and the one that follows from its segment, s, relative to times above 1 s.
 const TIME_ROUNDING: f64 = 1e-9;
+
+/// Rounding error of a drift relative to its yield drift and to the displacements that it is a difference of.
+const AT_LIMIT: f64 = 1e-9;
 
 /// Everything of a state that cannot be worked out from the model: plain data, to be kept or written to bytes.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -70,6 +74,7 @@ impl Model {
         let SavedState { time, base, is_planned, inputs, counters } = saved;
         state.time = *time;
         state.base.clone_from(base);
+        self.system.set_rest(&base.storeys, &mut state.base.rest);
         state.inputs.clone_from(inputs);
         state.work.peaks.forget();
         state.step.kind = StepKind::NotPlanned;
@@ -98,9 +103,10 @@ impl Model {
         self.check_segment(saved)?;
         self.check_contacts(base)?;
         let number = self.system.ground.as_ref().and_then(|ground| ground.number(&base.segment)).unwrap_or_default();
+        self.check_storeys(base)?;
         require(base.peaks.fit(&self.start_peaks()), "the peaks in it are impossible")?;
         require(
-            base.clearance.fits(self.system.pairs.len(), number, MOST_COUNTED),
+            base.clearance.fits(self.system.cleared_together(), number, MOST_COUNTED),
             "what it tells of pairs apart is impossible",
         )?;
         self.restore(saved, &mut state);
@@ -112,6 +118,7 @@ impl Model {
         let fits = base.q.len() == fresh.base.q.len()
             && base.v.len() == fresh.base.v.len()
             && base.contacts.len() == self.system.pairs.len()
+            && base.storeys.len() == self.system.storeys.len()
             && base.energy.is_some() == self.energy
             && inputs.floor_forces.len() == fresh.inputs.floor_forces.len()
             && inputs.left_floors == fresh.inputs.left_floors;
@@ -145,6 +152,23 @@ impl Model {
         }
         let impacts = base.contacts.iter().fold(0_u64, |sum, contact| sum.saturating_add(contact.impacts));
         require(base.impacts == impacts && impacts <= MOST_COUNTED, "its impacts are not those of its contacts")
+    }
+
+    /// A storey is not beyond its limits, and at one of them where it yields or has just turned.
+    fn check_storeys(&self, base: &Base) -> Result<(), EngineError> {
+        for (of, storey) in self.system.storeys.iter().zip(&base.storeys) {
+            let drift = of.drift(base.coordinates, &base.q);
+            let rounding = AT_LIMIT * (of.limit + of.size(base.coordinates, &base.q));
+            let is_within = Sense::BOTH.into_iter().all(|sense| of.excess(storey, sense, drift) <= rounding);
+            let is_at = |sense: Sense| of.excess(storey, sense, drift).abs() <= rounding;
+            let is_at_limit = storey.yields.is_none_or(is_at) && storey.turned.is_none_or(is_at);
+            let has_flowed = storey.furthest >= storey.plastic.abs() && storey.cumulative >= 0.0;
+            if !(is_within && is_at_limit && has_flowed && (storey.yields.is_none() || storey.turned.is_none())) {
+                let path = format!("storey {} of the {} building", of.storey + 1, of.side);
+                return Err(impossible(&format!("{path} is in no state that it can have")));
+            }
+        }
+        Ok(())
     }
 
     /// A planned step contains the communication time. Without one the base is at that time already (after a failed

@@ -97,7 +97,7 @@ impl Workspace {
         let (pairs, lanes) = (model.system.pairs.len(), model.system.structure.lanes);
         Workspace {
             buffers: model.buffers(),
-            look: Look::new(lanes, pairs),
+            look: Look::new(lanes, (pairs, model.system.storeys.len())),
             windows: WindowWorkspace::new(model.windows.as_ref().map_or(0, |_| pairs)),
             peaks: PeakRoom::new(&model.system.structure, &model.peak_rows, pairs),
         }

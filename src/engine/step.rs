@@ -4,6 +4,7 @@
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::Planned;
+use crate::engine::base::storey::Storey;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::onset::series::OnsetSeries;
 use crate::engine::system::System;
@@ -195,6 +196,15 @@ impl Step {
         }
         fly_in_one_series(&system.structure, end, (&work.load, &work.slope), (-left, order), (q, v));
         true
+    }
+
+    /// Moves storey `i` from the base to the x of the powers, by which a series in time is evaluated there.
+    pub fn move_storey(&self, i: usize, powers: &Powers, storey: &mut Storey) {
+        if let (Some(_), Dense::Taylor(solution)) = (storey.yields, self.dense())
+            && powers.x > 0.0
+        {
+            *storey = storey.after(solution.drifts.change(i, &solution.series, powers));
+        }
     }
 
     /// Moves the contacts to the end of the step, which began at the time `start` \[s\].

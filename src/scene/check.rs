@@ -4,7 +4,7 @@
 
 use super::checker::Checker;
 use super::contact_pair::{ContactPair, Face};
-use super::data::{Building, Damping, Ground, Scaling, Scene, Stiffness};
+use super::data::{Building, Damping, Ground, Scaling, Scene, Stiffness, Yielding};
 use super::problem::{self, Problem, SceneError};
 use super::side::Side;
 use super::{identifier, law_key, matrix, rule};
@@ -83,6 +83,18 @@ impl Checker {
         if let Some(heights) = &building.heights {
             self.list(format_args!("{path}.height"), &heights.storeys, rule::STOREY_HEIGHT, floors, "storey");
             self.number(format_args!("{path}.base_level"), heights.base_level, rule::LEVEL);
+        }
+        building.yielding.iter().for_each(|yielding| self.yielding(path, yielding, floors));
+    }
+
+    fn yielding(&mut self, path: &str, Yielding { force, ratio }: &Yielding, floors: usize) {
+        let key = format!("{path}.yield_force");
+        self.length(&key, force, rule::YIELD_FORCE, floors, "storey");
+        for (i, &force) in force.iter().enumerate().filter(|(_, force)| **force != f64::INFINITY) {
+            self.number(format_args!("{key}[{}]", i + 1), force, rule::YIELD_FORCE);
+        }
+        if ratio.len() != force.len() || force.len() == floors {
+            self.list(format_args!("{path}.post_yield_ratio"), ratio, rule::POST_YIELD_RATIO, floors, "storey");
         }
     }
 

@@ -30,11 +30,16 @@ impl Checker {
 
     /// One number per floor, storey or mode, as `each` says.
     pub fn list(&mut self, path: impl Display, values: &[f64], rule: Rule, floors: usize, each: &str) {
+        self.length(&path, values, rule, floors, each);
+        self.numbers(path, values, rule);
+    }
+
+    /// As many numbers as there are floors, storeys or modes.
+    pub fn length(&mut self, path: impl Display, values: &[f64], rule: Rule, floors: usize, each: &str) {
         if floors > 0 && values.len() != floors {
             let expected = format!("{}, one per {each}, not {}", count(floors, "number"), values.len());
-            self.refuse(&path, self.written(values, rule), expected);
+            self.refuse(path, self.written(values, rule), expected);
         }
-        self.numbers(path, values, rule);
     }
 
     /// A list of numbers under a rule as the file may have it.

@@ -53,6 +53,17 @@ pub struct Building {
     pub initial_velocity: Vec<f64>,
     /// Heights of the storeys, where the scene has them.
     pub heights: Option<Heights>,
+    /// Where the storeys of a shear building yield; `None` where none does.
+    pub yielding: Option<Yielding>,
+}
+
+/// Bilinear storeys with kinematic hardening.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Yielding {
+    /// N, one per storey: the storey shear at first yield; infinite where a storey stays elastic.
+    pub force: Vec<f64>,
+    /// Stiffness after yield over that before, one per storey.
+    pub ratio: Vec<f64>,
 }
 
 /// Stiffness of a building.
@@ -121,12 +132,29 @@ impl Building {
             initial_displacement: Vec::new(),
             initial_velocity: Vec::new(),
             heights: None,
+            yielding: None,
         }
+    }
+
+    /// Yield force, N, and post-yield ratio of a storey, counted from 0, that can yield.
+    pub fn yielding_storey(&self, storey: usize) -> Option<(f64, f64)> {
+        let Yielding { force, ratio } = self.yielding.as_ref()?;
+        Some((*force.get(storey)?, *ratio.get(storey)?)).filter(|(force, _)| force.is_finite())
     }
 
     /// Whether there is no such building.
     pub const fn is_absent(&self) -> bool {
         self.mass.is_empty()
+    }
+}
+
+impl Stiffness {
+    /// N/m, of a storey of a shear building, counted from 0.
+    pub fn of_storey(&self, storey: usize) -> Option<f64> {
+        match self {
+            Stiffness::Shear(storeys) => storeys.get(storey).copied(),
+            Stiffness::Matrix(_) => None,
+        }
     }
 }
 

@@ -79,7 +79,7 @@ mod syntax;
 mod units;
 
 pub use contact_pair::{ColumnShape, ContactPair, Face, Share};
-pub use data::{Building, Damping, Ground, Scaling, Scene, Solver, Stiffness};
+pub use data::{Building, Damping, Ground, Scaling, Scene, Solver, Stiffness, Yielding};
 pub use files::{Package, PackagedRecord, load};
 pub(crate) use files::{SCENE_RESOURCE, read_record_file, record_problems};
 pub use levels::{Heights, LEVEL_TOLERANCE, ROUNDING as LEVEL_ROUNDING};

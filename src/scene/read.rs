@@ -1,6 +1,6 @@
 //! The keys of a scene file, one after the other.
 
-use super::data::{Building, Damping, Ground, Scaling, Scene, Solver, Stiffness};
+use super::data::{Building, Damping, Ground, Scaling, Scene, Solver, Stiffness, Yielding};
 use super::document::{self, Document, Item, KEY, Section, Span};
 use super::levels::Heights;
 use super::problem::{Problem, SceneError, excerpt};
@@ -161,8 +161,34 @@ fn building(mut section: Section<'_>, units: Units) -> Building {
     let initial_displacement = section.get("initial_displacement").map_or_else(at_rest, |item| item.numbers());
     let initial_velocity = section.get("initial_velocity").map_or_else(at_rest, |item| item.numbers());
     let heights = heights(&mut section);
+    let yielding = yielding(&mut section, &stiffness, units);
     section.close(KEY);
-    Building { stiffness, damping, initial_displacement, initial_velocity, heights, mass }
+    Building { stiffness, damping, initial_displacement, initial_velocity, heights, yielding, mass }
+}
+
+fn yielding(section: &mut Section<'_>, stiffness: &Stiffness, units: Units) -> Option<Yielding> {
+    let (force, ratio) = (section.get("yield_force"), section.get("post_yield_ratio"));
+    let Some(force) = force else {
+        ratio.inspect(|item| item.refuse("yield_force as well, the storey shears at first yield"));
+        return None;
+    };
+    if matches!(stiffness, Stiffness::Matrix(_)) {
+        force.refuse("a shear building, with stiffness instead of stiffness_matrix: only storeys yield");
+        return None;
+    }
+    let force = force.quantities(units);
+    let ratio = match ratio {
+        None => vec![0.0; force.len()],
+        Some(item) if item.is_number() => {
+            let ratio = item.number();
+            if ratio.is_finite() && !rule::POST_YIELD_RATIO.holds(ratio) {
+                item.refuse(rule::POST_YIELD_RATIO.expected(Units::Si));
+            }
+            vec![ratio; force.len()]
+        }
+        Some(item) => item.numbers(),
+    };
+    Some(Yielding { force, ratio })
 }
 
 fn heights(section: &mut Section<'_>) -> Option<Heights> {

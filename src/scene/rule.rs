@@ -80,6 +80,15 @@ pub const MASS: Rule =
 /// `stiffness` of a storey, N/m.
 pub const STOREY_STIFFNESS: Rule =
     Rule { expected: "a finite stiffness > 0 N/m", in_kn_t: Some("a finite stiffness > 0 kN/m"), holds: |k| k > 0.0 };
+/// `yield_force` of a storey, N; infinite ones are allowed as well.
+pub const YIELD_FORCE: Rule = Rule {
+    expected: "a force > 0 N, or inf for a storey that stays elastic",
+    in_kn_t: Some("a force > 0 kN, or inf for a storey that stays elastic"),
+    holds: |force| force > 0.0,
+};
+/// `post_yield_ratio` of a storey.
+pub const POST_YIELD_RATIO: Rule =
+    Rule { expected: "0 <= r < 1", in_kn_t: None, holds: |ratio| (0.0..1.0).contains(&ratio) };
 /// Every damping ratio, 1 = critical.
 pub const DAMPING_RATIO: Rule =
     Rule { expected: "a finite damping ratio >= 0", in_kn_t: None, holds: |ratio| ratio >= 0.0 };

@@ -97,6 +97,7 @@ mod tests {
             initial_displacement: rest.clone(),
             initial_velocity: rest,
             heights: None,
+            yielding: None,
         }
     }
 

@@ -47,6 +47,8 @@ pub fn at_communication_points(scene: &Scene, output: Output, input: Input) -> O
             | Output::BaseShear(_)
             | Output::Peak(_)
             | Output::OfStorey(..)
+            | Output::OfYielding(..)
+            | Output::Yielding(..)
             | Output::Contact(..)
             | Output::Impacts
             | Output::Energy(_),

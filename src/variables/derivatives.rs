@@ -3,7 +3,7 @@
 use super::initial_dependencies::at_start;
 use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot};
 use super::values::Instant;
-use crate::engine::{EnergyRates, Model, PEAK_ROUNDING, PeakOf, PointRates, Rates, Response, StoreyPeak};
+use crate::engine::{EnergyRates, Model, PEAK_ROUNDING, PeakOf, PointRates, Rates, Response, StoreyPeak, YieldingOf};
 use crate::scene::Scene;
 
 /// The highest order of the derivatives of outputs with respect to time.
@@ -27,16 +27,27 @@ impl Instant<'_> {
             Output::Energy(term) => energy_rates(&rates.energy.unwrap_or_default(), term),
             // Held from one event, or one step of the engine, to the next.
             Output::Contact(_, ContactOutput::ApproachVelocity | ContactOutput::Active | ContactOutput::Impacts)
-            | Output::Impacts => [0.0; 2],
+            | Output::Impacts
+            | Output::Yielding(..) => [0.0; 2],
             Output::Peak(of) => self.differentiate_peak(rates, of),
             Output::OfStorey(StoreyPeak::ColumnForce, side, storey) => {
                 let hardest = model.hardest_on(state, point, (side, storey));
                 hardest.map_or([0.0; 2], |(p, _)| rates.contacts[p].peak_force)
             }
             Output::OfStorey(of, side, storey) => {
+                let yielded = model.yielded_shear_rates(point, rates, (side, storey));
+                if let (StoreyPeak::Shear, Some(rates)) = (of, yielded) {
+                    return rates;
+                }
                 let factor = model.per_drift(of, (side, storey));
                 self.differentiate_peak(rates, PeakOf::Drift(side, storey)).map(|rate| factor * rate)
             }
+            Output::OfYielding(of, side, storey) => match model.unused_yield_drift(point, (side, storey)) {
+                Some(limit) if of == YieldingOf::Ductility => {
+                    self.differentiate_peak(rates, PeakOf::Drift(side, storey)).map(|rate| rate / limit)
+                }
+                _ => model.yielding_rates(point, rates, of, (side, storey)),
+            },
         }
     }
 }
@@ -79,6 +90,7 @@ fn energy_rates(rates: &EnergyRates, term: EnergyOutput) -> Rates {
         EnergyOutput::Viscous => rates.viscous,
         EnergyOutput::Impact => rates.impact,
         EnergyOutput::External => rates.external,
+        EnergyOutput::Hysteretic => rates.hysteretic,
         // The balance holds but for rounding.
         EnergyOutput::Residual => [0.0; 2],
     }
@@ -106,6 +118,8 @@ impl Output {
             | Output::BaseShear(_)
             | Output::Peak(_)
             | Output::OfStorey(..)
+            | Output::OfYielding(..)
+            | Output::Yielding(..)
             | Output::Contact(..)
             | Output::Impacts
             | Output::Energy(_) => 0.0,

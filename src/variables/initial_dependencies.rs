@@ -7,7 +7,7 @@
 use super::dependencies::floors;
 use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot};
 use crate::contact::EpisodeForce;
-use crate::engine::{PeakOf, Side, StoreyPeak};
+use crate::engine::{PeakOf, Side, StoreyPeak, YieldingOf};
 use crate::scene::{Building, Damping, Scene, Share, Stiffness};
 
 /// Whether an unknown may depend on a known at the start time; `unknown` is an output or a calculated parameter,
@@ -28,7 +28,17 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
         // The largest drift so far is known; the stiffness of the storey is a parameter.
         Output::OfStorey(StoreyPeak::DriftRatio, ..) => false,
         Output::OfStorey(StoreyPeak::Shear, side, storey) => {
-            known == Slot::Parameter(Parameter::Stiffness(side, storey)) && drifts(scene.building(side), storey)
+            is_of_storey(known, (side, storey)) && drifts(scene.building(side), storey)
+        }
+        // What has been dissipated, and whether a storey yields, begins with the first step.
+        Output::OfYielding(YieldingOf::HystereticEnergy | YieldingOf::CumulativePlasticDrift, ..)
+        | Output::Yielding(..) => false,
+        Output::OfYielding(YieldingOf::Ductility | YieldingOf::PlasticDrift, side, storey) => {
+            let is_ratio = known == Slot::Parameter(Parameter::PostYieldRatio(side, storey));
+            is_of_storey(known, (side, storey)) && !is_ratio && drifts(scene.building(side), storey)
+        }
+        Output::OfYielding(YieldingOf::Shear | YieldingOf::ResidualDrift, side, storey) => {
+            is_of_storey(known, (side, storey)) && drifts(scene.building(side), storey)
         }
         Output::OfStorey(StoreyPeak::ColumnForce, side, storey) => {
             let hits = |p: &usize| scene.contacts[*p].columns() == Some((side, storey + 1));
@@ -63,10 +73,23 @@ fn is_of_distance(scene: &Scene, p: usize, known: Slot) -> bool {
         || known == Slot::Parameter(Parameter::Position(p)) && scene.contacts[p].row().any(is_displaced)
 }
 
+/// The storey whose shear a parameter changes at a given drift: by its stiffness, or by its yield line.
+fn storey_of(parameter: Parameter) -> Option<(Side, usize)> {
+    match parameter {
+        Parameter::Stiffness(side, storey)
+        | Parameter::YieldForce(side, storey)
+        | Parameter::PostYieldRatio(side, storey) => Some((side, storey)),
+        _ => None,
+    }
+}
+
+fn is_of_storey(known: Slot, place: (Side, usize)) -> bool {
+    matches!(known, Slot::Parameter(parameter) if storey_of(parameter) == Some(place))
+}
+
 /// The sum of K u is the force of the lowest storey.
 fn base_shear(scene: &Scene, side: Side, known: Slot) -> bool {
-    known == Slot::Parameter(Parameter::Stiffness(side, 0)) && drifts(scene.building(side), 0)
-        || damping_force(scene, side, known, [0, 0])
+    is_of_storey(known, (side, 0)) && drifts(scene.building(side), 0) || damping_force(scene, side, known, [0, 0])
 }
 
 /// Forces on a floor over its mass.
@@ -84,8 +107,8 @@ fn acceleration(scene: &Scene, (side, floor): (Side, usize), known: Slot) -> boo
             scene.floor_forces || is_strained || is_damped(building) || contacts().any(|p| is_pushed(scene, p))
         }
         _ => {
-            let is_strain = |storey| known == Slot::Parameter(Parameter::Stiffness(side, storey));
-            storeys.into_iter().any(|storey| is_strain(storey) && drifts(building, storey))
+            let is_strain = |storey| is_of_storey(known, (side, storey)) && drifts(building, storey);
+            storeys.into_iter().any(is_strain)
                 || damping_force(scene, side, known, storeys)
                 || contacts().any(|p| contact_force(scene, p, known))
         }
@@ -166,8 +189,9 @@ fn energy(scene: &Scene, term: EnergyOutput, known: Slot) -> bool {
         (EnergyOutput::Kinetic, Slot::Parameter(Parameter::Mass(side, floor))) => {
             scene.building(side).initial_velocity[floor] != 0.0
         }
-        (EnergyOutput::Strain, Slot::Parameter(Parameter::Stiffness(side, storey))) => {
-            drifts(scene.building(side), storey)
+        (EnergyOutput::Strain, Slot::Parameter(parameter)) => {
+            let storey = storey_of(parameter);
+            storey.is_some_and(|(side, storey)| drifts(scene.building(side), storey))
         }
         _ => false,
     }

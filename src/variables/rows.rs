@@ -4,7 +4,7 @@ use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot};
 use super::table::{Row, Table, Type, Variability};
 use super::unit::Unit;
 use crate::contact::LawKey;
-use crate::engine::{PeakOf, Side, StoreyPeak};
+use crate::engine::{PeakOf, Side, StoreyPeak, YieldingOf};
 use crate::figures::six_decimals;
 use crate::scene::{Building, ContactPair, Damping, Scaling, Scene, Stiffness, rule};
 
@@ -46,6 +46,9 @@ impl Table {
                     table.add_struck_storey(building, (side, name), storey, scene.peaks);
                 }
             }
+            for storey in 0..building.mass.len() {
+                table.add_yielding(building, (side, name), storey);
+            }
             table.add_building(building, (side, name), scene.peaks);
         }
         for (p, pair) in scene.contacts.iter().enumerate() {
@@ -59,7 +62,7 @@ impl Table {
             .add(Output::Impacts, "impacts", Type::Integer, "contact episodes begun so far, all contacts")
             .at_least(0.0);
         if scene.energy {
-            table.add_energy(scene.left.mass.iter().chain(&scene.right.mass).sum());
+            table.add_energy(scene);
         }
         let about = "error of each contact episode, relative to the velocities in it";
         let row = table.add(Parameter::RelativeTolerance, "solver.relative_tolerance", ONE, about);
@@ -251,8 +254,44 @@ impl Table {
         }
     }
 
-    fn add_energy(&mut self, mass: f64) {
+    /// What there is of a storey that can yield.
+    fn add_yielding(&mut self, building: &Building, (side, name): (Side, &str), storey: usize) {
+        use YieldingOf as Y;
+        let Some((force, _)) = building.yielding_storey(storey) else { return };
+        let Some(stiffness) = building.stiffness.of_storey(storey) else { return };
+        let (i, drift) = (storey + 1, force / stiffness);
+        let about = format!("storey shear at which storey {i} first yields");
+        let row = self.add(Parameter::YieldForce(side, storey), &format!("{name}.yield_force[{i}]"), NEWTON, &about);
+        row.at_least(0.0).nominal(force);
+        let about = format!("stiffness of storey {i} after yield over that before");
+        let row =
+            self.add(Parameter::PostYieldRatio(side, storey), &format!("{name}.post_yield_ratio[{i}]"), ONE, &about);
+        row.between(0.0, 1.0).nominal(1.0);
+        for (of, quantity, ty, nominal, about) in [
+            (Y::Shear, "storey_shear", NEWTON, force, "storey shear, without damping,"),
+            (Y::PlasticDrift, "plastic_drift", METRE, drift, "plastic drift"),
+            (Y::ResidualDrift, "residual_drift", METRE, drift, "drift at which it would come to rest, if it did now,"),
+            (Y::Ductility, "ductility", ONE, 1.0, "largest drift so far over the yield drift"),
+            (Y::HystereticEnergy, "hysteretic_energy", JOULE, force * drift, "energy dissipated so far by yielding"),
+            (Y::CumulativePlasticDrift, "cumulative_plastic_drift", METRE, drift, "sum so far of all plastic steps"),
+        ] {
+            let about = format!("{about} of storey {i}");
+            let row = self.add(Output::OfYielding(of, side, storey), &format!("{name}.{quantity}[{i}]"), ty, &about);
+            row.nominal(nominal);
+            if matches!(of, Y::Ductility | Y::HystereticEnergy | Y::CumulativePlasticDrift) {
+                row.at_least(0.0);
+            }
+        }
+        let about = format!("1 or -1 while storey {i} yields to the right or to the left, 0 while it is elastic");
+        let row = self.add(Output::Yielding(side, storey), &format!("{name}.yielding[{i}]"), Type::Integer, &about);
+        row.between(-1.0, 1.0);
+    }
+
+    fn add_energy(&mut self, scene: &Scene) {
         use EnergyOutput as E;
+        let mass: f64 = scene.left.mass.iter().chain(&scene.right.mass).sum();
+        let yields = |building: &Building| (0..building.mass.len()).any(|i| building.yielding_storey(i).is_some());
+        let hysteretic = [&scene.left, &scene.right].into_iter().any(yields);
         for (term, name, about) in [
             (E::Input, "input", "work of the inertia forces of the ground motion so far"),
             (E::Kinetic, "kinetic", "kinetic energy of the motion relative to the ground"),
@@ -260,10 +299,14 @@ impl Table {
             (E::Viscous, "viscous", "energy dissipated by structural damping so far"),
             (E::Impact, "impact", "work done on the contacts so far, with what their springs will give back"),
             (E::External, "external", "work of the external floor forces so far"),
+            (E::Hysteretic, "hysteretic", "energy dissipated so far by storeys that have yielded"),
         ] {
+            if term == E::Hysteretic && !hysteretic {
+                continue;
+            }
             let row = self.add(Output::Energy(term), &format!("energy.{name}"), JOULE, about);
             row.nominal(mass * VELOCITY * VELOCITY);
-            if matches!(term, E::Kinetic | E::Strain) {
+            if matches!(term, E::Kinetic | E::Strain | E::Hysteretic) {
                 row.at_least(0.0); // sums of squares; the others are sums of work, rounded to either side of 0
             }
         }

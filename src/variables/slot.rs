@@ -1,6 +1,6 @@
 //! What the variables stand for.
 
-use crate::engine::{PeakOf, Side, StoreyPeak};
+use crate::engine::{PeakOf, Side, StoreyPeak, YieldingOf};
 
 /// What a variable stands for. Floors, storeys and contacts are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +39,10 @@ pub enum Parameter {
     DampingRatio(Side),
     /// N s/m, of a storey
     Dashpot(Side, usize),
+    /// N, of a storey
+    YieldForce(Side, usize),
+    /// Of a storey
+    PostYieldRatio(Side, usize),
     /// m
     Gap(usize),
     /// Where columns are hit, as a share of their storey's height
@@ -70,6 +74,10 @@ pub enum Output {
     Peak(PeakOf),
     /// The largest so far of a quantity of a storey.
     OfStorey(StoreyPeak, Side, usize),
+    /// Of a storey that can yield.
+    OfYielding(YieldingOf, Side, usize),
+    /// The sense in which a storey yields now.
+    Yielding(Side, usize),
     /// One contact.
     Contact(usize, ContactOutput),
     /// Contact episodes so far.
@@ -114,6 +122,8 @@ pub enum EnergyOutput {
     Impact,
     /// J
     External,
+    /// J
+    Hysteretic,
     /// Dimensionless
     Residual,
 }

@@ -113,6 +113,12 @@ impl Settings {
                 Damping::Dashpots(storeys) => storeys[storey],
                 _ => 0.0,
             },
+            Parameter::YieldForce(side, storey) => {
+                scene.building(side).yielding.as_ref().map_or(0.0, |yielding| yielding.force[storey])
+            }
+            Parameter::PostYieldRatio(side, storey) => {
+                scene.building(side).yielding.as_ref().map_or(0.0, |yielding| yielding.ratio[storey])
+            }
             Parameter::Gap(p) => scene.contacts[p].gap,
             Parameter::Position(p) => scene.contacts[p].position().unwrap_or_default(),
             Parameter::ContactStiffness(p) => scene.contacts[p].law.stiffness,
@@ -182,6 +188,12 @@ impl Settings {
                 if let Damping::Dashpots(storeys) = &mut building_mut(scene, side).damping {
                     storeys[storey] = number;
                 }
+            }
+            Parameter::YieldForce(side, storey) => {
+                building_mut(scene, side).yielding.iter_mut().for_each(|yielding| yielding.force[storey] = number);
+            }
+            Parameter::PostYieldRatio(side, storey) => {
+                building_mut(scene, side).yielding.iter_mut().for_each(|yielding| yielding.ratio[storey] = number);
             }
             Parameter::Gap(p) => scene.contacts[p].gap = number,
             Parameter::Position(p) => {
@@ -358,6 +370,8 @@ impl Instant<'_> {
             Output::BaseShear(side) => model.base_shear(point, side),
             Output::Peak(of) => model.peak(state, point, of),
             Output::OfStorey(of, side, storey) => model.storey_peak(state, point, of, (side, storey)),
+            Output::OfYielding(of, side, storey) => model.of_yielding(state, point, of, (side, storey)),
+            Output::Yielding(side, storey) => return Value::Integer(model.yielding(point, (side, storey))),
             Output::Contact(p, output) => return read_contact(&model.contact(state, point, p), output),
             Output::Impacts => return count(point.impacts),
             Output::Energy(term) => read_energy(&model.energy(state, point).unwrap_or_default(), term),
@@ -388,6 +402,7 @@ fn read_energy(energy: &EnergyPoint, term: EnergyOutput) -> f64 {
         EnergyOutput::Viscous => energy.viscous,
         EnergyOutput::Impact => energy.impact,
         EnergyOutput::External => energy.external,
+        EnergyOutput::Hysteretic => energy.hysteretic,
         EnergyOutput::Residual => energy.residual,
     }
 }

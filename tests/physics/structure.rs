@@ -13,6 +13,7 @@ fn shear(mass: Vec<f64>, stiffness: Vec<f64>, damping: Damping) -> Building {
         initial_displacement: rest.clone(),
         initial_velocity: rest,
         heights: None,
+        yielding: None,
     }
 }
 

@@ -37,6 +37,11 @@ impl Model {
             }
             Event::Release(p) => base.release(p, on_episode),
             Event::Branch(p) => base.contacts[p].change_branch(),
+            Event::Yield(i, sense) => base.storeys[i].yields = Some(sense),
+            Event::Turn(i) => {
+                let storey = &mut base.storeys[i];
+                storey.turned = storey.yields.take();
+            }
         }
     }
 }

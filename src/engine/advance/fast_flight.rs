@@ -131,7 +131,12 @@ impl Model {
         until: f64,
     ) -> u64 {
         let Some(near) = &self.flight.near else { return 0 };
-        if !ground.is_in_record(segments.start) || base.contacts.iter().any(|contact| contact.tracked) {
+        // Only pairs are tested here: storeys have to be cleared.
+        let elastic =
+            if self.system.storeys.is_empty() { u64::MAX } else { base.clearance.until(self.system.pairs.len()) };
+        let segments = segments.start..segments.end.min(elastic);
+        let is_tracked = base.contacts.iter().any(|contact| contact.tracked);
+        if segments.is_empty() || !ground.is_in_record(segments.start) || is_tracked {
             return 0;
         }
         let flown = fly_near(self, near, ground, base, segments.clone(), until);
@@ -152,7 +157,7 @@ impl Model {
         for (p, pair) in self.system.pairs.iter().enumerate() {
             if !base.clearance.is_free(p, segments.end - 1) {
                 let contact = &mut base.contacts[p];
-                (contact.penetration, contact.rate) = pair.penetration(&base.q, &base.v);
+                (contact.penetration, contact.rate) = pair.penetration(base.rest.gaps[p], (&base.q, &base.v));
                 base.clearance.set_known(p);
             }
         }
@@ -166,7 +171,8 @@ impl Model {
             && base.elapsed == 0.0
             && base.coordinates == Coordinates::Modes
             && self.system.structure.is_classical()
-            && !base.contacts.iter().any(|contact| contact.in_contact() || contact.at_surface);
+            && !base.contacts.iter().any(|contact| contact.in_contact() || contact.at_surface)
+            && !base.storeys.iter().any(|storey| storey.yields.is_some() || storey.turned.is_some());
         if is_plain { self.system.watched_segment(base) } else { None }
     }
 
@@ -295,7 +301,7 @@ fn fly_with_check<const WIDTH: usize>(
     segments: Range<u64>,
     until: f64,
 ) -> u64 {
-    let check = near.from((&few::<WIDTH>(&base.q), &few::<WIDTH>(&base.v)), base.segment.length);
+    let check = near.from((&few::<WIDTH>(&base.q), &few::<WIDTH>(&base.v)), &base.rest.gaps, base.segment.length);
     fly_few(model, ground, base, (check, account), segments, until)
 }
 

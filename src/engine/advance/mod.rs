@@ -108,11 +108,13 @@ impl Model {
         let State { base, step, inputs, counters, work, .. } = state;
         self.system.add_work(&mut At { base, inputs, counters }, step, &mut work.buffers);
         self.follow_and_raise(base, step, inputs, end, work);
-        let Step { kind, planned, .. } = step;
+        let Step { planned, .. } = step;
         base.contacts.iter_mut().filter(|contact| contact.in_contact()).for_each(|c| c.age += planned.length);
         std::mem::swap(&mut base.q, &mut planned.q);
         std::mem::swap(&mut base.v, &mut planned.v);
         base.elapsed = end;
+        self.move_storeys(base, step);
+        let Step { kind, planned, .. } = step;
         base.last_length = planned.next_length.unwrap_or(base.last_length);
         self.move_contacts(base, planned);
         self.system.project_constraints(base, &mut work.buffers);
@@ -123,6 +125,24 @@ impl Model {
             self.handle(base, event, &mut work.buffers, on_episode);
         }
         *kind = StepKind::NotPlanned;
+    }
+
+    /// Moves the storeys, and with them the position of rest, to the end of the planned step, whose motion is that of the
+    /// base by now.
+    fn move_storeys(&self, base: &mut Base, step: &Step) {
+        if base.storeys.is_empty() || step.planned.length == 0.0 {
+            return;
+        }
+        base.storeys.iter_mut().for_each(|storey| storey.turned = None);
+        if !base.is_yielding() {
+            return;
+        }
+        for i in 0..base.storeys.len() {
+            let (from, storey) = (base.storeys[i], &mut base.storeys[i]);
+            step.move_storey(i, step.end_powers(), storey);
+            self.system.storeys[i].move_rest(base.coordinates, (&from, storey), &mut base.q);
+        }
+        self.system.set_rest(&base.storeys, &mut base.rest);
     }
 
     /// Moves penetrations and rates of the contacts to the end of the planned step.
@@ -164,7 +184,7 @@ impl Model {
                 continue;
             }
             if !contact.in_contact() {
-                contact.penetration = pair.relative(coordinates, q) - pair.gap;
+                contact.penetration = pair.relative(coordinates, q) - base.rest.gaps[p];
             }
             contact.rate = pair.relative(coordinates, v);
         }

@@ -19,8 +19,8 @@ impl Model {
         }
         let State { base, step, inputs, counters, work, .. } = state;
         let mut at = At { base, inputs, counters };
-        step.kind = match at.base.contacts.iter().any(Contact::in_contact) {
-            true => self.plan_contact(&mut at, step, work, limit),
+        step.kind = match at.base.is_forced() {
+            true => self.plan_forced(&mut at, step, work, limit),
             false => self.plan_flight(&mut at, step, work, limit),
         };
     }
@@ -37,8 +37,9 @@ impl Model {
         StepKind::Flight
     }
 
-    /// In contact: a window if bounds allow one, else the double series just after an entry, else power series in time.
-    fn plan_contact(&self, at: &mut At, step: &mut Step, work: &mut Workspace, limit: f64) -> StepKind {
+    /// In contact, or while a storey yields: a window if bounds allow one, else the double series just after an entry, else
+    /// power series in time.
+    fn plan_forced(&self, at: &mut At, step: &mut Step, work: &mut Workspace, limit: f64) -> StepKind {
         let Workspace { buffers, windows: room, .. } = work;
         let Step { planned, taylor, onset, window, .. } = step;
         let is_near_rigid = self.system.has_close_rigid_pair(at.base);
@@ -53,8 +54,11 @@ impl Model {
         if let Some(p) = self.entry_at_once(at.base) {
             return plan_zero_length(at.base, planned, taylor, Event::Entry(p));
         }
+        if let Some(i) = self.system.turned_at_once(at.base) {
+            return plan_zero_length(at.base, planned, taylor, Event::Turn(i));
+        }
         self.system.load(at.base, at.inputs, &mut buffers.load, &mut buffers.slope);
-        if !is_near_rigid {
+        if !is_near_rigid && !at.base.is_yielding() {
             if let Some(windows) = &self.windows
                 && windows.plan(&self.system, at, remaining, planned, (window, &mut taylor.series), (room, buffers))
             {

@@ -55,6 +55,11 @@ impl Clearance {
         self.pairs[p] > segment
     }
 
+    /// The first segment in which a pair may meet.
+    pub fn until(&self, p: usize) -> u64 {
+        self.pairs[p]
+    }
+
     /// The first segment in which any pair may meet, as noted.
     pub fn due(&self) -> u64 {
         self.due

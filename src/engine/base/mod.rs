@@ -6,11 +6,13 @@ pub mod counters;
 pub mod numbers;
 pub mod peaks;
 pub mod planned;
+pub mod storey;
 
 use crate::contact::Force;
 use crate::engine::base::clearance::Clearance;
 use crate::engine::base::contact::{Contact, Episode, Phase};
 use crate::engine::base::peaks::Peaks;
+use crate::engine::base::storey::Storey;
 use crate::engine::excitation::segment::Segment;
 use crate::structure::FlightEnergy;
 use serde::{Deserialize, Serialize};
@@ -34,11 +36,16 @@ pub struct Base {
     pub elapsed: f64,
     /// The coordinates of `q` and `v`.
     pub coordinates: Coordinates,
-    /// Displacements, m (modal coordinates: m kg^1/2).
+    /// Displacements relative to the position of rest, m (modal coordinates: m kg^1/2).
     pub q: Vec<f64>,
     /// Velocities, m/s (modal coordinates: m kg^1/2/s).
     pub v: Vec<f64>,
     pub contacts: Vec<Contact>,
+    /// The storeys that can yield.
+    pub storeys: Vec<Storey>,
+    /// Follows from the storeys.
+    #[serde(skip)]
+    pub rest: Rest,
     /// Pairs that are known to stay apart for some segments.
     pub clearance: Clearance,
     /// Peaks up to the base.
@@ -51,6 +58,15 @@ pub struct Base {
     pub last_length: f64,
     /// Number of episodes of all contacts.
     pub impacts: u64,
+}
+
+/// The position in which the buildings would come to rest, which plastic drifts have moved.
+#[derive(Clone, Debug, Default)]
+pub struct Rest {
+    /// Displacements of all floors, m.
+    pub floors: Vec<f64>,
+    /// The gap of each contact there, m.
+    pub gaps: Vec<f64>,
 }
 
 /// The energy account: the energy at the start and the work done since, J.
@@ -78,6 +94,16 @@ impl Base {
     /// Energy dissipated by all contacts so far, J.
     pub fn dissipated_by_contacts(&self) -> f64 {
         self.contacts.iter().map(Contact::dissipated_energy).sum()
+    }
+
+    /// Whether a storey yields.
+    pub fn is_yielding(&self) -> bool {
+        self.storeys.iter().any(|storey| storey.yields.is_some())
+    }
+
+    /// Whether forces act that flights do not know of: those of contacts, or of storeys that yield.
+    pub fn is_forced(&self) -> bool {
+        self.contacts.iter().any(Contact::in_contact) || self.is_yielding()
     }
 
     /// Time of the base, s.
@@ -112,7 +138,7 @@ impl Account {
     }
 
     /// Raises `largest` to the magnitudes of the account's terms and of the `others`.
-    pub fn update_largest(&mut self, others: [f64; 3]) {
+    pub fn update_largest<const N: usize>(&mut self, others: [f64; N]) {
         let terms = [self.initial, self.input, self.external, self.viscous];
         self.largest = terms.iter().chain(&others).fold(self.largest, |largest, term| largest.max(term.abs()));
     }

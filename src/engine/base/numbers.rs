@@ -2,6 +2,7 @@
 
 use crate::engine::base::contact::{Contact, Episode};
 use crate::engine::base::counters::Counters;
+use crate::engine::base::storey::Storey;
 use crate::engine::base::{Account, Base};
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 
@@ -21,6 +22,8 @@ impl Base {
             q,
             v,
             contacts,
+            storeys,
+            rest: _,      // follows from the storeys
             clearance: _, // counts, looked at by themselves
             peaks,
             energy,
@@ -30,13 +33,19 @@ impl Base {
         } = self;
         let of_motion = [q, v].into_iter().flatten().chain([elapsed, velocity_scale]).copied();
         let of_contacts = contacts.iter().flat_map(Contact::numbers);
-        of_motion.chain(of_contacts).chain(peaks.numbers()).chain(energy.iter().flat_map(Account::numbers))
+        let of_storeys = storeys.iter().flat_map(Storey::numbers);
+        of_motion
+            .chain(of_contacts)
+            .chain(of_storeys)
+            .chain(peaks.numbers())
+            .chain(energy.iter().flat_map(Account::numbers))
     }
 
     /// Displacements and velocities, with the contacts' penetrations and rates.
     pub fn motion(&self) -> impl Iterator<Item = f64> + '_ {
         let of_contacts = self.contacts.iter().flat_map(|contact| [contact.penetration, contact.rate]);
-        self.q.iter().chain(&self.v).copied().chain(of_contacts)
+        let of_storeys = self.storeys.iter().flat_map(Storey::numbers);
+        self.q.iter().chain(&self.v).copied().chain(of_contacts).chain(of_storeys)
     }
 }
 

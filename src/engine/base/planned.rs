@@ -2,9 +2,10 @@
 
 use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
+use crate::engine::base::storey::Sense;
 use crate::engine::excitation::inputs::Inputs;
 
-/// The event that ends a step, with the number of its contact.
+/// The event that ends a step, with the number of its contact or storey.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
     /// Penetration passes 0 upwards.
@@ -13,6 +14,10 @@ pub enum Event {
     Release(usize),
     /// The force passes from one branch to the other.
     Branch(usize),
+    /// A storey, numbered among those that can, begins to yield in a sense.
+    Yield(usize, Sense),
+    /// The drift of a storey that yields turns: it is elastic again.
+    Turn(usize),
 }
 
 /// Penetration, m, and its rate, m/s, one per contact; `None` where they are not tracked or not needed.

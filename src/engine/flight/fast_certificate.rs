@@ -16,8 +16,6 @@ pub struct NearPairs {
     modes: Vec<CertifiedModes>,
     /// Rows of all pairs, mode by mode, without the padding, kg^-1/2.
     shares: Vec<Lane>,
-    /// Gaps, m; infinite in a lane without a pair.
-    gaps: Lane,
 }
 
 /// Coefficients of [`LANES`] modes, side by side.
@@ -57,19 +55,20 @@ impl NearPairs {
         Some(NearPairs {
             modes: (0..structure.lanes / LANES).map(block).collect(),
             shares: modes.map(|m| of_pairs(&|pair| pair.row[m], 0.0)).collect(),
-            gaps: of_pairs(&|pair| pair.gap, f64::INFINITY),
         })
     }
 
-    /// The test over segments of a `length`, s, from a motion on.
+    /// The test over segments of a `length`, s, from a motion on, for pairs with these gaps.
     #[inline(always)]
     pub fn from<const WIDTH: usize>(
         &self,
         (q, v): (&[Lane; WIDTH], &[Lane; WIDTH]),
+        gaps: &[f64],
         length: f64,
     ) -> HermiteCheck<'_, WIDTH> {
         let (third, share) = (length / 3.0, (length * length) * (length * length) / 384.0);
-        let mut seen = HermiteCheck { near: self, third, share, start: Default::default() };
+        let gaps = each(|p| gaps.get(p).copied().unwrap_or(f64::INFINITY));
+        let mut seen = HermiteCheck { near: self, gaps, third, share, start: Default::default() };
         let [start, rate, _] = seen.pairs_at(q, v, &[[0.0; LANES]; WIDTH]);
         seen.start = [start, rate];
         seen
@@ -91,6 +90,8 @@ pub trait SegmentCheck<const WIDTH: usize> {
 /// The test by cubic Hermite interpolation, on its way from segment to segment.
 pub struct HermiteCheck<'a, const WIDTH: usize> {
     near: &'a NearPairs,
+    /// Gaps, m; infinite in a lane without a pair.
+    gaps: Lane,
     /// A third of a segment's length h, s.
     third: f64,
     /// h^4/384, s4.
@@ -110,7 +111,7 @@ impl<const WIDTH: usize> HermiteCheck<'_, WIDTH> {
             rate = each(|p| rate[p] + share[p] * v);
             size = each(|p| size[p] + share[p].abs() * own);
         }
-        [each(|p| moved[p] - self.near.gaps[p]), rate, size]
+        [each(|p| moved[p] - self.gaps[p]), rate, size]
     }
 
     /// Bounds on |q''''| of the modes, from the motion at the start of a segment and the ground's acceleration and

@@ -1,9 +1,11 @@
-//! Flight: no floors touch, and both buildings move by their exact modal solution until the segment ends or two floors
-//! meet.
+//! Flight: no floors touch and no storey yields, and both buildings move by their exact modal solution until the segment
+//! ends, two floors meet or a storey yields.
 
 pub mod accounted;
+pub mod advancement;
 pub mod broad_phase;
 pub mod certificate;
+pub mod elastic;
 pub mod envelope;
 pub mod fast_account;
 pub mod fast_certificate;
@@ -23,7 +25,7 @@ use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 
-/// Coefficients for the proofs that no pair meets; constant during a run.
+/// Coefficients for the proofs that no pair meets and no storey yields; constant during a run.
 #[derive(Debug)]
 pub struct Flight {
     closing: ClosingBounds,
@@ -34,10 +36,11 @@ pub struct Flight {
 
 impl Flight {
     /// For the pairs of a system.
-    pub fn new(System { structure, pairs, .. }: &System) -> Flight {
-        let certificate = Certificate::of(structure, pairs);
+    pub fn new(System { structure, pairs, storeys, .. }: &System) -> Flight {
+        let rows = pairs.iter().map(|pair| &pair.row).chain(storeys.iter().map(|storey| &storey.row));
+        let certificate = Certificate::of(structure, rows);
         Flight {
-            closing: ClosingBounds::of(structure, pairs, &certificate.pair_weight),
+            closing: ClosingBounds::of(structure, (pairs, storeys), &certificate.weight),
             near: NearPairs::of(structure, pairs),
             certificate,
         }
@@ -59,7 +62,7 @@ impl Flight {
         self.closing.dismiss(system, ground, (base, segment, segments_to_wait), counters, amplitude)
     }
 
-    /// Plans the flight from the base, under the load in `work`, over `longest` seconds or until the first entry.
+    /// Plans the flight from the base, under the load in `work`, over `longest` seconds or until the first event.
     pub fn plan(
         &self,
         system: &System,
@@ -76,7 +79,7 @@ impl Flight {
         planned.tracked.fill(None);
         planned.ends.clear();
         system.fly(at.base, longest, work, (&mut planned.q, &mut planned.v));
-        if system.pairs.is_empty() {
+        if system.cleared_together() == 0 {
             return;
         }
         let watched = system.watched_segment(at.base);
@@ -90,9 +93,9 @@ impl Flight {
             let is_over = planned.ends.iter().flatten().any(|(penetration, _)| *penetration >= 0.0);
             planned.ends.clear();
             let loads = (&work.load[..], &work.slope[..]);
-            if is_over || !system.envelopes_stay_apart((&at.base.q, &at.base.v), loads, longest) {
+            if is_over || !system.envelopes_stay_apart(at.base, (&at.base.q, &at.base.v), loads, longest) {
                 let certificate = &self.certificate;
-                Search { certificate, system, base: at.base, look, work }.first_entry(planned, at.counters);
+                Search { certificate, system, base: at.base, look, work }.first_event(planned, at.counters);
             }
         }
     }

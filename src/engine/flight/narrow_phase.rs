@@ -7,13 +7,13 @@
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::{Event, Planned};
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::flight::certificate::{Certificate, highest_of_cubic};
+use crate::engine::flight::certificate::{Certificate, highest_of_cubic, stays_elastic};
 use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::ALL;
 use crate::numerics::roots;
-use crate::structure::{EXACT, FreeRows, difference, flight_order};
+use crate::structure::{EXACT, FreeRows, difference, dot, flight_order};
 
 /// Length of a piece, in units of 1 / (fastest rate), that one series reaches.
 const REACH: f64 = 1.5;
@@ -36,14 +36,17 @@ pub struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Finds the first entry in the planned flight and ends the step there.
-    pub fn first_entry(&mut self, planned: &mut Planned, counters: &mut Counters) {
+    /// Finds the first event in the planned flight and ends the step there.
+    pub fn first_event(&mut self, planned: &mut Planned, counters: &mut Counters) {
         let Search { system, base, .. } = *self;
         let remaining = planned.length;
         let mut unit =
             if system.structure.fastest * remaining > REACH { REACH / system.structure.fastest } else { remaining };
         let is_tracked = base.contacts.iter().any(|contact| contact.tracked);
-        if let Some(rows) = system.free_rows.as_ref().filter(|rows| !is_tracked && remaining <= rows.length) {
+        let are_elastic = self.look.stay_elastic.iter().all(|is_elastic| *is_elastic);
+        if let Some(rows) =
+            system.free_rows.as_ref().filter(|rows| !is_tracked && are_elastic && remaining <= rows.length)
+        {
             counters.narrow_phase_pieces += 1;
             return self.first_entry_by_rows(rows, planned);
         }
@@ -58,8 +61,9 @@ impl Search<'_> {
             let left = remaining - self.look.from;
             if series_left == 0 && left > unit {
                 let length = left.min(longer);
-                if system.envelopes_stay_apart((&self.look.q, &self.look.v), (&self.look.load, &self.work.slope), left)
-                {
+                let (motion, loads) =
+                    ((&self.look.q[..], &self.look.v[..]), (&self.look.load[..], &self.work.slope[..]));
+                if system.envelopes_stay_apart(base, motion, loads, left) {
                     return;
                 }
                 if !self.piece_stays_apart(length) {
@@ -70,9 +74,9 @@ impl Search<'_> {
             } else {
                 series_left -= u32::from(series_left > 0);
                 let length = left.min(unit);
-                let entry = self.first_upcrossing_in(length);
-                if entry.is_some() || is_tracked {
-                    return self.cut(planned, length, entry);
+                let event = self.first_upcrossing_in(length);
+                if event.is_some() || is_tracked {
+                    return self.cut(planned, length, event);
                 }
                 self.move_on(length);
             }
@@ -111,28 +115,28 @@ impl Search<'_> {
         system.fly(base, planned.length, work, (&mut planned.q, &mut planned.v));
     }
 
-    /// Ends the step at the entry found in the series of the last piece, or at the end of that piece.
-    fn cut(&mut self, planned: &mut Planned, length: f64, entry: Option<(f64, usize)>) {
+    /// Ends the step at the event found in the series of the last piece, or at the end of that piece.
+    fn cut(&mut self, planned: &mut Planned, length: f64, event: Option<(f64, Event)>) {
         let Search { system, base, look, work, .. } = self;
-        let x = entry.map_or(1.0, |(x, _)| x);
+        let x = event.map_or(1.0, |(x, _)| x);
         work.powers.set(x, work.series.order);
-        if entry.is_some() || length < planned.length {
+        if event.is_some() || length < planned.length {
             work.series.evaluate(&work.powers, &mut planned.q, &mut planned.v);
             planned.length = look.from + x * length;
             planned.reaches_limit = false;
-            planned.event = entry.map(|(_, p)| Event::Entry(p));
+            planned.event = event.map(|(_, event)| event);
         }
         system.track(base, &work.series, &work.powers, &mut work.scalar, &mut planned.tracked);
     }
 
-    /// The first entry in a piece by its power series: (share of the piece, pair).
-    fn first_upcrossing_in(&mut self, length: f64) -> Option<(f64, usize)> {
+    /// The first event in a piece by its power series: (share of the piece, event).
+    fn first_upcrossing_in(&mut self, length: f64) -> Option<(f64, Event)> {
         let Search { system, base, look, work, .. } = self;
         let order =
             flight_order(system.structure.fastest * length, EXACT).unwrap_or(crate::numerics::polynomial::MAX_ORDER);
-        let Look { from, q, v, load, stay_apart, .. } = &*look;
+        let Look { from, q, v, load, stay_apart, stay_elastic, .. } = &*look;
         work.series.expand_flight(&system.structure, (q, v), (load, &work.slope), (length, order));
-        let mut first: Option<(f64, usize)> = None;
+        let mut first: Option<(f64, Event)> = None;
         for (p, (pair, contact)) in system.pairs.iter().zip(&base.contacts).enumerate() {
             if stay_apart[p] {
                 continue;
@@ -142,12 +146,17 @@ impl Search<'_> {
             if *from == 0.0 {
                 noise = contact.begin_flight(terms, length, noise);
             } else {
-                terms[0] -= pair.gap;
+                terms[0] -= base.rest.gaps[p];
             }
             let end = first.map_or(1.0, |(x, _)| x);
             if let Some(x) = roots::first_upcrossing(terms, end, noise) {
-                first = Some((x, p));
+                first = Some((x, Event::Entry(p)));
             }
+        }
+        let is_start = *from == 0.0;
+        for i in (0..system.storeys.len()).filter(|i| !stay_elastic[*i]) {
+            let expanded = ((&work.series, &ALL), None, is_start);
+            first = system.first_yield(base, i, expanded, first, 1.0).or(first);
         }
         first
     }
@@ -159,12 +168,18 @@ impl Search<'_> {
         let deviation =
             certificate.deviation(&system.structure, (q, v), (load, &work.slope), length, &mut work.scratch);
         self.fly(length);
-        let Search { system, look, work, .. } = self;
+        let Search { system, base, look, work, .. } = self;
         let Look { q, v, end_q, end_v, stay_apart, .. } = &**look;
         let stays_apart = system.pairs.iter().enumerate().all(|(p, pair)| {
-            let (start, end) = (pair.penetration(q, v), pair.penetration(end_q, end_v));
+            let at = |q: &[f64], v: &[f64]| pair.penetration(base.rest.gaps[p], (q, v));
+            let (start, end) = (at(q, v), at(end_q, end_v));
             stay_apart[p] || highest_of_cubic(start, end, length) + deviation < 0.0
         });
+        let stays_apart = stays_apart
+            && system.storeys.iter().zip(&base.storeys).enumerate().all(|(i, storey)| {
+                let at = |q: &[f64], v: &[f64]| (dot(&storey.0.row, q), dot(&storey.0.row, v));
+                look.stay_elastic[i] || stays_elastic(storey, at(q, v), at(end_q, end_v), (length, deviation))
+            });
         if stays_apart {
             look.move_on(length, &work.slope);
         }

@@ -18,13 +18,16 @@ pub struct Look {
     pub end_v: Vec<f64>,
     /// Whether each pair is known not to meet in the whole flight.
     pub stay_apart: Vec<bool>,
+    /// Whether each storey that can yield is known not to in the whole flight.
+    pub stay_elastic: Vec<bool>,
 }
 
 impl Look {
-    pub fn new(lanes: usize, pairs: usize) -> Look {
+    pub fn new(lanes: usize, (pairs, storeys): (usize, usize)) -> Look {
         let vector = || vec![0.0; lanes];
-        let stay_apart = vec![false; pairs];
-        Look { from: 0.0, q: vector(), v: vector(), load: vector(), end_q: vector(), end_v: vector(), stay_apart }
+        let (stay_apart, stay_elastic) = (vec![false; pairs], vec![false; storeys]);
+        let (q, v, load) = (vector(), vector(), vector());
+        Look { from: 0.0, q, v, load, end_q: vector(), end_v: vector(), stay_apart, stay_elastic }
     }
 
     pub fn start(&mut self, base: &Base, load: &[f64]) {

@@ -1,6 +1,7 @@
 //! Length of an onset step up to which no contact changes its state, proved by bounds on the sums of the series' terms.
 
 use crate::engine::base::contact::Contact;
+use crate::engine::base::storey::Sense;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::onset::series::OnsetSeries;
 use crate::engine::pairs::pair::Pair;
@@ -34,28 +35,38 @@ impl System {
         })
     }
 
-    /// Whether all open pairs stay apart: by a bound on the displacement of each floor, or else on the pair's own
-    /// terms.
+    /// Whether all open pairs stay apart and all storeys elastic: by a bound on the displacement of each floor, or else on
+    /// the pair's own terms.
     fn stays_free(&self, base: &Base, onset: &OnsetSeries, sizes: &mut [f64]) -> bool {
         let mut apart = base.contacts.iter().enumerate().filter(|(_, contact)| !contact.in_contact()).peekable();
-        if apart.peek().is_none() {
+        if apart.peek().is_none() && self.storeys.is_empty() {
             return true;
         }
         let (powers, _) = onset.powers.all();
         let beyond = &powers[2..];
         let sizes = &mut sizes[..onset.lanes];
         sum_sizes(&onset.terms[2 * onset.lanes..powers.len() * onset.lanes], beyond, sizes);
-        apart.all(|(p, contact)| {
-            let Pair { row, floors, .. } = &self.pairs[p];
-            let most = match base.coordinates {
-                Coordinates::Floors => floors.iter().map(|floor| floor.weight.abs() * sizes[floor.lane]).sum(),
-                Coordinates::Modes => row.iter().zip(&*sizes).map(|(row, size)| row.abs() * size).sum(),
+        let (x, coordinates) = (onset.powers.x, base.coordinates);
+        let are_elastic = self.storeys.iter().zip(&base.storeys).all(|(of, storey)| {
+            let (drift, step_rate) = (of.drift(coordinates, &base.q), of.drift(coordinates, &base.v) * onset.scale);
+            let stays = |sense: Sense| {
+                let moved = x * (sense.sign() * step_rate).max(0.0) + of.size(coordinates, sizes);
+                of.excess(storey, sense, drift) + moved < 0.0
             };
-            let stays =
-                |moved| MotionBounds { x: onset.powers.x, scale: onset.scale, moved, turned: 0.0 }.holds(contact);
-            let own = |(power, n)| self.pairs[p].relative(base.coordinates, onset.term(n)).abs() * power;
-            stays(most) || stays(beyond.iter().zip(2..).map(own).sum())
-        })
+            Sense::BOTH.into_iter().all(stays)
+        });
+        are_elastic
+            && apart.all(|(p, contact)| {
+                let Pair { row, floors, .. } = &self.pairs[p];
+                let most = match base.coordinates {
+                    Coordinates::Floors => floors.iter().map(|floor| floor.weight.abs() * sizes[floor.lane]).sum(),
+                    Coordinates::Modes => row.iter().zip(&*sizes).map(|(row, size)| row.abs() * size).sum(),
+                };
+                let stays =
+                    |moved| MotionBounds { x: onset.powers.x, scale: onset.scale, moved, turned: 0.0 }.holds(contact);
+                let own = |(power, n)| self.pairs[p].relative(base.coordinates, onset.term(n)).abs() * power;
+                stays(most) || stays(beyond.iter().zip(2..).map(own).sum())
+            })
     }
 }
 

@@ -32,13 +32,14 @@ impl Model {
             account.viscous += done.viscous;
             account.external += done.external;
         }
-        let (kinetic, strain) = self.system.structure_energies(point.coordinates, &point.q, &point.v);
+        let (kinetic, strain) = self.system.energies((point.coordinates, &point.storeys), &point.q, &point.v);
+        let hysteretic = self.system.hysteretic_energy(&point.storeys);
         let contacts = 0..self.system.pairs.len();
         let impact = contacts.map(|p| self.contact_in(&state.base, point, p).dissipated_energy).sum();
-        account.update_largest([kinetic, strain, impact]);
+        account.update_largest([kinetic, strain, impact, hysteretic]);
         let Account { initial, input, external, viscous, largest } = account;
-        let imbalance = initial + input + external - kinetic - strain - viscous - impact;
+        let imbalance = initial + input + external - kinetic - strain - viscous - impact - hysteretic;
         let residual = if largest > 0.0 { imbalance / largest } else { 0.0 };
-        EnergyPoint { input, kinetic, strain, viscous, impact, external, residual }
+        EnergyPoint { input, kinetic, strain, viscous, impact, external, hysteretic, residual }
     }
 }

@@ -1,12 +1,14 @@
 //! Rates of the energy account: powers and their rates, from the motion and its derivatives.
 
 use crate::engine::base::Coordinates;
+use crate::engine::base::storey::{Sense, Storey};
 use crate::engine::excitation::inputs::LinearInput;
 use crate::engine::model::Model;
 use crate::engine::output::point::Point;
-use crate::engine::output::point_rates::{EnergyRates, PointRates};
+use crate::engine::output::point_rates::{EnergyRates, PointRates, Rates};
 use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
+use crate::engine::yielding::storey::YieldingStorey;
 
 impl Model {
     /// The rates of the energy account at a point, once all other rates are known; `None` without an account.
@@ -34,6 +36,10 @@ impl Model {
             -inner(with, force)
         };
         let strain = [product(u, rest, v), product(v, rest, v) + product(u, rest, a)];
+        let hysteretic = self.hysteretic_rates(point, [v, a]);
+        let yielding = self.system.storeys.iter().zip(&point.storeys).filter(|(_, storey)| storey.yields.is_some());
+        let softened: f64 = yielding.map(|(of, _)| of.lost * libm::pow(of.drift(coordinates, v), 2.0)).sum();
+        let strain = [strain[0] - hysteretic[0], strain[1] - softened - hysteretic[1]];
         let viscous = [product(rest, v, v), 2.0 * product(rest, a, v)];
         load.fill(0.0);
         slope.fill(0.0);
@@ -50,6 +56,19 @@ impl Model {
             viscous,
             impact: [sum(0), sum(1)],
             external: [inner(load, v), inner(slope, v) + inner(load, a)],
+            hysteretic,
+        })
+    }
+
+    /// (1 - r) V_y |plastic drift rate| of the storeys that yield, and its rate, from velocities and accelerations.
+    fn hysteretic_rates(&self, point: &Point, motion: [&[f64]; 2]) -> Rates {
+        let storeys = || self.system.storeys.iter().zip(&point.storeys);
+        motion.map(|motion| {
+            let power = |(of, storey): (&YieldingStorey, &Storey)| {
+                let sign = storey.yields.map_or(0.0, Sense::sign);
+                of.kept() * of.force * (sign * of.drift(point.coordinates, motion))
+            };
+            storeys().map(power).sum()
         })
     }
 

@@ -5,6 +5,7 @@ use crate::engine::base::Coordinates;
 use crate::engine::model::Model;
 use crate::engine::output::known::{Accelerations, FloorMotions, KnownBlock};
 use crate::engine::output::point::Point;
+use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane, Side};
 
 impl Point {
@@ -60,9 +61,20 @@ impl Model {
         let lane = self.system.structure.floors.lane(side as usize, floor);
         let known = &motion[lane / LANES];
         if known.observation.get() != *observation {
-            self.note_floors(point, lane / LANES, [&point.q, &point.v], known);
+            self.note_motion(point, lane / LANES, known);
         }
         known.numbers[quantity][lane % LANES].get()
+    }
+
+    /// Works out displacements and velocities of a block of floors and stores them in `known`.
+    #[inline(never)]
+    fn note_motion(&self, point: &Point, block: usize, known: &KnownBlock<2>) {
+        let [mut moved, velocity] = self.floor_block(point, block, [&point.q, &point.v]);
+        if !point.storeys.is_empty() {
+            let rest = &point.rest.as_chunks::<LANES>().0[block];
+            moved = each(|i| moved[i] + rest[i]);
+        }
+        known.set(point.floors.observation, &[moved, velocity]);
     }
 
     /// Works out a block of floors of some vectors of motion and stores it in `known`.

@@ -94,6 +94,8 @@ impl FloorMotions {
 pub struct PointPeaks {
     pub observation: u64,
     pub peaks: Peaks,
+    /// The displacements relative to the position of rest at the start of the step.
+    pub q: Vec<f64>,
     pub work: Option<Box<(Buffers, PeakRoom)>>,
 }
 

@@ -11,13 +11,16 @@ pub mod point;
 pub mod point_rates;
 pub mod rates;
 mod storeys;
+pub mod yielding;
 
 use crate::engine::base::Base;
 use crate::engine::base::contact::{Contact, Episode};
+use crate::engine::base::storey::Storey;
 use crate::engine::model::Model;
 use crate::engine::output::point::{ContactPoint, Known, Point};
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
+use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::powers::Powers;
 use std::cell::Cell;
@@ -27,7 +30,9 @@ impl Model {
     ///
     /// Floors, accelerations, open contacts and the energy account are worked out only when one is read.
     pub fn observe(&self, state: &State, point: &mut Point) {
-        if point.q.len() != self.system.structure.lanes || point.contacts.len() != self.system.pairs.len() {
+        let (System { structure, pairs, storeys, .. }, found) = (&self.system, &*point);
+        let is_of_another = found.contacts.len() != pairs.len() || found.storeys.len() != storeys.len();
+        if found.q.len() != structure.lanes || is_of_another {
             self.make_room(point);
         }
         point.floors.forget();
@@ -42,6 +47,7 @@ impl Model {
         let elapsed = state.since_base();
         let mut work = self.take_buffers(point);
         step.evaluate(&self.system, (base, inputs), elapsed, &mut work, (&mut point.q, &mut point.v));
+        self.note_storeys(state, elapsed, &mut work, point);
         // In a flight no contact has a force.
         let is_flight = step.is_flight();
         if !is_flight {
@@ -53,6 +59,22 @@ impl Model {
         point.work.replace(Some(work));
     }
 
+    /// Works out the storeys, and makes the motion that relative to their position of rest.
+    fn note_storeys(&self, State { base, step, .. }: &State, elapsed: f64, work: &mut Buffers, point: &mut Point) {
+        if base.storeys.is_empty() {
+            return;
+        }
+        point.storeys.clone_from(&base.storeys);
+        if base.is_yielding() && elapsed > 0.0 {
+            step.set_powers(elapsed, &mut work.powers);
+            for (i, (storey, from)) in point.storeys.iter_mut().zip(&base.storeys).enumerate() {
+                step.move_storey(i, &work.powers, storey);
+                self.system.storeys[i].move_rest(point.coordinates, (from, storey), &mut point.q);
+            }
+        }
+        self.system.set_rest_of_floors(&point.storeys, &mut point.rest);
+    }
+
     /// The scratch memory of a point, to be put back after use.
     pub(in crate::engine) fn take_buffers(&self, point: &Point) -> Box<Buffers> {
         point.work.take().unwrap_or_else(|| Box::new(self.buffers()))
@@ -61,8 +83,9 @@ impl Model {
     #[cold]
     fn make_room(&self, point: &mut Point) {
         let lanes = self.system.structure.lanes;
-        (point.q, point.v) = (vec![0.0; lanes], vec![0.0; lanes]);
+        (point.q, point.v, point.rest) = (vec![0.0; lanes], vec![0.0; lanes], vec![0.0; lanes]);
         point.contacts = vec![Cell::default(); self.system.pairs.len()];
+        point.storeys = vec![Storey::default(); self.system.storeys.len()];
         point.floors.make_room(lanes);
         point.work.replace(None);
     }
@@ -114,7 +137,8 @@ impl Model {
 
     #[inline(never)]
     fn note_contact_apart(&self, base: &Base, point: &Point, p: usize) -> ContactPoint {
-        let penetration = self.system.pairs[p].relative(point.coordinates, &point.q) - self.system.pairs[p].gap;
+        let pair = &self.system.pairs[p];
+        let penetration = pair.relative(point.coordinates, &point.q) - pair.gap_at(&point.rest);
         let shown = self.show(&base.contacts[p], penetration);
         point.note_contact(p, shown);
         shown

@@ -1,6 +1,5 @@
 //! The peaks at the communication time: those of the base, raised over the planned step up to that time.
 
-use crate::engine::base::contact::Contact;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::model::Model;
 use crate::engine::output::known::PointPeaks;
@@ -38,12 +37,16 @@ impl Model {
         let work = &mut PeakWork { buffers, peaks };
         known.peaks.clone_from(&base.peaks);
         let elapsed = state.since_base();
-        let is_in_contact = base.contacts.iter().any(Contact::in_contact);
         match () {
-            _ if elapsed == 0.0 && is_in_contact => self.raise_to_contact(base, &mut known.peaks, work),
+            _ if elapsed == 0.0 && base.is_forced() => self.raise_to_contact(base, &mut known.peaks, work),
             _ if elapsed == 0.0 => self.raise_to_motion(base, &mut known.peaks),
             _ if elapsed > 0.0 && step.is_in_contact() => {
-                self.raise_over_part((base, step, inputs), (elapsed, (&point.q, &point.v)), &mut known.peaks, work);
+                let q = &mut known.q;
+                q.clone_from(&point.q);
+                for ((of, storey), now) in self.system.storeys.iter().zip(&base.storeys).zip(&point.storeys) {
+                    of.move_rest(point.coordinates, (now, storey), q);
+                }
+                self.raise_over_part((base, step, inputs), (elapsed, (q, &point.v)), &mut known.peaks, work);
             }
             _ => self.read_peaks_of_flight(state, point, elapsed, &mut known.peaks, work),
         }
@@ -78,7 +81,8 @@ impl Model {
         };
         for building in &self.peak_rows.buildings {
             for b in 0..building.blocks.len() {
-                open[building.first + b] = self.raise_to_part(building, b, (watch, segment), end, peaks);
+                open[building.first + b] =
+                    self.raise_to_part(building, b, (watch, segment), (&base.rest.floors, end), peaks);
             }
         }
         open.contains(&true)

@@ -1,6 +1,7 @@
 //! The solution at one time, by floors and contacts.
 
 use crate::engine::base::Coordinates;
+use crate::engine::base::storey::Storey;
 use crate::engine::output::known::{FloorMotions, PeakCell};
 use crate::engine::system::buffers::Buffers;
 use std::cell::{Cell, RefCell};
@@ -16,11 +17,15 @@ pub struct Point {
     pub impacts: u64,
     /// The coordinates of the following vectors.
     pub(in crate::engine) coordinates: Coordinates,
-    /// Displacements, of which `floors` is made.
+    /// Displacements relative to the position of rest, of which `floors` is made.
     pub(in crate::engine) q: Vec<f64>,
     /// Velocities, of which `floors` is made.
     pub(in crate::engine) v: Vec<f64>,
     pub(in crate::engine) floors: FloorMotions,
+    /// The storeys that can yield.
+    pub(in crate::engine) storeys: Vec<Storey>,
+    /// Displacements of all floors at rest, m.
+    pub(in crate::engine) rest: Vec<f64>,
     /// The contacts, as far as they have been worked out.
     pub(in crate::engine) contacts: Vec<Cell<Known<ContactPoint>>>,
     /// The energy account, once it has been worked out.
@@ -65,6 +70,8 @@ pub struct EnergyPoint {
     pub impact: f64,
     /// Work of the external floor forces.
     pub external: f64,
+    /// Energy dissipated by storeys that have yielded.
+    pub hysteretic: f64,
     /// Imbalance of these terms divided by the largest magnitude that any of them has had.
     pub residual: f64,
 }

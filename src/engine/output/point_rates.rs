@@ -64,4 +64,6 @@ pub struct EnergyRates {
     pub impact: Rates,
     /// Of the work of the external floor forces.
     pub external: Rates,
+    /// Of the energy dissipated by storeys that have yielded.
+    pub hysteretic: Rates,
 }

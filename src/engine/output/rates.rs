@@ -107,6 +107,7 @@ impl Model {
         let resisted = &mut resisted[order];
         let motion = if order == 0 { (&point.v, &*acceleration) } else { (&*acceleration, &*jerk) };
         self.system.resist(coordinates, motion.0, motion.1, 1.0, resisted);
+        self.system.yield_to(coordinates, &point.storeys, motion.0, resisted);
         if rates.is_beginning {
             return;
         }
@@ -152,9 +153,10 @@ impl Model {
     /// Rates of a base shear, the force of the building on the ground, N/s and N/s2.
     pub fn base_shear_rates(&self, point: &Point, rates: &PointRates, side: Side) -> Rates {
         let PointRates { acceleration, jerk, resisted, .. } = rates;
+        let yielded = |motion: &[f64]| self.system.yielded_base_shear(point.coordinates, &point.storeys, side, motion);
         let [first, second] = match point.coordinates {
             Coordinates::Modes => [(&point.v, acceleration), (acceleration, jerk)]
-                .map(|(motion, rate)| self.system.structure.base_shear(side, motion, rate)),
+                .map(|(motion, rate)| self.system.structure.base_shear(side, motion, rate) - yielded(motion)),
             Coordinates::Floors => {
                 [0, 1].map(|order| self.system.structure.floors.base_shear(side as usize, &resisted[order]))
             }

@@ -12,6 +12,9 @@ impl Model {
     /// The value of a storey's quantity; 0 where the scene does not have what it is made of. `state` has to be the one that
     /// `point` was observed from.
     pub fn storey_peak(&self, state: &State, point: &Point, of: StoreyPeak, (side, storey): (Side, usize)) -> f64 {
+        if let (StoreyPeak::Shear, Some(shear)) = (of, self.yielded_shear(point, (side, storey))) {
+            return shear;
+        }
         match of {
             StoreyPeak::DriftRatio | StoreyPeak::Shear => {
                 self.storeys.per_drift(of, (side, storey)) * self.peak(state, point, PeakOf::Drift(side, storey))

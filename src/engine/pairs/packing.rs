@@ -46,8 +46,6 @@ pub struct PackedPairs {
     pub floors: [RowOfFloors; PAIRS],
     /// Accelerations of the first two floors of each row per unit of contact force, 1/kg.
     pub pushes: [Each; 2],
-    /// Gaps, m.
-    pub gap: Each,
     /// Minus the relative acceleration of each pair per unit of its own force, 1/kg.
     pub softness: Each,
     /// Rows of the modal Jacobian for each pair, where modes are few.
@@ -82,7 +80,6 @@ impl PackedPairs {
         self.pairs[lane] = pair;
         self.taken[lane] = true;
         self.floors[lane] = data.floors;
-        self.gap[lane] = data.gap;
         (self.pushes[0][lane], self.pushes[1][lane]) = (data.floors[0].push, data.floors[1].push);
         self.softness[lane] = data.softness(data);
         if coordinates == Coordinates::Modes {

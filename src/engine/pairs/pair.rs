@@ -65,10 +65,15 @@ impl Pair {
         matches!(EpisodeForce::new(&self.law, self.mass, None).engaged, Force::Power { .. })
     }
 
-    /// Penetration, m, and its rate, m/s, for a modal motion.
-    pub fn penetration(&self, q: &[f64], v: &[f64]) -> (f64, f64) {
+    /// Penetration, m, and its rate, m/s, for a modal motion relative to a position of rest in which it has that gap.
+    pub fn penetration(&self, gap: f64, (q, v): (&[f64], &[f64])) -> (f64, f64) {
         use crate::structure::dot;
-        (dot(&self.row, q) - self.gap, dot(&self.row, v))
+        (dot(&self.row, q) - gap, dot(&self.row, v))
+    }
+
+    /// The gap in another position of rest, in which all floors have those displacements, m.
+    pub fn gap_at(&self, rest: &[f64]) -> f64 {
+        self.gap - relative(&self.floors, rest)
     }
 
     /// Rounding error, m, of a penetration that is a sum of terms of that total `size`, m: a smaller excess is no
@@ -77,10 +82,10 @@ impl Pair {
         2.0 * f64::EPSILON * (size + self.gap.abs())
     }
 
-    /// The contact at the start of a run, for a modal motion. A pair that overlaps there begins an episode without
+    /// The contact at the start of a run, for a modal motion and the gap in its position of rest. A pair that overlaps there begins an episode without
     /// approach velocity.
-    pub fn at_start(&self, index: usize, time: f64, q: &[f64], v: &[f64]) -> Contact {
-        let (penetration, rate) = self.penetration(q, v);
+    pub fn at_start(&self, index: usize, time: f64, gap: f64, (q, v): (&[f64], &[f64])) -> Contact {
+        let (penetration, rate) = self.penetration(gap, (q, v));
         let force = EpisodeForce::new(&self.law, self.mass, None);
         let mut contact = Contact {
             phase: Phase::Apart,

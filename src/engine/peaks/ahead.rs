@@ -86,10 +86,11 @@ impl Model {
         for building in &self.peak_rows.buildings {
             let motion = (&base.q[building.modes.clone()], &base.v[building.modes.clone()]);
             let watched = watch.blocks[building.first..].iter_mut().zip(&mut values[building.first..]);
-            for (block, (watched, peaks)) in building.blocks.iter().zip(watched) {
+            for (b, (watched, peaks)) in watched.take(building.blocks.len()).enumerate() {
                 if watched.clear_until <= segment {
                     if watched.known_at != Some(segment) || base.elapsed > 0.0 {
-                        (watched.value, watched.known_at) = (values_of(block, motion.0, motion.1), Some(segment));
+                        let values = self.values_at((building, b), &base.rest.floors, motion);
+                        (watched.value, watched.known_at) = (values, Some(segment));
                         // After an impulse the value may exceed the peak.
                         *peaks = each(|i| larger(peaks[i], watched.value[i].abs()));
                     }
@@ -118,7 +119,10 @@ impl Model {
                 let watched = &mut work.peaks.watch.blocks[building.first + b];
                 let Reach { swing, rate, bend } = reach(block, &amplitudes);
                 let (peaks, growth) = (&values[building.first + b], &block.growth);
-                let most = |cumulative: f64| each(|i| (1.0 + MARGIN) * (swing[i] + growth.swing[i] * cumulative));
+                let at_rest = self.values_at_rest((building, b), &base.rest.floors);
+                let most = |cumulative: f64| {
+                    each(|i| (1.0 + MARGIN) * (at_rest[i].abs() + (swing[i] + growth.swing[i] * cumulative)))
+                };
                 let is_below = |most: Lane| (0..LANES).all(|i| most[i] <= peaks[i]);
                 watched.clear_until = segment;
                 if is_below(most(cumulative[1])) {
@@ -175,7 +179,7 @@ impl Model {
             return None;
         }
         let modes = building.modes.clone();
-        let end = values_of(&building.blocks[b], &base.q[modes.clone()], &base.v[modes]);
+        let end = self.values_at((building, b), &base.rest.floors, (&base.q[modes.clone()], &base.v[modes]));
         let peaks = &mut base.peaks.values.as_chunks_mut::<LANES>().0[building.first + b];
         let may_exceed = watched.raise_to(&end, peaks);
         let start = std::mem::replace(&mut watched.value, end);
@@ -190,7 +194,7 @@ impl Model {
         building: &BuildingRows,
         b: usize,
         (watch, segment): (&PeakWatch, u64),
-        (q, v): (&[f64], &[f64]),
+        (rest, (q, v)): (&[f64], (&[f64], &[f64])),
         peaks: &mut Peaks,
     ) -> bool {
         let (place, modes) = (building.first + b, building.modes.clone());
@@ -201,7 +205,7 @@ impl Model {
         if watched.known_at != Some(segment) {
             return true;
         }
-        let end = values_of(&building.blocks[b], &q[modes.clone()], &v[modes]);
+        let end = self.values_at((building, b), rest, (&q[modes.clone()], &v[modes]));
         watched.raise_to(&end, &mut peaks.values.as_chunks_mut::<LANES>().0[place])
     }
 }

@@ -93,7 +93,7 @@ impl Model {
         self.find_pushes(base, work);
         let room = &mut work.peaks.floors;
         let mut modal = std::mem::take(&mut room.modal);
-        self.find_floors(base.coordinates, (&base.q, &base.v), &mut room.start, &mut modal);
+        self.find_floors(base.coordinates, (&base.rest.floors, (&base.q, &base.v)), &mut room.start, &mut modal);
         room.modal = modal;
         for side in [Side::Left, Side::Right] {
             let FloorRoom { start, .. } = &work.peaks.floors;
@@ -108,7 +108,7 @@ impl Model {
                 let known = if self.system.floor_forces { &now[..2] } else { &now };
                 known.iter().for_each(|&(of, value)| peaks.raise(self.peak_rows.place(of), value));
             }
-            peaks.raise(self.peak_rows.place(PeakOf::BaseShear(side)), self.shear_of(side, start));
+            peaks.raise(self.peak_rows.place(PeakOf::BaseShear(side)), start.shear[side as usize]);
         }
     }
 
@@ -131,9 +131,10 @@ impl Model {
         let room = &mut work.peaks.floors;
         let mut modal = std::mem::take(&mut room.modal);
         if !room.go_on([base.segment.start, base.elapsed]) {
-            self.find_floors(base.coordinates, (&base.q, &base.v), &mut room.start, &mut modal);
+            self.find_floors(base.coordinates, (&base.rest.floors, (&base.q, &base.v)), &mut room.start, &mut modal);
         }
-        self.find_floors(base.coordinates, end, &mut room.end, &mut modal);
+        self.find_floors(base.coordinates, (&base.rest.floors, end), &mut room.end, &mut modal);
+        self.soften(base, end.0, &mut room.end);
         room.modal = modal;
         if self.system.floor_forces {
             self.add_forces((base, part.inputs), 0.0, &mut room.start.resisted);
@@ -211,7 +212,7 @@ impl Model {
             }
         }
         let FloorRoom { start, end, largest, .. } = &work.peaks.floors;
-        let shears = [self.shear_of(side, start), self.shear_of(side, end)];
+        let shears = [start, end].map(|at| at.shear[side as usize]);
         let bound = larger(shears[0].abs(), shears[1].abs()) + self.shear_strays(side, part.length, largest);
         self.check_one(PeakOf::BaseShear(side), shears, (bound, false), part, peaks, work);
     }
@@ -290,8 +291,9 @@ impl Model {
         let mut rows = std::mem::take(&mut work.peaks.rows);
         let lanes = self.set_rows(of, part.base.coordinates, &mut rows);
         let span = self.span_of(of.side(), part.base.coordinates);
-        let quantity = Quantity { of, rows: &rows, lanes, span, ground: part.ground() };
         let step = part.step;
+        let at_rest = self.soften_row(of, part.base, &mut rows) + self.value_at_rest(of, &part.base.rest.floors);
+        let quantity = Quantity { of, rows: &rows, lanes, span, at_rest, ground: part.ground() };
         let peak = match step.dense() {
             Dense::Flight => known,
             Dense::Onset(onset) => highest_in_onset(&quantity, known, onset, part),

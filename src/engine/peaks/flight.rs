@@ -29,6 +29,8 @@ pub struct Stretch<'a> {
     pub end: (&'a [f64], &'a [f64]),
     /// The modal load at the start and its rate, per second.
     pub loads: (&'a [f64], &'a [f64]),
+    /// Displacements of all floors at rest, m, to which the motion is relative.
+    pub rest: &'a [f64],
     /// Ground acceleration at the start, m/s2, and its slope, m/s3.
     pub ground: (f64, f64),
     /// Length, s.
@@ -81,8 +83,8 @@ impl Model {
     pub(in crate::engine) fn raise_to_motion(&self, base: &Base, peaks: &mut Peaks) {
         for building in &self.peak_rows.buildings {
             let [q, v] = [&base.q, &base.v].map(|vector| &vector[building.modes.clone()]);
-            for (b, block) in building.blocks.iter().enumerate() {
-                for (i, value) in block.values(q, v).into_iter().enumerate() {
+            for b in 0..building.blocks.len() {
+                for (i, value) in self.values_at((building, b), &base.rest.floors, (q, v)).into_iter().enumerate() {
                     let place = (building.first + b) * LANES + i;
                     if !(self.system.floor_forces && matches!(self.peak_rows.at(place), Some(PeakOf::Acceleration(..))))
                     {
@@ -199,10 +201,11 @@ impl Model {
         let direct = &work.peaks.direct[place..];
         let known = *peaks.block(building.first + b);
         let added = self.system.floor_forces.then_some((direct, 0.0, h));
-        if !flight.is_watched && stay_below(&known, block, (bounds, &modes), added) == [true; LANES] {
+        let at_rest = self.values_at_rest((building, b), flight.rest);
+        if !flight.is_watched && stay_below(&known, (block, &at_rest), (bounds, &modes), added) == [true; LANES] {
             return;
         }
-        let mut course = course_of(block, (flight, known_ends), bounds, modes);
+        let mut course = course_of((block, &at_rest), (flight, known_ends), bounds, modes);
         if self.system.floor_forces {
             course.add(&work.peaks.direct[place..], 0.0, h);
         }
@@ -257,7 +260,7 @@ fn share(modes: &mut [f64]) {
 /// `direct` is an addition to them that is linear in time, with the start and the length of its interval, s.
 pub fn stay_below(
     peaks: &Lane,
-    block: &Block,
+    (block, at_rest): (&Block, &Lane),
     (bounds, modes): (&ModeBounds, &Range<usize>),
     direct: Option<(&[[f64; 2]], f64, f64)>,
 ) -> [bool; LANES] {
@@ -271,7 +274,7 @@ pub fn stay_below(
             larger((value + rate * from).abs(), (value + rate * (from + h)).abs())
         })
     };
-    std::array::from_fn(|i| swings[i] + added(i) <= (1.0 + MARGIN) * peaks[i])
+    std::array::from_fn(|i| swings[i] + at_rest[i].abs() + added(i) <= (1.0 + MARGIN) * peaks[i])
 }
 
 /// Bounds on the magnitudes of a block's quantities: from the quasi-static displacements at the start and at the end,
@@ -301,9 +304,9 @@ fn swing_of(block: &Block, [held, held_end, rate, swing_q, swing]: [&[f64]; 5]) 
     each(|i| larger(start[i].abs(), end[i].abs()) + sum[i])
 }
 
-/// The quantities of a block at both ends of a flight, of which its values may be known.
+/// The quantities of a block, with their values at rest, at both ends of a flight, of which its values may be known.
 pub fn course_of(
-    block: &Block,
+    (block, at_rest): (&Block, &Lane),
     (flight, known_ends): (&Stretch, Option<[Lane; 2]>),
     bounds: &ModeBounds,
     modes: Range<usize>,
@@ -313,8 +316,10 @@ pub fn course_of(
     let [first, last, slow, quick] =
         [&bounds.first, &bounds.last, &bounds.slow, &bounds.quick].map(|vector| &vector[modes.clone()]);
     let mut course = sum_course(block, [rate, first, end_rate, last], [slow, quick]);
-    [course.start[0], course.end[0]] =
-        known_ends.unwrap_or_else(|| [values_of(block, q, rate), values_of(block, end_q, end_rate)]);
+    [course.start[0], course.end[0]] = known_ends.unwrap_or_else(|| {
+        let ends = [values_of(block, q, rate), values_of(block, end_q, end_rate)];
+        ends.map(|values| each(|i| values[i] + at_rest[i]))
+    });
     course
 }
 

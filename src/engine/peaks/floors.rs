@@ -5,7 +5,7 @@
 //! accelerations of all floors and T = h^2/8 |M^-1 K| + h/2 |M^-1 C|. With B the larger r at the ends plus the largest
 //! accelerations by all forces, A <= B + T A, and so A <= B + T B + |T|^2 / (1 - |T|) max B.
 
-use crate::engine::base::Coordinates;
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::model::Model;
 use crate::engine::peaks::room::{FloorRoom, FloorState};
 use crate::engine::watched::resistance::Resistance;
@@ -16,11 +16,11 @@ use crate::structure::{LANES, Side};
 const FURTHEST: f64 = 0.5;
 
 impl Model {
-    /// Works out the floors of a motion, without floor forces; `modal` is a scratch vector.
+    /// Works out the floors of a motion relative to a position of `rest`, without floor forces; `modal` is a scratch vector.
     pub(in crate::engine) fn find_floors(
         &self,
         coordinates: Coordinates,
-        (q, v): (&[f64], &[f64]),
+        (rest, (q, v)): (&[f64], (&[f64], &[f64])),
         out: &mut FloorState,
         modal: &mut [f64],
     ) {
@@ -41,6 +41,20 @@ impl Model {
                     [*u, *rate, *resisted] = structure.at_floors(block, [q, v, modal]);
                 }
             }
+        }
+        out.shear = [Side::Left, Side::Right].map(|side| self.shear_of(side, out));
+        if !self.system.storeys.is_empty() {
+            out.u.iter_mut().zip(rest).for_each(|(u, rest)| *u += rest);
+        }
+    }
+
+    /// Takes from the accelerations and shears of a motion what storeys that yield do not resist with, where their drifts
+    /// have changed since the base.
+    pub(in crate::engine) fn soften(&self, base: &Base, end: &[f64], out: &mut FloorState) {
+        for (of, _) in self.system.storeys.iter().zip(&base.storeys).filter(|(_, storey)| storey.yields.is_some()) {
+            let force = of.lost * (of.drift(base.coordinates, end) - of.drift(base.coordinates, &base.q));
+            of.push_apart(Coordinates::Floors, force, &mut out.resisted);
+            out.shear[of.side as usize] -= if of.storey == 0 { force } else { 0.0 };
         }
     }
 
@@ -86,8 +100,8 @@ impl Model {
         terms.map(|((k, c), a)| (0.125 * h * h * k.abs() + 0.5 * h * c.abs()) * a).sum()
     }
 
-    /// Base shear, N: the force of a building on the ground.
-    pub(in crate::engine) fn shear_of(&self, side: Side, floors: &FloorState) -> f64 {
+    /// Base shear, N: the force of a building on the ground, from a motion relative to the position of rest.
+    fn shear_of(&self, side: Side, floors: &FloorState) -> f64 {
         let [on_u, on_v] = &self.resistance.buildings[side as usize].shear;
         let [u, v] =
             [&floors.u, &floors.v].map(|vector| self.system.structure.floors.of_building(side as usize, vector));

@@ -17,6 +17,7 @@ pub mod contact;
 pub mod flight;
 pub mod floors;
 pub mod reading;
+pub mod rest;
 pub mod room;
 pub mod search;
 
@@ -121,7 +122,8 @@ impl Model {
         let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
         let loads = (&load[..], &slope[..]);
         let (start, is_watched) = ((&base.q[..], &base.v[..]), false);
-        then(&Stretch { start, end: (q, v), loads, ground, length, is_watched, whole: None }, work);
+        let rest = &base.rest.floors;
+        then(&Stretch { start, end: (q, v), loads, rest, ground, length, is_watched, whole: None }, work);
         (work.buffers.load, work.buffers.slope) = (load, slope);
     }
 }
@@ -133,6 +135,6 @@ fn segment_flight<'a>(
     ground: (f64, f64),
     loads: (&'a [f64], &'a [f64]),
 ) -> Stretch<'a> {
-    let (end, length) = ((&base.q[..], &base.v[..]), base.segment.length);
-    Stretch { start, end, loads, ground, length, is_watched: !cfg!(without = "peaks_ahead"), whole: None }
+    let (end, rest, length) = ((&base.q[..], &base.v[..]), &base.rest.floors[..], base.segment.length);
+    Stretch { start, end, loads, rest, ground, length, is_watched: !cfg!(without = "peaks_ahead"), whole: None }
 }

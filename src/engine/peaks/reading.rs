@@ -41,7 +41,7 @@ pub struct ContactStep<'a> {
     pub inputs: &'a Inputs,
     /// Length, s.
     pub length: f64,
-    /// q and v at the end, in the coordinates of the base.
+    /// q and v at the end, in the coordinates of the base and relative to its position of rest.
     pub end: (&'a [f64], &'a [f64]),
 }
 
@@ -136,7 +136,10 @@ impl Model {
             PeakOf::Acceleration(..) => {
                 (quantity.of_motion(acceleration) + ground, quantity.of_motion(jerk) + ground_slope)
             }
-            _ => (quantity.of_motion(q) + quantity.of_rate(v), quantity.of_motion(v) + quantity.of_rate(acceleration)),
+            _ => {
+                let value = quantity.at_rest + (quantity.of_motion(q) + quantity.of_rate(v));
+                (value, quantity.of_motion(v) + quantity.of_rate(acceleration))
+            }
         };
         work.peaks.reading = room;
         Reading { time, value, slope }
@@ -146,6 +149,8 @@ impl Model {
 /// A quantity in the double series of an onset step: a sum of three series, divided by 1, x and x^2.
 struct OnsetQuantity {
     terms: [Terms; 3],
+    /// Its value at rest.
+    at_rest: f64,
 }
 
 impl OnsetQuantity {
@@ -165,7 +170,7 @@ impl OnsetQuantity {
                 }
             }
         });
-        Some(OnsetQuantity { terms })
+        Some(OnsetQuantity { terms, at_rest: quantity.at_rest })
     }
 
     fn read(&self, time: f64, onset: &OnsetSeries, (ground, ground_slope): (f64, f64)) -> Reading {
@@ -183,6 +188,7 @@ impl OnsetQuantity {
             }
         }
         slope /= onset.scale;
+        value += self.at_rest;
         if self.terms[2].iter().any(|term| *term != 0.0) {
             (value, slope) = (value + ground + ground_slope * time, slope + ground_slope);
         }

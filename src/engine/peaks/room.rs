@@ -226,6 +226,8 @@ pub struct FloorState {
     pub v: Vec<f64>,
     /// Accelerations by stiffness and damping of the buildings and by floor forces, m/s2.
     pub resisted: Vec<f64>,
+    /// Base shears of both buildings, N.
+    pub shear: [f64; 2],
 }
 
 /// Scratch memory for the floors over a step in contact.
@@ -252,7 +254,7 @@ pub struct FloorRoom {
 impl FloorRoom {
     pub fn new(lanes: usize) -> FloorRoom {
         let vector = || vec![0.0; lanes];
-        let state = || FloorState { u: vector(), v: vector(), resisted: vector() };
+        let state = || FloorState { u: vector(), v: vector(), resisted: vector(), shear: [0.0; 2] };
         FloorRoom {
             start: state(),
             end: state(),

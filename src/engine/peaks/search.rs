@@ -38,6 +38,8 @@ pub struct Quantity<'a> {
     pub lanes: Option<(usize, Option<usize>)>,
     /// The first of the lanes outside of which both rows are 0, and the one after the last.
     pub span: (usize, usize),
+    /// What is added to the product of its rows and the motion: its value at rest.
+    pub at_rest: f64,
     /// Ground acceleration at the start of the series, m/s2, and its slope, m/s3.
     pub ground: (f64, f64),
 }
@@ -103,7 +105,8 @@ impl Model {
             let of = suspect.of;
             let lanes = self.set_rows(of, Coordinates::Modes, &mut rows);
             let span = self.span_of(of.side(), Coordinates::Modes);
-            let quantity = Quantity { of, rows: &rows, lanes, span, ground: (ground + slope * from, slope) };
+            let at_rest = self.value_at_rest(of, flight.rest);
+            let quantity = Quantity { of, rows: &rows, lanes, span, at_rest, ground: (ground + slope * from, slope) };
             let (terms, order) = quantity.terms(&work.buffers.series, None);
             suspect.peak = highest(&terms, (end, order), suspect.peak, &mut work.buffers.powers);
         }
@@ -192,12 +195,13 @@ impl Model {
         let mut known = [f64::INFINITY; LANES];
         let is_open = |suspect: &&mut Suspect| suspect.cleared_in.is_none();
         suspects.iter_mut().filter(is_open).for_each(|suspect| known[suspect.place % LANES] = suspect.peak);
-        let are_below = stay_below(&known, block, (bounds, modes), direct);
+        let at_rest = self.values_at_rest((building, number - building.first), own.rest);
+        let are_below = stay_below(&known, (block, &at_rest), (bounds, modes), direct);
         if are_below == [true; LANES] {
             suspects.iter_mut().filter(is_open).for_each(|suspect| suspect.cleared_in = Some(piece.halvings));
             return;
         }
-        let mut course = course_of(block, (own, None), bounds, modes.clone());
+        let mut course = course_of((block, &at_rest), (own, None), bounds, modes.clone());
         if let Some((direct, from, length)) = direct {
             course.add(direct, from, length);
         }
@@ -324,6 +328,7 @@ impl Quantity<'_> {
                 series.order - 1
             }
         };
+        terms[0] += self.at_rest;
         if series.time_map.is_curved()
             && let Some(substitution) = substitution
         {

@@ -13,6 +13,7 @@
 
 use crate::engine::base::Base;
 use crate::engine::base::contact::{Episode, Phase};
+use crate::engine::base::storey::Sense;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::complementarity::Complementarity;
@@ -85,6 +86,19 @@ impl System {
             }
         }
         self.update_soft_rates(base);
+        self.turn_storeys(base);
+    }
+
+    /// Storeys whose drift an impulse has turned back are elastic again.
+    fn turn_storeys(&self, base: &mut Base) {
+        let velocities = &base.v;
+        for (of, storey) in self.storeys.iter().zip(&mut base.storeys) {
+            let goes_back = |sense: &Sense| sense.sign() * of.drift(base.coordinates, velocities) < 0.0;
+            if storey.yields.as_ref().is_some_and(goes_back) {
+                storey.yields = None;
+            }
+            storey.turned = None;
+        }
     }
 
     /// Where the impulses found would close pairs that are apart by rounding only, finds those of all such pairs together,

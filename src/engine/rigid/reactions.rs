@@ -14,13 +14,13 @@ impl System {
         if !self.rigid.pairs.iter().any(|&p| base.contacts[p].is_held()) {
             return;
         }
-        let gap = |p: usize| self.pairs[p].gap;
+        let gaps = &base.rest.gaps;
         self.select_held(base, work);
         for (motion, is_displacement) in [(&mut base.q, true), (&mut base.v, false)] {
             let rigid = &mut work.rigid;
             for (&k, known) in rigid.pairs.iter().zip(&mut rigid.known) {
                 let p = self.rigid.pairs[k];
-                *known = dot(&self.pairs[p].row, motion) - if is_displacement { gap(p) } else { 0.0 };
+                *known = dot(&self.pairs[p].row, motion) - if is_displacement { gaps[p] } else { 0.0 };
             }
             rigid.solve();
             self.push_apart(rigid, motion);

@@ -2,12 +2,15 @@
 
 pub mod buffers;
 pub mod error_norm;
+pub mod rest;
 pub mod tolerance;
+pub mod yields;
 
 use crate::collocation::MOST_PAIRS;
 use crate::engine::base::clearance::Clearance;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::peaks::Peaks;
+use crate::engine::base::storey::Storey;
 use crate::engine::base::{Account, Base, Coordinates};
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::excitation::record::GroundMotion;
@@ -15,6 +18,7 @@ use crate::engine::excitation::segment::Segment;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::pairs::rigid::RigidPairs;
 use crate::engine::system::tolerance::Tolerance;
+use crate::engine::yielding::storey::YieldingStorey;
 use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
 use crate::structure::{FEW_BLOCKS, FreeRows, ImpulseResponse, LANES, Side, Structure};
@@ -29,6 +33,8 @@ pub struct System {
     pub structure: Structure,
     pub pairs: Vec<Pair>,
     pub rigid: RigidPairs,
+    /// The storeys that can yield.
+    pub storeys: Vec<YieldingStorey>,
     /// The record; absent where the ground acceleration is an input.
     pub ground: Option<GroundMotion>,
     /// Whether a master may set forces on the floors.
@@ -42,8 +48,10 @@ pub struct System {
     pub impulse_response: Option<ImpulseResponse>,
     /// Polynomials of the pairs' distances apart from contact, where that response is one of polynomials.
     pub free_rows: Option<FreeRows>,
-    /// Modal displacements, m kg^1/2, and velocities at the start of a run.
+    /// Modal displacements relative to the position of rest, m kg^1/2, and velocities at the start of a run.
     initial: [Vec<f64>; 2],
+    /// The storeys then: displaced beyond their yield drift, they have yielded before.
+    initial_storeys: Vec<Storey>,
     /// 1 for every floor: the influence vector of the ground motion.
     ones: Vec<f64>,
 }
@@ -67,8 +75,16 @@ impl System {
         let rows = || pairs.iter().map(|pair| &pair.row[..]);
         let longest = impulse_response.as_ref().and_then(ImpulseResponse::longest);
         let free_rows = longest.map(|length| FreeRows::new(&structure, rows(), length));
+        let storeys = YieldingStorey::all(scene, &structure);
+        let initial_storeys: Vec<Storey> = storeys.iter().map(|of| of.at_start(scene)).collect();
+        let mut initial = initial_state(scene, &structure);
+        for (of, storey) in storeys.iter().zip(&initial_storeys) {
+            of.lift(Coordinates::Modes, -of.kept() * storey.plastic, &mut initial[0]);
+        }
         Ok(System {
-            initial: initial_state(scene, &structure),
+            initial,
+            initial_storeys,
+            storeys,
             rigid: RigidPairs::of(&pairs),
             floor_forces: scene.floor_forces,
             tolerance: Tolerance::of(scene.solver.relative_tolerance),
@@ -90,12 +106,15 @@ impl System {
             Some(ground) => ground.segment_at(time),
             None => Segment::under_input(time, 0.0, &LinearInput::default()),
         };
-        let contacts: Vec<Contact> =
-            self.pairs.iter().enumerate().map(|(p, pair)| pair.at_start(p, time, &q, &v)).collect();
+        let rest = self.rest_of(&self.initial_storeys);
+        let pairs = self.pairs.iter().zip(&rest.gaps).enumerate();
+        let contacts: Vec<Contact> = pairs.map(|(p, (pair, gap))| pair.at_start(p, time, *gap, (&q, &v))).collect();
         Base {
             segment,
             elapsed: time - segment.start,
-            clearance: Clearance::new(self.pairs.len()),
+            clearance: Clearance::new(self.cleared_together()),
+            storeys: self.initial_storeys.clone(),
+            rest,
             peaks,
             energy,
             velocity_scale: 0.0,
@@ -106,6 +125,11 @@ impl System {
             q,
             v,
         }
+    }
+
+    /// Number of what is cleared for segments ahead: the pairs, and all storeys that can yield together.
+    pub fn cleared_together(&self) -> usize {
+        self.pairs.len() + usize::from(!self.storeys.is_empty())
     }
 
     /// Whether windows, in which few pairs of buildings of many modes are in contact, take the motion without contact

@@ -1,45 +1,72 @@
 //! Expansion of motion and contact forces into power series in time, power by power together.
 
 use crate::contact::taylor::PAIRS;
-use crate::engine::base::{Base, Coordinates};
+use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::pairs::jacobian::{FloorJacobian, ModalJacobian, PackedModalJacobian};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::closed_pairs::ClosedPairs;
+use crate::engine::taylor::drifts::WithYielding;
 use crate::engine::taylor::linear_pairs::LinearPairs;
 use crate::engine::taylor::pair_forces::with_forces;
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::complementarity::Complementarity;
-use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, difference, dot};
+use crate::numerics::polynomial::MAX_ORDER;
+use crate::structure::{EXACT, FEW_BLOCKS, LANES, MotionSeries, difference, dot, flight_order};
+
+/// (Fastest rate) x (time) that one exact series reaches.
+const SERIES_REACH: f64 = 2.0;
 
 impl System {
-    /// Expands motion, penetrations and forces from the base on; `scale` is the time unit, s.
-    pub fn expand(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, scale: f64) {
+    /// Expands motion, penetrations and forces from the base on; `scale` is the time unit, s, within which the series is to
+    /// be exact if `is_exact`.
+    pub fn expand(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, (scale, is_exact): (f64, bool)) {
         solution.series.start(scale, &base.q, &base.v);
         solution.closed.start(base, &self.pairs, scale);
-        self.expand_to(base, solution, work, self.tolerance.order + 1);
+        solution.drifts.start(base, &self.storeys, scale);
+        let order = match is_exact {
+            true => flight_order(self.structure.fastest * scale, EXACT).unwrap_or(MAX_ORDER),
+            false => self.tolerance.order + 1,
+        };
+        self.expand_to(base, solution, work, order);
+    }
+
+    /// Length of the next step, s, at most `remaining`, if no contact is closed: all is linear then, and a series within
+    /// reach of the fastest mode exact.
+    pub fn exact_reach(&self, base: &Base, remaining: f64) -> Option<f64> {
+        let is_linear = touching(base).next().is_none();
+        is_linear.then(|| remaining.min(SERIES_REACH / self.structure.fastest))
     }
 
     /// Extends the started series to `order`.
     fn expand_to(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, order: usize) {
         let (structure, loads) = (&self.structure, (&work.load[..], &work.slope[..]));
-        let Solution { series, closed, .. } = solution;
+        let Solution { series, closed, drifts, .. } = solution;
+        let storeys = &self.storeys[..];
         match base.coordinates {
             Coordinates::Floors => {
-                with_forces!(closed, [Damped], FloorJacobian, |forces| series.expand_floors(
+                with_forces!(closed, [Damped], FloorJacobian, |pairs| series.expand_floors(
                     &structure.floors,
                     order,
                     loads,
-                    forces
+                    &mut WithYielding { storeys, drifts, pairs }
                 ));
             }
             Coordinates::Modes if structure.is_classical() && work.rigid.pairs.is_empty() => {
                 if cfg!(without = "few_modes") || base.q.len() > FEW_BLOCKS * LANES {
-                    with_forces!(closed, [], ModalJacobian(&self.pairs), |forces| series
-                        .expand_modes(structure, order, loads, forces));
-                } else if !self.expand_linear(series, closed, order, loads) {
-                    with_forces!(closed, [], PackedModalJacobian, |forces| series
-                        .expand_few_modes(structure, order, loads, forces));
+                    with_forces!(closed, [], ModalJacobian(&self.pairs), |pairs| series.expand_modes(
+                        structure,
+                        order,
+                        loads,
+                        &mut WithYielding { storeys, drifts, pairs }
+                    ));
+                } else if !drifts.yielding.is_empty() || !self.expand_linear(series, closed, order, loads) {
+                    with_forces!(closed, [], PackedModalJacobian, |pairs| series.expand_few_modes(
+                        structure,
+                        order,
+                        loads,
+                        &mut WithYielding { storeys, drifts, pairs }
+                    ));
                 }
             }
             Coordinates::Modes => {
@@ -97,7 +124,7 @@ impl System {
 
     /// Extends the series on modes by one power, with the reactions between floors that are held together.
     fn extend_together(&self, solution: &mut Solution, (load, slope): (&[f64], &[f64]), rigid: &mut Complementarity) {
-        let Solution { series, closed, reactions, reaction_order, .. } = solution;
+        let Solution { series, closed, drifts, reactions, reaction_order, .. } = solution;
         let n = series.order - 1;
         let scale = series.scale;
         closed.extend_forces(n);
@@ -108,6 +135,7 @@ impl System {
                 _ => {}
             }
             closed.each_force(n, |p, force| self.push_apart_by(p, Coordinates::Modes, force, out));
+            drifts.push(&self.storeys, n, 1.0, out);
         };
         series.extend(&self.structure, load_of_power, |acceleration| self.constrain(rigid, acceleration));
         for (&k, reaction) in rigid.pairs.iter().zip(&rigid.found) {
@@ -115,6 +143,7 @@ impl System {
         }
         *reaction_order = n;
         let term = series.term(n + 2);
+        drifts.read(&self.storeys, n + 2, term);
         closed.set_penetrations(n + 2, |p, at_surface| {
             let row = &self.pairs[p].row;
             if at_surface { difference(row, term).0 } else { dot(row, term) }

@@ -11,6 +11,7 @@
 pub mod assignment;
 pub mod closed_pairs;
 pub mod departures;
+pub mod drifts;
 pub mod entries;
 pub mod expansion;
 pub mod follow;
@@ -19,6 +20,7 @@ pub mod open_pairs;
 pub mod pair_forces;
 pub mod solution;
 pub mod step_size;
+pub mod switches;
 pub mod time_map;
 
 use crate::engine::base::planned::{At, Event, Planned};
@@ -40,11 +42,15 @@ impl System {
     ) {
         let base = &mut *at.base;
         let is_singular = touching(base).any(|(_, contact)| contact.is_singular());
-        let scale = self.series_scale(base, remaining);
-        self.expand(base, solution, work, scale);
+        let exact = self.exact_reach(base, remaining);
+        let scale = exact.unwrap_or_else(|| self.series_scale(base, remaining));
+        self.expand(base, solution, work, (scale, exact.is_some()));
         at.counters.contact_steps += 1;
         at.counters.law_evaluations += solution.closed.count_forces();
-        let reach = self.reach(base, solution, work, (is_singular, remaining));
+        let reach = match exact {
+            Some(_) => 1.0,
+            None => self.reach(base, solution, work, (is_singular, remaining)),
+        };
         let is_whole = solution.series.x_at(remaining) <= reach;
         let end = if is_whole { solution.series.x_at(remaining) } else { reach };
         let event = self.first_event(base, solution, work, end);
@@ -53,7 +59,8 @@ impl System {
         planned.event = event;
         planned.reaches_limit = is_whole && !is_cut && event.is_none();
         planned.length = if planned.reaches_limit { remaining } else { solution.series.time(solution.end.x) };
-        planned.next_length = Some(solution.series.time(reach));
+        // The scale of contact does not change while none is closed.
+        planned.next_length = exact.is_none().then(|| solution.series.time(reach));
         planned.ends.clear();
         self.track(base, &solution.series, &solution.end, &mut work.scalar, &mut planned.tracked);
         for (reaction, &p) in solution.reactions.iter().zip(&self.rigid.pairs) {
@@ -90,11 +97,15 @@ impl System {
         if let Some((x, _)) = leaving {
             solution.end_at(x);
         }
-        // Only entries need the motion; they are searched for only up to the first departure.
+        let switch = self.first_switch(base, solution, work);
+        if let Some((x, _)) = switch {
+            solution.end_at(x);
+        }
+        // Only these two need the motion; they are searched for only up to the first departure.
         let entry = self.first_entry(base, solution, work);
         if let Some((x, _)) = entry {
             solution.end_at(x);
         }
-        entry.or(leaving).map(|(_, event)| event)
+        entry.or(switch).or(leaving).map(|(_, event)| event)
     }
 }

@@ -121,7 +121,7 @@ impl OpenPairs {
         let horizon = (base.coordinates == Coordinates::Floors).then(|| Horizon::of(series, powers.x, room));
         let may_meet = |(lane, p): (usize, usize), members: &PackedPairs| {
             let contact = &base.contacts[p];
-            let is_far = |horizon: &Horizon| horizon.is_beyond(contact, &members.floors[lane], members.gap[lane]);
+            let is_far = |horizon: &Horizon| horizon.is_beyond(contact, &members.floors[lane], base.rest.gaps[p]);
             !contact.in_contact() && !horizon.as_ref().is_some_and(is_far)
         };
         let has_to_be_followed = |members: &PackedPairs| members.lanes().any(|of_lane| may_meet(of_lane, members));
@@ -137,7 +137,7 @@ impl OpenPairs {
         if series.time_map.is_curved() {
             substitution.apply(terms, apart.len());
         }
-        read(terms, (members, apart), series.order + 1, powers, bounds);
+        read(terms, (members, apart, &base.rest.gaps), series.order + 1, powers, bounds);
     }
 }
 
@@ -192,12 +192,13 @@ fn relate<M: ContactJacobian>(
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn read(
     terms: &[Each],
-    (members, apart): (&[PackedPairs], &[usize]),
+    (members, apart, gaps): (&[PackedPairs], &[usize], &[f64]),
     count: usize,
     powers: &Powers,
     bounds: &mut [PenetrationBounds],
 ) {
     for (i, (b, bounds)) in apart.iter().zip(bounds).enumerate() {
-        *bounds = PenetrationBounds::of(terms, (i, apart.len()), count, powers, &members[*b].gap);
+        let gaps = each(|lane| gaps[members[*b].pairs[lane]]);
+        *bounds = PenetrationBounds::of(terms, (i, apart.len()), count, powers, &gaps);
     }
 }

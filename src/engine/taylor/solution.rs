@@ -3,6 +3,7 @@
 use crate::engine::base::Coordinates;
 use crate::engine::system::System;
 use crate::engine::taylor::closed_pairs::ClosedPairs;
+use crate::engine::taylor::drifts::YieldingDrifts;
 use crate::engine::taylor::open_pairs::OpenPairs;
 use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS};
 use crate::numerics::powers::Powers;
@@ -17,6 +18,8 @@ pub struct Solution {
     pub series: MotionSeries,
     /// Penetrations and forces of the closed pairs.
     pub closed: ClosedPairs,
+    /// Drifts of the storeys that yield.
+    pub drifts: YieldingDrifts,
     /// Bounds on the penetrations of the open pairs.
     pub open: OpenPairs,
     /// Terms of the reactions between floors that are held together, N, one series per rigid pair.
@@ -37,6 +40,7 @@ impl Solution {
             series: MotionSeries::new(system.structure.lanes, MAX_ORDER + 2),
             end: Powers::default(),
             closed: ClosedPairs::new(&system.pairs, on_floors),
+            drifts: YieldingDrifts::new(system.storeys.len()),
             open: OpenPairs::new(system.pairs.len(), on_floors),
             reactions: vec![[0.0; MAX_TERMS]; system.rigid.pairs.len()],
             reaction_order: 0,

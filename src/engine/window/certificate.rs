@@ -47,7 +47,9 @@ impl Windows {
             }
             passage.stays_apart(&Approach { window, free: terms, kernels, bend })
         });
-        pairs_hold && self.others_stay_apart(system, base, (window, free), work)
+        pairs_hold
+            && self.others_stay_apart(system, base, (window, free), work)
+            && window.stays_elastic(system, base, work)
     }
 
     /// Bounds on the integrals of the second derivatives of a pair's kernels, for the closed pairs of a window.

@@ -6,6 +6,7 @@
 //! [`certificate`]); otherwise the step is taken by power series in time.
 
 pub mod certificate;
+pub mod elastic;
 pub mod free;
 pub mod kernels;
 pub mod prepared_push;

@@ -1,0 +1,54 @@
+//! One storey that can yield: whether it does, and how far it has.
+
+use serde::{Deserialize, Serialize};
+
+/// The sense in which a storey yields.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Sense {
+    /// Its drift grows: the upper floor moves to the right.
+    Positive,
+    Negative,
+}
+
+impl Sense {
+    /// Both senses.
+    pub const BOTH: [Sense; 2] = [Sense::Positive, Sense::Negative];
+
+    /// 1 or -1.
+    pub fn sign(self) -> f64 {
+        match self {
+            Sense::Positive => 1.0,
+            Sense::Negative => -1.0,
+        }
+    }
+}
+
+/// The state of one storey that can yield. What its elastic part z = drift - plastic drift is follows from the motion, but
+/// while the storey yields and where it has just turned back: there |z| is the yield drift exactly.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Storey {
+    /// The sense in which it yields; `None` while it is elastic.
+    pub yields: Option<Sense>,
+    /// The sense in which it has yielded up to this very instant, at which its drift turns: the rate of z is exactly 0.
+    pub turned: Option<Sense>,
+    /// Plastic drift, m.
+    pub plastic: f64,
+    /// Sum of the magnitudes of its changes, m.
+    pub cumulative: f64,
+    /// Largest magnitude of the plastic drift so far, m.
+    pub furthest: f64,
+}
+
+impl Storey {
+    /// The storey after its plastic drift has changed by `step`, m, in one sense.
+    pub fn after(self, step: f64) -> Storey {
+        let plastic = self.plastic + step;
+        Storey { plastic, cumulative: self.cumulative + step.abs(), furthest: self.furthest.max(plastic.abs()), ..self }
+    }
+
+    /// Its numbers, for the checks of a saved state.
+    pub fn numbers(&self) -> [f64; 3] {
+        let &Storey { yields: _, turned: _, plastic, cumulative, furthest } = self;
+        [plastic, cumulative, furthest]
+    }
+}

@@ -1,0 +1,89 @@
+//! Proof that no storey yields in some segments: for all storeys at once, by the amplitudes of the modes, or for each as the
+//! broad phase does it for pairs.
+//!
+//! With the amplitude e of each mode and its growth A S (see [`super::broad_phase`]), a drift relative to the position of
+//! rest is at most the sum over modes of |row| (e + A S) / w.
+
+use crate::engine::base::Base;
+use crate::engine::base::storey::{Sense, Storey};
+use crate::engine::flight::advancement::{BoundedModes, Closing, Ends, Growth, MARGIN, Seen, TRIED, bound_one};
+use crate::engine::flight::certificate::start_of;
+use crate::engine::system::System;
+use crate::engine::yielding::storey::YieldingStorey;
+use crate::structure::Structure;
+
+/// Coefficients of the bounds on storeys; constant during a run.
+#[derive(Debug)]
+pub struct ElasticBounds {
+    /// For each mode, the largest |row| / (w yield drift) of all storeys of its building: what the amplitude of the mode is
+    /// multiplied by in a bound on drift over yield drift.
+    reach: Vec<f64>,
+    /// Increase of that bound per unit of cumulative absolute velocity, 1 m/s.
+    shaken: f64,
+    /// For each storey, the increase of its bounds.
+    pub growth: Vec<Growth>,
+}
+
+impl ElasticBounds {
+    /// For some storeys, the increases of whose bounds are known; `shaken` is |participation| of each mode.
+    pub fn of(structure: &Structure, storeys: &[YieldingStorey], shaken: &[f64], growth: Vec<Growth>) -> ElasticBounds {
+        let mut reach = vec![0.0_f64; structure.lanes];
+        for storey in storeys {
+            for m in structure.range(storey.side) {
+                reach[m] = reach[m].max(storey.row[m].abs() / (structure.omega2[m].sqrt() * storey.limit));
+            }
+        }
+        let shaken = reach.iter().zip(shaken).map(|(reach, shaken)| reach * shaken).sum();
+        ElasticBounds { reach, shaken, growth }
+    }
+
+    /// The largest of the tested numbers of segments for which all storeys stay elastic; 0 if they do for none.
+    pub fn longest(
+        &self,
+        (modes, system): (&[BoundedModes], &System),
+        base: &Base,
+        (amplitude, size): (&[f64], f64),
+        ends: &[Ends; TRIED.len()],
+    ) -> u64 {
+        let together = self.longest_together(system, base, amplitude, ends);
+        if together > 0 {
+            return together;
+        }
+        let mut least = u64::MAX;
+        for ((of, storey), growth) in system.storeys.iter().zip(&base.storeys).zip(&self.growth) {
+            let Seen { bounds: sums, pull, moved, rate } = bound_one(modes, base, &of.row, amplitude);
+            for sense in Sense::BOTH {
+                let (start, sign) = (start_of(of, storey, sense, moved), sense.sign());
+                let closing = Closing {
+                    start: start + MARGIN * (of.limit + size),
+                    rate: sign * rate,
+                    pull: sign * pull + MARGIN * sums.change,
+                    sums,
+                    growth,
+                };
+                least = least.min(closing.longest(ends));
+            }
+            if least == 0 {
+                break;
+            }
+        }
+        least
+    }
+
+    /// The same by the amplitudes of all modes together.
+    fn longest_together(&self, system: &System, base: &Base, amplitude: &[f64], ends: &[Ends; TRIED.len()]) -> u64 {
+        let used = |(of, storey): (&YieldingStorey, &Storey)| (of.ratio * storey.plastic).abs() / of.limit;
+        let most_used = system.storeys.iter().zip(&base.storeys).map(used).fold(0.0, f64::max);
+        let swing: f64 = self.reach.iter().zip(amplitude).map(|(reach, amplitude)| reach * amplitude).sum();
+        let mut free = 0;
+        for (segments, ends) in TRIED.iter().zip(ends) {
+            for (segments, cumulative) in segments.iter().zip(&ends.cumulative) {
+                // Written so that a NaN never counts as elastic.
+                if (1.0 + MARGIN) * (swing + self.shaken * cumulative) + most_used < 1.0 {
+                    free = *segments;
+                }
+            }
+        }
+        free
+    }
+}

@@ -1,0 +1,116 @@
+//! The storeys that can yield at an observed time.
+
+use crate::engine::base::storey::{Sense, Storey};
+use crate::engine::model::Model;
+use crate::engine::output::point::Point;
+use crate::engine::output::point_rates::{PEAK_ROUNDING, PointRates, Rates};
+use crate::engine::state::State;
+use crate::engine::watched::rows::PeakOf;
+use crate::engine::yielding::storey::YieldingStorey;
+use crate::structure::Side;
+
+/// A quantity of a storey that can yield.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum YieldingOf {
+    /// Storey shear, N, without damping.
+    Shear,
+    /// Plastic drift, m.
+    PlasticDrift,
+    /// Drift at which the storey would come to rest, m: plastic drift times 1 - post-yield ratio.
+    ResidualDrift,
+    /// Largest drift so far over the yield drift.
+    Ductility,
+    /// Energy dissipated by yielding so far, J.
+    HystereticEnergy,
+    /// Sum of the magnitudes of all changes of the plastic drift so far, m.
+    CumulativePlasticDrift,
+}
+
+impl Model {
+    /// A quantity of a storey, counted from 0; 0 where it cannot yield. `state` has to be the one that `point` was observed
+    /// from.
+    pub fn of_yielding(&self, state: &State, point: &Point, of: YieldingOf, place: (Side, usize)) -> f64 {
+        let Some((storey, now)) = self.yielding_storey(point, place) else { return 0.0 };
+        match of {
+            YieldingOf::Shear => storey.shear(now, storey.drift(point.coordinates, &point.q)),
+            YieldingOf::PlasticDrift => now.plastic,
+            YieldingOf::ResidualDrift => storey.kept() * now.plastic,
+            YieldingOf::Ductility => storey.ductility(now, self.peak(state, point, PeakOf::Drift(place.0, place.1))),
+            YieldingOf::HystereticEnergy => storey.hysteretic_energy(now),
+            YieldingOf::CumulativePlasticDrift => now.cumulative,
+        }
+    }
+
+    /// The sense in which a storey yields, 1 or -1; 0 while it is elastic.
+    pub fn yielding(&self, point: &Point, place: (Side, usize)) -> i32 {
+        match self.yielding_storey(point, place).and_then(|(_, now)| now.yields) {
+            Some(Sense::Positive) => 1,
+            Some(Sense::Negative) => -1,
+            None => 0,
+        }
+    }
+
+    /// Rates of a quantity of a storey: 0 where it cannot yield.
+    pub fn yielding_rates(&self, point: &Point, rates: &PointRates, of: YieldingOf, place: (Side, usize)) -> Rates {
+        let Some((storey, now)) = self.yielding_storey(point, place) else { return [0.0; 2] };
+        let drift = [&point.v, &rates.acceleration].map(|motion| storey.drift(point.coordinates, motion));
+        let flow = now.yields.map_or(0.0, Sense::sign);
+        let factor = match of {
+            YieldingOf::Shear => {
+                if now.yields.is_some() {
+                    storey.ratio * storey.stiffness
+                } else {
+                    storey.stiffness
+                }
+            }
+            YieldingOf::PlasticDrift => flow.abs(),
+            YieldingOf::ResidualDrift => flow.abs() * storey.kept(),
+            YieldingOf::HystereticEnergy => flow * storey.kept() * storey.force,
+            YieldingOf::CumulativePlasticDrift => flow,
+            // While the storey has not yielded it is a share of its peak drift.
+            YieldingOf::Ductility if now.furthest == 0.0 => return [0.0; 2],
+            YieldingOf::Ductility => {
+                if is_furthest(now) {
+                    flow / storey.limit
+                } else {
+                    0.0
+                }
+            }
+        };
+        drift.map(|rate| factor * rate)
+    }
+
+    /// Yield drift of a storey that can yield and has not, m.
+    pub fn unused_yield_drift(&self, point: &Point, place: (Side, usize)) -> Option<f64> {
+        let (storey, now) = self.yielding_storey(point, place)?;
+        (now.furthest == 0.0).then_some(storey.limit)
+    }
+
+    /// The largest shear so far of a storey that has yielded, N, and its rates.
+    pub(in crate::engine) fn yielded_shear(&self, point: &Point, place: (Side, usize)) -> Option<f64> {
+        let (storey, now) = self.yielding_storey(point, place)?;
+        (now.furthest > 0.0).then(|| storey.peak_shear(now))
+    }
+
+    /// Rates of the largest shear so far of a storey that has yielded, N/s and N/s2.
+    pub fn yielded_shear_rates(&self, point: &Point, rates: &PointRates, place: (Side, usize)) -> Option<Rates> {
+        let (storey, now) = self.yielding_storey(point, place).filter(|(_, now)| now.furthest > 0.0)?;
+        let sign = now.yields.filter(|_| is_furthest(now)).map_or(0.0, Sense::sign);
+        let rate = |motion: &[f64]| sign * storey.ratio * storey.stiffness * storey.drift(point.coordinates, motion);
+        Some([rate(&point.v), rate(&rates.acceleration)])
+    }
+
+    fn yielding_storey<'a>(
+        &'a self,
+        point: &'a Point,
+        place: (Side, usize),
+    ) -> Option<(&'a YieldingStorey, &'a Storey)> {
+        let i = self.system.number_of_storey(place)?;
+        Some((&self.system.storeys[i], point.storeys.get(i)?))
+    }
+}
+
+/// Whether a storey that yields has never been further.
+fn is_furthest(now: &Storey) -> bool {
+    now.yields.is_some_and(|sense| sense.sign() * now.plastic >= (1.0 - PEAK_ROUNDING) * now.furthest)
+}

@@ -1,0 +1,64 @@
+//! The position in which the buildings would come to rest: plastic drifts move it, and all motion is relative to it.
+
+use crate::engine::base::storey::Storey;
+use crate::engine::base::{Coordinates, Rest};
+use crate::engine::system::System;
+use crate::structure::Side;
+
+impl System {
+    /// The position of rest of some storeys.
+    pub fn rest_of(&self, storeys: &[Storey]) -> Rest {
+        let mut rest = Rest::default();
+        self.set_rest(storeys, &mut rest);
+        rest
+    }
+
+    /// Sets a position of rest to that of some storeys, in the same order of sums whatever it was.
+    pub fn set_rest(&self, storeys: &[Storey], rest: &mut Rest) {
+        // A position of rest that has been read from bytes has no numbers yet.
+        rest.floors.resize(self.structure.lanes, 0.0);
+        rest.gaps.resize(self.pairs.len(), 0.0);
+        self.set_rest_of_floors(storeys, &mut rest.floors);
+        for (gap, pair) in rest.gaps.iter_mut().zip(&self.pairs) {
+            *gap = pair.gap_at(&rest.floors);
+        }
+    }
+
+    /// Sets the displacements of all floors at rest, m.
+    pub fn set_rest_of_floors(&self, storeys: &[Storey], floors: &mut [f64]) {
+        floors.fill(0.0);
+        for (of, storey) in self.storeys.iter().zip(storeys) {
+            of.lift(Coordinates::Floors, of.kept() * storey.plastic, floors);
+        }
+    }
+
+    /// Adds to accelerations by stiffness (or their rates) what storeys that yield do not resist with, for displacements (or
+    /// velocities) since they began to.
+    pub fn yield_to(&self, coordinates: Coordinates, storeys: &[Storey], motion: &[f64], accelerations: &mut [f64]) {
+        for (of, _) in self.storeys.iter().zip(storeys).filter(|(_, storey)| storey.yields.is_some()) {
+            of.push_apart(coordinates, of.lost * of.drift(coordinates, motion), accelerations);
+        }
+    }
+
+    /// The same for the base shear of a building, N.
+    pub fn yielded_base_shear(&self, coordinates: Coordinates, storeys: &[Storey], side: Side, motion: &[f64]) -> f64 {
+        let lowest = self.storeys.iter().zip(storeys).find(|(of, _)| of.side == side && of.storey == 0);
+        let yielding = lowest.filter(|(_, storey)| storey.yields.is_some());
+        yielding.map_or(0.0, |(of, _)| of.lost * of.drift(coordinates, motion))
+    }
+
+    /// The number of a storey of a building, counted from 0, among those that can yield.
+    pub fn number_of_storey(&self, (side, storey): (Side, usize)) -> Option<usize> {
+        self.storeys.binary_search_by_key(&(side as usize, storey), |of| (of.side as usize, of.storey)).ok()
+    }
+
+    /// What the strain energy exceeds that of the motion relative to the position of rest by, J.
+    pub fn locked_energy(&self, storeys: &[Storey]) -> f64 {
+        self.storeys.iter().zip(storeys).map(|(of, storey)| of.locked_energy(storey)).sum()
+    }
+
+    /// Energy dissipated by all storeys that have yielded, J.
+    pub fn hysteretic_energy(&self, storeys: &[Storey]) -> f64 {
+        self.storeys.iter().zip(storeys).map(|(of, storey)| of.hysteretic_energy(storey)).sum()
+    }
+}

@@ -1,0 +1,49 @@
+//! The first instant at which an elastic storey yields, by a power series of the motion.
+
+use crate::engine::base::Base;
+use crate::engine::base::planned::Event;
+use crate::engine::base::storey::Sense;
+use crate::engine::system::System;
+use crate::numerics::polynomial::{Coefficients, MAX_TERMS};
+use crate::numerics::roots;
+use crate::numerics::substitution::Substitution;
+use crate::structure::MotionSeries;
+
+/// A series of the motion with the factors of its terms, the substitution of its time map, and whether it begins at the base.
+pub type Expanded<'a> = ((&'a MotionSeries, &'a Coefficients), Option<&'a Substitution>, bool);
+
+impl System {
+    /// The first yield of storey `i` in a series, before the first event known so far or x = `end`, as (x, event).
+    ///
+    /// `factors` are those of the terms at the end, for their rounding errors; `is_start` says whether the series begins at
+    /// the base: there a storey whose drift has just turned is exactly at its limit, with the rate 0.
+    pub fn first_yield(
+        &self,
+        base: &Base,
+        i: usize,
+        ((series, factors), substitution, is_start): Expanded,
+        first: Option<(f64, Event)>,
+        end: f64,
+    ) -> Option<(f64, Event)> {
+        let (of, storey) = (&self.storeys[i], &base.storeys[i]);
+        let mut drift = [0.0; MAX_TERMS];
+        let noise = of.noise(storey, of.project(base.coordinates, series, factors, &mut drift));
+        let count = series.order + 1;
+        let mut found = None;
+        for sense in Sense::BOTH {
+            let mut terms = drift.map(|term| sense.sign() * term);
+            terms[0] = of.excess(storey, sense, drift[0]).min(0.0);
+            if is_start && storey.turned == Some(sense) {
+                (terms[0], terms[1]) = (0.0, 0.0);
+            }
+            if let Some(substitution) = substitution.filter(|_| series.time_map.is_curved()) {
+                substitution.apply_to_one(&mut terms[..count]);
+            }
+            let until = found.or(first).map_or(end, |(x, _)| x);
+            found = roots::first_upcrossing(&mut terms[..count], until, noise)
+                .map(|x| (x, Event::Yield(i, sense)))
+                .or(found);
+        }
+        found
+    }
+}

@@ -1,0 +1,215 @@
+//! A storey that can yield: its limits, and its row of weights over the floors; constant during a run.
+
+use crate::engine::base::Coordinates;
+use crate::engine::base::storey::{Sense, Storey};
+use crate::numerics::polynomial::Coefficients;
+use crate::scene::Scene;
+use crate::structure::{MotionSeries, Side, Structure, difference, dot};
+use std::ops::Range;
+
+/// A storey with a finite yield force.
+#[derive(Clone, Debug)]
+pub struct YieldingStorey {
+    pub side: Side,
+    /// Counted from 0.
+    pub storey: usize,
+    /// Initial stiffness, N/m.
+    pub stiffness: f64,
+    /// Yield force V_y, N.
+    pub force: f64,
+    /// Post-yield ratio r.
+    pub ratio: f64,
+    /// Yield drift V_y / k, m.
+    pub limit: f64,
+    /// Stiffness that yielding takes away, (1 - r) k, N/m.
+    pub lost: f64,
+    /// The drift as a row over the modes, kg^-1/2.
+    pub row: Vec<f64>,
+    /// The lanes of the floor above it and, unless the ground is, of the floor below it.
+    pub floors: (usize, Option<usize>),
+    /// Their accelerations per unit of a force that pushes them apart, 1/kg.
+    push: (f64, f64),
+    /// Modal displacements of a building whose floors above the storey have moved by 1 m.
+    lift: Vec<f64>,
+    /// The lanes of these floors.
+    lifted: Range<usize>,
+}
+
+impl YieldingStorey {
+    /// All storeys of a scene that can yield, those of the left building first, from the bottom.
+    pub fn all(scene: &Scene, structure: &Structure) -> Vec<YieldingStorey> {
+        let of = |side: Side| {
+            let storeys = 0..scene.building(side).mass.len();
+            storeys.filter_map(move |storey| YieldingStorey::of(scene, structure, (side, storey)))
+        };
+        [Side::Left, Side::Right].into_iter().flat_map(of).collect()
+    }
+
+    fn of(scene: &Scene, structure: &Structure, (side, storey): (Side, usize)) -> Option<YieldingStorey> {
+        let building = scene.building(side);
+        let (force, ratio) = building.yielding_storey(storey)?;
+        let stiffness = building.stiffness.of_storey(storey)?;
+        let lane = |floor: usize| structure.floors.lane(side as usize, floor);
+        let mut row = vec![0.0; structure.lanes];
+        structure.add_floor_force(side, storey, 1.0, &mut row);
+        let below = storey.checked_sub(1);
+        below.iter().for_each(|&floor| structure.add_floor_force(side, floor, -1.0, &mut row));
+        let lifted_floors: Vec<f64> = (0..building.mass.len()).map(|f| f64::from(u8::from(f >= storey))).collect();
+        let mut lift = vec![0.0; structure.lanes];
+        structure.to_modal(side, &building.mass, &lifted_floors, &mut lift);
+        Some(YieldingStorey {
+            side,
+            storey,
+            stiffness,
+            force,
+            ratio,
+            limit: force / stiffness,
+            lost: (1.0 - ratio) * stiffness,
+            row,
+            floors: (lane(storey), below.map(lane)),
+            push: (1.0 / building.mass[storey], below.map_or(0.0, |floor| -1.0 / building.mass[floor])),
+            lift,
+            lifted: lane(storey)..lane(building.mass.len() - 1) + 1,
+        })
+    }
+
+    /// The storey at the start of a run: beyond its yield drift it has been pushed there slowly.
+    pub fn at_start(&self, scene: &Scene) -> Storey {
+        let building = scene.building(self.side);
+        let of = |floors: &[f64]| floors[self.storey] - self.storey.checked_sub(1).map_or(0.0, |below| floors[below]);
+        let (drift, rate) = (of(&building.initial_displacement), of(&building.initial_velocity));
+        if drift.abs() < self.limit {
+            return Storey::default();
+        }
+        let sense = if drift > 0.0 { Sense::Positive } else { Sense::Negative };
+        let plastic = drift - sense.sign() * self.limit;
+        let turned = (rate == 0.0).then_some(sense);
+        Storey { turned, plastic, furthest: plastic.abs(), ..Storey::default() }
+    }
+
+    /// Drift, or its rate, in a motion.
+    #[inline(always)]
+    pub fn drift(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
+        match coordinates {
+            Coordinates::Modes => dot(&self.row, motion),
+            Coordinates::Floors => motion[self.floors.0] - self.floors.1.map_or(0.0, |below| motion[below]),
+        }
+    }
+
+    /// Writes the series of the drift; returns the sum of the magnitudes of all that was added up, each term times its
+    /// factor, m.
+    pub fn project(
+        &self,
+        coordinates: Coordinates,
+        series: &MotionSeries,
+        factors: &[f64],
+        out: &mut Coefficients,
+    ) -> f64 {
+        if coordinates == Coordinates::Modes {
+            return series.project(&self.row, factors, out);
+        }
+        let mut sum = 0.0;
+        for (n, (out, factor)) in out.iter_mut().zip(factors).enumerate().take(series.order + 1) {
+            let term = series.term(n);
+            let (above, below) = (term[self.floors.0], self.floors.1.map_or(0.0, |below| term[below]));
+            *out = above - below;
+            sum += (above.abs() + below.abs()) * factor.abs();
+        }
+        sum
+    }
+
+    /// Sum of the magnitudes that a drift is made of, from those of the motion.
+    pub fn size(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
+        match coordinates {
+            Coordinates::Modes => difference(&self.row, motion).1,
+            Coordinates::Floors => motion[self.floors.0].abs() + self.floors.1.map_or(0.0, |below| motion[below].abs()),
+        }
+    }
+
+    /// Adds to accelerations those by a force, N, that pushes its floors apart.
+    #[inline(always)]
+    pub fn push_apart(&self, coordinates: Coordinates, force: f64, acceleration: &mut [f64]) {
+        match coordinates {
+            Coordinates::Modes => {
+                acceleration.iter_mut().zip(&self.row).for_each(|(acceleration, row)| *acceleration += row * force);
+            }
+            Coordinates::Floors => {
+                acceleration[self.floors.0] += self.push.0 * force;
+                self.floors.1.iter().for_each(|&below| acceleration[below] += self.push.1 * force);
+            }
+        }
+    }
+
+    /// Moves all floors above the storey, m.
+    pub fn lift(&self, coordinates: Coordinates, by: f64, displacements: &mut [f64]) {
+        match coordinates {
+            Coordinates::Modes => {
+                displacements.iter_mut().zip(&self.lift).for_each(|(displacement, lift)| *displacement += lift * by);
+            }
+            Coordinates::Floors => displacements[self.lifted.clone()].iter_mut().for_each(|floor| *floor += by),
+        }
+    }
+
+    /// Minus the acceleration of its drift by that of the ground.
+    pub fn share_of_ground(&self) -> f64 {
+        if self.floors.1.is_none() { 1.0 } else { 0.0 }
+    }
+
+    /// Makes displacements relative to the position of rest relative to that after the plastic drift has changed.
+    pub fn move_rest(&self, coordinates: Coordinates, (from, to): (&Storey, &Storey), displacements: &mut [f64]) {
+        let change = to.plastic - from.plastic;
+        if change != 0.0 {
+            self.lift(coordinates, -self.kept() * change, displacements);
+        }
+    }
+
+    /// The share of a plastic drift that the storey keeps when no force acts on it, 1 - r.
+    pub fn kept(&self) -> f64 {
+        1.0 - self.ratio
+    }
+
+    /// How far beyond the limit of one sense the storey is with a drift x relative to the position of rest, m: below 0
+    /// while it is elastic.
+    #[inline(always)]
+    pub fn excess(&self, storey: &Storey, sense: Sense, x: f64) -> f64 {
+        sense.sign() * (x - self.ratio * storey.plastic) - self.limit
+    }
+
+    /// Rounding error, m, of that excess, from the `size` of all that the drift is made of.
+    pub fn noise(&self, storey: &Storey, size: f64) -> f64 {
+        2.0 * f64::EPSILON * (size + self.limit + (self.ratio * storey.plastic).abs())
+    }
+
+    /// Storey shear, N, with a drift x relative to the position of rest; while it yields, exactly on its yield line.
+    pub fn shear(&self, storey: &Storey, x: f64) -> f64 {
+        match storey.yields {
+            Some(sense) => sense.sign() * self.force + self.stiffness * (self.ratio * storey.plastic),
+            None => self.stiffness * x,
+        }
+    }
+
+    /// The largest shear so far of a storey that has yielded, N: it has been largest where the plastic drift was.
+    pub fn peak_shear(&self, storey: &Storey) -> f64 {
+        self.force + self.ratio * self.stiffness * storey.furthest
+    }
+
+    /// The largest drift so far over the yield drift, from the largest drift that has been watched: once the storey has
+    /// yielded its drift has been largest where the plastic drift was.
+    pub fn ductility(&self, storey: &Storey, peak_drift: f64) -> f64 {
+        match storey.furthest > 0.0 {
+            true => (self.limit + storey.furthest) / self.limit,
+            false => peak_drift / self.limit,
+        }
+    }
+
+    /// Energy dissipated by yielding so far, J: (1 - r) V_y times the sum of all plastic steps, exactly.
+    pub fn hysteretic_energy(&self, storey: &Storey) -> f64 {
+        self.kept() * self.force * storey.cumulative
+    }
+
+    /// What the elastic energy exceeds that of the drift relative to the position of rest by, J: with x = z + r p, r k d^2/2
+    /// + (1 - r) k z^2/2 - k x^2/2.
+    pub fn locked_energy(&self, storey: &Storey) -> f64 {
+        0.5 * self.ratio * self.lost * (storey.plastic * storey.plastic)
+    }
+}
