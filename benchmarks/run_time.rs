@@ -103,6 +103,7 @@ fn run_times(scene: &Path, way: Way, tolerance: f64, repeats: usize, output: &Pa
     println!("narrow_phase_pieces={}", counters.narrow_phase_pieces);
     println!("pairs_evaluated={}", counters.pairs_evaluated);
     println!("contact_steps={}", counters.contact_steps);
+    println!("yielding_steps={}", counters.yielding_steps);
     println!("events={}", counters.events);
     let bytes: Vec<u8> = readings.iter().flat_map(|value| value.to_ne_bytes()).collect();
     std::fs::write(output, bytes)?;

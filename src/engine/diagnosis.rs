@@ -19,8 +19,9 @@ impl Model {
         // A sum is finite only if all of its terms are.
         let contacts: f64 =
             base.contacts.iter().map(|contact| contact.impulse + contact.work + contact.peak_force).sum();
+        let yielded: f64 = base.storeys.iter().map(|storey| storey.cumulative).sum();
         let account = base.energy.map_or(0.0, |account| account.largest);
-        if (lanes_sum(&base.q) + lanes_sum(&base.v) + contacts + account).is_finite() {
+        if (lanes_sum(&base.q) + lanes_sum(&base.v) + contacts + yielded + account).is_finite() {
             return Ok(());
         }
         Err(self.overflow(base))
@@ -101,24 +102,26 @@ impl Model {
         let (counters, before, base) = (&state.counters, &progress.before, &state.base);
         let time = base.time();
         let in_contact = counters.contact_steps - before.contact_steps;
-        let steps = in_contact + counters.flight_steps - before.flight_steps;
+        let yielding = counters.yielding_steps - before.yielding_steps;
+        let steps = in_contact + yielding + counters.flight_steps - before.flight_steps;
         let (impacts, start) = (base.impacts - progress.impacts_before, progress.start);
         let looked = counters.narrow_phase_pieces - before.narrow_phase_pieces;
         let remedy = match () {
             _ if counters.energy_steps - before.energy_steps > 16 * steps => {
                 format!("the energy account takes the most of it: leave outputs.energy out; {}", self.quick())
             }
-            _ if self.is_outside_record(base) && in_contact + looked < steps / 16 => {
+            _ if self.is_outside_record(base) && in_contact + yielding + looked < steps / 16 => {
                 "run less far beyond the record, before and after which steps are as long as between its samples".into()
             }
             _ if impacts > steps / 16 => self.often(base, impacts),
             _ if in_contact > steps / 2 => self.stiff(base),
             _ => self.quick(),
         };
+        let while_yielding = if yielding > 0 { format!("{yielding} while a storey yields, ") } else { String::new() };
         EngineError {
             message: format!(
-                "{why}: given up at t = {time} s, after {steps} internal steps ({in_contact} in contact, {impacts} \
-                 impacts) since t = {start} s; {remedy}, or take smaller communication steps"
+                "{why}: given up at t = {time} s, after {steps} internal steps ({in_contact} in contact, \
+                 {while_yielding}{impacts} impacts) since t = {start} s; {remedy}, or take smaller communication steps"
             ),
         }
     }

@@ -1,5 +1,6 @@
 //! The model: the scene, prepared for the engine; constant during a run.
 
+use crate::engine::base::Base;
 use crate::engine::budget::{MOST_WORK, most_flights};
 use crate::engine::flight::Flight;
 use crate::engine::system::System;
@@ -9,7 +10,7 @@ use crate::engine::watched::storeys::Storeys;
 use crate::engine::window::kernels::Windows;
 use crate::record::Record;
 use crate::scene::{Scene, SceneError};
-use crate::structure::Side;
+use crate::structure::{LANES, Side};
 use std::f64::consts::PI;
 
 /// The scene, prepared for the engine; constant during a run.
@@ -47,6 +48,15 @@ impl Model {
             most_flights: most_flights(structure, system.pairs.len(), MOST_WORK),
             system,
         })
+    }
+
+    /// Sets the position of rest to that of the storeys.
+    pub(in crate::engine) fn set_rest(&self, base: &mut Base) {
+        self.system.set_rest(&base.storeys, &mut base.rest);
+        base.rest.watched.resize(self.peak_rows.blocks() * LANES, 0.0);
+        if !base.storeys.is_empty() {
+            self.peak_rows.set_at_rest(&self.system.structure, &base.rest.floors, &mut base.rest.watched);
+        }
     }
 
     /// Number of floors of a building.

@@ -74,7 +74,7 @@ impl Model {
         let SavedState { time, base, is_planned, inputs, counters } = saved;
         state.time = *time;
         state.base.clone_from(base);
-        self.system.set_rest(&base.storeys, &mut state.base.rest);
+        self.set_rest(&mut state.base);
         state.inputs.clone_from(inputs);
         state.work.peaks.forget();
         state.step.kind = StepKind::NotPlanned;

@@ -126,6 +126,7 @@ impl Model {
             counters: Counters::default(),
             work: Workspace::new(self),
         };
+        self.set_rest(&mut state.base);
         self.system.open_account(&mut state.base);
         state
     }

@@ -181,6 +181,14 @@ impl Structure {
         }
     }
 
+    /// Bounds on the vector of all floors from bounds on the magnitudes of a modal one.
+    pub fn bound_floors(&self, modal: &[f64], floors: &mut [f64]) {
+        floors.fill(0.0);
+        for matrix in &self.to_floors {
+            matrix.add_sizes(modal, floors.as_chunks_mut::<LANES>().0);
+        }
+    }
+
     /// The modal vector from one of all floors: shape' M u.
     pub fn to_modes(&self, floors: &[f64], modal: &mut [f64]) {
         modal.fill(0.0);

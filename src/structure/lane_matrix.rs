@@ -37,6 +37,17 @@ impl LaneMatrix {
         self.entries.get(start..start + self.columns)
     }
 
+    /// `out` += the magnitudes of the matrix * `vector`.
+    pub fn add_sizes(&self, vector: &[f64], out: &mut [Lane]) {
+        for (rows, out) in self.entries.chunks_exact(self.columns.max(1)).zip(&mut out[self.target..]) {
+            for (row, value) in rows.iter().zip(&vector[self.source..]) {
+                for i in 0..LANES {
+                    out[i] += row[i].abs() * value;
+                }
+            }
+        }
+    }
+
     /// `out` += matrix * `vector`.
     pub fn add(&self, vector: &[f64], out: &mut [Lane]) {
         add_all(self, vector, out);
@@ -46,7 +57,7 @@ impl LaneMatrix {
 /// See [`LaneMatrix::add`].
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn add_all(matrix: &LaneMatrix, vector: &[f64], out: &mut [Lane]) {
-    for (rows, out) in matrix.entries.chunks_exact(matrix.columns).zip(&mut out[matrix.target..]) {
+    for (rows, out) in matrix.entries.chunks_exact(matrix.columns.max(1)).zip(&mut out[matrix.target..]) {
         add_products(rows, &[vector], matrix.source, std::array::from_mut(out));
     }
 }

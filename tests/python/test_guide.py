@@ -29,6 +29,12 @@ def test_the_gaps_are_those_that_the_guide_quotes(offices):
     assert f"```text\n{printed}```" in GUIDE
 
 
+def test_what_yielding_does_is_what_the_guide_quotes():
+    program, scene = (harness.ROOT / "examples" / name for name in ("elastic_or_yielding.py", "scenes/yielding.toml"))
+    printed = subprocess.run([sys.executable, program, scene], capture_output=True, text=True, check=True).stdout
+    assert f"```text\n{printed}```" in GUIDE
+
+
 def test_the_gaps_of_one_building_between_walls(build):
     fmu = build(example_scene("isolated"))
     command = [sys.executable, harness.ROOT / "examples/choose_gap.py", fmu.path]

@@ -1,5 +1,5 @@
 """Checks the reference solver itself against closed forms: free impacts of two masses, of a mass with columns and with
-a wall, stereomechanical contact of two oscillators, impacts of three masses at once.
+a wall, stereomechanical contact of two oscillators, impacts of three masses at once, storeys that yield.
 
     python3 tests/reference/closed_forms.py
 
@@ -10,6 +10,9 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+from decimal import Decimal
+
+import yielding_forms
 
 HERE = pathlib.Path(__file__).parent
 M1, M2, K, V = 50000.0, 75000.0, 3.0e7, 0.5
@@ -154,14 +157,40 @@ def held_by_columns():
     )
 
 
-def episodes(program, folder, scene):
+def run(program, folder, scene):
+    scene, _, record = scene.partition("---\n")
+    (folder / "record.csv").write_text(record)
+    scene = "output_step 1\n" + scene.replace("RECORD", str(folder / "record.csv"))
     subprocess.run([program, "-", folder / "case"], input=scene, text=True, check=True, stdout=subprocess.DEVNULL)
-    lines = [line for line in (folder / "case.impacts.csv").read_text().splitlines() if not line.startswith("#")]
-    return [dict(zip(lines[0].split(","), (float(x or "nan") for x in line.split(",")))) for line in lines[1:]]
+
+
+def table(folder, name):
+    """The rows of a file, as text by column."""
+    lines = [line for line in (folder / f"case.{name}.csv").read_text().splitlines() if not line.startswith("#")]
+    return [dict(zip(lines[0].split(","), line.split(","))) for line in lines[1:]]
+
+
+def episodes(program, folder, scene):
+    run(program, folder, scene)
+    return [{key: float(x or "nan") for key, x in row.items()} for row in table(folder, "impacts")]
+
+
+def from_tables(program, folder, scene, checks):
+    """(scene, quantity, expected, tolerance, values by quantity) for checks of yielding_forms."""
+    run(program, folder, scene)
+    tables = {name: table(folder, name) for name in ("displacements", "impacts", "storeys", "yields")}
+    for name, at, column, expected, tolerance in checks:
+        if column == "rows":
+            found = len(tables[name])
+        elif isinstance(at, slice):
+            found = sum(Decimal(row[column]) for row in tables[name][at])
+        else:
+            found = float(tables[name][at][column])
+        yield scene, column, expected, tolerance, {column: found}
 
 
 def impact(program, folder, law):
-    scene = f"stop 2\noutput_step 1\nbuilding 1\nmass {M1}\nstiffness 0\nvelocity {V}\n"
+    scene = f"stop 2\nbuilding 1\nmass {M1}\nstiffness 0\nvelocity {V}\n"
     scene += f"building 1\nmass {M2}\nstiffness 0\ncontact 1 1 0.05 {law}\n"
     rows = episodes(program, folder, scene)
     if len(rows) != 1:
@@ -179,8 +208,10 @@ def main():
         checks = [(law, *case, impact(program, folder, law)) for law, *case in cases()]
         scenes = (pressed_pairs, impacts_of_rows, impacts_at_once, held_by_columns)
         for scene, expected in (case for some in scenes for case in some()):
-            rows = episodes(program, folder, "output_step 1\n" + scene)
+            rows = episodes(program, folder, scene)
             checks += [(scene, *case, rows[-1]) for case in expected]
+        for scene, expected in (case for family in yielding_forms.FAMILIES for case in family()):
+            checks += from_tables(program, folder, scene, expected)
         for law, quantity, expected, tolerance, row in checks:
             found = row[quantity]
             count += 1

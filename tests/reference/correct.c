@@ -10,6 +10,7 @@ typedef struct {
     double by_d[MAX_STAGES][MAX_CONTACTS], by_rate[MAX_STAGES][MAX_CONTACTS]; /* of the contact forces */
     double weight[MAX_CONTACTS][MAX_WEIGHTS], weight_over_m[MAX_CONTACTS][MAX_WEIGHTS];
     double held_inverse[MAX_CONTACTS][MAX_CONTACTS];
+    double relief[MAX_FLOORS]; /* of the stiffness of storeys that yield */
 } Jacobian;
 
 static void round_rows(const Solver *solver, Jacobian *jacobian)
@@ -25,6 +26,9 @@ static void round_rows(const Solver *solver, Jacobian *jacobian)
     for (int i = 0; i < phases->held; i++)
         for (int j = 0; j < phases->held; j++)
             jacobian->held_inverse[i][j] = (double)phases->held_inverse[i][j];
+    for (int s = 0; s < scene->storeys; s++)
+        jacobian->relief[s] =
+            phases->yielding[s] ? (double)((1 - scene->storey[s].ratio) * scene->storey[s].k) : 0;
 }
 
 static void differentiate(const Solver *solver, const Step *step, Jacobian *jacobian)
@@ -84,6 +88,20 @@ static void push_held(const Solver *solver, const Jacobian *jacobian, double *a)
     }
 }
 
+/* Storeys that yield have less stiffness. */
+static void relieve_storeys(const Solver *solver, const Jacobian *jacobian, const double *u, double *a)
+{
+    for (int s = 0; s < solver->scene->storeys; s++) {
+        int above = solver->scene->storey[s].above, below = solver->scene->storey[s].below;
+        if (jacobian->relief[s] == 0)
+            continue;
+        double force = jacobian->relief[s] * (u[above] - (below < 0 ? 0 : u[below]));
+        a[above] += force / (double)solver->scene->mass[above];
+        if (below >= 0)
+            a[below] -= force / (double)solver->scene->mass[below];
+    }
+}
+
 /* a = Jacobian at stage j times (u, v). */
 static void apply(const Solver *solver, const Jacobian *jacobian, int j, const double *u, const double *v, double *a)
 {
@@ -101,6 +119,7 @@ static void apply(const Solver *solver, const Jacobian *jacobian, int j, const d
             push(solver, jacobian, c,
                  by_d * row_times(solver, jacobian, c, u) + by_rate * row_times(solver, jacobian, c, v), a);
     }
+    relieve_storeys(solver, jacobian, u, a);
     push_held(solver, jacobian, a);
 }
 

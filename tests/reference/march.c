@@ -40,6 +40,7 @@ static void accept(Run *run)
 {
     Solver *solver = &run->solver;
     record_step(solver, &run->solution->episodes, &run->step, &run->scratch);
+    record_storeys(run, &run->step);
     add_energy(run, &run->step);
     run->now = *step_end(solver, &run->step);
     for (int c = 0; c < run->scene->contacts; c++) {
@@ -130,10 +131,11 @@ static void shorten(Run *run, real H)
 /* The clock for the step that ends with a release: the root of the law is at its end. */
 static Clock release_clock(const Run *run, Guard guard)
 {
-    const Law *law = &run->scene->contact[guard.contact].law;
-    Mode mode = run->solver.phases.mode[guard.contact];
-    int q = law->clock;
-    if (guard.quantity != PENETRATION || mode == OPEN || mode == CLIPPED || q == 1)
+    if (guard.quantity != PENETRATION)
+        return (Clock){PLAIN, 1};
+    Mode mode = run->solver.phases.mode[guard.of];
+    int q = run->scene->contact[guard.of].law.clock;
+    if (mode == OPEN || mode == CLIPPED || q == 1)
         return (Clock){PLAIN, 1};
     return (Clock){TO_RELEASE, mode == RESTORING ? 2 : q};
 }
@@ -148,7 +150,7 @@ static bool step_to_release(Run *run, Guard guard, real H)
 {
     Event event;
     bool fresh;
-    real limit = tail_limit(run, run->scene->contact[guard.contact].law.exact_clock);
+    real limit = tail_limit(run, run->scene->contact[guard.of].law.exact_clock);
     if (entry_clock(run, &fresh).q > 1 || !locate(&run->solver, &run->step, release_clock(run, guard), H, guard))
         return false;
     if (run->step.tail > limit || (find_event(run, limit, &event) && event.x < 1 - 1e-10Q))
@@ -158,13 +160,34 @@ static bool step_to_release(Run *run, Guard guard, real H)
     return true;
 }
 
+static void end_step_at(Run *run, Guard guard, real H)
+{
+    if (!locate(&run->solver, &run->step, run->step.clock, H, guard))
+        fail("event of %s %d not found at t = %.17g", guard.quantity < YIELD ? "contact" : "yielding storey",
+             guard.of + 1, (double)run->now.t);
+}
+
+/* The step ends where the drift of an elastic storey turns, close to its limit. Where that is beyond the limit by more
+   than rounding, the storey has yielded before: the step ends there instead. */
+static Guard check_limit(Run *run, Guard turn)
+{
+    Guard yields = {turn.of, YIELD, -turn.sign};
+    const Point *end = step_end(&run->solver, &run->step);
+    real beyond = guard_value(&run->solver, yields, end), slows = fabsq(end->drift_change[turn.of]);
+    if (beyond <= 1e-31Q * run->solver.u_scale)
+        return turn;
+    end_step_at(run, yields, run->step.H - sqrtq(2 * beyond / slows));
+    return yields;
+}
+
 static void step_to_event(Run *run, Event event)
 {
-    Clock clock = run->step.clock;
-    if (!locate(&run->solver, &run->step, clock, clock_time(clock, run->step.H, event.x), event.guard))
-        fail("event of contact %d not found at t = %.17g", event.guard.contact + 1, (double)run->now.t);
+    Guard guard = event.guard;
+    end_step_at(run, guard, clock_time(run->step.clock, run->step.H, event.near));
+    if (guard.quantity == TURN && !run->solver.phases.yielding[guard.of])
+        guard = check_limit(run, guard);
     accept(run);
-    fire(run, event.guard);
+    fire(run, guard);
 }
 
 /* ---- marching ---- */

@@ -1,4 +1,4 @@
-/* What happens to a contact at an event: entry, release, turn, clip, exchange of momentum. */
+/* What happens at an event: entry, release, turn, clip, exchange of momentum; storeys yield and unload. */
 #include "reference.h"
 
 /* A time in which the contact force turns the approach around, roughly. */
@@ -95,7 +95,7 @@ static void release(Run *run, int c)
 
 static void change_mode(Run *run, Guard guard)
 {
-    int c = guard.contact;
+    int c = guard.of;
     Mode mode = run->solver.phases.mode[c];
     switch (guard.quantity) {
     case PENETRATION:
@@ -113,23 +113,26 @@ static void change_mode(Run *run, Guard guard)
     case PUSH:
         set_mode(&run->solver, c, mode == PUSHING ? CLIPPED : PUSHING);
         break;
+    case YIELD:
+    case TURN:
+        switch_storey(run, guard);
+        break;
     }
     complete_point(&run->solver, &run->now);
 }
 
-/* A guard of another contact that is 0 at the same time. */
+/* A guard of another contact or storey that is 0 at the same time. */
 static bool simultaneous_guard(const Run *run, Guard *guard)
 {
-    for (int c = 0; c < run->scene->contacts; c++) {
-        Guard guards[2];
-        int count = contact_guards(&run->solver, c, guards);
-        for (int g = 0; g < count; g++) {
-            real least = 1e-30Q * guard_scale(&run->solver, guards[g]);
-            if (fabsq(guard_value(&run->solver, guards[g], &run->now)) <= least &&
-                guard_rate(&run->solver, guards[g], &run->now) > least) {
-                *guard = guards[g];
-                return true;
-            }
+    Guard guards[MAX_GUARDS];
+    int count = present_guards(&run->solver, guards);
+    for (int g = 0; g < count; g++) {
+        real least = 1e-30Q * guard_scale(&run->solver, guards[g]);
+        real slow = guards[g].quantity == YIELD ? resting_rate(&run->solver) : least;
+        if (fabsq(guard_value(&run->solver, guards[g], &run->now)) <= least &&
+            guard_rate(&run->solver, guards[g], &run->now) > slow) {
+            *guard = guards[g];
+            return true;
         }
     }
     return false;

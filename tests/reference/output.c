@@ -27,7 +27,8 @@ static void describe(FILE *file, const Solution *s)
 }
 
 /* proof: NULL without one. */
-static void write_header(FILE *file, const char *made_by, const Solution *best, const Proof *proof)
+static void write_header(FILE *file, const char *made_by, const Scene *scene, const Solution *best,
+                         const Proof *proof)
 {
     fprintf(file, "# made by: %s\n", made_by);
     describe(file, best);
@@ -36,17 +37,25 @@ static void write_header(FILE *file, const char *made_by, const Solution *best, 
         fprintf(file,
                 "# the two agree: displacements to %.1e of the largest, velocities to %.1e, impact times to %.1e s%s\n",
                 proof->u, proof->v, proof->time, proof->same_impacts ? "" : "; IMPACTS DIFFER");
+        if (scene->storeys)
+            fprintf(file, "# plastic drifts to %.1e of the largest, yields and turns to %.1e s%s\n", proof->plastic,
+                    proof->yield_time, proof->same_yields ? "" : "; YIELDS DIFFER");
         fprintf(file, "# sensitivity of the displacements to record and initial state: %.1e\n",
                 proof->sensitivity[best->rows - 1]);
     }
 }
 
+/* Of a floor or storey, by its place in the vector of all floors. */
+static void write_column(FILE *file, const Scene *scene, const char *quantity, int floor)
+{
+    bool left = floor < scene->left_floors;
+    fprintf(file, ",%s.%s[%d]", left ? "left" : "right", quantity, 1 + (left ? floor : floor - scene->left_floors));
+}
+
 static void write_columns(FILE *file, const Scene *scene, const char *quantity)
 {
-    for (int i = 0; i < scene->floors; i++) {
-        bool left = i < scene->left_floors;
-        fprintf(file, ",%s.%s[%d]", left ? "left" : "right", quantity, 1 + (left ? i : i - scene->left_floors));
-    }
+    for (int i = 0; i < scene->floors; i++)
+        write_column(file, scene, quantity, i);
 }
 
 static void write_displacements(FILE *file, const Scene *scene, const Solution *s, const Proof *proof)
@@ -54,8 +63,8 @@ static void write_displacements(FILE *file, const Scene *scene, const Solution *
     fprintf(file, "time");
     write_columns(file, scene, "displacement");
     write_columns(file, scene, "velocity");
-    fprintf(file, ",energy.input,energy.kinetic,energy.strain,energy.viscous,energy.impact%s\n",
-            proof ? ",sensitivity" : "");
+    fprintf(file, ",energy.input,energy.kinetic,energy.strain,energy.viscous,energy.impact%s%s\n",
+            scene->storeys ? ",energy.hysteretic" : "", proof ? ",sensitivity" : "");
     for (int r = 0; r < s->rows; r++) {
         const Row *row = &s->row[r];
         fprintf(file, "%.17g", (double)row->time);
@@ -68,6 +77,8 @@ static void write_displacements(FILE *file, const Scene *scene, const Solution *
         put(file, row->energy.strain);
         put(file, row->energy.viscous);
         put(file, row->energy.impact);
+        if (scene->storeys)
+            put(file, row->energy.hysteretic);
         if (proof)
             fprintf(file, ",%.2e", proof->sensitivity[r]);
         fprintf(file, "\n");
@@ -100,6 +111,46 @@ static void write_impacts(FILE *file, const Solution *s)
     }
 }
 
+static void write_storeys(FILE *file, const Scene *scene, const Solution *solution)
+{
+    static const char *const quantities[] = {"storey_shear", "plastic_drift", "cumulative_plastic_drift",
+                                             "hysteretic_energy", "ductility", "yielding"};
+    fprintf(file, "time");
+    for (int q = 0; q < 6; q++)
+        for (int s = 0; s < scene->storeys; s++)
+            write_column(file, scene, quantities[q], scene->storey[s].above);
+    fprintf(file, "\n");
+    for (const Row *row = solution->row; row < solution->row + solution->rows; row++) {
+        fprintf(file, "%.17g", (double)row->time);
+        for (int q = 0; q < 6; q++)
+            for (int s = 0; s < scene->storeys; s++) {
+                const Storey *storey = &scene->storey[s];
+                const StoreyRow *of = &row->storey[s];
+                real energy = (1 - storey->ratio) * storey->force * of->cumulative;
+                put(file, (real[]){of->shear, of->plastic, of->cumulative, energy, of->peak / storey->limit,
+                                   of->yielding}[q]);
+            }
+        fprintf(file, "\n");
+    }
+}
+
+static void write_yields(FILE *file, const Scene *scene, const Solution *solution)
+{
+    static const char *const kinds[] = {"yields -", "unloads", "yields +"};
+    fprintf(file, "building,storey,kind,time_s,drift_m,plastic_drift_m,drift_rate_m_s\n");
+    for (const Switch *at = solution->switched; at < solution->switched + solution->switches; at++) {
+        int floor = scene->storey[at->storey].above;
+        bool left = floor < scene->left_floors;
+        fprintf(file, "%s,%d,%s", left ? "left" : "right", 1 + (left ? floor : floor - scene->left_floors),
+                kinds[at->direction + 1]);
+        put(file, at->time);
+        put(file, at->drift);
+        put(file, at->plastic);
+        put(file, at->rate);
+        fprintf(file, "\n");
+    }
+}
+
 void print_run(const Solution *s)
 {
     printf("%d stages, tolerance %.0e: %d impacts, %ld steps, %ld rejected, %ld iterations, ", s->stages,
@@ -109,12 +160,20 @@ void print_run(const Solution *s)
 
 void write_files(const char *output, const char *made_by, const Scene *scene, const Solution *best, const Proof *proof)
 {
-    FILE *displacements = create(output, "displacements"), *impacts = create(output, "impacts");
-    write_header(displacements, made_by, best, proof);
-    write_displacements(displacements, scene, best, proof);
-    write_header(impacts, made_by, best, proof);
-    write_impacts(impacts, best);
-    bool written = !ferror(displacements) && !ferror(impacts);
-    if (fclose(displacements) || fclose(impacts) || !written)
-        fail("cannot write %s", output);
+    static const char *const kinds[] = {"displacements", "impacts", "storeys", "yields"};
+    for (int i = 0; i < (scene->storeys ? 4 : 2); i++) {
+        FILE *file = create(output, kinds[i]);
+        write_header(file, made_by, scene, best, proof);
+        if (i == 0)
+            write_displacements(file, scene, best, proof);
+        else if (i == 1)
+            write_impacts(file, best);
+        else if (i == 2)
+            write_storeys(file, scene, best);
+        else
+            write_yields(file, scene, best);
+        bool written = !ferror(file);
+        if (fclose(file) || !written)
+            fail("cannot write %s", output);
+    }
 }

@@ -40,6 +40,56 @@ static void compare(const Scene *scene, const Solution *best, Proof *proof)
     proof->time = (double)dt;
 }
 
+/* The largest difference of two rows' plastic drifts, or plastic drift of the first. */
+static real largest_plastic(const Scene *scene, const Row *a, const Row *b)
+{
+    real largest = 0;
+    for (int s = 0; s < scene->storeys; s++)
+        largest = fmaxq(largest, fabsq(a->storey[s].plastic - (b ? b->storey[s].plastic : 0)));
+    return largest;
+}
+
+/* The next switch of a storey from *at on; NULL: no more. Yields of no more than `least` are left out, with their ends:
+   there the limit is only just reached, which makes no difference to the motion. */
+static const Switch *next_switch(const Solution *s, int storey, real least, int *at)
+{
+    while (*at < s->switches) {
+        const Switch *found = &s->switched[(*at)++], *end = found;
+        if (found->storey != storey)
+            continue;
+        while (++end < s->switched + s->switches && end->storey != storey)
+            ;
+        bool lasts = end == s->switched + s->switches;
+        if (found->direction == 0 || lasts || fabsq(end->plastic - found->plastic) > least)
+            return found;
+        *at = end - s->switched + 1;
+    }
+    return NULL;
+}
+
+static void compare_storeys(const Scene *scene, const Solution *best, Proof *proof)
+{
+    const Solution *second = &proof->second;
+    real difference = 0, largest = 0, dt = 0;
+    for (int r = 0; r < best->rows; r++) {
+        difference = fmaxq(difference, largest_plastic(scene, &best->row[r], &second->row[r]));
+        largest = fmaxq(largest, largest_plastic(scene, &best->row[r], NULL));
+    }
+    proof->same_yields = true;
+    for (int s = 0; s < scene->storeys; s++)
+        for (int i = 0, j = 0;;) {
+            real least = 1e-18Q * largest_value(scene, best, false);
+            const Switch *x = next_switch(best, s, least, &i), *y = next_switch(second, s, least, &j);
+            if (!x || !y || x->direction != y->direction) {
+                proof->same_yields = proof->same_yields && !x && !y;
+                break;
+            }
+            dt = fmaxq(dt, fabsq(x->time - y->time));
+        }
+    proof->plastic = (double)(largest > 0 ? difference / largest : difference);
+    proof->yield_time = (double)dt;
+}
+
 /* 1 + part or 1 - part, always in the same order (linear congruential generator). */
 static real shaken(real part)
 {
@@ -77,6 +127,10 @@ void prove(const Scene *scene, const Solution *best, Proof *proof)
     compare(scene, best, proof);
     printf("agreement: displacements %.1e, velocities %.1e, impact times %.1e s, impacts %s\n", proof->u, proof->v,
            proof->time, proof->same_impacts ? "the same" : "DIFFERENT");
+    compare_storeys(scene, best, proof);
+    if (scene->storeys)
+        printf("agreement: plastic drifts %.1e, yields and turns %.1e s, %s\n", proof->plastic, proof->yield_time,
+               proof->same_yields ? "the same" : "DIFFERENT");
     find_sensitivity(scene, proof);
     printf("sensitivity: %.1e\n", proof->sensitivity[best->rows - 1]);
 }

@@ -4,7 +4,8 @@
  *   gcc -O2 -o reference *.c -lquadmath -lm        (in this folder)
  *   ./reference INPUT OUTPUT [--stages N] [--tolerance T] [--proof] [--made-by TEXT]
  *
- * Writes OUTPUT.displacements.csv (with velocities and energies) and OUTPUT.impacts.csv. INPUT "-" is standard input.
+ * Writes OUTPUT.displacements.csv (with velocities and energies) and OUTPUT.impacts.csv; where storeys can yield,
+ * OUTPUT.storeys.csv and OUTPUT.yields.csv as well. INPUT "-" is standard input.
  *
  * With --proof the scene is solved again with fewer stages and a looser tolerance; how far the two agree is printed and
  * written into the files. A third run, with every record sample and initial value changed by one part in 1e18, up or
@@ -13,7 +14,8 @@
  * digits can be expected to agree to 1e-12. TEXT goes into the first line of the files.
  *
  * Solved: M u'' + C u' + K u = -M 1 a(t) + contact forces, u relative to the ground, with dense K and C in physical
- * coordinates, by Gauss-Legendre collocation. See README.md for the method.
+ * coordinates, by Gauss-Legendre collocation. Plastic drifts p of storeys that yield add forces (1 - ratio) k p that
+ * drive their floors apart. See README.md for the method.
  *
  * Input: one statement a line, words separated by blanks, # begins a comment. Numbers are decimal, each becomes the
  * nearest double and is exact from there on. SI units. Floors count from 1 at the bottom.
@@ -27,6 +29,8 @@
  *     mass 3.65 3.65
  *     stiffness 2910 2910          per storey (shear building), or one line per row of the matrix:
  *     stiffness_row 5820 -2910
+ *     yield_force 40 inf           per storey, after stiffness; inf: stays elastic; optional. Then, optional:
+ *     post_yield_ratio 0.05 0      stiffness after yield over that before, per storey; else 0
  *     damping ratio 0.01           the same in every mode; after mass and stiffness
  *     damping ratios 0.01 0.02     per mode, lowest first
  *     damping rayleigh 0.05 1 2    ratio and two modes
@@ -94,5 +98,5 @@ int main(int count, char **word)
     if (options.proof)
         prove(&scene, &best, &proof);
     write_files(options.output, options.made_by, &scene, &best, options.proof ? &proof : NULL);
-    return options.proof && !proof.same_impacts;
+    return options.proof && !(proof.same_impacts && proof.same_yields);
 }

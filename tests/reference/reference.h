@@ -35,6 +35,13 @@ typedef struct {
     Law law;
 } Contact;
 
+/* A storey that can yield, bilinear with kinematic hardening: its shear is ratio k drift + (1 - ratio) k z, z being the
+   drift without the plastic drift, and |z| <= limit. */
+typedef struct {
+    int above, below; /* its floors in the vector of all floors; below is -1 on the ground */
+    real k, ratio, force, limit; /* limit = force / k */
+} Storey;
+
 typedef struct {
     int count;
     real *time, *acceleration; /* scaled */
@@ -46,6 +53,8 @@ typedef struct {
     real K[MAX_FLOORS][MAX_FLOORS], C[MAX_FLOORS][MAX_FLOORS];
     int contacts;
     Contact contact[MAX_CONTACTS];
+    int storeys; /* only those that can yield */
+    Storey storey[MAX_FLOORS];
     Record record;
     real min_approach_velocity;
     double output_step, stop;
@@ -67,6 +76,10 @@ real along(const Contact *contact, const real *floors);
 void push_apart(const Scene *scene, const Contact *contact, real force, real *floors);
 /* What a unit force of contact b takes from the relative acceleration of contact a. */
 real coupling(const Scene *scene, const Contact *a, const Contact *b);
+/* Drift of a storey from displacements, its rate from velocities, and so on. */
+real drift_of(const Storey *storey, const real *floors);
+/* What a force in a storey that drives its floors apart does to the accelerations of all floors. */
+void drive_storey(const Scene *scene, const Storey *storey, real force, real *floors);
 /* Solves a x = b for a symmetric positive definite a of order n, which is overwritten; x replaces b. */
 void solve_linear(int n, real a[MAX_CONTACTS][MAX_CONTACTS], real *b);
 
@@ -117,6 +130,8 @@ typedef struct {
     real t, ground;
     real u[MAX_FLOORS], v[MAX_FLOORS], a[MAX_FLOORS]; /* relative to the ground */
     real d[MAX_CONTACTS], rate[MAX_CONTACTS], rate_change[MAX_CONTACTS], force[MAX_CONTACTS];
+    real z[MAX_FLOORS], plastic[MAX_FLOORS]; /* of the storeys that can yield: elastic and plastic part of the drift */
+    real drift_rate[MAX_FLOORS], drift_change[MAX_FLOORS]; /* its first and second derivative */
 } Point;
 
 /* How time runs with x in [0, 1]: t = t0 + H x, H x^q, or H (1 - (1-x)^q). */
@@ -126,12 +141,13 @@ typedef struct {
     int q;
 } Clock;
 
-/* State of the contacts during one step. */
+/* State of the contacts and of the storeys that can yield during one step. */
 typedef struct {
     Mode mode[MAX_CONTACTS]; /* changed by set_mode */
     real V[MAX_CONTACTS]; /* divisor of the law: approach velocity, not below the floor; 0: no damping */
     int held, held_contact[MAX_CONTACTS]; /* those that are STUCK */
     real held_inverse[MAX_CONTACTS][MAX_CONTACTS]; /* of their couplings: reactions from relative accelerations */
+    int yielding[MAX_FLOORS]; /* of each storey: the direction of its drift (+1, -1) while it yields, 0 while elastic */
 } Phases;
 
 typedef struct {
@@ -178,28 +194,33 @@ static inline Point *step_end(const Solver *solver, Step *step) { return &step->
 /* Turns the residuals of the stages' accelerations into their Newton corrections; false where that fails. */
 bool correct_stages(const Solver *solver, const Step *step, real residual[MAX_STAGES][MAX_FLOORS]);
 
-/* ---- event.c: where a contact changes its mode ---- */
+/* ---- event.c: where a contact changes its mode, a storey its phase ---- */
 
-typedef enum { PENETRATION, RATE, PUSH, REACTION } Quantity;
+/* The last two are of a storey: sign z - limit, and its drift rate. */
+typedef enum { PENETRATION, RATE, PUSH, REACTION, YIELD, TURN } Quantity;
 
-/* The mode of a contact changes when `sign` times the quantity becomes positive. */
+/* Something changes when `sign` times the quantity becomes positive. */
 typedef struct {
-    int contact;
+    int of; /* contact or storey */
     Quantity quantity;
     int sign;
 } Guard;
 
+enum { MAX_GUARDS = 2 * (MAX_CONTACTS + MAX_FLOORS) };
+
 typedef struct {
     Guard guard;
-    real x; /* in the step in which it was found */
+    real x, near; /* in the step in which it was found: when it happens, and a first guess of the guard's root */
 } Event;
 
-/* The guards of a contact in its present mode; returns their number (at most 2). */
-int contact_guards(const Solver *solver, int contact, Guard guards[2]);
+/* The guards in the present modes and phases; returns their number. */
+int present_guards(const Solver *solver, Guard guards[MAX_GUARDS]);
 real guard_value(const Solver *solver, Guard guard, const Point *p); /* times sign */
 real guard_rate(const Solver *solver, Guard guard, const Point *p);  /* times sign */
 /* Size of the rounding errors of a guard is about 1e-34 times this. */
 real guard_scale(const Solver *solver, Guard guard);
+/* A drift rate is 0 but for rounding where a storey turns. */
+static inline real resting_rate(const Solver *solver) { return 1e-28Q * solver->v_scale; }
 /* The first event within a solved step, on its polynomial, which is good to the given part of the largest values. */
 bool first_event(const Solver *solver, const Step *step, real error, Event *event);
 /* The first x between points from and to at which f(p) turns from negative to positive, on the polynomial. */
@@ -231,13 +252,26 @@ void record_step(Solver *solver, Episodes *episodes, const Step *step, Step *scr
 /* ---- solve.c: one solution ---- */
 
 typedef struct {
-    real input, kinetic, strain, viscous, impact;
+    real input, kinetic, strain, viscous, impact, hysteretic;
 } Energy;
+
+/* What is written about a storey that can yield. */
+typedef struct {
+    real shear, plastic, cumulative, peak; /* N, without damping; m; m; m: largest |drift| so far */
+    int yielding;
+} StoreyRow;
 
 typedef struct {
     real time, u[MAX_FLOORS], v[MAX_FLOORS];
     Energy energy;
+    StoreyRow storey[MAX_FLOORS];
 } Row;
+
+/* A storey begins to yield (direction +1, -1) or is elastic again (0). */
+typedef struct {
+    int storey, direction;
+    real time, drift, plastic, rate;
+} Switch;
 
 typedef struct {
     int stages;
@@ -245,6 +279,8 @@ typedef struct {
     int rows;
     Row *row;
     Episodes episodes;
+    int switches, switch_capacity;
+    Switch *switched;
     long steps, rejected, iterations;
     double seconds, energy_residual;
 } Solution;
@@ -265,13 +301,14 @@ typedef struct {
     int events_now;             /* since the last step */
     Energy energy;
     real initial_energy;
+    real cumulative[MAX_FLOORS], peak[MAX_FLOORS]; /* of the storeys: sum of plastic steps, largest |drift| so far */
 } Run;
 
-/* ---- mode.c: what happens to a contact at an event ---- */
+/* ---- mode.c: what happens at an event ---- */
 
 /* Contacts with d > 0 at the start are closed, without approach velocity. */
 void close_at_start(Run *run);
-/* Changes the mode of the guard's contact, and of others whose guards are 0 at the same time. */
+/* Changes the mode (phase) of the guard's contact (storey), and of others whose guards are 0 at the same time. */
 void fire(Run *run, Guard guard);
 
 /* ---- rigid.c: stereomechanical contacts, which share floors or not ---- */
@@ -282,6 +319,23 @@ void hold_together(Run *run);
 real returned_share(const Run *run, int contact, real rate);
 /* The impulses of contact `first` and of those that touch with it. */
 void exchange_momentum(Run *run, int first);
+
+/* ---- yielding.c: storeys that yield ---- */
+
+/* The guards of a storey in its present phase; returns their number (at most 2). */
+int storey_guards(const Solver *solver, int storey, Guard guards[2]);
+/* Drifts beyond the limits at the start are plastic, as if the storey had been pushed there slowly. */
+void start_storeys(Run *run);
+/* What follows where a guard of a storey has become positive. */
+void switch_storey(Run *run, Guard guard);
+/* After an impulse: a storey that yields and now moves back is elastic. */
+void renew_storeys(Run *run);
+/* Plastic steps and largest drifts in an accepted step. */
+void record_storeys(Run *run, const Step *step);
+StoreyRow storey_row(const Run *run, int storey);
+/* Recoverable energy less that of storeys which are all elastic; energy lost by yielding so far. */
+real recoverable_change(const Run *run);
+real hysteretic_energy(const Run *run);
 
 /* ---- march.c ---- */
 
@@ -295,6 +349,8 @@ typedef struct {
     Solution second;
     double u, v, time; /* largest differences; u and v relative to the largest value, time in s */
     bool same_impacts;
+    double plastic, yield_time; /* largest differences of plastic drifts, relative, and of yields and turns, s */
+    bool same_yields;
     double *sensitivity; /* per row */
 } Proof;
 
@@ -304,7 +360,8 @@ void prove(const Scene *scene, const Solution *best, Proof *proof);
 /* ---- output.c ---- */
 
 void print_run(const Solution *solution);
-/* Writes OUTPUT.displacements.csv and OUTPUT.impacts.csv; proof: NULL without one. */
+/* Writes OUTPUT.displacements.csv, OUTPUT.impacts.csv and, where storeys can yield, OUTPUT.storeys.csv and
+   OUTPUT.yields.csv; proof: NULL without one. */
 void write_files(const char *output, const char *made_by, const Scene *scene, const Solution *best, const Proof *proof);
 
 #endif

@@ -113,7 +113,8 @@ static void let_go(Run *run, int c)
     end_episode(&run->solution->episodes, c, &run->now);
 }
 
-/* An impulse changes the rates of all contacts of its floors, and so what the laws of closed ones do. */
+/* An impulse changes the rates of all contacts and storeys of its floors, and so what the laws of closed contacts and
+   storeys that yield do. */
 static void renew_modes(Run *run)
 {
     for (int c = 0; c < run->scene->contacts; c++) {
@@ -127,6 +128,7 @@ static void renew_modes(Run *run)
         else if (law_is_clipped(law, V))
             set_mode(&run->solver, c, law_push(law, V, d, rate) < 0 ? CLIPPED : PUSHING);
     }
+    renew_storeys(run);
     complete_point(&run->solver, &run->now);
 }
 

@@ -125,6 +125,8 @@ typedef struct {
     Scene *scene;
     int first, floors; /* the building that is being read */
     int stiffness_rows, damping_rows;
+    real stiffness[MAX_FLOORS]; /* of its storeys, in a shear building */
+    int storeys;                /* of all buildings that can yield, those of this one left out */
 } Reader;
 
 /* Adds springs (dashpots) between the floors to K (C). */
@@ -149,6 +151,8 @@ static void begin_building(Reader *reader, int floors)
     reader->first = scene->floors;
     reader->floors = floors;
     reader->stiffness_rows = reader->damping_rows = 0;
+    reader->stiffness[0] = 0;
+    reader->storeys = scene->storeys;
     scene->floors += floors;
     if (reader->first == 0)
         scene->left_floors = floors;
@@ -184,6 +188,37 @@ static void read_damping(Reader *reader, const Line *line)
     }
 }
 
+/* The storeys of a shear building that have a finite yield force, from the lowest up. */
+static void read_yield_forces(Reader *reader, const Line *line)
+{
+    Scene *scene = reader->scene;
+    if (!(reader->stiffness[0] > 0) || scene->storeys > reader->storeys || line->count != 1 + reader->floors)
+        fail("line %d: %d yield forces, once, after the stiffness of the storeys", line->number, reader->floors);
+    for (int i = 0; i < reader->floors; i++) {
+        if (strcmp(word(line, 1 + i), "inf") == 0)
+            continue;
+        Storey storey = {.above = reader->first + i, .below = i > 0 ? reader->first + i - 1 : -1,
+                         .k = reader->stiffness[i], .force = value(line, 1 + i)};
+        if (!(storey.k > 0 && storey.force > 0))
+            fail("line %d: a storey that yields needs a stiffness and a yield force > 0", line->number);
+        storey.limit = storey.force / storey.k;
+        scene->storey[scene->storeys++] = storey;
+    }
+}
+
+/* Of all storeys of the building; those that stay elastic need none. */
+static void read_post_yield_ratios(Reader *reader, const Line *line)
+{
+    Scene *scene = reader->scene;
+    real ratio[MAX_FLOORS];
+    values(line, 1, reader->floors, ratio);
+    for (int s = reader->storeys; s < scene->storeys; s++) {
+        scene->storey[s].ratio = ratio[scene->storey[s].above - reader->first];
+        if (!(scene->storey[s].ratio >= 0 && scene->storey[s].ratio < 1))
+            fail("line %d: a post-yield ratio of at least 0 and less than 1", line->number);
+    }
+}
+
 /* true where the line is one of a building. */
 static bool read_building_line(Reader *reader, const Line *line)
 {
@@ -195,9 +230,12 @@ static bool read_building_line(Reader *reader, const Line *line)
     if (strcmp(key, "mass") == 0) {
         values(line, 1, n, scene->mass + first);
     } else if (strcmp(key, "stiffness") == 0) {
-        real storey[MAX_FLOORS];
-        values(line, 1, n, storey);
-        add_storeys(scene->K, first, n, storey);
+        values(line, 1, n, reader->stiffness);
+        add_storeys(scene->K, first, n, reader->stiffness);
+    } else if (strcmp(key, "yield_force") == 0) {
+        read_yield_forces(reader, line);
+    } else if (strcmp(key, "post_yield_ratio") == 0) {
+        read_post_yield_ratios(reader, line);
     } else if (strcmp(key, "stiffness_row") == 0) {
         if (reader->stiffness_rows == n)
             fail("line %d: more rows than floors", line->number);

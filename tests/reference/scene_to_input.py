@@ -13,7 +13,7 @@ from decimal import Decimal
 from facing import contacts, position
 
 # What is in t or with kN where a scene says so.
-IN_KN_T = {"mass", "stiffness", "stiffness_matrix", "matrix", "dashpots"}
+IN_KN_T = {"mass", "stiffness", "stiffness_matrix", "yield_force", "matrix", "dashpots"}
 
 
 def in_si_units(value, is_scaled=False):
@@ -48,6 +48,10 @@ def building_lines(building):
         lines.append(f"stiffness {numbers(building['stiffness'])}")
     else:
         lines += [f"stiffness_row {numbers(row)}" for row in building["stiffness_matrix"]]
+    if "yield_force" in building:
+        ratios = building.get("post_yield_ratio", 0)
+        ratios = ratios if isinstance(ratios, list) else [ratios] * len(building["mass"])
+        lines += [f"yield_force {numbers(building['yield_force'])}", f"post_yield_ratio {numbers(ratios)}"]
     lines += damping_lines(building["damping"])
     for key in ("displacement", "velocity"):
         if f"initial_{key}" in building:

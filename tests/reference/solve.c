@@ -91,6 +91,8 @@ static Energy energy_now(const Run *run)
         for (int j = 0; j < scene->floors; j++)
             energy.strain += run->now.u[i] * scene->K[i][j] * run->now.u[j] / 2;
     }
+    energy.strain += recoverable_change(run);
+    energy.hysteretic = hysteretic_energy(run);
     return energy;
 }
 
@@ -107,6 +109,7 @@ static void start(Run *run)
         p->d[c] = along(contact, p->u) - contact->gap;
         run->solution->episodes.current[c] = -1;
     }
+    start_storeys(run);
     complete_point(&run->solver, p);
     close_at_start(run);
     complete_point(&run->solver, p);
@@ -122,8 +125,11 @@ static void write_row(Run *run)
     memcpy(row->v, run->now.v, sizeof row->v);
     Energy *e = &row->energy;
     *e = energy_now(run);
-    real error = run->initial_energy + e->input - e->kinetic - e->strain - e->viscous - e->impact;
+    for (int s = 0; s < run->scene->storeys; s++)
+        row->storey[s] = storey_row(run, s);
+    real error = run->initial_energy + e->input - e->kinetic - e->strain - e->viscous - e->impact - e->hysteretic;
     real largest = fmaxq(fmaxq(fabsq(e->input), e->kinetic), fmaxq(fmaxq(e->strain, e->viscous), fabsq(e->impact)));
+    largest = fmaxq(largest, e->hysteretic);
     if (largest > 0)
         run->solution->energy_residual = fmax(run->solution->energy_residual, (double)fabsq(error / largest));
 }

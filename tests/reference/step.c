@@ -100,6 +100,12 @@ static void restore(const Solver *solver, const real *x, const real *y, real *ou
     }
 }
 
+/* What a plastic drift takes from the force of an elastic storey. */
+static void relieve(const Scene *scene, const Storey *storey, real plastic, real *floors)
+{
+    drive_storey(scene, storey, (1 - storey->ratio) * storey->k * plastic, floors);
+}
+
 real reaction_rate(const Solver *solver, int contact, const Point *p)
 {
     const Scene *scene = solver->scene;
@@ -108,6 +114,9 @@ real reaction_rate(const Solver *solver, int contact, const Point *p)
     restore(solver, p->v, p->a, jerk);
     for (int i = 0; i < scene->floors; i++)
         jerk[i] -= solver->segment_slope;
+    for (int s = 0; s < scene->storeys; s++)
+        if (phases->yielding[s])
+            relieve(scene, &scene->storey[s], p->drift_rate[s], jerk);
     for (int c = 0; c < scene->contacts; c++)
         if (phases->mode[c] != STUCK)
             push_apart(scene, &scene->contact[c],
@@ -132,6 +141,10 @@ void complete_point(const Solver *solver, Point *p)
     restore(solver, p->u, p->v, p->a);
     for (int i = 0; i < scene->floors; i++)
         p->a[i] -= p->ground;
+    for (int s = 0; s < scene->storeys; s++) {
+        p->drift_rate[s] = drift_of(&scene->storey[s], p->v);
+        relieve(scene, &scene->storey[s], p->plastic[s], p->a);
+    }
     for (int c = 0; c < scene->contacts; c++) {
         const Contact *contact = &scene->contact[c];
         p->rate[c] = along(contact, p->v);
@@ -149,6 +162,8 @@ void complete_point(const Solver *solver, Point *p)
     }
     for (int c = 0; c < scene->contacts; c++)
         p->rate_change[c] = along(&scene->contact[c], p->a);
+    for (int s = 0; s < scene->storeys; s++)
+        p->drift_change[s] = drift_of(&scene->storey[s], p->a);
 }
 
 /* ---- collocation ---- */
@@ -178,6 +193,11 @@ static void integrate_displacement(const Solver *solver, const Step *step, const
     /* from the changes, not from u: so d keeps its leading digits where it is small */
     for (int c = 0; c < scene->contacts; c++)
         p->d[c] = solver->phases.mode[c] == STUCK ? 0 : start->d[c] + along(&scene->contact[c], change);
+    for (int s = 0; s < scene->storeys; s++) {
+        real drift = drift_of(&scene->storey[s], change);
+        p->z[s] = start->z[s] + (solver->phases.yielding[s] ? 0 : drift);
+        p->plastic[s] = start->plastic[s] + (solver->phases.yielding[s] ? drift : 0);
+    }
 }
 
 static void time_weights(const Solver *solver, const Step *step, const real *row, real *weight)

@@ -142,7 +142,7 @@ impl Model {
             step.move_storey(i, step.end_powers(), storey);
             self.system.storeys[i].move_rest(base.coordinates, (&from, storey), &mut base.q);
         }
-        self.system.set_rest(&base.storeys, &mut base.rest);
+        self.set_rest(base);
     }
 
     /// Moves penetrations and rates of the contacts to the end of the planned step.

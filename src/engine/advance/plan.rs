@@ -71,7 +71,9 @@ impl Model {
                 return StepKind::Onset;
             }
         }
-        self.system.plan_taylor(at, (remaining, is_cut), planned, taylor, buffers);
+        if !self.system.plan_exact(at, (remaining, is_cut), planned, taylor, buffers) {
+            self.system.plan_taylor(at, (remaining, is_cut), planned, taylor, buffers);
+        }
         StepKind::Taylor
     }
 

@@ -16,6 +16,8 @@ pub struct Counters {
     pub pairs_evaluated: u64,
     /// Internal steps in contact.
     pub contact_steps: u64,
+    /// Internal steps in which a storey yields and no contact is closed.
+    pub yielding_steps: u64,
     /// Contact forces that were expanded into a series or solved for over a window: one for each such step and pair
     /// whose law acts in it.
     pub law_evaluations: u64,

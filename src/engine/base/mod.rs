@@ -67,6 +67,8 @@ pub struct Rest {
     pub floors: Vec<f64>,
     /// The gap of each contact there, m.
     pub gaps: Vec<f64>,
+    /// The watched quantities there, in the order of their peaks: 0 but for displacements and drifts.
+    pub watched: Vec<f64>,
 }
 
 /// The energy account: the energy at the start and the work done since, J.

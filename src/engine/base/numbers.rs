@@ -110,11 +110,12 @@ impl Counters {
             flights_cleared,
             pairs_evaluated,
             contact_steps,
+            yielding_steps,
             law_evaluations,
             events,
             energy_steps,
         } = self;
         let in_flight = [flight_steps, narrow_phase_pieces, flights_cleared, pairs_evaluated];
-        in_flight.into_iter().chain([contact_steps, law_evaluations, events, energy_steps])
+        in_flight.into_iter().chain([contact_steps, yielding_steps, law_evaluations, events, energy_steps])
     }
 }

@@ -5,11 +5,10 @@
 //! there is no contact.
 
 use crate::engine::base::planned::{At, Planned};
-use crate::engine::base::storey::{Sense, Storey};
 use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
-use crate::engine::yielding::storey::YieldingStorey;
+use crate::numerics::roots::highest_of_cubic;
 use crate::structure::{Scratch, Structure, dot};
 
 /// Coefficients of the bounds; constant during a run.
@@ -65,7 +64,7 @@ impl Certificate {
             let is_cleared = |segment| base.clearance.is_free(system.pairs.len(), segment);
             look.stay_elastic[i] = segment.is_some_and(is_cleared) || {
                 let (start, end) = (at(&base.q, &base.v), at(&planned.q, &planned.v));
-                stays_elastic((of, storey), start, end, (h, deviation))
+                of.stays_elastic(storey, start, end, (h, deviation))
             };
         }
         look.stay_apart.iter().chain(&look.stay_elastic).all(|holds| *holds)
@@ -83,32 +82,4 @@ impl Certificate {
     ) -> f64 {
         (h * h) * (h * h) / 384.0 * structure.fourth_derivative_bound(motion, loads, &self.weight, scratch)
     }
-}
-
-/// The largest control value of the cubic Hermite interpolant through values and rates at both ends: an upper bound of
-/// it.
-pub fn highest_of_cubic((start, rate): (f64, f64), (end, end_rate): (f64, f64), h: f64) -> f64 {
-    start.max(start + h / 3.0 * rate).max(end - h / 3.0 * end_rate).max(end)
-}
-
-/// How far beyond the limit of one sense a storey is with that drift at the start of a flight, m: exactly 0 where it has
-/// just turned, never above 0.
-pub fn start_of(of: &YieldingStorey, storey: &Storey, sense: Sense, drift: f64) -> f64 {
-    if storey.turned == Some(sense) { 0.0 } else { of.excess(storey, sense, drift).min(0.0) }
-}
-
-/// Whether a storey stays elastic in a flight of `h` seconds from a drift and its rate to others, from which the drift
-/// differs by at most `deviation` from its cubic interpolant.
-pub fn stays_elastic(
-    (of, storey): (&YieldingStorey, &Storey),
-    (start, rate): (f64, f64),
-    (end, end_rate): (f64, f64),
-    (h, deviation): (f64, f64),
-) -> bool {
-    Sense::BOTH.into_iter().all(|sense| {
-        let sign = sense.sign();
-        let from = (start_of(of, storey, sense, start), sign * rate);
-        let to = (of.excess(storey, sense, end), sign * end_rate);
-        highest_of_cubic(from, to, h) + deviation < 0.0
-    })
 }

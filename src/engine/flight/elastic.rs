@@ -7,7 +7,6 @@
 use crate::engine::base::Base;
 use crate::engine::base::storey::{Sense, Storey};
 use crate::engine::flight::advancement::{BoundedModes, Closing, Ends, Growth, MARGIN, Seen, TRIED, bound_one};
-use crate::engine::flight::certificate::start_of;
 use crate::engine::system::System;
 use crate::engine::yielding::storey::YieldingStorey;
 use crate::structure::Structure;
@@ -53,7 +52,7 @@ impl ElasticBounds {
         for ((of, storey), growth) in system.storeys.iter().zip(&base.storeys).zip(&self.growth) {
             let Seen { bounds: sums, pull, moved, rate } = bound_one(modes, base, &of.row, amplitude);
             for sense in Sense::BOTH {
-                let (start, sign) = (start_of(of, storey, sense, moved), sense.sign());
+                let (start, sign) = (of.start_of_flight(storey, sense, moved), sense.sign());
                 let closing = Closing {
                     start: start + MARGIN * (of.limit + size),
                     rate: sign * rate,

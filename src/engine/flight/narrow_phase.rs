@@ -7,7 +7,7 @@
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::{Event, Planned};
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::flight::certificate::{Certificate, highest_of_cubic, stays_elastic};
+use crate::engine::flight::certificate::Certificate;
 use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
@@ -173,12 +173,13 @@ impl Search<'_> {
         let stays_apart = system.pairs.iter().enumerate().all(|(p, pair)| {
             let at = |q: &[f64], v: &[f64]| pair.penetration(base.rest.gaps[p], (q, v));
             let (start, end) = (at(q, v), at(end_q, end_v));
-            stay_apart[p] || highest_of_cubic(start, end, length) + deviation < 0.0
+            stay_apart[p] || roots::highest_of_cubic(start, end, length) + deviation < 0.0
         });
         let stays_apart = stays_apart
             && system.storeys.iter().zip(&base.storeys).enumerate().all(|(i, storey)| {
                 let at = |q: &[f64], v: &[f64]| (dot(&storey.0.row, q), dot(&storey.0.row, v));
-                look.stay_elastic[i] || stays_elastic(storey, at(q, v), at(end_q, end_v), (length, deviation))
+                look.stay_elastic[i]
+                    || storey.0.stays_elastic(storey.1, at(q, v), at(end_q, end_v), (length, deviation))
             });
         if stays_apart {
             look.move_on(length, &work.slope);

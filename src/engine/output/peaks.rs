@@ -82,7 +82,7 @@ impl Model {
         for building in &self.peak_rows.buildings {
             for b in 0..building.blocks.len() {
                 open[building.first + b] =
-                    self.raise_to_part(building, b, (watch, segment), (&base.rest.floors, end), peaks);
+                    self.raise_to_part(building, b, (watch, segment), (&base.rest.watched, end), peaks);
             }
         }
         open.contains(&true)

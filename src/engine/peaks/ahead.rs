@@ -89,7 +89,7 @@ impl Model {
             for (b, (watched, peaks)) in watched.take(building.blocks.len()).enumerate() {
                 if watched.clear_until <= segment {
                     if watched.known_at != Some(segment) || base.elapsed > 0.0 {
-                        let values = self.values_at((building, b), &base.rest.floors, motion);
+                        let values = self.values_at((building, b), &base.rest.watched, motion);
                         (watched.value, watched.known_at) = (values, Some(segment));
                         // After an impulse the value may exceed the peak.
                         *peaks = each(|i| larger(peaks[i], watched.value[i].abs()));
@@ -119,7 +119,7 @@ impl Model {
                 let watched = &mut work.peaks.watch.blocks[building.first + b];
                 let Reach { swing, rate, bend } = reach(block, &amplitudes);
                 let (peaks, growth) = (&values[building.first + b], &block.growth);
-                let at_rest = self.values_at_rest((building, b), &base.rest.floors);
+                let at_rest = base.rest.watched.as_chunks::<LANES>().0[building.first + b];
                 let most = |cumulative: f64| {
                     each(|i| (1.0 + MARGIN) * (at_rest[i].abs() + (swing[i] + growth.swing[i] * cumulative)))
                 };
@@ -179,7 +179,7 @@ impl Model {
             return None;
         }
         let modes = building.modes.clone();
-        let end = self.values_at((building, b), &base.rest.floors, (&base.q[modes.clone()], &base.v[modes]));
+        let end = self.values_at((building, b), &base.rest.watched, (&base.q[modes.clone()], &base.v[modes]));
         let peaks = &mut base.peaks.values.as_chunks_mut::<LANES>().0[building.first + b];
         let may_exceed = watched.raise_to(&end, peaks);
         let start = std::mem::replace(&mut watched.value, end);

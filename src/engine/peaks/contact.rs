@@ -115,7 +115,7 @@ impl Model {
     fn check_contact_step(&self, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
         self.find_ends(part, work);
         self.find_pushes(part.base, work);
-        let has_series = bound_by_series(part, work);
+        let has_series = self.bound_by_series(part, work);
         for side in [Side::Left, Side::Right] {
             match has_series {
                 true => self.bound_building_by_series(side, part, work),
@@ -172,6 +172,37 @@ impl Model {
                 room.last_push[lane] += push * room.last_forces[p];
             }
         }
+    }
+
+    /// Bounds by the series of a step: a floor's absolute acceleration a deviates from the chord of its values at both ends
+    /// by at most h^2/8 max|u''''| in time, and by x^2/8 max|d^2a/dx^2| in the x of a time map. Writes these deviations,
+    /// m/s2, and takes the forces at both ends for the least and largest ones, since the chord has them; returns whether
+    /// the step has such a series.
+    ///
+    /// However long the step, and however quick the building's highest modes: the bounds of `floors.rs` need a short step.
+    fn bound_by_series(&self, part: &ContactStep, work: &mut PeakWork) -> bool {
+        let Dense::Taylor(solution) = part.step.dense() else { return false };
+        let PeakRoom { floors: FloorRoom { strays, modal, least, most, .. }, first_push, last_push, .. } =
+            &mut *work.peaks;
+        let is_on_modes = part.base.coordinates == Coordinates::Modes;
+        let bounds = if is_on_modes { &mut *modal } else { &mut *strays };
+        let of_ground = match solution.series.time_map.is_curved() {
+            false => {
+                solution.series.bound_fourths(&solution.end, bounds);
+                let sag = 0.125 * part.length * part.length;
+                bounds.iter_mut().for_each(|stray| *stray *= sag);
+                0.0
+            }
+            true => bound_in_time_map(solution, part, &mut work.buffers.series, bounds),
+        };
+        if is_on_modes {
+            self.system.structure.bound_floors(modal, strays);
+        }
+        strays.iter_mut().for_each(|stray| *stray += of_ground);
+        for (lane, (first, last)) in first_push.iter().zip(&*last_push).enumerate() {
+            (least[lane], most[lane]) = (smaller(*first, *last), larger(*first, *last));
+        }
+        true
     }
 
     /// Works out upper bounds on the floors' accelerations.
@@ -292,7 +323,7 @@ impl Model {
         let lanes = self.set_rows(of, part.base.coordinates, &mut rows);
         let span = self.span_of(of.side(), part.base.coordinates);
         let step = part.step;
-        let at_rest = self.soften_row(of, part.base, &mut rows) + self.value_at_rest(of, &part.base.rest.floors);
+        let at_rest = part.base.rest.watched[self.peak_rows.place(of)] + self.soften_row(of, part.base, &mut rows);
         let quantity = Quantity { of, rows: &rows, lanes, span, at_rest, ground: part.ground() };
         let peak = match step.dense() {
             Dense::Flight => known,
@@ -314,45 +345,22 @@ impl Model {
     }
 }
 
-/// Bounds by the series of a step between floors: a floor's absolute acceleration a deviates from the chord of its
-/// values at both ends by at most h^2/8 max|u''''| in time, and by x^2/8 max|d^2a/dx^2| in the x of a time map. Writes
-/// these deviations, m/s2, and takes the forces at both ends for the least and largest ones, since the chord has them;
-/// returns whether the step has such a series.
-///
-/// However long the step, and however quick the building's highest modes: the bounds of `floors.rs` need a short step.
-fn bound_by_series(part: &ContactStep, work: &mut PeakWork) -> bool {
-    let Dense::Taylor(solution) = part.step.dense() else { return false };
-    if part.base.coordinates != Coordinates::Floors {
-        return false;
-    }
-    let PeakRoom { floors: FloorRoom { strays, least, most, .. }, first_push, last_push, .. } = &mut *work.peaks;
-    match solution.series.time_map.is_curved() {
-        false => {
-            solution.series.bound_fourths(&solution.end, strays);
-            let sag = 0.125 * part.length * part.length;
-            strays.iter_mut().for_each(|stray| *stray *= sag);
-        }
-        true => bound_in_time_map(solution, part, &mut work.buffers.series, strays),
-    }
-    for (lane, (first, last)) in first_push.iter().zip(&*last_push).enumerate() {
-        (least[lane], most[lane]) = (smaller(*first, *last), larger(*first, *last));
-    }
-    true
-}
-
-/// The deviations from the chord in the x of the step's time map; `accelerations` is scratch.
+/// The deviations from the chord in the x of the step's time map, without that of the ground's acceleration, which it
+/// returns; `accelerations` is scratch.
 fn bound_in_time_map(
     Solution { series, substitution, .. }: &Solution,
     part: &ContactStep,
     accelerations: &mut MotionSeries,
     strays: &mut [f64],
-) {
+) -> f64 {
     let x = series.x_at(part.length);
     accelerations.set_accelerations(series, substitution);
     accelerations.bound_seconds(x, strays);
     // The ground's acceleration is linear in time, which is quadratic in x.
     let of_ground = 2.0 * (series.time_map.curvature * series.scale * part.ground().1).abs();
-    strays.iter_mut().for_each(|stray| *stray = 0.125 * x * x * (*stray + of_ground));
+    let sag = 0.125 * x * x;
+    strays.iter_mut().for_each(|stray| *stray *= sag);
+    sag * of_ground
 }
 
 fn smaller(a: f64, b: f64) -> f64 {

@@ -29,7 +29,7 @@ pub struct Stretch<'a> {
     pub end: (&'a [f64], &'a [f64]),
     /// The modal load at the start and its rate, per second.
     pub loads: (&'a [f64], &'a [f64]),
-    /// Displacements of all floors at rest, m, to which the motion is relative.
+    /// The watched quantities at rest, which those of the motion are added to.
     pub rest: &'a [f64],
     /// Ground acceleration at the start, m/s2, and its slope, m/s3.
     pub ground: (f64, f64),
@@ -84,7 +84,7 @@ impl Model {
         for building in &self.peak_rows.buildings {
             let [q, v] = [&base.q, &base.v].map(|vector| &vector[building.modes.clone()]);
             for b in 0..building.blocks.len() {
-                for (i, value) in self.values_at((building, b), &base.rest.floors, (q, v)).into_iter().enumerate() {
+                for (i, value) in self.values_at((building, b), &base.rest.watched, (q, v)).into_iter().enumerate() {
                     let place = (building.first + b) * LANES + i;
                     if !(self.system.floor_forces && matches!(self.peak_rows.at(place), Some(PeakOf::Acceleration(..))))
                     {
@@ -201,7 +201,7 @@ impl Model {
         let direct = &work.peaks.direct[place..];
         let known = *peaks.block(building.first + b);
         let added = self.system.floor_forces.then_some((direct, 0.0, h));
-        let at_rest = self.values_at_rest((building, b), flight.rest);
+        let at_rest = flight.rest.as_chunks::<LANES>().0[building.first + b];
         if !flight.is_watched && stay_below(&known, (block, &at_rest), (bounds, &modes), added) == [true; LANES] {
             return;
         }

@@ -122,7 +122,7 @@ impl Model {
         let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
         let loads = (&load[..], &slope[..]);
         let (start, is_watched) = ((&base.q[..], &base.v[..]), false);
-        let rest = &base.rest.floors;
+        let rest = &base.rest.watched;
         then(&Stretch { start, end: (q, v), loads, rest, ground, length, is_watched, whole: None }, work);
         (work.buffers.load, work.buffers.slope) = (load, slope);
     }
@@ -135,6 +135,6 @@ fn segment_flight<'a>(
     ground: (f64, f64),
     loads: (&'a [f64], &'a [f64]),
 ) -> Stretch<'a> {
-    let (end, rest, length) = ((&base.q[..], &base.v[..]), &base.rest.floors[..], base.segment.length);
+    let (end, rest, length) = ((&base.q[..], &base.v[..]), &base.rest.watched[..], base.segment.length);
     Stretch { start, end, loads, rest, ground, length, is_watched: !cfg!(without = "peaks_ahead"), whole: None }
 }

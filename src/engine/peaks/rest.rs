@@ -9,24 +9,16 @@ use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane};
 
 impl Model {
-    /// The values of block `b` of a building in a motion relative to that position of rest.
+    /// The values of block `b` of a building in a motion, with those at rest.
     pub(in crate::engine) fn values_at(
         &self,
         (building, b): (&BuildingRows, usize),
         rest: &[f64],
         (q, v): (&[f64], &[f64]),
     ) -> Lane {
-        let (values, at_rest) = (values_of(&building.blocks[b], q, v), self.values_at_rest((building, b), rest));
+        let (values, at_rest) =
+            (values_of(&building.blocks[b], q, v), &rest.as_chunks::<LANES>().0[building.first + b]);
         each(|i| values[i] + at_rest[i])
-    }
-
-    /// The values of block `b` of a building at rest.
-    pub(in crate::engine) fn values_at_rest(&self, (building, b): (&BuildingRows, usize), rest: &[f64]) -> Lane {
-        if self.system.storeys.is_empty() {
-            return [0.0; LANES];
-        }
-        let place = (building.first + b) * LANES;
-        each(|i| self.peak_rows.at(place + i).map_or(0.0, |of| self.value_at_rest(of, rest)))
     }
 
     /// Takes from the row of a base shear what the lowest storey does not resist with if it yields in a step; returns the
@@ -41,17 +33,5 @@ impl Model {
             Coordinates::Floors => rows[0][of.floors.0] -= of.lost,
         }
         of.lost * of.drift(base.coordinates, &base.q)
-    }
-
-    /// The value of a quantity at rest: 0 for accelerations and base shears.
-    pub(in crate::engine) fn value_at_rest(&self, of: PeakOf, rest: &[f64]) -> f64 {
-        let lane = |floor: usize| self.system.structure.floors.lane(of.side() as usize, floor);
-        match of {
-            PeakOf::Displacement(_, floor) => rest[lane(floor)],
-            PeakOf::Drift(_, storey) => {
-                rest[lane(storey)] - storey.checked_sub(1).map_or(0.0, |below| rest[lane(below)])
-            }
-            PeakOf::Acceleration(..) | PeakOf::BaseShear(_) => 0.0,
-        }
     }
 }

@@ -105,7 +105,7 @@ impl Model {
             let of = suspect.of;
             let lanes = self.set_rows(of, Coordinates::Modes, &mut rows);
             let span = self.span_of(of.side(), Coordinates::Modes);
-            let at_rest = self.value_at_rest(of, flight.rest);
+            let at_rest = flight.rest[suspect.place];
             let quantity = Quantity { of, rows: &rows, lanes, span, at_rest, ground: (ground + slope * from, slope) };
             let (terms, order) = quantity.terms(&work.buffers.series, None);
             suspect.peak = highest(&terms, (end, order), suspect.peak, &mut work.buffers.powers);
@@ -195,7 +195,7 @@ impl Model {
         let mut known = [f64::INFINITY; LANES];
         let is_open = |suspect: &&mut Suspect| suspect.cleared_in.is_none();
         suspects.iter_mut().filter(is_open).for_each(|suspect| known[suspect.place % LANES] = suspect.peak);
-        let at_rest = self.values_at_rest((building, number - building.first), own.rest);
+        let at_rest = own.rest.as_chunks::<LANES>().0[number];
         let are_below = stay_below(&known, (block, &at_rest), (bounds, modes), direct);
         if are_below == [true; LANES] {
             suspects.iter_mut().filter(is_open).for_each(|suspect| suspect.cleared_in = Some(piece.halvings));

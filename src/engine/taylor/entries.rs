@@ -7,6 +7,7 @@ use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::open_pairs::PenetrationBounds;
 use crate::engine::taylor::solution::Solution;
+use crate::numerics::polynomial::Coefficients;
 use crate::numerics::powers::Powers;
 use crate::numerics::roots;
 use crate::numerics::substitution::Substitution;
@@ -53,17 +54,30 @@ impl System {
             !contact.in_contact() && !is_sure(lane, contact)
         };
         for (_, p) in lanes.filter(may_meet) {
-            let terms = &mut work.scalar[..=series.order];
-            end.set_in_time(&series.time_map);
-            let size = self.pairs[p].project(base.coordinates, series, end.in_time().0, terms);
-            let contact = &base.contacts[p];
-            let noise = contact.begin_flight(terms, series.scale, self.pairs[p].noise(size));
-            if series.time_map.is_curved() {
-                substitution.apply_to_one(terms);
-            }
-            let until = first.map_or(end.x, |(x, _)| x);
-            first = roots::first_upcrossing(terms, until, noise).map(|x| (x, Event::Entry(p))).or(first);
+            first =
+                self.first_entry_of(base, p, ((series, substitution), &mut *end), &mut work.scalar, first).or(first);
         }
         first
+    }
+
+    /// The entry of one open pair, before the first event known so far or the end of the step, as (x, event).
+    pub fn first_entry_of(
+        &self,
+        base: &Base,
+        p: usize,
+        ((series, substitution), end): ((&MotionSeries, &Substitution), &mut Powers),
+        scalar: &mut Coefficients,
+        first: Option<(f64, Event)>,
+    ) -> Option<(f64, Event)> {
+        let terms = &mut scalar[..=series.order];
+        end.set_in_time(&series.time_map);
+        let size = self.pairs[p].project(base.coordinates, series, end.in_time().0, terms);
+        let contact = &base.contacts[p];
+        let noise = contact.begin_flight(terms, series.scale, self.pairs[p].noise(size));
+        if series.time_map.is_curved() {
+            substitution.apply_to_one(terms);
+        }
+        let until = first.map_or(end.x, |(x, _)| x);
+        roots::first_upcrossing(terms, until, noise).map(|x| (x, Event::Entry(p)))
     }
 }

@@ -1,7 +1,7 @@
 //! Expansion of motion and contact forces into power series in time, power by power together.
 
 use crate::contact::taylor::PAIRS;
-use crate::engine::base::{Base, Coordinates, touching};
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::pairs::jacobian::{FloorJacobian, ModalJacobian, PackedModalJacobian};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
@@ -12,30 +12,29 @@ use crate::engine::taylor::pair_forces::with_forces;
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::complementarity::Complementarity;
 use crate::numerics::polynomial::MAX_ORDER;
-use crate::structure::{EXACT, FEW_BLOCKS, LANES, MotionSeries, difference, dot, flight_order};
+use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, difference, dot, flight_order};
 
-/// (Fastest rate) x (time) that one exact series reaches.
-const SERIES_REACH: f64 = 2.0;
+/// Remainder of a series, relative to its terms, that is less than their rounding.
+const ROUNDING: f64 = 1e-17;
 
 impl System {
-    /// Expands motion, penetrations and forces from the base on; `scale` is the time unit, s, within which the series is to
-    /// be exact if `is_exact`.
-    pub fn expand(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, (scale, is_exact): (f64, bool)) {
-        solution.series.start(scale, &base.q, &base.v);
-        solution.closed.start(base, &self.pairs, scale);
-        solution.drifts.start(base, &self.storeys, scale);
-        let order = match is_exact {
-            true => flight_order(self.structure.fastest * scale, EXACT).unwrap_or(MAX_ORDER),
-            false => self.tolerance.order + 1,
-        };
+    /// Expands motion, penetrations and forces from the base on; `scale` is the time unit, s.
+    pub fn expand(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, scale: f64) {
+        self.start_series(base, solution, scale);
+        self.expand_to(base, solution, work, self.tolerance.order + 1);
+    }
+
+    /// Expands a linear motion so that its series is exact up to `length`, s, its time unit.
+    pub fn expand_exactly(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, length: f64) {
+        self.start_series(base, solution, length);
+        let order = flight_order(self.structure.fastest * length, ROUNDING).unwrap_or(MAX_ORDER);
         self.expand_to(base, solution, work, order);
     }
 
-    /// Length of the next step, s, at most `remaining`, if no contact is closed: all is linear then, and a series within
-    /// reach of the fastest mode exact.
-    pub fn exact_reach(&self, base: &Base, remaining: f64) -> Option<f64> {
-        let is_linear = touching(base).next().is_none();
-        is_linear.then(|| remaining.min(SERIES_REACH / self.structure.fastest))
+    fn start_series(&self, base: &Base, solution: &mut Solution, scale: f64) {
+        solution.series.start(scale, &base.q, &base.v);
+        solution.closed.start(base, &self.pairs, scale);
+        solution.drifts.start(base, &self.storeys, scale);
     }
 
     /// Extends the started series to `order`.

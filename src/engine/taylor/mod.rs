@@ -13,6 +13,7 @@ pub mod closed_pairs;
 pub mod departures;
 pub mod drifts;
 pub mod entries;
+pub mod exact;
 pub mod expansion;
 pub mod follow;
 pub mod linear_pairs;
@@ -42,15 +43,11 @@ impl System {
     ) {
         let base = &mut *at.base;
         let is_singular = touching(base).any(|(_, contact)| contact.is_singular());
-        let exact = self.exact_reach(base, remaining);
-        let scale = exact.unwrap_or_else(|| self.series_scale(base, remaining));
-        self.expand(base, solution, work, (scale, exact.is_some()));
+        let scale = self.series_scale(base, remaining);
+        self.expand(base, solution, work, scale);
         at.counters.contact_steps += 1;
         at.counters.law_evaluations += solution.closed.count_forces();
-        let reach = match exact {
-            Some(_) => 1.0,
-            None => self.reach(base, solution, work, (is_singular, remaining)),
-        };
+        let reach = self.reach(base, solution, work, (is_singular, remaining));
         let is_whole = solution.series.x_at(remaining) <= reach;
         let end = if is_whole { solution.series.x_at(remaining) } else { reach };
         let event = self.first_event(base, solution, work, end);
@@ -59,8 +56,7 @@ impl System {
         planned.event = event;
         planned.reaches_limit = is_whole && !is_cut && event.is_none();
         planned.length = if planned.reaches_limit { remaining } else { solution.series.time(solution.end.x) };
-        // The scale of contact does not change while none is closed.
-        planned.next_length = exact.is_none().then(|| solution.series.time(reach));
+        planned.next_length = Some(solution.series.time(reach));
         planned.ends.clear();
         self.track(base, &solution.series, &solution.end, &mut work.scalar, &mut planned.tracked);
         for (reaction, &p) in solution.reactions.iter().zip(&self.rigid.pairs) {

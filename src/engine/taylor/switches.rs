@@ -30,11 +30,12 @@ impl System {
         }
         let Solution { series, end, substitution, .. } = solution;
         let reach = end.x + series.time_map.curvature.abs() * end.x * end.x;
-        series.sum_sizes(1, reach, &mut work.node_q);
+        series.sum_sizes(2, reach, &mut work.node_q);
         for (i, (of, storey)) in self.storeys.iter().zip(&base.storeys).enumerate() {
+            let [drift, step] = [0, 1].map(|n| of.drift(base.coordinates, series.term(n)));
+            let wandered = of.size(base.coordinates, &work.node_q);
             let stays_elastic = |sense: Sense| {
-                let drift = of.drift(base.coordinates, &base.q);
-                of.excess(storey, sense, drift) + of.size(base.coordinates, &work.node_q) < 0.0
+                of.excess(storey, sense, drift) + reach * (sense.sign() * step).max(0.0) + wandered < 0.0
             };
             if storey.yields.is_some() || Sense::BOTH.into_iter().all(stays_elastic) {
                 continue;
@@ -48,7 +49,11 @@ impl System {
 }
 
 /// The first instant at which the drift of a storey that yields turns, if before the first event known so far.
-fn first_turn(solution: &Solution, (i, sense): (usize, Sense), first: Option<(f64, Event)>) -> Option<(f64, Event)> {
+pub fn first_turn(
+    solution: &Solution,
+    (i, sense): (usize, Sense),
+    first: Option<(f64, Event)>,
+) -> Option<(f64, Event)> {
     let Solution { series, drifts, substitution, end, .. } = solution;
     let mut terms = [0.0; MAX_TERMS];
     let count = series.order;

@@ -111,6 +111,19 @@ impl PeakRows {
             }
     }
 
+    /// Writes the quantities of floors that have those displacements, m, and no velocities, in the order of their peaks:
+    /// accelerations and base shears by the position of rest are 0.
+    pub fn set_at_rest(&self, structure: &Structure, floors: &[f64], out: &mut [f64]) {
+        for side in [Side::Left, Side::Right] {
+            let mut below = 0.0;
+            for (floor, lane) in structure.floors.lanes_of(side as usize).enumerate() {
+                out[self.place(PeakOf::Displacement(side, floor))] = floors[lane];
+                out[self.place(PeakOf::Drift(side, floor))] = floors[lane] - below;
+                below = floors[lane];
+            }
+        }
+    }
+
     /// The quantity at an index; `None` in a lane that is not used.
     pub fn at(&self, place: usize) -> Option<PeakOf> {
         let side = if place < self.buildings[1].first * LANES { Side::Left } else { Side::Right };

@@ -3,6 +3,7 @@
 use crate::engine::base::Coordinates;
 use crate::engine::base::storey::{Sense, Storey};
 use crate::numerics::polynomial::Coefficients;
+use crate::numerics::roots::highest_of_cubic;
 use crate::scene::Scene;
 use crate::structure::{MotionSeries, Side, Structure, difference, dot};
 use std::ops::Range;
@@ -173,6 +174,28 @@ impl YieldingStorey {
     #[inline(always)]
     pub fn excess(&self, storey: &Storey, sense: Sense, x: f64) -> f64 {
         sense.sign() * (x - self.ratio * storey.plastic) - self.limit
+    }
+
+    /// The same at the start of a step in which the storey is elastic: exactly 0 where it has just turned, never above 0.
+    pub fn start_of_flight(&self, storey: &Storey, sense: Sense, x: f64) -> f64 {
+        if storey.turned == Some(sense) { 0.0 } else { self.excess(storey, sense, x).min(0.0) }
+    }
+
+    /// Whether the storey stays elastic for `h` seconds, from a drift and its rate to others, if the drift differs by at most
+    /// `deviation` from the cubic through them.
+    pub fn stays_elastic(
+        &self,
+        storey: &Storey,
+        (start, rate): (f64, f64),
+        (end, end_rate): (f64, f64),
+        (h, deviation): (f64, f64),
+    ) -> bool {
+        Sense::BOTH.into_iter().all(|sense| {
+            let sign = sense.sign();
+            let from = (self.start_of_flight(storey, sense, start), sign * rate);
+            let to = (self.excess(storey, sense, end), sign * end_rate);
+            highest_of_cubic(from, to, h) + deviation < 0.0
+        })
     }
 
     /// Rounding error, m, of that excess, from the `size` of all that the drift is made of.

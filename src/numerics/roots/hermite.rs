@@ -43,8 +43,7 @@ impl End {
 
 /// Upper bound over 0..=x of a function from its values and slopes at both ends and the bound on its fourth derivative.
 pub fn upper_bound((value, slope): (f64, f64), (end, end_slope): (f64, f64), x: f64, fourth: f64) -> f64 {
-    let [first, second] = [value + x * slope / 3.0, end - x * end_slope / 3.0];
-    value.max(first).max(second).max(end) + (x * x) * (x * x) / 384.0 * fourth
+    highest_of_cubic((value, slope), (end, end_slope), x) + (x * x) * (x * x) / 384.0 * fourth
 }
 
 /// Whether a function may have a local maximum above `known` in 0..=x, from its values and slopes at both ends and a
@@ -60,4 +59,10 @@ pub fn may_turn_above(
     // Written so that a NaN counts as "may".
     let (goes_one_way, is_below) = (least > 0.0 || most < 0.0, b.upper_bound_from(a) <= known);
     !goes_one_way && !is_below
+}
+
+/// The largest control value of the cubic Hermite interpolant through values and rates at both ends: an upper bound of
+/// it.
+pub fn highest_of_cubic((start, rate): (f64, f64), (end, end_rate): (f64, f64), h: f64) -> f64 {
+    start.max(start + h / 3.0 * rate).max(end - h / 3.0 * end_rate).max(end)
 }

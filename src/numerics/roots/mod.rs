@@ -13,5 +13,5 @@ mod terms;
 mod tests;
 
 pub use crossing::first_upcrossing;
-pub use hermite::{may_turn_above, upper_bound};
+pub use hermite::{highest_of_cubic, may_turn_above, upper_bound};
 pub use maximum::{maximum_above, roughly};

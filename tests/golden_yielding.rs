@@ -1,0 +1,152 @@
+//! Storeys that yield, against the independent solution in quadruple precision (tests/reference), which knows no position
+//! of rest: plastic drifts are unknowns of its own. Displacements, velocities, energies and impacts of the same scenes are
+//! compared in `golden.rs`.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::Run;
+use pounding::engine::{Side, YieldingOf};
+use pounding::scene;
+use std::collections::HashMap;
+use std::path::Path;
+
+/// A CSV file with comments: one map of column to field for each row.
+fn table(name: &str) -> Vec<HashMap<String, String>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/golden").join(name);
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let row = |line: &str| header.iter().zip(line.split(',')).map(|(n, f)| ((*n).to_owned(), f.to_owned())).collect();
+    lines.map(row).collect()
+}
+
+fn number(row: &HashMap<String, String>, column: &str) -> f64 {
+    row[column].parse().unwrap()
+}
+
+fn run_of(name: &str) -> Run {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/scenes").join(format!("{name}.toml"));
+    let (scene, record) = scene::load(&path).unwrap();
+    Run::new(&scene, record.as_ref())
+}
+
+/// Side, storey counted from 0, and what is between a dot and a bracket of a column's name.
+fn parts(column: &str) -> (Side, &str, usize) {
+    let (side, rest) = column.split_once('.').unwrap();
+    let (quantity, storey) = rest.trim_end_matches(']').split_once('[').unwrap();
+    let side = if side == "left" { Side::Left } else { Side::Right };
+    (side, quantity, storey.parse::<usize>().unwrap() - 1)
+}
+
+/// Worst error of all quantities of all storeys, each relative to its largest value.
+fn worst_of_storeys(name: &str) -> f64 {
+    const QUANTITIES: [(&str, YieldingOf); 5] = [
+        ("storey_shear", YieldingOf::Shear),
+        ("plastic_drift", YieldingOf::PlasticDrift),
+        ("cumulative_plastic_drift", YieldingOf::CumulativePlasticDrift),
+        ("hysteretic_energy", YieldingOf::HystereticEnergy),
+        ("ductility", YieldingOf::Ductility),
+    ];
+    let rows = table(&format!("{name}.storeys.csv"));
+    let columns: Vec<&String> = rows[0].keys().filter(|column| column.contains('[')).collect();
+    let largest = |column: &str| rows.iter().map(|row| number(row, column).abs()).fold(f64::MIN_POSITIVE, f64::max);
+    let (mut run, mut worst) = (run_of(name), 0.0_f64);
+    for row in &rows {
+        run.to(number(row, "time"));
+        for column in &columns {
+            let (side, quantity, storey) = parts(column);
+            let exact = number(row, column);
+            if quantity == "yielding" {
+                assert_eq!(
+                    f64::from(run.model.yielding(&run.point, (side, storey))),
+                    exact,
+                    "{column} at {}",
+                    row["time"]
+                );
+                continue;
+            }
+            let of = QUANTITIES.iter().find(|(name, _)| *name == quantity).unwrap().1;
+            let got = run.model.of_yielding(&run.state, &run.point, of, (side, storey));
+            worst = worst.max((got - exact).abs() / largest(column));
+        }
+    }
+    worst
+}
+
+/// A yield or a turn.
+struct Switch {
+    storey: (Side, usize),
+    time: f64,
+    /// The sense in which the storey yields afterwards.
+    sense: i32,
+}
+
+/// Those of all plastic steps above 1e-9 m, in the order of time.
+fn switches(name: &str) -> Vec<Switch> {
+    let mut begun: HashMap<(bool, usize), (Switch, f64)> = HashMap::new();
+    let mut found = Vec::new();
+    for row in table(&format!("{name}.yields.csv")) {
+        let side = if row["building"] == "left" { Side::Left } else { Side::Right };
+        let storey = (side, row["storey"].parse::<usize>().unwrap() - 1);
+        let (time, plastic, key) =
+            (number(&row, "time_s"), number(&row, "plastic_drift_m"), (side == Side::Left, storey.1));
+        match row["kind"].as_str() {
+            "unloads" => {
+                let (begin, from) = begun.remove(&key).unwrap();
+                if (plastic - from).abs() > 1e-9 {
+                    found.extend([begin, Switch { storey, time, sense: 0 }]);
+                }
+            }
+            kind => {
+                let sense = if kind == "yields +" { 1 } else { -1 };
+                begun.insert(key, (Switch { storey, time, sense }, plastic));
+            }
+        }
+    }
+    found.sort_by(|a, b| a.time.total_cmp(&b.time));
+    found
+}
+
+/// Every yield and every turn is where it should be, to some seconds; returns how many there are.
+fn check_switches(name: &str, allowed: f64) -> usize {
+    let (mut run, switches) = (run_of(name), switches(name));
+    for Switch { storey, time, sense } in &switches {
+        for (at, is_after) in [(time - allowed, false), (time + allowed, true)] {
+            if at > run.state.time() {
+                run.to(at);
+                let is_there = run.model.yielding(&run.point, *storey) == *sense;
+                assert_eq!(is_there, is_after, "{name}, storey {} at {time} s, sense {sense}", storey.1 + 1);
+            }
+        }
+    }
+    switches.len()
+}
+
+#[track_caller]
+fn compare(name: &str, allowed: f64, count: usize) {
+    let worst = worst_of_storeys(name);
+    println!("{name}: {worst:.1e} of the largest");
+    assert!(worst <= allowed, "{name}: {worst:.1e} of the largest");
+    assert_eq!(check_switches(name, 1e-11), count, "{name}: number of yields and turns");
+}
+
+#[test]
+fn elastic_perfectly_plastic_storeys_under_jankowski_contacts() {
+    compare("yielding", 1.5e-13, 156);
+}
+
+#[test]
+fn impulses_turn_storeys_that_yield() {
+    compare("yielding_impulses", 2e-14, 60);
+}
+
+#[test]
+fn columns_a_wall_and_storeys_that_stay_elastic() {
+    compare("yielding_columns", 3e-14, 210);
+}
+
+#[test]
+fn a_bilinear_isolator_with_dashpots_between_walls() {
+    compare("yielding_isolator", 4e-14, 82);
+}
