@@ -131,6 +131,27 @@ fn compare(name: &str, allowed: f64, count: usize) {
     assert_eq!(check_switches(name, 1e-11), count, "{name}: number of yields and turns");
 }
 
+/// Where no peaks are watched the motion is the same, and so is the ductility of storeys that have yielded.
+#[test]
+fn without_peaks() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/scenes/yielding_columns.toml");
+    let (mut scene, record) = scene::load(&path).unwrap();
+    let runs = [true, false].map(|peaks| {
+        scene.peaks = peaks;
+        let mut run = Run::new(&scene, record.as_ref());
+        run.in_steps(0.37, 7.4);
+        let ductility =
+            |storey| run.model.of_yielding(&run.state, &run.point, YieldingOf::Ductility, (Side::Left, storey));
+        ([0, 1, 2].map(|floor| run.displacement(Side::Left, floor).to_bits()), [0, 1, 2].map(ductility))
+    });
+    assert_eq!(runs[0].0, runs[1].0);
+    let pairs: Vec<(f64, f64)> = runs[0].1.into_iter().zip(runs[1].1).collect();
+    assert!(pairs.iter().any(|(with, _)| *with > 1.0));
+    for (with, without) in pairs {
+        assert_eq!(without, if with > 1.0 { with } else { 0.0 });
+    }
+}
+
 #[test]
 fn elastic_perfectly_plastic_storeys_under_jankowski_contacts() {
     compare("yielding", 1.5e-13, 156);

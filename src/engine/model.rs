@@ -38,8 +38,7 @@ impl Model {
         Ok(Model {
             flight: Flight::new(&system),
             windows: Windows::of(&system),
-            // The ductility of a storey is made of its peak drift.
-            peak_rows: PeakRows::of(structure, scene.peaks || !system.storeys.is_empty()),
+            peak_rows: PeakRows::of(structure, scene.peaks),
             resistance: FloorResistance::of(structure),
             frequencies: [Side::Left, Side::Right]
                 .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
@@ -54,7 +53,7 @@ impl Model {
     pub(in crate::engine) fn set_rest(&self, base: &mut Base) {
         self.system.set_rest(&base.storeys, &mut base.rest);
         base.rest.watched.resize(self.peak_rows.blocks() * LANES, 0.0);
-        if !base.storeys.is_empty() {
+        if !base.storeys.is_empty() && !self.peak_rows.are_none() {
             self.peak_rows.set_at_rest(&self.system.structure, &base.rest.floors, &mut base.rest.watched);
         }
     }

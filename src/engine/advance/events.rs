@@ -1,4 +1,5 @@
-//! Handling of the event that ends a step: entry, release or change of branch. Peaks are not events.
+//! Handling of the event that ends a step: entry, release or change of branch of a contact, yield or turn of a storey. Peaks
+//! are not events.
 
 use crate::contact::EpisodeForce;
 use crate::engine::base::contact::Episode;
@@ -8,7 +9,7 @@ use crate::engine::model::Model;
 use crate::engine::system::buffers::Buffers;
 
 impl Model {
-    /// Changes the state of the contact at the base by its event, and reports an episode that ends.
+    /// Changes the state of the contact or storey at the base by its event, and reports an episode that ends.
     pub(in crate::engine) fn handle(
         &self,
         base: &mut Base,

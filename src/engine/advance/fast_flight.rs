@@ -1,4 +1,4 @@
-//! Fast flight: many whole segments of a record in which no two floors meet, in one loop.
+//! Fast flight: many whole segments of a record in which no two floors meet and no storey yields, in one loop.
 //!
 //! It is an optimisation only: `plan` and `take` do the same segment by segment, bit for bit.
 
@@ -26,7 +26,7 @@ pub struct FastRun {
     pub has_arrived: bool,
 }
 
-/// The check where all pairs are cleared: none is needed.
+/// The check where all pairs and storeys are cleared: none is needed.
 struct NothingNear;
 
 impl<const WIDTH: usize> SegmentCheck<WIDTH> for NothingNear {

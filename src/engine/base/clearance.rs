@@ -1,5 +1,6 @@
-//! Until which segment of the record each pair is known to stay apart (found in the broad phase), and at which contacts
-//! penetration and rate are those at the base.
+//! Until which segment of the record each pair is known to stay apart, and all storeys to stay elastic (found in the broad
+//! phase), and at which contacts penetration and rate are those at the base. In what follows the storeys that can yield
+//! count as one more pair, the last.
 
 use serde::{Deserialize, Serialize};
 use std::ops::Range;

@@ -23,6 +23,6 @@ pub struct Counters {
     pub law_evaluations: u64,
     /// Steps, or pieces of flights, over which the terms of the energy account were integrated.
     pub energy_steps: u64,
-    /// Entries, releases and branch changes.
+    /// Entries, releases and branch changes of contacts, yields and turns of storeys.
     pub events: u64,
 }

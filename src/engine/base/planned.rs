@@ -34,7 +34,7 @@ pub struct Planned {
     pub next_length: Option<f64>,
     /// The event at the end; `None` where the step ends without one.
     pub event: Option<Event>,
-    /// Displacements at the end, in the coordinates of the base.
+    /// Displacements at the end, in the coordinates of the base and relative to its position of rest.
     pub q: Vec<f64>,
     /// Velocities at the end, in the coordinates of the base.
     pub v: Vec<f64>,

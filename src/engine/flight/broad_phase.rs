@@ -31,6 +31,7 @@ use crate::engine::flight::advancement::{BoundedModes, Closing, Ends, Growth, MA
 use crate::engine::flight::elastic::ElasticBounds;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
+use crate::engine::yielding::reach::Reach;
 use crate::engine::yielding::storey::YieldingStorey;
 use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane, ModalDamping, Side, Structure};
@@ -62,7 +63,11 @@ pub struct ClosingBounds {
 impl ClosingBounds {
     /// For the pairs of a structure and the storeys that can yield; `weight` is the largest |row| entry of each mode over
     /// all of them.
-    pub fn of(structure: &Structure, (pairs, storeys): (&[Pair], &[YieldingStorey]), weight: &[f64]) -> ClosingBounds {
+    pub fn of(
+        structure: &Structure,
+        (pairs, storeys, reach): (&[Pair], &[YieldingStorey], &Reach),
+        weight: &[f64],
+    ) -> ClosingBounds {
         let mut growth: Vec<f64> = structure.participation.iter().map(|p| p.abs()).collect();
         let coupled = [Side::Left, Side::Right]
             .into_iter()
@@ -106,15 +111,15 @@ impl ClosingBounds {
         ClosingBounds {
             modes: (0..structure.lanes / LANES).map(block).collect(),
             pairs: pairs.iter().map(|pair| growth_of(&pair.row, pair.share_of_ground())).collect(),
-            elastic: ElasticBounds::of(structure, storeys, &growth, of_storeys),
+            elastic: ElasticBounds::of(reach, &growth, of_storeys),
             coupled,
         }
     }
 }
 
 impl ClosingBounds {
-    /// Tests the pairs that are not cleared for the base's segment, which has that number; returns whether all are
-    /// cleared now. If not, the next broad phase is `segments_to_wait` segments later.
+    /// Tests the pairs that are not cleared for the base's segment, which has that number, and the storeys; returns whether
+    /// all are cleared now. If not, the next broad phase is `segments_to_wait` segments later.
     pub fn dismiss(
         &self,
         system: &System,
@@ -165,7 +170,7 @@ fn share_amplitude(modes: &mut [f64]) {
     modes.fill(whole);
 }
 
-/// Tests each pair that is not cleared for a segment.
+/// Tests each pair that is not cleared for a segment, and the storeys.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn bound_all(
     (closing, system): (&ClosingBounds, &System),

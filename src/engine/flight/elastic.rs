@@ -5,35 +5,24 @@
 //! rest is at most the sum over modes of |row| (e + A S) / w.
 
 use crate::engine::base::Base;
-use crate::engine::base::storey::{Sense, Storey};
+use crate::engine::base::storey::Sense;
 use crate::engine::flight::advancement::{BoundedModes, Closing, Ends, Growth, MARGIN, Seen, TRIED, bound_one};
 use crate::engine::system::System;
-use crate::engine::yielding::storey::YieldingStorey;
-use crate::structure::Structure;
+use crate::engine::yielding::reach::Reach;
 
 /// Coefficients of the bounds on storeys; constant during a run.
 #[derive(Debug)]
 pub struct ElasticBounds {
-    /// For each mode, the largest |row| / (w yield drift) of all storeys of its building: what the amplitude of the mode is
-    /// multiplied by in a bound on drift over yield drift.
-    reach: Vec<f64>,
-    /// Increase of that bound per unit of cumulative absolute velocity, 1 m/s.
+    /// Increase of the bound on all storeys together per unit of cumulative absolute velocity, 1 m/s.
     shaken: f64,
     /// For each storey, the increase of its bounds.
     pub growth: Vec<Growth>,
 }
 
 impl ElasticBounds {
-    /// For some storeys, the increases of whose bounds are known; `shaken` is |participation| of each mode.
-    pub fn of(structure: &Structure, storeys: &[YieldingStorey], shaken: &[f64], growth: Vec<Growth>) -> ElasticBounds {
-        let mut reach = vec![0.0_f64; structure.lanes];
-        for storey in storeys {
-            for m in structure.range(storey.side) {
-                reach[m] = reach[m].max(storey.row[m].abs() / (structure.omega2[m].sqrt() * storey.limit));
-            }
-        }
-        let shaken = reach.iter().zip(shaken).map(|(reach, shaken)| reach * shaken).sum();
-        ElasticBounds { reach, shaken, growth }
+    /// For storeys with that reach, the increases of whose bounds are known; `shaken` is |participation| of each mode.
+    pub fn of(reach: &Reach, shaken: &[f64], growth: Vec<Growth>) -> ElasticBounds {
+        ElasticBounds { shaken: reach.swing(shaken), growth }
     }
 
     /// The largest of the tested numbers of segments for which all storeys stay elastic; 0 if they do for none.
@@ -71,14 +60,13 @@ impl ElasticBounds {
 
     /// The same by the amplitudes of all modes together.
     fn longest_together(&self, system: &System, base: &Base, amplitude: &[f64], ends: &[Ends; TRIED.len()]) -> u64 {
-        let used = |(of, storey): (&YieldingStorey, &Storey)| (of.ratio * storey.plastic).abs() / of.limit;
-        let most_used = system.storeys.iter().zip(&base.storeys).map(used).fold(0.0, f64::max);
-        let swing: f64 = self.reach.iter().zip(amplitude).map(|(reach, amplitude)| reach * amplitude).sum();
+        let moved = Reach::moved(&system.storeys, &base.storeys);
+        let swing = system.reach_of_storeys.swing(amplitude);
         let mut free = 0;
         for (segments, ends) in TRIED.iter().zip(ends) {
             for (segments, cumulative) in segments.iter().zip(&ends.cumulative) {
                 // Written so that a NaN never counts as elastic.
-                if (1.0 + MARGIN) * (swing + self.shaken * cumulative) + most_used < 1.0 {
+                if (1.0 + MARGIN) * (swing + self.shaken * cumulative) + moved < 1.0 {
                     free = *segments;
                 }
             }

@@ -36,18 +36,18 @@ pub struct Flight {
 
 impl Flight {
     /// For the pairs of a system.
-    pub fn new(System { structure, pairs, storeys, .. }: &System) -> Flight {
+    pub fn new(System { structure, pairs, storeys, reach_of_storeys, .. }: &System) -> Flight {
         let rows = pairs.iter().map(|pair| &pair.row).chain(storeys.iter().map(|storey| &storey.row));
         let certificate = Certificate::of(structure, rows);
         Flight {
-            closing: ClosingBounds::of(structure, (pairs, storeys), &certificate.weight),
+            closing: ClosingBounds::of(structure, (pairs, storeys, reach_of_storeys), &certificate.weight),
             near: NearPairs::of(structure, pairs),
             certificate,
         }
     }
 
-    /// Broad phase: tests the pairs that are not cleared for the base's segment, which has that number; returns whether
-    /// all are cleared now.
+    /// Broad phase: tests the pairs that are not cleared for the base's segment, which has that number, and the storeys;
+    /// returns whether all are cleared now.
     pub fn dismiss(
         &self,
         system: &System,

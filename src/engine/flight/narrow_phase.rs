@@ -1,5 +1,5 @@
-//! The narrow phase: the first entry in a flight is searched for piece by piece, in the power series of the
-//! penetrations.
+//! The narrow phase: the first entry in a flight, or the first yield of a storey, is searched for piece by piece, in the
+//! power series of the penetrations and drifts.
 //!
 //! The search does not change the motion: a flight without an entry ends at the exact solution, to the same bits
 //! whether it was searched or not. So pairs that never meet do not affect the results.
@@ -25,7 +25,7 @@ const MOST_PIECES: u32 = 10_000;
 /// where the test fails, as many pieces are searched by series.
 const LONGER: u32 = 2;
 
-/// The search for the first entry in a planned flight.
+/// The search for the first event in a planned flight.
 pub struct Search<'a> {
     pub certificate: &'a Certificate,
     pub system: &'a System,

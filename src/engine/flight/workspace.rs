@@ -1,4 +1,4 @@
-//! Working data of the search for an entry in a flight.
+//! Working data of the search for an event in a flight.
 
 use crate::engine::base::Base;
 

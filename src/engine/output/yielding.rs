@@ -18,7 +18,7 @@ pub enum YieldingOf {
     PlasticDrift,
     /// Drift at which the storey would come to rest, m: plastic drift times 1 - post-yield ratio.
     ResidualDrift,
-    /// Largest drift so far over the yield drift.
+    /// Largest drift so far over the yield drift; where no peaks are watched, 0 until the storey yields.
     Ductility,
     /// Energy dissipated by yielding so far, J.
     HystereticEnergy,

@@ -18,6 +18,7 @@ use crate::engine::excitation::segment::Segment;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::pairs::rigid::RigidPairs;
 use crate::engine::system::tolerance::Tolerance;
+use crate::engine::yielding::reach::Reach;
 use crate::engine::yielding::storey::YieldingStorey;
 use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
@@ -35,6 +36,7 @@ pub struct System {
     pub rigid: RigidPairs,
     /// The storeys that can yield.
     pub storeys: Vec<YieldingStorey>,
+    pub reach_of_storeys: Reach,
     /// The record; absent where the ground acceleration is an input.
     pub ground: Option<GroundMotion>,
     /// Whether a master may set forces on the floors.
@@ -84,6 +86,7 @@ impl System {
         Ok(System {
             initial,
             initial_storeys,
+            reach_of_storeys: Reach::of(&structure, &storeys),
             storeys,
             rigid: RigidPairs::of(&pairs),
             floor_forces: scene.floor_forces,

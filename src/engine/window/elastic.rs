@@ -6,6 +6,7 @@ use crate::engine::base::storey::Sense;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::window::solution::Window;
+use crate::engine::yielding::reach::Reach;
 
 /// Margin for rounding.
 const MARGIN: f64 = 1e-10;
@@ -26,11 +27,14 @@ impl Window {
             let impulse = h * greatest;
             fastest.iter_mut().zip(&system.pairs[*p].row).for_each(|(fastest, row)| *fastest += impulse * row.abs());
         }
-        system.storeys.iter().zip(&base.storeys).all(|(of, storey)| {
-            let most: f64 = of.row.iter().zip(&*fastest).map(|(row, fastest)| row.abs() * fastest).sum();
-            let drift = of.drift(base.coordinates, &base.q);
-            let change = (1.0 + MARGIN) * h * most;
-            Sense::BOTH.into_iter().all(|sense| of.excess(storey, sense, drift) + change < 0.0)
-        })
+        let moved = Reach::moved(&system.storeys, &base.storeys);
+        let together = (1.0 + MARGIN) * system.reach_of_storeys.swing(fastest) + moved < 1.0;
+        together
+            || system.storeys.iter().zip(&base.storeys).all(|(of, storey)| {
+                let most: f64 = of.row.iter().zip(&*fastest).map(|(row, fastest)| row.abs() * fastest).sum();
+                let drift = of.drift(base.coordinates, &base.q);
+                let change = (1.0 + MARGIN) * h * most;
+                Sense::BOTH.into_iter().all(|sense| of.excess(storey, sense, drift) + change < 0.0)
+            })
     }
 }
