@@ -58,7 +58,8 @@ def draw_scene(scene, rows, folder):
             panels.flat[index].set_xlabel("error of displacements, relative to the largest (smaller to the right)")
             panels.flat[index].xaxis.set_tick_params(labelbottom=True)
             panels.flat[index].xaxis.label.set_size(8)
-    title = f"{scene}: {TEMPLATES[scene].title}. Run time against error, whole record"
+    wrap = ". " if columns > 1 else "\n"
+    title = f"{scene}: {TEMPLATES[scene].title}{wrap}Run time against error, whole record"
     figure.suptitle(title, x=0.01, ha="left", weight="bold")
     name_lines(figure, panels.flat[len(laws) :], {row["solver"] for row in rows})
     save(figure, folder, scene)

@@ -55,7 +55,8 @@ class Run:
 
 def compare(case, truth, entries, budget, quick, progress):
     """Rows of the result file. Repeats of all solvers are interleaved: noise of the machine hits all alike."""
-    able = [entry for entry in entries if case.problem.law not in entry.without]
+    yields = bool(case.problem.yielding_storeys)
+    able = [entry for entry in entries if case.problem.law not in entry.without and entry.yields >= yields]
     runs = [Run(entry, setting) for entry in able for setting in entry.chosen(quick)]
     first_round(case, truth, runs, budget, progress)
     for _ in range(1, budget.repeats):

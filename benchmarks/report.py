@@ -80,8 +80,10 @@ def ratio_table(rows, loop, column):
         ratios = [ratio(ours, theirs, loop) if ours and theirs else None for ours, theirs in times]
         reached = [ratio for ratio in ratios if ratio]
         mean = tuple(map(geometric_mean, zip(*reached))) or None
-        partial = f", {len(reached)} laws" if None in ratios else ""
-        yield f"| {scene} | " + " | ".join(map(ratio_cell, ratios)) + f" | **{ratio_cell(mean)}**{partial} |"
+        tried = [law for law in laws if of_problem(rows, scene, law)]
+        partial = f", {len(reached)} laws" if len(reached) < len(tried) else ""
+        cells = [ratio_cell(ratio) if law in tried else "" for law, ratio in zip(laws, ratios)]
+        yield f"| {scene} | " + " | ".join(cells) + f" | **{ratio_cell(mean)}**{partial} |"
 
 
 def ratio(ours, theirs, loop):
@@ -100,7 +102,8 @@ def time_table(rows):
         laws = names(of_scene, "law")
         if not laws:
             continue
-        yield f"{scene}, ms for the whole record, geometric mean over {', '.join(f'`{law}`' for law in laws)}"
+        mean = "geometric mean over " if len(laws) > 1 else ""
+        yield f"{scene}, ms for the whole record, {mean}{', '.join(f'`{law}`' for law in laws)}"
         yield "(in brackets: laws that reach the accuracy, where not all do):"
         yield ""
         yield "| solver | " + " | ".join(f"error {accuracy:g}" for accuracy in ACCURACIES) + " |"

@@ -1,4 +1,4 @@
-"""The scenes of the benchmark: four pairs of buildings, each with any of the laws; as TOML and as plain matrices.
+"""The scenes of the benchmark: pairs of buildings, each with any of its laws; as TOML and as plain matrices.
 
 | scene | what | record |
 |---|---|---|
@@ -6,6 +6,8 @@
 | S2 | the laboratory frames of examples/scenes/feup.toml, 2 and 3 storeys, 5 mm apart, 2 % damping | synthetic, 0.6 g |
 | S3 | 3 storeys of 25 t beside 3 storeys of 1000 t, 20 mm apart | synthetic, 0.6 g |
 | S4 | 20 storeys beside 30 storeys, 20 contacts, 20 mm apart | synthetic, 0.6 g |
+| Y1 | two single masses that yield, elastic-perfectly plastic, no contact | synthetic, 0.6 g |
+| Y2 | 8 storeys beside 5 storeys, all of which yield, 5 contacts, 20 mm apart | synthetic, 0.6 g |
 """
 
 from dataclasses import dataclass, field
@@ -18,7 +20,8 @@ STOP = 20.0  # s
 RAYLEIGH = "{ rayleigh = { ratio = 0.05, modes = [1, 2] } }"
 
 # Laws that the ratio to a peer is averaged over, and all that are run.
-COMPARED = ["linear", "kelvin_voigt", "hertz", "jankowski", "hertz_damped"]
+NO_CONTACT = "none"
+COMPARED = [NO_CONTACT, "linear", "kelvin_voigt", "hertz", "jankowski", "hertz_damped"]
 LAWS = [*COMPARED, "kelvin_voigt_no_tension", "stereomechanical"]
 LINEAR_LAWS = ["linear", "kelvin_voigt", "kelvin_voigt_no_tension"]
 
@@ -29,6 +32,8 @@ class Building:
     stiffness: list  # N/m per storey
     damping: str  # as the scene says it
     ratio: float
+    yield_force: tuple = ()  # N per storey; none: elastic
+    post_yield_ratio: float = 0.0
 
     @cached_property
     def stiffness_matrix(self):
@@ -54,7 +59,10 @@ class Building:
         return weighted @ np.diag(2.0 * self.ratio * omega) @ weighted.T
 
     def toml(self, side):
-        return f"[{side}]\nmass = {self.mass}\nstiffness = {self.stiffness}\ndamping = {self.damping}\n"
+        lines = [f"[{side}]", f"mass = {self.mass}", f"stiffness = {self.stiffness}", f"damping = {self.damping}"]
+        if self.yield_force:
+            lines += [f"yield_force = {list(self.yield_force)}", f"post_yield_ratio = {self.post_yield_ratio}"]
+        return "\n".join(lines) + "\n"
 
 
 @dataclass(frozen=True)
@@ -100,6 +108,17 @@ class Contact:
 
 
 @dataclass(frozen=True)
+class YieldingStorey:
+    """Bilinear with kinematic hardening, between two of all floors, counted from 0."""
+
+    upper: int
+    lower: int | None  # None: the ground
+    stiffness: float
+    yield_force: float
+    post_yield_ratio: float
+
+
+@dataclass(frozen=True)
 class Template:
     """A scene without its law."""
 
@@ -112,6 +131,7 @@ class Template:
     power_stiffness: float
     restitution: float
     lowest: int = 0  # floor of the lowest contact, counted from 0
+    laws: tuple = tuple(law for law in LAWS if law != NO_CONTACT)
 
 
 @dataclass(frozen=True)
@@ -137,6 +157,15 @@ class Problem:
         exponent = 1.0 if linear else 1.5
         floors = range(t.lowest, t.lowest + t.pairs)
         return [Contact(i, t.gap, self.law, stiffness, exponent, t.restitution, reduced[i]) for i in floors]
+
+    @cached_property
+    def yielding_storeys(self):
+        found = []
+        for first, building in [(0, self.template.left), (self.floors[0], self.template.right)]:
+            for i, (k, force) in enumerate(zip(building.stiffness, building.yield_force)):
+                lower = first + i - 1 if i else None
+                found.append(YieldingStorey(first + i, lower, k, force, building.post_yield_ratio))
+        return found
 
     @property
     def floors(self):
@@ -168,8 +197,8 @@ class Problem:
         return "\n".join(parts)
 
 
-def shear(floors, mass, stiffness, damping, ratio):
-    return Building([mass] * floors, [stiffness] * floors, damping, ratio)
+def shear(floors, mass, stiffness, damping, ratio, *yields):
+    return Building([mass] * floors, [stiffness] * floors, damping, ratio, *yields)
 
 
 TEMPLATES = {
@@ -212,6 +241,28 @@ TEMPLATES = {
         2.75e9,
         2.75e9,
         0.65,
+    ),
+    "Y1": Template(
+        "two single masses that yield, no contact",
+        shear(1, 50e3, 7.9e6, "{ ratio = 0.05 }", 0.05, (200e3,)),
+        shear(1, 75e3, 3.0e6, "{ ratio = 0.05 }", 0.05, (150e3,)),
+        0.0,
+        0,
+        0.0,
+        0.0,
+        1.0,
+        laws=(NO_CONTACT,),
+    ),
+    "Y2": Template(
+        "8 and 5 storeys that yield",
+        shear(8, 300e3, 4.0e8, RAYLEIGH, 0.05, (5.0e6, 4.9e6, 4.6e6, 4.2e6, 3.6e6, 2.9e6, 2.1e6, 1.1e6), 0.03),
+        shear(5, 400e3, 8.0e8, RAYLEIGH, 0.05, (6.0e6, 5.6e6, 4.8e6, 3.6e6, 2.0e6), 0.03),
+        0.02,
+        5,
+        2.75e9,
+        2.75e9,
+        0.65,
+        laws=("linear", "kelvin_voigt"),
     ),
 }
 

@@ -20,6 +20,7 @@ class Entry:
     quick_settings: list
     make: Callable  # (case, setting) -> an object with `setup` and `run()`
     without: dict  # laws that it cannot, with the reason
+    yields: bool = False  # whether it can do storeys that yield
 
     def chosen(self, quick):
         return self.quick_settings if quick else self.settings
@@ -59,13 +60,13 @@ def decades(first, last, step=1):
 def engine():
     program = compiled.build_engine()
     make = lambda case, setting: compiled.Solver(program, case.scene_file, case.floors, "engine", setting)
-    return [Entry(OURS, "relative tolerance", decades(3, 13), decades(6, 12, 3), make, {})]
+    return [Entry(OURS, "relative tolerance", decades(3, 13), decades(6, 12, 3), make, {}, yields=True)]
 
 
 def heyoka():
     make = lambda case, setting: heyoka_taylor.Solver(case.problem, case.ground, setting)
     settings = [1e-5, 1e-7, 1e-9, 1e-10, 1e-11, 1e-12, 1e-14]
-    return [Entry("heyoka", "tolerance", settings, [1e-7, 1e-11], make, heyoka_taylor.WITHOUT)]
+    return [Entry("heyoka", "tolerance", settings, [1e-7, 1e-11], make, heyoka_taylor.WITHOUT, yields=True)]
 
 
 def cvode():
@@ -87,7 +88,8 @@ def fixed_step():
         make = lambda case, setting, method=method: compiled.Solver(
             program, case.numbers_file, case.floors, method, setting
         )
-        entries.append(Entry(name, "step, s", [1e-3, 1e-4, 1e-5, 1e-6], [1e-3, 1e-4], make, STEREOMECHANICAL))
+        steps = [1e-3, 1e-4, 1e-5, 1e-6]
+        entries.append(Entry(name, "step, s", steps, steps[:2], make, STEREOMECHANICAL, yields=True))
     return entries
 
 
@@ -106,7 +108,7 @@ def scipy():
 def open_sees():
     module = opensees.load()
     make = lambda case, setting: opensees.Solver(case.problem, case.ground, module, setting)
-    return [Entry("OpenSeesPy", "step, s", [1e-3, 1e-4, 1e-5], [1e-3], make, opensees.WITHOUT)]
+    return [Entry("OpenSeesPy", "step, s", [1e-3, 1e-4, 1e-5], [1e-3], make, opensees.WITHOUT, yields=True)]
 
 
 GROUPS = {

@@ -1,6 +1,7 @@
 """Run time against error, beside other solvers, measured in one session.
 
     python3 examples/run.py benchmarks/work_precision.py            # the long run: 40 minutes; renews docs/benchmark/
+    python3 examples/run.py benchmarks/work_precision.py --scene Y1 Y2  # these scenes alone; the others' results stay
     python3 examples/run.py benchmarks/work_precision.py --quick    # a minute: shows that the command works
     python3 examples/run.py benchmarks/work_precision.py --draw     # pictures and table of the last long run again
 
@@ -53,10 +54,10 @@ def main():
 
 def parse_options():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="one scene, two laws, 4 s of the record")
+    parser.add_argument("--quick", action="store_true", help="two scenes, two laws, 4 s of the record")
     parser.add_argument("--draw", action="store_true", help="no run: pictures and tables from the last results")
-    parser.add_argument("--scene", nargs="+", choices=list(scenes.TEMPLATES), help="these only")
-    parser.add_argument("--law", nargs="+", choices=scenes.LAWS, help="these only")
+    parser.add_argument("--scene", nargs="+", choices=list(scenes.TEMPLATES), help="these only; results of others stay")
+    parser.add_argument("--law", nargs="+", choices=scenes.LAWS, help="likewise")
     parser.add_argument("--solver", nargs="+", help="these peers only, by parts of their names")
     parser.add_argument("--repeats", type=int, help="of each measurement, at most")
     return parser.parse_args()
@@ -67,12 +68,15 @@ def run(options, results):
     if options.repeats:
         budget.repeats = options.repeats
     problems = chosen_problems(options)
+    if not problems:
+        raise SystemExit("none of these scenes has any of these laws")
     folder = WORK / ("quick" if options.quick else "full")
     ground = make_inputs(problems, folder)
     entries, missing = solvers.available(options.solver)
     for name, reason in missing.items():
         print(f"without {name}: {reason}")
-    progress, rows = Progress(len(problems)), []
+    others = other_rows(problems, results / "work_precision.csv")
+    progress, rows = Progress(len(problems)), list(others)
     for problem in problems:
         progress.begin(problem.name)
         progress.show("truth")
@@ -85,15 +89,22 @@ def run(options, results):
         progress.clear()
         print(report.line(problem, of_this), flush=True)
         write(results / "work_precision.csv", rows)
-    loop = f"{report.LOOP} {1e3 * heyoka_taylor.empty_loop(*ground):.2f} ms"
-    machine.write(results / "machine.txt", missing, [loop])
+    if not others:
+        loop = f"{report.LOOP} {1e3 * heyoka_taylor.empty_loop(*ground):.2f} ms"
+        machine.write(results / "machine.txt", missing, [loop])
 
 
 def chosen_problems(options):
-    chosen = options.scene or (["S1"] if options.quick else list(scenes.TEMPLATES))
-    laws = options.law or (["kelvin_voigt", "jankowski"] if options.quick else scenes.LAWS)
+    chosen = options.scene or (["S1", "Y1"] if options.quick else list(scenes.TEMPLATES))
+    laws = options.law or (["kelvin_voigt", "jankowski", scenes.NO_CONTACT] if options.quick else scenes.LAWS)
     stop = QUICK_STOP if options.quick else scenes.STOP
-    return [scenes.problem(scene, law, stop) for scene in chosen for law in laws]
+    return [scenes.problem(scene, law, stop) for scene in chosen for law in laws if law in scenes.TEMPLATES[scene].laws]
+
+
+def other_rows(problems, path):
+    """Results of earlier runs, of what is not run now."""
+    run_now = [(problem.scene, problem.law) for problem in problems]
+    return [row for row in read(path) if (row["scene"], row["law"]) not in run_now] if path.exists() else []
 
 
 def make_inputs(problems, folder):

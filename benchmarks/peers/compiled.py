@@ -90,13 +90,18 @@ def write_problem(problem, ground, file):
     """The problem as numbers, for the programs in C (format: read_problem in problem.c)."""
     mass, K, C = problem.matrices
     times, accelerations = ground
-    lines = [[len(mass), len(problem.contacts), len(times), problem.stop, OUTPUT_STEP], mass, K.ravel(), C.ravel()]
+    links = len(problem.contacts) + len(problem.yielding_storeys)
+    lines = [[len(mass), links, len(times), problem.stop, OUTPUT_STEP], mass, K.ravel(), C.ravel()]
     for contact in problem.contacts:
         law = contact.law
         right = contact.floor + problem.floors[0]
         exponent = 0.25 if law == "jankowski" else 0.0
         flags = [law == "kelvin_voigt", law == "jankowski"]
         spring = [contact.stiffness, contact.exponent, contact.damping, exponent, contact.relative_damping]
-        lines.append([contact.floor, right, contact.gap, *spring, *flags])
+        lines.append([contact.floor, right, contact.gap, *spring, *flags, 0.0])
+    for storey in problem.yielding_storeys:
+        lower = -1 if storey.lower is None else storey.lower
+        lost = (1.0 - storey.post_yield_ratio) * storey.stiffness
+        lines.append([storey.upper, lower, 0.0, lost, *[0.0] * 6, storey.yield_force / storey.stiffness])
     lines += [times, accelerations]
     file.write_text("\n".join(" ".join(repr(float(value)) for value in line) for line in lines) + "\n")

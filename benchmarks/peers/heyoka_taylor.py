@@ -4,7 +4,7 @@ One integrator per problem and tolerance, compiled once (setup time, not in the 
 linear in time with two parameters, set anew at every sample of the record; the integration is asked for each sample in
 turn. Each contact has parameters for its phase; entries, releases and changes of branch are events whose callbacks set
 them. d^1.5 and d^(1/4) have no Taylor series at d = 0: with these laws a contact begins and ends at d = eps, small
-enough not to be seen in the result.
+enough not to be seen in the result. Storeys that yield have a plastic drift and a phase among the parameters, too.
 
 Peak forces, impulses and energies are not computed.
 """
@@ -19,6 +19,7 @@ from . import OUTPUT_STEP, Outcome
 NAME = "heyoka"
 WITHOUT = {"stereomechanical": "dying rebounds and sustained contact need a complementarity solver"}
 PARAMETERS = {
+    "none": [],
     "linear": ["closed"],
     "kelvin_voigt": ["closed", "damper"],
     "kelvin_voigt_no_tension": ["closed", "push"],
@@ -56,6 +57,12 @@ class Solver:
             forces[left].append(-1.0 * force)
             forces[right].append(force)
             events += self.events(contact, index, u[left] - u[right] - contact.gap, v[left] - v[right])
+        for index, storey in enumerate(self.problem.yielding_storeys):
+            lost, of_storey = self.yielding(storey, index, u, v)
+            forces[storey.upper].append(lost)
+            if storey.lower is not None:
+                forces[storey.lower].append(-1.0 * lost)
+            events += of_storey
         ground = hy.par[0] + hy.par[1] * (hy.time - hy.par[2])
         system = [(u[i], v[i]) for i in range(n)]
         for i in range(n):
@@ -140,6 +147,39 @@ class Solver:
         if contact.law == "hertz_damped":
             events.append(hy.t_event(while_closed(1.0 + hy.par[at["relative"]] * v), callback=pull))
         return events
+
+    def yielding(self, storey, index, u, v):
+        """What a storey carries less than an elastic one, (1 - r) k (plastic drift), and where it yields and unloads.
+
+        The plastic drift is `shift` while the storey is elastic, and `shift + drift` while it yields: `flow` is 1 then.
+        """
+        limit = storey.yield_force / storey.stiffness
+        shift = 3 + len(PARAMETERS[self.problem.law]) * len(self.problem.contacts) + 2 * index
+        flow = shift + 1
+        between = lambda floors: floors[storey.upper] - (0.0 if storey.lower is None else floors[storey.lower])
+        drift = between(u)
+
+        def yields(integrator, _sign):
+            elastic = between(integrator.state) - integrator.pars[shift]
+            integrator.pars[shift] = -np.copysign(limit, elastic)
+            integrator.pars[flow] = 1.0
+            return True
+
+        def unloads(integrator, _sign):
+            # Just inside the limit: on it, where the rate is 0, rounding would be a yield.
+            integrator.pars[shift] = between(integrator.state) + (1.0 - 1e-14) * integrator.pars[shift]
+            integrator.pars[flow] = 0.0
+            return True
+
+        elastic = (drift - hy.par[shift]) * (1.0 / limit)
+        rises = (1.0 - hy.par[flow]) * (elastic * elastic - 1.0) - hy.par[flow]
+        turns = hy.par[flow] * between(v) + (1.0 - hy.par[flow])
+        events = [
+            hy.t_event(rises, direction=hy.event_direction.positive, callback=yields),
+            hy.t_event(turns, callback=unloads),
+        ]
+        lost = (1.0 - storey.post_yield_ratio) * storey.stiffness
+        return lost * (hy.par[shift] + hy.par[flow] * drift), events
 
     def reset(self):
         integrator = self.integrator

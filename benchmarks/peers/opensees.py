@@ -1,5 +1,5 @@
-"""OpenSeesPy: masses, springs with dashpots, impact materials in zero-length elements; Newmark, fixed
-step; where the iteration fails, ten smaller steps, as scripts do.
+"""OpenSeesPy: masses, springs with dashpots, storeys that yield (Steel01), impact materials in zero-length elements;
+Newmark, fixed step; where the iteration fails, ten smaller steps, as scripts do.
 
 Optional: its licence forbids commercial use without agreement, and the project does not depend on it.
 """
@@ -56,7 +56,13 @@ class Solver:
         # Any K and C are springs with dashpots between each two floors, and from each floor to the ground.
         links = [(i + 1, 1000, K[i].sum(), C[i].sum()) for i in range(n)]
         links += [(i + 1, j + 1, -K[i, j], -C[i, j]) for i in range(n) for j in range(i)]
+        yielding = {(s.upper + 1, 1000 if s.lower is None else s.lower + 1): s for s in problem.yielding_storeys}
         for one, other, k, c in links:
+            if storey := yielding.get((one, other)):
+                tag += 1
+                ops.uniaxialMaterial("Steel01", tag, storey.yield_force, storey.stiffness, storey.post_yield_ratio)
+                ops.element("zeroLength", tag, one, other, "-mat", tag, "-dir", 1, "-doRayleigh", 0)
+                k = 0.0
             if k != 0.0 or c != 0.0:
                 tag += 1
                 ops.uniaxialMaterial("Elastic", tag, float(k), float(c))

@@ -1,7 +1,8 @@
 /*
  * Fixed steps, as a structural engineer's script has them, in C: `newmark` (constant average acceleration, contact
  * forces iterated by Newton's method to 1e-13 m) and `rk4`. A contact is closed in a step where d > 0; V is the closing
- * velocity at the last step before. SETTING is the step in s.
+ * velocity at the last step before. Storeys that yield have their return mapping: the plastic drift follows from the
+ * drift and from the plastic drift at the last step. SETTING is the step in s.
  */
 #include "problem.h"
 
@@ -11,7 +12,7 @@
 typedef struct {
     const Problem *p;
     double step;
-    double *u, *v, *V;               /* the state; V one per contact */
+    double *u, *v, *V, *plastic;     /* the state; V and the plastic drift one per contact */
     double *F;                       /* contact forces */
     double *work;                    /* RK4: eight vectors */
     /* Newmark: */
@@ -20,6 +21,32 @@ typedef struct {
     double *G;                       /* contacts x contacts: B^T effective stiffness^-1 B */
     double *d, *d0, *v0, *free, *residual, *jacobian;
 } March;
+
+/* The return mapping: how far a drift lies beyond the elastic range that the plastic drift at the last step leaves. */
+static double beyond(const March *m, int i, double drift)
+{
+    double elastic = drift - m->plastic[i], excess = fabs(elastic) - m->p->contact[i].yield_drift;
+    return excess > 0.0 ? copysign(excess, elastic) : 0.0;
+}
+
+/* Force of a contact or of a storey that yields, and its derivatives by d and by v where they are asked for. */
+static double force(const March *m, int i, double d, double v, double *by_d, double *by_v)
+{
+    const Contact *c = &m->p->contact[i];
+    if (by_d)
+        *by_d = *by_v = 0.0;
+    if (c->yield_drift > 0.0) {
+        double slip = beyond(m, i, d);
+        if (by_d && slip != 0.0)
+            *by_d = -c->k;
+        return -c->k * (m->plastic[i] + slip);
+    }
+    if (d <= 0.0)
+        return 0.0;
+    if (by_d)
+        contact_tangent(c, d, v, m->V[i], by_d, by_v);
+    return contact_force(c, d, v, m->V[i]);
+}
 
 /* Banded Cholesky factor (lower, in rows) of the effective stiffness. */
 static void factorise(March *m, double on_mass, double on_damping)
@@ -88,7 +115,8 @@ static void prepare_newmark(March *m)
     for (int i = 0; i < p->contacts; i++) {
         double *column = m->compliance + (long)i * p->floors;
         column[p->contact[i].left] = 1.0;
-        column[p->contact[i].right] = -1.0;
+        if (p->contact[i].right >= 0)
+            column[p->contact[i].right] = -1.0;
         solve_factored(m, column);
     }
     for (int i = 0; i < p->contacts; i++)
@@ -107,12 +135,9 @@ static void iterate_contacts(March *m)
     for (int iteration = 0; iteration < 50 && change > 1e-13; iteration++) {
         bool any = false;
         for (int j = 0; j < n; j++) {
-            bool closed = m->d[j] > 0.0;
-            double by_d = 0.0, by_v = 0.0, v = 2.0 / h * (m->d[j] - m->d0[j]) - m->v0[j];
-            m->F[j] = closed ? contact_force(&p->contact[j], m->d[j], v, m->V[j]) : 0.0;
-            if (closed)
-                contact_tangent(&p->contact[j], m->d[j], v, m->V[j], &by_d, &by_v);
-            any |= closed;
+            double by_d, by_v, v = 2.0 / h * (m->d[j] - m->d0[j]) - m->v0[j];
+            m->F[j] = force(m, j, m->d[j], v, &by_d, &by_v);
+            any |= by_d != 0.0 || by_v != 0.0;
             for (int i = 0; i < n; i++)
                 m->jacobian[i * n + j] = (i == j) + m->G[i * n + j] * (by_d + 2.0 / h * by_v);
         }
@@ -149,7 +174,7 @@ static void newmark_step(March *m, double t)
         m->d0[i] = penetration(&p->contact[i], m->u);
         m->v0[i] = rate(&p->contact[i], m->v);
         m->free[i] = m->d[i] = m->d0[i] + rate(&p->contact[i], m->change);
-        touching |= m->free[i] > 0.0;
+        touching |= m->free[i] > 0.0 || p->contact[i].yield_drift > 0.0;
     }
     if (touching) {
         iterate_contacts(m);
@@ -168,10 +193,8 @@ static void newmark_step(March *m, double t)
 static void rk4_slope(March *m, const double *u, const double *v, double t, double *a)
 {
     const Problem *p = m->p;
-    for (int i = 0; i < p->contacts; i++) {
-        double d = penetration(&p->contact[i], u);
-        m->F[i] = d > 0.0 ? contact_force(&p->contact[i], d, rate(&p->contact[i], v), m->V[i]) : 0.0;
-    }
+    for (int i = 0; i < p->contacts; i++)
+        m->F[i] = force(m, i, penetration(&p->contact[i], u), rate(&p->contact[i], v), NULL, NULL);
     acceleration(p, u, v, ground_acceleration(p, t), m->F, a);
 }
 
@@ -199,12 +222,12 @@ static void rk4_step(March *m, double t)
 static March new_march(const Problem *p, double step)
 {
     int n = p->floors, c = p->contacts;
-    double *memory = allocate(16L * n + (long)n * n + (long)n * c + 2L * c * c + 8L * c, sizeof *memory);
+    double *memory = allocate(16L * n + (long)n * n + (long)n * c + 2L * c * c + 9L * c, sizeof *memory);
     March m = {.p = p, .step = step};
     struct { double **vector; long length; } parts[] = {
         {&m.u, n}, {&m.v, n}, {&m.a, n}, {&m.change, n}, {&m.work, 8L * n}, {&m.factor, (long)n * n},
         {&m.compliance, (long)n * c}, {&m.G, (long)c * c}, {&m.jacobian, (long)c * c}, {&m.V, c}, {&m.F, c},
-        {&m.d, c}, {&m.d0, c}, {&m.v0, c}, {&m.free, c}, {&m.residual, c},
+        {&m.plastic, c}, {&m.d, c}, {&m.d0, c}, {&m.v0, c}, {&m.free, c}, {&m.residual, c},
     };
     for (unsigned i = 0; i < sizeof parts / sizeof *parts; i++) {
         *parts[i].vector = memory;
@@ -234,8 +257,13 @@ static int march(const Problem *p, const char *method, double step, double *out)
         for (int i = 0; i < p->contacts; i++)
             m.d0[i] = penetration(&p->contact[i], m.u);
         newmark ? newmark_step(&m, k * step) : rk4_step(&m, k * step);
-        for (int i = 0; i < p->contacts; i++)
-            impacts += m.d0[i] <= 0.0 && penetration(&p->contact[i], m.u) > 0.0;
+        for (int i = 0; i < p->contacts; i++) {
+            double d = penetration(&p->contact[i], m.u);
+            if (p->contact[i].yield_drift > 0.0)
+                m.plastic[i] += beyond(&m, i, d);
+            else
+                impacts += m.d0[i] <= 0.0 && d > 0.0;
+        }
     }
     return impacts;
 }

@@ -84,6 +84,7 @@ Problem read_problem(const char *path)
         c->a = number(file);
         c->tension = number(file) != 0;
         c->only_approaching = number(file) != 0;
+        c->yield_drift = number(file);
     }
     p.time = numbers(file, p.samples);
     p.ground = numbers(file, p.samples);
@@ -146,12 +147,12 @@ void contact_tangent(const Contact *c, double d, double v, double V, double *by_
 
 double penetration(const Contact *c, const double *u)
 {
-    return u[c->left] - u[c->right] - c->gap;
+    return rate(c, u) - c->gap;
 }
 
 double rate(const Contact *c, const double *v)
 {
-    return v[c->left] - v[c->right];
+    return v[c->left] - (c->right < 0 ? 0.0 : v[c->right]);
 }
 
 void acceleration(const Problem *p, const double *u, const double *v, double ground, const double *F, double *out)
@@ -167,7 +168,8 @@ void acceleration(const Problem *p, const double *u, const double *v, double gro
     }
     for (int i = 0; i < p->contacts; i++) {
         out[p->contact[i].left] += F[i];
-        out[p->contact[i].right] -= F[i];
+        if (p->contact[i].right >= 0)
+            out[p->contact[i].right] -= F[i];
     }
     for (int i = 0; i < n; i++)
         out[i] = -out[i] / p->mass[i] - ground;

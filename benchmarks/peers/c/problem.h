@@ -4,12 +4,18 @@
 
 #include <stdbool.h>
 
-/* F = k d^n (1 + a v / V) + c d^m v; of these terms a law has those that are not 0. */
+/*
+ * F = k d^n (1 + a v / V) + c d^m v; of these terms a law has those that are not 0.
+ *
+ * A storey that yields stands among the contacts: `left` is its upper floor and `right` its lower one, d is its drift,
+ * and F = -k (plastic drift) is what it carries less than the elastic storey that K has; k is (1 - r) of its stiffness.
+ */
 typedef struct {
-    int left, right;                 /* indices of the floors */
+    int left, right;                 /* indices of the floors; -1: the ground */
     double gap, k, n, c, m, a;
     bool tension;                    /* the force may pull, as long as d > 0 */
     bool only_approaching;           /* c counts while v > 0 only */
+    double yield_drift;              /* of a storey that yields; of a contact 0 */
 } Contact;
 
 typedef struct {
