@@ -57,8 +57,10 @@ impl Flight {
         counters: &mut Counters,
         amplitude: &mut [f64],
     ) -> bool {
-        // Where modes and pairs are few, the test of a segment by both ends costs less than another broad phase.
-        let segments_to_wait = if self.near.is_some() { NEAR_SEGMENTS } else { 1 };
+        // Where modes and pairs are few, the test of a segment by both ends costs less than another broad phase; storeys have
+        // no such test in fast flight.
+        let has_fast_test = self.near.is_some() && system.storeys.is_empty();
+        let segments_to_wait = if has_fast_test { NEAR_SEGMENTS } else { 1 };
         self.closing.dismiss(system, ground, (base, segment, segments_to_wait), counters, amplitude)
     }
 
