@@ -1,6 +1,6 @@
 //! Masses, stiffnesses, damping and initial motion of each building.
 
-use super::facts::{Facts, Pace, median, stiffness_key};
+use super::facts::{Facts, Pace, how_many_times, median, nearest, stiffness_key};
 use super::found::Found;
 use super::whole::{HEAVY, IN_KN_T};
 use crate::figures::short;
@@ -90,23 +90,8 @@ fn odd_entries(values: &[f64], others: &[f64], is_meant: impl Fn((usize, f64)) -
     odd
 }
 
-/// The factor to the nearest of some numbers that all lie on one side, else 1.
-fn nearest(value: f64, others: &[f64]) -> f64 {
-    let factors = || others.iter().map(|other| value / other);
-    let (least, most) = factors().fold((f64::INFINITY, 0.0_f64), |(least, most), f| (least.min(f), most.max(f)));
-    match (least, most) {
-        (least, _) if least > 1.0 => least,
-        (_, most) if most < 1.0 => most,
-        _ => 1.0,
-    }
-}
-
 fn distance(value: f64, other: f64) -> f64 {
     (value / other).ln().abs()
-}
-
-fn how_many_times(factor: f64) -> String {
-    if factor > 1.0 { format!("{} times", short(factor)) } else { format!("1/{} of", short(1.0 / factor)) }
 }
 
 /// What may have been meant by an entry that is off by a factor: `unit` is that of the SI.

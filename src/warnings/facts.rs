@@ -1,5 +1,6 @@
 //! What the rules share.
 
+use crate::figures::short;
 use crate::record::Record;
 use crate::scene::{Building, Scene, Stiffness};
 use crate::structure::{FirstMode, Side};
@@ -127,4 +128,20 @@ pub(super) fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut sorted: Vec<f64> = values.collect();
     sorted.sort_by(f64::total_cmp);
     sorted.get(sorted.len() / 2).copied()
+}
+
+/// The factor to the nearest of some numbers that all lie on one side, else 1.
+pub(super) fn nearest(value: f64, others: &[f64]) -> f64 {
+    let factors = || others.iter().map(|other| value / other);
+    let (least, most) = factors().fold((f64::INFINITY, 0.0_f64), |(least, most), f| (least.min(f), most.max(f)));
+    match (least, most) {
+        (least, _) if least > 1.0 => least,
+        (_, most) if most < 1.0 => most,
+        _ => 1.0,
+    }
+}
+
+/// A factor in words.
+pub(super) fn how_many_times(factor: f64) -> String {
+    if factor > 1.0 { format!("{} times", short(factor)) } else { format!("1/{} of", short(1.0 / factor)) }
 }

@@ -25,6 +25,7 @@
 //! | file | looks at |
 //! |---|---|
 //! | `buildings.rs` | masses, stiffnesses, damping and initial motion of each building |
+//! | `yielding.rs` | storeys that yield: their forces, and the damping of isolators |
 //! | `whole.rs` | scenes in which every mass and stiffness is in other units |
 //! | `ground.rs` | the record, its scaling, `stop_time` |
 //! | `contacts.rs` | gaps and numbers of the laws |
@@ -41,6 +42,7 @@ mod ground;
 mod levels;
 mod touch;
 mod whole;
+mod yielding;
 
 pub use crate::figures::{short, six_decimals};
 pub use found::Warning;
@@ -58,6 +60,7 @@ pub fn of(scene: &Scene, record: Option<&Record>) -> Vec<Warning> {
     ground::look(&facts, &mut found);
     buildings::look(&facts, &mut found);
     whole::look(&facts, &mut found);
+    yielding::look(&facts, &mut found);
     contacts::look(&facts, &mut found);
     levels::look(&facts, &mut found);
     found.warnings

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod levels;
+mod yielding;
 
 use pounding::record::Record;
 use pounding::scene::{Scene, Units, load};
