@@ -11,9 +11,8 @@ use std::fmt::Write;
 pub fn text(outcome: &Outcome, package: Option<&Package>, stop_reason: &str) -> String {
     let run = Run(outcome, package.map(|package| &package.scene));
     let mut text = overview(&run, package, stop_reason);
-    for table in
-        [run.floors(), run.buildings(), run.contacts(), run.struck_columns(), run.energy()].into_iter().flatten()
-    {
+    let buildings = [run.floors(), run.buildings(), run.yielding()];
+    for table in buildings.into_iter().chain([run.contacts(), run.struck_columns(), run.energy()]).flatten() {
         text.push('\n');
         text.push_str(&table.aligned());
     }
@@ -184,6 +183,36 @@ impl Run<'_> {
         table.unless_empty()
     }
 
+    /// Storeys that can yield: what they were given, and how far they have gone.
+    fn yielding(&self) -> Option<Table> {
+        let last = |name: String| self.seen(&name).map(|seen| seen.last);
+        let storeys = SIDES.into_iter().flat_map(|side| {
+            let of_storey = move |quantity: &str, storey: usize| last(format!("{side}.{quantity}[{storey}]"));
+            (1..=self.count(&format!("{side}.displacement"))).filter_map(move |storey| {
+                let force = of_storey("yield_force", storey)?;
+                let given = [force, of_storey("post_yield_ratio", storey)?];
+                let gone = ["ductility", "residual_drift", "hysteretic_energy"].map(|name| of_storey(name, storey));
+                Some((format!("{side} {storey}"), given, gone))
+            })
+        });
+        let storeys: Vec<(String, [f64; 2], [Option<f64>; 3])> = storeys.collect();
+        let force = Scale::of("N", storeys.iter().map(|(_, given, _)| given[0]));
+        let energy = Scale::of("J", storeys.iter().filter_map(|(_, _, gone)| gone[2]));
+        let all = self.all_energy();
+        let mut columns = vec![("storey that can yield", ""), ("yield force", &force.unit), ("post-yield ratio", "")];
+        columns.extend([("ductility", ""), ("residual drift", "m"), ("dissipated", &energy.unit)]);
+        columns.extend(all.map(|_| ("of all energy", "%")));
+        let mut table = Table::new(&columns);
+        for (storey, given, [ductility, residual, dissipated]) in storeys {
+            let cell = |value: Option<f64>| value.map_or(String::new(), digits);
+            let mut row = vec![storey, force.cell(given[0]), format!("{}", given[1]), cell(ductility), cell(residual)];
+            row.push(dissipated.map_or(String::new(), |joule| energy.cell(joule)));
+            row.extend(all.map(|all| dissipated.map_or(String::new(), |joule| format!("{:.1}", 100.0 * joule / all))));
+            table.row(row);
+        }
+        table.unless_empty()
+    }
+
     /// What slabs do to columns, beside what the storey carries anyway: bending of the columns is not in the model.
     fn struck_columns(&self) -> Option<Table> {
         let last = |name: String| self.seen(&name).map(|seen| seen.last);
@@ -208,8 +237,15 @@ impl Run<'_> {
         table.unless_empty()
     }
 
+    /// J that is at the end in motion and storeys or has been lost: all that has come in, where the FMU has the account.
+    fn all_energy(&self) -> Option<f64> {
+        let kept = ["kinetic", "strain", "viscous", "hysteretic", "impact"];
+        let all: f64 = kept.iter().filter_map(|name| self.seen(&format!("energy.{name}"))).map(|seen| seen.last).sum();
+        (all > 0.0).then_some(all)
+    }
+
     fn energy(&self) -> Option<Table> {
-        let names = ["input", "external", "kinetic", "strain", "viscous", "impact"];
+        let names = ["input", "external", "kinetic", "strain", "viscous", "hysteretic", "impact"];
         let energy = |name: &str| self.seen(&format!("energy.{name}")).map(|seen| seen.last);
         let scale = Scale::of("J", names.into_iter().filter_map(energy));
         let mut table = Table::new(&[("energy at the end", ""), ("", &scale.unit)]);

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{cargo_fmu, changed_feup, feup_fmu, replace_once, stderr, stdout};
+use common::{build, cargo_fmu, changed_feup, feup_fmu, replace_once, root, stderr, stdout};
 use tempfile::TempDir;
 
 #[test]
@@ -104,4 +104,43 @@ fn an_fmu_is_called_one() {
         assert!(stderr(&output).contains(&expected) && stderr(&output).contains(right), "{}", stderr(&output));
         assert!(!path.exists() && !directory.path().join("new").exists());
     }
+}
+
+/// What was given in kN, and how far each storey has gone; one that stays elastic is not among them.
+#[test]
+fn the_summary_has_the_storeys_that_can_yield() {
+    let directory = TempDir::new().unwrap();
+    let text = std::fs::read_to_string(root().join("examples/scenes/yielding.toml")).unwrap();
+    std::fs::copy(root().join("examples/records/el_centro_1940_ns.csv"), directory.path().join("record.csv")).unwrap();
+    let text = replace_once(&text, "../records/el_centro_1940_ns.csv", "record.csv");
+    let scene = directory.path().join("scene.toml");
+    std::fs::write(&scene, replace_once(&text, "1010, 530]", "inf, 530]")).unwrap();
+    let fmu = directory.path().join("a.fmu");
+    let said = stdout(&build(&scene, &fmu));
+    let report = stdout(&cargo_fmu(&["check", fmu.to_str().unwrap(), "--json"]));
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    let value = |name: &str| report["run"]["values"][name].as_f64().unwrap();
+
+    let lines: Vec<&str> = said.lines().skip_while(|line| !line.contains("storey that can yield")).collect();
+    let cells = |line: &str| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    let rows: Vec<Vec<String>> =
+        lines[2..].iter().take_while(|line| !line.is_empty()).map(|line| cells(line)).collect();
+    assert_eq!(cells(lines[1]), ["kN", "m", "kJ", "%"], "{said}");
+    let names = ["left 1", "left 2", "left 4", "right 1", "right 2", "right 3"];
+    assert_eq!(rows.iter().map(|row| row[..2].join(" ")).collect::<Vec<_>>(), names, "{said}");
+    let given: Vec<_> = rows.iter().map(|row| row[2..4].join(" ")).collect();
+    assert_eq!(given, ["1490 0.05", "1330 0.05", "530 0.05", "1150 0.05", "940 0.05", "540 0.05"]);
+    let energies =
+        ["kinetic", "strain", "viscous", "hysteretic", "impact"].map(|name| value(&format!("energy.{name}")));
+    for row in &rows {
+        let end = |quantity: &str| value(&format!("{}.{quantity}[{}]", row[0], row[1]));
+        let dissipated = end("hysteretic_energy");
+        let share = 100.0 * dissipated / energies.iter().sum::<f64>();
+        let expected = [end("ductility"), end("residual_drift"), dissipated / 1e3, share];
+        for (cell, (expected, rounding)) in row[4..].iter().zip(expected.iter().zip([0.0, 0.0, 0.0, 0.051])) {
+            let cell: f64 = cell.parse().unwrap();
+            assert!((cell - expected).abs() <= 1e-4 * expected.abs() + rounding, "{row:?}: {expected}");
+        }
+    }
+    assert!(said.lines().any(|line| line.starts_with("  hysteretic ")), "{said}");
 }
