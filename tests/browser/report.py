@@ -43,7 +43,7 @@ def main():
         for look in [reads, tells_apart, hovers, zooms, chooses, sorts, finds_an_impact, is_narrow]:
             look(page, scene, impacts)
             print(f"{look.__name__.replace('_', ' ')}: well")
-        for look, name in [(has_levels, "neighbours"), (stands_alone, "isolated")]:
+        for look, name in [(has_levels, "neighbours"), (stands_alone, "isolated"), (yields, "yielding")]:
             page.set_viewport_size({"width": 1300, "height": 900})
             html, _, impacts = make_report(name)
             page.goto(html.as_uri())
@@ -208,6 +208,8 @@ def has_levels(page, impacts):
     """Buildings with heights: beside each floor its level, and what each slab meets."""
     headings, rows = table(page, "peak")
     assert [row[0] for row in rows] == [*"654321"]
+    # Nothing of what is not there.
+    assert not page.locator("#yielding, nav a[href='#yielding']").first.is_visible()
     for side, levels in [("left", ["20.2 m", "17 m", "13.8 m"]), ("right", ["", "", "15 m"])]:
         assert [row[headings.index(f"{side} level")] for row in rows[:3]] == levels
     meetings = [row[1] for row in table(page, "contact")[1]]
@@ -228,6 +230,27 @@ def stands_alone(page, impacts):
         "the wall on its left", "the wall on its right"
     ]  # fmt: skip
     page.screenshot(path=FOLDER / "alone.png", full_page=True)
+
+
+def yields(page, impacts):
+    """Storeys that can yield: a row each, and a loop within its axes that is as wide as the drifts are."""
+    headings, rows = table(page, "yielding")
+    assert [row[0] for row in rows] == ["left 4", "left 3", "left 2", "left 1", "right 3", "right 2", "right 1"]
+    ductilities = [float(row[headings.index("ductility")]) for row in rows]
+    assert max(ductilities) > 3.0 and min(ductilities) > 1.0
+    figures = page.locator("#loops figure")
+    captions = [figures.nth(at).locator("figcaption").inner_text() for at in range(figures.count())]
+    named = [row[0].replace(" ", " storey ") for row in rows]
+    assert captions == [f"{name}: ductility {float(f'{of:.3g}'):g}" for name, of in zip(named, ductilities)]
+    yields_at = {"left 4": 530 / 110, "left 1": 1490 / 200, "right 1": 1150 / 250}  # mm
+    for at, (row, ductility) in enumerate(zip(rows, ductilities)):
+        lines, texts = figures.nth(at).locator("polyline"), figures.nth(at).locator("text").all_text_contents()
+        x, y = zip(*(map(float, point.split(",")) for point in lines.get_attribute("points").split()))
+        assert len(x) > 2000 and max(max(x) - 188, 188 - min(x)) > 120 and 9.9 <= min(y) <= max(y) <= 196.1
+        assert texts[4:] == ["drift [mm]", "shear [kN]"]
+        if row[0] in yields_at:
+            assert abs(float(texts[2]) / (ductility * yields_at[row[0]]) - 1.0) < 6e-3, (row, texts)
+    page.screenshot(path=FOLDER / "yielding.png", full_page=True)
 
 
 if __name__ == "__main__":
