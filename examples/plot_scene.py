@@ -14,6 +14,7 @@ import numpy as np
 
 import animation
 import pictures
+import pictures_yielding
 from engine import ROOT
 from layout import Scene
 from meetings import meetings
@@ -27,6 +28,8 @@ STATIC = {
     "accelerations": pictures.accelerations,
     "hysteresis": pictures.hysteresis,
     "drifts": pictures.drifts,
+    "loops": pictures_yielding.loops,
+    "residual": pictures_yielding.residual,
 }
 WINDOW = 5.0  # s
 

@@ -3,13 +3,13 @@
 import json
 import tomllib
 from decimal import Decimal
-from math import pi, sin
+from math import inf, pi, sin
 
 import engine
 
 
 # What is in t or with kN in a scene with units = "kN-t", in the tables of buildings, dampings and contacts.
-SCALED = {"mass", "stiffness", "stiffness_matrix", "matrix", "dashpots"}
+SCALED = {"mass", "stiffness", "stiffness_matrix", "matrix", "dashpots", "yield_force"}
 
 
 def read(file):
@@ -47,8 +47,8 @@ def literal(value):
         return "{ " + ", ".join(f"{key} = {literal(inner)}" for key, inner in value.items()) + " }"
     if isinstance(value, list):
         return "[" + ", ".join(map(literal, value)) + "]"
-    # JSON writes strings, Booleans and numbers as TOML does.
-    return json.dumps(float(value) if isinstance(value, float) else value)
+    # JSON writes strings, Booleans and finite numbers as TOML does.
+    return "inf" if value == inf else json.dumps(float(value) if isinstance(value, float) else value)
 
 
 def run(scene, **how):
