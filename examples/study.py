@@ -73,6 +73,7 @@ def fill(results, planned, options):
 
 def draw(rows, options):
     limits = {"force": options.force_limit, "drift": options.drift_limit, "acceleration": options.acceleration_limit}
+    limits |= {"ductility": options.ductility_limit, "residual drift": options.residual_limit}
     for scene in dict.fromkeys(row["scene"] for row in rows):
         of_scene = [row for row in rows if row["scene"] == scene]
         demands = study_fragility.demands(of_scene, limits)
@@ -114,6 +115,8 @@ def arguments():
     parser.add_argument(
         "--acceleration-limit", type=float, metavar="A", help="m/s2, of the fragility; default: the median"
     )
+    parser.add_argument("--ductility-limit", type=float, metavar="D", help="where storeys yield; default: the median")
+    parser.add_argument("--residual-limit", type=float, metavar="M", help="m, of residual drift; default: the median")
     parser.add_argument(
         "--intensity",
         choices=study_fragility.INTENSITIES,

@@ -49,9 +49,17 @@ def acceleration(row):
     return largest(row, "acceleration_m_s2")
 
 
+def ductility(row):
+    return largest(row, "ductility")
+
+
+def residual(row):
+    return largest(row, "residual_drift_m")
+
+
 def largest(row, what):
-    """Of the buildings that are there."""
-    return max(row[f"{side}_{what}"] for side in SIDES if row[f"{side}_{what}"] is not None)
+    """Of the buildings that have it; without any `None`."""
+    return max((row[f"{side}_{what}"] for side in SIDES if row[f"{side}_{what}"] is not None), default=None)
 
 
 def force(row):
@@ -63,11 +71,19 @@ def demands(rows, limits):
     closing = [row for row in rows if row["gap_m"] != NEVER_CLOSES]
     found = [Demand("pounding", "impacts", lambda row: row["impacts"], 0.0, "pounding")]
     hit = [row for row in closing if force(row) > 0]
-    for name, unit, of, among, shown in [
+    # All runs of a scene or none.
+    yielding = [row for row in closing if ductility(row) is not None]
+    asked = [
         ("force", "N", force, hit, lambda limit: f"{limit / 1e3:.3g} kN" if limit >= 1e3 else f"{limit:.3g} N"),
         ("drift", "m", drift, closing, lambda limit: f"{1e3 * limit:.3g} mm"),
         ("acceleration", "m/s2", acceleration, closing, lambda limit: f"{limit:.3g} m/s2"),
-    ]:
+    ]
+    if yielding:
+        asked += [
+            ("ductility", "1", ductility, yielding, lambda limit: f"{limit:.3g}"),
+            ("residual drift", "m", residual, yielding, lambda limit: f"{1e3 * limit:.3g} mm"),
+        ]
+    for name, unit, of, among, shown in asked:
         limit = limits[name] if limits[name] is not None else median(map(of, among))
         if limit is not None:
             origin = "" if limits[name] is not None else " (median)"

@@ -20,6 +20,8 @@ RESULT = {
     "impacts": int, "peak_force_n": float, "impulse_n_s": float, "dissipated_energy_j": float,
     **{f"{side}_{what}": float for what in ("drift_m", "acceleration_m_s2", "base_shear_n") for side in SIDES},
 }  # fmt: skip
+# Of the storeys that can yield; of a building without such storeys there is nothing.
+YIELDING = {f"{side}_{what}": float for what in ("ductility", "residual_drift_m") for side in SIDES}
 # Of each storey, or floor; the largest ratio of any of them to the same one in the run without contact.
 OF_STOREYS = {"drift_m": "drift_ratio", "acceleration_m_s2": "acceleration_ratio"}
 RATIOS = {f"{side}_{ratio}": float for ratio in OF_STOREYS.values() for side in SIDES}
@@ -30,7 +32,7 @@ MOST_PROBLEMS = 10
 def columns(storeys):
     """Name and kind of every column, for buildings of up to so many storeys."""
     of_storeys = [f"{side}_{what}[{i}]" for what in OF_STOREYS for side in SIDES for i in range(1, storeys[side] + 1)]
-    return CASE | INTENSITY | RESULT | RATIOS | dict.fromkeys(of_storeys, float) | {"error": str}
+    return CASE | INTENSITY | RESULT | YIELDING | RATIOS | dict.fromkeys(of_storeys, float) | {"error": str}
 
 
 def storeys_of(names):

@@ -22,6 +22,7 @@ OF_CONTACTS = {
     "peak_force_n": ("peak_force", max), "impulse_n_s": ("impulse", sum), "dissipated_energy_j": ("dissipated_energy", sum)
 }  # fmt: skip
 OF_STOREYS = {"drift_m": "drift", "acceleration_m_s2": "acceleration"}
+OF_YIELDING = {"ductility": "ductility", "residual_drift_m": "residual_drift"}
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,10 @@ class Description:
         self._of_storeys = {
             (side, what): self._named(f"{side}.peak_{what}[") for side in SIDES for what in OF_STOREYS.values()
         }
+        # Empty where no storey of a building can yield.
+        self._of_yielding = {
+            (side, what): self._named(f"{side}.{what}[") for side in SIDES for what in OF_YIELDING.values()
+        }
         # One building may stand alone, between walls.
         self.sides = [side for side in SIDES if self._of_storeys[side, "acceleration"]]
         self._base_shears = {side: f"{side}.peak_base_shear" for side in self.sides}
@@ -71,7 +76,7 @@ class Description:
 
     def outputs(self):
         """The names of all variables that a row is made of; the first one is an Integer, the others are Real."""
-        lists = [*self._of_contacts.values(), *self._of_storeys.values()]
+        lists = [*self._of_contacts.values(), *self._of_storeys.values(), *self._of_yielding.values()]
         return ["impacts", *itertools.chain(*lists), *self._base_shears.values()]
 
     def row(self, values):
@@ -88,6 +93,9 @@ class Description:
             row[f"{side}_base_shear_n"] = value[self._base_shears[side]]
             for column, of_storeys in peaks.items():
                 row |= {f"{side}_{column}[{i}]": peak for i, peak in enumerate(of_storeys, 1)}
+            for column, what in OF_YIELDING.items():
+                of_storeys = [abs(value[name]) for name in self._of_yielding[side, what]]
+                row |= {f"{side}_{column}": max(of_storeys)} if of_storeys else {}
         return row
 
 

@@ -251,6 +251,27 @@ def test_of_one_building_between_walls_the_other_columns_are_empty(tmp_path):
     assert text_again == text and "2 cases, 2 of them done" in said
 
 
+def test_where_storeys_yield_the_table_has_ductility_and_residual_drift(tmp_path):
+    scene = harness.ROOT / "examples/scenes/yielding.toml"
+    plan = ["--workers", 1, "--stop", 7.0, "--synthetic", 0, "--pga", 3.43, "--gaps", 0.02, "--ductility-limit", 3.0]
+    text, _ = study(tmp_path, *plan, "--", scene)
+    row = next(row for row in csv.DictReader(text.splitlines()) if float(row["gap_m"]) == 0.02)
+    engine = harness.engine(scene, tmp_path, 7.0, stop=7.0)[-1]
+    assert engine["impacts"] > 0
+    for side, storeys in [("left", 4), ("right", 3)]:
+        ductilities, residuals = (
+            [engine[f"{side}.{what}[{i}]"] for i in range(1, storeys + 1)] for what in ("ductility", "residual_drift")
+        )
+        assert float(row[f"{side}_ductility"]) == pytest.approx(max(ductilities), rel=1e-10)
+        assert float(row[f"{side}_residual_drift_m"]) == pytest.approx(max(map(abs, residuals)), rel=1e-10)
+    lines = list(csv.DictReader((tmp_path / "fragility_Yielding.csv").open()))
+    found = {(line["demand"], line["limit"], line["exceeding"]) for line in lines if line["gap_m"] == "0.02"}
+    assert ("ductility", "3.0", "1") in found
+    # Without a limit of its own it is the median, here of one run, which is not above itself.
+    largest = max((row[f"{side}_residual_drift_m"] for side in ("left", "right")), key=float)
+    assert ("residual drift", largest, "0") in found
+
+
 def test_the_parameters_of_the_curves_are_in_a_table(tmp_path):
     study(tmp_path, "--workers", 1)
     lines = list(csv.DictReader((tmp_path / "fragility_FeupFrames.csv").open()))
