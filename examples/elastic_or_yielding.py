@@ -3,8 +3,8 @@
     python3 examples/run.py examples/elastic_or_yielding.py examples/scenes/yielding.toml
     python3 examples/run.py examples/elastic_or_yielding.py SCENE.toml --gaps 0.01 0.05
 
-First how far each contact would close if it could, then a table: impacts, the hardest of them, and of each building the
-largest storey drift and, where it yields, ductility and residual drift.
+First how far each contact would close if it could, then a table: impacts, the largest contact force, the fastest
+approach, and of each building the largest storey drift and, where it yields, ductility and residual drift.
 """
 
 import argparse
@@ -39,11 +39,11 @@ def main():
         apart = scenes.run(with_gap(scene, FAR), step=1e-3, columns=columns).motion
         said = ", ".join(f"{1e3 * (apart[column].max() + FAR):.1f} mm" for column in columns)
         print(f"{name:8}  contacts would close by {said}")
-    sides = "".join(f"  {side:>5} drift/mm  ductility  residual/mm" for side in layout.floors)
-    print(f"\n gap/mm            impacts  peak force/kN  approach/(m/s){sides}")
+    sides = "".join(f"  {side:>5} drift  ductility  residual" for side in layout.floors)
+    print(f"\nin mm, kN and m/s\n  gap            impacts  force  speed{sides}")
     for gap in options.gaps:
         for name, scene in kinds.items():
-            print(f"{1e3 * gap:7.0f}  {name:8}  {line(with_gap(scene, gap), layout.floors)}")
+            print(f"{1e3 * gap:5.0f}  {name:8}  {line(with_gap(scene, gap), layout.floors)}")
 
 
 def with_gap(scene, gap):
@@ -67,14 +67,14 @@ def line(scene, floors):
     }
     columns = [name for names in [*drifts.values(), *of_yielding.values()] for name in names]
     run = scenes.run(scene, step=0.5, columns=columns)
-    largest = lambda names: max((abs(run.motion[name][-1]) for name in names), default=None)  # noqa: E731
-    cell = lambda value, text: "" if value is None else format(value, text)  # noqa: E731
+    in_mm = lambda name: 1.0 if "ductility" in name else 1e3  # noqa: E731
+    largest = lambda names: max((in_mm(name) * abs(run.motion[name][-1]) for name in names), default=None)  # noqa: E731
+    cell = lambda value: "" if value is None else f"{value:.1f}"  # noqa: E731
     fastest = max((episode.approach_velocity for episode in run.episodes), default=0.0)
-    said = f"{len(run.episodes):7d}  {run.peak_force() / 1e3:13.0f}  {fastest:14.2f}"
+    said = f"{len(run.episodes):7d}  {run.peak_force() / 1e3:5.0f}  {fastest:5.2f}"
     for side in floors:
         ductility, left = (largest(of_yielding[side, what]) for what in ("ductility", "residual_drift"))
-        said += f"  {1e3 * largest(drifts[side]):14.1f}  {cell(ductility, '.1f'):>9}"
-        said += f"  {cell(left and 1e3 * left, '.1f'):>11}"
+        said += f"  {largest(drifts[side]):11.1f}  {cell(ductility):>9}  {cell(left):>8}"
     return said.rstrip()
 
 

@@ -28,7 +28,7 @@ def drift_of(run, side, storey):
 
 
 def loops(scene, run, alone, window):
-    """Storey shear against drift: what the loops enclose is dissipated by yielding. In brackets what is without contact."""
+    """Storey shear against drift: what loops enclose is dissipated. In brackets the ductility without contact."""
     storeys = yielding_storeys(scene, run)
     if not storeys:
         return None

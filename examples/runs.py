@@ -34,7 +34,7 @@ def simulate(scene, step, *flags, **options):
     """Runs the engine: a row every `step` s. Flags and options are those of `simulate`, such as rows_per_impact=24."""
     with tempfile.TemporaryDirectory() as folder:
         motion, impacts = Path(folder, "motion.csv"), Path(folder, "impacts.csv")
-        command = [program(), scene.path, "--step", repr(step), "--csv", motion, "--impacts", impacts, *flags]
+        command = [program(), scene.path, "--step", repr(float(step)), "--csv", motion, "--impacts", impacts, *flags]
         for option, value in options.items():
             command += [] if value is None else [f"--{option.replace('_', '-')}", str(value)]
         run_or_stop(command)

@@ -4,7 +4,8 @@ const AT_THE_END = ["ductility", "residual drift", "hysteretic energy", "cumulat
 const LOOP = { width: 320, height: 230, left: 56, right: 10, top: 10, bottom: 34 };
 
 // The top storey first, as in the other tables.
-const yieldingStoreys = [...(groups.get("storey shear") ?? [])].sort((a, b) => a.of.localeCompare(b.of) || b.index - a.index);
+const yieldingStoreys = [...(groups.get("storey shear") ?? [])];
+yieldingStoreys.sort((a, b) => a.of.localeCompare(b.of) || b.index - a.index);
 
 function columnOf(quantity, side, index) {
   return (groups.get(quantity) ?? []).find((column) => column.of === side && column.index === index);
@@ -12,7 +13,8 @@ function columnOf(quantity, side, index) {
 
 function yieldingTable() {
   const known = AT_THE_END.filter((quantity) => groups.has(quantity));
-  const headings = known.map((quantity) => withUnit(quantity.replace("hysteretic energy", "dissipated"), groups.get(quantity)[0].unit));
+  const named = (quantity) => quantity.replace("hysteretic energy", "dissipated");
+  const headings = known.map((quantity) => withUnit(named(quantity), groups.get(quantity)[0].unit));
   const rows = yieldingStoreys.map(({ of, index }) => {
     const ends = known.map((quantity) => columnOf(quantity, of, index));
     return [`${of} ${index}`, ...ends.map((column) => scaled(column.values.at(-1), column.unit))];
@@ -57,16 +59,18 @@ function drawLoops(shear) {
   const x = (value) => left + (0.5 + value / largest[0] / 2) * (width - left - right);
   const y = (value) => top + (0.5 - value / largest[1] / 2) * (height - top - bottom);
   const svg = drawn(box, "svg", { viewBox: `0 0 ${width} ${height}`, role: "img" });
-  drawn(svg, "path", { class: "axes", d: `M${x(-largest[0])} ${y(0)}H${x(largest[0])}M${x(0)} ${y(largest[1])}V${y(-largest[1])}` });
+  const [wide, high] = largest;
+  drawn(svg, "path", { class: "axes", d: `M${x(-wide)} ${y(0)}H${x(wide)}M${x(0)} ${y(high)}V${y(-high)}` });
   const line = points.map(([drift, force]) => `${x(drift).toFixed(1)},${y(force).toFixed(1)}`).join(" ");
   drawn(svg, "polyline", { points: line, stroke: COLOURS[shear.of][0] });
   for (const end of [-1, 1]) {
     const short = (value) => digits(Number((end * value).toPrecision(3)));
-    drawn(svg, "text", { x: x(end * largest[0]), y: height - 18, "text-anchor": end < 0 ? "start" : "end" }, short(largest[0]));
-    drawn(svg, "text", { x: left - 4, y: y(end * largest[1]) + 4, "text-anchor": "end" }, short(largest[1]));
+    drawn(svg, "text", { x: x(end * wide), y: height - 18, "text-anchor": end < 0 ? "start" : "end" }, short(wide));
+    drawn(svg, "text", { x: left - 4, y: y(end * high) + 4, "text-anchor": "end" }, short(high));
   }
   drawn(svg, "text", { x: x(0), y: height - 4, "text-anchor": "middle" }, withUnit("drift", "m"));
-  drawn(svg, "text", { x: 12, y: y(0), "text-anchor": "middle", transform: `rotate(-90 12 ${y(0)})` }, withUnit("shear", shear.unit));
+  const upright = { x: 12, y: y(0), "text-anchor": "middle", transform: `rotate(-90 12 ${y(0)})` };
+  drawn(svg, "text", upright, withUnit("shear", shear.unit));
 }
 
 element("yielding").hidden = yieldingStoreys.length === 0;

@@ -25,7 +25,7 @@
 //! | file | looks at |
 //! |---|---|
 //! | `buildings.rs` | masses, stiffnesses, damping and initial motion of each building |
-//! | `yielding.rs` | storeys that yield: their forces, and the damping beside them |
+//! | `yielding.rs` | storeys that yield: their forces, and the damping of isolators |
 //! | `whole.rs` | scenes in which every mass and stiffness is in other units |
 //! | `ground.rs` | the record, its scaling, `stop_time` |
 //! | `contacts.rs` | gaps and numbers of the laws |

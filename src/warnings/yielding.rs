@@ -1,10 +1,10 @@
-//! Storeys that yield: forces that are never reached or always exceeded, and a damping that does not go with yielding.
+//! Storeys that yield: forces that are never reached or always exceeded, and a damping that isolators do not have.
 
 use super::facts::{Facts, Pace, how_many_times, median, nearest};
 use super::found::Found;
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
-use crate::scene::{Building, Damping, Units, number};
+use crate::scene::{Building, Damping, Units};
 use crate::structure::Side;
 
 /// How many times the weight above, or that in the peak ground acceleration where it is known, no storey has to carry:
@@ -16,6 +16,10 @@ const LEAST_SHAKING: f64 = 0.1;
 const LEAST_ISOLATOR: f64 = 0.01;
 /// The same of storeys above.
 const LEAST_STOREY: f64 = 0.02;
+/// Share of the weight above up to which a first storey is of isolators, and how many times that the storeys which it
+/// carries have if they yield at all.
+const MOST_ISOLATOR: f64 = 0.1;
+const MUCH_STRONGER: f64 = 3.0;
 /// Between shares of one storey and of those beside it: storeys that were designed together have less.
 const ODD: f64 = 6.0;
 
@@ -28,7 +32,7 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
         }
         look_at_forces(facts, side, &storeys, found);
         look_at_neighbours(side, &storeys, found);
-        look_at_damping(facts, side, found);
+        look_at_isolators(facts, side, &storeys, found);
     }
 }
 
@@ -111,18 +115,26 @@ fn look_at_neighbours(side: Side, storeys: &[Storey], found: &mut Found) {
     }
 }
 
-/// Beside a storey that has yielded the dashpots of Rayleigh damping go on as if it had not.
-fn look_at_damping(facts: &Facts<'_>, side: Side, found: &mut Found) {
-    let path = format!("{side}.damping");
-    let Damping::Rayleigh { ratio, modes } = &facts.building(side).damping else { return };
-    if *ratio == 0.0 || found.has(&path) {
+/// A ratio is of the stiffness before yield: isolators yield early, and are far softer from then on.
+fn look_at_isolators(facts: &Facts<'_>, side: Side, storeys: &[Storey], found: &mut Found) {
+    let building = facts.building(side);
+    let Some(first) = storeys.first().filter(|first| first.index == 0 && first.share < MOST_ISOLATOR) else { return };
+    let is_carried = |storey: &Storey| storey.share > MUCH_STRONGER * first.share;
+    let is_known = ["yield_force", "damping"].iter().any(|key| found.has(&format!("{side}.{key}")));
+    if building.mass.len() < 2 || !storeys[1..].iter().all(is_carried) || is_known {
         return;
     }
-    let value = format!("{{ ratio = {}, modes = {modes:?} }}", number(*ratio));
     let text = format!(
-        "beside yield_force dashpots in proportion to the initial stiffness resist a storey that yields by forces that no \
-         building has; {{ ratio = {} }} does not",
-        number(*ratio)
+        "the first storey yields at {} times the weight, as isolators do; a ratio is of the stiffness before that and gives \
+         them a damping that they do not have: {{ dashpots = [...] }} has one for each storey",
+        short(first.share)
     );
-    found.add(format!("{path}.rayleigh"), value, text);
+    let path = |key: &str| format!("{side}.damping.{key}");
+    match &building.damping {
+        Damping::Ratio(ratio) if *ratio > 0.0 => found.number(path("ratio"), *ratio, text),
+        Damping::Ratios(ratios) if ratios[0] > 0.0 => found.number(path("ratios[1]"), ratios[0], text),
+        Damping::Rayleigh { ratio, .. } if *ratio > 0.0 => found.number(path("rayleigh.ratio"), *ratio, text),
+        Damping::Ratio(_) | Damping::Ratios(_) | Damping::Rayleigh { .. } => {}
+        Damping::Dashpots(_) | Damping::Matrix(_) => {}
+    }
 }

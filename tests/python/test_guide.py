@@ -1,6 +1,7 @@
 """The numbers of the guide and of the README are those that their commands give."""
 
 import csv
+import re
 import shutil
 import subprocess
 import sys
@@ -33,6 +34,33 @@ def test_what_yielding_does_is_what_the_guide_quotes():
     program, scene = (harness.ROOT / "examples" / name for name in ("elastic_or_yielding.py", "scenes/yielding.toml"))
     printed = subprocess.run([sys.executable, program, scene], capture_output=True, text=True, check=True).stdout
     assert f"```text\n{printed}```" in GUIDE
+
+
+def test_the_summary_of_storeys_that_yield_is_what_the_guide_quotes(tmp_path):
+    printed = harness.run(harness.CARGO_FMU, "examples/scenes/yielding.toml", "-o", tmp_path / "Yielding.fmu")
+    blocks = [block.split("```")[0] for block in GUIDE.split("```text\n")]
+    (quoted,) = [block for block in blocks if block.startswith("  storey that can yield")]
+    assert quoted in printed
+
+
+def test_damping_does_to_storeys_that_yield_what_their_page_says(tmp_path):
+    page = " ".join((harness.ROOT / "docs/yielding.md").read_text().split())
+    frames = example_scene("yielding")
+    rayleigh = frames.replace("{ ratio = 0.05 }", "{ rayleigh = { ratio = 0.05, modes = [1, 3] } }")
+    isolated = example_scene("isolated").replace("gap = 0.1", "gap = 0.5").replace("[14e3,", "[140e3,")
+    yields = "yield_force = [620, inf, inf, inf, inf]\npost_yield_ratio = 0.1\n"
+    isolated = isolated.replace("damping =", f"{yields}damping =")
+    by_ratio = re.sub("{ dashpots = .* }", "{ ratio = 0.05 }", isolated)
+    scenes = [frames, rayleigh, harness.replaced(isolated, "[1350,", "[0,"), by_ratio]
+    ends = []
+    for text in scenes:
+        scene = tmp_path / "scene.toml"
+        scene.write_text(text)
+        ends.append(harness.engine(scene, tmp_path, 31.18, stop=31.18)[-1])
+    ductility = [end["left.ductility[1]"] for end in ends]
+    assert f"a ductility of {ductility[1]:.2f} instead of {ductility[0]:.2f}" in page
+    drift = [1e3 * end["left.peak_drift[1]"] for end in ends]
+    assert f"drifts {drift[2]:.0f} mm on them, with `ratio = 0.05` {drift[3]:.0f} mm" in page
 
 
 def test_the_gaps_of_one_building_between_walls(build):

@@ -19,6 +19,7 @@ SCENES = {
     "full matrices": [(LEFT, LEFT_BY_MATRICES)],
     "modal damping": [(LEFT, LEFT.replace("ratio = 0.01", "ratios = [0.01, 0.02]"))],
     "Rayleigh damping": [(LEFT, LEFT.replace("ratio = 0.01", "rayleigh = { ratio = 0.05, modes = [1, 2] }"))],
+    "storeys that yield": [(LEFT, LEFT + "\nyield_force = [10.0, inf]\npost_yield_ratio = [0.05, 0.0]")],
     "initial conditions": [(LEFT, LEFT + "\ninitial_displacement = [0.01, 0.02]\ninitial_velocity = [0.0, 0.3]")],
     "pressed together": [("gap = 0.005", "gap = -0.001")],
     "hertz": [('law = "kelvin_voigt"', 'law = "hertz"'), ("restitution = 0.65\n", "")],

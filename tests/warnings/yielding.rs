@@ -1,6 +1,6 @@
-//! Storeys that yield: what looks like a slip in their forces and in the damping beside them.
+//! Storeys that yield: what looks like a slip in their forces and in the damping of isolators.
 
-use super::{OFFICES, Slip, edited, expect, found};
+use super::{OFFICES, Slip, edited, expect, found, paths};
 
 const YIELDING: &str = include_str!("../../examples/scenes/yielding.toml");
 const ISOLATED: &str = include_str!("../../examples/scenes/isolated.toml");
@@ -22,7 +22,7 @@ fn forces_that_are_never_reached_or_always_exceeded() {
                 STIFFNESS,
                 "stiffness = [300e6, 300e6, 300e6, 300e6, 300e6]\nyield_force = [1900, 1750, 1450, 1050, 550]",
             )],
-            &["left.yield_force", "left.damping.rayleigh"],
+            &["left.yield_force"],
             "was it given in kN?",
         ),
     ]);
@@ -32,26 +32,38 @@ fn forces_that_are_never_reached_or_always_exceeded() {
 fn a_storey_unlike_those_beside_it() {
     let slips: [Slip; 4] = [
         (YIELDING, &[(FORCES, "[1490, 133, 1010, 530]")], &["left.yield_force[2]"], "is its power of ten right?"),
-        (YIELDING, &[(FORCES, "[1490, 1330, 10100, 530]")], &["left.yield_force[3]"], "8.5 times that of the storeys"),
-        (YIELDING, &[(FORCES, "[1490, 1330, 1010, 53]")], &["left.yield_force[4]"], "1/7.2 of that of the storeys"),
-        (YIELDING, &[(FORCES, "[14900, 1330, inf, 530]")], &["left.yield_force[1]"], "2 times the weight above, "),
+        (YIELDING, &[(FORCES, "[1490, 1330, 10100, 530]")], &["left.yield_force[3]"], "8.47 times that of the storeys"),
+        (YIELDING, &[(FORCES, "[1490, 1330, 1010, 53]")], &["left.yield_force[4]"], "1/7.17 of that of the storeys"),
+        (YIELDING, &[(FORCES, "[20000, 1330, inf, 530]")], &["left.yield_force[1]"], "2.68 times the weight above, "),
     ];
     expect(&slips);
 }
 
+/// Their own dashpots, N s/m, are what they have.
 #[test]
-fn rayleigh_damping_beside_yield_forces() {
-    const RATIO: &str = "{ ratio = 0.05 }";
-    let rayleigh = edited(YIELDING, &[(RATIO, "{ rayleigh = { ratio = 0.05, modes = [1, 3] } }")]);
-    let told = found(&rayleigh, None);
-    let lines: Vec<String> = told.iter().map(ToString::to_string).collect();
-    let expected = "damping.rayleigh = { ratio = 0.05, modes = [1, 3] }: beside yield_force dashpots in proportion to the \
-                    initial stiffness resist a storey that yields by forces that no building has; { ratio = 0.05 } does not";
-    assert_eq!(lines, ["left", "right"].map(|side| format!("{side}.{expected}")));
-    // No storey that can yield, no damping.
-    let elastic = edited(&rayleigh, &[(FORCES, "[inf, inf, inf, inf]"), ("[1150, 940, 540]", "[inf, inf, inf]")]);
-    assert_eq!(found(&elastic, None), []);
-    assert_eq!(found(&edited(&rayleigh, &[("ratio = 0.05", "ratio = 0.0")]), None), []);
+fn a_damping_ratio_of_isolators() {
+    const DASHPOTS: &str = "damping = { dashpots = [1350, 1500, 1500, 1250, 1000] }";
+    const YIELDS: &str = "yield_force = [620, inf, inf, inf, inf]\npost_yield_ratio = 0.1";
+    for (damping, path) in [
+        ("ratio = 0.05", "left.damping.ratio"),
+        ("ratios = [0.05, 0.02, 0.02, 0.02, 0.02]", "left.damping.ratios[1]"),
+        ("rayleigh = { ratio = 0.05, modes = [1, 3] }", "left.damping.rayleigh.ratio"),
+    ] {
+        let text = edited(ISOLATED, &[(DASHPOTS, &format!("{YIELDS}\ndamping = {{ {damping} }}"))]);
+        let told = found(&text, None);
+        assert_eq!(paths(&told), [path], "{told:?}");
+        assert!(told[0].text.contains("0.0445 times the weight, as isolators do"), "{}", told[0]);
+        // Isolators without damping; storeys that carry as little or more; a first storey that is no isolator.
+        for (from, to) in [
+            ("0.05", "0.0"),
+            ("620, inf", "620, 1300"),
+            ("620, inf", "1700, inf"),
+            ("620, inf, inf, inf, inf", "inf, 1300, 900, 600, 300"),
+        ] {
+            assert_eq!(found(&edited(&text, &[(from, to)]), None), [], "{damping}: {to}");
+        }
+        assert_eq!(paths(&found(&edited(&text, &[("620, inf", "620, 4000")]), None)), [path]);
+    }
 }
 
 #[test]
