@@ -24,6 +24,7 @@ mod tension;
 mod walls;
 mod walls_and_ground;
 mod yielding;
+mod yielding_bits;
 mod yielding_contacts;
 mod yielding_frames;
 mod yielding_times;

@@ -107,7 +107,7 @@ impl Piecewise<'_> {
             closed: vec![false; pairs.len()],
             struck: vec![f64::NEG_INFINITY; pairs.len()],
             is_over: false,
-            step: 0.3 / trace.sqrt(),
+            step: 0.05 / trace.sqrt(),
             time: 0.0,
             yields: 0,
             impacts: 0,

@@ -23,11 +23,11 @@ fn times() -> Vec<f64> {
     (1..=110).map(|k| 0.05 * f64::from(k) + 0.003 * f64::from(k * 7 % 5)).collect()
 }
 
-/// Which is compared at all of these times, to 1e-11 of the largest displacement; at least so many yields and impacts.
+/// Which is compared at all of these times, to 5e-11 of the largest displacement; at least so many yields and impacts.
 #[track_caller]
 fn check(text: &str, factor: f64, yields: usize, impacts: usize) {
     let motion = shaking(factor);
-    let other = assert_same_motion(&scene_of(text), &motion, &times(), 1e-11);
+    let other = assert_same_motion(&scene_of(text), &motion, &times(), 5e-11);
     assert!(other.yields >= yields, "{} yields", other.yields);
     assert!(other.impacts >= impacts, "{} impacts", other.impacts);
 }
@@ -48,7 +48,7 @@ const RIGID: &str = "law = \"stereomechanical\"\nrestitution = 0.7";
 #[test]
 fn apart() {
     check(LEFT, 0.25, 40, 0);
-    check(&format!("{LEFT}{RIGHT}"), 0.1, 20, 0);
+    check(&format!("{LEFT}{RIGHT}"), 0.1, 30, 0);
 }
 
 #[test]
@@ -56,7 +56,7 @@ fn floors_that_meet_under_every_linear_law() {
     for law in [LINEAR, KELVIN_VOIGT, RIGID] {
         let contacts = contact("left_floor = 1\nright_floor = 1", 0.01, law)
             + &contact("left_floor = 2\nright_floor = 2", 0.015, law);
-        check(&format!("{LEFT}{RIGHT}{contacts}"), 0.2, 40, 8);
+        check(&format!("{LEFT}{RIGHT}{contacts}"), 0.2, if law == RIGID { 15 } else { 50 }, 10);
     }
 }
 
@@ -68,7 +68,7 @@ fn columns_of_storeys_that_yield() {
         let contacts = contact("left_floor = 1\nright_storey = 1\nright_position = 0.6", 0.008, law)
             + &contact("left_floor = 2\nright_storey = 2\nright_position = 0.3", 0.012, law)
             + &contact("left_storey = 2\nleft_position = 0.7\ncolumn_shape = \"straight\"\nright_floor = 2", 0.02, law);
-        check(&format!("{LEFT}{right}{contacts}"), 0.2, 40, 8);
+        check(&format!("{LEFT}{right}{contacts}"), 0.2, 30, 10);
     }
 }
 
@@ -85,7 +85,7 @@ fn an_isolator_between_walls() {
         for law in [LINEAR, KELVIN_VOIGT, RIGID] {
             let walls = contact("left_floor = 1\nwall = \"right\"", 0.04, law)
                 + &contact("left_floor = 1\nwall = \"left\"", 0.05, law);
-            check(&format!("{frame}{walls}"), 0.25, 15, 4);
+            check(&format!("{frame}{walls}"), 0.25, 6, 8);
         }
     }
 }
@@ -98,7 +98,7 @@ fn a_soft_storey_below_stiff_ones() {
             "[left]\nmass = [2e4, 2e4, 2e4]\nstiffness = [6e6, 6e9, 6e9]\ndamping = {damping}\n\
              yield_force = [8e4, inf, inf]\npost_yield_ratio = 0.02\n"
         );
-        check(&frame, 0.15, 10, 0);
+        check(&frame, 0.15, 8, 0);
     }
 }
 
@@ -118,6 +118,6 @@ fn many_storeys() {
     for law in [LINEAR, RIGID] {
         let contacts = contact("left_floor = 8\nright_floor = 8", 0.02, law)
             + &contact("left_floor = 6\nright_floor = 6", 0.02, law);
-        check(&format!("{towers}{contacts}"), 0.15, 50, 5);
+        check(&format!("{towers}{contacts}"), 0.15, 100, 5);
     }
 }

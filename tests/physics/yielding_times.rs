@@ -32,7 +32,7 @@ fn a_yield_and_a_turn_on_a_sample_and_at_a_communication_point() {
                 for run in [&mut sampled, &mut stopped] {
                     run.to(time);
                     assert_like(run, &one, &start.at(time), 2e-14, &what);
-                    for later in [time + 1e-10, 0.2, 0.5, 3.0] {
+                    for later in [time + 1e-10, 0.3, 0.5, 3.0] {
                         run.to(later);
                         assert_like(run, &one, &start.at(later), 2e-12, &what);
                     }
