@@ -1,6 +1,6 @@
 //! Derivatives of inputs and outputs with respect to time.
 
-use crate::support::{ERROR, Fmu, Instance, OK, RECORD_SCENE, SCENE};
+use crate::support::{ERROR, Fmu, Instance, OK, RECORD_SCENE, SCENE, YIELDING};
 use fmi::model_description::fmi2::{Causality, VariableType};
 use pounding::engine::{Model, Point, Side};
 use std::ffi::{c_int, c_void};
@@ -169,7 +169,7 @@ fn arrays_that_are_not_there() {
 /// Differences over a short step against the derivatives at both of its ends.
 #[test]
 fn output_derivatives_are_what_the_outputs_do_next() {
-    for scene in [SCENE, RECORD_SCENE] {
+    for scene in [SCENE, RECORD_SCENE, YIELDING] {
         let fmu = Fmu::new(scene);
         let instance = fmu.instance();
         instance.start();

@@ -182,3 +182,34 @@ fn a_storey_yields_while_its_floor_is_held_by_a_rigid_pair() {
     };
     assert!(is_held(parts - 1e-9) && !is_held(parts + 1e-9), "they part at {parts}");
 }
+
+/// Pressed against the wall with twice the yield force it comes to rest there at its limit; let go, it swings from there.
+#[test]
+fn a_storey_at_its_limit_is_held_against_a_wall() {
+    for (ratio, e) in [(0.0, 0.0), (0.0, 0.5), (0.05, 0.1), (0.05, 0.9)] {
+        let one = OneStorey { ratio, ..OneStorey::USUAL };
+        let (limit, gap) = (5e-3, 12e-3);
+        let what = format!("r = {ratio}, e = {e}");
+        let law = format!("law = \"stereomechanical\"\nrestitution = {e:?}");
+        let mut run = Run::new(&at_wall(&one, gap, &law), None);
+        run.state.set_floor_force(Side::Left, 0, 2.0 * one.force);
+        run.to(10.0);
+        let (shown, contact) = (run.storey(Side::Left, 0), run.contact(0));
+        assert!(contact.active && (run.displacement(Side::Left, 0) - gap).abs() < 1e-15, "{what}: {contact:?}");
+        assert_close(shown.plastic, gap - limit, 1e-12, &what);
+        assert_eq!(shown.sense, 0, "{what}: it does not move");
+        let shear = one.force + ratio * one.stiffness * (gap - limit);
+        assert_close(shown.shear, shear, 1e-12, &what);
+        assert_close(contact.force, 2.0 * one.force - shear, 1e-11, &what);
+        assert!(run.energy().residual.abs() < 1e-12, "{what}: {:?}", run.energy());
+        run.state.set_floor_force(Side::Left, 0, 0.0);
+        let start =
+            Oscillator { elastic: limit, plastic: gap - limit, furthest: gap - limit, time: 10.0, ..one.oscillator() };
+        let earlier = shown.cumulative;
+        let start = Oscillator { cumulative: earlier, ..start };
+        for time in [10.01, 10.1, 10.2, 10.3] {
+            run.to(time);
+            assert_like(&run, &one, &start.at(time), 1e-11, &what);
+        }
+    }
+}
