@@ -21,8 +21,8 @@ fn frames(law: &str) -> (Scene, Record) {
         |floor: usize| format!("[[contact]]\nleft_floor = {floor}\nright_floor = {floor}\ngap = 0.004\n{law}\n");
     let mut scene = scene(&format!(
         "name = \"Frames\"\n{}{}[outputs]\nenergy = true\n{}{}",
-        building("left", 4e4, "[2e5, 1.5e5, inf]"),
-        building("right", 2.5e4, "[inf, 1e5, 6e4]"),
+        building("left", 4e4, "[4e5, 3e5, inf]"),
+        building("right", 2.5e4, "[inf, 2e5, 1.2e5]"),
         contact(2),
         contact(3)
     ));
@@ -62,7 +62,7 @@ fn communication_steps_do_not_matter() {
         }
         assert!(yielding > 10_000, "{law}: storeys yield at {yielding} of 200 000 times");
         assert!(touching > 500 || law.contains("stereo"), "{law}: contact at {touching} of 200 000 times");
-        assert!(fine.point.impacts > 5, "{law}: {} impacts", fine.point.impacts);
+        assert!(fine.point.impacts > 2, "{law}: {} impacts", fine.point.impacts);
         // Several in each second; the ends of these are not those of samples.
         for count in [1000, 333, 64, 7, 1] {
             let mut run = Run::new(&scene, Some(&record));

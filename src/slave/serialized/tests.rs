@@ -21,6 +21,7 @@ fn slave(law: &str, has_record: bool, steps: u32) -> Slave {
     let scene_text = format!(
         "name = \"Test\"\n\
          [left]\nmass = [2e4, 2e4]\nstiffness = [3e6, 3e6]\ndamping = {{ ratio = 0.05 }}\ninitial_velocity = [0.2, 0.0]\n\
+         yield_force = [1e4, inf]\npost_yield_ratio = 0.1\n\
          [right]\nmass = [3e4]\nstiffness = [2e7]\ndamping = {{ ratio = 0.05 }}\n\
          {driven}[outputs]\nenergy = true\n[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.0\n{law}\n"
     );
@@ -170,6 +171,84 @@ fn what_cannot_be_is_refused_with_what_it_is() {
         let problem = refused(&altered);
         assert!(problem.contains("its time is not that of its motion"), "{time}: {problem}");
     }
+}
+
+/// Bytes of a storey that can yield within a body: its senses of yielding and of a turn, and three numbers.
+struct StoreyBytes<'b> {
+    body: &'b [u8],
+    /// Where its numbers begin; the senses are before them.
+    numbers: usize,
+    values: [f64; 3],
+}
+
+impl StoreyBytes<'_> {
+    fn find(body: &[u8]) -> StoreyBytes<'_> {
+        let state = format!("{:?}", postcard::from_bytes::<Body<'_>>(body).unwrap().state);
+        let storey = state.split("Storey { ").nth(1).unwrap().split(" }").next().unwrap();
+        let number = |name: &str| storey.split(&format!("{name}: ")).nth(1).unwrap().split(',').next().unwrap();
+        let values = ["plastic", "cumulative", "furthest"].map(|name| number(name).parse::<f64>().unwrap());
+        let bytes = values.map(f64::to_le_bytes).concat();
+        let numbers = body.windows(24).position(|window| window == bytes).unwrap();
+        StoreyBytes { body, numbers, values }
+    }
+
+    /// The senses: one byte where there is none, else another for its sign.
+    fn is_yielding(&self) -> bool {
+        self.body[self.numbers - 3] == 1 && self.body[self.numbers - 1] == 0
+    }
+
+    fn with(&self, senses: &[u8], values: [f64; 3]) -> Vec<u8> {
+        let before = self.numbers - if self.is_yielding() { 3 } else { 2 };
+        [&self.body[..before], senses, &values.map(f64::to_le_bytes).concat(), &self.body[self.numbers + 24..]].concat()
+    }
+}
+
+/// One that yields away from its limit, has been nowhere, or is beyond what it can bear.
+#[test]
+fn storeys_in_states_that_they_cannot_have_are_refused() {
+    const IMPOSSIBLE: &str = "storey 1 of the left building is in no state that it can have";
+    let mut seen = [false; 2];
+    for steps in 1..60 {
+        let mut slave = slave(LAWS[1], true, steps);
+        let body = body_of(&mut slave);
+        let storey = StoreyBytes::find(&body);
+        let ([plastic, cumulative, furthest], is_yielding) = (storey.values, storey.is_yielding());
+        if plastic == 0.0 || seen[usize::from(is_yielding)] {
+            continue;
+        }
+        seen[usize::from(is_yielding)] = true;
+        let mut said = |senses: &[u8], values: [f64; 3]| {
+            let bytes = wrap(&slave.fingerprint, &storey.with(senses, values));
+            slave.deserialize_state(&bytes, None).map_err(|refusal| refusal.problems.join("; "))
+        };
+        let own = &body[storey.numbers - if is_yielding { 3 } else { 2 }..storey.numbers];
+        assert_eq!(said(own, storey.values).map(drop), Ok(()), "its own");
+        let mut refused = |senses: &[u8], values: [f64; 3], expected: &str| {
+            let problem = said(senses, values).unwrap_err();
+            assert!(problem.contains(expected), "{senses:?} {values:?}, yields: {is_yielding}: {problem}");
+        };
+        if is_yielding {
+            let other = [1, 1 - own[1], 0];
+            refused(&other, storey.values, IMPOSSIBLE);
+            refused(&[1, own[1], 1, own[1]], storey.values, IMPOSSIBLE);
+        } else {
+            for sense in [0, 1] {
+                refused(&[1, sense, 0], storey.values, IMPOSSIBLE);
+                refused(&[0, 1, sense], storey.values, IMPOSSIBLE);
+            }
+        }
+        refused(own, [plastic, cumulative, 0.5 * plastic.abs()], IMPOSSIBLE);
+        refused(own, [plastic, -1e-9, furthest], IMPOSSIBLE);
+        // Its limits move with the plastic drift.
+        refused(own, [plastic + 1.0, cumulative, 2.0], IMPOSSIBLE);
+        for bad in [f64::NAN, f64::INFINITY] {
+            refused(own, [bad, cumulative, furthest], "not finite");
+            refused(own, [plastic, bad, furthest], "not finite");
+            refused(own, [plastic, cumulative, bad], "not finite");
+        }
+        refused(&[2, 0, 0], storey.values, "");
+    }
+    assert_eq!(seen, [true; 2]);
 }
 
 #[test]
