@@ -106,8 +106,7 @@ stiffness = 1.0e4
 restitution = 0.65
 [[contact]]
 left_floor = 2
-right_storey = 2
-right_position = 0.6
+right_floor = 2
 gap = 0.04
 law = "hertz_damped"
 stiffness = 1.0e5
