@@ -218,7 +218,16 @@ fn output_derivatives_are_what_the_outputs_do_next() {
                     let noise = 1e-15 * (before[i].abs() + after[i].abs()) / h;
                     let error = ((after[i] - before[i]) / h - slope).abs();
                     let size = first[i].abs().max(first_after[i].abs()).max(h * second[i].abs());
-                    assert!(error <= 1e-6 * size + 100.0 * noise + 1e-6, "{} at {time}: {error:e} {} {} {:?} {:?} {:?}", names[i], before[i], after[i], first[i], first_after[i], state);
+                    assert!(
+                        error <= 1e-6 * size + 100.0 * noise + 1e-6,
+                        "{} at {time}: {error:e} {} {} {:?} {:?} {:?}",
+                        names[i],
+                        before[i],
+                        after[i],
+                        first[i],
+                        first_after[i],
+                        state
+                    );
                     let bend = (first_after[i] - first[i]) / h;
                     let size = second[i].abs().max(second_after[i].abs());
                     let noise = 1e-15 * first[i].abs().max(first_after[i].abs()) / h;
