@@ -1,5 +1,5 @@
 //! Random scenes: every run ends, its energy is accounted for, no force pulls where the law has no tension, rigid floors
-//! do not overlap. Each begins at rest, many with floors that touch, where everything is rounding at first.
+//! do not overlap, storeys that yield keep to their lines, one communication step or a hundred give the same bits. Each begins at rest, many with floors that touch, where everything is rounding at first.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod common;
@@ -84,13 +84,58 @@ fn motion() -> Record {
     record(0.02, &(0..=100).map(|k| 4.0 * (9.0 * t(k)).sin() + 2.0 * (31.0 * t(k)).sin()).collect::<Vec<_>>())
 }
 
+/// Yield force over the force that the strongest shaking gives the mass above, and post-yield ratio, of storeys that yield.
+fn yields() -> impl Strategy<Value = Vec<Option<(f64, f64)>>> {
+    let ratio = prop_oneof![Just(0.0), 0.0..0.9_f64];
+    let one = ((-2.0..0.3_f64).prop_map(|share| 10.0_f64.powf(share)), ratio);
+    prop::collection::vec(prop::option::weighted(0.7, one), 8)
+}
+
+/// Storeys that yield, as keys of a building.
+fn yields_toml(frame: &Frame, yields: &[Option<(f64, f64)>]) -> String {
+    let storeys = frame.storeys.iter().enumerate().zip(yields);
+    let (mut forces, mut ratios) = (Vec::new(), Vec::new());
+    for ((i, _), yields) in storeys {
+        let above: f64 = frame.storeys[i..].iter().map(|(m, _)| m * frame.mass).sum();
+        let (share, ratio) = yields.unwrap_or((f64::INFINITY, 0.0));
+        forces.push(share * 6.0 * above);
+        ratios.push(ratio);
+    }
+    format!("yield_force = {forces:?}\npost_yield_ratio = {ratios:?}\n")
+}
+
+/// What storeys that yield never do: leave their lines, give energy back. Returns what they have dissipated.
+fn check_storeys(run: &Run, scene: &Scene, last: &mut [f64], text: &str) -> Result<(), TestCaseError> {
+    for ((&(side, i), now), last) in run.yielding.iter().zip(run.storeys()).zip(last) {
+        let building = scene.building(side);
+        let (force, ratio) = building.yielding_storey(i).unwrap();
+        let stiffness = building.stiffness.of_storey(i).unwrap();
+        let drift = run.displacement(side, i) - i.checked_sub(1).map_or(0.0, |below| run.displacement(side, below));
+        let limit = force / stiffness;
+        let size = limit + (0..=i).map(|floor| run.displacement(side, floor).abs()).sum::<f64>() + now.plastic.abs();
+        let z = drift - now.plastic;
+        prop_assert!(z.abs() <= limit + 1e-12 * size, "{side:?} {i}: z = {z:e} beyond {limit:e}\n{text}");
+        let is_at = (z - f64::from(now.sense) * limit).abs() <= 1e-12 * size;
+        prop_assert!(now.sense == 0 || is_at, "{side:?} {i} yields with z = {z:e} of {limit:e}\n{text}");
+        let shear = ratio * stiffness * drift + (1.0 - ratio) * stiffness * z;
+        let error = (now.shear - shear).abs();
+        prop_assert!(error <= 1e-11 * stiffness * size, "{side:?} {i}: shear {:e} not {shear:e}\n{text}", now.shear);
+        prop_assert!(now.hysteretic >= *last, "{side:?} {i}: {:e} J after {last:e} J\n{text}", now.hysteretic);
+        prop_assert!(now.cumulative >= now.plastic.abs() * (1.0 - 1e-12), "{side:?} {i}: {now:?}\n{text}");
+        *last = now.hysteretic;
+    }
+    Ok(())
+}
+
 /// Runs a scene for 2 s, with its energy account closed to `bound`; `Err` says what is wrong with it.
 fn check(text: &str, bound: f64) -> Result<(), TestCaseError> {
     let mut scene = Scene::from_toml(&format!("{text}[outputs]\nenergy = true\n")).unwrap();
     scene.ground.record = Some("motion.csv".into());
     let mut run = Run::new(&scene, Some(&motion()));
+    let mut dissipated = vec![0.0; run.yielding.len()];
     for k in 1..=100 {
         run.to(0.02 * f64::from(k));
+        check_storeys(&run, &scene, &mut dissipated, text)?;
         for (contact, pair) in run.contacts().iter().zip(&scene.contacts) {
             prop_assert!(contact.force >= 0.0, "{:?} pulls: {contact:?}\n{text}", pair.law.kind);
             let motion: f64 = pair.row().map(|share| share.weight * run.displacement(share.side, share.floor)).sum();
@@ -100,6 +145,9 @@ fn check(text: &str, bound: f64) -> Result<(), TestCaseError> {
         let residual = run.energy().residual;
         prop_assert!(residual.abs() < bound, "residual {residual:e}\n{text}");
     }
+    // In one step.
+    let mut leap = Run::new(&scene, Some(&motion()));
+    prop_assert!(leap.to(2.0).bits() == run.bits(), "other bits in one step\n{text}");
     Ok(())
 }
 
@@ -113,6 +161,20 @@ proptest! {
     ) {
         // Elastic contacts of light frames multiply the rounding of every impact; the account still has to close.
         check(&text(&frames, &laws), 1e-11)?;
+    }
+
+    #[test]
+    fn every_run_with_storeys_that_yield_ends_with_its_energy_accounted_for(
+        frames in [frame(4), frame(4)],
+        laws in laws(),
+        positions in prop::collection::vec(0.01..0.99_f64, 4),
+        yields in yields(),
+        are_level in any::<bool>(),
+    ) {
+        let text = if are_level { text(&frames, &laws) } else { uneven_text(&frames, &laws, &positions) };
+        let [left, right] = [0, 1].map(|b| yields_toml(&frames[b], &yields[4 * b..]));
+        let text = text.replace("[left]\n", &format!("[left]\n{left}")).replace("[right]\n", &format!("[right]\n{right}"));
+        check(&text, if are_level { 1e-11 } else { 1e-9 })?;
     }
 
     #[test]

@@ -9,7 +9,7 @@ use common::problems::laws::Laws;
 use common::{Run, record, scene};
 use pounding::engine::{SavedState, Side};
 use pounding::record::Record;
-use pounding::scene::Scene;
+use pounding::scene::{Scene, Yielding};
 
 /// How the ground is driven.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,13 +29,17 @@ struct Case {
     gap: f64,
     energy: bool,
     drive: Drive,
+    /// Whether storeys of the left building can yield.
+    yields: bool,
 }
 
 fn cases() -> Vec<Case> {
     let laws = Laws { spring: 2e7, hertz: 1e8, exponent: 1.7, restitution: 0.6 };
     let rigid = Laws { restitution: 0.3, ..laws }.stereomechanical();
-    let plain =
-        |law: &str, drive| Case { law: law.to_owned(), damping: RATIO, storeys: 3, gap: 0.005, energy: true, drive };
+    let plain = |law: &str, drive| {
+        let law = law.to_owned();
+        Case { law, damping: RATIO, storeys: 3, gap: 0.005, energy: true, drive, yields: false }
+    };
     let mut every = laws.all();
     every[0].clone_from(&rigid);
     let mut cases = Vec::new();
@@ -47,15 +51,23 @@ fn cases() -> Vec<Case> {
         cases.push(Case { storeys: 9, damping: RAYLEIGH, energy: false, ..plain(law, Drive::Record) });
         cases.push(Case { damping: MATRIX, ..plain(law, Drive::Record) });
         cases.push(Case { gap: 0.0, energy: false, ..plain(law, Drive::Record) });
+        cases.push(Case { yields: true, ..plain(law, Drive::RecordAndForces) });
+        cases.push(Case { yields: true, storeys: 9, damping: RAYLEIGH, ..plain(law, Drive::Record) });
+        cases.push(Case { yields: true, energy: false, ..plain(law, Drive::Record) });
+        cases.push(Case { yields: true, ..plain(law, Drive::Inputs) });
     }
     cases
 }
 
 impl Case {
     fn scene(&self) -> (Scene, Option<Record>) {
-        let &Case { ref law, damping, storeys, gap, energy, drive } = self;
+        let &Case { ref law, damping, storeys, gap, energy, drive, yields } = self;
         let floor_forces = drive != Drive::Record;
         let mut scene = scene(&Frames { storeys, damping, gap, law, energy, floor_forces }.toml());
+        if yields {
+            let force = (0..storeys).map(|i| if i == 1 { f64::INFINITY } else { 1e5 - 1e3 * i as f64 });
+            scene.left.yielding = Some(Yielding { force: force.collect(), ratio: vec![0.05; storeys] });
+        }
         let has_record = drive != Drive::Inputs;
         scene.ground.record = has_record.then(|| "zigzag.csv".into());
         let samples: Vec<f64> = (0..100).map(acceleration).collect();
@@ -104,6 +116,7 @@ fn seen(run: &mut Run) -> (Vec<u64>, String) {
     if let Some(energy) = run.model.energy(&run.state, &run.point) {
         let terms = [energy.input, energy.viscous, energy.impact, energy.external, energy.kinetic, energy.residual];
         bits.extend(terms.map(f64::to_bits));
+        bits.extend([energy.strain, energy.hysteretic].map(f64::to_bits));
     }
     let opens: Vec<_> = (0..run.model.contacts()).map(|p| run.model.open_episode(&run.state, p)).collect();
     (bits, format!("{:?} {opens:?} {:?}", run.state.counters(), std::mem::take(&mut run.episodes)))
@@ -124,15 +137,17 @@ fn a_saved_state_goes_on_to_the_same_bits() {
 
         let mut run = case.run();
         let mut saved = Vec::new();
-        let (mut touching, mut held) = (0, 0);
+        let (mut touching, mut held, mut yielding) = (0, 0, 0);
         for (k, expected) in expected.iter().enumerate() {
             saved.push(run.state.save());
             assert!(to(&case, &mut run, k) == *expected, "{case:?}: saving has changed point {k}");
             touching += usize::from(run.contacts().iter().any(|contact| contact.active));
             held += usize::from(run.contacts().iter().any(|contact| contact.active && contact.force > 0.0));
+            yielding += usize::from(run.storeys().iter().any(|storey| storey.sense != 0));
         }
         assert!(touching > 20, "{case:?}: {touching} points in contact");
         assert!(held > 10, "{case:?}: {held} points under force");
+        assert!(yielding > 50 || !case.yields, "{case:?}: {yielding} points at which a storey yields");
 
         // Another model of the scene, and a state that has seen other things; last points first.
         let mut other = case.run();

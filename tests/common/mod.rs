@@ -4,7 +4,7 @@
 #[path = "../problems/mod.rs"]
 pub mod problems;
 
-use pounding::engine::{ContactPoint, EnergyPoint, Episode, Model, PeakOf, Point, Side, State};
+use pounding::engine::{ContactPoint, EnergyPoint, Episode, Model, PeakOf, Point, Side, State, YieldingOf};
 use pounding::record::Record;
 use pounding::scene::Scene;
 use problems::two_masses::{Mass, TwoMasses};
@@ -30,6 +30,26 @@ pub struct Run {
     pub state: State,
     pub point: Point,
     pub episodes: Vec<Episode>,
+    /// The storeys that can yield, counted from 0.
+    pub yielding: Vec<(Side, usize)>,
+}
+
+/// All that is shown of a storey that can yield.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShownStorey {
+    /// N.
+    pub shear: f64,
+    /// m.
+    pub plastic: f64,
+    /// m.
+    pub residual: f64,
+    pub ductility: f64,
+    /// J.
+    pub hysteretic: f64,
+    /// m.
+    pub cumulative: f64,
+    /// The sense in which it yields, or 0.
+    pub sense: i32,
 }
 
 impl Run {
@@ -40,7 +60,10 @@ impl Run {
     pub fn from(scene: &Scene, record: Option<&Record>, start: f64) -> Run {
         let model = Model::new(scene, record).unwrap_or_else(|error| panic!("{error}"));
         let state = model.start(start);
-        Run { model, state, point: Point::default(), episodes: Vec::new() }
+        let of = |side| (0..model.floors(side)).map(move |storey| (side, storey));
+        let can_yield = |&(side, storey): &(Side, usize)| scene.building(side).yielding_storey(storey).is_some();
+        let yielding = of(Side::Left).chain(of(Side::Right)).filter(can_yield).collect();
+        Run { model, state, point: Point::default(), episodes: Vec::new(), yielding }
     }
 
     /// Advances to a time and reads it.
@@ -81,12 +104,30 @@ impl Run {
         (0..self.model.contacts()).map(|p| self.contact(p)).collect()
     }
 
+    pub fn storey(&self, side: Side, storey: usize) -> ShownStorey {
+        let of = |of| self.model.of_yielding(&self.state, &self.point, of, (side, storey));
+        ShownStorey {
+            shear: of(YieldingOf::Shear),
+            plastic: of(YieldingOf::PlasticDrift),
+            residual: of(YieldingOf::ResidualDrift),
+            ductility: of(YieldingOf::Ductility),
+            hysteretic: of(YieldingOf::HystereticEnergy),
+            cumulative: of(YieldingOf::CumulativePlasticDrift),
+            sense: self.model.yielding(&self.point, (side, storey)),
+        }
+    }
+
+    /// All storeys that can yield.
+    pub fn storeys(&self) -> Vec<ShownStorey> {
+        self.yielding.iter().map(|&(side, storey)| self.storey(side, storey)).collect()
+    }
+
     /// The energy account of a scene that keeps one.
     pub fn energy(&self) -> EnergyPoint {
         self.model.energy(&self.state, &self.point).unwrap()
     }
 
-    /// Everything that a floor or contact shows, as bits.
+    /// Everything that a floor, a contact or a storey that can yield shows, as bits.
     pub fn bits(&self) -> Vec<u64> {
         self.bits_with(&self.contacts())
     }
@@ -107,6 +148,10 @@ impl Run {
         for contact in contacts {
             values.extend([contact.force, contact.penetration, contact.peak_force, contact.impulse]);
             values.extend([contact.dissipated_energy, contact.approach_velocity, contact.impacts as f64]);
+        }
+        for storey in self.storeys() {
+            values.extend([storey.shear, storey.plastic, storey.residual, storey.ductility, storey.hysteretic]);
+            values.extend([storey.cumulative, f64::from(storey.sense)]);
         }
         values.into_iter().map(f64::to_bits).collect()
     }

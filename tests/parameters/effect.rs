@@ -1,7 +1,7 @@
 //! Values that are taken: the run is, to the last bit, that of the scene that says the same.
 
 use crate::scene::edited;
-use crate::support::{ERROR, Fmu, Instance, OK, RECORD_SCENE, RICH, SCENE, UNEVEN};
+use crate::support::{ERROR, Fmu, Instance, OK, RECORD_SCENE, RICH, SCENE, UNEVEN, YIELDING};
 use fmi::model_description::fmi2::{Causality, VariableType};
 use pounding::description::Package;
 use std::fs;
@@ -105,6 +105,42 @@ fn positions_and_dashpots_work_as_if_the_scene_had_said_so() {
 }
 
 #[test]
+fn yield_forces_and_ratios_work_as_if_the_scene_had_said_so() {
+    let fmu = Fmu::new(YIELDING);
+    let unchanged = run_with(&fmu, &[], false);
+    for (name, value, from, to) in [
+        ("left.yield_force[1]", 13.5, "[18.0, 12.0]", "[13.5, 12.0]"),
+        // More than it is strained by at the start.
+        ("left.yield_force[2]", 31.0, "[18.0, 12.0]", "[18.0, 31.0]"),
+        ("right.yield_force[1]", 1e9, "[15.0, inf]", "[1e9, inf]"),
+        ("left.post_yield_ratio[1]", 0.0, "[0.1, 0.05]", "[0.0, 0.05]"),
+        ("left.post_yield_ratio[2]", 0.5, "[0.1, 0.05]", "[0.1, 0.5]"),
+        ("right.post_yield_ratio[1]", 0.999, "[0.2, 0.3]", "[0.999, 0.3]"),
+    ] {
+        assert!(YIELDING.contains(from));
+        let expected = run_with(&Fmu::new(&YIELDING.replace(from, to)), &[], false);
+        for in_initialization in [false, true] {
+            assert!(run_with(&fmu, &[(name, value)], in_initialization) == expected, "{name} {in_initialization}");
+        }
+        assert!(expected != unchanged, "{name} has no effect");
+    }
+    const FORCE: &str = "expected a force > 0 N, or inf for a storey that stays elastic";
+    for (name, value, expected) in [
+        ("left.yield_force[2]", 0.0, format!("left.yield_force[2] = 0.0: {FORCE}")),
+        ("left.yield_force[1]", f64::NAN, format!("left.yield_force[1] = nan: {FORCE}")),
+        ("left.post_yield_ratio[1]", 1.0, "left.post_yield_ratio[1] = 1.0: expected 0 <= r < 1".to_owned()),
+        ("right.post_yield_ratio[1]", -0.1, "right.post_yield_ratio[1] = -0.1: expected 0 <= r < 1".to_owned()),
+    ] {
+        let instance = fmu.instance();
+        assert_eq!(instance.set_real(name, value), ERROR);
+        assert_eq!(instance.log().last().unwrap().message, format!("fmi2SetReal: {expected}"));
+    }
+    for name in ["right.yield_force[2]", "right.post_yield_ratio[2]", "right.yielding[2]", "right.storey_shear[2]"] {
+        assert!(fmu.description.variable_by_name(name).is_err(), "{name} of a storey that stays elastic");
+    }
+}
+
+#[test]
 fn all_parameters_can_be_set_in_one_call() {
     let fmu = Fmu::new(RICH);
     let changes = parameters(&fmu).into_iter().map(|(name, value)| (name, other(name, value))).collect::<Vec<_>>();
@@ -174,7 +210,7 @@ fn a_reset_brings_every_parameter_back() {
 /// No master writes the start values of the description into the library.
 #[test]
 fn every_start_value_is_that_of_the_library() {
-    for scene in [RICH, SCENE, RECORD_SCENE] {
+    for scene in [RICH, SCENE, RECORD_SCENE, YIELDING] {
         let fmu = Fmu::new(scene);
         let instance = fmu.instance();
         instance.enter();

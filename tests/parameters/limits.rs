@@ -1,6 +1,6 @@
 //! Smallest, largest and nominal values of the description, against what the library has.
 
-use crate::support::{Fmu, OK, RICH, SCENE};
+use crate::support::{Fmu, OK, RICH, SCENE, YIELDING};
 use fmi::model_description::fmi2::VariableType;
 
 fn number(text: &Option<String>) -> Option<f64> {
@@ -9,7 +9,7 @@ fn number(text: &Option<String>) -> Option<f64> {
 
 #[test]
 fn every_number_has_a_nominal_value_of_its_size() {
-    for scene in [RICH, SCENE] {
+    for scene in [RICH, SCENE, YIELDING] {
         for variable in &Fmu::new(scene).description.modelVariables {
             let VariableType::Real { nominal, .. } = &variable.variableType else { continue };
             let nominal = number(nominal).unwrap_or_else(|| panic!("{}: none", variable.name));
@@ -35,7 +35,7 @@ fn nominal_frequencies_are_of_the_size_of_the_frequencies() {
 
 #[test]
 fn limits_are_declared_and_kept_through_a_run() {
-    for scene in [RICH, SCENE] {
+    for scene in [RICH, SCENE, YIELDING] {
         let fmu = Fmu::new(scene);
         let instance = fmu.instance();
         instance.start();

@@ -1,7 +1,7 @@
 //! Values that are refused: for the same reasons and in the same words as in a scene, under the variable's name.
 
 use crate::scene::edited;
-use crate::support::{ERROR, Fmu, OK, RECORD_SCENE, RICH, SCENE};
+use crate::support::{ERROR, Fmu, OK, RECORD_SCENE, RICH, SCENE, YIELDING};
 use fmi::model_description::fmi2::Causality;
 use pounding::scene::Scene;
 use std::fs;
@@ -95,7 +95,7 @@ fn a_record_without_a_peak_is_refused_under_the_name_of_the_record() {
 
 #[test]
 fn nothing_can_be_set_after_initialisation_but_the_inputs() {
-    for scene in [RICH, SCENE] {
+    for scene in [RICH, SCENE, YIELDING] {
         let fmu = Fmu::new(scene);
         for variable in &fmu.description.modelVariables {
             let (name, instance) = (&variable.name, fmu.instance());

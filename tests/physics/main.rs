@@ -1,6 +1,7 @@
 //! Does the engine compute the right motion? Against closed forms, integrations in 40 and 60 digits, and enumerations.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod bilinear;
 mod bodies;
 #[path = "../common/mod.rs"]
 mod common;
@@ -9,6 +10,7 @@ mod impacts;
 mod linear_inputs;
 mod many_storeys;
 mod peaks;
+mod piecewise;
 mod propagator;
 mod rates;
 mod row_symmetry;
@@ -21,3 +23,9 @@ mod tall_buildings;
 mod tension;
 mod walls;
 mod walls_and_ground;
+mod yielding;
+mod yielding_bits;
+mod yielding_contacts;
+mod yielding_frames;
+mod yielding_times;
+mod yielding_together;

@@ -16,7 +16,10 @@ fn thousandth(number: &str) -> String {
 
 /// A scene in t and kN: the values of the keys that have a mass or a force in their units, and no others.
 fn in_kn_t(text: &str) -> String {
-    let is_scaled = |key: &str| key.trim_end().ends_with("mass") || key.contains("stiffness") || key.contains("matrix");
+    let is_scaled = |key: &str| {
+        let is_force = key.trim_end().ends_with("yield_force");
+        is_force || key.trim_end().ends_with("mass") || key.contains("stiffness") || key.contains("matrix")
+    };
     let line = |line: &str| {
         let Some((key, value)) = line.split_once('=').filter(|(key, value)| is_scaled(key) || value.contains("matrix"))
         else {
@@ -26,7 +29,7 @@ fn in_kn_t(text: &str) -> String {
         let mut moved = String::new();
         for part in value.split_inclusive(['[', ']', ',', ' ']) {
             let number = part.trim_end_matches(['[', ']', ',', ' ']);
-            let is_number = number.parse::<f64>().is_ok();
+            let is_number = number.parse::<f64>().is_ok_and(f64::is_finite);
             moved += &if is_number { thousandth(number) } else { number.to_owned() };
             moved += &part[number.len()..];
         }
@@ -88,6 +91,11 @@ fn every_number_is_the_same_double() {
         let [si, kn_t] = read_both(text);
         assert_eq!(si, kn_t);
     }
+    let yielding =
+        frames(&format!("{SHEAR}\nyield_force = [13.7, inf]\npost_yield_ratio = 0.031"), RATIO, LawKind::Linear);
+    let [si, kn_t] = read_both(&yielding);
+    assert_eq!(si.left.yielding.as_ref().unwrap().force, [13.7, f64::INFINITY]);
+    assert_eq!(si, kn_t);
 }
 
 #[test]
@@ -211,7 +219,22 @@ fn problems_are_shown_in_the_units_of_the_scene() {
             "contact[1].stiffness = -0.7: expected a finite stiffness > 0 kN/m^n",
         ),
         ("stiffness = 1.0e6\n", "", "contact[1].stiffness: expected a finite stiffness > 0 kN/m^n (missing)"),
+        (
+            "stiffness = [2910.0, 2920.0]",
+            "stiffness = [2910.0, 2920.0]\nyield_force = [inf, -0.3]",
+            "left.yield_force[2] = -0.3: expected a force > 0 kN, or inf for a storey that stays elastic",
+        ),
+        (
+            "stiffness = [2910.0, 2920.0]",
+            "stiffness = [2910.0, 2920.0]\nyield_force = [4.1]",
+            "left.yield_force = [4.1]: expected 2 numbers, one per storey, not 1",
+        ),
         // Neither a mass nor a force: as ever.
+        (
+            "stiffness = [2910.0, 2920.0]",
+            "stiffness = [2910.0, 2920.0]\nyield_force = [4.1, inf]\npost_yield_ratio = 1.2",
+            "left.post_yield_ratio = 1.2: expected 0 <= r < 1",
+        ),
         ("gap = 0.002", "gap = inf", "contact[1].gap = inf: expected a finite distance in m"),
         ("restitution = 0.65", "restitution = 1.4", "contact[1].restitution = 1.4: expected 0 < e <= 1"),
     ] {

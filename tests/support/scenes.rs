@@ -73,3 +73,43 @@ law = "kelvin_voigt"
 stiffness = 1.0e4
 restitution = 0.6
 "#;
+
+/// Storeys that yield, three of which are beyond their yield drift at the start, and one that does not.
+pub const YIELDING: &str = r#"
+name = "Yielding"
+[left]
+mass = [3.65, 4.2]
+stiffness = [2910.0, 2000.0]
+damping = { ratio = 0.02 }
+yield_force = [18.0, 12.0]
+post_yield_ratio = [0.1, 0.05]
+initial_displacement = [0.01, 0.02]
+initial_velocity = [0.3, 0.5]
+[right]
+mass = [3.0, 2.5]
+stiffness = [2500.0, 2200.0]
+damping = { dashpots = [2.0, 1.5] }
+yield_force = [15.0, inf]
+post_yield_ratio = [0.2, 0.3]
+initial_displacement = [-0.012, -0.009]
+initial_velocity = [-0.2, -0.1]
+[inputs]
+floor_forces = true
+[outputs]
+energy = true
+[[contact]]
+left_floor = 1
+right_floor = 1
+gap = 0.03
+law = "kelvin_voigt"
+stiffness = 1.0e4
+restitution = 0.65
+[[contact]]
+left_floor = 2
+right_floor = 2
+gap = 0.04
+law = "hertz_damped"
+stiffness = 1.0e5
+restitution = 0.6
+damping_formula = "exact"
+"#;

@@ -17,10 +17,20 @@ const LAWS: [&str; 5] = [
 
 /// Two storeys beside one, touching from the start, after so many steps of 4 ms.
 fn slave(law: &str, has_record: bool, steps: u32) -> Slave {
+    slave_with("", law, has_record, steps)
+}
+
+/// The same with a storey that yields.
+fn yielding_slave(law: &str, has_record: bool, steps: u32) -> Slave {
+    slave_with("yield_force = [8e4, inf]\npost_yield_ratio = 0.1\n", law, has_record, steps)
+}
+
+fn slave_with(keys: &str, law: &str, has_record: bool, steps: u32) -> Slave {
     let driven = if has_record { "[ground]\nrecord = \"r.csv\"\n" } else { "[inputs]\nfloor_forces = true\n" };
     let scene_text = format!(
         "name = \"Test\"\n\
          [left]\nmass = [2e4, 2e4]\nstiffness = [3e6, 3e6]\ndamping = {{ ratio = 0.05 }}\ninitial_velocity = [0.2, 0.0]\n\
+         {keys}\
          [right]\nmass = [3e4]\nstiffness = [2e7]\ndamping = {{ ratio = 0.05 }}\n\
          {driven}[outputs]\nenergy = true\n[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.0\n{law}\n"
     );
@@ -69,8 +79,8 @@ fn go_on(slave: &mut Slave, body: &[u8]) -> bool {
     true
 }
 
-fn places() -> impl Strategy<Value = (usize, bool, u32)> {
-    (0..LAWS.len(), any::<bool>(), 0..60_u32)
+fn places() -> impl Strategy<Value = (usize, bool, u32, bool)> {
+    (0..LAWS.len(), any::<bool>(), 0..60_u32, any::<bool>())
 }
 
 const NUMBERS: [f64; 12] = [
@@ -93,11 +103,12 @@ proptest! {
 
     #[test]
     fn a_forged_body_is_refused_or_harmless(
-        (law, has_record, steps) in places(),
+        (law, has_record, steps, yields) in places(),
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..4),
         numbers in prop::collection::vec((any::<prop::sample::Index>(), 0..NUMBERS.len()), 0..3),
         cut in prop::option::weighted(0.1, any::<prop::sample::Index>()),
     ) {
+        let slave = if yields { yielding_slave } else { slave };
         let mut slave = slave(LAWS[law], has_record, steps);
         let mut body = body_of(&mut slave);
         for (place, number) in numbers {
@@ -170,6 +181,88 @@ fn what_cannot_be_is_refused_with_what_it_is() {
         let problem = refused(&altered);
         assert!(problem.contains("its time is not that of its motion"), "{time}: {problem}");
     }
+}
+
+/// Bytes of a storey that can yield within a body: its senses of yielding and of a turn, and three numbers.
+struct StoreyBytes<'b> {
+    body: &'b [u8],
+    /// Where its numbers begin; the senses are before them.
+    numbers: usize,
+    values: [f64; 3],
+    is_yielding: bool,
+    has_turned: bool,
+}
+
+impl StoreyBytes<'_> {
+    fn find(body: &[u8]) -> StoreyBytes<'_> {
+        let state = format!("{:?}", postcard::from_bytes::<Body<'_>>(body).unwrap().state);
+        let storey = state.split("Storey { ").nth(1).unwrap().split(" }").next().unwrap();
+        let number = |name: &str| storey.split(&format!("{name}: ")).nth(1).unwrap().split(',').next().unwrap();
+        let values = ["plastic", "cumulative", "furthest"].map(|name| number(name).parse::<f64>().unwrap());
+        let bytes = values.map(f64::to_le_bytes).concat();
+        let numbers = body.windows(24).position(|window| window == bytes).unwrap();
+        let [is_yielding, has_turned] = ["yields: Some", "turned: Some"].map(|sense| storey.contains(sense));
+        StoreyBytes { body, numbers, values, is_yielding, has_turned }
+    }
+
+    /// Its senses: one byte where there is none, else another for its sign.
+    fn senses(&self) -> &[u8] {
+        &self.body[self.numbers - 2 - usize::from(self.is_yielding || self.has_turned)..self.numbers]
+    }
+
+    fn with(&self, senses: &[u8], values: [f64; 3]) -> Vec<u8> {
+        let before = self.numbers - self.senses().len();
+        [&self.body[..before], senses, &values.map(f64::to_le_bytes).concat(), &self.body[self.numbers + 24..]].concat()
+    }
+}
+
+/// One that yields away from its limit, has been nowhere, or is beyond what it can bear.
+#[test]
+fn storeys_in_states_that_they_cannot_have_are_refused() {
+    const IMPOSSIBLE: &str = "storey 1 of the left building is in no state that it can have";
+    let mut seen = [false; 2];
+    for steps in (1..60).chain((60..240).step_by(9)) {
+        let mut slave = yielding_slave(LAWS[1], true, steps);
+        let body = body_of(&mut slave);
+        let storey = StoreyBytes::find(&body);
+        let ([plastic, cumulative, furthest], is_yielding) = (storey.values, storey.is_yielding);
+        // Not where it has just turned: it is at its limit there.
+        if plastic == 0.0 || storey.has_turned || seen[usize::from(is_yielding)] {
+            continue;
+        }
+        seen[usize::from(is_yielding)] = true;
+        let mut said = |senses: &[u8], values: [f64; 3]| {
+            let bytes = wrap(&slave.fingerprint, &storey.with(senses, values));
+            slave.deserialize_state(&bytes, None).map_err(|refusal| refusal.problems.join("; "))
+        };
+        let own = storey.senses();
+        assert_eq!(said(own, storey.values).map(drop), Ok(()), "its own");
+        let mut refused = |senses: &[u8], values: [f64; 3], expected: &str| {
+            let problem = said(senses, values).unwrap_err();
+            assert!(problem.contains(expected), "{senses:?} {values:?}, yields: {is_yielding}: {problem}");
+        };
+        if is_yielding {
+            let other = [1, 1 - own[1], 0];
+            refused(&other, storey.values, IMPOSSIBLE);
+            refused(&[1, own[1], 1, own[1]], storey.values, IMPOSSIBLE);
+        } else {
+            for sense in [0, 1] {
+                refused(&[1, sense, 0], storey.values, IMPOSSIBLE);
+                refused(&[0, 1, sense], storey.values, IMPOSSIBLE);
+            }
+        }
+        refused(own, [plastic, cumulative, 0.5 * plastic.abs()], IMPOSSIBLE);
+        refused(own, [plastic, -1e-9, furthest], IMPOSSIBLE);
+        // Its limits move with the plastic drift.
+        refused(own, [plastic + 1.0, cumulative, 2.0], IMPOSSIBLE);
+        for bad in [f64::NAN, f64::INFINITY] {
+            refused(own, [bad, cumulative, furthest], "not finite");
+            refused(own, [plastic, bad, furthest], "not finite");
+            refused(own, [plastic, cumulative, bad], "not finite");
+        }
+        refused(&[2, 0, 0], storey.values, "");
+    }
+    assert_eq!(seen, [true; 2]);
 }
 
 #[test]

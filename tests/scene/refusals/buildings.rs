@@ -179,3 +179,71 @@ fn rayleigh() {
                     damping = { ratio = ... }";
     assert_eq!(messages(&one_floor), [expected]);
 }
+
+#[test]
+fn yield_forces() {
+    const DAMPING: &str = "damping = { ratio = 0.01 }";
+    let said = |keys: &str| messages(&edited(DAMPING, &format!("{DAMPING}\n{keys}")));
+    for fine in [
+        "yield_force = [40.0, 30]",
+        "yield_force = [inf, 1e-9]",
+        "yield_force = [inf, inf]\npost_yield_ratio = 0",
+        "yield_force = [40.0, inf]\npost_yield_ratio = [0.999, 0.0]",
+    ] {
+        assert_eq!(said(fine), [""; 0], "{fine}");
+    }
+    const FORCE: &str = "expected a force > 0 N, or inf for a storey that stays elastic";
+    for (force, of) in [
+        ("[40.0, -3.0]", "[2] = -3.0"),
+        ("[0, 30.0]", "[1] = 0.0"),
+        ("[nan, 30.0]", "[1] = nan"),
+        ("[40.0, -inf]", "[2] = -inf"),
+    ] {
+        assert_eq!(said(&format!("yield_force = {force}")), [format!("left.yield_force{of}: {FORCE}")]);
+    }
+    for (keys, expected) in [
+        ("yield_force = [40.0]", "left.yield_force = [40.0]: expected 2 numbers, one per storey, not 1"),
+        ("yield_force = [inf, 1, 2]", "left.yield_force = [inf, 1, 2]: expected 2 numbers, one per storey, not 3"),
+        ("yield_force = [40.0, \"much\"]", "left.yield_force[2] = \"much\": expected a number"),
+        (
+            "yield_force = 40.0",
+            "left.yield_force = 40.0: expected a list of numbers, [40.0] for one floor, [40.0, 40.0] for two",
+        ),
+        (
+            "post_yield_ratio = 0.1",
+            "left.post_yield_ratio = 0.1: expected yield_force as well, the storey shears at first yield",
+        ),
+    ] {
+        assert_eq!(said(keys), [expected]);
+    }
+    let matrix = edited("stiffness = [2910.0, 2920.0]", "stiffness_matrix = [[3, -1], [-1, 2]]\nyield_force = [1, 2]");
+    let expected = "left.yield_force = [1, 2]: expected a shear building, with stiffness instead of stiffness_matrix: only \
+                    storeys yield";
+    assert_eq!(messages(&matrix), [expected]);
+    let typo = said("yield_forces = [40.0, 30.0]");
+    assert!(typo.len() == 1 && typo[0].ends_with("did you mean yield_force?"), "{typo:?}");
+}
+
+#[test]
+fn post_yield_ratios() {
+    const DAMPING: &str = "damping = { ratio = 0.01 }";
+    let said = |ratio: &str| {
+        messages(&edited(DAMPING, &format!("{DAMPING}\nyield_force = [40.0, inf]\npost_yield_ratio = {ratio}")))
+    };
+    for (ratio, of) in [
+        ("-0.1", " = -0.1"),
+        ("1", " = 1"),
+        ("1.5", " = 1.5"),
+        ("nan", " = nan"),
+        ("inf", " = inf"),
+        ("[0.1, 1.0]", "[2] = 1.0"),
+        ("[-1e-300, 0.0]", "[1] = -1e-300"),
+        ("[0.0, nan]", "[2] = nan"),
+    ] {
+        assert_eq!(said(ratio), [format!("left.post_yield_ratio{of}: expected 0 <= r < 1")], "{ratio}");
+    }
+    let expected = "left.post_yield_ratio = [0.1]: expected 2 numbers, one per storey, not 1";
+    assert_eq!(said("[0.1]"), [expected]);
+    let several = said("[\"5 %\", 2.0]");
+    assert_eq!(several.len(), 2, "{several:?}");
+}

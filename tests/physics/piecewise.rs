@@ -1,0 +1,448 @@
+//! Frames with storeys that yield and contacts that are linear, another way: between events the floors obey y' = A y with a
+//! constant matrix that has the stiffness of the storeys as they are then, and y is the exponential of A t. Displacements are
+//! total ones, steps are short, events are found by bisection.
+
+use crate::common::Run;
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use pounding::contact::LawKind;
+use pounding::engine::Side;
+use pounding::record::Record;
+use pounding::scene::{Building, ContactPair, Damping, Scene};
+use std::f64::consts::PI;
+
+/// A storey between two floors, counted through both buildings.
+struct Storey {
+    row: DVector<f64>,
+    stiffness: f64,
+    limit: f64,
+    ratio: f64,
+    can_yield: bool,
+}
+
+struct Pair {
+    row: DVector<f64>,
+    gap: f64,
+    stiffness: f64,
+    damping: f64,
+    /// Of impulses; spring and dashpot have none.
+    restitution: Option<f64>,
+    mass: f64,
+}
+
+/// The motion and all that is remembered of it.
+pub struct Piecewise<'r> {
+    mass: DVector<f64>,
+    damping: DMatrix<f64>,
+    storeys: Vec<Storey>,
+    pairs: Vec<Pair>,
+    record: &'r Record,
+    /// Displacements, velocities, 1, and the time since the last sample.
+    y: DVector<f64>,
+    pub time: f64,
+    pub plastic: Vec<f64>,
+    pub cumulative: Vec<f64>,
+    sense: Vec<f64>,
+    closed: Vec<bool>,
+    /// The latest impulse of each pair, s.
+    struck: Vec<f64>,
+    /// Set where impulses of a pair follow each other at once: floors that come to rest on each other are not followed.
+    pub is_over: bool,
+    /// How often storeys have begun to yield, and pairs to touch.
+    pub yields: usize,
+    pub impacts: usize,
+    /// s.
+    step: f64,
+}
+
+#[derive(Clone, Copy)]
+enum Event {
+    Yield(usize, f64),
+    Turn(usize),
+    Entry(usize),
+    Release(usize),
+}
+
+impl Piecewise<'_> {
+    pub fn new<'r>(scene: &Scene, record: &'r Record) -> Piecewise<'r> {
+        let buildings = [&scene.left, &scene.right];
+        let first = |side: Side| if side == Side::Left { 0 } else { scene.left.mass.len() };
+        let all = |of: fn(&Building) -> &Vec<f64>| DVector::from_vec(buildings.map(of).map(Vec::clone).concat());
+        let mass = all(|building| &building.mass);
+        let n = mass.len();
+        let mut storeys = Vec::new();
+        let mut damping = DMatrix::zeros(n, n);
+        for (side, building) in [(Side::Left, &scene.left), (Side::Right, &scene.right)] {
+            let own = storeys.len();
+            for i in 0..building.mass.len() {
+                let mut row = DVector::zeros(n);
+                row[first(side) + i] = 1.0;
+                if i > 0 {
+                    row[first(side) + i - 1] = -1.0;
+                }
+                let stiffness = building.stiffness.of_storey(i).unwrap();
+                let yielding = building.yielding_storey(i);
+                let (force, ratio) = yielding.unwrap_or((f64::INFINITY, 1.0));
+                storeys.push(Storey { row, stiffness, limit: force / stiffness, ratio, can_yield: yielding.is_some() });
+            }
+            damping += damping_of(&building.damping, &mass, first(side), &storeys[own..]);
+        }
+        let pairs: Vec<_> = scene.contacts.iter().map(|pair| Pair::of(pair, &mass, first)).collect();
+        let displacements = all(|building| &building.initial_displacement);
+        let velocities = all(|building| &building.initial_velocity);
+        let mut y = DVector::zeros(2 * n + 2);
+        y.rows_mut(0, n).copy_from(&displacements);
+        y.rows_mut(n, n).copy_from(&velocities);
+        y[2 * n] = 1.0;
+        let plastic = storeys.iter().map(|storey| {
+            let drift = storey.row.dot(&displacements);
+            drift.signum() * (drift.abs() - storey.limit).max(0.0)
+        });
+        // No frequency is above the root of the trace.
+        let springs = storeys.iter().map(|s| (&s.row, s.stiffness)).chain(pairs.iter().map(|p| (&p.row, p.stiffness)));
+        let trace: f64 = springs.map(|(row, k)| k * row.zip_map(&mass, |w, m| w * w / m).sum()).sum();
+        Piecewise {
+            plastic: plastic.collect(),
+            cumulative: vec![0.0; storeys.len()],
+            sense: vec![0.0; storeys.len()],
+            closed: vec![false; pairs.len()],
+            struck: vec![f64::NEG_INFINITY; pairs.len()],
+            is_over: false,
+            step: 0.05 / trace.sqrt(),
+            time: 0.0,
+            yields: 0,
+            impacts: 0,
+            mass,
+            damping,
+            storeys,
+            pairs,
+            record,
+            y,
+        }
+    }
+
+    fn floors(&self) -> usize {
+        self.mass.len()
+    }
+
+    fn drift(&self, i: usize, y: &DVector<f64>) -> f64 {
+        self.storeys[i].row.dot(&y.rows(0, self.floors()))
+    }
+
+    fn drift_rate(&self, i: usize, y: &DVector<f64>) -> f64 {
+        self.storeys[i].row.dot(&y.rows(self.floors(), self.floors()))
+    }
+
+    fn penetration(&self, p: usize, y: &DVector<f64>) -> f64 {
+        self.pairs[p].row.dot(&y.rows(0, self.floors())) - self.pairs[p].gap
+    }
+
+    fn closing(&self, p: usize, y: &DVector<f64>) -> f64 {
+        self.pairs[p].row.dot(&y.rows(self.floors(), self.floors()))
+    }
+
+    pub fn displacement(&self, floor: usize) -> f64 {
+        self.y[floor]
+    }
+
+    pub fn velocity(&self, floor: usize) -> f64 {
+        self.y[self.floors() + floor]
+    }
+
+    /// Plastic drift now, also while the storey yields.
+    pub fn plastic_now(&self, i: usize) -> f64 {
+        match self.sense[i] {
+            0.0 => self.plastic[i],
+            sense => self.drift(i, &self.y) - sense * self.storeys[i].limit,
+        }
+    }
+
+    pub fn cumulative_now(&self, i: usize) -> f64 {
+        self.cumulative[i] + (self.plastic_now(i) - self.plastic[i]).abs()
+    }
+
+    /// The matrix of the present phase; `slope` is that of the ground acceleration, from `start` at the last sample.
+    fn matrix(&self, (start, slope): (f64, f64)) -> DMatrix<f64> {
+        let n = self.floors();
+        let mut force = DMatrix::zeros(n, 2 * n + 2);
+        force.view_mut((0, n), (n, n)).copy_from(&-&self.damping);
+        let mut add = |row: &DVector<f64>, stiffness: f64, damping: f64, constant: f64| {
+            for i in (0..n).filter(|&i| row[i] != 0.0) {
+                for j in 0..n {
+                    force[(i, j)] -= row[i] * stiffness * row[j];
+                    force[(i, n + j)] -= row[i] * damping * row[j];
+                }
+                force[(i, 2 * n)] -= row[i] * constant;
+            }
+        };
+        for (i, storey) in self.storeys.iter().enumerate() {
+            let &Storey { ref row, stiffness, limit, ratio, .. } = storey;
+            let softened = (1.0 - ratio) * stiffness;
+            match self.sense[i] {
+                0.0 => add(row, stiffness, 0.0, -softened * self.plastic[i]),
+                sense => add(row, ratio * stiffness, 0.0, softened * sense * limit),
+            }
+        }
+        for (pair, _) in self.pairs.iter().zip(&self.closed).filter(|(_, closed)| **closed) {
+            add(&pair.row, pair.stiffness, pair.damping, -pair.stiffness * pair.gap);
+        }
+        let mut matrix = DMatrix::zeros(2 * n + 2, 2 * n + 2);
+        for i in 0..n {
+            matrix[(i, n + i)] = 1.0;
+            matrix.row_mut(n + i).copy_from(&(force.row(i) / self.mass[i]));
+            matrix[(n + i, 2 * n)] -= start;
+            matrix[(n + i, 2 * n + 1)] -= slope;
+        }
+        matrix[(2 * n + 1, 2 * n)] = 1.0;
+        matrix
+    }
+
+    /// The ground acceleration at the last sample up to now, its slope, and the time of the next one.
+    fn ground(&self, sample: usize) -> ((f64, f64), f64) {
+        let Record { times, accelerations } = self.record;
+        match times.get(sample + 1) {
+            Some(&next) => {
+                let slope = (accelerations[sample + 1] - accelerations[sample]) / (next - times[sample]);
+                ((accelerations[sample], slope), next)
+            }
+            None => ((0.0, 0.0), f64::INFINITY),
+        }
+    }
+
+    pub fn to(&mut self, until: f64) {
+        while self.time < until && !self.is_over {
+            let sample = self.record.times.partition_point(|&time| time <= self.time) - 1;
+            let (ground, next) = self.ground(sample);
+            let end = next.min(until);
+            let matrix = self.matrix(ground);
+            let last = 2 * self.floors() + 1;
+            self.y[last] = self.time - self.record.times[sample];
+            loop {
+                let (step, is_last) = match end - self.time <= self.step {
+                    true => (end - self.time, true),
+                    false => (self.step, false),
+                };
+                let after = exponential(&matrix, &self.y, step);
+                if let Some((t, event)) = self.first_event(&matrix, &after, step) {
+                    self.y = exponential(&matrix, &self.y, t);
+                    self.time += t;
+                    self.handle(event);
+                    break;
+                }
+                self.y = after;
+                self.time = if is_last { end } else { self.time + step };
+                if is_last {
+                    break;
+                }
+            }
+        }
+    }
+
+    /// Everything that can happen in the present phase: a function that becomes positive, and its rate.
+    fn watched(&self) -> Vec<(Event, Watched<'_>, Watched<'_>)> {
+        let mut all: Vec<(Event, Watched<'_>, Watched<'_>)> = Vec::new();
+        for i in (0..self.storeys.len()).filter(|&i| self.storeys[i].can_yield) {
+            let (limit, plastic, sense) = (self.storeys[i].limit, self.plastic[i], self.sense[i]);
+            if sense != 0.0 {
+                all.push((Event::Turn(i), Box::new(move |y| -sense * self.drift_rate(i, y)), Box::new(|_| 0.0)));
+                continue;
+            }
+            for sense in [1.0, -1.0] {
+                let excess = move |y: &DVector<f64>| {
+                    let drift = self.drift(i, y);
+                    let noise = 4.0 * f64::EPSILON * (limit + drift.abs() + plastic.abs());
+                    sense * (drift - plastic) - limit - noise
+                };
+                let rate = move |y: &DVector<f64>| sense * self.drift_rate(i, y);
+                all.push((Event::Yield(i, sense), Box::new(excess), Box::new(rate)));
+            }
+        }
+        for p in 0..self.pairs.len() {
+            if self.closed[p] {
+                all.push((Event::Release(p), Box::new(move |y| -self.penetration(p, y)), Box::new(|_| 0.0)));
+            } else {
+                let excess = move |y: &DVector<f64>| self.penetration(p, y) - 4.0 * f64::EPSILON * self.pairs[p].gap;
+                all.push((Event::Entry(p), Box::new(excess), Box::new(move |y| self.closing(p, y))));
+            }
+        }
+        all
+    }
+
+    fn first_event(&self, matrix: &DMatrix<f64>, after: &DVector<f64>, step: f64) -> Option<(f64, Event)> {
+        let mut first: Option<(f64, Event)> = None;
+        for (event, function, rate) in self.watched() {
+            let at = |t: f64| exponential(matrix, &self.y, t);
+            let mut end = step;
+            if function(after) <= 0.0 {
+                // It may have been positive in between.
+                if !(rate(&self.y) > 0.0 && rate(after) < 0.0) {
+                    continue;
+                }
+                end = bisect(|t| -rate(&at(t)), step);
+                if function(&at(end)) <= 0.0 {
+                    continue;
+                }
+            }
+            let t = bisect(|t| function(&at(t)), end);
+            if first.is_none_or(|(earliest, _)| t < earliest) {
+                first = Some((t, event));
+            }
+        }
+        first
+    }
+
+    fn handle(&mut self, event: Event) {
+        match event {
+            Event::Yield(i, sense) => {
+                self.sense[i] = sense;
+                self.yields += 1;
+            }
+            Event::Turn(i) => self.turn(i),
+            Event::Release(p) => self.closed[p] = false,
+            Event::Entry(p) => {
+                self.impacts += 1;
+                match self.pairs[p].restitution {
+                    None => self.closed[p] = true,
+                    Some(e) => self.strike(p, e),
+                }
+            }
+        }
+    }
+
+    fn turn(&mut self, i: usize) {
+        let plastic = self.plastic_now(i);
+        self.cumulative[i] += (plastic - self.plastic[i]).abs();
+        (self.plastic[i], self.sense[i]) = (plastic, 0.0);
+    }
+
+    fn strike(&mut self, p: usize, e: f64) {
+        self.is_over = self.time < self.struck[p] + SHORTEST;
+        self.struck[p] = self.time;
+        let n = self.floors();
+        let pair = &self.pairs[p];
+        let impulse = (1.0 + e) * pair.mass * self.closing(p, &self.y);
+        for i in 0..n {
+            self.y[n + i] -= pair.row[i] * impulse / self.mass[i];
+        }
+        for i in 0..self.storeys.len() {
+            if self.sense[i] * self.drift_rate(i, &self.y) < 0.0 {
+                self.turn(i);
+            }
+        }
+    }
+}
+
+/// Between two impulses of a pair, s.
+const SHORTEST: f64 = 2e-3;
+
+/// A function of the state.
+type Watched<'p> = Box<dyn Fn(&DVector<f64>) -> f64 + 'p>;
+
+impl Pair {
+    fn of(pair: &ContactPair, mass: &DVector<f64>, first: impl Fn(Side) -> usize) -> Pair {
+        let mut row = DVector::zeros(mass.len());
+        pair.row().for_each(|share| row[first(share.side) + share.floor] += share.weight);
+        let reduced = 1.0 / row.zip_map(mass, |w: f64, m| w * w / m).sum();
+        let (k, e) = (pair.law.stiffness, pair.law.restitution);
+        let (stiffness, damping, restitution) = match pair.law.kind {
+            LawKind::Linear => (k, 0.0, None),
+            LawKind::KelvinVoigt => {
+                let xi = -f64::ln(e) / f64::hypot(PI, f64::ln(e));
+                (k, 2.0 * xi * (k * reduced).sqrt(), None)
+            }
+            LawKind::Stereomechanical => (0.0, 0.0, Some(e)),
+            other => panic!("{other:?} is not linear"),
+        };
+        Pair { row, gap: pair.gap, stiffness, damping, restitution, mass: reduced }
+    }
+}
+
+/// The damping matrix of one building among the floors of both.
+fn damping_of(damping: &Damping, mass: &DVector<f64>, first: usize, storeys: &[Storey]) -> DMatrix<f64> {
+    let n = mass.len();
+    let sum = |coefficient: &dyn Fn(usize) -> f64| {
+        let terms = storeys.iter().enumerate().map(|(i, storey)| coefficient(i) * &storey.row * storey.row.transpose());
+        terms.fold(DMatrix::zeros(n, n), |sum, term| sum + term)
+    };
+    match damping {
+        Damping::Dashpots(dashpots) => sum(&|i| dashpots[i]),
+        Damping::Matrix(rows) => {
+            let mut matrix = DMatrix::zeros(n, n);
+            for (i, row) in rows.iter().enumerate() {
+                row.iter().enumerate().for_each(|(j, entry)| matrix[(first + i, first + j)] = *entry);
+            }
+            matrix
+        }
+        // 2 xi M (M^-1 K)^(1/2), of the floors of this building.
+        &Damping::Ratio(ratio) => {
+            let root = DMatrix::from_diagonal(&mass.map(f64::sqrt));
+            let inverse = DMatrix::from_diagonal(&mass.map(|m| 1.0 / m.sqrt()));
+            let modes = SymmetricEigen::new(&inverse * sum(&|i| storeys[i].stiffness) * &inverse);
+            let diagonal =
+                DMatrix::from_diagonal(&modes.eigenvalues.map(|square| 2.0 * ratio * square.max(0.0).sqrt()));
+            &root * &modes.eigenvectors * diagonal * modes.eigenvectors.transpose() * &root
+        }
+        other => panic!("{other:?} is not known here"),
+    }
+}
+
+/// exp(A t) y.
+fn exponential(matrix: &DMatrix<f64>, y: &DVector<f64>, t: f64) -> DVector<f64> {
+    let (mut sum, mut term) = (y.clone(), y.clone());
+    for k in 1..60 {
+        term = matrix * term * (t / f64::from(k));
+        sum += &term;
+        if term.iter().zip(&sum).all(|(term, sum)| term.abs() <= 1e-18 * sum.abs()) {
+            break;
+        }
+    }
+    sum
+}
+
+/// Where a function that is positive at `end` has become so, seen from 0.
+fn bisect(function: impl Fn(f64) -> f64, end: f64) -> f64 {
+    let (mut low, mut high) = (0.0, end);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        *if function(middle) > 0.0 { &mut high } else { &mut low } = middle;
+    }
+    high
+}
+
+/// Runs both side by side and compares them at many times; returns the other one at the end. `tolerance` is relative to the
+/// largest displacement and velocity of all floors so far.
+pub fn assert_same_motion<'r>(scene: &Scene, record: &'r Record, times: &[f64], tolerance: f64) -> Piecewise<'r> {
+    let (mut run, mut other) = (Run::new(scene, Some(record)), Piecewise::new(scene, record));
+    let floors: Vec<_> = [Side::Left, Side::Right]
+        .into_iter()
+        .flat_map(|side| (0..run.model.floors(side)).map(move |floor| (side, floor)))
+        .collect();
+    let (mut most, mut fastest) = (0.0_f64, 0.0_f64);
+    for &time in times {
+        other.to(time);
+        if other.is_over {
+            break;
+        }
+        run.to(time);
+        for i in 0..floors.len() {
+            most = most.max(other.displacement(i).abs());
+            fastest = fastest.max(other.velocity(i).abs());
+        }
+        for (i, &(side, floor)) in floors.iter().enumerate() {
+            let what = format!("{side:?} {floor} at {time} s, {} yields, {} impacts", other.yields, other.impacts);
+            let near = |got: f64, expected: f64, size: f64, name: &str| {
+                let error = (got - expected).abs() / size;
+                assert!(error < tolerance, "{name}, {what}: {got:e} not {expected:e}, off by {error:.1e}");
+            };
+            near(run.displacement(side, floor), other.displacement(i), most, "displacement");
+            near(run.velocity(side, floor), other.velocity(i), fastest, "velocity");
+            let shown = run.storey(side, floor);
+            near(shown.plastic, other.plastic_now(i), most, "plastic drift");
+            let cumulative = other.cumulative_now(i);
+            near(shown.cumulative, cumulative, most + cumulative, "cumulative plastic drift");
+        }
+        if scene.energy {
+            assert!(run.energy().residual.abs() < 1e-12, "at {time} s: {:?}", run.energy());
+        }
+    }
+    other
+}
