@@ -4,7 +4,7 @@
 
 use crate::engine::base::planned::At;
 use crate::engine::base::storey::Storey;
-use crate::engine::base::{Base, Coordinates};
+use crate::engine::base::{Account, Base, Coordinates};
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::flight::accounted::MOST_PIECES;
 use crate::engine::step::{Dense, Step};
@@ -26,6 +26,15 @@ pub struct Work {
     pub viscous: f64,
     /// Work of the external floor forces.
     pub external: f64,
+}
+
+impl Account {
+    /// Adds work over an interval of time.
+    pub fn add(&mut self, done: &Work) {
+        self.input.add(done.input);
+        self.viscous.add(done.viscous);
+        self.external.add(done.external);
+    }
 }
 
 impl System {
@@ -67,9 +76,7 @@ impl System {
         let (kinetic, strain) = self.energies((base.coordinates, &base.storeys), &base.q, &base.v);
         let hysteretic = self.hysteretic_energy(&base.storeys);
         if let Some(account) = &mut base.energy {
-            account.input += done.input;
-            account.viscous += done.viscous;
-            account.external += done.external;
+            account.add(&done);
             account.update_largest([kinetic, strain, impact, hysteretic]);
         }
     }

@@ -162,7 +162,7 @@ impl Model {
             let is_within = Sense::BOTH.into_iter().all(|sense| of.excess(storey, sense, drift) <= rounding);
             let is_at = |sense: Sense| of.excess(storey, sense, drift).abs() <= rounding;
             let is_at_limit = storey.yields.is_none_or(is_at) && storey.turned.is_none_or(is_at);
-            let has_flowed = storey.furthest >= storey.plastic.abs() && storey.cumulative >= 0.0;
+            let has_flowed = storey.furthest >= storey.plastic.abs() && storey.cumulative.value >= 0.0;
             if !(is_within && is_at_limit && has_flowed && (storey.yields.is_none() || storey.turned.is_none())) {
                 let path = format!("storey {} of the {} building", of.storey + 1, of.side);
                 return Err(impossible(&format!("{path} is in no state that it can have")));

@@ -11,4 +11,5 @@ pub mod powers;
 pub mod quadrature;
 pub mod roots;
 pub mod substitution;
+pub mod sum;
 pub mod time_map;

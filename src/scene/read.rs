@@ -181,10 +181,13 @@ fn yielding(section: &mut Section<'_>, stiffness: &Stiffness, units: Units) -> O
         None => vec![0.0; force.len()],
         Some(item) if item.is_number() => {
             let ratio = item.number();
-            if ratio.is_finite() && !rule::POST_YIELD_RATIO.holds(ratio) {
-                item.refuse(rule::POST_YIELD_RATIO.expected(Units::Si));
+            match rule::POST_YIELD_RATIO.holds(ratio) {
+                true => vec![ratio; force.len()],
+                false => {
+                    item.refuse(rule::POST_YIELD_RATIO.expected(Units::Si));
+                    vec![0.0; force.len()]
+                }
             }
-            vec![ratio; force.len()]
         }
         Some(item) => item.numbers(),
     };

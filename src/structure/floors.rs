@@ -241,6 +241,9 @@ impl Blocks {
         out: &mut [Lane],
         entry: impl Fn(f64, f64) -> f64,
     ) {
+        if self.first >= self.end {
+            return;
+        }
         let (on_mass, on_stiffness) = (rate * self.on_mass, rate * self.on_stiffness);
         let mut shear = Shear { on_mass, on_stiffness, ..Shear::default() };
         shear.rise(&u[self.first], &v[self.first]);

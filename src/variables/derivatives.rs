@@ -59,7 +59,8 @@ impl Instant<'_> {
         let now = match of {
             PeakOf::Displacement(side, floor) => Output::Displacement(side, floor),
             PeakOf::Drift(side, storey) => {
-                let (drift, rest) = (model.drift(point, (side, storey)), model.drift_rates(point, rates, (side, storey)));
+                let (drift, rest) =
+                    (model.drift(point, (side, storey)), model.drift_rates(point, rates, (side, storey)));
                 return rates_of_peak(drift, rest, model.peak(state, point, of));
             }
             PeakOf::Acceleration(side, floor) => Output::Acceleration(side, floor),

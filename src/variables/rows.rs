@@ -15,6 +15,7 @@ const ACCELERATION: f64 = 1.0;
 
 // Where the scene has none.
 const DAMPING_RATIO: f64 = 0.05;
+const POST_YIELD_RATIO: f64 = 0.05;
 
 const ONE: Type = Type::Real(Unit::One);
 const METRE: Type = Type::Real(Unit::Metre);
@@ -257,7 +258,7 @@ impl Table {
     /// What there is of a storey that can yield.
     fn add_yielding(&mut self, building: &Building, (side, name): (Side, &str), storey: usize) {
         use YieldingOf as Y;
-        let Some((force, _)) = building.yielding_storey(storey) else { return };
+        let Some((force, ratio)) = building.yielding_storey(storey) else { return };
         let Some(stiffness) = building.stiffness.of_storey(storey) else { return };
         let (i, drift) = (storey + 1, force / stiffness);
         let about = format!("storey shear at which storey {i} first yields");
@@ -266,11 +267,11 @@ impl Table {
         let about = format!("stiffness of storey {i} after yield over that before");
         let row =
             self.add(Parameter::PostYieldRatio(side, storey), &format!("{name}.post_yield_ratio[{i}]"), ONE, &about);
-        row.between(0.0, 1.0).nominal(1.0);
+        row.between(0.0, 1.0).nominal(if ratio > 0.0 { ratio } else { POST_YIELD_RATIO });
         for (of, quantity, ty, nominal, about) in [
             (Y::Shear, "storey_shear", NEWTON, force, "storey shear, without damping,"),
             (Y::PlasticDrift, "plastic_drift", METRE, drift, "plastic drift"),
-            (Y::ResidualDrift, "residual_drift", METRE, drift, "drift at which it would come to rest, if it did now,"),
+            (Y::ResidualDrift, "residual_drift", METRE, drift, "residual drift, at which it would come to rest,"),
             (Y::Ductility, "ductility", ONE, 1.0, "largest drift so far over the yield drift"),
             (Y::HystereticEnergy, "hysteretic_energy", JOULE, force * drift, "energy dissipated so far by yielding"),
             (Y::CumulativePlasticDrift, "cumulative_plastic_drift", METRE, drift, "sum so far of all plastic steps"),

@@ -14,6 +14,7 @@ use crate::engine::base::contact::{Contact, Episode, Phase};
 use crate::engine::base::peaks::Peaks;
 use crate::engine::base::storey::Storey;
 use crate::engine::excitation::segment::Segment;
+use crate::numerics::sum::Sum;
 use crate::structure::FlightEnergy;
 use serde::{Deserialize, Serialize};
 
@@ -77,11 +78,11 @@ pub struct Account {
     /// Kinetic and elastic energy at the start.
     pub initial: f64,
     /// Work of the ground motion.
-    pub input: f64,
+    pub input: Sum,
     /// Work of the external floor forces.
-    pub external: f64,
+    pub external: Sum,
     /// Energy dissipated by structural damping.
-    pub viscous: f64,
+    pub viscous: Sum,
     /// Largest magnitude of any term so far: the residual of the balance is relative to it.
     pub largest: f64,
 }
@@ -134,14 +135,14 @@ impl Account {
     /// Adds a flight without forces on the floors, while the contacts have dissipated `impact`, J.
     #[inline(always)]
     pub fn add_flight(&mut self, flight: &FlightEnergy, impact: f64) {
-        self.input += flight.input;
-        self.viscous += flight.viscous;
+        self.input.add(flight.input);
+        self.viscous.add(flight.viscous);
         self.update_largest([flight.kinetic, flight.strain, impact]);
     }
 
     /// Raises `largest` to the magnitudes of the account's terms and of the `others`.
     pub fn update_largest<const N: usize>(&mut self, others: [f64; N]) {
-        let terms = [self.initial, self.input, self.external, self.viscous];
+        let terms = [self.initial, self.input.value, self.external.value, self.viscous.value];
         self.largest = terms.iter().chain(&others).fold(self.largest, |largest, term| largest.max(term.abs()));
     }
 }

@@ -96,9 +96,10 @@ impl Episode {
 }
 
 impl Account {
-    pub fn numbers(&self) -> [f64; 5] {
+    pub fn numbers(&self) -> [f64; 8] {
         let &Account { initial, input, external, viscous, largest } = self;
-        [initial, input, external, viscous, largest]
+        let ([a, b], [c, d], [e, f]) = (input.numbers(), external.numbers(), viscous.numbers());
+        [initial, a, b, c, d, e, f, largest]
     }
 }
 

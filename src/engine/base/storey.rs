@@ -1,5 +1,6 @@
 //! One storey that can yield: whether it does, and how far it has.
 
+use crate::numerics::sum::Sum;
 use serde::{Deserialize, Serialize};
 
 /// The sense in which a storey yields.
@@ -34,7 +35,7 @@ pub struct Storey {
     /// Plastic drift, m.
     pub plastic: f64,
     /// Sum of the magnitudes of its changes, m.
-    pub cumulative: f64,
+    pub cumulative: Sum,
     /// Largest magnitude of the plastic drift so far, m.
     pub furthest: f64,
 }
@@ -43,12 +44,14 @@ impl Storey {
     /// The storey after its plastic drift has changed by `step`, m, in one sense.
     pub fn after(self, step: f64) -> Storey {
         let plastic = self.plastic + step;
-        Storey { plastic, cumulative: self.cumulative + step.abs(), furthest: self.furthest.max(plastic.abs()), ..self }
+        let mut cumulative = self.cumulative;
+        cumulative.add(step.abs());
+        Storey { plastic, cumulative, furthest: self.furthest.max(plastic.abs()), ..self }
     }
 
     /// Its numbers, for the checks of a saved state.
-    pub fn numbers(&self) -> [f64; 3] {
+    pub fn numbers(&self) -> [f64; 4] {
         let &Storey { yields: _, turned: _, plastic, cumulative, furthest } = self;
-        [plastic, cumulative, furthest]
+        [plastic, cumulative.value, cumulative.lost, furthest]
     }
 }

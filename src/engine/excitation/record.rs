@@ -1,6 +1,7 @@
 //! A ground motion record as a sequence of segments, in each of which the acceleration is linear in time.
 
 use crate::engine::excitation::segment::{RecordPlace, Segment};
+use crate::numerics::sum::Sum;
 use crate::record::Record;
 use crate::structure::{FlightWork, Interval, Structure};
 use std::ops::Range;
@@ -265,25 +266,9 @@ fn passed(lengths: &[f64], accelerations: &[f64]) -> Vec<(f64, f64)> {
         time.add(*length);
         // The trapezoid rule is an upper bound for |a|, which is convex where a is linear.
         cumulative.add(0.5 * length * (ends[0].abs() + ends[1].abs()));
-        passed.push((time.value + time.lost, cumulative.value + cumulative.lost));
+        passed.push((time.exact(), cumulative.exact()));
     }
     passed
-}
-
-/// A sum of positive numbers, with the rounding error that it has lost.
-#[derive(Default)]
-struct Sum {
-    value: f64,
-    lost: f64,
-}
-
-impl Sum {
-    fn add(&mut self, term: f64) {
-        let sum = self.value + term;
-        let (large, small) = if self.value > term { (self.value, term) } else { (term, self.value) };
-        self.lost += (large - sum) + small;
-        self.value = sum;
-    }
 }
 
 /// The mean spacing of sample times, s.

@@ -5,6 +5,7 @@ use crate::engine::model::Model;
 use crate::engine::output::point::{EnergyPoint, Known, Point};
 use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
+use crate::numerics::sum::Sum;
 
 impl Model {
     /// The energy account at the observed time; `None` where the scene keeps none. `state` has to be the one that
@@ -28,16 +29,18 @@ impl Model {
         let elapsed = state.since_base();
         if elapsed > 0.0 {
             let done = self.system.work_over(&state.base, &state.step, &state.inputs, work, elapsed);
-            account.input += done.input;
-            account.viscous += done.viscous;
-            account.external += done.external;
+            account.add(&done);
         }
         let (kinetic, strain) = self.system.energies((point.coordinates, &point.storeys), &point.q, &point.v);
         let hysteretic = self.system.hysteretic_energy(&point.storeys);
         let contacts = 0..self.system.pairs.len();
         let impact = contacts.map(|p| self.contact_in(&state.base, point, p).dissipated_energy).sum();
         account.update_largest([kinetic, strain, impact, hysteretic]);
-        let Account { initial, input, external, viscous, largest } = account;
+        let Account { initial, largest, .. } = account;
+        // Yielding goes on for tens of thousands of steps: there the rounding of plain sums would show.
+        let is_long = !self.system.storeys.is_empty();
+        let of = |sum: Sum| if is_long { sum.exact() } else { sum.value };
+        let [input, external, viscous] = [account.input, account.external, account.viscous].map(of);
         let imbalance = initial + input + external - kinetic - strain - viscous - impact - hysteretic;
         let residual = if largest > 0.0 { imbalance / largest } else { 0.0 };
         EnergyPoint { input, kinetic, strain, viscous, impact, external, hysteretic, residual }

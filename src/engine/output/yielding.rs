@@ -41,7 +41,7 @@ impl Model {
             YieldingOf::ResidualDrift => storey.kept() * now.plastic,
             YieldingOf::Ductility => storey.ductility(now, self.peak(state, point, PeakOf::Drift(place.0, place.1))),
             YieldingOf::HystereticEnergy => storey.hysteretic_energy(now),
-            YieldingOf::CumulativePlasticDrift => now.cumulative,
+            YieldingOf::CumulativePlasticDrift => now.cumulative.exact(),
         }
     }
 

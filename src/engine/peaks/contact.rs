@@ -55,8 +55,9 @@ impl Model {
         let part =
             ContactStep { base, step, inputs, length: step.planned.length, end: (&step.planned.q, &step.planned.v) };
         self.check_contact_step(&part, &mut peaks, work);
-        // Only where nothing changes the motion between two steps: rigid pairs and floor forces may.
-        if self.system.rigid.pairs.is_empty() && !self.system.floor_forces {
+        // Only where nothing changes the motion between two steps, not even the last bit of its sums: rigid pairs, floor forces
+        // and another position of rest may.
+        if self.system.rigid.pairs.is_empty() && !self.system.floor_forces && !base.is_yielding() {
             work.peaks.floors.keep([base.segment.start, end]);
         }
         work.peaks.restart();

@@ -93,7 +93,7 @@ impl System {
     fn turn_storeys(&self, base: &mut Base) {
         let velocities = &base.v;
         for (of, storey) in self.storeys.iter().zip(&mut base.storeys) {
-            let goes_back = |sense: &Sense| sense.sign() * of.drift(base.coordinates, velocities) < 0.0;
+            let goes_back = |sense: &Sense| sense.sign() * of.beyond_rounding(base.coordinates, velocities) < 0.0;
             if storey.yields.as_ref().is_some_and(goes_back) {
                 storey.yields = None;
             }

@@ -94,6 +94,23 @@ impl System {
         self.push_apart(rigid, acceleration);
     }
 
+    /// Whether the pairs in `rigid`, which are held together, hold the drift of storey `i` as well, so that it does not move
+    /// but for rounding: whether its row is made of theirs.
+    pub fn holds_storey(&self, i: usize, rigid: &mut Complementarity) -> bool {
+        const LEFT: f64 = 1e-12;
+        if rigid.pairs.is_empty() {
+            return false;
+        }
+        let row = &self.storeys[i].row;
+        for (&k, known) in rigid.pairs.iter().zip(&mut rigid.known) {
+            *known = dot(&self.pairs[self.rigid.pairs[k]].row, row);
+        }
+        rigid.solve();
+        let whole = dot(row, row);
+        let made_of_theirs: f64 = rigid.found.iter().zip(&rigid.known).map(|(share, known)| share * known).sum();
+        whole - made_of_theirs <= LEFT * whole
+    }
+
     /// Adds to modal accelerations (velocities, displacements) the effect of the forces (impulses, shifts) in
     /// `rigid.found`.
     pub fn push_apart(&self, rigid: &Complementarity, modal: &mut [f64]) {

@@ -17,7 +17,7 @@ pub struct YieldingDrifts {
     pub yielding: Vec<(usize, Sense)>,
     /// For each storey that can yield, the terms of the change of its drift since the start of the step, m.
     pub drifts: Vec<Coefficients>,
-    coordinates: Coordinates,
+    pub coordinates: Coordinates,
 }
 
 impl YieldingDrifts {

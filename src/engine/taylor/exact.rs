@@ -6,7 +6,6 @@ use crate::engine::base::{Base, touching};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
-use crate::engine::taylor::switches::first_turn;
 use crate::numerics::roots::highest_of_cubic;
 
 /// (Fastest rate) x (time) that one exact series reaches.
@@ -66,7 +65,7 @@ impl System {
         solution.series.bound_fourths(&solution.end, fourths);
         let mut first = None;
         for &(i, sense) in &solution.drifts.yielding {
-            first = first_turn(solution, (i, sense), first).or(first);
+            first = self.first_turn(solution, (i, sense), first).or(first);
         }
         for (i, (of, storey)) in self.storeys.iter().zip(&base.storeys).enumerate() {
             let at = |(q, v): (&[f64], &[f64])| (of.drift(coordinates, q), of.drift(coordinates, v));

@@ -1,20 +1,21 @@
 //! The instants at which storeys yield, and at which those that yield turn, while the motion is a power series.
 
-use crate::engine::base::Base;
 use crate::engine::base::planned::Event;
 use crate::engine::base::storey::{Sense, Storey};
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
 use crate::engine::yielding::storey::YieldingStorey;
-use crate::numerics::polynomial::{COUNT, MAX_TERMS};
+use crate::numerics::polynomial::{ALL, COUNT, MAX_TERMS};
 use crate::numerics::roots;
+use crate::structure::MotionSeries;
 
 impl System {
     /// A storey that yields although its drift goes back: an impulse has turned it, or rounding.
     pub fn turned_at_once(&self, base: &Base) -> Option<usize> {
         let goes_back = |(of, storey): (&YieldingStorey, &Storey)| {
-            storey.yields.is_some_and(|sense| sense.sign() * of.drift(base.coordinates, &base.v) < 0.0)
+            storey.yields.is_some_and(|sense| sense.sign() * of.beyond_rounding(base.coordinates, &base.v) < 0.0)
         };
         self.storeys.iter().zip(&base.storeys).position(goes_back)
     }
@@ -26,7 +27,10 @@ impl System {
         }
         let mut first = None;
         for &(i, sense) in &solution.drifts.yielding {
-            first = first_turn(solution, (i, sense), first).or(first);
+            first = match self.holds_storey(i, &mut work.rigid) {
+                true => Some((0.0, Event::Turn(i))),
+                false => self.first_turn(solution, (i, sense), first).or(first),
+            };
         }
         let Solution { series, end, substitution, .. } = solution;
         let reach = end.x + series.time_map.curvature.abs() * end.x * end.x;
@@ -37,7 +41,8 @@ impl System {
             let stays_elastic = |sense: Sense| {
                 of.excess(storey, sense, drift) + reach * (sense.sign() * step).max(0.0) + wandered < 0.0
             };
-            if storey.yields.is_some() || Sense::BOTH.into_iter().all(stays_elastic) {
+            let is_sure = storey.yields.is_some() || Sense::BOTH.into_iter().all(stays_elastic);
+            if is_sure || self.holds_storey(i, &mut work.rigid) {
                 continue;
             }
             end.set_in_time(&series.time_map);
@@ -48,21 +53,37 @@ impl System {
     }
 }
 
-/// The first instant at which the drift of a storey that yields turns, if before the first event known so far.
-pub fn first_turn(
-    solution: &Solution,
-    (i, sense): (usize, Sense),
-    first: Option<(f64, Event)>,
-) -> Option<(f64, Event)> {
-    let Solution { series, drifts, substitution, end, .. } = solution;
-    let mut terms = [0.0; MAX_TERMS];
-    let count = series.order;
-    for n in 0..count {
-        terms[n] = -sense.sign() * (COUNT[n + 1] * drifts.drifts[i][n + 1]);
+impl System {
+    /// The first instant at which the drift of a storey that yields turns, if before the first event known so far: at once
+    /// where it does not go on in its sense by more than rounding, as that of a floor that is held.
+    pub fn first_turn(
+        &self,
+        solution: &Solution,
+        (i, sense): (usize, Sense),
+        first: Option<(f64, Event)>,
+    ) -> Option<(f64, Event)> {
+        let Solution { series, drifts, substitution, end, .. } = solution;
+        let mut terms = [0.0; MAX_TERMS];
+        let count = series.order;
+        for n in 0..count {
+            terms[n] = -sense.sign() * (COUNT[n + 1] * drifts.drifts[i][n + 1]);
+        }
+        let rounding = 4.0 * f64::EPSILON * self.storeys[i].size(drifts.coordinates, series.term(1));
+        if terms[0] >= -rounding && !self.goes_on(series, drifts.coordinates, (i, sense)) {
+            return Some((0.0, Event::Turn(i)));
+        }
+        if series.time_map.is_curved() {
+            substitution.apply_to_one(&mut terms[..count]);
+        }
+        let until = first.map_or(end.x, |(x, _)| x);
+        roots::first_upcrossing(&mut terms[..count], until, 0.0).map(|x| (x, Event::Turn(i)))
     }
-    if series.time_map.is_curved() {
-        substitution.apply_to_one(&mut terms[..count]);
+
+    /// Whether the first power of a drift that is more than rounding goes in a sense.
+    fn goes_on(&self, series: &MotionSeries, coordinates: Coordinates, (i, sense): (usize, Sense)) -> bool {
+        let mut drift = [0.0; MAX_TERMS];
+        self.storeys[i].project(coordinates, series, &ALL, &mut drift);
+        let first = drift[1..=series.order].iter().find(|term| **term != 0.0);
+        first.is_some_and(|term| sense.sign() * term > 0.0)
     }
-    let until = first.map_or(end.x, |(x, _)| x);
-    roots::first_upcrossing(&mut terms[..count], until, 0.0).map(|x| (x, Event::Turn(i)))
 }

@@ -2,6 +2,7 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::storey::{Sense, Storey};
+use crate::engine::pairs::pair::apart;
 use crate::numerics::polynomial::Coefficients;
 use crate::numerics::roots::highest_of_cubic;
 use crate::scene::Scene;
@@ -97,6 +98,14 @@ impl YieldingStorey {
         }
     }
 
+    /// Drift or its rate, set to 0 where it is no more than rounding of what it is made of.
+    pub fn beyond_rounding(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
+        match coordinates {
+            Coordinates::Modes => difference(&self.row, motion).0,
+            Coordinates::Floors => apart(motion[self.floors.0], self.floors.1.map_or(0.0, |below| motion[below])),
+        }
+    }
+
     /// Writes the series of the drift; returns the sum of the magnitudes of all that was added up, each term times its
     /// factor, m.
     pub fn project(
@@ -113,7 +122,7 @@ impl YieldingStorey {
         for (n, (out, factor)) in out.iter_mut().zip(factors).enumerate().take(series.order + 1) {
             let term = series.term(n);
             let (above, below) = (term[self.floors.0], self.floors.1.map_or(0.0, |below| term[below]));
-            *out = above - below;
+            *out = apart(above, below);
             sum += (above.abs() + below.abs()) * factor.abs();
         }
         sum
@@ -227,7 +236,7 @@ impl YieldingStorey {
 
     /// Energy dissipated by yielding so far, J: (1 - r) V_y times the sum of all plastic steps, exactly.
     pub fn hysteretic_energy(&self, storey: &Storey) -> f64 {
-        self.kept() * self.force * storey.cumulative
+        self.kept() * self.force * storey.cumulative.exact()
     }
 
     /// What the elastic energy exceeds that of the drift relative to the position of rest by, J: with x = z + r p, r k d^2/2
