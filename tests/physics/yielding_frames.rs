@@ -114,10 +114,10 @@ fn many_storeys() {
             vec![stiffness; n]
         )
     };
-    let towers = tower("left", 10, 5e4, 8e7, 3e5) + &tower("right", 8, 5e4, 3e7, 2e5);
+    let towers = tower("left", 14, 5e4, 8e7, 3e5) + &tower("right", 12, 5e4, 3e7, 2e5);
     for law in [LINEAR, RIGID] {
-        let contacts = contact("left_floor = 8\nright_floor = 8", 0.02, law)
-            + &contact("left_floor = 6\nright_floor = 6", 0.02, law);
-        check(&format!("{towers}{contacts}"), 0.15, 100, 5);
+        let contacts = contact("left_floor = 8\nright_floor = 8", 0.004, law)
+            + &contact("left_floor = 6\nright_floor = 6", 0.004, law);
+        check(&format!("{towers}{contacts}"), 0.25, 100, 3);
     }
 }

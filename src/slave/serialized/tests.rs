@@ -265,6 +265,26 @@ fn storeys_in_states_that_they_cannot_have_are_refused() {
     assert_eq!(seen, [true; 2]);
 }
 
+/// The position of rest, which plastic drifts have moved, is not among the bytes.
+#[test]
+fn a_storey_that_has_yielded_goes_on_from_bytes_in_another_slave() {
+    for steps in [60, 90, 120, 150] {
+        let mut plain = yielding_slave(LAWS[1], true, steps);
+        let body = body_of(&mut plain);
+        assert!(StoreyBytes::find(&body).values[1] > 0.0, "after {steps} steps");
+        let mut other = yielding_slave(LAWS[1], true, 0);
+        let handle = other.deserialize_state(&wrap(&other.fingerprint, &body), None).unwrap();
+        other.restore_state(Some(handle)).unwrap();
+        let [expected, got] = [&mut plain, &mut other].map(|slave| {
+            for k in steps..steps + 60 {
+                slave.do_step(f64::from(k) * 0.004, 0.004).unwrap();
+            }
+            body_of(slave)
+        });
+        assert!(expected == got, "after {steps} steps");
+    }
+}
+
 #[test]
 fn a_state_of_a_scene_with_other_floors_is_refused_by_its_sizes() {
     let of = |floors: &str| {
