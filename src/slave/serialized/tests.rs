@@ -183,12 +183,14 @@ fn what_cannot_be_is_refused_with_what_it_is() {
     }
 }
 
-/// Bytes of a storey that can yield within a body: its senses of yielding and of a turn, and three numbers.
+/// Bytes of a storey that can yield within a body: its senses of yielding and of a turn, and its numbers.
 struct StoreyBytes<'b> {
     body: &'b [u8],
     /// Where its numbers begin; the senses are before them.
     numbers: usize,
     values: [f64; 3],
+    /// What the second of them, a sum, has lost by rounding: it follows it.
+    lost: f64,
     is_yielding: bool,
     has_turned: bool,
 }
@@ -196,13 +198,18 @@ struct StoreyBytes<'b> {
 impl StoreyBytes<'_> {
     fn find(body: &[u8]) -> StoreyBytes<'_> {
         let state = format!("{:?}", postcard::from_bytes::<Body<'_>>(body).unwrap().state);
-        let storey = state.split("Storey { ").nth(1).unwrap().split(" }").next().unwrap();
-        let number = |name: &str| storey.split(&format!("{name}: ")).nth(1).unwrap().split(',').next().unwrap();
-        let values = ["plastic", "cumulative", "furthest"].map(|name| number(name).parse::<f64>().unwrap());
-        let bytes = values.map(f64::to_le_bytes).concat();
-        let numbers = body.windows(24).position(|window| window == bytes).unwrap();
+        let storey = state.split("Storey { ").nth(1).unwrap();
+        let number = |name: &str| {
+            let rest = storey.split(&format!("{name}: ")).nth(1).unwrap();
+            rest.split([',', ' ']).next().unwrap().parse::<f64>().unwrap()
+        };
+        let storey = storey.split("plastic").next().unwrap();
+        let values = ["plastic", "cumulative: Sum { value", "furthest"].map(number);
+        let lost = number("lost");
+        let bytes = [values[0], values[1], lost, values[2]].map(f64::to_le_bytes).concat();
+        let numbers = body.windows(32).position(|window| window == bytes).unwrap();
         let [is_yielding, has_turned] = ["yields: Some", "turned: Some"].map(|sense| storey.contains(sense));
-        StoreyBytes { body, numbers, values, is_yielding, has_turned }
+        StoreyBytes { body, numbers, values, lost, is_yielding, has_turned }
     }
 
     /// Its senses: one byte where there is none, else another for its sign.
@@ -212,7 +219,8 @@ impl StoreyBytes<'_> {
 
     fn with(&self, senses: &[u8], values: [f64; 3]) -> Vec<u8> {
         let before = self.numbers - self.senses().len();
-        [&self.body[..before], senses, &values.map(f64::to_le_bytes).concat(), &self.body[self.numbers + 24..]].concat()
+        let numbers = [values[0], values[1], self.lost, values[2]].map(f64::to_le_bytes).concat();
+        [&self.body[..before], senses, &numbers, &self.body[self.numbers + 32..]].concat()
     }
 }
 
@@ -375,7 +383,7 @@ fn a_new_layout_has_a_new_format() {
     let found = (FORMAT, body.len(), Uuid::new_v5(&Uuid::nil(), &body).to_string());
     assert_eq!(
         found,
-        (5, 631, "6e75276c-bde2-5530-bed1-af07fe2559be".to_owned()),
+        (5, 655, "19d943eb-6c50-5bb9-a8df-8fad16c41583".to_owned()),
         "where only numbers of the engine have changed, enter them here; else count FORMAT up"
     );
 }
