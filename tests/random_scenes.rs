@@ -127,6 +127,11 @@ fn check_storeys(run: &Run, scene: &Scene, last: &mut [f64], text: &str) -> Resu
     Ok(())
 }
 
+/// Bound on the energy account where rigid pairs hold floors between walls: forces work on the rounding of displacements
+/// that do not change, step by step, most where a frame of a thousand tonnes presses one of a kilogram (1.2e-9 is the most
+/// that has been seen). Work that is left out shows as 1e-4 and more.
+const HELD: f64 = 1e-8;
+
 /// Runs a scene for 2 s, with its energy account closed to `bound`; `Err` says what is wrong with it.
 fn check(text: &str, bound: f64) -> Result<(), TestCaseError> {
     let mut scene = Scene::from_toml(&format!("{text}[outputs]\nenergy = true\n")).unwrap();
@@ -174,7 +179,7 @@ proptest! {
         let text = if are_level { text(&frames, &laws) } else { uneven_text(&frames, &laws, &positions) };
         let [left, right] = [0, 1].map(|b| yields_toml(&frames[b], &yields[4 * b..]));
         let text = text.replace("[left]\n", &format!("[left]\n{left}")).replace("[right]\n", &format!("[right]\n{right}"));
-        check(&text, if are_level { 1e-11 } else { 1e-9 })?;
+        check(&text, if are_level { 1e-11 } else { HELD })?;
     }
 
     #[test]
@@ -183,7 +188,6 @@ proptest! {
         laws in laws(),
         positions in prop::collection::vec(0.01..0.99_f64, 4),
     ) {
-        // Floors held between walls for long: each of their steps may add the tolerance of 1e-12.
-        check(&uneven_text(&frames, &laws, &positions), 1e-9)?;
+        check(&uneven_text(&frames, &laws, &positions), HELD)?;
     }
 }

@@ -5,7 +5,7 @@ pub mod fast_flight;
 pub mod plan;
 
 use crate::engine::base::Base;
-use crate::engine::base::contact::Episode;
+use crate::engine::base::contact::{Contact, Episode};
 use crate::engine::base::planned::{At, Planned};
 use crate::engine::error::EngineError;
 use crate::engine::excitation::inputs::Inputs;
@@ -118,6 +118,7 @@ impl Model {
         base.last_length = planned.next_length.unwrap_or(base.last_length);
         self.move_contacts(base, planned);
         self.system.project_constraints(base, &mut work.buffers);
+        self.anchor_storeys(base);
         if let Some(event) = planned.event {
             counters.events += 1;
             base.clearance.restart();
@@ -141,6 +142,23 @@ impl Model {
             let (from, storey) = (base.storeys[i], &mut base.storeys[i]);
             step.move_storey(i, step.end_powers(), storey);
             self.system.storeys[i].move_rest(base.coordinates, (&from, storey), &mut base.q);
+        }
+        self.set_rest(base);
+    }
+
+    /// Floors that are held together have been moved by what rounding and the ends of series had left between them: where a
+    /// storey yields, that is plastic drift.
+    fn anchor_storeys(&self, base: &mut Base) {
+        if !base.is_yielding() || !base.contacts.iter().any(Contact::is_held) {
+            return;
+        }
+        for (of, storey) in self.system.storeys.iter().zip(&mut base.storeys) {
+            let Some(sense) = storey.yields else { continue };
+            let from = *storey;
+            let excess = of.excess(storey, sense, of.drift(base.coordinates, &base.q));
+            storey.plastic += sense.sign() * excess;
+            storey.furthest = storey.furthest.max(storey.plastic.abs());
+            of.move_rest(base.coordinates, (&from, storey), &mut base.q);
         }
         self.set_rest(base);
     }
