@@ -140,6 +140,27 @@ fn yield_forces_and_ratios_work_as_if_the_scene_had_said_so() {
     }
 }
 
+/// The variables of the storey stay: its shear is that of its drift, and it has never yielded, also from bytes.
+#[test]
+fn an_infinite_yield_force_keeps_a_storey_elastic() {
+    let fmu = Fmu::new(YIELDING);
+    let (instance, other) = (fmu.instance(), fmu.instance());
+    assert_eq!(instance.set_real("left.yield_force[1]", f64::INFINITY), OK, "{:?}", instance.log());
+    instance.enter();
+    assert_eq!(instance.call("fmi2ExitInitializationMode"), OK, "{:?}", instance.log());
+    instance.run(0.0, 0.05, 20);
+    assert_eq!(other.set_state(other.deserialized(&instance.serialized(instance.recorded()))), OK);
+    for instance in [instance, other] {
+        let shear = instance.real("left.stiffness[1]") * instance.real("left.displacement[1]");
+        let shown = instance.real("left.storey_shear[1]");
+        assert!((shown - shear).abs() <= 1e-14 * shear.abs() && shear.abs() > 0.1, "{shown} instead of {shear}");
+        for name in ["plastic_drift", "residual_drift", "ductility", "hysteretic_energy", "cumulative_plastic_drift"] {
+            assert_eq!(instance.real(&format!("left.{name}[1]")), 0.0, "{name}");
+        }
+        assert_eq!(instance.integer("left.yielding[1]"), 0);
+    }
+}
+
 #[test]
 fn all_parameters_can_be_set_in_one_call() {
     let fmu = Fmu::new(RICH);
