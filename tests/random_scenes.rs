@@ -11,6 +11,7 @@ use common::{Run, record};
 use pounding::record::Record;
 use pounding::scene::Scene;
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use random_frames::{Frame, frame};
 
 /// Law, stiffness over mass, restitution.
@@ -157,7 +158,8 @@ fn check(text: &str, bound: f64) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+    // The same scenes in every run, so that a change is what makes a test red; another seed and more cases look further.
+    #![proptest_config(ProptestConfig { cases: 200, rng_seed: RngSeed::Fixed(26), ..ProptestConfig::default() })]
 
     #[test]
     fn every_run_ends_with_its_energy_accounted_for(

@@ -50,7 +50,7 @@
 //! left.mass[2] = -3.65: expected a finite mass > 0 kg
 //! left.stiffness = [2910.0]: expected 2 numbers, one per storey, not 1
 //! right.mas = [3.65]: expected a known key (mass, stiffness, stiffness_matrix, damping, initial_displacement, \
-//! initial_velocity, height, base_level); did you mean mass?");
+//! initial_velocity, height, base_level, yield_force, post_yield_ratio); did you mean mass?");
 //! ```
 //!
 //! Where things are: `data` is the scene, `contact_pair` what meets in it, [`rule`] says which numbers are allowed, `check`

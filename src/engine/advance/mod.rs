@@ -5,7 +5,7 @@ pub mod fast_flight;
 pub mod plan;
 
 use crate::engine::base::Base;
-use crate::engine::base::contact::{Contact, Episode};
+use crate::engine::base::contact::Episode;
 use crate::engine::base::planned::{At, Planned};
 use crate::engine::error::EngineError;
 use crate::engine::excitation::inputs::Inputs;
@@ -146,10 +146,10 @@ impl Model {
         self.set_rest(base);
     }
 
-    /// Floors that are held together have been moved by what rounding and the ends of series had left between them: where a
-    /// storey yields, that is plastic drift.
+    /// Puts each storey that yields exactly on its limit: what rounding has added up, or floors that are held together have
+    /// been moved by to stay so, is plastic drift.
     fn anchor_storeys(&self, base: &mut Base) {
-        if !base.is_yielding() || !base.contacts.iter().any(Contact::is_held) {
+        if !base.is_yielding() {
             return;
         }
         for (of, storey) in self.system.storeys.iter().zip(&mut base.storeys) {

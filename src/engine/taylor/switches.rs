@@ -11,11 +11,16 @@ use crate::numerics::polynomial::{ALL, COUNT, MAX_TERMS};
 use crate::numerics::roots;
 use crate::structure::MotionSeries;
 
+/// A rate of a drift below this share of the velocities that it is made of is rounding: what comes next decides. Larger than
+/// the rounding of a rate at its root, so that a storey does not turn and yield again for ever.
+const STILL: f64 = 1e-13;
+
 impl System {
     /// A storey that yields although its drift goes back: an impulse has turned it, or rounding.
     pub fn turned_at_once(&self, base: &Base) -> Option<usize> {
         let goes_back = |(of, storey): (&YieldingStorey, &Storey)| {
-            storey.yields.is_some_and(|sense| sense.sign() * of.beyond_rounding(base.coordinates, &base.v) < 0.0)
+            let still = STILL * of.size(base.coordinates, &base.v);
+            storey.yields.is_some_and(|sense| sense.sign() * of.drift(base.coordinates, &base.v) < -still)
         };
         self.storeys.iter().zip(&base.storeys).position(goes_back)
     }
@@ -68,8 +73,8 @@ impl System {
         for n in 0..count {
             terms[n] = -sense.sign() * (COUNT[n + 1] * drifts.drifts[i][n + 1]);
         }
-        let rounding = 4.0 * f64::EPSILON * self.storeys[i].size(drifts.coordinates, series.term(1));
-        if terms[0] >= -rounding && !self.goes_on(series, drifts.coordinates, (i, sense)) {
+        let still = STILL * self.storeys[i].size(drifts.coordinates, series.term(1));
+        if terms[0] >= -still && !self.goes_on(series, drifts.coordinates, (i, sense), still) {
             return Some((0.0, Event::Turn(i)));
         }
         if series.time_map.is_curved() {
@@ -79,10 +84,11 @@ impl System {
         roots::first_upcrossing(&mut terms[..count], until, 0.0).map(|x| (x, Event::Turn(i)))
     }
 
-    /// Whether the first power of a drift that is more than rounding goes in a sense.
-    fn goes_on(&self, series: &MotionSeries, coordinates: Coordinates, (i, sense): (usize, Sense)) -> bool {
+    /// Whether the first power of a drift that is more than rounding, the first one more than `still`, goes in a sense.
+    fn goes_on(&self, series: &MotionSeries, coordinates: Coordinates, (i, sense): (usize, Sense), still: f64) -> bool {
         let mut drift = [0.0; MAX_TERMS];
         self.storeys[i].project(coordinates, series, &ALL, &mut drift);
+        drift[1] = if drift[1].abs() <= still { 0.0 } else { drift[1] };
         let first = drift[1..=series.order].iter().find(|term| **term != 0.0);
         first.is_some_and(|term| sense.sign() * term > 0.0)
     }
