@@ -122,7 +122,8 @@ fn check_storeys(run: &Run, scene: &Scene, last: &mut [f64], text: &str) -> Resu
         let error = (now.shear - shear).abs();
         prop_assert!(error <= 1e-11 * stiffness * size, "{side:?} {i}: shear {:e} not {shear:e}\n{text}", now.shear);
         prop_assert!(now.hysteretic >= *last, "{side:?} {i}: {:e} J after {last:e} J\n{text}", now.hysteretic);
-        prop_assert!(now.cumulative >= now.plastic.abs() * (1.0 - 1e-12), "{side:?} {i}: {now:?}\n{text}");
+        // The plastic drift has the rounding of the displacements that it is a part of, its path has not.
+        prop_assert!(now.cumulative >= now.plastic.abs() - 1e-12 * size, "{side:?} {i}: {now:?}\n{text}");
         *last = now.hysteretic;
     }
     Ok(())

@@ -1,8 +1,8 @@
 //! The first instant at which an elastic storey yields, by a power series of the motion.
 
-use crate::engine::base::Base;
 use crate::engine::base::planned::Event;
 use crate::engine::base::storey::Sense;
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::system::System;
 use crate::numerics::polynomial::{Coefficients, MAX_TERMS};
 use crate::numerics::roots;
@@ -13,6 +13,14 @@ use crate::structure::MotionSeries;
 pub type Expanded<'a> = ((&'a MotionSeries, &'a Coefficients), Option<&'a Substitution>, bool);
 
 impl System {
+    /// Sets the power 2 of a drift to 0 where it is no more than rounding of the accelerations that it is made of.
+    pub fn clear_bend(&self, coordinates: Coordinates, i: usize, series: &MotionSeries, drift: &mut Coefficients) {
+        let of = &self.storeys[i];
+        let reach = self.structure.fastest * series.scale;
+        let rounding = 8.0 * f64::EPSILON * reach * reach * (of.size(coordinates, series.term(0)) + of.limit);
+        drift[2] = if drift[2].abs() <= rounding { 0.0 } else { drift[2] };
+    }
+
     /// The first yield of storey `i` in a series, before the first event known so far or x = `end`, as (x, event).
     ///
     /// `factors` are those of the terms at the end, for their rounding errors; `is_start` says whether the series begins at
@@ -29,6 +37,9 @@ impl System {
         let mut drift = [0.0; MAX_TERMS];
         let noise = of.noise(storey, of.project(base.coordinates, series, factors, &mut drift));
         let count = series.order + 1;
+        if is_start && storey.turned.is_some() {
+            self.clear_bend(base.coordinates, i, series, &mut drift);
+        }
         let mut found = None;
         for sense in Sense::BOTH {
             let mut terms = drift.map(|term| sense.sign() * term);

@@ -1,15 +1,14 @@
 //! The instants at which storeys yield, and at which those that yield turn, while the motion is a power series.
 
+use crate::engine::base::Base;
 use crate::engine::base::planned::Event;
 use crate::engine::base::storey::{Sense, Storey};
-use crate::engine::base::{Base, Coordinates};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
 use crate::engine::yielding::storey::YieldingStorey;
 use crate::numerics::polynomial::{ALL, COUNT, MAX_TERMS};
 use crate::numerics::roots;
-use crate::structure::MotionSeries;
 
 /// A rate of a drift below this share of the velocities that it is made of is rounding: what comes next decides. Larger than
 /// the rounding of a rate at its root, so that a storey does not turn and yield again for ever.
@@ -74,22 +73,24 @@ impl System {
             terms[n] = -sense.sign() * (COUNT[n + 1] * drifts.drifts[i][n + 1]);
         }
         let still = STILL * self.storeys[i].size(drifts.coordinates, series.term(1));
-        if terms[0] >= -still && !self.goes_on(series, drifts.coordinates, (i, sense), still) {
-            return Some((0.0, Event::Turn(i)));
+        if terms[0] >= -still {
+            // What is rounding shall not decide.
+            let mut drift = [0.0; MAX_TERMS];
+            self.storeys[i].project(drifts.coordinates, series, &ALL, &mut drift);
+            drift[1] = if drift[1].abs() <= still { 0.0 } else { drift[1] };
+            self.clear_bend(drifts.coordinates, i, series, &mut drift);
+            let first = drift[1..=count].iter().find(|term| **term != 0.0);
+            if first.is_none_or(|term| sense.sign() * term < 0.0) {
+                return Some((0.0, Event::Turn(i)));
+            }
+            for n in 0..2 {
+                terms[n] = -sense.sign() * (COUNT[n + 1] * drift[n + 1]);
+            }
         }
         if series.time_map.is_curved() {
             substitution.apply_to_one(&mut terms[..count]);
         }
         let until = first.map_or(end.x, |(x, _)| x);
         roots::first_upcrossing(&mut terms[..count], until, 0.0).map(|x| (x, Event::Turn(i)))
-    }
-
-    /// Whether the first power of a drift that is more than rounding, the first one more than `still`, goes in a sense.
-    fn goes_on(&self, series: &MotionSeries, coordinates: Coordinates, (i, sense): (usize, Sense), still: f64) -> bool {
-        let mut drift = [0.0; MAX_TERMS];
-        self.storeys[i].project(coordinates, series, &ALL, &mut drift);
-        drift[1] = if drift[1].abs() <= still { 0.0 } else { drift[1] };
-        let first = drift[1..=series.order].iter().find(|term| **term != 0.0);
-        first.is_some_and(|term| sense.sign() * term > 0.0)
     }
 }
