@@ -1,7 +1,7 @@
 //! The command `pounding-fmu`: as `cargo fmu`, with the libraries of the wheel, and the runs of `simulate`.
 
 use anyhow::anyhow;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use fmu_build::arguments::{self, BuildArguments};
 use fmu_build::command::{self, Verdict};
 use fmu_build::face::{Face, Home};
@@ -60,11 +60,20 @@ impl Face for PoundingFmu {
     }
 }
 
-/// Does what the arguments say, the first of which is the program, and returns the exit code.
+/// Does what the arguments say, the first of which is the program, and returns the exit code. The help of the whole
+/// command begins with `overview`, which knows the commands in Python, too.
 #[pyfunction]
-pub fn run_command(py: Python<'_>, arguments: Vec<OsString>, again: Vec<OsString>, data: PathBuf) -> u8 {
+pub fn run_command(
+    py: Python<'_>,
+    arguments: Vec<OsString>,
+    again: Vec<OsString>,
+    data: PathBuf,
+    overview: String,
+) -> u8 {
     py.detach(|| {
-        let arguments = match Arguments::try_parse_from(arguments) {
+        let command = Arguments::command().before_help(overview).help_template("{before-help}{options}\n");
+        let parsed = command.try_get_matches_from(arguments).and_then(|found| Arguments::from_arg_matches(&found));
+        let arguments = match parsed {
             Ok(arguments) => arguments,
             Err(usage) => {
                 let _ = usage.print(); // nobody may be there to read it

@@ -8,8 +8,9 @@ use pounding::structure::{ModalDamping, Modes};
 use pounding::variables::{Parameter, Row, Settings, Slot, Table, Type, Value};
 use pounding::warnings;
 use pounding_simulate::STOP;
+use pounding_simulate::layout::Layout;
 use pyo3::IntoPyObjectExt;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::f64::consts::TAU;
@@ -89,6 +90,20 @@ impl Scene {
         }
         settings.check().map_err(|error| refusal(&error))?;
         Ok(Scene { package: Arc::clone(&self.package), settings, table: self.table.clone(), is_changed: true })
+    }
+
+    /// The same without any contact: how each building moves by itself.
+    fn without_contacts(&self) -> Scene {
+        let mut settings = self.settings.clone();
+        settings.scene.contacts.clear();
+        let table = Table::new(&settings.scene);
+        Scene { package: Arc::clone(&self.package), settings, table, is_changed: true }
+    }
+
+    /// What stands where, as JSON.
+    fn layout(&self) -> PyResult<String> {
+        serde_json::to_string(&Layout::of(&self.settings.scene))
+            .map_err(|error| PyRuntimeError::new_err(error.to_string()))
     }
 
     /// s, when a run ends where nothing else is said.

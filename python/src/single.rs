@@ -25,14 +25,17 @@ struct Kept {
 /// The columns of a run, and those of its impacts.
 type Arrays<'py> = (Vec<Bound<'py, PyAny>>, Vec<Bound<'py, PyAny>>);
 
-/// Runs a scene: `time` and the columns of these value references, and those of the impacts.
+/// Runs a scene: `time` and the columns of these value references, and those of the impacts; where `rows_per_impact` is
+/// given, also at as many instants within each contact, at its beginning, largest force and end.
 #[pyfunction]
+#[pyo3(signature = (scene, step, stop, references, rows_per_impact=None))]
 pub fn simulate<'py>(
     py: Python<'py>,
     scene: &Bound<'py, Scene>,
     step: f64,
     stop: f64,
     references: Vec<u32>,
+    rows_per_impact: Option<u16>,
 ) -> PyResult<Arrays<'py>> {
     let Scene { settings, table, .. } = scene.get();
     let reading = |&reference| Reading::new(table, settings, reference);
@@ -42,7 +45,7 @@ pub fn simulate<'py>(
 
     let done = Mutex::new(Ok(Kept::default()));
     let work = |told_to_stop: &AtomicBool| {
-        let kept = run(&model, &readings, (step, stop), told_to_stop);
+        let kept = run(&model, &readings, (step, stop, rows_per_impact), told_to_stop);
         *done.lock().unwrap_or_else(PoisonError::into_inner) = kept;
     };
     work_on(py, 1, work, |_| Ok(()))?;
@@ -61,16 +64,25 @@ fn has_room(rows: f64, columns: usize) -> PyResult<()> {
 fn run(
     model: &Model,
     readings: &[Reading],
-    (step, stop): (f64, f64),
+    (step, stop, rows_per_impact): (f64, f64, Option<u16>),
     told_to_stop: &AtomicBool,
 ) -> Result<Kept, String> {
+    let go_on = || if told_to_stop.load(Ordering::Relaxed) { Err("interrupted") } else { Ok(()) };
+    let regular = || instants::regular(step, stop);
+    let within = match rows_per_impact {
+        None => Vec::new(),
+        Some(count) => {
+            let first = solve(model, regular(), Some(|_: Solved<'_>| go_on())).map_err(|error| error.to_string())?;
+            instants::within(&first.episodes, stop, count)
+        }
+    };
     let mut kept = Kept { columns: vec![Vec::new(); readings.len()], ..Kept::default() };
     let keep = |now: Solved<'_>| {
         kept.time.push(now.point.time);
         kept.columns.iter_mut().zip(readings).for_each(|(column, reading)| column.push(reading.at(&now)));
-        if told_to_stop.load(Ordering::Relaxed) { Err("interrupted") } else { Ok(()) }
+        go_on()
     };
-    let solution = solve(model, instants::regular(step, stop), Some(keep));
+    let solution = solve(model, instants::merge(regular(), within), Some(keep));
     for episode in &solution.map_err(|error| error.to_string())?.episodes {
         let (contact, row) = impact(episode);
         kept.contacts.push(i32::try_from(contact).unwrap_or(i32::MAX));

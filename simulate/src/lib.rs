@@ -13,7 +13,7 @@
 //! | `report.rs`, `thinning.rs` | the page, and as much of a long run as it can show |
 
 pub mod instants;
-mod layout;
+pub mod layout;
 mod report;
 pub mod solve;
 pub mod tables;
