@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import operator
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _native
-from ._scenes import MOST_PROBLEMS, Names, names_of, positive, read_record, read_scene, refuse, warn
+from ._scenes import MOST_PROBLEMS, Names, names_of, positive, read_record, read_scene, refuse, warn, whole
 
 if TYPE_CHECKING:
     import numpy as np
@@ -91,7 +90,7 @@ def simulate_batch(
     import numpy as np
 
     read, outputs = read_scene(scene), names_of(outputs)
-    threads = None if threads is None else _whole("threads", threads)
+    threads = None if threads is None else whole("threads", threads, 1, 2**31)
     step = None if step is None else positive("step", step)
     stop = None if stop is None else positive("stop", stop)
     if progress is not None and not callable(progress):
@@ -221,13 +220,3 @@ def _common_length(arrays: Mapping[str, NDArray[np.float64]], motions: _Motions)
         each = ", ".join(f"{name} has {length}" for name, length in lengths.items())
         raise ValueError(f"arrays of different lengths: {each}")
     return next(iter(lengths.values()), 1)
-
-
-def _whole(name: str, value: object) -> int:
-    try:
-        number = operator.index(value)  # type: ignore[arg-type]
-    except TypeError:
-        number = 0
-    if number < 1:
-        raise ValueError(f"{name} = {value!r}: expected a whole number > 0")
-    return min(number, 2**31)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import operator
 import os
 import warnings
 from collections.abc import Iterable, Mapping
@@ -122,17 +123,14 @@ class Names:
     def check(self, parameters: Iterable[str], outputs: Iterable[str]) -> None:
         """Refuses names that there are not, parameters that cannot be set, and outputs that are no numbers."""
         parameters, outputs = list(parameters), list(outputs)
-        unknown = [name for name in (*parameters, *outputs) if name not in self.variables]
-        if unknown:
-            raise KeyError("; ".join(self._unknown(name) for name in dict.fromkeys(unknown)))
+        missing = [name for name in (*parameters, *outputs) if name not in self.variables]
+        if missing:
+            what = "the scene has no such variable"
+            raise KeyError("; ".join(unknown(name, self.variables, what) for name in dict.fromkeys(missing)))
         found = [text for name in parameters if (text := self._not_settable(name))]
         texts = (name for name in outputs if self.variables[name].type == "String")
         found += (f"{name} is a text: expected names of numbers as outputs" for name in texts)
         refuse(found)
-
-    def _unknown(self, name: object) -> str:
-        close = difflib.get_close_matches(str(name), self.variables, n=1)
-        return f"{name}: the scene has no such variable" + (f"; did you mean {close[0]}?" if close else "")
 
     def _not_settable(self, name: str) -> str | None:
         causality = self.variables[name].causality
@@ -141,6 +139,12 @@ class Names:
         return (
             None if causality == "parameter" else f"{name} is computed and cannot be set: expected names of parameters"
         )
+
+
+def unknown(name: object, known: Iterable[str], what: str) -> str:
+    """What is said of a name that is not known, and the one that may have been meant."""
+    close = difflib.get_close_matches(str(name), list(known), n=1)
+    return f"{name}: {what}" + (f"; did you mean {close[0]}?" if close else "")
 
 
 def refuse(found: list[str]) -> None | NoReturn:
@@ -160,6 +164,17 @@ def positive(name: str, value: object) -> float:
     if isinstance(value, str) or not 0.0 < number < float("inf"):
         raise ValueError(f"{name} = {value!r}: expected a number of seconds > 0")
     return number
+
+
+def whole(name: str, value: object, least: int, most: int) -> int:
+    """A whole number; more than the most is the most."""
+    try:
+        number = operator.index(value)  # type: ignore[arg-type]
+    except TypeError:
+        number = least - 1
+    if number < least:
+        raise ValueError(f"{name} = {value!r}: expected a whole number {'>= 0' if least == 0 else '> 0'}")
+    return min(number, most)
 
 
 def names_of(outputs: Iterable[str]) -> list[str]:

@@ -7,9 +7,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _native
-from ._scenes import Names, names_of, positive, read_record, read_scene, refuse, warn
+from ._extras import require
+from ._notebook import page
+from ._scenes import Names, names_of, positive, read_record, read_scene, refuse, unknown, variables_of, warn, whole
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
     from ._scenes import Record, Scene
@@ -18,8 +21,8 @@ if TYPE_CHECKING:
 class Result(Mapping[str, "NDArray[Any]"]):
     """A run: numpy columns by name, ``time`` first, all as long as there are rows.
 
-    ``float64`` for Real, ``int32`` for Integer, ``bool`` for Boolean variables. ``dict(result)`` is what a
-    ``pandas.DataFrame`` is made of.
+    ``float64`` for Real, ``int32`` for Integer, ``bool`` for Boolean variables. Notebooks show it as a small table and,
+    where matplotlib is installed, a small picture.
     """
 
     impacts: NDArray[Any]
@@ -27,12 +30,53 @@ class Result(Mapping[str, "NDArray[Any]"]):
     1), ``start_s``, ``end_s`` (NaN while it lasts), ``approach_velocity`` and ``separation_velocity`` (m/s),
     ``peak_force`` (N), ``peak_time_s``, ``peak_penetration`` (m), ``impulse`` (N s), ``dissipated_energy`` (J)."""
 
-    def __init__(self, columns: Mapping[str, NDArray[Any]], impacts: NDArray[Any]) -> None:
+    def __init__(
+        self, columns: Mapping[str, NDArray[Any]], impacts: NDArray[Any], scene: _native.Scene, step: float
+    ) -> None:
         self._columns = dict(columns)
         self.impacts = impacts
+        self._scene, self._step = scene, step
 
     def __getitem__(self, name: str) -> NDArray[Any]:
-        return self._columns[name]
+        try:
+            return self._columns[name]
+        except KeyError:
+            raise KeyError(self._unknown(name)) from None
+
+    def summary(self) -> str:
+        """What ``pounding-fmu SCENE.toml`` says of the scene's FMU: what went in, impacts, peaks of floors, contacts and
+        storeys. The scene is run once more for it, since it needs more than the columns of this run."""
+        return _native.summary(self._scene, self._step, float(self["time"][-1]))
+
+    def plot(self, **how: Any) -> Figure:
+        """Draws the run, as ``pounding-fmu plot`` does, and returns the matplotlib figure.
+
+        Args:
+            how: ``start`` and ``stop``, s, of what is shown over time, as ``pounding_fmu.plots.figure`` takes them.
+
+        Raises:
+            ImportError: matplotlib is not installed; the message has the line that installs it.
+        """
+        from .plots import figure
+
+        return figure(self, **how)
+
+    def to_dataframe(self) -> Any:
+        """The columns as a ``pandas.DataFrame``, ``time`` first.
+
+        Raises:
+            ImportError: pandas is not installed.
+        """
+        return require("pandas").DataFrame(dict(self))
+
+    def _repr_html_(self) -> str:
+        return page(self, self._scene.name)
+
+    def _unknown(self, name: object) -> str:
+        text = unknown(name, self._columns, "the run has no such column")
+        if name not in self._columns and name in variables_of(self._scene):
+            return f"{name}: not among the outputs of this run; name it in outputs"
+        return text
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
@@ -57,6 +101,9 @@ def simulate(
     outputs: Iterable[str] | None = None,
     parameters: Mapping[str, float | str | os.PathLike[str]] | None = None,
     record: Record | None = None,
+    *,
+    rows_per_impact: int | None = None,
+    without_contacts: bool = False,
 ) -> Result:
     """Runs a scene from 0 to ``stop`` and returns its rows and its impacts, with the bits of the FMU.
 
@@ -72,6 +119,9 @@ def simulate(
         record: another ground motion: a path (CSV or AT2), or a pair of arrays of the same length, times (s, strictly
             increasing) and accelerations (m/s2, linear in between). A scene without a record gets it as its own; it is
             scaled as the scene says.
+        rows_per_impact: as many further rows within each contact, beside those at its beginning, its largest force and
+            its end; none where nothing is said.
+        without_contacts: leaves out all contacts: how each building moves by itself.
 
     Returns:
         ``result["time"]`` and a column for each output, of shape (rows,), at the multiples of ``step`` and at ``stop``;
@@ -95,27 +145,43 @@ def simulate(
     Warns:
         SceneWarning: for each thing that looks like a slip.
     """
-    import numpy as np
-
     read = read_scene(scene)
     if record is not None:
         read = read.with_record(read_record(record, "record"))
     read, names = _with_parameters(read, {} if parameters is None else dict(parameters), record is not None)
-    if outputs is None:
-        columns = [name for name, variable in names.variables.items() if variable.causality == "output"]
-    else:
-        columns = [name for name in dict.fromkeys(names_of(outputs)) if name != "time"]
-    names.check([], columns)
+    slips = read.warnings()
+    if without_contacts:
+        read = read.without_contacts()
+        names = Names(read)
+    columns = None if outputs is None else [name for name in dict.fromkeys(names_of(outputs)) if name != "time"]
+    names.check([], columns or [])
     step = _native.STEP if step is None else positive("step", step)
     stop = read.stop() if stop is None else positive("stop", stop)
-    warn(read.warnings())
+    rows_per_impact = None if rows_per_impact is None else whole("rows_per_impact", rows_per_impact, 0, 2**16 - 1)
+    warn(slips)
+    return run(read, names, step, stop, columns, rows_per_impact)
 
-    arrays, of_impacts = _native.simulate(read, step, stop, [names.references[name] for name in columns])
+
+def run(
+    scene: _native.Scene,
+    names: Names,
+    step: float,
+    stop: float,
+    columns: list[str] | None = None,
+    rows_per_impact: int | None = None,
+) -> Result:
+    """Runs a scene whose arguments have been checked; all outputs are columns where none are named."""
+    import numpy as np
+
+    if columns is None:
+        columns = [name for name, variable in names.variables.items() if variable.causality == "output"]
+    references = [names.references[name] for name in columns]
+    arrays, of_impacts = _native.simulate(scene, step, stop, references, rows_per_impact)
     dtype = [(name, array.dtype) for name, array in zip(_native.IMPACT_COLUMNS, of_impacts)]
     impacts = np.empty(len(of_impacts[0]), dtype)
     for name, array in zip(_native.IMPACT_COLUMNS, of_impacts):
         impacts[name] = array
-    return Result(dict(zip(["time", *columns], arrays)), impacts)
+    return Result(dict(zip(["time", *columns], arrays)), impacts, scene, step)
 
 
 def _with_parameters(

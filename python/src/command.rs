@@ -1,12 +1,13 @@
 //! The command `pounding-fmu`: as `cargo fmu`, with the libraries of the wheel, and the runs of `simulate`.
 
 use anyhow::anyhow;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use fmu_build::arguments::{self, BuildArguments};
 use fmu_build::command::{self, Verdict};
 use fmu_build::face::{Face, Home};
 use fmu_build::libraries::Shipped;
 use pyo3::prelude::*;
+use std::error::Error;
 use std::ffi::OsString;
 use std::io;
 use std::path::PathBuf;
@@ -28,6 +29,8 @@ enum Commands {
     OfFmus(arguments::Command),
     /// Solves a scene without making an FMU of it: tables, and a page to look at.
     Simulate(pounding_simulate::Arguments),
+    /// Solves a scene and makes a page of the run: one file that any browser shows, without a network.
+    Report(pounding_simulate::ReportArguments),
 }
 
 /// The command of the wheel.
@@ -60,11 +63,20 @@ impl Face for PoundingFmu {
     }
 }
 
-/// Does what the arguments say, the first of which is the program, and returns the exit code.
+/// Does what the arguments say, the first of which is the program, and returns the exit code. The help of the whole
+/// command begins with `overview`, which knows the commands in Python, too.
 #[pyfunction]
-pub fn run_command(py: Python<'_>, arguments: Vec<OsString>, again: Vec<OsString>, data: PathBuf) -> u8 {
+pub fn run_command(
+    py: Python<'_>,
+    arguments: Vec<OsString>,
+    again: Vec<OsString>,
+    data: PathBuf,
+    overview: String,
+) -> u8 {
     py.detach(|| {
-        let arguments = match Arguments::try_parse_from(arguments) {
+        let command = Arguments::command().before_help(overview).help_template("{before-help}{options}\n");
+        let parsed = command.try_get_matches_from(arguments).and_then(|found| Arguments::from_arg_matches(&found));
+        let arguments = match parsed {
             Ok(arguments) => arguments,
             Err(usage) => {
                 let _ = usage.print(); // nobody may be there to read it
@@ -80,8 +92,11 @@ fn run(face: &PoundingFmu, Arguments { command, build }: Arguments) -> anyhow::R
     match command {
         None => command::run(face, None, &build),
         Some(Commands::OfFmus(command)) => command::run(face, Some(command), &build),
-        Some(Commands::Simulate(arguments)) => {
-            pounding_simulate::run(&arguments).map(Verdict::done).map_err(|error| anyhow!("{error}"))
-        }
+        Some(Commands::Simulate(arguments)) => done(pounding_simulate::run(&arguments)),
+        Some(Commands::Report(arguments)) => done(pounding_simulate::report(&arguments)),
     }
+}
+
+fn done(text: Result<String, Box<dyn Error>>) -> anyhow::Result<Verdict> {
+    text.map(Verdict::done).map_err(|error| anyhow!("{error}"))
 }

@@ -1,6 +1,6 @@
 //! Records from files and arrays. The same content is read once: studies come back to the same files.
 
-use numpy::{PyArrayMethods, PyReadonlyArray1};
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pounding::record::{self, KnownRecords, RecordError};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -34,6 +34,11 @@ impl Record {
         let record = record::Record { times: times.to_vec()?, accelerations: accelerations.to_vec()? };
         let record = record.checked().map_err(|error| all(&error, |problem| format!("{key}: {problem}")))?;
         Ok(Record { name: "(arrays)".to_owned(), record: Arc::new(record) })
+    }
+
+    /// Its times, s, and accelerations, m/s2.
+    fn samples<'py>(&self, py: Python<'py>) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
+        (PyArray1::from_slice(py, &self.record.times), PyArray1::from_slice(py, &self.record.accelerations))
     }
 }
 

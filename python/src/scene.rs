@@ -3,14 +3,17 @@
 use crate::document;
 use crate::records::Record;
 use pounding::description::Package;
-use pounding::scene::SceneError;
+use pounding::scene::{Building, SceneError};
+use pounding::structure::{ModalDamping, Modes};
 use pounding::variables::{Parameter, Row, Settings, Slot, Table, Type, Value};
 use pounding::warnings;
 use pounding_simulate::STOP;
+use pounding_simulate::layout::Layout;
 use pyo3::IntoPyObjectExt;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -89,11 +92,58 @@ impl Scene {
         Ok(Scene { package: Arc::clone(&self.package), settings, table: self.table.clone(), is_changed: true })
     }
 
+    /// The same without any contact: how each building moves by itself.
+    fn without_contacts(&self) -> Scene {
+        let mut settings = self.settings.clone();
+        settings.scene.contacts.clear();
+        let table = Table::new(&settings.scene);
+        Scene { package: Arc::clone(&self.package), settings, table, is_changed: true }
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.settings.scene.name
+    }
+
+    #[getter]
+    fn description(&self) -> &str {
+        &self.settings.scene.description
+    }
+
+    /// What stands where, as JSON.
+    fn layout(&self) -> PyResult<String> {
+        serde_json::to_string(&Layout::of(&self.settings.scene))
+            .map_err(|error| PyRuntimeError::new_err(error.to_string()))
+    }
+
     /// s, when a run ends where nothing else is said.
     pub fn stop(&self) -> f64 {
         let end = || self.settings.record()?.times.last().copied().filter(|&end| end > 0.0);
         self.settings.scene.stop_time.or_else(end).unwrap_or(STOP)
     }
+
+    /// The text of the scene without `[ground]`: what another machine needs that has the records.
+    fn without_ground(&self) -> PyResult<String> {
+        let unreadable = |error: String| PyValueError::new_err(error);
+        let mut scene: toml::Table = self.package.scene_text.parse().map_err(|error| unreadable(format!("{error}")))?;
+        scene.remove("ground");
+        toml::to_string(&scene).map_err(|error| unreadable(error.to_string()))
+    }
+
+    /// Of the first mode of each building alone the period, s, and the ratio of critical damping.
+    fn first_modes(&self) -> PyResult<[Option<(f64, f64)>; 2]> {
+        let scene = &self.settings.scene;
+        Ok([first_mode(&scene.left)?, first_mode(&scene.right)?])
+    }
+}
+
+fn first_mode(building: &Building) -> PyResult<Option<(f64, f64)>> {
+    let modes = Modes::of(building).map_err(|_| PyValueError::new_err("expected a positive definite stiffness"))?;
+    let damping = match &modes.damping {
+        ModalDamping::Diagonal(each) => each.first().copied(),
+        ModalDamping::Coupled(matrix) => matrix.get((0, 0)).copied(),
+    };
+    Ok(modes.omega.first().zip(damping).map(|(omega, damping)| (TAU / omega, damping / (2.0 * omega))))
 }
 
 impl Scene {

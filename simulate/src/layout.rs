@@ -46,6 +46,7 @@ enum Surface {
 }
 
 impl Layout<'_> {
+    /// Of a scene.
     pub fn of(scene: &Scene) -> Layout<'_> {
         let contacts = scene.contacts.iter().map(|pair| contact(scene, pair)).collect();
         Layout { name: &scene.name, left: standing(&scene.left), right: standing(&scene.right), contacts }

@@ -1,8 +1,14 @@
 """Spectral acceleration of a ground motion: how hard it shakes an oscillator of one period."""
 
+from __future__ import annotations
+
 import math
 
 import numpy as np
+from numpy.typing import NDArray
+
+Numbers = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 DAMPING_RATIO = 0.05  # the usual one of response spectra, whatever damping a building has
 PIECES = 64  # of a period: no peak between two of them is more than 0.2 % above the higher one
@@ -10,7 +16,9 @@ NEAR = 0.99  # of the largest: which of them may have the peak beside them
 MOST_PIECES = 20_000_000
 
 
-def pseudo_acceleration(times, accelerations, period, ratio=DAMPING_RATIO):
+def pseudo_acceleration(
+    times: Numbers, accelerations: Numbers, period: float, ratio: float = DAMPING_RATIO
+) -> float:
     """m/s2: w^2 times the largest displacement of the oscillator, in the record (s, m/s2) and in the period after it.
 
     The displacement is Im(y)/wd, where y' = r y - ground acceleration with the root r = -ratio w + i wd. Between two
@@ -42,15 +50,15 @@ def pseudo_acceleration(times, accelerations, period, ratio=DAMPING_RATIO):
 class Line:
     """y in segments of linear ground acceleration: free e^(r t) + rest + drift t."""
 
-    def __init__(self, root, rest, drift):
+    def __init__(self, root: complex, rest: Complex, drift: Complex) -> None:
         self.root, self.rest, self.drift = root, rest, drift
-        self.free = None
+        self.free: Complex = np.zeros_like(rest)
 
-    def displacement(self, segment, time):
+    def displacement(self, segment: NDArray[np.intp], time: Numbers) -> Numbers:
         y = self.free[segment] * np.exp(self.root * time) + self.rest[segment] + self.drift[segment] * time
         return y.imag / self.root.imag
 
-    def to_rest(self, segment, time):
+    def to_rest(self, segment: NDArray[np.intp], time: Numbers) -> Numbers:
         """How long the velocity has been 0, by Newton; at most a piece."""
         change = self.root * self.free[segment] * np.exp(self.root * time)
         velocity, acceleration = (change + self.drift[segment]).imag, (self.root * change).imag
@@ -59,7 +67,7 @@ class Line:
         return np.clip(np.where(acceleration == 0, 0.0, velocity / known), -piece, piece)
 
 
-def starts(line, lengths):
+def starts(line: Line, lengths: Numbers) -> Complex:
     """y at the beginning of each segment, from rest."""
     decays = np.exp(line.root * lengths)
     gains = line.rest * (1 - decays) + line.drift * lengths

@@ -1,19 +1,19 @@
 """Synthetic ground motions: filtered white noise under an envelope, written as record files that say what they are.
 
-    python3 examples/run.py examples/ground_motions.py --count 20 --seed 1 --output target/ground_motions
-
 Each motion is a sum of cosines with random phases [ShinozukaDeodatis1991] whose spectrum is that of white noise after
 the soil as an oscillator [Kanai1957], [Tajimi1960], without the lowest frequencies [CloughPenzien1975], times an
 envelope that rises, stays and decays [Jennings1968]. They are no recordings, and no site's: a study that decides about
 a building takes records chosen for its site.
 """
 
-import argparse
+from __future__ import annotations
+
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
-from engine import ROOT
+Numbers = NDArray[np.float64]
 
 SOIL = (15.6, 0.6)  # rad/s and damping ratio of the soil: firm ground
 HIGH_PASS = (1.5, 0.6)  # rad/s and damping ratio: below, the soil alone would leave a displacement that grows
@@ -23,23 +23,23 @@ DURATION, STEP, PEAK = 20.0, 0.01, 3.0  # s, s, m/s2
 FREQUENCIES = np.arange(1, 1001) / (2.0 * DURATION)  # Hz, up to 25
 
 
-def spectrum(frequency):
+def spectrum(frequency: Numbers) -> Numbers:
     """Power of the ground acceleration over frequency, of any scale."""
     soil, high_pass = ((2 * np.pi * frequency / own, ratio) for own, ratio in (SOIL, HIGH_PASS))
 
-    def denominator(r, ratio):
+    def denominator(r: Numbers, ratio: float) -> Numbers:
         return (1 - r**2) ** 2 + (2 * ratio * r) ** 2
 
     transmitted = (1 + (2 * soil[1] * soil[0]) ** 2) / denominator(*soil)
     return transmitted * high_pass[0] ** 4 / denominator(*high_pass)
 
 
-def envelope(time):
+def envelope(time: Numbers) -> Numbers:
     rise, decay = np.minimum(1.0, (time / STRONG[0]) ** 2), np.exp(-DECAY * np.maximum(0.0, time - STRONG[1]))
     return rise * decay
 
 
-def acceleration(seed):
+def acceleration(seed: int) -> tuple[Numbers, Numbers]:
     """Times, s, and accelerations, m/s2, with a peak of `PEAK`; the same seed gives the same motion."""
     time = np.arange(round(DURATION / STEP) + 1) * STEP
     phases = np.random.default_rng(seed).uniform(0, 2 * np.pi, len(FREQUENCIES))
@@ -49,7 +49,7 @@ def acceleration(seed):
     return time, PEAK * motion / np.abs(motion).max()
 
 
-def write(folder, seed):
+def write(folder: Path, seed: int) -> Path:
     """Writes the motion of a seed as a record and returns its path."""
     path = Path(folder, f"synthetic_{seed:04d}.csv")
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -61,17 +61,3 @@ def write(folder, seed):
     ]
     path.write_text("\n".join(lines) + "\n")
     return path
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--count", type=int, default=20, help="how many (default: %(default)s)")
-    parser.add_argument("--seed", type=int, default=1, help="of the first; each further one counts up")
-    parser.add_argument("--output", type=Path, default=ROOT / "target/ground_motions", help="folder")
-    options = parser.parse_args()
-    for seed in range(options.seed, options.seed + options.count):
-        print(write(options.output, seed))
-
-
-if __name__ == "__main__":
-    main()

@@ -1,10 +1,16 @@
 """The table of a study as a file: it grows while the study runs, and a study that was stopped goes on from it."""
 
+from __future__ import annotations
+
 import csv
 import os
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import IO, Any
 
-import study_table
-from study_table import CASE, key, text
+from . import table
+from .cases import Case, Row
+from .table import CASE, Kind, key, text
 
 TEMPORARY = ".new"
 
@@ -15,79 +21,79 @@ class Results:
     `storeys` are those of each building that there must be room for.
     """
 
-    def __init__(self, path, storeys):
+    def __init__(self, path: Path, storeys: Mapping[str, int]) -> None:
         self.path = path
         path.parent.mkdir(parents=True, exist_ok=True)
-        self.file = path.open("a+", encoding="utf-8", newline="")
+        self.file: IO[str] = path.open("a+", encoding="utf-8", newline="")
         lock(self.file, path)
         # Written anew at the end: a half of a study is not beside the whole of an older one.
         self.parquet = path.with_suffix(".parquet")
         self.parquet.unlink(missing_ok=True)
         found, rows = self.read(storeys)
-        self.columns = study_table.columns({side: max(found[side], storeys[side]) for side in storeys})
+        self.columns = table.columns({side: max(found[side], storeys[side]) for side in storeys})
         self.failed = {key(row): bool(row["error"]) for row in rows}
-        if found != study_table.storeys_of(self.columns) or not self.path.stat().st_size:
+        if found != table.storeys_of(self.columns) or not self.path.stat().st_size:
             self.write(rows)
 
-    def read(self, storeys):
+    def read(self, storeys: Mapping[str, int]) -> tuple[Mapping[str, int], list[Row]]:
         """Takes what is there; a row that a killed run has not finished is cut off."""
         content = self.path.read_bytes()
         whole = content.rfind(b"\n") + 1
         if whole < len(content):
             self.file.truncate(whole)
-        return study_table.parse(self.path, content[:whole]) if whole else (storeys, [])
+        return table.parse(self.path, content[:whole]) if whole else (storeys, [])
 
     @property
-    def rows(self):
+    def rows(self) -> dict[tuple[str, ...], Row]:
         """All rows by case, read anew; of a case that was run again, the last."""
-        _, rows = study_table.parse(self.path, self.path.read_bytes())
+        _, rows = table.parse(self.path, self.path.read_bytes())
         return {key(row): row for row in rows}
 
-    def add(self, rows):
+    def add(self, rows: Iterable[Row]) -> None:
         """Writes rows and waits until the disk has them."""
-        table = csv.writer(self.file, lineterminator="\n")
+        lines = csv.writer(self.file, lineterminator="\n")
         for known in rows:
             row = {name: known.get(name) for name in self.columns}
             self.failed[key(row)] = bool(row["error"])
-            table.writerow(map(text, row.values()))
+            lines.writerow(map(text, row.values()))
         self.file.flush()
         os.fsync(self.file.fileno())
 
-    def missing(self, cases):
+    def missing(self, cases: Iterable[Case]) -> list[Case]:
         """Cases without a result; those that failed are tried again."""
         return [case for case in cases if self.failed.get(key(columns_of(case)), True)]
 
-    def finish(self, cases):
+    def finish(self, cases: Sequence[Case]) -> list[Row]:
         """Adds the ratios and puts the rows in the order of the cases, whoever ran them; others stay behind them.
-        Returns the rows of these cases, errors left out."""
+        Returns the rows of these cases."""
         rows = self.rows
-        study_table.add_ratios(list(rows.values()))
+        table.add_ratios(list(rows.values()))
         keys = [key(columns_of(case)) for case in cases]
         first = {case: rows[case] for case in keys if case in rows}
         ordered = first | dict(sorted(rows.items()))
         self.write(ordered.values())
         write_parquet(self.parquet, self.columns, list(ordered.values()))
-        return [row for row in first.values() if not row["error"]]
+        return list(first.values())
 
-    def write(self, rows):
+    def write(self, rows: Iterable[Row]) -> None:
         """Puts a table with these rows in the place of the one that is there."""
         new = self.path.with_suffix(TEMPORARY)
         file = new.open("w", encoding="utf-8", newline="")
         lock(file, self.path)
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(self.columns)
-        table.writerows([text(row.get(name)) for name in self.columns] for row in rows)
+        lines = csv.writer(file, lineterminator="\n")
+        lines.writerow(self.columns)
+        lines.writerows([text(row.get(name)) for name in self.columns] for row in rows)
         file.flush()
         os.fsync(file.fileno())
         os.replace(new, self.path)
         self.file.close()
         self.file = file
 
-    def close(self):
+    def close(self) -> None:
         self.file.close()
 
 
-def lock(file, path):
+def lock(file: IO[str], path: Path) -> None:
     """Two studies at once would write each row twice. The lock goes with its process, however that ends."""
     try:
         import fcntl
@@ -96,15 +102,15 @@ def lock(file, path):
     except ImportError:
         pass
     except OSError:
-        raise SystemExit(f"{path}: another study is writing here") from None
+        raise ValueError(f"{path}: another study is writing here") from None
 
 
-def columns_of(case):
+def columns_of(case: Case) -> Row:
     values = (case.scene, case.scene_id, case.record, case.record_id, case.pga, case.gap, case.stop)
-    return dict(zip(CASE, values))
+    return dict(zip(CASE, values, strict=True))
 
 
-def write_parquet(path, columns, rows):
+def write_parquet(path: Path, columns: Mapping[str, Kind], rows: Sequence[Row]) -> None:
     """The same table for programs, texts as they are, where there is a library for it."""
     try:
         import pyarrow
@@ -112,7 +118,7 @@ def write_parquet(path, columns, rows):
     except ImportError:
         return
     kinds = {str: pyarrow.string(), int: pyarrow.int64(), float: pyarrow.float64()}
-    table = {name: pyarrow.array([row.get(name) for row in rows], kinds[kind]) for name, kind in columns.items()}
+    arrays = {name: pyarrow.array([row.get(name) for row in rows], kinds[kind]) for name, kind in columns.items()}
     new = path.with_suffix(TEMPORARY)
-    pyarrow.parquet.write_table(pyarrow.table(table), new)
+    pyarrow.parquet.write_table(pyarrow.table(arrays), new)
     os.replace(new, path)

@@ -4,43 +4,54 @@ A text that begins with one of =, +, -, @, a tab or an apostrophe gets an apostr
 take a file name for a formula; whoever reads the table takes one apostrophe away.
 """
 
+from __future__ import annotations
+
 import csv
 import io
 import math
 import re
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
 
-from study_worker import SIDES
+from .cases import NEVER_CLOSES, OF_STOREYS, OF_YIELDING, SIDES, Row
 
-NEVER_CLOSES = 1e3  # m, the gap of the runs without contact
-CASE = {
+Kind = type  # of a column: str, int or float
+
+CASE: dict[str, Kind] = {
     "scene": str, "scene_id": str, "record": str, "record_id": str, "pga_m_s2": float, "gap_m": float, "stop_s": float
 }  # fmt: skip
-INTENSITY = {f"{side}_{what}": float for what in ("period_s", "sa_m_s2") for side in SIDES}
-RESULT = {
+INTENSITY: dict[str, Kind] = {f"{side}_{what}": float for what in ("period_s", "sa_m_s2") for side in SIDES}
+RESULT: dict[str, Kind] = {
     "impacts": int, "peak_force_n": float, "impulse_n_s": float, "dissipated_energy_j": float,
     **{f"{side}_{what}": float for what in ("drift_m", "acceleration_m_s2", "base_shear_n") for side in SIDES},
 }  # fmt: skip
-# Of the storeys that can yield; of a building without such storeys there is nothing.
-YIELDING = {f"{side}_{what}": float for what in ("ductility", "residual_drift_m") for side in SIDES}
-# Of each storey, or floor; the largest ratio of any of them to the same one in the run without contact.
-OF_STOREYS = {"drift_m": "drift_ratio", "acceleration_m_s2": "acceleration_ratio"}
-RATIOS = {f"{side}_{ratio}": float for ratio in OF_STOREYS.values() for side in SIDES}
+# Of each storey, or floor.
+EACH = [*OF_STOREYS, "storey_shear_n"]
+# Empty where a building has no storeys of the kind: whose columns slabs can hit, with a stiffness of its own, that yield.
+SOME: dict[str, Kind] = {
+    f"{side}_{what}": float for what in ("column_force_n", "storey_shear_n", *OF_YIELDING) for side in SIDES
+}
+# The largest ratio of any storey, or floor, to the same one in the run without contact.
+RATIO_OF = {"drift_m": "drift_ratio", "acceleration_m_s2": "acceleration_ratio"}
+RATIOS: dict[str, Kind] = {f"{side}_{ratio}": float for ratio in RATIO_OF.values() for side in SIDES}
 FORMULA = re.compile(r"[=+\-@\t']")
 MOST_PROBLEMS = 10
 
 
-def columns(storeys):
+def columns(storeys: Mapping[str, int]) -> dict[str, Kind]:
     """Name and kind of every column, for buildings of up to so many storeys."""
-    of_storeys = [f"{side}_{what}[{i}]" for what in OF_STOREYS for side in SIDES for i in range(1, storeys[side] + 1)]
-    return CASE | INTENSITY | RESULT | YIELDING | RATIOS | dict.fromkeys(of_storeys, float) | {"error": str}
+    of_storeys = [f"{side}_{what}[{i}]" for what in EACH for side in SIDES for i in range(1, storeys[side] + 1)]
+    return CASE | INTENSITY | RESULT | SOME | RATIOS | dict.fromkeys(of_storeys, float) | {"error": str}
 
 
-def storeys_of(names):
+def storeys_of(names: Iterable[str]) -> dict[str, int]:
     """Of each building, as many as a table with these columns has room for."""
-    return {side: sum(name.startswith(f"{side}_drift_m[") for name in names) for side in SIDES}
+    known = list(names)
+    return {side: sum(name.startswith(f"{side}_drift_m[") for name in known) for side in SIDES}
 
 
-def text(value):
+def text(value: object) -> str:
     if value is None:
         return ""
     if isinstance(value, str):
@@ -48,7 +59,7 @@ def text(value):
     return repr(value)
 
 
-def value(kind, cell):
+def value(kind: Kind, cell: str) -> Any:
     if kind is str:
         return cell.removeprefix("'")
     if not cell:
@@ -59,14 +70,15 @@ def value(kind, cell):
     return number
 
 
-def parse(path, content):
-    """The columns and the rows of a table; a `SystemExit` with all that is wrong with it, line by line."""
+def parse(path: Path, content: bytes) -> tuple[dict[str, int], list[Row]]:
+    """The columns and the rows of a table; a `ValueError` with all that is wrong with it, line by line."""
     lines = csv.reader(io.StringIO(decoded(path, content), newline=""))
-    names = next(lines)
+    names = next(lines, [])
     known = columns(storeys_of(names))
     if names != list(known):
-        raise SystemExit(f"{path}, line 1: no table of this version's studies: move it away, or name another --output")
-    rows, problems = [], []
+        raise ValueError(f"{path}, line 1: no table of this version's studies: move it away, or name another folder")
+    rows: list[Row] = []
+    problems: list[str] = []
     try:
         for cells in lines:
             row, wrong = row_of(known, cells)
@@ -78,7 +90,7 @@ def parse(path, content):
     return storeys_of(names), rows
 
 
-def decoded(path, content):
+def decoded(path: Path, content: bytes) -> str:
     """The table as text. Each line by itself: one that is none can be named."""
     problems, lines = [], []
     for number, line in enumerate(content.split(b"\n"), 1):
@@ -90,11 +102,12 @@ def decoded(path, content):
     return "\n".join(lines)
 
 
-def row_of(known, cells):
+def row_of(known: Mapping[str, Kind], cells: Sequence[str]) -> tuple[Row, list[str]]:
     """The row by column names, and what is wrong with it."""
     if len(cells) != len(known):
         return {}, [f"expected {len(known)} cells, found {len(cells) if any(cells) else 'a blank line'}"]
-    row, problems = {}, []
+    row: Row = {}
+    problems: list[str] = []
     for (name, kind), cell in zip(known.items(), cells):
         try:
             row[name] = value(kind, cell)
@@ -110,29 +123,29 @@ def row_of(known, cells):
     return row, problems
 
 
-def stop_at(problems):
+def stop_at(problems: Sequence[str]) -> None:
     if not problems:
         return
     more = len(problems) - MOST_PROBLEMS
-    said = problems[:MOST_PROBLEMS] + ([f"and {more} more"] if more > 0 else [])
-    raise SystemExit("\n".join([*said, "mend or delete these lines; a case without a line is run again"]))
+    said = list(problems[:MOST_PROBLEMS]) + ([f"and {more} more"] if more > 0 else [])
+    raise ValueError("\n".join([*said, "mend or delete these lines; a case without a line is run again"]))
 
 
-def key(row):
+def key(row: Mapping[str, Any]) -> tuple[str, ...]:
     """What names a case in the table: its columns, numbers by their shortest text."""
     return tuple(text(row[name]) for name in CASE)
 
 
-def add_ratios(rows):
+def add_ratios(rows: Sequence[Row]) -> None:
     """Writes into each row what the largest storey ratios to its run without contact are, where that is there."""
     free = {key(row): row for row in rows}
     for row in rows:
         alone = free.get(key({**row, "gap_m": NEVER_CLOSES}))
-        for what, ratio in OF_STOREYS.items():
+        for what, ratio in RATIO_OF.items():
             for side in SIDES:
                 row[f"{side}_{ratio}"] = largest_ratio(row, alone, f"{side}_{what}[") if alone else None
 
 
-def largest_ratio(row, alone, prefix):
+def largest_ratio(row: Row, alone: Row, prefix: str) -> float | None:
     pairs = [(row[name], alone.get(name)) for name in row if name.startswith(prefix)]
     return max((mine / other for mine, other in pairs if mine is not None and other), default=None)

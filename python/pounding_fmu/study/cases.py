@@ -1,0 +1,185 @@
+"""The cases of a study: what each of them is, and what a worker, in this process or on another machine, does with them.
+
+Everything that a worker needs comes with the cases: the texts of the scenes and the samples of the records.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from .. import _native
+from .._batch import BatchError, simulate_batch
+from .._scenes import SceneWarning
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+Row = dict[str, Any]
+Motion = tuple["NDArray[np.float64]", "NDArray[np.float64]"]  # s and m/s2
+
+SIDES = ("left", "right")
+NEVER_CLOSES = 1e3  # m, the gap of the runs without contact
+# Columns by what they are made of: outputs of all contacts, and of the storeys or floors of a building.
+OF_CONTACTS: dict[str, tuple[str, Callable[[Any], float]]] = {
+    "peak_force_n": ("peak_force", max),
+    "impulse_n_s": ("impulse", sum),
+    "dissipated_energy_j": ("dissipated_energy", sum),
+}
+OF_STOREYS = {
+    "drift_m": "peak_drift",
+    "acceleration_m_s2": "peak_acceleration",
+    "column_force_n": "peak_column_force",
+}
+OF_YIELDING = {"ductility": "ductility", "residual_drift_m": "residual_drift"}
+STRENGTH = ("stiffness", "yield_force", "post_yield_ratio")
+
+
+@dataclass(frozen=True)
+class Case:
+    """One run. Scene and record by name and by a fingerprint of what is in them."""
+
+    scene: str
+    scene_id: str
+    record: str
+    record_id: str
+    pga: float
+    """m/s2"""
+    gap: float
+    """m, of all contacts"""
+    stop: float
+    """s"""
+
+
+@dataclass(frozen=True)
+class Materials:
+    """What all cases need."""
+
+    scenes: Mapping[str, str]
+    """By their fingerprint: their texts without ``[ground]``."""
+    records: Mapping[str, Motion]
+    """By their fingerprint."""
+
+
+class Readings:
+    """What is read at the end of a run of a scene, and the row of a table that is made of it."""
+
+    def __init__(self, names: Sequence[str]) -> None:
+        def numbered(side: str, what: str) -> dict[int, str]:
+            start = f"{side}.{what}["
+            return {int(name[len(start) : -1]): name for name in names if name.startswith(start)}
+
+        self.gaps = _of_contacts(names, "gap")
+        self.contacts = {what: _of_contacts(names, what) for what, _ in OF_CONTACTS.values()}
+        of_storeys = [*OF_STOREYS.values(), *OF_YIELDING.values(), *STRENGTH]
+        self.storeys = {(side, what): numbered(side, what) for side in SIDES for what in of_storeys}
+        # One building may stand alone, between walls.
+        self.sides = [side for side in SIDES if self.storeys[side, "peak_acceleration"]]
+        self.outputs = ["impacts", *itertools.chain(*self.contacts.values())]
+        self.outputs += [name for of_side in self.storeys.values() for name in of_side.values()]
+        self.outputs += [f"{side}.peak_base_shear" for side in self.sides]
+
+    def count(self, side: str) -> int:
+        """Storeys of a building."""
+        return len(self.storeys[side, "peak_drift"])
+
+    def row(self, values: Sequence[float]) -> Row:
+        """The results of a case of the values of the outputs at its end."""
+        value = dict(zip(self.outputs, values, strict=True))
+        row: Row = {"impacts": int(value["impacts"])}
+        for column, (what, summary) in OF_CONTACTS.items():
+            row[column] = summary(value[name] for name in self.contacts[what])
+        for side in self.sides:
+            row[f"{side}_base_shear_n"] = value[f"{side}.peak_base_shear"]
+            of_side = {
+                what: {i: value[name] for i, name in self.storeys[side, what].items()}
+                for what in [*OF_STOREYS.values(), *OF_YIELDING.values(), *STRENGTH]
+            }
+            peaks = {column: of_side[what] for column, what in OF_STOREYS.items()}
+            peaks["storey_shear_n"] = storey_shears(of_side)
+            row |= {f"{side}_{column}[{i}]": peak for column, of in peaks.items() for i, peak in of.items()}
+            peaks |= {column: of_side[what] for column, what in OF_YIELDING.items()}
+            row |= {f"{side}_{column}": max(map(abs, of.values())) for column, of in peaks.items() if of}
+        return row
+
+
+def _of_contacts(names: Sequence[str], what: str) -> list[str]:
+    return [name for name in names if name.startswith("contact[") and name.endswith(f"].{what}")]
+
+
+def storey_shears(of_side: Mapping[str, Mapping[int, float]]) -> dict[int, float]:
+    """N, the largest shear of each storey of a shear building, without damping: stiffness times the largest drift d, or,
+    where the storey can yield, V = r k d + (1 - r) V_y beyond its yield drift, on which it is at that drift."""
+    shears = {}
+    for i, stiffness in of_side["stiffness"].items():
+        elastic, ratio = stiffness * of_side["peak_drift"][i], of_side["post_yield_ratio"].get(i, 0.0)
+        strength = of_side["yield_force"].get(i)
+        shears[i] = elastic if strength is None else min(elastic, ratio * elastic + (1 - ratio) * strength)
+    return shears
+
+
+@functools.lru_cache(maxsize=64)
+def readings(scene: str) -> Readings:
+    """What is read of a scene, given by its text without ``[ground]``."""
+    read, _ = _native.Scene.parse(scene)
+    assert read is not None  # it has been read before
+    return Readings([variable[0] for variable in read.variables()])
+
+
+def run_cases(
+    cases: Sequence[Case],
+    materials: Materials,
+    threads: int | None = None,
+    progress: Callable[[int], object] | None = None,
+) -> list[tuple[Case, Row]]:
+    """Each case and its row; where a run has failed, the row says why. ``progress`` is told how many are done."""
+    rows: list[tuple[Case, Row]] = []
+    for (scene, stop), group in itertools.groupby(cases, lambda case: (case.scene_id, case.stop)):
+        of_group = list(group)
+        before = len(rows)
+        tell = progress and (lambda done, _, before=before: progress(before + done))
+        found = _run(materials.scenes[scene], of_group, materials.records, stop, threads, tell)
+        rows += zip(of_group, found, strict=True)
+    return rows
+
+
+def _run(
+    scene: str,
+    cases: Sequence[Case],
+    records: Mapping[str, Motion],
+    stop: float,
+    threads: int | None,
+    progress: Callable[[int, int], object] | None,
+) -> list[Row]:
+    """The rows of cases of one scene that end at the same time."""
+    import numpy as np
+
+    read = readings(scene)
+    motions = [records[case.record_id] for case in cases]
+    parameters: dict[str, Any] = dict.fromkeys(read.gaps, [case.gap for case in cases])
+    parameters["ground.scale"] = [case.pga / np.abs(motion[1]).max() for case, motion in zip(cases, motions)]
+    failures: Mapping[int, str] = {}
+    try:
+        with warnings.catch_warnings():
+            # Who has asked for the study has seen them.
+            warnings.simplefilter("ignore", SceneWarning)
+            ends = simulate_batch(scene, parameters, read.outputs, motions, threads, stop=stop, progress=progress)
+    except BatchError as error:
+        ends, failures = error.results, error.failures
+    except ValueError as error:
+        if len(cases) == 1:
+            return [failed(str(error).removeprefix("case 0: "))]
+        return [_run(scene, [case], records, stop, threads, None)[0] for case in cases]
+    return [
+        failed(failures[i]) if i in failures else {**read.row(end), "error": ""} for i, end in enumerate(ends.tolist())
+    ]
+
+
+def failed(text: str) -> Row:
+    """The row of a case whose run has failed."""
+    return {"error": " ".join(text.split())}

@@ -1,0 +1,123 @@
+"""The command ``pounding-fmu study``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+from collections.abc import Sequence
+from pathlib import Path
+
+from .. import _terminal
+from .._data import DATA
+from . import GAPS, PGA, SYNTHETIC, Study, run_study
+from .fragility import INTENSITIES, LIMITS, curves, demands, write
+
+INTERRUPTED = 130  # what a shell calls the end of a program by Ctrl-C
+
+ABOUT = """\
+Gap width against peak force and drift, over many scenes, records and intensities.
+
+Every case sets its gap (of all contacts), its record and the peak ground acceleration. Each case runs a second time
+with a gap that never closes, for comparison. Results are in results.csv of the output folder, a row per case; a study
+that was stopped goes on from there with the same command. At the end come results.parquet, where pyarrow is installed,
+the parameters of the fragility curves, and pictures, where matplotlib is: what the gap does, and fragility curves.
+"""
+EXAMPLE = "example:\n  pounding-fmu study SCENE.toml --records A.AT2 B.csv --gaps 0.01 0.03 0.1 --pga 1 2 4 -o office"
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Does what the arguments say and returns the exit code."""
+    options = arguments(argv)
+    try:
+        draw(run(options), options)
+    except KeyboardInterrupt:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        _terminal.say("\nstopped; the same command goes on from here")
+        return INTERRUPTED
+    return 0
+
+
+def run(options: argparse.Namespace) -> Study:
+    """Runs the study and says where it is."""
+    progress = _terminal.Progress("cases")
+    study = run_study(
+        options.scenes,
+        options.records,
+        gaps=options.gaps,
+        pga=options.pga,
+        synthetic=options.synthetic,
+        seed=options.seed,
+        stop=options.stop,
+        output=options.output,
+        scheduler=options.scheduler,
+        workers=options.workers,
+        progress=progress,
+    )
+    progress.end()
+    if study.failures:
+        _terminal.say(f"{len(study.failures)} cases failed: see the last column of {study.path}")
+    print(study.path)
+    return study
+
+
+def draw(study: Study, options: argparse.Namespace) -> None:
+    """Fragility and pictures of every scene, in the folder of the table."""
+    limits = {name: getattr(options, f"{name.replace(' ', '_')}_limit") for name in LIMITS}
+    for scene in study.scenes:
+        rows = [row for row in study.rows if row["scene"] == scene]
+        if not rows:
+            continue
+        found = curves(rows, demands(rows, limits), options.intensity)
+        write(found, options.output / f"fragility_{scene}.csv")
+        try:
+            from . import pictures
+        except ImportError as missing:
+            _terminal.say(f"no pictures: {missing}")
+            continue
+        shown = {"gap_m": options.show_gaps, "pga_m_s2": options.show_pga}
+        pictures.gaps(rows, options.output / f"gaps_{scene}.png", shown)
+        pictures.fragility(rows, found, options.intensity, options.output / f"fragility_{scene}.png", shown)
+
+
+def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="pounding-fmu study",
+        description=ABOUT,
+        epilog=EXAMPLE,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    feup = DATA / "scenes" / "feup.toml"
+    parser.add_argument("scenes", nargs="*", default=[feup], metavar="SCENE.toml", help="default: the laboratory frames")
+    parser.add_argument("--records", nargs="+", metavar="FILE", help="ground motions, instead of the usual ones")
+    add_numbers(parser, "--gaps", "M", f"m (default: {' '.join(f'{gap:g}' for gap in GAPS)})", GAPS)
+    add_numbers(parser, "--pga", "A", f"m/s2 (default: {' '.join(f'{peak:g}' for peak in PGA)})", PGA)
+    parser.add_argument("-o", "--output", type=Path, default=Path("study"), metavar="FOLDER", help="default: %(default)s")
+    parser.add_argument("--stop", type=float, metavar="S", help="s, end of each run; default: end of record or stop_time")
+    parser.add_argument(
+        "--synthetic", type=int, default=SYNTHETIC, metavar="N", help="synthetic motions (default: %(default)s)"
+    )
+    parser.add_argument("--seed", type=int, default=1, help="of the first of them")
+    parser.add_argument("--workers", type=int, default=os.cpu_count(), metavar="N", help="threads (default: all cores)")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="tcp://HOST:PORT of a Dask cluster, or local for one here")
+    pictures = parser.add_argument_group("fragility and pictures")
+    for name, unit in LIMITS.items():
+        pictures.add_argument(
+            f"--{name.replace(' ', '-')}-limit", type=float, metavar=unit.upper()[:1], help=f"{unit}; default: the median"
+        )
+    pictures.add_argument(
+        "--intensity",
+        choices=INTENSITIES,
+        default="pga",
+        help="what the fragility is drawn against: peak ground acceleration (default), or the spectral acceleration at "
+        "the first period of a building",
+    )
+    add_numbers(pictures, "--show-gaps", "M", "m, those of fragility curves; default: five of them")
+    add_numbers(pictures, "--show-pga", "A", "m/s2, those of curves over the gap; default: five of them")
+    return parser.parse_args(argv)
+
+
+def add_numbers(
+    group: argparse._ActionsContainer, name: str, metavar: str, about: str, default: Sequence[float] | None = None
+) -> None:
+    group.add_argument(name, nargs="+", type=float, default=default, metavar=metavar, help=about)
