@@ -1,8 +1,8 @@
 """The paper figure by figure, and the validation: draws every picture and writes docs/paper.md and docs/validation.md.
 
-    python examples/paper/all.py                  # the ground motion of section 4.3 is El Centro
-    python examples/paper/all.py --kobe FILE      # and your record of Kobe besides
-    python examples/paper/all.py --check          # only says whether the documents are up to date
+    "$(ci/environment)" examples/paper/all.py                  # the ground motion of section 4.3 is El Centro
+    "$(ci/environment)" examples/paper/all.py --kobe FILE      # and your record of Kobe besides
+    "$(ci/environment)" examples/paper/all.py --check          # only says whether the documents are up to date
 
 A record of Kobe is a file of yours; without one, what the documents say of Kobe stays as it is. With --check, pictures
 are drawn only where --pictures FOLDER says.

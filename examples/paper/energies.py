@@ -1,6 +1,6 @@
 """Fig. 18 and section 4.2 of the paper: the energies that eqs. 10, 11 and 14 take.
 
-python examples/paper/energies.py
+"$(ci/environment)" examples/paper/energies.py
 """
 
 import functools

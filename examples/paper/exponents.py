@@ -1,6 +1,6 @@
 """Fig. 9 of the paper: exponents from 1 to 2, and what is true of the negative forces.
 
-python examples/paper/exponents.py
+"$(ci/environment)" examples/paper/exponents.py
 """
 
 from math import cos, pi

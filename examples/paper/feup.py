@@ -1,6 +1,6 @@
 """Section 3.2 of the paper: the natural frequencies of the FEUP frames.
 
-python examples/paper/feup.py
+"$(ci/environment)" examples/paper/feup.py
 """
 
 import functools

@@ -1,6 +1,6 @@
 """Section 3.1 of the paper: the shaking table test of Filiatrault, Wagner and Cherry, as far as its data go.
 
-    python examples/paper/filiatrault.py
+    "$(ci/environment)" examples/paper/filiatrault.py
 
 Masses, stiffnesses and damping of the frames are not published there. They are varied, so that what comes out is a
 range for each measured value.

@@ -1,6 +1,6 @@
 """Figs. 3, 5, 6, 7 and 8 of the paper: force against penetration and against time, for each law and all together.
 
-python examples/paper/force_laws.py
+"$(ci/environment)" examples/paper/force_laws.py
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """Fig. 19 and section 4.3 of the paper: buildings of one, two and three storeys.
 
-    python examples/paper/heights.py                  # under El Centro, which is here
-    python examples/paper/heights.py --kobe FILE      # and under your file of Kobe
+    "$(ci/environment)" examples/paper/heights.py                  # under El Centro, which is here
+    "$(ci/environment)" examples/paper/heights.py --kobe FILE      # and under your file of Kobe
 
 What the paper leaves open is varied: the periods of both buildings and the law. So there are orderings to check, no
 values.

@@ -1,7 +1,7 @@
 """Two towers under a sine, as Chau, Wei, Guo and Shen shook them [Chau2003]; qualitative, for the towers' data are not
 public.
 
-    python examples/paper/towers.py
+    "$(ci/environment)" examples/paper/towers.py
 """
 
 import functools

@@ -1,6 +1,6 @@
 """Writes docs/validation.md: case, inputs, published value, ours, verdict.
 
-python examples/paper/validation.py
+"$(ci/environment)" examples/paper/validation.py
 """
 
 import closed_forms
