@@ -27,9 +27,11 @@ class Progress:
         bar = "#" * (WIDTH * done // total)
         print(f"\r\x1b[K[{bar:<{WIDTH}}] {done}/{total} {self.what}{left}", end="", file=sys.stderr, flush=True)
 
-    def end(self) -> None:
-        """Says how long it took."""
+    def end(self, quietly: bool = False) -> None:
+        """Takes the line away, or says how long it took."""
         seconds = time.monotonic() - self.start
-        if self.done:
+        if quietly and sys.stderr.isatty():
+            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+        elif self.done and not quietly:
             end = "\n" if sys.stderr.isatty() else ""
             say(f"{end}{self.done} {self.what} in {seconds:.1f} s, {self.done / seconds:.0f} a second")
