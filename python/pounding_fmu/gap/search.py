@@ -267,8 +267,10 @@ def _motions(read: _native.Scene, records: Any, pga: list[Any] | None) -> list[M
     problems = [f"pga: {peak!r}: expected a number of m/s2 > 0" for peak in pga or [] if not 0.0 < peak < math.inf]
     problems += ["pga: expected at least one"] * (pga == [])
     own = read.record()
-    if records is None and own is None:
-        problems.append("the scene has no record: expected records")
-    found = {own.name: own} if records is None and own else read_records(named(records or {}), problems)
+    if records is not None:
+        found = read_records(named(records), problems)
+    else:
+        problems += ["the scene has no record: expected records"] * (own is None)
+        found = {own.name: own} if own else {}
     refuse(problems)
     return [Motion(label(key), record, read, peak) for key, record in found.items() for peak in pga or [None]]

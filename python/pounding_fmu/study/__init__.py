@@ -122,7 +122,7 @@ def run_study(
             stopped goes on from them. Without a folder the table is returned alone.
         scheduler: address of a Dask cluster whose workers have this package, or ``local`` for one on this machine.
         workers: threads, or processes of a local cluster; all cores where nothing is said. Rows do not depend on it.
-        progress: called with (cases done, all cases that have to run).
+        progress: called with (cases done, all cases), those included that were done before.
 
     Returns:
         A ``Study``: rows in the order scene, record, intensity, gap; the last gap of each is the run without contact.
@@ -191,10 +191,11 @@ def _fill(
     results = Results(path, planned.storeys)
     try:
         missing = results.missing(planned.cases)
+        before = len(planned.cases) - len(missing)
 
         def tell(done: int) -> None:
             if progress is not None:
-                progress(done, len(missing))
+                progress(before + done, len(planned.cases))
 
         tell(0)
         if scheduler is None:

@@ -40,9 +40,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     return 0
 
 
+class Progress(_terminal.Progress):
+    """Of a study, which may go on from one that was stopped: what is told first was done before."""
+
+    is_begun = False
+
+    def __call__(self, done: int, total: int) -> None:
+        if not self.is_begun:
+            self.is_begun = True
+            self.go_on_from(done, total)
+        super().__call__(done, total)
+
+
 def run(options: argparse.Namespace) -> Study:
     """Runs the study and says where it is."""
-    progress = _terminal.Progress("cases")
+    progress = Progress("cases")
     study = run_study(
         options.scenes,
         options.records,

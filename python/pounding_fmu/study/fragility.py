@@ -2,8 +2,9 @@
 
 The curve is the lognormal distribution of largest likelihood [Baker2015]. There is one only where the intensities of
 runs that exceed the limit overlap with those of runs that do not [AlbertAnderson1984], and where the limit is exceeded
-more often as the intensity grows: elsewhere there are counts, and no curve. A distribution never falls; so there is none
-either where the share falls from one intensity to a higher one by more than two standard errors of the difference.
+more often as the intensity grows, so much so that a constant share is ruled out at the level of 5 %: elsewhere there are
+counts, and no curve. A distribution never falls; so there is none either where the share falls from one intensity to a
+higher one by more than one and a half standard errors of the difference.
 """
 
 from __future__ import annotations
@@ -29,7 +30,8 @@ INTENSITIES = {
 }
 LIMITS = {"force": "N", "drift": "m", "acceleration": "m/s2", "ductility": "1", "residual drift": "m"}
 MOST_POINTS = 8  # where all runs differ in intensity: shares of groups of neighbouring runs
-FALL = 2.0  # standard errors
+FALL = 1.5  # standard errors
+RISE = 3.84  # of twice the logarithm of a likelihood ratio: 95 % of chi-squared with one degree of freedom
 
 
 @dataclass(frozen=True)
@@ -101,12 +103,18 @@ def demands(rows: Iterable[Row], limits: Mapping[str, float | None]) -> list[Dem
     return found
 
 
+def force_unit(largest: float) -> tuple[float, str]:
+    """What to divide forces by, and the unit they are in then."""
+    return next((unit for unit in [(1e6, "MN"), (1e3, "kN")] if largest >= unit[0]), (1.0, "N"))
+
+
 def shown(limit: float, unit: str) -> str:
     """A limit in the unit in which people say it."""
     if unit == "m":
         return f"{1e3 * limit:.3g} mm"
     if unit == "N":
-        return f"{limit / 1e3:.3g} kN" if limit >= 1e3 else f"{limit:.3g} N"
+        factor, of_force = force_unit(limit)
+        return f"{limit / factor:.3g} {of_force}"
     return f"{limit:.3g}" + f" {unit}" * (unit != "1")
 
 
@@ -194,7 +202,9 @@ def fit_lognormal(levels: Numbers, exceeds: Truths) -> tuple[float, float] | Non
         if best - before <= 1e-13 * abs(best) and np.abs(step).max() < 1e-9:
             break
     a, b = at
-    if b <= 0:
+    share = float(exceeds.mean())
+    constant = len(exceeds) * (share * math.log(share) + (1 - share) * math.log(1 - share))
+    if b <= 0 or 2 * (best - constant) < RISE:
         return None
     return math.exp(middle - width * a / b), float(width / b)
 

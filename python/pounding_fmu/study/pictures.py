@@ -12,7 +12,7 @@ import numpy as np
 from .._extras import require
 from ..plots.style import ALONE, BLACK, CYCLE, LOOK
 from .cases import NEVER_CLOSES, SIDES, Row
-from .fragility import INTENSITIES, Curve, lognormal, points
+from .fragility import INTENSITIES, Curve, force_unit, lognormal, points
 
 Chosen = Sequence[float] | None  # gaps or intensities to draw; without any as many as can be told apart
 
@@ -72,11 +72,6 @@ def in_g(acceleration: float) -> str:
 
 def in_mm(gap: float) -> str:
     return "no contact" if gap == NEVER_CLOSES else f"{1e3 * gap:g} mm"
-
-
-def force_unit(largest: float) -> tuple[float, str]:
-    """What to divide forces by, and the unit they are in then."""
-    return next((unit for unit in [(1e6, "MN"), (1e3, "kN")] if largest >= 2 * unit[0]), (1.0, "N"))
 
 
 def _gaps(closing: Sequence[Row], shown: Chosen) -> Any:
