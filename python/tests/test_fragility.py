@@ -103,10 +103,12 @@ def test_there_is_no_curve_where_a_constant_share_is_as_likely():
     assert fragility.fit_lognormal(*runs_at([1.0, 2.0], [4, 14], 20)) is not None
 
 
+DEMAND = fragility.Demand("force", "N", lambda row: row["peak_force_n"], 0.5, "force above 0.5 N")
+
+
 def curve_of(exceeding, levels=(1.0, 2.0, 4.0, 8.0), of=20, gap=0.01):
-    demand = fragility.Demand("force", "N", lambda row: row["peak_force_n"], 0.5, "force above 0.5 N")
     runs = runs_at(list(levels), exceeding, of)
-    return fragility.Curve("Frames", demand, "pga", gap, *runs, fragility.fit_lognormal(*runs))
+    return fragility.Curve("Frames", DEMAND, "pga", gap, *runs, fragility.fit_lognormal(*runs))
 
 
 def test_a_median_beyond_all_runs_is_marked(tmp_path):

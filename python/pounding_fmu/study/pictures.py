@@ -19,7 +19,7 @@ Chosen = Sequence[float] | None  # gaps or intensities to draw; without any as m
 STANDARD_GRAVITY = 9.80665  # m/s2
 MOST_LINES = 5
 NO_CONTACT = {"color": BLACK, "linestyle": ":", "marker": "x"}
-LETTERS = 12.5  # that an inch of a title has room for
+LETTERS = 14  # that an inch of a title may have room for
 
 
 def gaps(rows: Sequence[Row], path: Path, shown: Chosen = None) -> None:
@@ -48,7 +48,10 @@ def _panels(rows: int, columns: int, width: float, height: float, **more: Any) -
 
 def _title(figure: Any, text: str) -> None:
     """Above all, in as many lines as it takes."""
-    figure.suptitle(textwrap.fill(text, int(LETTERS * figure.get_figwidth())), x=0.01, ha="left", fontsize=10.5)
+    for letters in range(LETTERS * int(figure.get_figwidth()), LETTERS, -LETTERS // 2):
+        title = figure.suptitle(textwrap.fill(text, letters), x=0.01, ha="left", fontsize=10.5)
+        if title.get_window_extent().x1 <= figure.bbox.x1:
+            break
 
 
 def some(values: Iterable[float], shown: Chosen = None) -> list[float]:

@@ -12,6 +12,7 @@ import signal
 import threading
 import time
 from collections.abc import Callable, Generator, Iterator, Sequence
+from multiprocessing import resource_tracker
 from typing import Any
 
 from .. import _native
@@ -55,6 +56,8 @@ def without_interrupts() -> Iterator[None]:
     handler = signal.signal(signal.SIGINT, lambda *_: came.append(True))
     blocks = hasattr(signal, "pthread_sigmask")
     if blocks:
+        # Starting this one of multiprocessing's own would unblock what is blocked.
+        resource_tracker.ensure_running()
         # For the processes, which inherit it; in this one another thread may take the signal, so there is a handler, too.
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
