@@ -21,8 +21,6 @@
 //! | `importer.rs` | the same through an importer that is not ours |
 //! | `log.rs` | what an FMU says through its logger |
 //! | `experiment.rs` | one run of an FMU over its default experiment, through either |
-//! | `summary.rs` | what happened in that run, for a person |
-//! | `went_in.rs` | what went into it |
 //! | `trial/mod.rs` | an FMU tried in a process of its own, for as long as it may take |
 //! | `trial/channel.rs` | what that process reports, which the FMU's library cannot |
 //! | `trial/run.rs` | the run after building |
@@ -50,9 +48,7 @@ mod pack;
 mod progress;
 mod provenance;
 mod recipe;
-mod summary;
 mod trial;
-mod went_in;
 
 pub use pack::pack;
 pub use pack::platform::folder as host_folder;

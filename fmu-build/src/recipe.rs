@@ -2,16 +2,16 @@
 
 use crate::arguments::BuildArguments;
 use crate::destination::Destination;
-use crate::experiment::Outcome;
 use crate::face::{Face, Home};
 use crate::libraries::{Library, Shipped, move_arm_for_fmpy};
 use crate::pack::pack;
 use crate::progress::Progress;
 use crate::provenance::Provenance;
-use crate::summary;
 use crate::trial::Trial;
 use anyhow::{Context, Result};
 use pounding::description::{Category, Package};
+use pounding_simulate::outcome::Outcome;
+use pounding_simulate::summary::{self, Problem};
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
@@ -88,23 +88,14 @@ fn besides_slips(logged: &[String]) -> Vec<String> {
 }
 
 fn report(package: &Package, destination: &Destination, libraries: &[Library], outcome: Option<&Outcome>) -> String {
-    let about = &package.scene.description;
+    let problem = Problem::from(package);
     let folders: Vec<&str> = libraries.iter().map(|library| library.folder.as_str()).collect();
-    let mut text = package.scene.name.clone() + if about.is_empty() { "" } else { ": " } + about + "\n";
+    let mut text = problem.heading();
     let _ = writeln!(text, "  file         {}", destination.describe());
     let _ = writeln!(text, "  guid         {}", package.guid());
     let _ = writeln!(text, "  libraries    {}", folders.join(", "));
     match outcome {
-        Some(outcome) => text + &summary::text(outcome, Some(package), stop_reason(package)),
+        Some(outcome) => text + &summary::text(outcome, Some(problem), problem.stop_reason()),
         None => text + "  not run      none of the libraries is for this machine\n",
-    }
-}
-
-/// Why the default experiment ends when it does.
-fn stop_reason(package: &Package) -> &'static str {
-    match (package.scene.stop_time, &package.record) {
-        (Some(_), _) => "stop_time of the scene",
-        (None, Some(_)) => "end of the record",
-        (None, None) => "neither scene nor record says when to stop",
     }
 }

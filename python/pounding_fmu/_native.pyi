@@ -17,6 +17,7 @@ __all__ = [
     "build",
     "run_command",
     "simulate",
+    "summary",
 ]
 
 __version__: str
@@ -75,5 +76,6 @@ class Batch:
 def simulate(
     scene: Scene, step: float, stop: float, references: list[int], rows_per_impact: int | None = None
 ) -> tuple[list[NDArray[Any]], list[NDArray[Any]]]: ...
+def summary(scene: Scene, step: float, stop: float) -> str: ...
 def build(scene: Scene, output: str | None, libraries: str, platforms: list[str]) -> Path: ...
 def run_command(arguments: list[str], again: list[str], data: str, overview: str) -> int: ...

@@ -1,8 +1,8 @@
 //! The cases of a batch: their parameters, and what is wrong or odd with them before any of them runs.
 
-use crate::readings::Reading;
 use pounding::scene::SceneError;
 use pounding::variables::{Parameter, Settings, Table, Value};
+use pounding_simulate::readings::Reading;
 use std::collections::BTreeMap;
 
 /// Problems that a person reads.

@@ -7,6 +7,7 @@ use fmu_build::command::{self, Verdict};
 use fmu_build::face::{Face, Home};
 use fmu_build::libraries::Shipped;
 use pyo3::prelude::*;
+use std::error::Error;
 use std::ffi::OsString;
 use std::io;
 use std::path::PathBuf;
@@ -28,6 +29,8 @@ enum Commands {
     OfFmus(arguments::Command),
     /// Solves a scene without making an FMU of it: tables, and a page to look at.
     Simulate(pounding_simulate::Arguments),
+    /// Solves a scene and makes a page of the run: one file that any browser shows, without a network.
+    Report(pounding_simulate::ReportArguments),
 }
 
 /// The command of the wheel.
@@ -89,8 +92,11 @@ fn run(face: &PoundingFmu, Arguments { command, build }: Arguments) -> anyhow::R
     match command {
         None => command::run(face, None, &build),
         Some(Commands::OfFmus(command)) => command::run(face, Some(command), &build),
-        Some(Commands::Simulate(arguments)) => {
-            pounding_simulate::run(&arguments).map(Verdict::done).map_err(|error| anyhow!("{error}"))
-        }
+        Some(Commands::Simulate(arguments)) => done(pounding_simulate::run(&arguments)),
+        Some(Commands::Report(arguments)) => done(pounding_simulate::report(&arguments)),
     }
+}
+
+fn done(text: Result<String, Box<dyn Error>>) -> anyhow::Result<Verdict> {
+    text.map(Verdict::done).map_err(|error| anyhow!("{error}"))
 }

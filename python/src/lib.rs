@@ -9,7 +9,6 @@
 //! | `scene.rs` | a scene with its record and parameters |
 //! | `document.rs` | a scene written as a Python dict, as TOML |
 //! | `records.rs` | records from files and arrays, each content read once |
-//! | `readings.rs` | what is read of a run, by value reference |
 //! | `single.rs` | one run with all its rows |
 //! | `cases.rs` | the cases of a batch: their parameters, and what is wrong with them |
 //! | `batch.rs` | many runs on all cores |
@@ -23,7 +22,6 @@ mod cases;
 mod command;
 mod document;
 mod fmu;
-mod readings;
 mod records;
 mod scene;
 mod single;
@@ -47,7 +45,7 @@ mod _native {
     #[pymodule_export]
     use crate::scene::Scene;
     #[pymodule_export]
-    use crate::single::simulate;
+    use crate::single::{simulate, summary};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -1,12 +1,14 @@
 //! One run with all its rows.
 
-use crate::readings::{Kind, Reading};
 use crate::scene::{Scene, refusal};
 use crate::threads::work_on;
 use numpy::PyArray1;
 use pounding::engine::Model;
 use pounding_simulate::instants;
+use pounding_simulate::outcome::Follower;
+use pounding_simulate::readings::{Kind, Reading};
 use pounding_simulate::solve::{Solved, solve};
+use pounding_simulate::summary::{Problem, text};
 use pounding_simulate::tables::impact;
 use pyo3::exceptions::{PyMemoryError, PyRuntimeError};
 use pyo3::prelude::*;
@@ -41,16 +43,47 @@ pub fn simulate<'py>(
     let reading = |&reference| Reading::new(table, settings, reference);
     let readings: Vec<Reading> = references.iter().filter_map(reading).collect();
     has_room(stop / step, readings.len() + 1)?;
-    let model = py.detach(|| Model::new(&settings.scene, settings.record())).map_err(|error| refusal(&error))?;
-
-    let done = Mutex::new(Ok(Kept::default()));
-    let work = |told_to_stop: &AtomicBool| {
-        let kept = run(&model, &readings, (step, stop, rows_per_impact), told_to_stop);
-        *done.lock().unwrap_or_else(PoisonError::into_inner) = kept;
-    };
-    work_on(py, 1, work, |_| Ok(()))?;
-    let kept = done.into_inner().unwrap_or_else(PoisonError::into_inner).map_err(PyRuntimeError::new_err)?;
+    let kept = solved(py, scene.get(), |model, told_to_stop| {
+        run(model, &readings, (step, stop, rows_per_impact), told_to_stop)
+    })?;
     Ok(kept.into_arrays(py, &readings))
+}
+
+/// What a run of a scene has shown, for a person: as the command says it of the scene's FMU.
+#[pyfunction]
+pub fn summary(py: Python<'_>, scene: &Bound<'_, Scene>, step: f64, stop: f64) -> PyResult<String> {
+    let scene = scene.get();
+    let problem = Problem::from(&scene.settings);
+    let stop_reason = if stop == scene.stop() { problem.stop_reason() } else { "as asked" };
+    solved(py, scene, |model, told_to_stop| {
+        let mut follower = Follower::new(&scene.table, &scene.settings, step, stop);
+        let look = |now: Solved<'_>| {
+            follower.look(&now);
+            go_on(told_to_stop)
+        };
+        let solution = solve(model, instants::regular(step, stop), Some(look)).map_err(|error| error.to_string())?;
+        Ok(problem.heading() + &text(&follower.outcome(solution.time), Some(problem), stop_reason))
+    })
+}
+
+/// What comes of work with the model of a scene, beside Python.
+fn solved<T: Send>(
+    py: Python<'_>,
+    Scene { settings, .. }: &Scene,
+    work: impl Fn(&Model, &AtomicBool) -> Result<T, String> + Sync + Send,
+) -> PyResult<T> {
+    let model = py.detach(|| Model::new(&settings.scene, settings.record())).map_err(|error| refusal(&error))?;
+    let done = Mutex::new(Err("interrupted".to_owned()));
+    let body = |told_to_stop: &AtomicBool| {
+        let result = work(&model, told_to_stop);
+        *done.lock().unwrap_or_else(PoisonError::into_inner) = result;
+    };
+    work_on(py, 1, body, |_| Ok(()))?;
+    done.into_inner().unwrap_or_else(PoisonError::into_inner).map_err(PyRuntimeError::new_err)
+}
+
+fn go_on(told_to_stop: &AtomicBool) -> Result<(), &'static str> {
+    if told_to_stop.load(Ordering::Relaxed) { Err("interrupted") } else { Ok(()) }
 }
 
 /// Whether there is memory for so many rows and columns; a run that outgrows it would end the process.
@@ -67,12 +100,12 @@ fn run(
     (step, stop, rows_per_impact): (f64, f64, Option<u16>),
     told_to_stop: &AtomicBool,
 ) -> Result<Kept, String> {
-    let go_on = || if told_to_stop.load(Ordering::Relaxed) { Err("interrupted") } else { Ok(()) };
     let regular = || instants::regular(step, stop);
     let within = match rows_per_impact {
         None => Vec::new(),
         Some(count) => {
-            let first = solve(model, regular(), Some(|_: Solved<'_>| go_on())).map_err(|error| error.to_string())?;
+            let first = solve(model, regular(), Some(|_: Solved<'_>| go_on(told_to_stop)))
+                .map_err(|error| error.to_string())?;
             instants::within(&first.episodes, stop, count)
         }
     };
@@ -80,7 +113,7 @@ fn run(
     let keep = |now: Solved<'_>| {
         kept.time.push(now.point.time);
         kept.columns.iter_mut().zip(readings).for_each(|(column, reading)| column.push(reading.at(&now)));
-        go_on()
+        go_on(told_to_stop)
     };
     let solution = solve(model, instants::merge(regular(), within), Some(keep));
     for episode in &solution.map_err(|error| error.to_string())?.episodes {

@@ -8,25 +8,35 @@
 //! | `lib.rs` | the arguments, and what is done with them |
 //! | `instants.rs` | the instants at which a run is looked at |
 //! | `solve.rs` | the run over these instants |
-//! | `tables.rs` | the tables and the summary of a run |
+//! | `readings.rs` | what is read of a run, by value reference |
+//! | `tables.rs` | the tables of a run |
+//! | `outcome.rs` | what a run has shown of all variables, whoever has made it |
+//! | `summary.rs`, `went_in.rs` | the same for a person: what happened, and what went in |
 //! | `layout.rs` | floors, levels and contacts of the scene, for pictures |
 //! | `report.rs`, `thinning.rs` | the page, and as much of a long run as it can show |
 
 pub mod instants;
 pub mod layout;
+pub mod outcome;
+pub mod readings;
 mod report;
 pub mod solve;
+pub mod summary;
 pub mod tables;
 mod thinning;
+mod went_in;
 
 use clap::Args;
+use outcome::Follower;
 use pounding::description::{Package, PackagedRecord};
 use pounding::engine::Model;
+use pounding::variables::{Settings, Table};
 use pounding::warnings;
 use solve::{Solution, Solved, episodes, solve};
 use std::error::Error;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use summary::Problem;
 
 /// s, from row to row, where nothing else is said.
 pub const STEP: f64 = 0.01;
@@ -76,54 +86,96 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// What a report is made of, and where it goes.
+#[derive(Args)]
+pub struct ReportArguments {
+    /// The scene.
+    #[arg(value_name = "SCENE.toml")]
+    scene: PathBuf,
+    /// Ground motion of a scene that has no record of its own.
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+    /// Where the page goes; without it, NAME.html (NAME: the scene's) in the current directory.
+    #[arg(short, long, value_name = "FILE.html")]
+    output: Option<PathBuf>,
+}
+
 /// Solves a scene, writes the files that are asked for, and returns the summary.
 ///
 /// # Errors
 /// A scene or record with everything that is wrong with it, a file that cannot be written, a run that cannot go on.
 pub fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
-    let mut package = Package::from_scene_file(&arguments.scene)?;
-    if let Some(file) = &arguments.record {
+    let mut package = read(&arguments.scene, arguments.record.as_deref())?;
+    if arguments.without_contacts {
+        package.scene.contacts.clear();
+    }
+    let (step, stop) = (arguments.step, arguments.stop.or_else(|| package.stop_time()).unwrap_or(STOP));
+    let model = model(&package)?;
+    let mut motion = arguments.csv.as_deref().map(|file| tables::Motion::create(file, &package.scene)).transpose()?;
+    let impacts = arguments.impacts.as_deref().map(tables::create).transpose()?;
+    let mut page = arguments.html.as_deref().map(report::create).transpose()?;
+    if let Some(file) = &arguments.layout {
+        report::create(file)?.write_all(serde_json::to_string(&layout::Layout::of(&package.scene))?.as_bytes())?;
+    }
+    let mut follower = follower(&package, step, stop);
+    let show = |solved: Solved| {
+        follower.look(&solved);
+        motion.as_mut().map_or(Ok(()), |motion| motion.write(solved))
+    };
+    let within = match arguments.rows_per_impact {
+        None => Vec::new(),
+        Some(count) => instants::within(&episodes(&model, stop)?, stop, count),
+    };
+    let Solution { episodes, time, .. } =
+        solve(&model, instants::merge(instants::regular(step, stop), within), Some(show))?;
+    motion.map_or(Ok(()), tables::Motion::finish)?;
+    if let Some(table) = impacts {
+        tables::write_impacts(table, &episodes)?;
+    }
+    if let Some(page) = &mut page {
+        page.write_all(report::page(&package, &model, stop, &episodes)?.as_bytes())?;
+    }
+    let problem = Problem::from(&package);
+    let stop_reason = if arguments.stop.is_some() { "as asked" } else { problem.stop_reason() };
+    let summary = summary::text(&follower.outcome(time), Some(problem), stop_reason);
+    Ok(format!("{}{summary}solve_seconds={}\n", problem.heading(), time.as_secs_f64()))
+}
+
+/// Solves a scene, writes the page about it, and returns where that is.
+///
+/// # Errors
+/// As those of `run`.
+pub fn report(arguments: &ReportArguments) -> Result<String, Box<dyn Error>> {
+    let package = read(&arguments.scene, arguments.record.as_deref())?;
+    let file = arguments.output.clone().unwrap_or_else(|| format!("{}.html", package.scene.name).into());
+    let stop = package.stop_time().unwrap_or(STOP);
+    let model = model(&package)?;
+    let mut page = report::create(&file)?;
+    page.write_all(report::page(&package, &model, stop, &episodes(&model, stop)?)?.as_bytes())?;
+    Ok(format!("{}: the run of {} from 0 s to {stop} s, for any browser\n", file.display(), package.scene.name))
+}
+
+/// The scene of a file, perhaps under another record; slips in it are told.
+fn read(scene: &Path, record: Option<&Path>) -> Result<Package, Box<dyn Error>> {
+    let mut package = Package::from_scene_file(scene)?;
+    if let Some(file) = record {
         give_record(&mut package, file)?;
     }
     for warning in warnings::of_file(&package.scene, package.record.as_ref().map(|packaged| &packaged.record)) {
         // Nobody may be there to read it.
         let _ = writeln!(std::io::stderr(), "warning: {warning}");
     }
-    if arguments.without_contacts {
-        package.scene.contacts.clear();
-    }
-    let stop = arguments.stop.or_else(|| package.stop_time()).unwrap_or(STOP);
+    Ok(package)
+}
 
-    let Package { scene, record, .. } = &package;
-    let model = Model::new(scene, record.as_ref().map(|packaged| &packaged.record))?;
-    let mut motion = arguments.csv.as_deref().map(|file| tables::Motion::create(file, scene)).transpose()?;
-    let impacts = arguments.impacts.as_deref().map(tables::create).transpose()?;
-    let mut page = arguments.html.as_deref().map(report::create).transpose()?;
+fn model(package: &Package) -> Result<Model, Box<dyn Error>> {
+    Ok(Model::new(&package.scene, package.record.as_ref().map(|packaged| &packaged.record))?)
+}
 
-    if let Some(file) = &arguments.layout {
-        report::create(file)?.write_all(serde_json::to_string(&layout::Layout::of(scene))?.as_bytes())?;
-    }
-    let mut write = motion.as_mut().map(|motion| |solved: Solved| motion.write(solved));
-    let regular = instants::regular(arguments.step, stop);
-    let solution = match arguments.rows_per_impact {
-        None => solve(&model, regular, write.as_mut())?,
-        Some(count) => {
-            let within = instants::within(&episodes(&model, stop)?, stop, count);
-            solve(&model, instants::merge(regular, within), write.as_mut())?
-        }
-    };
-    if let Some(motion) = motion {
-        motion.finish()?;
-    }
-    if let Some(table) = impacts {
-        tables::write_impacts(table, &solution.episodes)?;
-    }
-    if let Some(page) = &mut page {
-        page.write_all(report::page(&package, &model, stop, &solution.episodes)?.as_bytes())?;
-    }
-    let Solution { time, .. } = &solution;
-    let summary = tables::summary(scene, stop, &solution) + &tables::frequencies(&model);
-    Ok(format!("{summary}solve_seconds={}\n", time.as_secs_f64()))
+fn follower(package: &Package, step: f64, stop: f64) -> Follower {
+    let record = package.record.as_ref().map(|packaged| packaged.record.clone());
+    let settings = Settings::new(package.scene.clone(), record);
+    Follower::new(&Table::new(&settings.scene), &settings, step, stop)
 }
 
 /// Reads a record and makes it the scene's.

@@ -1,7 +1,7 @@
-//! What a run prints: the table of the motion, that of the impacts, and the summary.
+//! The tables of a run: that of the motion, and that of the impacts.
 
-use crate::solve::{Solution, Solved};
-use pounding::engine::{Episode, Model, Side};
+use crate::solve::Solved;
+use pounding::engine::Episode;
 use pounding::scene::Scene;
 use pounding::variables::{Output, Row, Slot, Table, Value};
 use std::error::Error;
@@ -101,34 +101,4 @@ pub(crate) fn write_impacts(mut table: CsvFile, episodes: &[Episode]) -> csv::Re
     }
     table.flush()?;
     Ok(())
-}
-
-/// How many impacts each contact has had, and the hardest.
-pub(crate) fn summary(scene: &Scene, stop: f64, solution: &Solution) -> String {
-    let Solution { rows, episodes, .. } = solution;
-    let mut text = format!("{}: 0 s to {stop} s in {rows} rows, {} impacts\n", scene.name, episodes.len());
-    for (index, pair) in scene.contacts.iter().enumerate() {
-        let of_this: Vec<&Episode> = episodes.iter().filter(|episode| episode.contact == index).collect();
-        let largest = |pick: fn(&Episode) -> f64| of_this.iter().map(|episode| pick(episode)).fold(0.0, f64::max);
-        text += &format!(
-            "  contact {} ({}): {} impacts, approach up to {:.4} m/s, force up to {:.4e} N, \
-             penetration up to {:.4e} m\n",
-            index + 1,
-            pair.meeting(scene),
-            of_this.len(),
-            largest(|episode| episode.approach_velocity),
-            largest(|episode| episode.peak_force),
-            largest(|episode| episode.peak_penetration),
-        );
-    }
-    text
-}
-
-/// Natural frequencies of each building alone, ascending.
-pub(crate) fn frequencies(model: &Model) -> String {
-    let line = |side: Side| {
-        let numbers: Vec<String> = model.natural_frequencies(side).iter().map(|f| format!("{f:.4}")).collect();
-        if numbers.is_empty() { String::new() } else { format!("  {side} frequencies: {} Hz\n", numbers.join(", ")) }
-    };
-    line(Side::Left) + &line(Side::Right)
 }

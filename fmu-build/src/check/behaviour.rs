@@ -1,7 +1,7 @@
 //! What the library of an FMU does, compared with what its description says.
 
 use crate::c_interface::{Binary, Instance};
-use crate::experiment::{CoSimulation, Experiment};
+use crate::experiment::{CoSimulation, experiment};
 use crate::pack::archive::{self, Unpacked};
 use crate::pack::platform;
 use anyhow::{Context, Result, bail};
@@ -31,7 +31,7 @@ pub fn wrong_guid_accepted(root: &Path, description: &ModelDescription, binary: 
 
 /// No importer writes the start values of the description into the FMU: the library must have the same ones.
 pub fn start_values(description: &ModelDescription, fmu: &dyn CoSimulation) -> Result<Vec<String>> {
-    let experiment = Experiment::of(description)?;
+    let experiment = experiment(description)?;
     fmu.set_up(experiment.start, experiment.stop)?;
     let mut findings = Vec::new();
     for variable in &description.modelVariables {

@@ -5,8 +5,8 @@
 //! counts only when it is complete. This is no wall: code that searches the memory of its process finds the word.
 
 use crate::bounded::Bounded;
-use crate::experiment::Outcome;
 use anyhow::{Context, Result};
+use pounding_simulate::outcome::Outcome;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::hash::{BuildHasher, RandomState};

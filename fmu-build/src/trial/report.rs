@@ -1,9 +1,9 @@
 //! What a trial of an FMU has found, for a person and for a program.
 
 use crate::bounded::Bounded;
-use crate::experiment::Outcome;
-use crate::summary;
 use anyhow::bail;
+use pounding_simulate::outcome::Outcome;
+use pounding_simulate::summary;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::fmt::Write;

@@ -1,26 +1,25 @@
 //! What went into a run, for a person to compare with what was meant: ground motion, masses, periods, gaps.
 
-use crate::experiment::{Outcome, Seen};
-use pounding::description::Package;
+use crate::outcome::{Outcome, Seen};
+use crate::summary::Problem;
 use pounding::record::{Record, STANDARD_GRAVITY};
 use pounding::scene::Scaling;
 use pounding::warnings::short;
 
-/// Name and text of each line. The ground motion is known where the package is.
-pub fn lines(outcome: &Outcome, package: Option<&Package>) -> Vec<(&'static str, String)> {
-    let mut lines = package.map_or_else(Vec::new, ground);
+/// Name and text of each line. The ground motion is known where the problem is.
+pub fn lines(outcome: &Outcome, problem: Option<Problem<'_>>) -> Vec<(&'static str, String)> {
+    let mut lines = problem.map_or_else(Vec::new, ground);
     let buildings = ["left", "right"].into_iter().filter(|side| array(outcome, side, "displacement").next().is_some());
     lines.extend(buildings.map(|side| (side, building(outcome, side))));
     lines.push(("contacts", contacts(outcome)));
     lines
 }
 
-fn ground(package: &Package) -> Vec<(&'static str, String)> {
-    let ground = &package.scene.ground;
-    let (Some(name), Some(packaged)) = (&ground.record, &package.record) else {
+fn ground(Problem { scene, record: known }: Problem<'_>) -> Vec<(&'static str, String)> {
+    let Some((name, found)) = known else {
         return vec![("ground", "ground.acceleration is an input: 0 in this run".to_owned())];
     };
-    vec![("record", record(name, &packaged.record)), ("ground", peak(&packaged.record, ground.scaling))]
+    vec![("record", record(name, found)), ("ground", peak(found, scene.ground.scaling))]
 }
 
 fn record(name: &str, record: &Record) -> String {

@@ -17,8 +17,11 @@ pub enum Reading {
 /// How the values of a variable are kept.
 #[derive(Clone, Copy)]
 pub enum Kind {
+    /// As a double.
     Real,
+    /// As a whole number.
     Integer,
+    /// As true or false.
     Boolean,
 }
 

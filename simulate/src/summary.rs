@@ -1,16 +1,59 @@
 //! What happened in a run, for a person to check by eye.
 
-use crate::experiment::{Outcome, Seen, Variables};
+use crate::outcome::{Outcome, Seen, Variables};
 use crate::went_in;
 use pounding::description::Package;
+use pounding::record::Record;
 use pounding::scene::{Heights, Scene, Side};
+use pounding::variables::{Parameter, Settings};
 use pounding::warnings::six_decimals;
 use std::fmt::Write;
 
-/// The summary; `stop_reason` says where the end of the experiment comes from, `package` what is known of the ground.
-pub fn text(outcome: &Outcome, package: Option<&Package>, stop_reason: &str) -> String {
-    let run = Run(outcome, package.map(|package| &package.scene));
-    let mut text = overview(&run, package, stop_reason);
+/// What a run has been of, where that is known.
+#[derive(Clone, Copy)]
+pub struct Problem<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its record, and where that is from.
+    pub record: Option<(&'a str, &'a Record)>,
+}
+
+impl<'a> From<&'a Package> for Problem<'a> {
+    fn from(package: &'a Package) -> Problem<'a> {
+        let named = package.scene.ground.record.as_deref().zip(package.record.as_ref());
+        Problem { scene: &package.scene, record: named.map(|(name, packaged)| (name, &packaged.record)) }
+    }
+}
+
+impl<'a> From<&'a Settings> for Problem<'a> {
+    fn from(settings: &'a Settings) -> Problem<'a> {
+        let other = settings.read(Parameter::GroundRecord).string().filter(|path| !path.is_empty());
+        let name = other.or(settings.scene.ground.record.as_deref());
+        Problem { scene: &settings.scene, record: name.zip(settings.record()) }
+    }
+}
+
+impl Problem<'_> {
+    /// The first line: name and description.
+    pub fn heading(&self) -> String {
+        let Scene { name, description, .. } = self.scene;
+        if description.is_empty() { format!("{name}\n") } else { format!("{name}: {description}\n") }
+    }
+
+    /// Why a run ends when it does, where nothing else is said.
+    pub fn stop_reason(&self) -> &'static str {
+        match (self.scene.stop_time, self.record) {
+            (Some(_), _) => "stop_time of the scene",
+            (None, Some(_)) => "end of the record",
+            (None, None) => "neither scene nor record says when to stop",
+        }
+    }
+}
+
+/// The summary; `stop_reason` says where the end of the experiment comes from.
+pub fn text(outcome: &Outcome, problem: Option<Problem<'_>>, stop_reason: &str) -> String {
+    let run = Run(outcome, problem.map(|problem| problem.scene));
+    let mut text = overview(&run, problem, stop_reason);
     let buildings = [run.floors(), run.buildings(), run.yielding()];
     for table in buildings.into_iter().chain([run.contacts(), run.struck_columns(), run.energy()]).flatten() {
         text.push('\n');
@@ -25,13 +68,13 @@ pub fn text(outcome: &Outcome, package: Option<&Package>, stop_reason: &str) -> 
     text
 }
 
-fn overview(run: &Run, package: Option<&Package>, stop_reason: &str) -> String {
+fn overview(run: &Run, problem: Option<Problem<'_>>, stop_reason: &str) -> String {
     let experiment = run.0.experiment;
     let mut text = String::new();
     let mut line = |name: &str, what: String| {
         let _ = writeln!(text, "  {name:<12} {what}");
     };
-    for (name, what) in went_in::lines(run.0, package) {
+    for (name, what) in went_in::lines(run.0, problem) {
         line(name, what);
     }
     let Variables { inputs, outputs, parameters } = run.0.variables;
