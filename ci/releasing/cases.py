@@ -24,24 +24,22 @@ STEPS = 2000
 
 
 def scenes():
-    """The files, in a fixed order."""
+    """The files by the names of their cases, in a fixed order. A name is a path: no two files have the same."""
     files = [file for folder in SCENES for file in sorted((ROOT / folder).rglob("*.toml"))]
-    return [file for file in files if "left" in tomllib.loads(file.read_text())]
+    files = [file for file in files if "left" in tomllib.loads(file.read_text())]
+    return {"-".join(file.relative_to(ROOT).with_suffix("").parts): file for file in files}
 
 
 def prepare(libraries):
     """Makes the FMUs of all scenes and unpacks what the host needs of them."""
     shutil.rmtree(FOLDER, ignore_errors=True)
     FOLDER.mkdir(parents=True)
-    for scene in scenes():
-        folder = FOLDER / scene.stem
-        if folder.exists():
-            raise Failure(f"{scene}: there is another scene of the name {scene.stem}")
+    for name, scene in scenes().items():
         fmu = FOLDER / "scene.fmu"
         run("cargo", "fmu", scene, "--libraries", libraries, "--platform", LINUX.name, "-o", fmu)
         with zipfile.ZipFile(fmu) as archive:
             wanted = [name for name in archive.namelist() if name.startswith(("modelDescription.xml", "resources/"))]
-            archive.extractall(folder, wanted)
+            archive.extractall(FOLDER / name, wanted)
         fmu.unlink()
     return found()
 

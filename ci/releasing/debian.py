@@ -20,6 +20,7 @@ class Need:
     package: str
     purpose: str
     is_there: Callable[[], bool]
+    platform: str | None = None  # the one that it is for; without it nothing can be released at all
 
 
 def command(name):
@@ -42,17 +43,26 @@ def first_program(*names):
 NEEDS = (
     Need("gcc", "links what runs while cargo builds", command("cc")),
     Need("python3-venv", "holds the packages of ci/requirements.txt", lambda: importlib.util.find_spec("ensurepip")),
-    Need("gcc-mingw-w64-x86-64-posix", "links the library for Windows", command("x86_64-w64-mingw32-gcc")),
-    Need("wine64", "runs the library for Windows", wine),
-    Need("qemu-user", "runs the library for Arm", command("qemu-aarch64")),
+    Need("gcc-mingw-w64-x86-64-posix", "links the library for Windows", command("x86_64-w64-mingw32-gcc"), "win64"),
+    Need("wine64", "runs the library for Windows", wine, "win64"),
+    Need("qemu-user", "runs the library for Arm", command("qemu-aarch64"), "aarch64-linux"),
     Need(
-        "libc6-arm64-cross", "the C library of Arm, for qemu", lambda: (ARM_ROOT / "lib/ld-linux-aarch64.so.1").exists()
+        "libc6-arm64-cross",
+        "the C library of Arm, for qemu",
+        lambda: (ARM_ROOT / "lib/ld-linux-aarch64.so.1").exists(),
+        "aarch64-linux",
     ),
 )
+EVERYWHERE = tuple(need for need in NEEDS if need.platform is None)
 
 
 def missing(needs=NEEDS):
     return [need for need in needs if not need.is_there()]
+
+
+def missing_for(platform):
+    """The packages without which the library for a platform is not compiled and run here."""
+    return [need.package for need in missing() if need.platform == platform.name]
 
 
 def blanks_in(folder):

@@ -13,6 +13,12 @@ def parse():
         "Rust, or (auto) rustup where it can be reached",
     )
     parser.add_argument(
+        "--here",
+        action="store_true",
+        help="a rehearsal of a few minutes, for this machine's platform and those that can be compiled and run here: "
+        "every step and gate, the module of the wheel compiled quickly, nothing put into target/release-files",
+    )
+    parser.add_argument(
         "--missing", action="store_true", help="only print the names of the Debian packages that are missing"
     )
     return parser.parse_args()

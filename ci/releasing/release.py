@@ -4,8 +4,10 @@ import shutil
 import sys
 import tomllib
 import unittest
+import zipfile
+from dataclasses import replace
 
-from releasing import archives, cases, comparison, gates, hosts, needs, options, progress, reading, remapping
+from releasing import archives, cases, comparison, debian, gates, hosts, needs, options, progress, reading, remapping
 from releasing import standard_library, unit_tests
 from releasing.cargo import VARIABLES, compile_library
 from releasing.commands import Failure, run, stop_at
@@ -15,6 +17,11 @@ from releasing.platforms import CROSS, LINUX, WINDOWS
 # What is not known to be good stays here.
 DRAFT = WORK / "files"
 LIBRARIES = DRAFT / "libraries"
+
+# The library that `cargo fmu` compiles on this machine: another build of the same platform.
+SECOND = replace(LINUX, name="linux64-cargo-fmu", glibc=None)
+# The module of the wheel in a rehearsal: the same steps, flags and gates, without the minutes of the optimiser.
+QUICKLY = {"LTO": "off", "CODEGEN_UNITS": "16", "OPT_LEVEL": "1"}
 
 
 def main():
@@ -30,27 +37,41 @@ def main():
 
 
 def release(arguments):
-    """Makes all files, checks them and puts them into their place; returns what each of them needs."""
+    """Makes all files, checks them and puts them into their place; returns what each of them needs.
+
+    A rehearsal (`--here`) does the same for the platforms that this machine compiles and runs, and publishes nothing.
+    """
+    platforms = tuple(filter(is_here, CROSS)) if arguments.here else CROSS
     WORK.mkdir(parents=True, exist_ok=True)
     progress.step("testing the gates themselves")
     test_gates()
     shutil.rmtree(DRAFT, ignore_errors=True)
     progress.step("the standard libraries of other platforms")
-    toolchain = standard_library.toolchain(CROSS, arguments.std)
-    for platform in CROSS:
+    toolchain = standard_library.toolchain(platforms, arguments.std)
+    for platform in platforms:
         progress.step(f"compiling the library for {platform.name}")
         compile_library(platform, toolchain, LIBRARIES)
-    stop_at(check_libraries())
-    check_behaviour(toolchain)
+    stop_at(check_libraries(platforms))
+    check_behaviour(platforms, toolchain, arguments.here)
     progress.step("the wheel")
-    make_wheel()
+    make_wheel({f"CARGO_PROFILE_RELEASE_{key}": value for key, value in QUICKLY.items()} if arguments.here else {})
     progress.step("the FMUs of the examples")
     make_fmus()
     stop_at(check_archives())
     lines = needs.write(DRAFT)
+    if arguments.here:
+        return [*lines, "a release can be made of " + ", ".join(platform.name for platform in platforms)]
     shutil.rmtree(FILES, ignore_errors=True)
     DRAFT.rename(FILES)
     return lines
+
+
+def is_here(platform):
+    """Whether what is needed for a platform is on this machine; says so where it is not."""
+    missing = debian.missing_for(platform)
+    if missing:
+        print(f"left out: {platform.name}, for want of {', '.join(missing)}", file=sys.stderr)
+    return not missing
 
 
 def test_gates():
@@ -65,36 +86,52 @@ def library(platform):
     return LIBRARIES / platform.name / platform.library
 
 
-def check_libraries():
+def check_libraries(platforms):
     private = remapping.private_paths()
-    files = [(library(platform), platform) for platform in CROSS]
+    files = [(library(platform), platform) for platform in platforms]
     return [
         problem for file, platform in files for problem in gates.of_file(file, reading.read(file), platform, private)
     ]
 
 
-def check_behaviour(toolchain):
+def check_behaviour(platforms, toolchain, is_rehearsal):
     """The same bits on all platforms, and the unit tests that only Windows has."""
-    all_hosts = [hosts.Host(platform, is_native=platform is LINUX) for platform in CROSS]
-    for host in all_hosts:
+    all_hosts = [hosts.Host(platform, is_native=platform is LINUX) for platform in platforms]
+    files = [library(platform) for platform in platforms]
+    if is_rehearsal:
+        all_hosts.append(hosts.Host(SECOND, is_native=True))
+        files.append(second_library())
+    for host, file in zip(all_hosts, files, strict=True):
         progress.step(f"the C host for {host.platform.name}")
-        host.prepare(library(host.platform))
+        host.prepare(file)
     progress.step("the FMUs of the reference scenes")
     reference = cases.prepare(LIBRARIES)
     progress.step(f"{len(reference)} scenes on {LINUX.name}")
     stop_at(comparison.expect(reference, all_hosts[0]))
-    progress.step("the same bits on the other platforms")
+    progress.step("the same bits on the others")
     stop_at(comparison.same_outputs(reference, all_hosts[1:]))
-    progress.step("saved states from each platform to each")
+    progress.step("saved states from each to each")
     stop_at(comparison.crosswise(reference, all_hosts))
-    progress.step("unit tests on Windows")
-    windows = next(host for host in all_hosts if host.platform is WINDOWS)
-    stop_at(unit_tests.on_windows(windows, toolchain))
+    for windows in (host for host in all_hosts if host.platform is WINDOWS):
+        progress.step("unit tests on Windows")
+        stop_at(unit_tests.on_windows(windows, toolchain))
 
 
-def make_wheel():
+def second_library():
+    """What `cargo fmu` packs without --libraries."""
+    fmu, file = WORK / "second.fmu", WORK / SECOND.name / SECOND.library
+    run("cargo", "fmu", ROOT / "examples/scenes/two_blocks.toml", "-o", fmu, aloud=True)
+    file.parent.mkdir(exist_ok=True)
+    with zipfile.ZipFile(fmu) as archive:
+        (name,) = archives.libraries(archive)
+        file.write_bytes(archive.read(name))
+    return file
+
+
+def make_wheel(profile):
     (DRAFT / "wheels").mkdir()
-    run(CI / "wheel", "--libraries", LIBRARIES, "--output", DRAFT / "wheels", "--zig", variables=VARIABLES, aloud=True)
+    options = ["--libraries", LIBRARIES, "--output", DRAFT / "wheels", "--zig"]
+    run(CI / "wheel", *options, variables={**VARIABLES, **profile}, aloud=True)
 
 
 def make_fmus():

@@ -2,12 +2,15 @@
 
 import subprocess
 import tempfile
+import tomllib
 import unittest
 import zipfile
 from pathlib import Path
 
-from releasing import debian, debian_sources, needs, unit_tests
+from releasing import cases, debian, debian_sources, needs, unit_tests
 from releasing.commands import Failure
+from releasing.places import ROOT
+from releasing.platforms import CROSS
 from tests.compiled import WINDOWS, code, library
 
 
@@ -23,6 +26,22 @@ class Packages(unittest.TestCase):
     def test_a_path_with_blanks(self):
         self.assertEqual(debian.blanks_in(Path("/srv/pounding")), [])
         self.assertIn("/srv/two words: ", debian.blanks_in(Path("/srv/two words"))[0])
+
+    def test_what_is_for_one_platform_names_a_platform(self):
+        named = {need.platform for need in debian.NEEDS} - {None}
+        self.assertEqual(named, {platform.name for platform in CROSS[1:]})
+        self.assertEqual([need.package for need in debian.EVERYWHERE], ["gcc", "python3-venv"])
+
+
+class Scenes(unittest.TestCase):
+    def test_all_are_cases_under_names_of_their_own(self):
+        scenes = [file for folder in ("ci", "examples", "tests") for file in ROOT.glob(f"{folder}/**/scenes/*.toml")]
+        self.assertLess(len({file.stem for file in scenes}), len(scenes), "two scenes of the same file name")
+        self.assertLessEqual(set(scenes), set(cases.scenes().values()))
+
+    def test_published_fmus_have_names_of_their_own(self):
+        names = [tomllib.loads(file.read_text())["name"] for file in (ROOT / "examples/scenes").glob("*.toml")]
+        self.assertEqual(len(set(names)), len(names), names)
 
 
 class Sources(unittest.TestCase):

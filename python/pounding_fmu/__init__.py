@@ -23,6 +23,7 @@ from ._fmu import build_fmu
 from ._native import __version__
 from ._scenes import SceneWarning, Variable, problems, variables
 from ._single import Result, simulate
+from .record import read_record
 
 __all__ = [
     "BatchError",
@@ -33,6 +34,7 @@ __all__ = [
     "build_fmu",
     "example_scene",
     "problems",
+    "read_record",
     "simulate",
     "simulate_batch",
     "variables",

@@ -26,6 +26,10 @@ IMPACT_COLUMNS: list[str]
 
 @final
 class Scene:
+    @property
+    def name(self) -> str: ...
+    @property
+    def description(self) -> str: ...
     @staticmethod
     def read(file: str) -> tuple[Scene | None, list[str]]: ...
     @staticmethod

@@ -7,9 +7,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _native
+from ._extras import require
+from ._notebook import page
 from ._scenes import Names, names_of, positive, read_record, read_scene, refuse, unknown, variables_of, warn, whole
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
     from ._scenes import Record, Scene
@@ -18,8 +21,8 @@ if TYPE_CHECKING:
 class Result(Mapping[str, "NDArray[Any]"]):
     """A run: numpy columns by name, ``time`` first, all as long as there are rows.
 
-    ``float64`` for Real, ``int32`` for Integer, ``bool`` for Boolean variables. ``dict(result)`` is what a
-    ``pandas.DataFrame`` is made of.
+    ``float64`` for Real, ``int32`` for Integer, ``bool`` for Boolean variables. Notebooks show it as a small table and,
+    where matplotlib is installed, a small picture.
     """
 
     impacts: NDArray[Any]
@@ -39,6 +42,35 @@ class Result(Mapping[str, "NDArray[Any]"]):
             return self._columns[name]
         except KeyError:
             raise KeyError(self._unknown(name)) from None
+
+    def summary(self) -> str:
+        """What ``pounding-fmu SCENE.toml`` says of the scene's FMU: what went in, impacts, peaks of floors, contacts and
+        storeys. The scene is run once more for it, since it needs more than the columns of this run."""
+        return _native.summary(self._scene, self._step, float(self["time"][-1]))
+
+    def plot(self, **how: Any) -> Figure:
+        """Draws the run, as ``pounding-fmu plot`` does, and returns the matplotlib figure.
+
+        Args:
+            how: ``start`` and ``stop``, s, of what is shown over time, as ``pounding_fmu.plots.figure`` takes them.
+
+        Raises:
+            ImportError: matplotlib is not installed; the message has the line that installs it.
+        """
+        from .plots import figure
+
+        return figure(self, **how)
+
+    def to_dataframe(self) -> Any:
+        """The columns as a ``pandas.DataFrame``, ``time`` first.
+
+        Raises:
+            ImportError: pandas is not installed.
+        """
+        return require("pandas").DataFrame(dict(self))
+
+    def _repr_html_(self) -> str:
+        return page(self, self._scene.name)
 
     def _unknown(self, name: object) -> str:
         text = unknown(name, self._columns, "the run has no such column")

@@ -100,6 +100,16 @@ impl Scene {
         Scene { package: Arc::clone(&self.package), settings, table, is_changed: true }
     }
 
+    #[getter]
+    fn name(&self) -> &str {
+        &self.settings.scene.name
+    }
+
+    #[getter]
+    fn description(&self) -> &str {
+        &self.settings.scene.description
+    }
+
     /// What stands where, as JSON.
     fn layout(&self) -> PyResult<String> {
         serde_json::to_string(&Layout::of(&self.settings.scene))

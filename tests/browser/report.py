@@ -2,7 +2,7 @@
 
     python3 examples/run.py tests/browser/report.py
 
-Needs a Chromium (Debian: apt install chromium, or chromium-headless-shell; elsewhere name it in BROWSER) and says so
+Needs a Chromium (Debian: apt-get install chromium, or chromium-headless-shell; elsewhere name it in BROWSER); fails
 where there is none. Leaves pictures of the page in target/browser. tests/python/test_report.py tests the structure of
 the page without a browser.
 """
@@ -28,8 +28,7 @@ HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)> & <b>b
 def main():
     browser = os.environ.get("BROWSER") or next(filter(None, map(shutil.which, BROWSERS)), None)
     if browser is None:
-        print(f"skipped: no browser here (looked for {', '.join(BROWSERS)}; BROWSER names another)")
-        return
+        sys.exit(f"no browser here: apt-get install chromium (looked for {', '.join(BROWSERS)}; BROWSER names another)")
     from playwright.sync_api import sync_playwright
 
     html, scene, impacts = make_report("feup")

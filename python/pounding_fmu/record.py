@@ -1,0 +1,198 @@
+"""Ground motions from files, and the command ``pounding-fmu record``."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from . import _native
+from ._extras import require
+from ._scenes import read_record as read_native
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Numbers = NDArray[np.float64]
+
+STANDARD_GRAVITY = 9.80665  # m/s2
+PERIODS = (0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0)  # s, of the spectrum that is printed
+PICTURE_PERIODS = 100
+PICTURES = (".png", ".svg", ".pdf")
+# A mean is not about 0 from this share of the peak on, or where the velocity that it leaves at the end is this share of
+# the largest that the rest of the motion has.
+OFFSET, DRIFT = 0.01, 0.25
+
+
+def read_record(path: str | os.PathLike[str]) -> tuple[Numbers, Numbers]:
+    """The times (s) and accelerations (m/s2) of a record file of any format that scenes know.
+
+    ``"file.v2#2"`` is the second channel of a file that has several. Nothing is corrected: baseline and mean stay.
+
+    >>> import pounding_fmu
+    >>> time, acceleration = read_record(pounding_fmu.example_scene.parent.parent / "records/el_centro_1940_ns.csv")
+    >>> time.shape, f"{abs(acceleration).max():.3f}"
+    ((1560,), '3.127')
+
+    Raises:
+        ValueError: everything that is wrong with the file, each with its line.
+        OSError: the file cannot be read.
+    """
+    return read_native(path, "record").samples()
+
+
+class Motion(NamedTuple):
+    """A ground motion: samples, between which the acceleration is linear."""
+
+    time: Numbers
+    acceleration: Numbers
+
+    @property
+    def duration(self) -> float:
+        return float(self.time[-1] - self.time[0])
+
+    @property
+    def mean(self) -> float:
+        """m/s2, of the samples."""
+        return math.fsum(self.acceleration) / len(self.acceleration)
+
+    def velocity(self) -> Numbers:
+        """m/s at the samples, from rest at the first."""
+        import numpy as np
+
+        rates = np.diff(self.time) * (self.acceleration[1:] + self.acceleration[:-1]) / 2
+        return np.concatenate([[0.0], np.cumsum(rates)])
+
+    def arias_intensity(self) -> float:
+        """m/s: pi / (2 g) times the integral of the squared acceleration [Arias1970], which is exact here."""
+        import numpy as np
+
+        before, after = self.acceleration[:-1], self.acceleration[1:]
+        integral = np.diff(self.time) * (before**2 + before * after + after**2) / 3
+        return math.pi / (2 * STANDARD_GRAVITY) * math.fsum(integral)
+
+    def without_mean(self) -> Motion:
+        return Motion(self.time, self.acceleration - self.mean)
+
+    def has_offset(self) -> bool:
+        """Whether its mean is one of the instrument rather than of the ground."""
+        mean, peak = abs(self.mean), float(abs(self.acceleration).max())
+        left = DRIFT * float(abs(self.without_mean().velocity()).max())
+        return mean > 0.0 and (mean > OFFSET * peak or mean * self.duration > left)
+
+
+def main(arguments: list[str]) -> int:
+    options = parser().parse_args(arguments)
+    if options.plot and options.plot.suffix.lower() not in PICTURES:
+        raise ValueError(f"{options.plot}: expected a name that ends in {', '.join(PICTURES)}")
+    if options.plot:
+        require("matplotlib", "plot")
+    if options.output and os.path.exists(options.file) and options.output.exists() and options.output.samefile(options.file):
+        raise ValueError(f"{options.output}: this is the record itself, which stays as it is; expected another name")
+    read = read_native(options.file, "record")
+    motion = Motion(*read.samples())
+    print(options.file)
+    removed = motion.mean if options.remove_mean else None
+    motion = motion if removed is None else motion.without_mean()
+    print("\n".join([*described(motion, removed), "", *spectrum(motion)]))
+    if options.output:
+        write(options.output, motion, options.file, removed)
+        print(f"\n{options.output}: {len(motion.time)} samples, time_s,accel_m_s2")
+    if options.plot:
+        draw(options.plot, motion, os.path.basename(options.file))
+        print(f"\n{options.plot}")
+    return 0
+
+
+def parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="pounding-fmu record", description="Shows what is in a ground motion, of any format, and converts it to CSV."
+    )
+    parser.add_argument("file", metavar="FILE", help="the record; FILE#2 is the second channel of one that has several")
+    parser.add_argument("-o", "--output", type=Path, metavar="OUT.csv", help="writes it as CSV, in s and m/s2")
+    parser.add_argument("--remove-mean", action="store_true", help="takes the mean of the samples away first")
+    parser.add_argument("--plot", type=Path, metavar="FILE.png", help="draws it and its spectrum; .png, .svg or .pdf")
+    return parser
+
+
+def described(motion: Motion, removed: float | None) -> list[str]:
+    """What is in it, a line each."""
+    import numpy as np
+
+    time, acceleration = motion
+    steps = np.diff(time)
+    step = motion.duration / len(steps)
+    even = bool(np.all(np.abs(steps - step) <= 1e-6 * step))
+    spacing = f"every {step:.6g} s ({1 / step:.6g} Hz)" if even else f"uneven, {steps.min():.6g} s to {steps.max():.6g} s apart"
+    peak, highest, lowest = (int(place) for place in (abs(acceleration).argmax(), acceleration.argmax(), acceleration.argmin()))
+    lines = [
+        ("samples", f"{len(time)}, {spacing}"),
+        ("duration", f"{motion.duration:.6g} s, from {time[0]:.6g} s to {time[-1]:.6g} s"),
+        ("peak", f"{in_both(abs(acceleration[peak]))}, at {time[peak]:.6g} s"),
+        ("highest", f"{in_both(acceleration[highest])}, at {time[highest]:.6g} s"),
+        ("lowest", f"{in_both(acceleration[lowest])}, at {time[lowest]:.6g} s"),
+        ("mean", mean_of(motion, removed)),
+        ("Arias", f"intensity {motion.arias_intensity():.5g} m/s"),
+    ]
+    return [f"  {name:<12}{text}" for name, text in lines]
+
+
+def mean_of(motion: Motion, removed: float | None) -> str:
+    if removed is not None:
+        return f"{removed:.4g} m/s2 has been taken away; all numbers are of the rest"
+    if not motion.has_offset():
+        return f"{motion.mean:.4g} m/s2, about 0"
+    left = f"it leaves the ground at {motion.mean * motion.duration:.3g} m/s"
+    return f"{motion.mean:.4g} m/s2, not about 0: {left}; --remove-mean takes it away"
+
+
+def in_both(acceleration: float) -> str:
+    return f"{acceleration:.5g} m/s2, {acceleration / STANDARD_GRAVITY:.4g} g"
+
+
+def spectrum(motion: Motion) -> list[str]:
+    """A table of the pseudo-spectral acceleration."""
+    rows = [("period", "pseudo-spectral acceleration, 5 % damping", ""), ("s", "m/s2", "g")]
+    for period in PERIODS:
+        value = spectral(motion, period)
+        rows.append((f"{period:g}", f"{value:.5g}", f"{value / STANDARD_GRAVITY:.4g}"))
+    return [f"  {period:>6}  {value:>42}  {in_g:>8}".rstrip() for period, value, in_g in rows]
+
+
+def spectral(motion: Motion, period: float) -> float:
+    """m/s2; NaN where the record is too long for so short a period."""
+    from .spectra import pseudo_acceleration
+
+    try:
+        return pseudo_acceleration(*motion, period)
+    except ValueError:
+        return math.nan
+
+
+def write(output: Path, motion: Motion, source: str, removed: float | None) -> None:
+    """Writes the samples so that they read back as the same numbers."""
+    name = " ".join(os.path.basename(source).split())
+    lines = [f"# {name}" + ("" if removed is None else f", without its mean of {removed!r} m/s2"), "time_s,accel_m_s2"]
+    lines += [f"{time!r},{value!r}" for time, value in zip(motion.time.tolist(), motion.acceleration.tolist())]
+    output.write_text("\n".join(lines) + "\n", encoding="utf-8", newline="\n")
+
+
+def draw(picture: Path, motion: Motion, title: str) -> None:
+    """Acceleration over time, and the spectrum."""
+    import numpy as np
+
+    figure = require("matplotlib.figure", "plot").Figure(figsize=(8.0, 5.6), layout="constrained")
+    over_time, over_period = figure.subplots(2, 1)
+    over_time.plot(*motion, color="black", linewidth=0.7)
+    over_time.set(xlabel="time [s]", ylabel="acceleration [m/s²]")
+    over_time.set_title(title, loc="left", wrap=True)
+    periods = np.geomspace(PERIODS[0], PERIODS[-1], PICTURE_PERIODS)
+    over_period.semilogx(periods, [spectral(motion, float(period)) for period in periods], color="#0072B2")
+    over_period.set(xlabel="period [s]", ylabel="pseudo-spectral\nacceleration, 5 % [m/s²]", ylim=(0, None))
+    over_period.set_xticks([0.05, 0.1, 0.2, 0.5, 1, 2, 4], labels=["0.05", "0.1", "0.2", "0.5", "1", "2", "4"])
+    for panel in (over_time, over_period):
+        panel.grid(alpha=0.3)
+    figure.savefig(picture, dpi=150)
