@@ -1,7 +1,7 @@
 //! Records from files and arrays. The same content is read once: studies come back to the same files.
 
 use numpy::{PyArrayMethods, PyReadonlyArray1};
-use pounding::record::{self, KnownRecords, RecordError};
+use pounding::record::{self, KnownRecords, RecordError, RecordFile};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -21,8 +21,7 @@ impl Record {
     #[staticmethod]
     fn read(file: PathBuf, key: &str) -> PyResult<Record> {
         let name = file.to_string_lossy().into_owned();
-        let bytes = std::fs::read(&file)?;
-        let record = KNOWN.read(&name, bytes).map_err(|error| {
+        let record = KNOWN.read(RecordFile::read(&file)?).map_err(|error| {
             all(&error, |problem| format!("{key} = {name:?}: expected a record file, but {problem}"))
         })?;
         Ok(Record { name, record })

@@ -60,6 +60,20 @@ impl Reading {
         }
     }
 
+    /// Whether nothing has been wrong so far.
+    pub fn is_sound(&self) -> bool {
+        self.problems.is_empty()
+    }
+
+    /// Compares the samples that have been found with those that a line of the header announces.
+    pub fn check_count(&mut self, line: usize, announced: &str, samples: usize) {
+        let found = self.samples;
+        if found != samples {
+            let expected = format!("{announced} = {samples}: expected {found}, the number of samples in the file");
+            self.refuse(|| on_line(line, expected));
+        }
+    }
+
     /// The record once its file has been read to the end.
     pub fn complete(mut self) -> Result<Record, RecordError> {
         match self.samples {
@@ -85,6 +99,11 @@ impl Reading {
 /// A problem on a line, counted from 1.
 pub(super) fn on_line(number: usize, problem: impl std::fmt::Display) -> String {
     format!("line {number}: {problem}")
+}
+
+/// The lines of a text, counted from 1.
+pub(super) fn numbered(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    text.lines().enumerate().map(|(i, line)| (i + 1, line))
 }
 
 /// The text of a file. Only comments may be in another encoding: what is not UTF-8 is no part of a number.
