@@ -2,7 +2,7 @@
 
 use super::accelerogram::{Accelerogram, RecordError, STANDARD_GRAVITY};
 use super::format::Format;
-use super::numbers::{fortran_number, numbers_of};
+use super::numbers::{fortran_number, numbers_apart};
 use super::reading::{Reading, excerpt, on_line};
 
 const HEADER_LINES: usize = 4;
@@ -34,16 +34,7 @@ pub(super) fn parse(text: &str) -> Result<Accelerogram, RecordError> {
     reading.record.times.reserve(samples.min(text.len() / 2));
     reading.record.accelerations.reserve(samples.min(text.len() / 2));
     for (number, line) in lines {
-        for field in line.split_ascii_whitespace() {
-            let Some(values) = numbers_of(field) else {
-                reading.skip(|| on_line(number, format!("{}: expected a number", excerpt(field))));
-                continue;
-            };
-            for value in values {
-                let time = reading.samples as f64 * step;
-                reading.add(time, value * STANDARD_GRAVITY, |problem| on_line(number, problem));
-            }
-        }
+        reading.add_all(number, numbers_apart(line), |k, value| (k * step, value * STANDARD_GRAVITY), "a number");
     }
     reading.check_count(line, "NPTS", samples);
     let about = header.get(1).map_or_else(String::new, |(_, line)| excerpt(line));

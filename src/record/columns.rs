@@ -64,8 +64,10 @@ impl Separators {
     }
 }
 
-/// Columns beyond these are not counted.
+/// Columns and words beyond these are not looked at.
 const MOST_FIELDS: usize = 100;
+/// No name of a column is as long, in bytes.
+const LONGEST_WORD: usize = 100;
 
 /// A separator at the end of a row sets nothing apart.
 fn apart(row: &str, separator: char) -> Vec<&str> {
@@ -126,7 +128,9 @@ impl<'t> Head<'t> {
         {
             reading.refuse(|| on_line(*number, format!("{}: expected the time first", excerpt(line))));
         }
-        if words.iter().any(|word| ["ms", "msec", "min"].contains(word)) {
+        let unit_of_time =
+            |word: &&str| ["ms", "msec", "min"].contains(&word.rsplit(['_', '/']).next().unwrap_or(word));
+        if words.iter().any(unit_of_time) {
             reading.refuse(|| on_line(*number, format!("{}: expected times in s", excerpt(line))));
         }
     }
@@ -146,7 +150,7 @@ fn words(line: &str) -> impl Iterator<Item = &str> {
 fn units_in(line: &str) -> Vec<Unit> {
     let mut is_value = false;
     let mut units = Vec::new();
-    for word in words(line) {
+    for word in words(line).take(MOST_FIELDS).filter(|word| word.len() < LONGEST_WORD) {
         let ends = word.match_indices(['_', '/']).map(|(place, _)| word.get(place + 1..).unwrap_or_default());
         // a_g is how many write the acceleration of the ground.
         let ends = ends.filter(|_| !word.eq_ignore_ascii_case("a_g"));

@@ -2,7 +2,7 @@
 
 use super::accelerogram::{Accelerogram, RecordError};
 use super::format::Format;
-use super::numbers::{fortran_number, numbers_of};
+use super::numbers::{numbers_apart, numbers_of};
 use super::reading::{Reading, excerpt, numbered, on_line};
 use super::unit::Unit;
 
@@ -40,16 +40,7 @@ pub(super) fn parse(text: &str) -> Result<Accelerogram, RecordError> {
         return Err(reading.stop());
     };
     for (number, line) in numbered(text).skip(header.lines) {
-        for field in line.split_whitespace() {
-            let Some(values) = numbers_of(field) else {
-                reading.skip(|| on_line(number, format!("{}: expected a number", excerpt(field))));
-                continue;
-            };
-            for value in values {
-                let time = reading.samples as f64 * step;
-                reading.add(time, unit.in_si(value), |problem| on_line(number, problem));
-            }
-        }
+        reading.add_all(number, numbers_apart(line), |k, value| (k * step, unit.in_si(value)), "a number");
     }
     reading.check_count(line, SAMPLES, samples);
     Ok(Accelerogram { format: Format::Esm, about: header.about(), channels: Vec::new(), record: reading.complete()? })
@@ -67,7 +58,7 @@ impl<'t> Header<'t> {
         let entries = head().filter_map(|(number, line)| entry(line).map(|(key, value)| (number, key, value)));
         let entries: Vec<_> = entries.collect();
         let last = entries.last().map_or(0, |(number, ..)| *number);
-        let is_number = |line: &str| line.split_whitespace().next().is_some_and(|f| fortran_number(f).is_some());
+        let is_number = |line: &str| line.split_whitespace().next().is_some_and(|f| numbers_of(f).is_some());
         let continued = head().skip(last).take_while(|(_, line)| !line.trim().is_empty() && !is_number(line)).count();
         // What no number follows is no header that goes on, but samples that cannot be read.
         let is_header = head().nth(last + continued).is_some_and(|(_, line)| is_number(line));

@@ -24,18 +24,19 @@ pub(super) fn parse(text: &str) -> Result<Accelerogram, RecordError> {
     let (Some(header), true) = (header, reading.is_sound()) else { return Err(reading.stop()) };
     let Scale { gal, counts } = header.scale;
     for (number, line) in numbered(text).skip(header.lines) {
-        match COLUMNS.values(line, count) {
-            Ok(values) => values.into_iter().for_each(|value| {
-                // Both products are whole numbers, so that the quotient is all that is rounded.
-                let time = reading.samples as f64 / header.frequency;
-                reading.add(time, value * gal / (100.0 * counts), |problem| on_line(number, problem));
-            }),
-            Err(field) => reading.skip(|| on_line(number, format!("{}: expected whole counts", excerpt(&field)))),
-        }
+        // Both products are whole numbers, so that the quotient is all that is rounded.
+        let sample = |k: f64, value: f64| (k / header.frequency, value * gal / (100.0 * counts));
+        reading.add_all(number, COLUMNS.values(line, count), sample, "whole counts");
     }
     let samples = (header.duration * header.frequency).round();
     reading.check_count(header.duration_line, "Duration Time times Sampling Freq", samples as usize);
     Ok(Accelerogram { format: Format::Knet, about: header.about, channels: Vec::new(), record: reading.complete()? })
+}
+
+/// Whether most of a line is counts, in columns or apart.
+fn is_data(line: &str) -> bool {
+    let values = COLUMNS.values(line, count);
+    2 * values.iter().filter(|value| value.is_ok()).count() > values.len()
 }
 
 fn count(text: &str) -> Option<f64> {
@@ -70,7 +71,6 @@ impl Header {
             return None;
         };
         // A memo that goes on.
-        let is_data = |line: &str| !line.trim().is_empty() && COLUMNS.values(line, count).is_ok();
         let memo = head[last + 1..].iter().take_while(|(_, line)| !is_data(line)).count();
         let value = |key: &str| {
             let found = head[..last].iter().find_map(|(number, line)| Some((*number, line.strip_prefix(key)?)));

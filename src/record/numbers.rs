@@ -31,6 +31,14 @@ pub(super) fn numbers_of(field: &str) -> Option<Vec<f64>> {
     Some(values)
 }
 
+/// The numbers of a line that blanks or minus signs set apart; an error is the text that is none.
+pub(super) fn numbers_apart(line: &str) -> Vec<Result<f64, String>> {
+    let read = |field: &str| {
+        numbers_of(field).map_or_else(|| vec![Err(field.to_owned())], |found| found.into_iter().map(Ok).collect())
+    };
+    line.split_ascii_whitespace().flat_map(read).collect()
+}
+
 /// How numbers stand in a line by a Fortran format such as `(8f10.3)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Columns {
@@ -61,12 +69,16 @@ impl Columns {
 
     /// The numbers of a line: those that blanks set apart, and where they touch each from its columns. An error is the
     /// text that is no number.
-    pub fn values(self, line: &str, number: fn(&str) -> Option<f64>) -> Result<Vec<f64>, String> {
-        if let Some(values) = line.split_whitespace().map(number).collect() {
-            return Ok(values);
+    pub fn values(self, line: &str, number: fn(&str) -> Option<f64>) -> Vec<Result<f64, String>> {
+        let read = |field: &str| number(field).ok_or_else(|| field.to_owned());
+        let wrong = |fields: &[Result<f64, String>]| fields.iter().filter(|field| field.is_err()).count();
+        let apart: Vec<_> = line.split_whitespace().map(read).collect();
+        if wrong(&apart) == 0 {
+            return apart;
         }
         let fields = line.trim_end().as_bytes().chunks(self.width).map(String::from_utf8_lossy);
-        fields.map(|field| number(field.trim()).ok_or_else(|| field.trim().to_owned())).collect()
+        let fixed: Vec<_> = fields.map(|field| read(field.trim())).collect();
+        if wrong(&fixed) <= wrong(&apart) { fixed } else { apart }
     }
 }
 

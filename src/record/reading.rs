@@ -46,6 +46,25 @@ impl Reading {
         }
     }
 
+    /// Adds what a line holds at the same interval after the sample before it; `expected` is what an error is none of.
+    pub fn add_all(
+        &mut self,
+        line: usize,
+        values: Vec<Result<f64, String>>,
+        sample: impl Fn(f64, f64) -> (f64, f64),
+        expected: &str,
+    ) {
+        for value in values {
+            match value {
+                Ok(value) => {
+                    let (time, acceleration) = sample(self.samples as f64, value);
+                    self.add(time, acceleration, |problem| on_line(line, problem));
+                }
+                Err(field) => self.skip(|| on_line(line, format!("{}: expected {expected}", excerpt(&field)))),
+            }
+        }
+    }
+
     /// Notes a sample that is none.
     pub fn skip(&mut self, problem: impl FnOnce() -> String) {
         self.samples += 1;

@@ -90,9 +90,7 @@ impl<'t> Block<'t> {
         let has = |word: &str| lower.contains(word);
         let after = |word: &str| rest.get(lower.find(word)? + word.len()..);
         let (step, unit) = if has("points of") && has("equally spaced at") {
-            let step = after("equally spaced at")?;
-            let (step, rest) = step.split_at(step.to_ascii_lowercase().find("sec")?);
-            (Some(step.trim()), rest.split_once(" in ").map_or("", |(_, unit)| unit))
+            (after("equally spaced at")?.split_whitespace().next(), after(" in ").unwrap_or_default())
         } else if (has("pts") || has("points")) && has("units") {
             (None, after("units")?.trim_start().trim_start_matches('='))
         } else {
@@ -222,16 +220,11 @@ impl<'t> Channel<'t> {
             if is_end(line) || Block::read(line).is_some() {
                 return;
             }
-            if reading.samples >= self.block.count && columns.values(line, fortran_number).is_err() {
+            let values = columns.values(line, fortran_number);
+            if reading.samples >= self.block.count && values.iter().any(Result::is_err) {
                 return;
             }
-            match columns.values(line, fortran_number) {
-                Ok(values) => values.into_iter().for_each(|value| {
-                    let time = reading.samples as f64 * step;
-                    reading.add(time, unit.in_si(value), |problem| on_line(number, problem));
-                }),
-                Err(field) => reading.skip(|| on_line(number, format!("{}: expected a number", excerpt(&field)))),
-            }
+            reading.add_all(number, values, |k, value| (k * step, unit.in_si(value)), "a number");
         }
     }
 }
@@ -253,5 +246,5 @@ fn real_header(header: &[(usize, &str)]) -> Vec<f64> {
     let Some(columns) = Columns::find(header[place].1) else { return Vec::new() };
     let count = header[place].1.split_whitespace().next().and_then(|count| count.parse().ok()).unwrap_or(0);
     let lines = header[place + 1..].iter().map(|(_, line)| columns.values(line, fortran_number));
-    lines.map_while(Result::ok).flatten().take(count).collect()
+    lines.flatten().map_while(Result::ok).take(count).collect()
 }
