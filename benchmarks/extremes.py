@@ -1,8 +1,8 @@
 """Runs at the extremes of every parameter, and what came of them: a map, the drift of the energy, an hour of shaking.
 
-python3 examples/run.py benchmarks/extremes.py            # some minutes; renews docs/stability/ and its pictures
-python3 examples/run.py benchmarks/extremes.py --quick    # one law and few impacts: shows that the command works
-python3 examples/run.py benchmarks/extremes.py --draw     # the pictures alone, from the files of the last run
+"$(ci/environment benchmarks)" benchmarks/extremes.py            # some minutes; renews docs/stability/ and its pictures
+"$(ci/environment benchmarks)" benchmarks/extremes.py --quick    # one law and few impacts: shows that the command works
+"$(ci/environment benchmarks)" benchmarks/extremes.py --draw     # the pictures alone, from the files of the last run
 """
 
 import argparse

@@ -1,7 +1,7 @@
 """How the cost of a run grows: with storeys, contacts, impacts and samples of the record; and the memory.
 
-python3 examples/run.py benchmarks/scaling.py            # a minute or two; renews docs/benchmark/
-python3 examples/run.py benchmarks/scaling.py --quick    # seconds, few points: shows that the command works
+"$(ci/environment benchmarks)" benchmarks/scaling.py            # a minute or two; renews docs/benchmark/
+"$(ci/environment benchmarks)" benchmarks/scaling.py --quick    # seconds, few points: shows that the command works
 """
 
 import argparse

@@ -1,8 +1,8 @@
 """What each special path of the engine brings: instructions of whole runs without it, relative to those with all paths.
 
-python3 examples/run.py benchmarks/special_paths.py                  # an hour; renews docs/benchmark/special_paths.md
-python3 examples/run.py benchmarks/special_paths.py --path windows   # some paths only
-python3 examples/run.py benchmarks/special_paths.py --quick          # one path, two scenes: shows that it works
+"$(ci/environment benchmarks)" benchmarks/special_paths.py                  # an hour; renews docs/benchmark/special_paths.md
+"$(ci/environment benchmarks)" benchmarks/special_paths.py --path windows   # some paths only
+"$(ci/environment benchmarks)" benchmarks/special_paths.py --quick          # one path, two scenes: shows that it works
 
 Each path has one line in the engine, `cfg!(without = "...")`, that switches it off. The program of run_time.rs is
 compiled once for each and counted by callgrind, which needs no quiet machine. What has been measured is kept below

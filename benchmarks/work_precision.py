@@ -1,9 +1,9 @@
 """Run time against error, beside other solvers, measured in one session.
 
-    python3 examples/run.py benchmarks/work_precision.py            # the long run: 40 minutes; renews docs/benchmark/
-    python3 examples/run.py benchmarks/work_precision.py --scene Y1 Y2  # these scenes alone; the others' results stay
-    python3 examples/run.py benchmarks/work_precision.py --quick    # a minute: shows that the command works
-    python3 examples/run.py benchmarks/work_precision.py --draw     # pictures and table of the last long run again
+    "$(ci/environment benchmarks)" benchmarks/work_precision.py            # the long run: 40 minutes; renews docs/benchmark/
+    "$(ci/environment benchmarks)" benchmarks/work_precision.py --scene Y1 Y2  # these scenes alone; the others' results stay
+    "$(ci/environment benchmarks)" benchmarks/work_precision.py --quick    # a minute: shows that the command works
+    "$(ci/environment benchmarks)" benchmarks/work_precision.py --draw     # pictures and table of the last long run again
 
 Needs Rust, gcc and Python 3.11. Every solver gets the same scenes (scenes.py) and is compared with the
 quadruple-precision program of tests/reference (truth.py), which is run first and whose results are kept below target/.

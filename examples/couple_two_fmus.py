@@ -1,6 +1,6 @@
 """Two FMUs coupled by a master: two buildings on shared soil, each hitting a wall of its own.
 
-    python3 examples/run.py examples/couple_two_fmus.py
+    "$(ci/environment)" examples/couple_two_fmus.py
 
 Floor 1 of each building is its foundation, on a soil spring (its first storey). The soil between the two is a spring
 that belongs to neither FMU: this program computes its force from both displacements and hands it to both foundations

@@ -1,4 +1,4 @@
-"""Runs these tests: `python3 examples/run.py ci/tests/all.py`."""
+"""Runs these tests: `"$(ci/environment ci)" ci/tests/all.py`."""
 
 import unittest
 from pathlib import Path

@@ -1,8 +1,8 @@
 """The paper figure by figure, and the validation: draws every picture and writes docs/paper.md and docs/validation.md.
 
-    python3 examples/run.py examples/paper/all.py                  # the ground motion of section 4.3 is El Centro
-    python3 examples/run.py examples/paper/all.py --kobe FILE      # and your record of Kobe besides
-    python3 examples/run.py examples/paper/all.py --check          # only says whether the documents are up to date
+    "$(ci/environment)" examples/paper/all.py                  # the ground motion of section 4.3 is El Centro
+    "$(ci/environment)" examples/paper/all.py --kobe FILE      # and your record of Kobe besides
+    "$(ci/environment)" examples/paper/all.py --check          # only says whether the documents are up to date
 
 A record of Kobe is a file of yours; without one, what the documents say of Kobe stays as it is. With --check, pictures
 are drawn only where --pictures FOLDER says.
@@ -14,12 +14,12 @@ from itertools import zip_longest
 from pathlib import Path
 
 import energies
-import engine
 import exponents
 import feup
 import filiatrault
 import force_laws
 import heights
+import scenes
 import statement
 import towers
 import validation
@@ -57,7 +57,7 @@ def read_arguments():
 
 def is_up_to_date(page, parts):
     """Whether a document is what its parts say; the first line that differs goes to stderr."""
-    old, name = page.read_text(), page.relative_to(engine.ROOT)
+    old, name = page.read_text(), page.relative_to(scenes.ROOT)
     new = statement.renewed(old, parts)
     print(f"{name}: compared {', '.join(parts)}")
     if old != new:

@@ -1,18 +1,17 @@
 """Fig. 18 and section 4.2 of the paper: the energies that eqs. 10, 11 and 14 take.
 
-python3 examples/run.py examples/paper/energies.py
+"$(ci/environment)" examples/paper/energies.py
 """
 
 import functools
 from math import sqrt
 
 import numpy as np
+from pounding_fmu.plots import style
 
-import engine
 import free_impact
 import scenes
 import statement
-import style
 from free_impact import EQUATION_10, EQUATION_11, EQUATION_14_DAMPER, EQUATION_14_SPRING, REDUCED_MASS, RESTITUTION
 from statement import Statement, change, holds, percent
 
@@ -81,7 +80,7 @@ def crossing():
 @functools.cache
 def in_an_earthquake(formula):
     """J, taken by all contacts of the FEUP frames under El Centro, with k = 3e7 N/m^1.5 and e = 0.5."""
-    scene = scenes.read(engine.ROOT / "examples/scenes/feup.toml")
+    scene = scenes.read(scenes.ROOT / "examples/scenes/feup.toml")
     gap = scene["contact"][0]["gap"]
     scene["contact"] = scenes.contacts(free_impact.contact_law(formula), gap, len(scene["contact"]))
     return sum(episode.dissipated_energy for episode in scenes.run(scene).episodes)

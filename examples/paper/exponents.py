@@ -1,15 +1,15 @@
 """Fig. 9 of the paper: exponents from 1 to 2, and what is true of the negative forces.
 
-python3 examples/run.py examples/paper/exponents.py
+"$(ci/environment)" examples/paper/exponents.py
 """
 
 from math import cos, pi
 
 import numpy as np
+from pounding_fmu.plots import style
 
 import free_impact
 import statement
-import style
 from free_impact import EQUATION_10, STIFFNESS
 from statement import FAILS, Statement, holds
 

@@ -1,16 +1,16 @@
 """Section 3.2 of the paper: the natural frequencies of the FEUP frames.
 
-python3 examples/run.py examples/paper/feup.py
+"$(ci/environment)" examples/paper/feup.py
 """
 
 import functools
 from pathlib import Path
 
 import numpy as np
+from pounding_fmu.plots import style
 
 import scenes
 import statement
-import style
 from statement import Statement, holds
 
 SCENE = scenes.read(Path(__file__).with_name("scenes") / "feup_free_vibration.toml")
@@ -32,8 +32,9 @@ def run():
 
 def frequencies():
     """Published and ours, Hz, with the frame's name and the mode."""
+    ours_of = scenes.frequencies(SCENE)
     for side, published in PUBLISHED.items():
-        for mode, (text, ours) in enumerate(zip(published, run().frequencies[side], strict=True), 1):
+        for mode, (text, ours) in enumerate(zip(published, ours_of[side], strict=True), 1):
             yield NAMES[side], mode, text, ours
 
 

@@ -1,6 +1,6 @@
 """Section 3.1 of the paper: the shaking table test of Filiatrault, Wagner and Cherry, as far as its data go.
 
-    python3 examples/run.py examples/paper/filiatrault.py
+    "$(ci/environment)" examples/paper/filiatrault.py
 
 Masses, stiffnesses and damping of the frames are not published there. They are varied, so that what comes out is a
 range for each measured value.
@@ -12,10 +12,10 @@ from concurrent.futures import ThreadPoolExecutor
 from itertools import product
 from pathlib import Path
 
-import engine
+from pounding_fmu.plots import style
+
 import scenes
 import statement
-import style
 from statement import Statement, holds, of_an_ordering
 
 SCENE = scenes.read(Path(__file__).with_name("scenes") / "filiatrault.toml")
@@ -51,7 +51,7 @@ def run(mass, periods, gap):
         scene[side] = scenes.shear_building(mass, stiffness, count, DAMPING)
     columns = [f"left.peak_acceleration[{floor}]" for floor in range(1, storeys["left"] + 1)] + [ROOF_OF_3]
     motion = scenes.run(scene, columns=columns).motion
-    largest = {name: motion[name][-1] / engine.STANDARD_GRAVITY for name in columns}
+    largest = {name: motion[name][-1] / scenes.STANDARD_GRAVITY for name in columns}
     anywhere = max(largest[name] for name in columns[:-1])
     return {
         "8 storeys, anywhere": anywhere,

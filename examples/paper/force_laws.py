@@ -1,13 +1,13 @@
 """Figs. 3, 5, 6, 7 and 8 of the paper: force against penetration and against time, for each law and all together.
 
-python3 examples/run.py examples/paper/force_laws.py
+"$(ci/environment)" examples/paper/force_laws.py
 """
 
 import numpy as np
+from pounding_fmu.plots import style
 
 import free_impact
 import statement
-import style
 from free_impact import EQUATION_10, EQUATION_11, EQUATION_14_DAMPER, EQUATION_14_SPRING
 from statement import FAILS, IN_PART, Statement, change, holds, percent
 

@@ -1,7 +1,7 @@
 """Fig. 19 and section 4.3 of the paper: buildings of one, two and three storeys.
 
-    python3 examples/run.py examples/paper/heights.py                  # under El Centro, which is here
-    python3 examples/run.py examples/paper/heights.py --kobe FILE      # and under your file of Kobe
+    "$(ci/environment)" examples/paper/heights.py                  # under El Centro, which is here
+    "$(ci/environment)" examples/paper/heights.py --kobe FILE      # and under your file of Kobe
 
 What the paper leaves open is varied: the periods of both buildings and the law. So there are orderings to check, no
 values.
@@ -15,11 +15,11 @@ from concurrent.futures import ThreadPoolExecutor
 from itertools import permutations
 from pathlib import Path
 
-import engine
+from pounding_fmu.plots import style
+
 import free_impact
 import scenes
 import statement
-import style
 from statement import Statement
 
 # kN: the paper's largest force with one, two and three storeys.
@@ -62,7 +62,7 @@ def sweep(record):
 
 
 def parts():
-    return {"heights under El Centro": page(engine.EL_CENTRO)}
+    return {"heights under El Centro": page(scenes.EL_CENTRO)}
 
 
 def parts_under(kobe):
@@ -184,7 +184,7 @@ def span(numbers):
 
 
 def draw(folder):
-    draw_one(folder / "heights_el_centro.png", engine.EL_CENTRO, "El Centro 1940 NS")
+    draw_one(folder / "heights_el_centro.png", scenes.EL_CENTRO, "El Centro 1940 NS")
 
 
 def draw_under(kobe, folder):

@@ -4,7 +4,6 @@ import functools
 from math import pi, sqrt
 from pathlib import Path
 
-import engine
 import scenes
 from statement import Statement, holds
 
@@ -28,7 +27,7 @@ def run(walls=True, stiffness=SOFT, period=None):
     scene = {**SCENE, "left": building, "contact": contacts}
     motion = scenes.run(scene, columns=sum(wanted.values(), [])).motion
     acceleration, *others = ([motion[name][-1] for name in names] for names in wanted.values())
-    return [largest / engine.STANDARD_GRAVITY for largest in acceleration], *others
+    return [largest / scenes.STANDARD_GRAVITY for largest in acceleration], *others
 
 
 def with_period(period):

@@ -3,10 +3,10 @@
 import re
 from dataclasses import dataclass
 
-import engine
+import scenes
 
-PAGE = engine.ROOT / "docs/paper.md"
-PICTURES = engine.ROOT / "docs/images/paper"
+PAGE = scenes.ROOT / "docs/paper.md"
+PICTURES = scenes.ROOT / "docs/images/paper"
 
 HOLDS, FAILS, IN_PART = "holds", "does not hold", "holds in part"
 # The paper leaves out what decides the number, or contradicts itself.
@@ -74,4 +74,4 @@ def renewed(document, parts):
 def publish(parts, page=PAGE):
     """Writes parts into a document."""
     page.write_text(renewed(page.read_text(), parts))
-    print(f"{page.relative_to(engine.ROOT)}: {', '.join(parts)}")
+    print(f"{page.relative_to(scenes.ROOT)}: {', '.join(parts)}")

@@ -1,20 +1,19 @@
 """Two towers under a sine, as Chau, Wei, Guo and Shen shook them [Chau2003]; qualitative, for the towers' data are not
 public.
 
-    python3 examples/run.py examples/paper/towers.py
+    "$(ci/environment)" examples/paper/towers.py
 """
 
 import functools
 import os
-import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
+from pounding_fmu.plots import style
 
 import scenes
 import statement
-import style
 from statement import Statement, holds, of_an_ordering
 
 SCENE = scenes.read(Path(__file__).with_name("scenes") / "towers.toml")
@@ -28,21 +27,17 @@ FLEXIBLE, STIFFER = "left.displacement[1]", "right.displacement[1]"
 @functools.cache
 def sweep():
     """By frequency: amplitudes with and without contact, m, approach velocity, m/s, and the gap that would do, m."""
-    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as pool:
-        return dict(zip(SWEPT, pool.map(lambda frequency: at(frequency, Path(folder)), SWEPT)))
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        return dict(zip(SWEPT, pool.map(at, SWEPT)))
 
 
-def at(frequency, folder):
-    record = folder / f"{frequency}.csv"
+def at(frequency):
     times = np.arange(0, SCENE["stop_time"] + STEP / 2, STEP)
     ground = AMPLITUDE * np.sin(2 * np.pi * frequency * times)
     # Rounded, for the last digit of a sine depends on the machine, and some of these motions are chaotic.
-    rows = "".join(f"{time:.3f},{value:.9f}\n" for time, value in zip(times.tolist(), ground.tolist()))
-    record.write_text("time_s,accel_m_s2\n" + rows)
+    record = [[float(f"{time:.3f}") for time in times], [float(f"{value:.9f}") for value in ground]]
     runs = [
-        scenes.run(
-            {**SCENE, "ground": {"record": str(record)}, "contact": contact}, step=STEP, columns=(FLEXIBLE, STIFFER)
-        )
+        scenes.run({**SCENE, "contact": contact}, step=STEP, columns=(FLEXIBLE, STIFFER), record=record)
         for contact in (SCENE["contact"], [])
     ]
     late = runs[0].motion["time"] > SETTLED
@@ -55,7 +50,7 @@ def at(frequency, folder):
 
 def natural():
     """Hz, of the flexible and the stiffer tower."""
-    found = scenes.run(SCENE, stop=0.01).frequencies
+    found = scenes.frequencies(SCENE)
     return found["left"][0], found["right"][0]
 
 

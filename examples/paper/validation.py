@@ -1,19 +1,19 @@
 """Writes docs/validation.md: case, inputs, published value, ours, verdict.
 
-python3 examples/run.py examples/paper/validation.py
+"$(ci/environment)" examples/paper/validation.py
 """
 
 import closed_forms
 import energies
-import engine
 import feup
 import filiatrault
 import heights
 import isolated
+import scenes
 import statement
 import towers
 
-PAGE = engine.ROOT / "docs/validation.md"
+PAGE = scenes.ROOT / "docs/validation.md"
 
 
 def parts():
@@ -57,7 +57,7 @@ def published_table():
             ]
         )
     largest = {height: [] for height in heights.HEIGHTS}
-    for (_, _, height), (forces, _) in heights.sweep(engine.EL_CENTRO).items():
+    for (_, _, height), (forces, _) in heights.sweep(scenes.EL_CENTRO).items():
         largest[height].append(max(forces) / 1e3)
     for height in heights.HEIGHTS:
         case = [
