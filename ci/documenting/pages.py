@@ -28,8 +28,8 @@ class Block:
 
     @property
     def first(self):
-        """The line by which ci/documents.toml names it."""
-        return self.text.split("\n", 1)[0].strip()
+        """Its first line without the remark: by this ci/documents.toml names it."""
+        return self.text.split("\n", 1)[0].split("  #")[0].strip()
 
     @property
     def is_program(self):
