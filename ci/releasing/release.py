@@ -101,6 +101,7 @@ def check_behaviour(platforms, toolchain, is_rehearsal):
     if is_rehearsal:
         all_hosts.append(hosts.Host(SECOND, is_native=True))
         files.append(second_library())
+        stop_at(gates.exports(reading.read(files[-1]), gates.functions_of_fmi()))
     for host, file in zip(all_hosts, files, strict=True):
         progress.step(f"the C host for {host.platform.name}")
         host.prepare(file)

@@ -1,6 +1,6 @@
 """Looks at the HTML report of a run in a browser, as a person would: reads, hovers, zooms, chooses, sorts.
 
-    python3 examples/run.py tests/browser/report.py
+    "$(ci/environment tests/browser)" tests/browser/report.py
 
 Needs a Chromium (Debian: apt-get install chromium, or chromium-headless-shell; elsewhere name it in BROWSER); fails
 where there is none. Leaves pictures of the page in target/browser. tests/python/test_report.py tests the structure of
