@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod levels;
+mod order;
 mod yielding;
 
 use pounding::record::Record;
