@@ -62,10 +62,17 @@ fn look_for_what_faces_nothing(scene: &Scene, found: &mut Found) {
     let side = if left.base_level.abs() > right.base_level.abs() { Side::Left } else { Side::Right };
     let (own, other) = if side == Side::Left { (left, right) } else { (right, left) };
     let meets = |base: f64| base < roof(other) && base + roof(own) - own.base_level > other.base_level;
-    let meant = match own.base_level {
-        base if meets(-base) => format!("is its sign right, was {} m meant?", six_decimals(-base)),
-        base if meets(base / 1e3) => format!("it is in m, was it given in mm ({} m)?", six_decimals(base / 1e3)),
-        base if meets(base / 1e2) => format!("it is in m, was it given in cm ({} m)?", six_decimals(base / 1e2)),
+    let base = own.base_level;
+    let in_unit = |unit: &str, factor: f64| {
+        format!(
+            "is it from the zero of the other level, or was it given in {unit} ({} m)?",
+            six_decimals(base * factor)
+        )
+    };
+    let meant = match base.abs() {
+        _ if meets(-base) => format!("is its sign right, was {} m meant?", six_decimals(-base)),
+        500.0.. if meets(base / 1e3) => in_unit("mm", 1e-3),
+        100.0.. if meets(base / 1e2) => in_unit("cm", 1e-2),
         _ => "are both levels from the same zero?".to_owned(),
     };
     let text = format!(

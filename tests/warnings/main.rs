@@ -299,6 +299,8 @@ fn the_ground_and_the_end() {
         (OFFICES, &[(PGA, "scale = 0 ")], &["ground.scale"], "stands still"),
         (FEUP, &[("stop_time = 20.0", "stop_time = 20e3")], &["stop_time"], "in ms?"),
         (FEUP, &[("stop_time = 20.0", "stop_time = 0.02")], &["stop_time"], "before the shaking"),
+        (FEUP, &[("stop_time = 20.0", "stop_time = 2.0")], &["stop_time"], "its peak at 2.04 s, its end at 31.2 s"),
+        (FEUP, &[("stop_time = 20.0", "stop_time = 400.0")], &["stop_time"], "stands still for 369 s after it"),
         (FEUP, &[("stop_time = 20.0", "stop_time = 20e3"), (RECORD, "")], &["stop_time"], "hours"),
         (FEUP, &[("stop_time = 20.0", "stop_time = 0.02"), (RECORD, "")], &["stop_time"], "shorter than a swing"),
     ]);
@@ -338,6 +340,12 @@ fn contacts() {
         (FEUP, &[("gap = 0.005", "gap = -0.04")], &["contact[1].gap"], "40 mm deep"),
         (FEUP, &[("gap = 0.005", "gap = -0.005")], &["contact[1].gap"], "5 mm deep"),
         (FEUP, &[("gap = 0.005", "gap = 0.5")], &["contact[1].gap"], "in mm or cm?"),
+        (OFFICES, &[(STIFFNESS, "stiffness = 2.75e7")], &["contact[1].stiffness"], "pass deep into each other"),
+        (OFFICES, &[(STIFFNESS, "stiffness = 2.75e11")], &["contact[1].stiffness"], "shorter than the floors"),
+        (OFFICES, &[(STIFFNESS, "stiffness = 2.75e16")], &["contact[1].stiffness"], "power of ten"),
+        (FEUP, &[("stiffness = 1.0e6", "stiffness = 1.0e8")], &["contact[1].stiffness"], "power of ten"),
+        (FEUP, &[("stiffness = 1.0e6", "stiffness = 1.0e13")], &["contact[1].stiffness"], "power of ten"),
+        (ISOLATED, &[("1.0e9\nrest", "1.0e11\nrest")], &["contact[1].stiffness"], "power of ten"),
         (OFFICES, &[(STIFFNESS, "stiffness = 2.75e6")], &["contact[1].stiffness"], "given in kN/m^exponent?"),
         (
             OFFICES,
@@ -394,6 +402,23 @@ fn the_contact_of_single_masses() {
             assert_eq!(paths(&found), expected, "{law}, {factor}: {found:?}");
         }
     }
+}
+
+/// A negative gap that is no slip by itself, where a displacement takes the floors deep into each other.
+#[test]
+fn an_overlap_by_the_initial_displacement() {
+    let start = |gap: &str, displacement: &str| {
+        let moved = format!("mass = [3.65, 3.65]\ninitial_displacement = {displacement}\n");
+        found(&edited(FEUP, &[("gap = 0.005", gap), ("mass = [3.65, 3.65]\n", moved.as_str())]), None)
+    };
+    for gap in ["gap = -0.0001", "gap = 0.0"] {
+        let told = start(gap, "[0.02, 0.02]");
+        assert_eq!(paths(&told), ["contact[1].gap"], "{told:?}");
+        assert!(told[0].text.contains("displacements, in m, take the floors 20 mm towards each other;"), "{}", told[0]);
+    }
+    let told = start("gap = -0.02", "[0.001, 0.001]");
+    assert!(told[0].text.contains("was 0.02 m meant?"), "{told:?}");
+    assert_eq!(start("gap = -0.02", "[-0.02, -0.02]"), []);
 }
 
 /// One of several contacts, and no other.
@@ -507,7 +532,9 @@ fn unusual_numbers_are_sound() {
         (FEUP, "restitution = 0.65", "restitution = 1.0"),
         (FEUP, "ratio = 0.01", "ratio = 0.0"),
         (FEUP, "ratio = 0.01", "ratio = 0.25"),
+        (FEUP, "stop_time = 20.0", "stop_time = 3.0"),
         (FEUP, "stop_time = 20.0", "stop_time = 5.0"),
+        (FEUP, "stop_time = 20.0", "stop_time = 120.0"),
         (FEUP, "stop_time = 20.0", "stop_time = 300.0"),
         (FEUP, "mass = [3.65, 3.65]\n", "mass = [3.65, 3.65]\ninitial_velocity = [0.5, 0.5]\n"),
         (FEUP, "mass = [3.65, 3.65]\n", "mass = [3.65, 3.65]\ninitial_displacement = [-0.01, -0.02]\n"),
