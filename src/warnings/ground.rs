@@ -148,7 +148,9 @@ fn meant_record(facts: &Facts<'_>, own: f64) -> String {
 
 fn look_at_stop_with_record(record: &Record, stop: f64, found: &mut Found) {
     let Some(&end) = record.times.last() else { return };
-    if end > 0.0 && stop > 10.0 * end && stop > end + 120.0 {
+    // A pulse drawn by hand may be followed by a long free vibration.
+    let (times, beyond) = if record.times.len() >= MEASURED { (10.0, 100.0) } else { (20.0, 300.0) };
+    if end > 0.0 && stop >= times * end && stop > end + beyond {
         let meant = if stop >= 1000.0 { ", was it given in ms?" } else { ", is its power of ten right?" };
         let text = format!(
             "the record ends at {} s, and the ground stands still for {} s after it; stop_time is in s{meant}",
