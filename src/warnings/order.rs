@@ -11,8 +11,6 @@ const GROWS: f64 = 1.15;
 const STRENGTH_GROWS: f64 = 1.05;
 /// Share of the whole growth, in logarithms, that one step may have: a soft first storey and a heavy roof have more.
 const MOST_OF_ONE_STEP: f64 = 0.75;
-/// Fewest floors whose order tells anything.
-const FEWEST_FLOORS: usize = 4;
 /// m: a storey that is so much higher than the one below, again and again, is none.
 const STOREY: f64 = 2.2;
 /// The same over the lowest entry, in frames of any size.
@@ -48,15 +46,14 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
 }
 
 /// Whether entries grow over the whole height: none is smaller than the one below it, and the growth is neither in one
-/// step nor at the ends only.
+/// step nor at the ends only, which takes four floors to tell.
 fn grow_upwards(values: &[f64], least: f64) -> bool {
     let [first, .., last] = values else { return false };
     let steps: Vec<f64> = values.windows(2).map(|pair| (pair[1] / pair[0]).ln()).collect();
     let whole = (last / first).ln();
     let is_within = |step: f64| (0.0..=MOST_OF_ONE_STEP * whole).contains(&step);
     let [_, inner @ .., _] = steps.as_slice() else { return false };
-    values.len() >= FEWEST_FLOORS
-        && last.is_finite()
+    last.is_finite()
         && last / first >= least
         && steps.iter().all(|&step| is_within(step))
         && inner.iter().any(|&step| step > 0.0)
