@@ -86,9 +86,8 @@ impl Table {
             Scaling::Scale(_) => "times ground.scale".to_owned(),
             Scaling::Pga(pga) => format!("scaled to the scene's peak of {pga:?} m/s2 unless ground.scale is set"),
         };
-        let about = format!(
-            "path of another record file (CSV, AT2, K-NET, ESM, V2) to run instead, {scaled}; empty: the one inside the FMU"
-        );
+        let about =
+            format!("path of another record file (CSV or AT2) to run instead, {scaled}; empty: the one inside the FMU");
         self.add(Parameter::GroundRecord, "ground.record", Type::String, &about);
     }
 
