@@ -1,6 +1,6 @@
 //! Accelerograms: what a ground motion is, and how its files are read.
 //!
-//! The format is told from what is in a file, not from its name; `parse` of each format's file reads it. Nothing is
+//! The format is told from what is in a file, not from its name (`parse.rs`); `parse` of each format's file reads it. Nothing is
 //! corrected: baseline, mean and filters stay as in the file.
 //!
 //! | format | told by | accelerations | times | file |
@@ -28,6 +28,7 @@ mod format;
 mod knet;
 mod known;
 mod numbers;
+mod parse;
 mod reading;
 mod unit;
 mod volume2;

@@ -138,7 +138,6 @@ impl<'t> Found<'t> {
                     header.clear();
                 }
                 Some(_) => found.others += 1,
-                None if is_end(line) => header.clear(),
                 None => header.push((number, line)),
             }
             // Of the lines of a long block the last are enough: those of a header may follow.
