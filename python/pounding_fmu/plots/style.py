@@ -62,10 +62,7 @@ def picture_file(path: Path) -> Path:
 
 
 def save(figure: Figure, path: Path) -> None:
-    """Writes a PNG of 256 colours, a third of the size that all take, an SVG or a PDF.
-
-    The same numbers give the same file.
-    """
+    """Writes a PNG of 256 colours, a third of the size that all take, an SVG or a PDF, without the date."""
     import matplotlib
     from PIL import Image
 
