@@ -56,7 +56,8 @@ class Line:
 
     def displacement(self, segment: NDArray[np.intp], time: Numbers) -> Numbers:
         y = self.free[segment] * np.exp(self.root * time) + self.rest[segment] + self.drift[segment] * time
-        return y.imag / self.root.imag
+        displacement: Numbers = y.imag / self.root.imag
+        return displacement
 
     def to_rest(self, segment: NDArray[np.intp], time: Numbers) -> Numbers:
         """How long the velocity has been 0, by Newton; at most a piece."""

@@ -11,6 +11,7 @@ use std::sync::Arc;
 #[pyclass(frozen, module = "pounding_fmu._native")]
 pub struct Record {
     /// What `ground.record` reads as.
+    #[pyo3(get)]
     pub name: String,
     pub record: Arc<record::Record>,
 }

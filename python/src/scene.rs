@@ -122,6 +122,12 @@ impl Scene {
         self.settings.scene.stop_time.or_else(end).unwrap_or(STOP)
     }
 
+    /// The record that it has.
+    fn record(&self) -> Option<Record> {
+        let (name, record) = self.settings.scene.ground.record.as_ref().zip(self.settings.record())?;
+        Some(Record { name: name.clone(), record: Arc::new(record.clone()) })
+    }
+
     /// The text of the scene without `[ground]`: what another machine needs that has the records.
     fn without_ground(&self) -> PyResult<String> {
         let unreadable = |error: String| PyValueError::new_err(error);

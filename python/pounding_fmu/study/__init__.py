@@ -15,6 +15,7 @@ that never closes, for comparison. `docs/study.md` of the project says what the 
 from __future__ import annotations
 
 import contextlib
+import importlib
 import os
 import tempfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -27,7 +28,6 @@ from .cases import NEVER_CLOSES, Row
 
 if TYPE_CHECKING:
     import numpy as np
-    import pandas
     from numpy.typing import NDArray
 
     from .._scenes import Record, Scene
@@ -88,11 +88,9 @@ class Study(Sequence[Row]):
         values = [row[name] for row in rows]
         return np.array([np.nan if value is None else value for value in values])
 
-    def to_dataframe(self) -> pandas.DataFrame:
+    def to_dataframe(self) -> Any:
         """All rows, those that failed too, as a ``pandas.DataFrame``, where pandas is installed."""
-        import pandas
-
-        return pandas.DataFrame([*self.rows, *self.failures])
+        return importlib.import_module("pandas").DataFrame([*self.rows, *self.failures])
 
 
 def run_study(
@@ -124,7 +122,7 @@ def run_study(
             stopped goes on from them. Without a folder the table is returned alone.
         scheduler: address of a Dask cluster whose workers have this package, or ``local`` for one on this machine.
         workers: threads, or processes of a local cluster; all cores where nothing is said. Rows do not depend on it.
-        progress: called with (cases done, all cases that have to run).
+        progress: called with (cases done, all cases), those included that were done before.
 
     Returns:
         A ``Study``: rows in the order scene, record, intensity, gap; the last gap of each is the run without contact.
@@ -174,18 +172,13 @@ def _records(
     records: Sequence[str | os.PathLike[str]] | Mapping[str, Record] | None, folder: Path, seeds: Iterable[int]
 ) -> Mapping[str, Record]:
     """The ground motions by name."""
-    if isinstance(records, (str, os.PathLike)):
-        records = [records]
-    if records is None:
-        from . import motions
+    from . import motions
+    from .records import named
 
-        synthetic = [motions.write(folder / "records", seed) for seed in seeds]
-        records = [DATA / "records" / "el_centro_1940_ns.csv", *synthetic]
-    if not isinstance(records, Mapping):
-        records = {os.fsdecode(path): path for path in records}
-    if not records:
-        raise ValueError("records: expected at least one")
-    return records
+    if records is not None:
+        return named(records)
+    synthetic = [motions.write(folder / "records", seed) for seed in seeds]
+    return named([DATA / "records" / "el_centro_1940_ns.csv", *synthetic])
 
 
 def _fill(
@@ -198,10 +191,11 @@ def _fill(
     results = Results(path, planned.storeys)
     try:
         missing = results.missing(planned.cases)
+        before = len(planned.cases) - len(missing)
 
         def tell(done: int) -> None:
             if progress is not None:
-                progress(done, len(missing))
+                progress(before + done, len(planned.cases))
 
         tell(0)
         if scheduler is None:

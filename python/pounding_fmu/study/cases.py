@@ -141,11 +141,14 @@ def run_cases(
     rows: list[tuple[Case, Row]] = []
     for (scene, stop), group in itertools.groupby(cases, lambda case: (case.scene_id, case.stop)):
         of_group = list(group)
-        before = len(rows)
-        tell = progress and (lambda done, _, before=before: progress(before + done))
+        tell = None if progress is None else _from(progress, len(rows))
         found = _run(materials.scenes[scene], of_group, materials.records, stop, threads, tell)
         rows += zip(of_group, found, strict=True)
     return rows
+
+
+def _from(progress: Callable[[int], object], before: int) -> Callable[[int, int], object]:
+    return lambda done, _: progress(before + done)
 
 
 def _run(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import importlib.util
 import os
 import signal
 from collections.abc import Sequence
@@ -13,6 +14,7 @@ from .._data import DATA
 from . import GAPS, PGA, SYNTHETIC, Study, run_study
 from .fragility import INTENSITIES, LIMITS, curves, demands, write
 
+MOST_SHOWN = 7  # lines that can be told apart
 INTERRUPTED = 130  # what a shell calls the end of a program by Ctrl-C
 
 ABOUT = """\
@@ -38,9 +40,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     return 0
 
 
+class Progress(_terminal.Progress):
+    """Of a study, which may go on from one that was stopped: what is told first was done before."""
+
+    is_begun = False
+
+    def __call__(self, done: int, total: int) -> None:
+        if not self.is_begun:
+            self.is_begun = True
+            self.go_on_from(done, total)
+        super().__call__(done, total)
+
+
 def run(options: argparse.Namespace) -> Study:
     """Runs the study and says where it is."""
-    progress = _terminal.Progress("cases")
+    progress = Progress("cases")
     study = run_study(
         options.scenes,
         options.records,
@@ -70,14 +84,14 @@ def draw(study: Study, options: argparse.Namespace) -> None:
             continue
         found = curves(rows, demands(rows, limits), options.intensity)
         write(found, options.output / f"fragility_{scene}.csv")
-        try:
-            from . import pictures
-        except ImportError as missing:
-            _terminal.say(f"no pictures: {missing}")
+        if importlib.util.find_spec("matplotlib") is None:
+            _terminal.say('no pictures without matplotlib: pip install "pounding-fmu[plot]"')
             continue
-        shown = {"gap_m": options.show_gaps, "pga_m_s2": options.show_pga}
-        pictures.gaps(rows, options.output / f"gaps_{scene}.png", shown)
-        pictures.fragility(rows, found, options.intensity, options.output / f"fragility_{scene}.png", shown)
+        from . import pictures
+
+        records = len({row["record_id"] for row in rows})
+        pictures.gaps(rows, options.output / f"gaps_{scene}.png", options.show_pga)
+        pictures.fragility(found, records, options.output / f"fragility_{scene}.png", options.show_gaps)
 
 
 def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
@@ -114,7 +128,13 @@ def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
     )
     add_numbers(pictures, "--show-gaps", "M", "m, those of fragility curves; default: five of them")
     add_numbers(pictures, "--show-pga", "A", "m/s2, those of curves over the gap; default: five of them")
-    return parser.parse_args(argv)
+    options = parser.parse_args(argv)
+    for name in ("gaps", "pga"):
+        shown, of_study = getattr(options, f"show_{name}") or [], getattr(options, name)
+        if len(shown) > MOST_SHOWN or not set(shown) <= set(of_study):
+            wanted = f"at most {MOST_SHOWN} of --{name}, which are {' '.join(f'{value:g}' for value in of_study)}"
+            parser.error(f"--show-{name} {' '.join(f'{value:g}' for value in shown)}: expected {wanted}")
+    return options
 
 
 def add_numbers(

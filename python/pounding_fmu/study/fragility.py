@@ -1,148 +1,197 @@
 """Fragility: how probable it is that something exceeds a limit, against the intensity of the ground motion.
 
 The curve is the lognormal distribution of largest likelihood [Baker2015]. There is one only where the intensities of
-runs that exceed the limit overlap with those of runs that do not [AlbertAnderson1984], and the limit is exceeded more
-often as the intensity grows; elsewhere there are counts, and no curve.
+runs that exceed the limit overlap with those of runs that do not [AlbertAnderson1984], and where the limit is exceeded
+more often as the intensity grows, so much so that a constant share is ruled out at the level of 5 %: elsewhere there are
+counts, and no curve. A distribution never falls; so there is none either where the share falls from one intensity to a
+higher one by more than one and a half standard errors of the difference.
 """
+
+from __future__ import annotations
 
 import csv
 import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
-from study_table import NEVER_CLOSES, SIDES
+from .cases import NEVER_CLOSES, SIDES, Row
+
+Numbers = NDArray[np.float64]
+Truths = NDArray[np.bool_]
 
 INTENSITIES = {
     "pga": ("pga_m_s2", "peak ground acceleration"),
     "left_sa": ("left_sa_m_s2", "spectral acceleration, left building"),
     "right_sa": ("right_sa_m_s2", "spectral acceleration, right building"),
 }
+LIMITS = {"force": "N", "drift": "m", "acceleration": "m/s2", "ductility": "1", "residual drift": "m"}
+MOST_POINTS = 8  # where all runs differ in intensity: shares of groups of neighbouring runs
+FALL = 1.5  # standard errors
+RISE = 3.84  # of twice the logarithm of a likelihood ratio: 95 % of chi-squared with one degree of freedom
 
 
 @dataclass(frozen=True)
 class Demand:
+    """What may be exceeded."""
+
     name: str
     unit: str
-    of: object  # what it is of a row
-    limit: float  # exceeded if it is above
-    said: str  # with its limit, for a title
+    of: Callable[[Row], float | None]
+    limit: float
+    """exceeded if it is above"""
+    said: str
+    """with its limit, for a title"""
 
 
 @dataclass(frozen=True)
 class Curve:
-    """Of one demand and one gap, sorted by intensity."""
+    """Of one scene, demand and gap, sorted by intensity."""
 
+    scene: str
     demand: Demand
     intensity: str
     gap: float
-    levels: np.ndarray  # m/s2, of each run
-    exceeds: np.ndarray
-    fit: tuple | None  # median, m/s2, and dispersion
+    levels: Numbers
+    """m/s2, of each run"""
+    exceeds: Truths
+    fit: tuple[float, float] | None
+    """median, m/s2, and dispersion"""
+
+    @property
+    def falls(self) -> bool:
+        """Whether the limit is exceeded less often in stronger motions."""
+        return falls(self.levels, self.exceeds)
+
+    @property
+    def is_extrapolated(self) -> bool:
+        """Whether the median is beyond all intensities of the study."""
+        return self.fit is not None and not self.levels[0] <= self.fit[0] <= self.levels[-1]
 
 
-def drift(row):
-    return largest(row, "drift_m")
-
-
-def acceleration(row):
-    return largest(row, "acceleration_m_s2")
-
-
-def ductility(row):
-    return largest(row, "ductility")
-
-
-def residual(row):
-    return largest(row, "residual_drift_m")
-
-
-def largest(row, what):
+def largest(what: str) -> Callable[[Row], float | None]:
     """Of the buildings that have it; without any `None`."""
-    return max((row[f"{side}_{what}"] for side in SIDES if row[f"{side}_{what}"] is not None), default=None)
+    names = [f"{side}_{what}" for side in SIDES]
+    return lambda row: max((row[name] for name in names if row.get(name) is not None), default=None)
 
 
-def force(row):
-    return row["peak_force_n"]
+DEMANDS: dict[str, Callable[[Row], float | None]] = {
+    "force": lambda row: float(row["peak_force_n"]),
+    "drift": largest("drift_m"),
+    "acceleration": largest("acceleration_m_s2"),
+    "ductility": largest("ductility"),
+    "residual drift": largest("residual_drift_m"),
+}
 
 
-def demands(rows, limits):
-    """What may be exceeded in the runs of a scene; a limit of `None` becomes a median, which shows the method."""
+def demands(rows: Iterable[Row], limits: Mapping[str, float | None]) -> list[Demand]:
+    """What may be exceeded in the runs of a scene; a limit that is not given is a median, which shows the method."""
     closing = [row for row in rows if row["gap_m"] != NEVER_CLOSES]
     found = [Demand("pounding", "impacts", lambda row: row["impacts"], 0.0, "pounding")]
-    hit = [row for row in closing if force(row) > 0]
-    # All runs of a scene or none.
-    yielding = [row for row in closing if ductility(row) is not None]
-    asked = [
-        ("force", "N", force, hit, lambda limit: f"{limit / 1e3:.3g} kN" if limit >= 1e3 else f"{limit:.3g} N"),
-        ("drift", "m", drift, closing, lambda limit: f"{1e3 * limit:.3g} mm"),
-        ("acceleration", "m/s2", acceleration, closing, lambda limit: f"{limit:.3g} m/s2"),
-    ]
-    if yielding:
-        asked += [
-            ("ductility", "1", ductility, yielding, lambda limit: f"{limit:.3g}"),
-            ("residual drift", "m", residual, yielding, lambda limit: f"{1e3 * limit:.3g} mm"),
-        ]
-    for name, unit, of, among, shown in asked:
-        limit = limits[name] if limits[name] is not None else median(map(of, among))
-        if limit is not None:
-            origin = "" if limits[name] is not None else " (median)"
-            found.append(Demand(name, unit, of, limit, f"{name} above {shown(limit)}{origin}"))
+    for name, of in DEMANDS.items():
+        # A force of 0 says that there was no contact; ductilities are those of all runs of a scene, or of none.
+        values = [value for row in closing if (value := of(row)) is not None and (value > 0 or name != "force")]
+        limit = limits.get(name)
+        if not values and (limit is None or name not in ("force", "drift", "acceleration")):
+            continue
+        origin = " (median)" if limit is None else ""
+        limit = float(np.median(values)) if limit is None else limit
+        found.append(Demand(name, LIMITS[name], of, limit, f"{name} above {shown(limit, LIMITS[name])}{origin}"))
     return found
 
 
-def median(values):
-    values = list(values)
-    return float(np.median(values)) if values else None
+def force_unit(largest: float) -> tuple[float, str]:
+    """What to divide forces by, and the unit they are in then."""
+    return next((unit for unit in [(1e6, "MN"), (1e3, "kN")] if largest >= unit[0]), (1.0, "N"))
 
 
-def curves(rows, demands, intensity):
+def shown(limit: float, unit: str) -> str:
+    """A limit in the unit in which people say it."""
+    if unit == "m":
+        return f"{1e3 * limit:.3g} mm"
+    if unit == "N":
+        factor, of_force = force_unit(limit)
+        return f"{limit / factor:.3g} {of_force}"
+    return f"{limit:.3g}" + f" {unit}" * (unit != "1")
+
+
+def curves(rows: Sequence[Row], demands: Iterable[Demand], intensity: str) -> list[Curve]:
     """A curve for each demand and each gap; without contact there is no force, and no pounding."""
     column = INTENSITIES[intensity][0]
-    if any(row[column] is None for row in rows):
-        raise SystemExit(f"{rows[0]['scene']} has no fragility by {intensity}: it has no such building")
+    if any(row.get(column) is None for row in rows):
+        raise ValueError(f"{rows[0]['scene']} has no fragility by {intensity}: it has no such building")
     found = []
     for demand in demands:
         for gap in sorted({row["gap_m"] for row in rows}):
             if gap == NEVER_CLOSES and demand.name in ("pounding", "force"):
                 continue
-            runs = sorted((row[column], demand.of(row) > demand.limit) for row in rows if row["gap_m"] == gap)
-            levels, exceeds = map(np.array, zip(*runs))
-            found.append(Curve(demand, intensity, gap, levels, exceeds, fit_lognormal(levels, exceeds)))
+            of_gap = [row for row in rows if row["gap_m"] == gap]
+            runs = sorted((row[column], (demand.of(row) or 0.0) > demand.limit) for row in of_gap)
+            levels, exceeds = (np.array(values) for values in zip(*runs))
+            found.append(Curve(rows[0]["scene"], demand, intensity, gap, levels, exceeds, fit_lognormal(levels, exceeds)))
     return found
 
 
-def write(curves, path):
-    """A row per curve; `median_m_s2` and `dispersion` are empty where the likelihood has no largest value."""
+def write(curves: Iterable[Curve], path: Path) -> None:
+    """A row per curve; `median_m_s2` and what follows are empty where there is no curve."""
     with path.open("w", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow("demand,limit,unit,gap_m,intensity,runs,exceeding,median_m_s2,dispersion".split(","))
+        table.writerow("demand,limit,unit,gap_m,intensity,runs,exceeding,median_m_s2,dispersion,extrapolated".split(","))
         for curve in curves:
             demand = curve.demand
             counts = len(curve.exceeds), int(curve.exceeds.sum())
-            table.writerow(
-                [demand.name, demand.limit, demand.unit, curve.gap, curve.intensity, *counts, *(curve.fit or ("", ""))]
-            )
+            fit = (*curve.fit, int(curve.is_extrapolated)) if curve.fit else ("", "", "")
+            table.writerow([demand.name, demand.limit, demand.unit, curve.gap, curve.intensity, *counts, *fit])
 
 
-def lognormal(levels, median, dispersion):
+def points(levels: Numbers, exceeds: Truths) -> tuple[Numbers, Numbers, Numbers]:
+    """Intensities, the share that exceeds there, and of how many runs: of each intensity, or of neighbours where there
+    are too many."""
+    distinct, first = np.unique(levels, return_index=True)
+    places = first[1:] if len(distinct) <= 2 * MOST_POINTS else MOST_POINTS
+    parts = list(zip(np.array_split(levels, places), np.array_split(exceeds, places)))
+    middles, shares = [float(np.median(of)) for of, _ in parts], [float(share.mean()) for _, share in parts]
+    return np.array(middles), np.array(shares), np.array([float(len(of)) for of, _ in parts])
+
+
+def falls(levels: Numbers, exceeds: Truths) -> bool:
+    """Whether the share falls from one point to any further one by more than chance explains.
+
+    The standard error of the difference of two shares is that of their common share.
+    """
+    _, shares, counts = points(levels, exceeds)
+    drop = shares[:, None] - shares[None, :]
+    both = counts[:, None] + counts[None, :]
+    common = (shares * counts)[:, None] / both + (shares * counts)[None, :] / both
+    error = np.sqrt(common * (1 - common) * (1 / counts[:, None] + 1 / counts[None, :]))
+    return bool(np.any(np.triu(drop > FALL * error, 1)))
+
+
+def lognormal(levels: Numbers, median: float, dispersion: float) -> Numbers:
     """Probability at these intensities."""
-    return 0.5 * np.vectorize(math.erfc)(-np.log(levels / median) / (dispersion * math.sqrt(2.0)))
+    return 0.5 * erfc(-np.log(levels / median) / (dispersion * math.sqrt(2.0)))
 
 
-def fit_lognormal(levels, exceeds):
+def erfc(values: Numbers) -> Numbers:
+    return np.array([math.erfc(value) for value in values])
+
+
+def fit_lognormal(levels: Numbers, exceeds: Truths) -> tuple[float, float] | None:
     """Median and dispersion of largest likelihood; `None` where there are none.
 
     The logarithm of the likelihood is concave in a and b of the probability Phi(a + b x), x being the logarithm of the
     intensity: Newton finds its top, with steps that are halved until they go up.
     """
-    if not overlap(levels, exceeds):
+    if not overlap(levels, exceeds) or falls(levels, exceeds):
         return None
     x = np.log(levels)
     middle, width = x.mean(), x.std()
     terms = np.stack([np.ones_like(x), (x - middle) / width])
     signs = np.where(exceeds, 1.0, -1.0)
-    at, best = np.zeros(2), -np.inf
+    at, best = np.zeros(2), -math.inf
     for _ in range(200):
         top, slope, curvature = likelihood(signs, at @ terms)
         gradient, hessian = terms @ slope, (terms * curvature) @ terms.T
@@ -153,12 +202,14 @@ def fit_lognormal(levels, exceeds):
         if best - before <= 1e-13 * abs(best) and np.abs(step).max() < 1e-9:
             break
     a, b = at
-    if b <= 0:
+    share = float(exceeds.mean())
+    constant = len(exceeds) * (share * math.log(share) + (1 - share) * math.log(1 - share))
+    if b <= 0 or 2 * (best - constant) < RISE:
         return None
-    return math.exp(middle - width * a / b), width / b
+    return math.exp(middle - width * a / b), float(width / b)
 
 
-def overlap(levels, exceeds):
+def overlap(levels: Numbers, exceeds: Truths) -> bool:
     """Whether strong motions that do not exceed and weaker ones that do leave the likelihood a largest value.
 
     Without, any steeper curve is more likely: one level tells those that exceed from those that do not.
@@ -166,12 +217,12 @@ def overlap(levels, exceeds):
     over, under = levels[exceeds], levels[~exceeds]
     if not len(over) or not len(under):
         return False
-    return over.min() < under.max() and under.min() < over.max()
+    return bool(over.min() < under.max() and under.min() < over.max())
 
 
-def likelihood(signs, z):
+def likelihood(signs: Numbers, z: Numbers) -> tuple[float, Numbers, Numbers]:
     """Logarithm of the likelihood of a probit, and its first and second derivatives by each z."""
-    tail = 0.5 * np.vectorize(math.erfc)(-signs * z / math.sqrt(2.0))
+    tail = 0.5 * erfc(-signs * z / math.sqrt(2.0))
     tail = np.maximum(tail, 1e-300)
     ratio = np.exp(-0.5 * z**2) / math.sqrt(2 * math.pi) / tail
-    return np.log(tail).sum(), signs * ratio, -ratio * (signs * z + ratio)
+    return float(np.log(tail).sum()), signs * ratio, -ratio * (signs * z + ratio)

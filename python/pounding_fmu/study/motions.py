@@ -41,11 +41,11 @@ def envelope(time: Numbers) -> Numbers:
 
 def acceleration(seed: int) -> tuple[Numbers, Numbers]:
     """Times, s, and accelerations, m/s2, with a peak of `PEAK`; the same seed gives the same motion."""
-    time = np.arange(round(DURATION / STEP) + 1) * STEP
+    time: Numbers = np.multiply(np.arange(round(DURATION / STEP) + 1), STEP, dtype=np.float64)
     phases = np.random.default_rng(seed).uniform(0, 2 * np.pi, len(FREQUENCIES))
     # The sum of cosines as a Fourier transform, of twice the duration: it repeats after that.
     amplitudes = np.concatenate([[0.0], np.sqrt(spectrum(FREQUENCIES)) * np.exp(1j * phases)])
-    motion = envelope(time) * np.fft.irfft(amplitudes, round(2 * DURATION / STEP))[: len(time)]
+    motion: Numbers = envelope(time) * np.fft.irfft(amplitudes, round(2 * DURATION / STEP))[: len(time)]
     return time, PEAK * motion / np.abs(motion).max()
 
 

@@ -1,64 +1,96 @@
 """Pictures of a study: demand against the gap, and the probability of exceeding a limit against intensity."""
 
+from __future__ import annotations
+
 import textwrap
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from engine import STANDARD_GRAVITY
-from pictures import force_unit
-from study_fragility import INTENSITIES, lognormal
-from study_table import NEVER_CLOSES, SIDES
-from style import ALONE, BLACK, CYCLE, pyplot, save
+from .._extras import require
+from ..plots.style import ALONE, BLACK, CYCLE, LOOK
+from .cases import NEVER_CLOSES, SIDES, Row
+from .fragility import INTENSITIES, Curve, force_unit, lognormal, points
 
-plt = pyplot()
+Chosen = Sequence[float] | None  # gaps or intensities to draw; without any as many as can be told apart
 
+STANDARD_GRAVITY = 9.80665  # m/s2
 MOST_LINES = 5
-MOST_POINTS = 8  # of a curve whose runs all differ in intensity: shares of groups of runs
 NO_CONTACT = {"color": BLACK, "linestyle": ":", "marker": "x"}
+LETTERS = 14  # that an inch of a title may have room for
 
 
-def some(values, most=MOST_LINES):
-    """As many of these, evenly spread, as lines can be told apart."""
+def gaps(rows: Sequence[Row], path: Path, shown: Chosen = None) -> None:
+    """Force, impacts, drifts and accelerations against the gap at some intensities: medians over the records."""
+    closing = [row for row in rows if row["gap_m"] != NEVER_CLOSES]
+    if closing:
+        _draw(path, lambda: _gaps(closing, shown))
+
+
+def fragility(curves: Sequence[Curve], records: int, path: Path, shown: Chosen = None) -> None:
+    """Share of the runs that exceed a limit, against intensity, one curve for each of some gaps."""
+    if any(curve.gap != NEVER_CLOSES for curve in curves):
+        _draw(path, lambda: _fragility(curves, records, shown))
+
+
+def _draw(path: Path, draw: Callable[[], Any]) -> None:
+    matplotlib = require("matplotlib", extra="plot")
+    with matplotlib.rc_context(LOOK):
+        draw().savefig(path, dpi=150)
+
+
+def _panels(rows: int, columns: int, width: float, height: float, **more: Any) -> tuple[Any, Any]:
+    figure = require("matplotlib.figure", extra="plot").Figure(figsize=(width, height))
+    return figure, figure.subplots(rows, columns, squeeze=False, **more)
+
+
+def _title(figure: Any, text: str) -> None:
+    """Above all, in as many lines as it takes."""
+    for letters in range(LETTERS * int(figure.get_figwidth()), LETTERS, -LETTERS // 2):
+        title = figure.suptitle(textwrap.fill(text, letters), x=0.01, ha="left", fontsize=10.5)
+        if title.get_window_extent().x1 <= figure.bbox.x1:
+            break
+
+
+def some(values: Iterable[float], shown: Chosen = None) -> list[float]:
+    """Those that are asked for, or as many, evenly spread, as lines can be told apart."""
     values = sorted(set(values))
-    places = np.unique(np.linspace(0, len(values) - 1, min(most, len(values))).round().astype(int))
+    if shown is not None:
+        return [value for value in values if value in shown]
+    places = np.unique(np.linspace(0, len(values) - 1, min(MOST_LINES, len(values))).round().astype(int))
     return [values[place] for place in places]
 
 
-def left_out(values, drawn, unit, name):
+def left_out(values: Iterable[float], drawn: Iterable[float], unit: Callable[[float], str], name: str) -> str:
     """What to say of those that are not drawn."""
-    missing = [f"{unit(value)}" for value in sorted(set(values) - set(drawn))]
+    missing = [unit(value) for value in sorted(set(values) - set(drawn))]
     return f"; {name} not drawn: {', '.join(missing)}" if missing else ""
 
 
-def in_g(acceleration):
+def in_g(acceleration: float) -> str:
     return f"{acceleration / STANDARD_GRAVITY:.2f} g"
 
 
-def in_mm(gap):
+def in_mm(gap: float) -> str:
     return "no contact" if gap == NEVER_CLOSES else f"{1e3 * gap:g} mm"
 
 
-def gaps(rows, path):
-    """Force, impacts, drifts and accelerations against the gap: medians over the records."""
-    closing = [row for row in rows if row["gap_m"] != NEVER_CLOSES]
-    if not closing:
-        return
+def _gaps(closing: Sequence[Row], shown: Chosen) -> Any:
     factor, unit = force_unit(max(row["peak_force_n"] for row in closing))
-    sides = [side for side in SIDES if any(row[f"{side}_drift_m"] is not None for row in closing)]
-    of_building = lambda side, what: lambda row: row[f"{side}_{what}_ratio"]  # noqa: E731
-    panels = {
-        f"largest contact force [{unit}]": lambda row: row["peak_force_n"] / factor,
-        **{f"{side} building: storey drift": of_building(side, "drift") for side in sides},
-        "impacts": lambda row: row["impacts"],
-        **{f"{side} building: floor acceleration": of_building(side, "acceleration") for side in sides},
-    }
-    columns = 1 + len(sides)
-    figure, axes = plt.subplots(2, columns, figsize=(4 * columns, 7.2), sharex=True)
-    drawn = some(row["pga_m_s2"] for row in closing)
+    sides = [side for side in SIDES if any(row.get(f"{side}_drift_m") is not None for row in closing)]
+    panels: dict[str, Callable[[Row], Any]] = {f"largest contact force [{unit}]": lambda row: row["peak_force_n"] / factor}
+    for what, title in (("drift", "storey drift"), ("acceleration", "floor acceleration")):
+        for side in sides:
+            panels[f"{side} building: {title}"] = lambda row, name=f"{side}_{what}_ratio": row[name]  # type: ignore[misc]
+        panels.setdefault("impacts", lambda row: row["impacts"])
+    figure, axes = _panels(2, 1 + len(sides), 4 * (1 + len(sides)), 7.2, sharex=True)
+    drawn = some((row["pga_m_s2"] for row in closing), shown)
     for panel, (title, demand) in zip(axes.flat, panels.items()):
         for pga, style in zip(drawn, CYCLE):
             of_pga = [row for row in closing if row["pga_m_s2"] == pga]
-            draw_demand(panel, of_pga, demand, style, in_g(pga), shaded=panel is axes[0, 0])
+            _demand(panel, of_pga, demand, {**style, "label": in_g(pga)}, shaded=panel is axes[0, 0])
         panel.set_title(title)
         if "building" in title:
             panel.axhline(1.0, **{**ALONE, "linewidth": 1.2})
@@ -66,16 +98,18 @@ def gaps(rows, path):
         panel.set_ylim(0, 1.05 * panel.get_ylim()[1])
     for panel in axes[1]:
         panel.set_xlabel("gap [mm]")
-    records = len({row["record_id"] for row in rows})
-    said = f"{rows[0]['scene']}: medians of {records} records (shaded: the middle 68 %); of storeys and floors the largest"
+    records = len({row["record_id"] for row in closing})
+    said = f"{closing[0]['scene']}: medians of {records} records (shaded: the middle 68 %); of storeys and floors the largest"
     said += left_out([row["pga_m_s2"] for row in closing], drawn, in_g, "peak ground accelerations")
-    figure.suptitle(said, x=0.01, ha="left", fontsize=10.5)
+    _title(figure, said)
     lines = axes[0, 0].get_legend_handles_labels()
-    figure.legend(*lines, loc="outside lower center", ncols=MOST_LINES, title="peak ground acceleration")
-    save(figure, path)
+    figure.legend(*lines, loc="outside lower center", ncols=len(CYCLE), title="peak ground acceleration")
+    return figure
 
 
-def draw_demand(panel, rows, demand, style, label, shaded):
+def _demand(
+    panel: Any, rows: Sequence[Row], demand: Callable[[Row], Any], style: Mapping[str, Any], shaded: bool
+) -> None:
     widths, found = [], []
     for width in sorted({row["gap_m"] for row in rows}):
         values = [demand(row) for row in rows if row["gap_m"] == width and demand(row) is not None]
@@ -86,63 +120,55 @@ def draw_demand(panel, rows, demand, style, label, shaded):
         low, middle, high = np.array(found).T
         if shaded:
             panel.fill_between(widths, low, high, color=style["color"], alpha=0.15, linewidth=0)
-        panel.plot(widths, middle, **style, markersize=4, label=label)
+        panel.plot(widths, middle, **style, markersize=4)
 
 
-def fragility(rows, curves, intensity, path):
-    """Share of the runs that exceed a limit, against intensity, one curve for each gap that there is room for."""
-    if all(curve.gap == NEVER_CLOSES for curve in curves):
-        return
+def _fragility(curves: Sequence[Curve], records: int, shown: Chosen) -> Any:
     widths = {curve.gap for curve in curves} - {NEVER_CLOSES}
-    styles = {**dict(zip(some(widths), CYCLE)), NEVER_CLOSES: NO_CONTACT}
+    styles = {**dict(zip(some(widths, shown), CYCLE)), NEVER_CLOSES: NO_CONTACT}
     demands = list(dict.fromkeys(curve.demand for curve in curves))
     strongest = max(curve.levels[-1] for curve in curves)
-    columns = 2
-    shape = (-(-len(demands) // columns), columns)
-    figure, axes = plt.subplots(*shape, figsize=(9.6, 3.9 * shape[0] + 0.6), sharex=True, sharey=True, squeeze=False)
+    rows = -(-len(demands) // 2)
+    figure, axes = _panels(rows, 2, 9.6, 3.9 * rows + 0.6, sharex=True, sharey=True)
     for panel, demand in zip(axes.flat, demands):
-        shown = [curve for curve in curves if curve.demand is demand and curve.gap in styles]
-        for curve in shown:
-            draw_curve(panel, curve, styles[curve.gap])
+        drawn = [curve for curve in curves if curve.demand is demand and curve.gap in styles]
+        for curve in drawn:
+            _curve(panel, curve, styles[curve.gap])
         panel.set_title(f"P({demand.said})")
         panel.set(ylim=(-0.03, 1.03), xlim=(0, 1.04 * strongest / STANDARD_GRAVITY))
-        panel.set_xlabel(f"{INTENSITIES[intensity][1]} [g]{without_fit(shown)}")
+        panel.set_xlabel(f"{INTENSITIES[drawn[0].intensity][1]} [g]{notes(drawn)}")
         panel.tick_params(labelbottom=True)
     for panel in axes.flat[len(demands) :]:
         panel.axis("off")
     for panel in axes[:, 0]:
         panel.set_ylabel("share of the runs; lines: lognormal fit")
-    records = len({row["record_id"] for row in rows})
-    said = f"{rows[0]['scene']}: fragility, {records} records{left_out(widths, styles, in_mm, 'gaps')}"
-    figure.suptitle(said, x=0.01, ha="left")
-    lines = [plt.Line2D([], [], **style, markersize=5, label=in_mm(gap)) for gap, style in styles.items()]
-    figure.legend(handles=lines, loc="outside lower center", ncols=MOST_LINES + 1, title="gap")
-    save(figure, path)
+    _title(figure, f"{curves[0].scene}: fragility, {records} records{left_out(widths, styles, in_mm, 'gaps')}")
+    lines = require("matplotlib.lines", extra="plot")
+    handles = [lines.Line2D([], [], **style, markersize=5, label=in_mm(gap)) for gap, style in styles.items()]
+    figure.legend(handles=handles, loc="outside lower center", ncols=MOST_LINES + 1, title="gap")
+    return figure
 
 
-def without_fit(curves):
-    """Which have no curve, with how many runs exceed of how many."""
-    counts = [f"{in_mm(curve.gap)} ({curve.exceeds.sum()} of {len(curve.exceeds)})" for curve in curves if not curve.fit]
+def notes(curves: Sequence[Curve]) -> str:
+    """Which gaps have no curve, and why, with how many runs exceed of how many; whose median is beyond all motions."""
+    found: dict[str, list[str]] = {}
+    for curve in curves:
+        if curve.fit is None:
+            why = "no curve, shares fall" if curve.falls else "no curve fits"
+            found.setdefault(why, []).append(f"{in_mm(curve.gap)} ({curve.exceeds.sum()} of {len(curve.exceeds)})")
+        elif curve.is_extrapolated:
+            found.setdefault("median beyond all runs", []).append(f"{in_mm(curve.gap)} ({in_g(curve.fit[0])})")
     # Lines end between them, not within.
-    said = ", ".join(count.replace(" ", "\N{NO-BREAK SPACE}") for count in counts)
-    return f"\n{textwrap.fill(f'no curve fits: {said}', 52)}" if counts else ""
+    lines = [f"{why}: " + ", ".join(gap.replace(" ", "\N{NO-BREAK SPACE}") for gap in gaps) for why, gaps in found.items()]
+    return "".join(f"\n{textwrap.fill(line, 52)}" for line in lines)
 
 
-def draw_curve(panel, curve, style):
-    points = {"linestyle": "", "marker": style["marker"], "color": style["color"], "markersize": 5}
-    levels, shares = groups(curve.levels, curve.exceeds)
-    panel.plot(levels / STANDARD_GRAVITY, shares, **points)
+def _curve(panel: Any, curve: Curve, style: Mapping[str, Any]) -> None:
+    """Points, and between the weakest and the strongest of them the curve: beyond there is nothing that it rests on."""
+    marks = {"linestyle": "", "marker": style["marker"], "color": style["color"], "markersize": 5}
+    levels, shares, _ = points(curve.levels, curve.exceeds)
+    panel.plot(levels / STANDARD_GRAVITY, shares, **marks)
     if curve.fit:
-        x = np.linspace(levels[0] / 2, curve.levels[-1], 200)
+        x = np.linspace(levels[0], levels[-1], 200)
         line = {"color": style["color"], "linestyle": style["linestyle"], "linewidth": 1.6}
         panel.plot(x / STANDARD_GRAVITY, lognormal(x, *curve.fit), **line)
-
-
-def groups(levels, exceeds):
-    """Intensities and the share that exceeds there: of each intensity, or of neighbours where there are too many."""
-    distinct, first = np.unique(levels, return_index=True)
-    if len(distinct) <= 2 * MOST_POINTS:
-        parts = list(zip(np.split(levels, first[1:]), np.split(exceeds, first[1:])))
-    else:
-        parts = list(zip(np.array_split(levels, MOST_POINTS), np.array_split(exceeds, MOST_POINTS)))
-    return np.array([np.median(of) for of, _ in parts]), np.array([share.mean() for _, share in parts])

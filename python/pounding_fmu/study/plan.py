@@ -14,6 +14,7 @@ import numpy as np
 from .. import _native, spectra
 from .._scenes import read_record, read_scene, refuse
 from .cases import NEVER_CLOSES, SIDES, Case, Materials, Motion, Readings, Row, readings
+from .records import label, read_records
 
 if TYPE_CHECKING:
     from .._scenes import Record, Scene
@@ -71,7 +72,7 @@ def plan(
     """
     problems: list[str] = []
     found = _scenes(scenes, problems)
-    motions = read_motions(records, problems)
+    motions = {key: record.samples() for key, record in read_records(records, problems).items()}
     refuse(problems)
     ids = {name: _fingerprint(*(column.tobytes() for column in motion)) for name, motion in motions.items()}
     cases = [
@@ -127,27 +128,6 @@ def studied(label: str, scene: Scene) -> ReadScene:
     if lacking:
         raise ValueError(f"expected a scene with {' and '.join(lacking)}")
     return ReadScene(label, json.loads(read.layout())["name"], text, read, of)
-
-
-def read_motions(records: Mapping[str, Record], problems: list[str]) -> dict[str, Motion]:
-    """Times, s, and accelerations, m/s2, of records that can be scaled to a peak."""
-    motions: dict[str, Motion] = {}
-    for key, record in records.items():
-        try:
-            motions[key] = read_record(record, "records").samples()
-        except (OSError, ValueError) as error:
-            problems.append(f"{key}: {error.strerror}" if isinstance(error, OSError) else str(error))
-            continue
-        if not motions[key][1].any():
-            problems.append(f"{key}: the ground does not move, so it cannot be scaled to a peak")
-        if not label(key).isprintable():
-            problems.append(f"{key!r}: expected a file name without line breaks and the like")
-    return motions
-
-
-def label(key: str) -> str:
-    """What a record is called in tables: the name of its file without folder and ending."""
-    return os.path.splitext(os.path.basename(key))[0]
 
 
 def _end(scene: ReadScene, motion: Motion) -> float:

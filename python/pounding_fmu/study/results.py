@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import importlib
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -113,12 +114,12 @@ def columns_of(case: Case) -> Row:
 def write_parquet(path: Path, columns: Mapping[str, Kind], rows: Sequence[Row]) -> None:
     """The same table for programs, texts as they are, where there is a library for it."""
     try:
-        import pyarrow
-        import pyarrow.parquet
+        pyarrow: Any = importlib.import_module("pyarrow")
+        parquet: Any = importlib.import_module("pyarrow.parquet")
     except ImportError:
         return
     kinds = {str: pyarrow.string(), int: pyarrow.int64(), float: pyarrow.float64()}
     arrays = {name: pyarrow.array([row.get(name) for row in rows], kinds[kind]) for name, kind in columns.items()}
     new = path.with_suffix(TEMPORARY)
-    pyarrow.parquet.write_table(pyarrow.table(arrays), new)
+    parquet.write_table(pyarrow.table(arrays), new)
     os.replace(new, path)

@@ -7,20 +7,19 @@ yields rows, in any order, as they come.
 from __future__ import annotations
 
 import contextlib
+import functools
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Generator, Iterator, Sequence
+from multiprocessing import resource_tracker
+from typing import Any
 
 from .. import _native
 from .._extras import require
 from .cases import Case, Materials, Row, run_cases
 
-if TYPE_CHECKING:
-    from distributed import Client
-
-Rows = list[tuple[Case, Row]]
+Batches = Generator[list[tuple[Case, Row]], None, None]
 Progress = Callable[[int], object]
 
 # s: a batch takes long enough that handing it out costs little, and is short enough to lose when it is stopped.
@@ -31,16 +30,20 @@ BATCHES_PER_WORKER = 20
 PATIENCE = 60.0  # s, until a cluster has a worker
 
 
-def in_threads(cases: Sequence[Case], materials: Materials, workers: int, progress: Progress) -> Iterator[Rows]:
+def in_threads(cases: Sequence[Case], materials: Materials, workers: int, progress: Progress) -> Batches:
     """In this process, on so many threads. As many cases at a time as take a second or two."""
     start, size = 0, 4 * workers
     while start < len(cases):
         began = time.monotonic()
         batch = cases[start : start + size]
-        yield run_cases(batch, materials, workers, lambda done, before=start: progress(before + done))
+        yield run_cases(batch, materials, workers, functools.partial(_further, progress, start))
         start += len(batch)
         faster = BATCH / max(time.monotonic() - began, 1e-3)
         size = int(min(max(4 * workers, size * faster), 4 * size))
+
+
+def _further(progress: Progress, before: int, done: int) -> None:
+    progress(before + done)
 
 
 @contextlib.contextmanager
@@ -53,6 +56,8 @@ def without_interrupts() -> Iterator[None]:
     handler = signal.signal(signal.SIGINT, lambda *_: came.append(True))
     blocks = hasattr(signal, "pthread_sigmask")
     if blocks:
+        # Starting this one of multiprocessing's own would unblock what is blocked.
+        resource_tracker.ensure_running()
         # For the processes, which inherit it; in this one another thread may take the signal, so there is a handler, too.
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
@@ -67,7 +72,7 @@ def without_interrupts() -> Iterator[None]:
 
 def on_cluster(
     address: str, cases: Sequence[Case], materials: Materials, workers: int, progress: Progress
-) -> Iterator[Rows]:
+) -> Batches:
     """On a Dask cluster by its address; `local` is a small one on this machine, of so many workers."""
     distributed = require("distributed", extra="study")
     with contextlib.ExitStack() as held:
@@ -85,7 +90,7 @@ def version() -> str:
     return _native.__version__
 
 
-def greet(client: Client) -> None:
+def greet(client: Any) -> None:
     """Waits for a worker and sees that all of them have this version of the package."""
     try:
         client.wait_for_workers(1, timeout=PATIENCE)
@@ -100,7 +105,7 @@ def greet(client: Client) -> None:
         raise OSError(f"expected version {version()} of pounding-fmu on all workers, but {said}")
 
 
-def through(client: Client, cases: Sequence[Case], materials: Materials, progress: Progress) -> Iterator[Rows]:
+def through(client: Any, cases: Sequence[Case], materials: Materials, progress: Progress) -> Batches:
     """The rows of all cases by way of a client of a cluster. The materials are sent once to each worker."""
     distributed = require("distributed", extra="study")
     [everything] = client.scatter([materials], broadcast=True, hash=False)

@@ -1,34 +1,57 @@
 """What meets in a scene: its buildings at rest with their contacts, numbered, and in words beside them."""
 
-from elevation import Elevation, prepare_height
-from style import BLACK, BUILDINGS, pyplot
+from __future__ import annotations
 
-plt = pyplot()
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
-LABEL = {"ha": "center", "va": "center", "fontsize": 9.5, "zorder": 8}
+from matplotlib.figure import Figure
+
+from .elevation import Elevation, prepare_height
+from .layout import Contact, Layout
+from .runs import Runs
+from .style import BLACK, BUILDINGS
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+LABEL: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 9.5, "zorder": 8}
 SMALLEST_GAP = 10.0  # mm, which can be seen
 
 
-def meetings(scene, *_):
+def contacts(runs: Runs) -> Figure:
     """A picture of any scene: which of its floors face what."""
+    scene = runs.scene
     lines = words(scene)
     # As high as the words and the floors need.
     height = max(5.2, 0.6 + 0.26 * len(lines), 1.0 + 0.4 * max(scene.floors.values()))
-    figure, (axes, said) = plt.subplots(1, 2, figsize=(10, height), width_ratios=[1.6, 1])
-    # A gap is wide enough for a number.
-    width = 6.5 * max(SMALLEST_GAP, *(1e3 * pair.gap for pair in scene.contacts)) if scene.contacts else 300.0
-    elevation = stand(axes, scene, width, "At rest; gaps to scale, widths not", margin=0.2)
-    for side, levels in scene.levels.items():
-        write_levels(axes, elevation, side, levels)
-    for p, (face, pair) in enumerate(zip(elevation.faces, scene.contacts), 1):
-        mark(axes, p, pair, face, width, scene)
+    figure = Figure(figsize=(10, height))
+    axes, said = figure.subplots(1, 2, width_ratios=[1.6, 1])
+    draw_meetings(axes, scene)
     said.axis("off")
     said.set_title("Contacts")
     said.text(0.0, 1.0, "\n".join(lines), va="top", linespacing=1.7, transform=said.transAxes)
     return figure
 
 
-def words(scene):
+def draw_meetings(axes: Axes, scene: Layout, most: int = 100, always: int | None = None) -> None:
+    """The buildings at rest, and what meets, numbered; of more than there is room for every second, third ...
+
+    The contact `always` has its number in any case.
+    """
+    # A gap is wide enough for a number.
+    width = 6.5 * max(SMALLEST_GAP, *(1e3 * pair.gap for pair in scene.contacts)) if scene.contacts else 300.0
+    elevation = stand(axes, scene, width, "At rest; gaps to scale, widths not", margin=0.2)
+    for side in scene.levels:
+        write_levels(axes, elevation, side, every=-(-scene.floors[side] // most))
+    every = -(-len(scene.contacts) // most)
+    for p, (face, pair) in enumerate(zip(elevation.faces, scene.contacts), 1):
+        if p % every == 0 or p == always:
+            mark(axes, p, pair, face, width, scene)
+
+
+def words(scene: Layout) -> list[str]:
     """A line for each contact, and the floors that have none."""
     lines = []
     for p, pair in enumerate(scene.contacts, 1):
@@ -42,17 +65,17 @@ def words(scene):
     return lines
 
 
-def write_levels(axes, elevation, side, levels):
-    """On each slab, far from the other building, its number and level."""
-    for floor, level in enumerate(levels[1:], 1):
+def write_levels(axes: Axes, elevation: Elevation, side: str, every: int) -> None:
+    """On each slab, or every second, third ..., far from the other building, its number and level."""
+    for floor, level in list(enumerate(elevation.scene.levels[side]))[every::every]:
         inner = elevation.inner[side][floor - 1]
         far = inner - 0.86 * elevation.width if side == "left" else inner + 0.86 * elevation.width
         text = f"{floor}: {level:.4g} m" if elevation.scene.has_levels else f"{floor}"
-        look = {"ha": side, "color": BUILDINGS[side]["color"], "fontsize": 9.5}
+        look: dict[str, Any] = {"ha": side, "color": BUILDINGS[side]["color"], "fontsize": 9.5}
         axes.annotate(text, (far, level), (0, 7), textcoords="offset points", **look)
 
 
-def mark(axes, p, pair, face, width, scene):
+def mark(axes: Axes, p: int, pair: Contact, face: float, width: float, scene: Layout) -> None:
     """An arrow across the gap, from a slab to what it hits, and the number of the contact."""
     gap = 1e3 * pair.gap
     left, right = pair.surfaces["left"]["kind"], pair.surfaces["right"]["kind"]
@@ -66,7 +89,14 @@ def mark(axes, p, pair, face, width, scene):
     number(axes, face + gap / 2 if aside is None else aside, pair.height + (above if aside is None else 0.0), p)
 
 
-def stand(axes, scene, width, title, displacements=None, margin=0.5):
+def stand(
+    axes: Axes,
+    scene: Layout,
+    width: float,
+    title: str,
+    displacements: Mapping[str, NDArray[Any]] | None = None,
+    margin: float = 0.5,
+) -> Elevation:
     """The buildings of a scene; displacements, mm, of the floors of each."""
     elevation = Elevation(axes, scene, width)
     if displacements is not None:
@@ -82,7 +112,7 @@ def stand(axes, scene, width, title, displacements=None, margin=0.5):
     return elevation
 
 
-def number(axes, x, y, p):
+def number(axes: Axes, x: float, y: float, p: int) -> None:
     """The number of a contact in a circle."""
     look = {"boxstyle": "circle,pad=0.25", "facecolor": "white", "edgecolor": BLACK, "linewidth": 1.2}
     axes.text(x, y, str(p), bbox=look, **LABEL)

@@ -1,55 +1,65 @@
-"""What stands where in a scene: floors at their levels, what meets at each contact. The engine's program says it."""
+"""What stands where in a scene: floors at their levels, what meets at each contact. The engine says it."""
+
+from __future__ import annotations
 
 import json
-import subprocess
-import tempfile
-from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from engine import program
+from .. import _native
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .runs import Run
 
 SIDES = ("left", "right")
+Surface = dict[str, Any]  # what meets on one side of a gap; its `kind` is floor, columns or wall
+Levels = dict[str, "NDArray[Any]"]
 
 
-class Scene:
-    """A scene file and what pictures need to know of it. Only buildings that are there are in its dictionaries."""
+class Layout:
+    """What pictures need to know of a scene. Only buildings that are there are in its dictionaries."""
 
-    def __init__(self, path):
-        self.path = Path(path).resolve()
-        told = ask(self.path)
-        self.name = told["name"]
-        self.floors = {side: told[side]["floors"] for side in SIDES if told[side]["floors"] > 0}
+    def __init__(self, scene: _native.Scene) -> None:
+        told = json.loads(scene.layout())
+        self.name: str = told["name"]
+        self.floors: dict[str, int] = {side: told[side]["floors"] for side in SIDES if told[side]["floors"] > 0}
         levels = {side: told[side]["levels"] for side in self.floors}
         self.has_levels = None not in levels.values()
         # From the ground floor up: m, or storeys of height 1 where not all buildings have heights.
-        self.levels = {
+        self.levels: Levels = {
             side: np.array(levels[side]) if self.has_levels else np.arange(count + 1.0)
             for side, count in self.floors.items()
         }
         self.contacts = [Contact(contact, self) for contact in told["contacts"]]
 
     @property
-    def top(self):
-        return max(levels[-1] for levels in self.levels.values())
+    def top(self) -> float:
+        return max(float(levels[-1]) for levels in self.levels.values())
 
     @property
-    def bottom(self):
-        return min(levels[0] for levels in self.levels.values())
+    def bottom(self) -> float:
+        return min(float(levels[0]) for levels in self.levels.values())
 
 
 class Contact:
-    """What meets on both sides of a gap. A surface is a dictionary: its `kind` is floor, columns or wall."""
+    """What meets on both sides of a gap, m."""
 
-    def __init__(self, told, scene):
-        self.gap, self.law, self.row = told["gap"], told["law"], told["row"]
-        self.surfaces = {side: told[side] for side in SIDES}
+    def __init__(self, told: dict[str, Any], scene: Layout) -> None:
+        self.gap: float = told["gap"]
+        self.law: str = told["law"]
+        self.row: list[tuple[str, int, float]] = told["row"]
+        self.surfaces: dict[str, Surface] = {side: told[side] for side in SIDES}
         heights = [height(surface, scene.levels) for surface in self.surfaces.values() if surface["kind"] != "wall"]
         self.height = float(np.mean(heights))
         self.meeting = in_words(*self.surfaces.values())
         self.name = self.meeting + (f", level {self.height:.4g} m" if scene.has_levels else "")
+        self.title = self.name[:1].upper() + self.name[1:]
+        self.is_rigid = self.law == "stereomechanical"
 
-    def edges(self, run):
+    def edges(self, run: Run) -> tuple[NDArray[Any], NDArray[Any]]:
         """m, both surfaces over the time of a run: from where the left one is at rest, to the right."""
         left, right = np.zeros_like(run.time), np.full_like(run.time, self.gap)
         for side, floor, weight in self.row:
@@ -59,49 +69,37 @@ class Contact:
                 right -= weight * run[f"{side}.displacement[{floor}]"]
         return left, right
 
-    def height_on(self, side, levels):
+    def height_on(self, side: str, levels: Levels) -> float | None:
         """Where a building is touched, or None where it is not."""
         own = [surface for surface in self.surfaces.values() if surface.get("side") == side]
         return height(own[0], levels) if own else None
 
 
-def height(surface, levels):
+def height(surface: Surface, levels: Levels) -> float:
     """Of a floor or of a place on columns, among the levels of the buildings."""
     own = levels[surface["side"]]
     if surface["kind"] == "floor":
-        return own[surface["floor"]]
+        return float(own[surface["floor"]])
     below, above = own[surface["storey"] - 1], own[surface["storey"]]
-    return below + surface["position"] * (above - below)
+    return float(below + surface["position"] * (above - below))
 
 
-def in_words(left, right):
+def in_words(left: Surface, right: Surface) -> str:
     """What meets, in few words."""
     if left["kind"] == right["kind"] == "floor":
         is_same = left["floor"] == right["floor"]
         return f"floor {left['floor']} of both" if is_same else f"{called(left)}, {called(right)}"
     if "wall" in (left["kind"], right["kind"]):
         return f"{called(right)}, wall on its left" if left["kind"] == "wall" else f"{called(left)}, wall on its right"
-    hits, hit = sorted((left, right), key=lambda surface: surface["kind"] == "columns")
+    hits, hit = sorted((left, right), key=lambda surface: bool(surface["kind"] == "columns"))
     return f"{called(hits)}, columns of {called(hit)}"
 
 
-def called(surface):
+def called(surface: Surface) -> str:
     what = "floor" if surface["kind"] == "floor" else "storey"
     return f"{surface['side']} {what} {surface[what]}"
 
 
-def clamped(s):
+def clamped(s: Any) -> Any:
     """How far columns with ends that do not rotate are displaced at the share s of their height: an S from 0 to 1."""
     return s * s * (3.0 - 2.0 * s)
-
-
-def ask(path):
-    """The scene as `simulate --layout` tells it. Where it is none, the program says what is wrong with it."""
-    with tempfile.TemporaryDirectory() as folder:
-        told = Path(folder, "layout.json")
-        # Only the beginning of the run: nothing of the motion is asked for.
-        command = [program(), path, "--layout", told, "--stop", "1e-6"]
-        done = subprocess.run(command, capture_output=True, text=True)
-        if done.returncode != 0:
-            raise SystemExit(done.stderr.strip())
-        return json.loads(told.read_text())

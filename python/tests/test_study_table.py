@@ -6,25 +6,24 @@ import tracemalloc
 
 import pyarrow.parquet
 import pytest
-
-import harness
+from pounding_fmu.study import cases as of_cases
+from pounding_fmu.study import results, table
 
 STOREYS = {"left": 2, "right": 3}
 NEVER_CLOSES = 1000.0
 
 
 def results_of(folder, storeys=STOREYS):
-    return harness.example("study_results").Results(folder / "results.csv", storeys)
+    return results.Results(folder / "results.csv", storeys)
 
 
 def case_of(record="R", pga=1.0, gap=0.01):
-    return harness.example("study_worker").Case("A", "a", record, "r", pga, gap, 5.0)
+    return of_cases.Case("A", "a", record, "r", pga, gap, 5.0)
 
 
 def row_of(case, *, storeys=STOREYS, drift=0.02, **more):
-    table = harness.example("study_table")
     numbers = {name: kind(2) for name, kind in (table.INTENSITY | table.RESULT).items()}
-    known = harness.example("study_results").columns_of(case)
+    known = results.columns_of(case)
     of_storeys = {f"{side}_drift_m[{i}]": drift * i for side, count in storeys.items() for i in range(1, count + 1)}
     return {**known, **numbers, **of_storeys, "error": "", **more}
 
@@ -86,8 +85,8 @@ def test_a_ratio_needs_the_run_without_contact(tmp_path):
 @pytest.mark.parametrize(
     "damage, said",
     [
-        (lambda lines: [*lines[:2], b"", *lines[2:]], ["line 3: expected 40 cells, found a blank line"]),
-        (lambda lines: [*lines[:2], b"hello", *lines[2:]], ["line 3: expected 40 cells, found 1"]),
+        (lambda lines: [*lines[:2], b"", *lines[2:]], ["line 3: expected 54 cells, found a blank line"]),
+        (lambda lines: [*lines[:2], b"hello", *lines[2:]], ["line 3: expected 54 cells, found 1"]),
         (lambda lines: [*lines[:2], b"\xff\xfe", *lines[2:]], ["line 3: no text: byte 0xff at 1"]),
         (lambda lines: [b"\x00\xc3" + lines[0], *lines[1:]], ["line 1: no text: byte 0xc3 at 2"]),
         (lambda lines: [b"a,b,c", *lines[1:]], ["line 1: no table of this version's studies"]),
@@ -98,7 +97,7 @@ def test_a_ratio_needs_the_run_without_contact(tmp_path):
         ),
         (lambda lines: [*lines[:2], lines[2].replace(b",0.01,", b",,")], ["line 3: gap_m: expected a value"]),
         (lambda lines: [*lines[:2], b'"' + lines[2], *lines[3:]], ["line "]),
-        (lambda lines: [lines[0], *[b"x"] * 1000], ["line 2: expected 40", "line 11: expected 40", "and 990 more"]),
+        (lambda lines: [lines[0], *[b"x"] * 1000], ["line 2: expected 54", "line 11: expected 54", "and 990 more"]),
     ],
 )
 def test_a_damaged_table_is_told_by_its_lines(tmp_path, damage, said):
@@ -108,7 +107,7 @@ def test_a_damaged_table_is_told_by_its_lines(tmp_path, damage, said):
     path = tmp_path / "results.csv"
     path.write_bytes(b"\n".join([*damage(path.read_bytes().splitlines()), b""]))
     before = path.read_bytes()
-    with pytest.raises(SystemExit) as stopped:
+    with pytest.raises(ValueError) as stopped:
         results_of(tmp_path)
     assert all(f"{path}, {part}" in str(stopped.value) or part in str(stopped.value) for part in said), stopped.value
     assert len(str(stopped.value).splitlines()) < 13
@@ -126,7 +125,7 @@ def test_a_building_that_is_not_there_may_lack_its_numbers_but_no_other_may(tmp_
     assert len(opened.rows) == 2
     opened.add([one_lacks])
     opened.close()
-    with pytest.raises(SystemExit, match="line 4: right_drift_m: expected a value, or a reason in error"):
+    with pytest.raises(ValueError, match="line 4: right_drift_m: expected a value, or a reason in error"):
         results_of(tmp_path)
 
 
@@ -157,7 +156,7 @@ def test_parquet_is_the_same_table(tmp_path):
     cases = [case_of(pga=pga) for pga in (1.0, 2.0, 3.0)]
     opened = results_of(tmp_path)
     opened.add([row_of(case, **{"left_drift_m[1]": 0.1 / 3}) for case in cases[:2]])
-    opened.add([{**harness.example("study_results").columns_of(cases[2]), "error": "failed"}])
+    opened.add([{**results.columns_of(cases[2]), "error": "failed"}])
     opened.finish(cases)
     found = pyarrow.parquet.read_table(tmp_path / "results.parquet")
     with (tmp_path / "results.csv").open(newline="") as file:

@@ -1,11 +1,20 @@
 """Buildings, walls and ground of a scene as they stand: upright to the scale of their levels, across in mm, with widths
-that fit. The animation moves them; plot_contacts.py marks what meets."""
+that fit. The animation moves them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.patches import Polygon, Rectangle
 
-from layout import SIDES, clamped
-from style import BUILDINGS, GREY, SOLID
+from .layout import SIDES, Contact, Layout, clamped
+from .style import BUILDINGS, GREY, SOLID
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
 
 # mm between buildings of which no contact says how far apart they are.
 USUAL_GAP = 50.0
@@ -15,25 +24,25 @@ class Elevation:
     """At rest, in mm from the left building's edge at the gap: `inner` has each floor's edge there, of both buildings,
     and `faces` the left surface of each contact."""
 
-    def __init__(self, axes, scene, width):
+    def __init__(self, axes: Axes, scene: Layout, width: float) -> None:
         self.scene, self.width = scene, width
         self.inner = inner_edges(scene)
         self.buildings = {side: Building(axes, scene, side, edges, width) for side, edges in self.inner.items()}
         self.faces = [self.left_face(pair) for pair in scene.contacts]
 
-    def ends(self):
+    def ends(self) -> tuple[float, float]:
         """mm, from wall to wall or from edge to edge."""
         gaps = [1e3 * pair.gap for pair in self.scene.contacts]
         outer = [*self.faces, *(face + gap for face, gap in zip(self.faces, gaps))]
         right = self.inner["right"].max() + self.width if "right" in self.inner else 0.0
         return min(-self.width, *outer), max(right, *outer)
 
-    def place(self, displacements):
+    def place(self, displacements: Mapping[str, NDArray[Any]]) -> None:
         """Moves the floors of each building, mm."""
         for side, building in self.buildings.items():
             building.place(displacements[side])
 
-    def left_face(self, pair):
+    def left_face(self, pair: Contact) -> float:
         left, right = pair.surfaces["left"], pair.surfaces["right"]
         surface = right if left["kind"] == "wall" else left
         if surface["side"] == "left":
@@ -44,7 +53,7 @@ class Elevation:
             edges = inner, inner + self.width
         return edges[0] - 1e3 * pair.gap if left["kind"] == "wall" else edges[1]
 
-    def draw_surroundings(self, axes, xlim):
+    def draw_surroundings(self, axes: Axes, xlim: tuple[float, float]) -> None:
         """The ground at the level of each building, and walls up to a little above what hits them."""
         scene = self.scene
         step = self.inner["right"][0] / 2 if "right" in self.inner else xlim[1]
@@ -61,7 +70,7 @@ class Elevation:
 class Building:
     """Slabs and columns of one building."""
 
-    def __init__(self, axes, scene, side, edges, width):
+    def __init__(self, axes: Axes, scene: Layout, side: str, edges: NDArray[Any], width: float) -> None:
         self.levels, self.edges = scene.levels[side], edges
         colour = BUILDINGS[side]["color"]
         slab = np.mean(np.diff(self.levels)) * max(0.12, 0.016 * len(edges))
@@ -77,7 +86,7 @@ class Building:
         ]
         self.place(np.zeros(len(edges)))
 
-    def place(self, displacements):
+    def place(self, displacements: NDArray[Any]) -> None:
         """Moves its floors, mm."""
         at = self.edges + displacements
         for slab, x in zip(self.slabs, at):
@@ -88,19 +97,19 @@ class Building:
             polygon.set_xy(np.column_stack([np.concatenate(sides), np.concatenate([up, up[::-1]])]))
 
 
-def is_hit(pair, side):
+def is_hit(pair: Contact, side: str) -> bool:
     """Whether columns of a building are hit."""
     return any(surface["kind"] == "columns" and surface["side"] == side for surface in pair.surfaces.values())
 
 
-def bend(x, levels, points=13):
+def bend(x: NDArray[Any], levels: NDArray[Any], points: int = 13) -> tuple[NDArray[Any], NDArray[Any]]:
     """Columns from floor to floor."""
     s = np.linspace(0.0, 1.0, points)
     across = np.concatenate([low + (high - low) * clamped(s) for low, high in zip(x, x[1:])])
     return across, np.concatenate([low + (high - low) * s for low, high in zip(levels, levels[1:])])
 
 
-def inner_edges(scene):
+def inner_edges(scene: Layout) -> dict[str, NDArray[Any]]:
     """Where no contact says how far apart two floors are, it is as below or above."""
     inner = {side: np.zeros(count) for side, count in scene.floors.items()}
     if "right" in inner:
@@ -110,7 +119,7 @@ def inner_edges(scene):
     return inner
 
 
-def prepare_height(axes, scene, more=None):
+def prepare_height(axes: Axes, scene: Layout, more: str | None = None) -> None:
     """An upright axis: levels to scale where the scene has them, else floors."""
     said = "level [m]" if scene.has_levels else "floor; storeys drawn equally high"
     axes.set_ylabel(f"{said}\n({more})" if more else said)

@@ -1,0 +1,276 @@
+"""The search for the gap that two buildings need: runs of a scene under each ground motion, with one gap after another.
+
+Until floors meet the motion is that without contact, so where the buildings do not meet they do not with a wider gap
+either: the gap that they need is enclosed between one with impacts and one without. Impacts and forces are those of
+continuous time. The largest force has no such order, so gaps are scanned for it first.
+"""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+import warnings
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from .. import _native
+from .._batch import simulate_batch
+from .._scenes import SceneWarning, read_scene, refuse, variables_of
+from ..study.records import label, named, read_records
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from .._scenes import Record, Scene
+
+    Numbers = NDArray[np.float64]
+
+FAR = 1e3  # m
+TOLERANCE = 1e-6  # m
+AT_ONCE = 8  # gaps that divide each interval
+SCAN = 200  # gaps at which forces are first looked at
+SHARES = (1.01, 0.8, 0.6, 0.4, 0.2, 0.0)  # of the gap that keeps the buildings apart: what smaller ones cost
+EUROCODE = 0.7  # for floors at the same levels [Eurocode2004, section 4.4.2.7]
+
+
+@dataclass(frozen=True)
+class RequiredGap:
+    """Of one ground motion; lengths in m. Rules are those of the contact for which they ask most."""
+
+    record: str
+    pga: float
+    """m/s2, peak of the ground acceleration"""
+    gap: float
+    """that the buildings need to stay apart, to 1e-6 m on the safe side"""
+    contact: int | None
+    """that closes first with a smaller one, counted from 1; None where no gap is needed"""
+    absolute_sum: float
+    """sum of the largest displacements a and b of both buildings at a contact"""
+    srss: float
+    """root of a2 + b2: Eurocode 8 and ASCE 7, for two buildings on one property"""
+    eurocode: float | None
+    """0.7 times that, which Eurocode 8 allows where all contacts are between floors at the same levels; else None"""
+    ddc: float
+    """root of a2 + b2 - 2 rho a b, rho the correlation of the first modes of both buildings"""
+    force_gap: float | None = None
+    """from which on no gap has a larger force than the limit, to 1e-6 m on the safe side; None without a limit"""
+    hardest_force: float | None = None
+    """N, the largest force of all gaps that were tried for that"""
+    hardest_gap: float | None = None
+    """the gap that has it"""
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What a gap costs, in the worst of all ground motions."""
+
+    gap: float
+    """m"""
+    pounding: int
+    """ground motions in which the buildings meet"""
+    impacts: int
+    force: float
+    """N"""
+    drift_ratios: dict[str, float]
+    """of each building the largest ratio of a storey's drift to that without contact"""
+
+
+class Motion:
+    """A ground motion at one intensity."""
+
+    def __init__(self, name: str, record: _native.Record, scene: _native.Scene, pga: float | None) -> None:
+        import numpy as np
+
+        self.name, self.samples = name, record.samples()
+        peak = float(np.abs(self.samples[1]).max())
+        under = scene.with_record(record)
+        of_scene: Any = variables_of(under)["ground.scale"].start
+        self.scale = of_scene if pga is None else pga / peak
+        self.pga = self.scale * peak if pga is None else pga
+        self.stop = max(under.stop(), float(self.samples[0][-1]))
+
+
+class Search:
+    """Runs of a scene under each ground motion, with one gap after another."""
+
+    def __init__(
+        self,
+        scene: Scene,
+        records: Sequence[Record] | Mapping[str, Record] | None,
+        pga: Iterable[float] | None,
+        force: float | None,
+        threads: int | None,
+        progress: Callable[[int, int], object] | None,
+    ) -> None:
+        self.scene, self.force, self.threads, self.progress = scene, force, threads, progress
+        read = read_scene(scene)
+        self.warnings, self.modes, self.layout = read.warnings(), read.first_modes(), json.loads(read.layout())
+        self.motions = _motions(read, records, None if pga is None else [float(value) for value in pga])
+        self.names = list(variables_of(read))
+        self.contacts = range(1, len(self.layout["contacts"]) + 1)
+        self.peaks = [name for name in self.names if ".peak_displacement[" in name]
+        self.drifts = {
+            side: names
+            for side in ("left", "right")
+            if (names := [name for name in self.names if name.startswith(f"{side}.peak_drift[")])
+        }
+        found = ["expected a scene with contacts"] * (not self.contacts)
+        found += ["expected a scene with peaks: outputs.peaks = true"] * (not self.peaks)
+        if force is not None:
+            found += [f"force = {force!r}: expected a number of N > 0"] * (not 0.0 < force < math.inf)
+            rigid = [p for p in self.contacts if f"contact[{p}].stiffness" not in self.names]
+            found += [f"force: contact[{p}] is stereomechanical, whose impacts have an impulse and no force" for p in rigid]
+        refuse(found)
+        self.done = 0
+
+    def run(self) -> list[RequiredGap]:
+        """Of each ground motion the gap that it needs, and what rules say."""
+        import numpy as np
+
+        count = len(self.motions)
+        peaks = self._ends(np.full((count, 1), FAR), self.peaks)[:, 0]
+        rules = [self._rules(dict(zip(self.peaks, of))) for of in peaks]
+        # The buildings cannot come nearer than by what either of them moves.
+        widest = np.array([rule["absolute_sum"] for rule in rules]) * (1 + 1e-9)
+        impacts = [f"contact[{p}].impacts" for p in self.contacts]
+        needed = self._enclose(np.zeros(count), widest, lambda gaps: self._ends(gaps, impacts).max(axis=2) > 0)
+        first = self._ends(np.maximum(needed - 2 * TOLERANCE, 0.0)[:, None], impacts)[:, 0]
+        closes = [int(np.argmax(of)) + 1 if of.any() else None for of in first]
+        forces = self._forces(needed, self.force) if self.force is not None else [{}] * count
+        found: Any = zip(self.motions, needed.tolist(), closes, rules, forces)
+        return [RequiredGap(of.name, of.pga, gap, contact, **rule, **more) for of, gap, contact, rule, more in found]
+
+    def _forces(self, needed: Numbers, limit: float) -> list[dict[str, float]]:
+        """From which gap on the force stays below the limit, and the largest force that was found."""
+        import numpy as np
+
+        gaps = needed[:, None] * np.linspace(0.0, 1.0, SCAN)
+        forces = self._largest_force(gaps)
+        exceeds = forces > limit
+        # With the widest gap there is no contact: where a gap exceeds the limit there is one above it.
+        last = np.where(exceeds.any(axis=1), SCAN - 1 - np.argmax(exceeds[:, ::-1], axis=1), 0)
+        each = np.arange(len(needed))
+        intervals = gaps[each, last], gaps[each, last + 1]
+        refined = self._enclose(*intervals, lambda tried: self._largest_force(tried) > limit)
+        hardest = np.argmax(forces, axis=1)
+        return [
+            {"force_gap": float(refined[i]), "hardest_force": float(forces[i, at]), "hardest_gap": float(gaps[i, at])}
+            for i, at in enumerate(hardest)
+        ]
+
+    def _largest_force(self, gaps: Numbers) -> Numbers:
+        forces: Numbers = self._ends(gaps, [f"contact[{p}].peak_force" for p in self.contacts]).max(axis=2)
+        return forces
+
+    def _enclose(self, low: Numbers, high: Numbers, is_bad: Callable[[Numbers], NDArray[np.bool_]]) -> Numbers:
+        """The gaps from which on nothing that was tried is bad: `low` where it is not, else below `high`, which is not."""
+        import numpy as np
+
+        each, shares = np.arange(len(low)), np.arange(1, AT_ONCE + 1) / (AT_ONCE + 1)
+        high = np.where(is_bad(low[:, None])[:, 0], high, low)
+        while (high - low).max() > TOLERANCE:
+            tried = low[:, None] + (high - low)[:, None] * shares
+            bad = is_bad(tried)
+            last = np.where(bad.any(axis=1), AT_ONCE - np.argmax(bad[:, ::-1], axis=1), 0)
+            bounds = np.column_stack([low, tried, high])
+            low, high = bounds[each, last], bounds[each, last + 1]
+        return high
+
+    def _ends(self, gaps: Numbers, outputs: Sequence[str]) -> Numbers:
+        """The outputs at the end of each ground motion (first index) with each of its gaps (second index)."""
+        import numpy as np
+
+        ends = np.empty((*gaps.shape, len(outputs)))
+        for stop in dict.fromkeys(motion.stop for motion in self.motions):
+            which = [i for i, motion in enumerate(self.motions) if motion.stop == stop for _ in range(gaps.shape[1])]
+            rows = sorted(set(which))
+            parameters: dict[str, Any] = dict.fromkeys((f"contact[{p}].gap" for p in self.contacts), gaps[rows].ravel())
+            parameters["ground.scale"] = [self.motions[i].scale for i in which]
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", SceneWarning)
+                found = simulate_batch(
+                    self.scene,
+                    parameters,
+                    outputs,
+                    [self.motions[i].samples for i in which],
+                    self.threads,
+                    stop=stop,
+                    progress=self._tell,
+                )
+            ends[rows] = found.reshape(len(rows), gaps.shape[1], len(outputs))
+            self.done += len(which)
+        return ends
+
+    def _tell(self, done: int, _: int) -> None:
+        if self.progress is not None:
+            self.progress(self.done + done, max(self._planned(), self.done + done))
+
+    def _planned(self) -> int:
+        """Runs until all is found, about: how wide the first intervals are is not known before."""
+        rounds = math.log(1.0 / TOLERANCE) / math.log(AT_ONCE + 1)
+        search = 3 + AT_ONCE * math.ceil(rounds)
+        by_force = SCAN + AT_ONCE * math.ceil(rounds - math.log(SCAN) / math.log(AT_ONCE + 1))
+        return len(self.motions) * (search + (by_force if self.force is not None else 0))
+
+    def _rules(self, peaks: Mapping[str, float]) -> dict[str, float | None]:
+        """What rules say, by the largest displacements of the floors that meet; between floors at most their mean."""
+        pairs = []
+        for contact in self.layout["contacts"]:
+            moves = {"left": 0.0, "right": 0.0}
+            for side, floor, weight in contact["row"]:
+                moves[side] += abs(weight) * peaks[f"{side}.peak_displacement[{floor}]"]
+            pairs.append((moves["left"], moves["right"]))
+        left, right = self.modes
+        rho = correlation(left, right) if left and right else 0.0
+        srss = max(math.hypot(a, b) for a, b in pairs)
+        kinds = {contact[side]["kind"] for contact in self.layout["contacts"] for side in ("left", "right")}
+        return {
+            "absolute_sum": max(a + b for a, b in pairs),
+            "srss": srss,
+            "eurocode": EUROCODE * srss if kinds == {"floor"} else None,
+            "ddc": max(math.sqrt(max(a * a + b * b - 2 * rho * a * b, 0.0)) for a, b in pairs),
+        }
+
+    def costs(self, widest: float) -> list[Cost]:
+        """What gaps cost that are shares of this one, in all ground motions."""
+        import numpy as np
+
+        count = len(self.motions)
+        gaps = [share * widest for share in SHARES]
+        names = list(itertools.chain(*self.drifts.values()))
+        outputs = ["impacts", *names, *(f"contact[{p}].peak_force" for p in self.contacts)]
+        ends = self._ends(np.tile([FAR, *gaps], (count, 1)), outputs)
+        drifts = dict(zip(names, np.moveaxis(ends[:, 1:, 1 : 1 + len(names)] / ends[:, :1, 1 : 1 + len(names)], 2, 0)))
+        found = []
+        for i, gap in enumerate(gaps):
+            at = ends[:, i + 1]
+            ratios = {side: float(max(drifts[name][:, i].max() for name in of)) for side, of in self.drifts.items()}
+            impacts, force = at[:, 0], float(at[:, 1 + len(names) :].max())
+            found.append(Cost(gap, int((impacts > 0).sum()), int(impacts.max()), force, ratios))
+        return found
+
+
+def correlation(one: tuple[float, float], other: tuple[float, float]) -> float:
+    """Of the responses of two oscillators, period and damping ratio each, to white noise [Chopra2001, section 13.7]."""
+    (period, ratio), (other_period, other_ratio) = one, other
+    r = period / other_period
+    above = 8 * math.sqrt(ratio * other_ratio) * (ratio + other_ratio * r) * r**1.5
+    below = (1 - r * r) ** 2 + 4 * ratio * other_ratio * r * (1 + r * r) + 4 * (ratio**2 + other_ratio**2) * r * r
+    return above / below if below else 1.0
+
+
+def _motions(read: _native.Scene, records: Any, pga: list[Any] | None) -> list[Motion]:
+    """Every record at every intensity, or all that is wrong with them."""
+    problems = [f"pga: {peak!r}: expected a number of m/s2 > 0" for peak in pga or [] if not 0.0 < peak < math.inf]
+    problems += ["pga: expected at least one"] * (pga == [])
+    own = read.record()
+    if records is not None:
+        found = read_records(named(records), problems)
+    else:
+        problems += ["the scene has no record: expected records"] * (own is None)
+        found = {own.name: own} if own else {}
+    refuse(problems)
+    return [Motion(label(key), record, read, peak) for key, record in found.items() for peak in pga or [None]]

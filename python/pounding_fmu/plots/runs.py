@@ -1,0 +1,132 @@
+"""What pictures are drawn from: a scene, its run with rows within each impact, and its run without contacts."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import _native
+from .._scenes import Names
+from .._single import Result, run
+from .layout import Layout
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+Window = tuple[float, float]  # s, from and to
+
+WINDOW = 5.0  # s that a picture over time shows where nothing is said
+FINEST = 1e-3  # s, from row to row outside of impacts
+MOST_CELLS = 2e7  # numbers of a run: as many as a picture can use and memory holds
+ROWS_PER_IMPACT = 32
+# Of these outputs pictures are made.
+DRAWN = (
+    "displacement", "acceleration", "peak_acceleration", "storey_shear", "ductility", "residual_drift", "force",
+    "penetration",
+)  # fmt: skip
+
+
+class Run:
+    """Columns by name, and the rows of impacts."""
+
+    def __init__(self, result: Result) -> None:
+        self.result, self.impacts, self.time = result, result.impacts, result["time"]
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        return self.result[name]
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.result
+
+    def of_contact(self, contact: int) -> NDArray[Any]:
+        """The impacts of one contact, which are counted from 1."""
+        own: NDArray[Any] = self.impacts[self.impacts["contact"] == contact]
+        return own
+
+    def hardest(self, contact: int | None = None) -> Any:
+        """The impact with the largest force; of rigid floors, which have none, that with the largest impulse."""
+        impacts = self.impacts if contact is None else self.of_contact(contact)
+        return max(impacts, key=lambda impact: (impact["peak_force"], impact["impulse"]), default=None)
+
+    def rows(self, start: float, end: float) -> slice:
+        """Those from one time to another."""
+        return slice(int(np.searchsorted(self.time, start)), int(np.searchsorted(self.time, end, side="right")))
+
+    def rows_of(self, impact: Any) -> slice:
+        """Those of an impact; one that is open lasts to the end."""
+        return slice(*np.searchsorted(self.time, [impact["start_s"], np.nan_to_num(impact["end_s"], nan=np.inf)]))
+
+
+class Runs:
+    """A scene and, once they are asked for, its run to a time, s, and that without contacts; what of it is to be seen."""
+
+    def __init__(
+        self, scene: _native.Scene, stop: float, start: float | None = None, end: float | None = None
+    ) -> None:
+        self._scene, self.stop, self._start, self._end = scene, stop, start, end
+        self.scene = Layout(scene)
+        for name, time in [("from", start), ("to", end)]:
+            if time is not None and not 0.0 <= time <= stop * (1 + 1e-12):
+                raise ValueError(f"{name} = {time:g}: expected a time within the run, from 0 to {stop:g} s")
+        if start is not None and start >= (stop if end is None else end):
+            raise ValueError(f"from = {start:g}: expected a time before {stop if end is None else end:g} s, the end")
+
+    @cached_property
+    def run(self) -> Run:
+        """With rows within each impact."""
+        impacts = self._run(self._scene, min(0.02, self.stop), []).impacts
+        within = int(min(ROWS_PER_IMPACT, self._most_rows / 2 / max(1, len(impacts)) - 5))
+        return self._run(self._scene, self._step, self._drawn(self._scene), max(0, within))
+
+    @cached_property
+    def alone(self) -> Run:
+        """Without contacts."""
+        scene = self._scene.without_contacts()
+        return self._run(scene, self._step, self._drawn(scene))
+
+    @cached_property
+    def _most_rows(self) -> float:
+        return MOST_CELLS / len(self._drawn(self._scene))
+
+    @property
+    def _step(self) -> float:
+        return max(FINEST, 2 * self.stop / self._most_rows)
+
+    def _drawn(self, scene: _native.Scene) -> list[str]:
+        outputs = [name for name, variable in Names(scene).variables.items() if variable.causality == "output"]
+        return [name for name in outputs if name.partition(".")[2].partition("[")[0] in DRAWN]
+
+    def _run(self, scene: _native.Scene, step: float, columns: list[str], rows_per_impact: int | None = None) -> Run:
+        return Run(run(scene, Names(scene), step, self.stop, columns, rows_per_impact))
+
+    def check_motion(self) -> None:
+        """What stands still makes no picture."""
+        if not any(np.any(self.run[f"{side}.displacement[1]"]) for side in self.scene.floors):
+            raise ValueError("nothing moves in this scene: give it a ground motion with --record FILE")
+
+    def seen(self, start: float, end: float) -> Window:
+        """s, what pictures over time show: what was asked for, else these."""
+        return start if self._start is None else self._start, end if self._end is None else self._end
+
+    @cached_property
+    def window(self) -> Window:
+        """s, what was asked for; else the seconds with the strongest pounding."""
+        if self._start is self._end is None:
+            return self.strongest()
+        return self.seen(0.0, self.stop)
+
+    def strongest(self) -> Window:
+        """The window with the largest sum of impulses; without impacts that with the largest displacement."""
+        if self.stop <= WINDOW:
+            return 0.0, self.stop
+        times, weights = self.run.time, self.run["left.displacement[1]"] ** 2
+        if len(self.run.impacts):
+            times, weights = self.run.impacts["start_s"], np.abs(self.run.impacts["impulse"])
+        starts = np.linspace(0.0, self.stop - WINDOW, 200)
+        totals = np.array([np.sum(weights[(times >= start) & (times < start + WINDOW)]) for start in starts])
+        best = starts[totals == totals.max()]
+        # In the middle of those that show as much: what happens is not at the edge.
+        start = float(best[len(best) // 2])
+        return start, start + WINDOW

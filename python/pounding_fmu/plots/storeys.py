@@ -1,0 +1,146 @@
+"""Pictures of storeys: drifts over the height, and of those that yield hysteresis loops and what is left of drifts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from .elevation import prepare_height
+from .layout import Layout
+from .pictures import force_unit, legend_of_all
+from .runs import Run, Runs
+from .style import ALONE, BLACK, BUILDINGS, GREY, Look
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+# As many storeys of a building as one picture can show: those with the largest ductility.
+MOST_STOREYS = 4
+
+
+def both(runs: Runs, side: str) -> list[tuple[Run, str, Look]]:
+    """The run and that without contacts, and how their lines are called and look."""
+    pounding = (runs.run, f"{side}, pounding", {**BUILDINGS[side], "linestyle": "-"})
+    # Without contacts both are the same.
+    return [pounding, (runs.alone, "without contact", ALONE)] if runs.scene.contacts else [(runs.run, side, pounding[2])]
+
+
+def drift_of(run: Run, side: str, storey: int) -> NDArray[Any]:
+    """mm, over time."""
+    above: NDArray[Any] = 1e3 * run[f"{side}.displacement[{storey}]"]
+    return above - 1e3 * run[f"{side}.displacement[{storey - 1}]"] if storey > 1 else above
+
+
+def panels_over_height(scene: Layout, columns: int, width: float) -> tuple[Figure, Any]:
+    height = 1.8 + 0.5 * min(12, max(scene.floors.values()))
+    figure = Figure(figsize=(width * columns + 0.5, height))
+    return figure, figure.subplots(1, columns, sharey=True, squeeze=False)[0]
+
+
+def drifts(runs: Runs) -> Figure:
+    """Largest inter-storey drifts of either sign over the height, with and without contact."""
+    figure, panels = panels_over_height(runs.scene, len(runs.scene.floors), 4.0)
+    largest = max(draw_drifts(axes, runs, side) for axes, side in zip(panels, runs.scene.floors))
+    for axes, side in zip(panels, runs.scene.floors):
+        axes.set(title=f"{side.capitalize()} building", xlim=(-1.08 * largest, 1.08 * largest))
+    prepare_height(panels[0], runs.scene, "diamond: a contact" if runs.scene.contacts else None)
+    legend_of_all(figure, panels)
+    return figure
+
+
+def draw_drifts(axes: Axes, runs: Runs, side: str) -> float:
+    """Least and largest drift of each storey of a building; returns the largest magnitude, mm."""
+    levels, largest = runs.scene.levels[side], 0.0
+    for one, label, line in both(runs, side):
+        drift = np.array([drift_of(one, side, storey) for storey in range(1, len(levels))])
+        low, high = drift.min(axis=1), drift.max(axis=1)
+        largest = max(largest, -float(low.min()), float(high.max()))
+        if one is runs.run:
+            axes.stairs(high, levels, baseline=low, orientation="horizontal", fill=True, alpha=0.2, color=line["color"])
+        axes.stairs(low, levels, orientation="horizontal", baseline=None, label=label, **line)
+        axes.stairs(high, levels, orientation="horizontal", baseline=None, **line)
+    axes.axvline(0, color=GREY, linewidth=0.8)
+    axes.set_xlabel("inter-storey drift, least and largest [mm]")
+    heights = (pair.height_on(side, runs.scene.levels) for pair in runs.scene.contacts)
+    touched = sorted({height for height in heights if height is not None})
+    axes.plot(np.zeros(len(touched)), touched, "D", color=BLACK, markersize=4, zorder=3)
+    return largest
+
+
+def yielding_storeys(runs: Runs) -> dict[str, list[int]]:
+    """Of each building that has any, the storeys that can yield, counted from 1."""
+    found = {
+        side: [i for i in range(1, count + 1) if f"{side}.storey_shear[{i}]" in runs.run]
+        for side, count in runs.scene.floors.items()
+    }
+    return {side: storeys for side, storeys in found.items() if storeys}
+
+
+def most_ductile(runs: Runs, most: int) -> dict[str, list[int]]:
+    """Of each building that has any, the storeys with the largest ductility, from below."""
+    return {
+        side: sorted(sorted(own, key=lambda i, side=side: runs.run[f"{side}.ductility[{i}]"][-1])[-most:])  # type: ignore[misc]
+        for side, own in yielding_storeys(runs).items()
+    }
+
+
+def loops(runs: Runs) -> Figure | None:
+    """Storey shear against drift: what loops enclose is dissipated. In brackets the ductility without contact."""
+    shown = most_ductile(runs, MOST_STOREYS)
+    if not shown:
+        return None
+    rows, columns = max(map(len, shown.values())), len(shown)
+    figure = Figure(figsize=(4.1 * columns, 1.9 * rows + 0.8))
+    panels = figure.subplots(rows, columns, squeeze=False)
+    for axes in panels.flat:
+        axes.axis("off")
+    largest = max(np.abs(runs.run[f"{side}.storey_shear[{i}]"]).max() for side, own in shown.items() for i in own)
+    factor, unit = force_unit(largest)
+    for column, (side, own) in zip(panels.T, shown.items()):
+        # As the storeys stand: the first one at the bottom.
+        for axes, storey in zip(column[::-1], own):
+            axes.axis("on")
+            draw_loops(axes, runs, side, storey, factor)
+        column[rows - len(own)].set_ylabel(f"storey shear [{unit}]")
+        column[-1].set_xlabel("drift [mm]")
+    legend_of_all(figure, panels.flat)
+    return figure
+
+
+def draw_loops(axes: Axes, runs: Runs, side: str, storey: int, factor: float) -> None:
+    lines = both(runs, side)
+    for one, label, line in lines[::-1]:
+        shear = one[f"{side}.storey_shear[{storey}]"] / factor
+        axes.plot(drift_of(one, side, storey), shear, label=label, **{**line, "linewidth": 1.0})
+    axes.axhline(0, color=GREY, linewidth=0.8)
+    axes.axvline(0, color=GREY, linewidth=0.8)
+    pounding, *alone = (f"{one[f'{side}.ductility[{storey}]'][-1]:.1f}" for one, _, _ in lines)
+    axes.set_title(f"{side.capitalize()} storey {storey}: ductility {pounding}" + "".join(f" ({text})" for text in alone))
+
+
+def residual(runs: Runs) -> Figure | None:
+    """Ductility and residual drift of each storey at the end, over the height, with and without contact."""
+    storeys = yielding_storeys(runs)
+    if not storeys:
+        return None
+    figure, panels = panels_over_height(runs.scene, 2 * len(storeys), 2.6)
+    for side, ductility, left_over in zip(storeys, panels[::2], panels[1::2]):
+        for one, label, line in both(runs, side):
+            for axes, quantity, factor in [(ductility, "ductility", 1.0), (left_over, "residual_drift", 1e3)]:
+                # A storey that stays elastic has no such numbers.
+                at_end = [
+                    factor * one[f"{side}.{quantity}[{i}]"][-1] if i in storeys[side] else np.nan
+                    for i in range(1, runs.scene.floors[side] + 1)
+                ]
+                levels = runs.scene.levels[side]
+                axes.stairs(at_end, levels, orientation="horizontal", baseline=None, label=label, **line)
+        ductility.axvline(1, color=BLACK, linewidth=0.8, linestyle=":")
+        left_over.axvline(0, color=GREY, linewidth=0.8)
+        ductility.set(title=f"{side.capitalize()} building", xlabel="ductility", xlim=(0, None))
+        left_over.set_xlabel("residual drift [mm]")
+    prepare_height(panels[0], runs.scene, "dotted: yield")
+    legend_of_all(figure, panels)
+    return figure
