@@ -13,19 +13,15 @@ as a floor force. It does so in two ways, beside one FMU that holds everything:
 The impacts need nothing of the master: they happen inside the FMUs.
 """
 
-import argparse
-import shlex
-import subprocess
 import tempfile
 from pathlib import Path
 
 import numpy as np
-from fmpy import extract, read_model_description, simulate_fmu
+import pounding_fmu
+from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
 
-ROOT = Path(__file__).resolve().parents[1]
-RECORD = ROOT / "examples/records/el_centro_1940_ns.csv"
-
+STOP, STEPS = 6.0, [0.01, 0.005, 0.0025, 0.00125]  # s
 SOIL = 8e7  # N/m, between the foundations
 # Masses, kg, storey stiffnesses, N/m, and the gap to its wall, m, of each building; the foundation comes first.
 BUILDINGS = {
@@ -61,42 +57,24 @@ def scene(name, buildings, forces, between=None):
         (i, j), k = between
         stiffness[[i, j], [i, j]] += k
         stiffness[[i, j], [j, i]] -= k
-    walls, tops = [WALL] * len(parts), np.cumsum([len(mass) for mass, _, _ in parts])
-    text = f"""name = "{name}"
-[left]
-mass = {masses.tolist()}
-stiffness_matrix = {stiffness.tolist()}
-damping = {{ matrix = {damping.tolist()} }}
-[right]
-mass = {[mass for mass, _ in walls]}
-stiffness_matrix = {np.diag([k for _, k in walls]).tolist()}
-damping = {{ ratio = 0.05 }}
-[ground]
-record = '{RECORD}'
-[inputs]
-floor_forces = {str(forces).lower()}
-"""
-    for wall, (top, (_, _, gap)) in enumerate(zip(tops, parts), start=1):
-        text += f'[[contact]]\nleft_floor = {top}\nright_floor = {wall}\ngap = {gap}\n'
-        text += 'law = "hertz_damped"\nstiffness = 1e9\nrestitution = 0.65\ndamping_formula = "exact"\n'
-    return text
-
-
-def scenes():
-    """The scenes by name: everything in one, and each building by itself."""
-    foundations = (0, len(BUILDINGS["One"][0]))
+    tops = np.cumsum([len(mass) for mass, _, _ in parts])
+    contact = {"law": "hertz_damped", "stiffness": 1e9, "restitution": 0.65, "damping_formula": "exact"}
+    mass, stiffness_of_wall = WALL
     return {
-        "Whole": scene("Whole", BUILDINGS, forces=False, between=(foundations, SOIL)),
-        **{name: scene(name, [name], forces=True) for name in BUILDINGS},
+        "name": name,
+        "left": {"mass": masses, "stiffness_matrix": stiffness, "damping": {"matrix": damping}},
+        "right": {
+            "mass": [mass] * len(parts),
+            "stiffness_matrix": stiffness_of_wall * np.eye(len(parts)),
+            "damping": {"ratio": 0.05},
+        },
+        "ground": {"record": str(pounding_fmu.example_scene.parent.parent / "records/el_centro_1940_ns.csv")},
+        "inputs": {"floor_forces": forces},
+        "contact": [
+            {"left_floor": int(top), "right_floor": wall, "gap": gap, **contact}
+            for wall, (top, (_, _, gap)) in enumerate(zip(tops, parts), start=1)
+        ],
     }
-
-
-def build(name, text, folder, command=("cargo", "fmu")):
-    """Turns the text of a scene into an FMU."""
-    path = Path(folder, f"{name}.toml")
-    path.write_text(text)
-    subprocess.run([*command, path, "-o", path.with_suffix(".fmu")], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-    return str(path.with_suffix(".fmu"))
 
 
 class Building:
@@ -150,36 +128,23 @@ def couple(paths, step, stop, linear):
     return np.array(rows)
 
 
-def monolithic(path, step, stop):
-    """The same from the FMU that holds everything."""
-    names = [f"left.displacement[{floor}]" for floor in (1, 3, 4, 6)] + ["impacts"]
-    run = simulate_fmu(path, stop_time=stop, output_interval=step, relative_tolerance=None, output=names)
-    return np.array([run[name] for name in names]).T[1:]
-
-
-def compare(fmus, steps, stop):
-    """Largest errors of all displacements, relative to the largest one, with the force held and linear."""
-    paths = {name: fmus[name] for name in BUILDINGS}
-    for step in steps:
-        truth = monolithic(fmus["Whole"], step, stop)
-        runs = [couple(paths, step, stop, linear) for linear in (False, True)]
-        errors = [np.max(np.abs(run - truth)[:, :4]) / np.max(np.abs(truth[:, :4])) for run in runs]
-        yield step, *errors, int(truth[-1, 4]), *(int(run[-1, 4]) for run in runs)
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--stop", type=float, default=6.0, help="end, s (default: %(default)s)")
-    parser.add_argument("--steps", type=float, nargs="+", default=[0.01, 0.005, 0.0025, 0.00125], help="s")
-    parser.add_argument("--cargo-fmu", default="cargo fmu", help="what builds an FMU (default: %(default)s)")
-    options = parser.parse_args()
+def compare(steps, stop):
+    """By step: largest errors of all displacements relative to the largest one, force held and linear, and impacts."""
+    foundations = (0, len(BUILDINGS["One"][0]))
+    whole = scene("Whole", BUILDINGS, forces=False, between=(foundations, SOIL))
+    names = [f"left.displacement[{floor}]" for floor in (1, 3, 4, 6)]
     with tempfile.TemporaryDirectory() as folder:
-        command = shlex.split(options.cargo_fmu)
-        fmus = {name: build(name, text, folder, command) for name, text in scenes().items()}
-        print("step [ms]   error, held   error, linear   impacts (one FMU, held, linear)")
-        for step, held, linear, *impacts in compare(fmus, options.steps, options.stop):
-            print(f"{1e3 * step:9.3f}   {held:11.2e}   {linear:13.2e}   {', '.join(map(str, impacts))}")
+        scenes = {name: scene(name, [name], forces=True) for name in BUILDINGS}
+        paths = {name: pounding_fmu.build_fmu(scenes[name], Path(folder, f"{name}.fmu")) for name in scenes}
+        for step in steps:
+            result = pounding_fmu.simulate(whole, step, stop, [*names, "impacts"])
+            truth = np.array([result[name][1:] for name in names]).T
+            runs = [couple(paths, step, stop, linear) for linear in (False, True)]
+            errors = [np.abs(run[:, :4] - truth).max() / np.abs(truth).max() for run in runs]
+            yield step, *errors, int(result["impacts"][-1]), *(int(run[-1, 4]) for run in runs)
 
 
 if __name__ == "__main__":
-    main()
+    print("step [ms]   error, held   error, linear   impacts (one FMU, held, linear)")
+    for step, held, linear, *impacts in compare(STEPS, STOP):
+        print(f"{1e3 * step:9.3f}   {held:11.2e}   {linear:13.2e}   {', '.join(map(str, impacts))}")

@@ -1,7 +1,7 @@
 //! Records from files and arrays. The same content is read once: studies come back to the same files.
 
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
-use pounding::record::{self, KnownRecords, RecordError};
+use pounding::record::{self, KnownRecords, RecordError, RecordFile};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -22,11 +22,18 @@ impl Record {
     #[staticmethod]
     fn read(file: PathBuf, key: &str) -> PyResult<Record> {
         let name = file.to_string_lossy().into_owned();
-        let bytes = std::fs::read(&file)?;
-        let record = KNOWN.read(&name, bytes).map_err(|error| {
+        let record = KNOWN.read(RecordFile::read(&file)?).map_err(|error| {
             all(&error, |problem| format!("{key} = {name:?}: expected a record file, but {problem}"))
         })?;
         Ok(Record { name, record })
+    }
+
+    /// What a file says of itself: format, station or title, and the names of its channels.
+    #[staticmethod]
+    fn about(file: PathBuf, key: &str) -> PyResult<(String, String, Vec<String>)> {
+        let found = RecordFile::read(&file)?.parse();
+        let found = found.map_err(|error| all(&error, |problem| format!("{key} = {file:?}: {problem}")))?;
+        Ok((found.format.to_string(), found.about, found.channels))
     }
 
     /// That of two arrays, s and m/s2.

@@ -30,6 +30,7 @@ use clap::Args;
 use outcome::Follower;
 use pounding::description::{Package, PackagedRecord};
 use pounding::engine::Model;
+use pounding::record::RecordFile;
 use pounding::variables::{Settings, Table};
 use pounding::warnings;
 use solve::{Solution, Solved, episodes, solve};
@@ -50,7 +51,7 @@ pub struct Arguments {
     /// The scene.
     #[arg(value_name = "SCENE.toml")]
     scene: PathBuf,
-    /// Ground motion (CSV or AT2) of a scene that has no record of its own.
+    /// Ground motion, in any of the formats, of a scene that has no record of its own.
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
     /// Leaves out all contacts: how each building moves by itself.
@@ -184,8 +185,8 @@ fn give_record(package: &mut Package, file: &Path) -> Result<(), Box<dyn Error>>
         return Err(format!("--record is for a scene without one; this one has ground.record = {own:?}").into());
     }
     let name = file.to_string_lossy().into_owned();
-    let bytes = std::fs::read(file).map_err(|error| format!("cannot read {name}: {error}"))?;
-    let record = PackagedRecord::parse(&name, bytes).map_err(|error| format!("{name}: {error}"))?;
+    let read = RecordFile::read(file).map_err(|error| format!("cannot read {name}: {error}"))?;
+    let record = PackagedRecord::new(read).map_err(|error| format!("{name}: {error}"))?;
     package.record = Some(record);
     package.scene.ground.record = Some(name);
     Ok(())

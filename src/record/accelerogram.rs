@@ -1,5 +1,6 @@
 //! What a ground motion is.
 
+use super::format::Format;
 use serde::{Deserialize, Serialize};
 
 /// A ground acceleration, linear between its samples and 0 before the first and after the last.
@@ -11,6 +12,19 @@ pub struct Record {
     pub times: Vec<f64>,
     /// m/s2, positive to the right.
     pub accelerations: Vec<f64>,
+}
+
+/// A record with what its file says about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Accelerogram {
+    /// That of the file.
+    pub format: Format,
+    /// Station, event, component or title, on one line; empty where the file says nothing.
+    pub about: String,
+    /// The channels of a file of the volume 2, as it calls them, in its order; empty for other formats.
+    pub channels: Vec<String>,
+    /// Of the channel that was asked for, else of the first.
+    pub record: Record,
 }
 
 /// A record file that cannot be read: everything that is wrong with it; displayed with one problem a line.

@@ -1,28 +1,38 @@
 //! Records as CSV: `time_s,accel_m_s2`.
 
-use super::accelerogram::{Record, RecordError};
-use super::reading::{Reading, excerpt, on_line, text_of};
+use super::accelerogram::{Accelerogram, RecordError};
+use super::format::Format;
+use super::reading::{Reading, excerpt, on_line};
 
 const COLUMNS: [&str; 2] = ["time_s", "accel_m_s2"];
 
 /// Bytes of a short line: two numbers, a comma and the end of the line.
 const SHORT_LINE: usize = 12;
 
-pub(super) fn parse(bytes: &[u8]) -> Result<Record, RecordError> {
-    let text = text_of(bytes);
-    let mut rows = Rows { line: 1, rest: text.strip_prefix('\u{feff}').unwrap_or(&text) };
+/// Whether a text has the header; one without any row has none, and is told so.
+pub(super) fn is_it(text: &str) -> bool {
+    Rows { line: 1, rest: text }.next().is_none_or(|(_, row)| check_header(row).is_ok())
+}
+
+pub(super) fn parse(text: &str) -> Result<Accelerogram, RecordError> {
+    let mut rows = Rows { line: 1, rest: text };
     let Some((line, header)) = rows.next() else {
         return Err(RecordError::new(format!("no header line: expected {}", COLUMNS.join(","))));
     };
     check_header(header).map_err(|problem| RecordError::new(on_line(line, problem)))?;
-    let mut reading = Reading::with_capacity(bytes.len() / SHORT_LINE);
+    let mut reading = Reading::with_capacity(text.len() / SHORT_LINE);
     for (line, row) in rows {
         match sample(row) {
             Some((time, acceleration)) => reading.add(time, acceleration, |problem| on_line(line, problem)),
             None => reading.skip(|| on_line(line, problem(row))),
         }
     }
-    reading.complete()
+    let about = text.trim_start().strip_prefix('#').map_or_else(String::new, |rest| excerpt(first_line(rest)));
+    Ok(Accelerogram { format: Format::Csv, about, channels: Vec::new(), record: reading.complete()? })
+}
+
+fn first_line(text: &str) -> &str {
+    text.split('\n').next().unwrap_or_default()
 }
 
 /// The rows of a text, each with its line, counted from 1: all but blank ones and comments. `\r` alone ends a row too, but

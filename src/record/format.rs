@@ -1,8 +1,10 @@
 //! The formats of record files, and records from what they hold.
 
-use super::accelerogram::{Record, RecordError};
-use super::reading::Reading;
-use super::{at2, csv};
+use super::accelerogram::{Accelerogram, Record, RecordError};
+use super::file::RecordFile;
+use super::reading::{Reading, excerpt, numbered, on_line, text_of};
+use super::{at2, columns, csv, esm, knet, volume2};
+use std::fmt;
 
 /// The formats of record files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,18 +13,99 @@ pub enum Format {
     Csv,
     /// PEER, in g.
     PeerAt2,
+    /// K-NET and KiK-net, in counts with a scale factor.
+    Knet,
+    /// ESM and ITACA, in cm/s2.
+    Esm,
+    /// CSMIP, volume 2.
+    Csmip,
+    /// COSMOS, volume 2.
+    Cosmos,
+    /// Two columns of text.
+    Columns,
 }
 
-impl Format {
-    /// The format of a file of that name: `.at2` in any case is PEER, anything else CSV.
-    pub fn of(name: &str) -> Format {
-        let is_at2 = name.rsplit_once('.').is_some_and(|(_, extension)| extension.eq_ignore_ascii_case("at2"));
-        if is_at2 { Format::PeerAt2 } else { Format::Csv }
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Format::Csv => "CSV",
+            Format::PeerAt2 => "PEER AT2",
+            Format::Knet => "K-NET, KiK-net",
+            Format::Esm => "ESM, ITACA",
+            Format::Csmip => "CSMIP volume 2",
+            Format::Cosmos => "COSMOS volume 2",
+            Format::Columns => "two columns",
+        })
     }
 }
 
+impl Accelerogram {
+    /// Reads the bytes of a record file. Their format is told from what is in them; of a file that could be anything the
+    /// name counts (`.at2` in any case: PEER). `channel`, counted from 1, is for files that have several.
+    ///
+    /// # Errors
+    /// As [`Record::parse`].
+    pub fn parse(name: &str, channel: Option<usize>, bytes: &[u8]) -> Result<Accelerogram, RecordError> {
+        let text = text_of(bytes);
+        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        if csv::is_it(text) {
+            return csv::parse(text).and_then(|found| found.of_channel(channel));
+        }
+        // Lines of an old Macintosh, and the end of a file of DOS.
+        let lines = if text.contains('\n') { String::new() } else { text.replace('\r', "\n") };
+        let text = if lines.is_empty() { text } else { &lines };
+        let text = text.trim_end_matches(['\u{1a}', '\0']);
+        if volume2::is_it(text) {
+            return volume2::parse(text, channel);
+        }
+        let found = match () {
+            () if knet::is_it(text) => knet::parse(text),
+            () if esm::is_it(text) => esm::parse(text),
+            () if at2::is_it(text) => at2::parse(text),
+            () => match columns::parse(text) {
+                Some(found) => found,
+                None if volume2::has_title(text) => return volume2::parse(text, channel),
+                None if is_at2(name) => at2::parse(text),
+                None => Err(unknown(text)),
+            },
+        };
+        found.and_then(|found| found.of_channel(channel))
+    }
+
+    /// The same, where no channel but the only one has been asked for.
+    fn of_channel(self, channel: Option<usize>) -> Result<Accelerogram, RecordError> {
+        match channel {
+            None | Some(1) => Ok(self),
+            Some(number) => {
+                Err(RecordError::new(format!("#{number}: expected a file with channels, this is {}", self.format)))
+            }
+        }
+    }
+}
+
+fn is_at2(name: &str) -> bool {
+    name.rsplit_once('.').is_some_and(|(_, extension)| extension.eq_ignore_ascii_case("at2"))
+}
+
+/// What was looked for, and how the file begins.
+fn unknown(text: &str) -> RecordError {
+    const SHOWN: usize = 3;
+    let looked_for = "a header time_s,accel_m_s2 (CSV), NPTS= and DT= (PEER AT2), Origin Time (K-NET, KiK-net), \
+                      SAMPLING_INTERVAL_S: (ESM, ITACA), points of accel data (CSMIP), acceleration pts (COSMOS), two columns of \
+                      numbers";
+    let mut problems = vec![format!("no known format: expected one of {looked_for}")];
+    if let Some((number, count)) = columns::count(text) {
+        let plural = if count == 1 { "" } else { "s" };
+        problems.push(on_line(number, format!("{count} column{plural} of numbers: expected 2, time and acceleration")));
+    }
+    let lines = numbered(text).filter(|(_, line)| !line.trim().is_empty()).take(SHOWN);
+    problems.extend(lines.map(|(number, line)| on_line(number, excerpt(line))));
+    RecordError { problems }
+}
+
 impl Record {
-    /// Reads the bytes of a record file; the name tells the format (`.at2` in any case: PEER, else CSV).
+    /// Reads the bytes of a record file: [`Accelerogram::parse`] without what the file says about itself. A name that ends
+    /// with `#2` asks for the second channel.
     ///
     /// ```
     /// use pounding::record::Record;
@@ -34,14 +117,13 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// Everything that is wrong, each with its line (counted from 1), the value found and what was expected: a header
-    /// that does not fit (nothing behind it is looked at then), something that is not a finite number, times that do
-    /// not increase, fewer than two samples, a number of samples other than the one announced.
+    /// Everything that is wrong, each with its line (counted from 1), the value found and what was expected: a file in no
+    /// known format, with its first lines; a header that does not fit (nothing behind it is looked at then), a unit that is
+    /// missing or none of acceleration, something that is not a finite number, times that do not increase, fewer than two
+    /// samples, a number of samples other than the one announced, a channel that is not there.
     pub fn parse(name: &str, bytes: &[u8]) -> Result<Record, RecordError> {
-        match Format::of(name) {
-            Format::Csv => csv::parse(bytes),
-            Format::PeerAt2 => at2::parse(bytes),
-        }
+        let RecordFile { name, channel, .. } = RecordFile::named(name, Vec::new());
+        Ok(Accelerogram::parse(&name, channel, bytes)?.record)
     }
 
     /// A record that has come another way than by [`Record::parse`], if it could have been read from a file.

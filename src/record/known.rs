@@ -2,7 +2,7 @@
 //! what is in the file is compared, so that one that has changed is read anew.
 
 use super::accelerogram::{Record, RecordError};
-use super::format::Format;
+use super::file::RecordFile;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -15,7 +15,7 @@ pub struct KnownRecords {
 
 #[derive(Debug)]
 struct Known {
-    format: Format,
+    channel: Option<usize>,
     bytes: Vec<u8>,
     record: Arc<Record>,
 }
@@ -26,20 +26,20 @@ impl KnownRecords {
         KnownRecords { most, known: Mutex::new(VecDeque::new()) }
     }
 
-    /// The record in the bytes of a file; the name tells the format, as in [`Record::parse`].
+    /// The record in a file.
     ///
     /// # Errors
     /// As [`Record::parse`].
-    pub fn read(&self, name: &str, bytes: Vec<u8>) -> Result<Arc<Record>, RecordError> {
-        let format = Format::of(name);
+    pub fn read(&self, file: RecordFile) -> Result<Arc<Record>, RecordError> {
         let latest = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(known) = latest().iter().find(|known| known.format == format && known.bytes == bytes) {
+        let is_same = |known: &&Known| known.channel == file.channel && known.bytes == file.bytes;
+        if let Some(known) = latest().iter().find(is_same) {
             return Ok(Arc::clone(&known.record));
         }
-        let record = Arc::new(Record::parse(name, &bytes)?);
+        let record = Arc::new(file.parse()?.record);
         let mut latest = latest();
         latest.truncate(self.most - 1);
-        latest.push_front(Known { format, bytes, record: Arc::clone(&record) });
+        latest.push_front(Known { channel: file.channel, bytes: file.bytes, record: Arc::clone(&record) });
         Ok(record)
     }
 }
@@ -52,28 +52,32 @@ mod tests {
     const PULSE: &[u8] = b"time_s,accel_m_s2\n0,0\n0.1,3\n0.3,0\n";
     const OTHER: &[u8] = b"time_s,accel_m_s2\n0,0\n0.1,4\n0.3,0\n";
 
+    fn file(name: &str, bytes: &[u8]) -> RecordFile {
+        RecordFile { name: name.to_owned(), channel: None, bytes: bytes.to_vec() }
+    }
+
     #[test]
     fn the_same_content_is_read_once_and_another_anew() {
         let known = KnownRecords::new(1);
-        let first = known.read("one.csv", PULSE.to_vec()).unwrap();
-        assert!(Arc::ptr_eq(&first, &known.read("one.csv", PULSE.to_vec()).unwrap()));
-        assert!(Arc::ptr_eq(&first, &known.read("copy.csv", PULSE.to_vec()).unwrap()));
-        // Under that name it is no record, and what is known stays.
-        assert!(known.read("other.AT2", PULSE.to_vec()).is_err());
-        assert!(Arc::ptr_eq(&first, &known.read("one.csv", PULSE.to_vec()).unwrap()));
+        let first = known.read(file("one.csv", PULSE)).unwrap();
+        assert!(Arc::ptr_eq(&first, &known.read(file("one.csv", PULSE)).unwrap()));
+        assert!(Arc::ptr_eq(&first, &known.read(file("copy.csv", PULSE)).unwrap()));
+        // Another channel is another record: there is none here, and what is known stays.
+        assert!(known.read(RecordFile { channel: Some(2), ..file("one.csv", PULSE) }).is_err());
+        assert!(Arc::ptr_eq(&first, &known.read(file("one.csv", PULSE)).unwrap()));
         // The same file with something else in it.
-        assert_eq!((first.peak(), known.read("one.csv", OTHER.to_vec()).unwrap().peak()), (3.0, 4.0));
-        assert!(!Arc::ptr_eq(&first, &known.read("one.csv", PULSE.to_vec()).unwrap()), "there is room for one");
+        assert_eq!((first.peak(), known.read(file("one.csv", OTHER)).unwrap().peak()), (3.0, 4.0));
+        assert!(!Arc::ptr_eq(&first, &known.read(file("one.csv", PULSE)).unwrap()), "there is room for one");
     }
 
     #[test]
     fn the_latest_ones_stay() {
         let known = KnownRecords::new(2);
-        let first = known.read("one.csv", PULSE.to_vec()).unwrap();
-        let second = known.read("one.csv", OTHER.to_vec()).unwrap();
-        assert!(Arc::ptr_eq(&first, &known.read("one.csv", PULSE.to_vec()).unwrap()));
-        known.read("one.csv", [PULSE, b"0.4,1\n"].concat()).unwrap();
-        assert!(Arc::ptr_eq(&second, &known.read("one.csv", OTHER.to_vec()).unwrap()));
-        assert!(!Arc::ptr_eq(&first, &known.read("one.csv", PULSE.to_vec()).unwrap()));
+        let first = known.read(file("one.csv", PULSE)).unwrap();
+        let second = known.read(file("one.csv", OTHER)).unwrap();
+        assert!(Arc::ptr_eq(&first, &known.read(file("one.csv", PULSE)).unwrap()));
+        known.read(file("one.csv", &[PULSE, b"0.4,1\n"].concat())).unwrap();
+        assert!(Arc::ptr_eq(&second, &known.read(file("one.csv", OTHER)).unwrap()));
+        assert!(!Arc::ptr_eq(&first, &known.read(file("one.csv", PULSE)).unwrap()));
     }
 }

@@ -1,22 +1,39 @@
 //! Accelerograms: what a ground motion is, and how its files are read.
 //!
-//! Two formats, told apart by the file name: PEER `.AT2` (any case), everything else CSV.
+//! The format is told from what is in a file, not from its name; `parse` of each format's file reads it. Nothing is
+//! corrected: baseline, mean and filters stay as in the file.
 //!
-//! * CSV: lines that start with `#` are comments, the header is `time_s,accel_m_s2`, then one sample per line, s and
-//!   m/s2, at any strictly increasing times.
-//! * AT2: four header lines, the last with the number of samples and the time step, then the samples in g, separated
-//!   by blanks. The first sample is at t = 0.
+//! | format | told by | accelerations | times | file |
+//! |---|---|---|---|---|
+//! | CSV | its header `time_s,accel_m_s2` | m/s2 | any that increase strictly | `csv.rs` |
+//! | PEER AT2 | `NPTS=` and `DT=` in the header of four lines | g | from 0, every `DT` | `at2.rs` |
+//! | K-NET, KiK-net \[KNET\] | `Origin Time` at its beginning | counts, times the `Scale Factor` in gal | from 0, by `Sampling Freq` | `knet.rs` |
+//! | ESM, ITACA \[Luzi2016\] | lines `KEY: VALUE`, such as `EVENT_NAME:` | those of `UNITS` | from 0, every `SAMPLING_INTERVAL_S` | `esm.rs` |
+//! | CSMIP volume 2 | `7200 points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.3)` | those of that line | from 0, as that line says | `volume2.rs` |
+//! | COSMOS volume 2 \[Cosmos2001\] | `7200 acceleration pts, approx 72 secs, units=cm/sec2(04),Format=(8f10.5)` | those of that line | from 0, number 34 of the real header in s | `volume2.rs` |
+//! | two columns | rows of two numbers | those that a header or a comment names | any that increase strictly | `columns.rs` |
 //!
-//! Byte order mark, `\r\n`, blank lines and blanks around values are accepted in both.
+//! Byte order mark, `\r\n`, blank lines, characters of any encoding in headers and comments, and a last line without an end
+//! are accepted in all. CSV and columns have comments, lines that start with `#`. Columns are set apart by semicolons, commas or
+//! blanks; beside semicolons and blanks decimals may have a comma. Of a file of the volume 2 the first channel is read, or the
+//! one that is named behind the file, `CHAN.v2#2` ([`RecordFile`]).
 
 mod accelerogram;
 mod at2;
+mod columns;
 mod csv;
+mod esm;
+mod file;
 mod format;
+mod knet;
 mod known;
+mod numbers;
 mod reading;
+mod unit;
+mod volume2;
 
-pub use accelerogram::{Record, RecordError, STANDARD_GRAVITY};
+pub use accelerogram::{Accelerogram, Record, RecordError, STANDARD_GRAVITY};
+pub use file::RecordFile;
 pub use format::Format;
 pub use known::KnownRecords;
 pub use reading::MOST_PROBLEMS;

@@ -46,6 +46,25 @@ impl Reading {
         }
     }
 
+    /// Adds what a line holds at the same interval after the sample before it; `expected` is what an error is none of.
+    pub fn add_all(
+        &mut self,
+        line: usize,
+        values: Vec<Result<f64, String>>,
+        sample: impl Fn(f64, f64) -> (f64, f64),
+        expected: &str,
+    ) {
+        for value in values {
+            match value {
+                Ok(value) => {
+                    let (time, acceleration) = sample(self.samples as f64, value);
+                    self.add(time, acceleration, |problem| on_line(line, problem));
+                }
+                Err(field) => self.skip(|| on_line(line, format!("{}: expected {expected}", excerpt(&field)))),
+            }
+        }
+    }
+
     /// Notes a sample that is none.
     pub fn skip(&mut self, problem: impl FnOnce() -> String) {
         self.samples += 1;
@@ -57,6 +76,20 @@ impl Reading {
             self.problems.push(problem());
         } else {
             self.more += 1;
+        }
+    }
+
+    /// Whether nothing has been wrong so far.
+    pub fn is_sound(&self) -> bool {
+        self.problems.is_empty()
+    }
+
+    /// Compares the samples that have been found with those that a line of the header announces.
+    pub fn check_count(&mut self, line: usize, announced: &str, samples: usize) {
+        let found = self.samples;
+        if found != samples {
+            let expected = format!("{announced} = {samples}: expected {found}, the number of samples in the file");
+            self.refuse(|| on_line(line, expected));
         }
     }
 
@@ -85,6 +118,11 @@ impl Reading {
 /// A problem on a line, counted from 1.
 pub(super) fn on_line(number: usize, problem: impl std::fmt::Display) -> String {
     format!("line {number}: {problem}")
+}
+
+/// The lines of a text, counted from 1.
+pub(super) fn numbered(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    text.lines().enumerate().map(|(i, line)| (i + 1, line))
 }
 
 /// The text of a file. Only comments may be in another encoding: what is not UTF-8 is no part of a number.

@@ -3,9 +3,9 @@
 use super::data::{Scaling, Scene};
 use super::problem::{Problem, SceneError, quoted};
 use super::read::Draft;
-use crate::record::{Format, Record, RecordError};
+use crate::record::{Format, Record, RecordError, RecordFile};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A scene with everything that travels inside its FMU.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,8 +21,9 @@ pub struct Package {
 /// A record inside an FMU.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PackagedRecord {
-    /// File name in `resources/`: `record.csv` or `record.at2`.
-    pub resource_name: &'static str,
+    /// File name in `resources/`: `record.csv`, `record.at2`, or `record.txt` for the other formats; `record_channel_2.txt`
+    /// where that channel has been asked for.
+    pub resource_name: String,
     /// The file, verbatim.
     pub bytes: Vec<u8>,
     /// The record in these bytes, unscaled.
@@ -32,11 +33,34 @@ pub struct PackagedRecord {
 /// Name of the scene file in the `resources` folder of an FMU.
 pub(crate) const SCENE_RESOURCE: &str = "scene.toml";
 
-fn record_resource(name: &str) -> &'static str {
-    match Format::of(name) {
-        Format::Csv => "record.csv",
-        Format::PeerAt2 => "record.at2",
+const RECORD_RESOURCES: [&str; 3] = ["record.csv", "record.at2", "record.txt"];
+
+fn record_resource(format: Format, channel: Option<usize>) -> String {
+    let [csv, at2, other] = RECORD_RESOURCES;
+    match (format, channel) {
+        (Format::Csmip | Format::Cosmos, Some(number)) => channel_resource(number),
+        (Format::Csv, _) => csv.to_owned(),
+        (Format::PeerAt2, _) => at2.to_owned(),
+        _ => other.to_owned(),
     }
+}
+
+fn channel_resource(number: usize) -> String {
+    format!("record_channel_{number}.txt")
+}
+
+/// The record file in a folder of resources, as it was asked for in the scene.
+fn packaged_file(name: &str, folder: &Path) -> Result<RecordFile, SceneError> {
+    let channel = RecordFile::channel_of(name).filter(|number| folder.join(channel_resource(*number)).exists());
+    let place = match channel {
+        Some(number) => folder.join(channel_resource(number)),
+        None => {
+            let known = RECORD_RESOURCES.map(|resource| folder.join(resource));
+            let [usual, ..] = &known;
+            known.iter().find(|path| path.exists()).unwrap_or(usual).clone()
+        }
+    };
+    Ok(RecordFile { channel, ..read_record_file(name, &place)? })
 }
 
 /// Reads a scene file and the record that it names, without what only an FMU needs.
@@ -65,7 +89,7 @@ impl Package {
     /// # Errors
     /// As [`Package::from_scene_file`].
     pub fn from_scene_text(scene_text: String, folder: &Path) -> Result<Package, SceneError> {
-        Package::read(scene_text, |record| folder.join(record))
+        Package::read(scene_text, |record| read_record_file(record, &folder.join(record)))
     }
 
     /// Reads a package back from the `resources` folder of an unpacked FMU.
@@ -73,22 +97,22 @@ impl Package {
     /// # Errors
     /// As [`Package::from_scene_file`].
     pub fn from_resources(folder: &Path) -> Result<Package, SceneError> {
-        Package::read(read_text(&folder.join(SCENE_RESOURCE))?, |record| folder.join(record_resource(record)))
+        Package::read(read_text(&folder.join(SCENE_RESOURCE))?, |record| packaged_file(record, folder))
     }
 
     /// The files in the `resources` folder of the FMU, name and bytes: the scene file and, where there is one, the
     /// record file, as the user has them.
-    pub fn resources(&self) -> impl Iterator<Item = (&'static str, &[u8])> {
-        let record = self.record.as_ref().map(|packaged| (packaged.resource_name, packaged.bytes.as_slice()));
+    pub fn resources(&self) -> impl Iterator<Item = (&str, &[u8])> {
+        let record = self.record.as_ref().map(|packaged| (packaged.resource_name.as_str(), packaged.bytes.as_slice()));
         std::iter::once((SCENE_RESOURCE, self.scene_text.as_bytes())).chain(record)
     }
 
-    fn read(scene_text: String, record_path: impl Fn(&str) -> PathBuf) -> Result<Package, SceneError> {
+    fn read(scene_text: String, file: impl Fn(&str) -> Result<RecordFile, SceneError>) -> Result<Package, SceneError> {
         let mut draft = Draft::read(&scene_text)?;
         let mut record = None;
         let is_name = |name: &String| !name.contains(char::is_control);
         if let Some(name) = draft.scene.ground.record.clone().filter(is_name) {
-            match read_record(&name, &record_path(&name), draft.scene.ground.scaling) {
+            match file(&name).and_then(|file| read_record(&name, file, draft.scene.ground.scaling)) {
                 Ok(packaged) => record = Some(packaged),
                 Err(error) => draft.add(error.problems),
             }
@@ -99,13 +123,22 @@ impl Package {
 }
 
 impl PackagedRecord {
-    /// A record from the bytes of its file; the name tells the format.
+    /// A record from a file.
+    ///
+    /// # Errors
+    /// As [`Record::parse`].
+    pub fn new(file: RecordFile) -> Result<PackagedRecord, RecordError> {
+        let found = file.parse()?;
+        let resource_name = record_resource(found.format, file.channel);
+        Ok(PackagedRecord { resource_name, bytes: file.bytes, record: found.record })
+    }
+
+    /// A record from the bytes of its file; the name may ask for a channel.
     ///
     /// # Errors
     /// As [`Record::parse`].
     pub fn parse(name: &str, bytes: Vec<u8>) -> Result<PackagedRecord, RecordError> {
-        let record = Record::parse(name, &bytes)?;
-        Ok(PackagedRecord { resource_name: record_resource(name), bytes, record })
+        PackagedRecord::new(RecordFile::named(name, bytes))
     }
 }
 
@@ -119,21 +152,16 @@ fn read_text(path: &Path) -> Result<String, Problem> {
     })
 }
 
-/// Reads a record file, named as `ground.record` names it, that this scaling fits.
-fn read_record(name: &str, path: &Path, scaling: Scaling) -> Result<PackagedRecord, SceneError> {
-    let packaged = PackagedRecord::parse(name, read_record_file(name, path)?);
-    let packaged = packaged.map_err(|error| record_problems(name, error))?;
+/// The record in a file, named as `ground.record` names it, that this scaling fits.
+fn read_record(name: &str, file: RecordFile, scaling: Scaling) -> Result<PackagedRecord, SceneError> {
+    let packaged = PackagedRecord::new(file).map_err(|error| record_problems(name, error))?;
     scaling.factor(&packaged.record)?;
     Ok(packaged)
 }
 
-/// The bytes of a record file.
-pub(crate) fn read_record_file(name: &str, path: &Path) -> Result<Vec<u8>, SceneError> {
-    // A device or a pipe may have no end.
-    if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
-        return Err(record_problem(name, format!("{}: it is no file", path.display())).into());
-    }
-    fs::read(path).map_err(|error| record_problem(name, format!("{}: {error}", path.display())).into())
+/// A record file, named as `ground.record` names it.
+pub(crate) fn read_record_file(name: &str, path: &Path) -> Result<RecordFile, SceneError> {
+    RecordFile::read(path).map_err(|error| record_problem(name, format!("{}: {error}", path.display())).into())
 }
 
 /// What is wrong in a record file, as problems of the scene that names it.

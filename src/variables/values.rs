@@ -215,8 +215,8 @@ impl Settings {
             self.other_record = None;
             return Ok(());
         }
-        let bytes = read_record_file(path, Path::new(path))?;
-        let record = self.known_records.read(path, bytes).map_err(|error| record_problems(path, error))?;
+        let file = read_record_file(path, Path::new(path))?;
+        let record = self.known_records.read(file).map_err(|error| record_problems(path, error))?;
         self.set_record(path, record)
     }
 

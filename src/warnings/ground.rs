@@ -3,7 +3,7 @@
 use super::facts::{Facts, Pace};
 use super::found::Found;
 use crate::figures::short;
-use crate::record::{Format, Record, STANDARD_GRAVITY};
+use crate::record::{Record, STANDARD_GRAVITY};
 use crate::scene::Scaling;
 use crate::structure::Side;
 
@@ -69,6 +69,11 @@ fn name<'a>(facts: &Facts<'a>) -> &'a str {
     facts.scene.ground.record.as_deref().unwrap_or_default()
 }
 
+/// In any case.
+fn ends_with(name: &str, extension: &str) -> bool {
+    name.to_ascii_lowercase().ends_with(extension)
+}
+
 fn look_at_peak(facts: &Facts<'_>, record: &Record, found: &mut Found) {
     let Some(peak) = facts.peak else { return };
     let stands_still = peak == 0.0;
@@ -107,7 +112,7 @@ fn look_at_peak(facts: &Facts<'_>, record: &Record, found: &mut Found) {
 fn is_converted_twice(facts: &Facts<'_>, shaken: f64) -> bool {
     let Scaling::Scale(scale) = facts.scene.ground.scaling else { return false };
     let is_gravity = [1.0, 100.0].iter().any(|unit| (scale.abs() / (unit * STANDARD_GRAVITY) - 1.0).abs() < 0.01);
-    is_gravity && (Format::of(name(facts)) == Format::PeerAt2 || shaken > 1.5)
+    is_gravity && (ends_with(name(facts), ".at2") || shaken > 1.5)
 }
 
 pub(super) fn look_at_input(value: f64, found: &mut Found) {
@@ -130,20 +135,23 @@ fn meant_pga(pga: f64) -> String {
 }
 
 fn meant_record(facts: &Facts<'_>, own: f64) -> String {
-    let is_csv = Format::of(name(facts)) == Format::Csv;
-    let (unit, what) = if is_csv { ("m/s2", "the column accel_m_s2 is") } else { ("g", "a .AT2 file is") };
-    let in_file = if is_csv { own * STANDARD_GRAVITY } else { own };
+    let (is_csv, is_at2) = (ends_with(name(facts), ".csv"), ends_with(name(facts), ".at2"));
     let plausible = |factor: f64| (LEAST_PEAK..=MOST_PEAK).contains(&(own * factor));
     let guess = match () {
         () if own == 0.0 => return "all its samples are 0".to_owned(),
         () if is_csv && plausible(STANDARD_GRAVITY) => "is it in g (then scale = 9.80665)?",
         () if is_csv && plausible(0.01) => "is it in cm/s2 (then scale = 0.01)?",
         () if is_csv && plausible(0.001) => "is it in mm/s2 (then scale = 0.001)?",
-        () if plausible(1.0 / STANDARD_GRAVITY) => "is it in m/s2 (then scale = 0.101972)?",
-        () if plausible(0.01 / STANDARD_GRAVITY) => "is it in cm/s2 (then scale = 0.00101972)?",
+        () if is_at2 && plausible(1.0 / STANDARD_GRAVITY) => "is it in m/s2 (then scale = 0.101972)?",
+        () if is_at2 && plausible(0.01 / STANDARD_GRAVITY) => "is it in cm/s2 (then scale = 0.00101972)?",
         () => "is it in another unit?",
     };
-    format!("{what} in {unit}, and its peak is {}: {guess}", short(in_file))
+    let in_si = short(own * STANDARD_GRAVITY);
+    match () {
+        () if is_csv => format!("the column accel_m_s2 is in m/s2, and its peak is {in_si}: {guess}"),
+        () if is_at2 => format!("a .AT2 file is in g, and its peak is {}: {guess}", short(own)),
+        () => format!("in the unit that its file says its peak is {in_si} m/s2: {guess}"),
+    }
 }
 
 fn look_at_stop_with_record(record: &Record, stop: f64, found: &mut Found) {

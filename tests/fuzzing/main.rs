@@ -71,6 +71,8 @@ fn scenes() {
 fn records() {
     try_out("record_csv", &seeds("record_csv"), 3000, |bytes| record::check("fuzz.csv", bytes));
     try_out("record_at2", &seeds("record_at2"), 5000, |bytes| record::check("fuzz.at2", bytes));
+    try_out("record_other", &seeds("record_other"), 5000, |bytes| record::check("fuzz", bytes));
+    try_out("record_channel", &seeds("record_other"), 2000, |bytes| record::check("fuzz#2", bytes));
 }
 
 #[test]

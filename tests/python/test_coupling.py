@@ -1,15 +1,9 @@
-"""Inputs that are linear within a step, forces on floors, and two FMUs that a master couples."""
-
-import importlib.util
+"""Inputs that are linear within a step, and forces on floors."""
 
 import numpy as np
 import pytest
 
 import harness
-
-SPEC = importlib.util.spec_from_file_location("couple_two_fmus", harness.ROOT / "examples/couple_two_fmus.py")
-example = importlib.util.module_from_spec(SPEC)
-SPEC.loader.exec_module(example)
 
 MASS = 3.65  # kg, of every floor of the default scene
 
@@ -71,14 +65,3 @@ def test_a_force_is_read_back_and_moves_its_floor(pushed):
     of = [instance.fmu.reference[name] for name in ("left.acceleration[2]", "left.acceleration[1]")]
     by = [instance.fmu.reference["left.force[2]"]]
     assert instance.getDirectionalDerivative(of, by, [MASS]) == pytest.approx([1.0, 0.0], abs=1e-15)
-
-
-def test_two_coupled_fmus_converge_to_one(tmp_path):
-    fmus = {name: example.build(name, text, tmp_path, harness.CARGO_FMU) for name, text in example.scenes().items()}
-    rows = list(example.compare(fmus, [0.004, 0.002, 0.001], 4.0))
-    for _, _, _, *impacts in rows:
-        assert impacts[0] > 5 and impacts[1:] == impacts[:1] * 2
-    held, linear = (np.log2([a[i] / b[i] for a, b in zip(rows, rows[1:])]) for i in (1, 2))
-    assert held == pytest.approx(1.0, abs=0.1), rows
-    assert linear == pytest.approx(2.0, abs=0.1), rows
-    assert rows[-1][2] < 2e-5, rows

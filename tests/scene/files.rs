@@ -63,6 +63,49 @@ fn what_an_fmu_carries_reads_back_the_same() {
     }
 }
 
+/// Two channels of volume 2.
+const CHANNELS: &str = "\
+2 points of accel data equally spaced at .5 sec, in g. (8f10.3)
+     1.000     2.000
+/&  ----------  End of data for channel  1  ----------
+2 points of accel data equally spaced at .5 sec, in g. (8f10.3)
+     3.000     4.000
+";
+
+#[test]
+fn a_channel_and_any_format_travel_inside_an_fmu() {
+    let knet = "Origin Time 2011\nSampling Freq(Hz) 2Hz\nDuration Time(s) 1\nScale Factor 100(gal)/1\nMemo.\n 1 -2\n";
+    for (name, channel, text, resource, first) in [
+        ("CHAN.v2", "", CHANNELS, "record.txt", 9.80665),
+        ("CHAN.v2", "#2", CHANNELS, "record_channel_2.txt", 3.0 * 9.80665),
+        // A file of that very name is meant before a channel.
+        ("CHAN.v2#2", "", CHANNELS, "record.txt", 9.80665),
+        ("MYG004.EW", "", knet, "record.txt", 1.0),
+        ("MYG004.csv", "", knet, "record.txt", 1.0),
+        ("AMT.AT2", "", CSV, "record.csv", 1.0),
+    ] {
+        let (_folder, path) = folder(&format!("record = \"records/{name}{channel}\""), &[(name, text.as_bytes())]);
+        let package = Package::from_scene_file(&path).unwrap();
+        let record = package.record.clone().unwrap();
+        assert_eq!(
+            (record.resource_name.as_str(), record.record.accelerations[0]),
+            (resource, first),
+            "{name}{channel}"
+        );
+        let resources = tempfile::tempdir().unwrap();
+        for (name, bytes) in package.resources() {
+            fs::write(resources.path().join(name), bytes).unwrap();
+        }
+        assert_eq!(Package::from_resources(resources.path()).unwrap(), package);
+    }
+    let (_folder, path) = folder("record = \"records/CHAN.v2#3\"", &[("CHAN.v2", CHANNELS.as_bytes())]);
+    let said = said(scene::load(&path).unwrap_err());
+    assert!(
+        said[0].contains("\"records/CHAN.v2#3\"") && said[0].contains("#3: expected one of its 2 channels"),
+        "{said:?}"
+    );
+}
+
 #[test]
 fn a_missing_record_is_named_with_the_place_where_it_was_looked_for() {
     let (folder, path) = folder("record = \"records/none.csv\"", &[]);

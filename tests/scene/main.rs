@@ -4,6 +4,7 @@
 mod files;
 mod forms;
 mod record;
+mod record_formats;
 mod refusals;
 mod robustness;
 #[path = "../problems/two_and_three_storeys.rs"]

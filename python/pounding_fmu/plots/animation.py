@@ -113,7 +113,7 @@ class Stage:
         }
         reach = max(np.abs(rows[:, self.seen]).max() for rows in self.motion.values())
         self.figure = Figure(figsize=(5.2, 4.6), dpi=100)
-        self.canvas = FigureCanvasAgg(self.figure)
+        self.canvas: Any = FigureCanvasAgg(self.figure)
         axes, strip = self.figure.subplots(2, 1, height_ratios=[4, 1])
         width = 1.5 * max(reach, *(0.3 * edges.max() for edges in inner_edges(scene).values()))
         self.elevation = Elevation(axes, scene, width)
@@ -139,7 +139,7 @@ class Stage:
         axes.set(xlabel="mm (displacements and gap to scale; widths not)")
         axes.xaxis.set_major_locator(MaxNLocator(6))
         axes.grid(False)
-        axes.xaxis.label.set_size(9)
+        axes.xaxis.label.set_fontsize(9)
         self.elevation.draw_surroundings(axes, xlim)
 
     def prepare_strip(self, strip: Axes, window: tuple[float, float]) -> Line2D:
@@ -147,7 +147,7 @@ class Stage:
             strip.plot(self.run.time[self.seen], top[self.seen], color=BUILDINGS[side]["color"], linewidth=1.0, antialiased=True)
         strip.set(xlim=window, xlabel="time [s]", ylabel="tops [mm]")
         for label in (strip.xaxis.label, strip.yaxis.label):
-            label.set_size(9)
+            label.set_fontsize(9)
         return strip.axvline(window[0], color=BLACK, linewidth=1.2)
 
     def frame(self, time: float, step: float) -> NDArray[Any]:

@@ -35,7 +35,7 @@ class Elevation:
         gaps = [1e3 * pair.gap for pair in self.scene.contacts]
         outer = [*self.faces, *(face + gap for face, gap in zip(self.faces, gaps))]
         right = self.inner["right"].max() + self.width if "right" in self.inner else 0.0
-        return min(-self.width, *outer), max(right, *outer)
+        return min([-self.width, *outer]), max([right, *outer])
 
     def place(self, displacements: Mapping[str, NDArray[Any]]) -> None:
         """Moves the floors of each building, mm."""
@@ -49,7 +49,7 @@ class Elevation:
             edges = -self.width, 0.0
         else:
             levels = self.scene.levels["right"]
-            inner = np.interp(pair.height_on("right", self.scene.levels), levels[1:], self.inner["right"])
+            inner = float(np.interp(pair.height_on("right", self.scene.levels) or 0.0, levels[1:], self.inner["right"]))
             edges = inner, inner + self.width
         return edges[0] - 1e3 * pair.gap if left["kind"] == "wall" else edges[1]
 
@@ -73,17 +73,19 @@ class Building:
     def __init__(self, axes: Axes, scene: Layout, side: str, edges: NDArray[Any], width: float) -> None:
         self.levels, self.edges = scene.levels[side], edges
         colour = BUILDINGS[side]["color"]
-        slab = np.mean(np.diff(self.levels)) * max(0.12, 0.016 * len(edges))
+        slab = float(np.mean(np.diff(self.levels))) * max(0.12, 0.016 * len(edges))
         self.thickness = width * max(0.02, 0.05 - 0.002 * len(edges))
         # From the inner edge to the left end of a slab. Columns stand a little inside of its ends, unless they are hit.
         self.inner = -width if side == "left" else 0.0
         inset = 0.0 if any(is_hit(pair, side) for pair in scene.contacts) else 0.06 * width
         self.columns = [self.inner + inset, self.inner + width - inset - self.thickness]
-        self.polygons = [axes.add_patch(Polygon(np.zeros((1, 2)), facecolor=colour, edgecolor="none")) for _ in "12"]
+        self.polygons = [Polygon(np.zeros((1, 2)), facecolor=colour, edgecolor="none") for _ in "12"]
         self.slabs = [
-            axes.add_patch(Rectangle((0, level - slab / 2), width, slab, facecolor=colour, edgecolor="none", zorder=3))
+            Rectangle((0, level - slab / 2), width, slab, facecolor=colour, edgecolor="none", zorder=3)
             for level in self.levels[1:]
         ]
+        for patch in [*self.polygons, *self.slabs]:
+            axes.add_patch(patch)
         self.place(np.zeros(len(edges)))
 
     def place(self, displacements: NDArray[Any]) -> None:
@@ -114,8 +116,9 @@ def inner_edges(scene: Layout) -> dict[str, NDArray[Any]]:
     inner = {side: np.zeros(count) for side, count in scene.floors.items()}
     if "right" in inner:
         both = [pair for pair in scene.contacts if {s.get("side") for s in pair.surfaces.values()} == {*SIDES}]
-        known = sorted((pair.height_on("right", scene.levels), 1e3 * pair.gap) for pair in both) or [(0.0, USUAL_GAP)]
-        inner["right"] = np.interp(scene.levels["right"][1:], *zip(*known))
+        known = sorted((pair.height_on("right", scene.levels) or 0.0, 1e3 * pair.gap) for pair in both)
+        heights, gaps = zip(*(known or [(0.0, USUAL_GAP)]))
+        inner["right"] = np.interp(scene.levels["right"][1:], heights, gaps)
     return inner
 
 

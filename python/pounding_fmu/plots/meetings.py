@@ -36,15 +36,16 @@ def contacts(runs: Runs) -> Figure:
 
 
 def draw_meetings(axes: Axes, scene: Layout, most: int = 100, always: int | None = None) -> None:
-    """The buildings at rest, and what meets, numbered; of more than there is room for every second, third ...
+    """The buildings at rest, and what meets, numbered.
 
-    The contact `always` has its number in any case.
+    Of more than `most` floors the roof alone has its number, of more contacts every second, third ... and `always`.
     """
     # A gap is wide enough for a number.
     width = 6.5 * max(SMALLEST_GAP, *(1e3 * pair.gap for pair in scene.contacts)) if scene.contacts else 300.0
-    elevation = stand(axes, scene, width, "At rest; gaps to scale, widths not", margin=0.2)
-    for side in scene.levels:
-        write_levels(axes, elevation, side, every=-(-scene.floors[side] // most))
+    said = "At rest; gaps to scale, widths not" if scene.contacts else "At rest"
+    elevation = stand(axes, scene, width, said, margin=0.2)
+    for side, count in scene.floors.items():
+        write_levels(axes, elevation, side, lowest=1 if count <= most else count)
     every = -(-len(scene.contacts) // most)
     for p, (face, pair) in enumerate(zip(elevation.faces, scene.contacts), 1):
         if p % every == 0 or p == always:
@@ -65,9 +66,9 @@ def words(scene: Layout) -> list[str]:
     return lines
 
 
-def write_levels(axes: Axes, elevation: Elevation, side: str, every: int) -> None:
-    """On each slab, or every second, third ..., far from the other building, its number and level."""
-    for floor, level in list(enumerate(elevation.scene.levels[side]))[every::every]:
+def write_levels(axes: Axes, elevation: Elevation, side: str, lowest: int) -> None:
+    """On each slab from the lowest up, far from the other building, its number and level."""
+    for floor, level in list(enumerate(elevation.scene.levels[side]))[lowest:]:
         inner = elevation.inner[side][floor - 1]
         far = inner - 0.86 * elevation.width if side == "left" else inner + 0.86 * elevation.width
         text = f"{floor}: {level:.4g} m" if elevation.scene.has_levels else f"{floor}"

@@ -12,10 +12,10 @@ from matplotlib.figure import Figure
 from . import pictures
 from .elevation import prepare_height
 from .meetings import draw_meetings
-from .pictures import counted, force_unit, handy
+from .pictures import MOST_PANELS, counted, force_unit, handy, legend_of_all
 from .runs import Runs, Window
 from .storeys import draw_drifts, draw_loops, most_ductile
-from .style import BUILDINGS, CYCLE
+from .style import BUILDINGS, CONTACTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,9 +33,9 @@ def overview(runs: Runs) -> Figure:
     rows = 2 + (hardest is not None) + bool(ductile)
     figure = Figure(figsize=(WIDTH, 2.4 + 2.05 * rows))
     figure.suptitle(textwrap.fill(heading(runs), int(LETTERS * WIDTH)), x=0.01, ha="left", fontsize=12)
-    left, right = figure.add_gridspec(1, 2, width_ratios=[1, 1.7])
-    draw_buildings(figure, left.subgridspec(2, 1, height_ratios=[1.5, 1]), runs)
-    grid = right.subgridspec(rows, 1)
+    both = figure.add_gridspec(1, 2, width_ratios=[1, 1.7])
+    draw_buildings(figure, both[0].subgridspec(2, 1, height_ratios=[1.5, 1]), runs)
+    grid = both[1].subgridspec(rows, 1)
     between = figure.add_subplot(grid[0])
     below = figure.add_subplot(grid[1], sharex=between)
     below.set(xlabel="time [s]", xlim=window)
@@ -71,8 +71,9 @@ def draw_buildings(figure: Figure, grid: Any, runs: Runs) -> None:
     largest = max(draw_drifts(axes, runs, side) for axes, side in zip(panels, runs.scene.floors))
     for axes, side in zip(panels, runs.scene.floors):
         axes.set(title=f"{side.capitalize()} building", xlim=(-1.08 * largest, 1.08 * largest), xlabel="drift [mm]")
-    panels[0].legend(fontsize=8, loc="upper left")
     prepare_height(panels[0], runs.scene)
+    panels[0].set_ylabel("level [m]" if runs.scene.has_levels else "floor")
+    legend_of_all(figure, panels, "outside lower left")
 
 
 def draw_gap(axes: Axes, runs: Runs, window: Window) -> None:
@@ -111,9 +112,12 @@ def draw_forces(axes: Axes, runs: Runs, window: Window) -> None:
         axes.set_title("Impulses of rigid contacts")
         return
     factor, unit = force_unit(max(run.hardest(p)["peak_force"] for p in soft))
-    for p, look in zip(soft, CYCLE):
-        pictures.draw_bursts(axes, run, p, factor, color=look["color"], label=f"contact {p}")
-    axes.set(title="Contact forces; dots: the largest of each impact", ylabel=f"force [{unit}]")
+    by_force = sorted(soft, key=lambda p: -float(run.hardest(p)["peak_force"]))
+    for p, colour in zip(soft, CONTACTS):
+        # The weaker in front of the stronger.
+        pictures.draw_bursts(axes, run, p, factor, color=colour, zorder=2 + 0.1 * by_force.index(p))
+    few = " of those with the largest impulses" if len(soft) == MOST_PANELS < len(runs.scene.contacts) else ""
+    axes.set(title=f"Contact forces{few}; dots: the largest of each impact", ylabel=f"force [{unit}]")
     axes.legend(loc="upper right", ncols=len(soft), fontsize=8.5)
     if any(window[0] <= start <= window[1] for start in run.impacts["start_s"]):
         shown = run.rows(*window)
@@ -148,4 +152,3 @@ def draw_yielding(figure: Figure, place: Any, runs: Runs, ductile: dict[str, lis
         factor, unit = force_unit(float(np.abs(runs.run[f"{side}.storey_shear[{storey}]"]).max()))
         draw_loops(axes, runs, side, storey, factor)
         axes.set(xlabel="drift [mm]", ylabel=f"storey shear [{unit}]")
-        axes.legend(fontsize=8, loc="upper left")

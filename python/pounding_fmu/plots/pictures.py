@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from .layout import Contact, Surface
 from .runs import Run, Runs, Window
-from .style import ALONE, BLACK, BUILDINGS, FORCE, GREY, OPEN, OVERLAP, VERMILION, WALL
+from .style import ALONE, BLACK, BUILDINGS, FORCE, GREY, OPEN, OVERLAP, VERMILION, WALL, Look
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -61,7 +61,8 @@ def legend_of_all(figure: Figure, panels: Iterable[Axes], place: str = "outside 
     """One legend for all panels, what is without contact last."""
     lines = {label: line for axes in panels for line, label in zip(*axes.get_legend_handles_labels())}
     labels = sorted(lines, key="without contact".__eq__)
-    figure.legend([lines[label] for label in labels], labels, loc=place, ncols=len(labels))
+    look: Look = {"loc": place, "ncols": len(labels)}
+    figure.legend([lines[label] for label in labels], labels, **look)
 
 
 def floors(runs: Runs) -> Figure | None:
@@ -135,9 +136,11 @@ def draw_impulses(axes: Axes, impacts: NDArray[Any]) -> None:
 
 
 def draw_bursts(axes: Axes, run: Run, p: int, factor: float, **look: Any) -> None:
+    """The force over time, a dot at the largest of each impact."""
     impacts = run.of_contact(p)
-    axes.plot(run.time, run[f"contact[{p}].force"] / factor, **{**FORCE, **look})
-    axes.plot(impacts["peak_time_s"], impacts["peak_force"] / factor, ".", color=VERMILION, markersize=4)
+    axes.plot(run.time, run[f"contact[{p}].force"] / factor, label=f"contact {p}", **{**FORCE, **look})
+    dots = {"color": VERMILION, "markersize": 4, **look}
+    axes.plot(impacts["peak_time_s"], impacts["peak_force"] / factor, ".", **dots)
 
 
 def draw_hardest(axes: Axes, run: Run, p: int, factor: float) -> None:
@@ -214,7 +217,7 @@ def draw_impact_loops(axes: Axes, run: Run, p: int, colours: ScalarMappable | No
     for impact in np.sort(run.of_contact(p), order="peak_force"):
         loop = run.rows_of(impact)
         colour = colours.to_rgba(impact["approach_velocity"]) if colours else GREY
-        line = {"color": colour, "linewidth": 1.0 if colours else 0.6}
+        line: Look = {"color": colour, "linewidth": 1.0 if colours else 0.6}
         if impact["start_s"] == hardest["start_s"]:
             line = {"color": BLACK, "linewidth": 2.0}
             axes.fill(penetration[loop], force[loop], **OPEN)

@@ -29,10 +29,10 @@ DRAWN = (
 
 
 class Run:
-    """Columns by name, and the rows of impacts."""
+    """Columns by name, and the rows of impacts; of rigid contacts these have no force."""
 
-    def __init__(self, result: Result) -> None:
-        self.result, self.impacts, self.time = result, result.impacts, result["time"]
+    def __init__(self, result: Result, rigid: set[int]) -> None:
+        self.result, self.impacts, self.time, self.rigid = result, result.impacts, result["time"], rigid
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.result[name]
@@ -46,9 +46,13 @@ class Run:
         return own
 
     def hardest(self, contact: int | None = None) -> Any:
-        """The impact with the largest force; of rigid floors, which have none, that with the largest impulse."""
-        impacts = self.impacts if contact is None else self.of_contact(contact)
-        return max(impacts, key=lambda impact: (impact["peak_force"], impact["impulse"]), default=None)
+        """The impact with the largest force; where all are of rigid contacts, that with the largest impulse."""
+
+        def hardness(impact: Any) -> tuple[bool, float]:
+            is_soft = impact["contact"] not in self.rigid
+            return is_soft, float(impact["peak_force" if is_soft else "impulse"])
+
+        return max(self.impacts if contact is None else self.of_contact(contact), key=hardness, default=None)
 
     def rows(self, start: float, end: float) -> slice:
         """Those from one time to another."""
@@ -99,7 +103,8 @@ class Runs:
         return [name for name in outputs if name.partition(".")[2].partition("[")[0] in DRAWN]
 
     def _run(self, scene: _native.Scene, step: float, columns: list[str], rows_per_impact: int | None = None) -> Run:
-        return Run(run(scene, Names(scene), step, self.stop, columns, rows_per_impact))
+        rigid = {p for p, pair in enumerate(self.scene.contacts, 1) if pair.is_rigid}
+        return Run(run(scene, Names(scene), step, self.stop, columns, rows_per_impact), rigid)
 
     def check_motion(self) -> None:
         """What stands still makes no picture."""
@@ -114,10 +119,10 @@ class Runs:
     def window(self) -> Window:
         """s, what was asked for; else the seconds with the strongest pounding."""
         if self._start is self._end is None:
-            return self.strongest()
+            return self._strongest()
         return self.seen(0.0, self.stop)
 
-    def strongest(self) -> Window:
+    def _strongest(self) -> Window:
         """The window with the largest sum of impulses; without impacts that with the largest displacement."""
         if self.stop <= WINDOW:
             return 0.0, self.stop

@@ -29,6 +29,9 @@ OPEN: Look = {"color": "#999999", "alpha": 0.3, "linewidth": 0}
 SOLID: Look = {"facecolor": "white", "edgecolor": BLACK, "hatch": "////", "linewidth": 1.0}
 OVERLAP: Look = {"facecolor": YELLOW, "edgecolor": BLACK, "hatch": "////", "linewidth": 0}
 
+# Contacts beside each other: no colour of a building.
+CONTACTS = [BLACK, PURPLE, SKY, ORANGE]
+
 # For what has no colour of its own: lines in this order.
 CYCLE: list[Look] = [
     {"color": color, "linestyle": line, "marker": marker}
@@ -40,7 +43,7 @@ CYCLE: list[Look] = [
 ]
 
 # Settings of matplotlib while a picture is drawn or written: `with matplotlib.rc_context(LOOK)`.
-LOOK: Look = {
+LOOK: Any = {
     "font.size": 10.5, "axes.titlesize": 10.5, "axes.titlelocation": "left", "axes.spines.top": False,
     "axes.spines.right": False, "legend.frameon": False, "axes.grid": True, "grid.alpha": 0.3, "axes.axisbelow": True,
     "hatch.linewidth": 0.6, "svg.hashsalt": "pounding", "svg.fonttype": "none", "figure.constrained_layout.use": True,

@@ -3,12 +3,13 @@
 use fmi::model_description::fmi2::ModelDescription;
 
 /// Beside the libraries.
-const FILES: [&str; 9] = [
+const FILES: [&str; 10] = [
     "modelDescription.xml",
     "model.png",
     "resources/scene.toml",
     "resources/record.csv",
     "resources/record.at2",
+    "resources/record.txt",
     "documentation/index.html",
     "documentation/licenses/license.txt",
     "documentation/licenses/LICENSE-APACHE",
@@ -36,7 +37,8 @@ pub fn file_names(names: &[String]) -> Vec<String> {
 /// No file that is not an FMU's of ours, and each library under the name that importers look for.
 pub fn files(names: &[String], description: &ModelDescription) -> Vec<String> {
     let identifier = description.coSimulation.as_ref().map_or("", |interface| interface.modelIdentifier.as_str());
-    let is_ours = |name: &str| FILES.contains(&name) || is_folder(name) || is_library(name, identifier);
+    let is_ours =
+        |name: &str| FILES.contains(&name) || is_channel(name) || is_folder(name) || is_library(name, identifier);
     let strange = names.iter().filter(|name| !is_ours(name));
     strange
         .map(|name| match name.split('/').next() {
@@ -44,6 +46,12 @@ pub fn files(names: &[String], description: &ModelDescription) -> Vec<String> {
             _ => format!("{name:?}: not a file of such an FMU"),
         })
         .collect()
+}
+
+/// A record whose scene has asked for one of its channels.
+fn is_channel(name: &str) -> bool {
+    let number = name.strip_prefix("resources/record_channel_").and_then(|rest| rest.strip_suffix(".txt"));
+    number.is_some_and(|number| number.parse::<usize>().is_ok())
 }
 
 /// Of one of the files.

@@ -156,6 +156,8 @@ fn files_that_are_not_ours_and_libraries_under_other_names_are_found() {
         "model.png",
         "resources/scene.toml",
         "resources/record.at2",
+        "resources/record.txt",
+        "resources/record_channel_12.txt",
         "documentation/licenses/license.txt",
         "binaries/linux64/TwoBuildings.so",
         "binaries/win64/TwoBuildings.dll",
@@ -165,9 +167,15 @@ fn files_that_are_not_ours_and_libraries_under_other_names_are_found() {
     ] {
         assert_eq!(findings(good), [""; 0], "{good}");
     }
-    for bad in
-        ["readme.txt", "resources/more.txt", "resources/more/", "sources/a.c", "modeldescription.xml", "binaries"]
-    {
+    for bad in [
+        "readme.txt",
+        "resources/more.txt",
+        "resources/record_channel_.txt",
+        "resources/more/",
+        "sources/a.c",
+        "modeldescription.xml",
+        "binaries",
+    ] {
         assert_eq!(
             findings(bad),
             [format!(

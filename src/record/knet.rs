@@ -1,0 +1,132 @@
+//! Records of K-NET and KiK-net in ASCII [KNET]: counts, the scale factor of the header makes them gal.
+
+use super::accelerogram::{Accelerogram, RecordError};
+use super::format::Format;
+use super::numbers::Columns;
+use super::reading::{Reading, excerpt, numbered, on_line};
+
+/// How the first line of every file begins.
+const FIRST_KEY: &str = "Origin Time";
+const LAST_KEY: &str = "Memo";
+/// Header lines of a sound file; a memo may go on for a few more.
+const HEADER_LINES: usize = 17;
+const MOST_HEADER_LINES: usize = 60;
+const COLUMNS: Columns = Columns { count: 8, width: 9 };
+
+/// Whether a text begins so.
+pub(super) fn is_it(text: &str) -> bool {
+    text.trim_start().starts_with(FIRST_KEY)
+}
+
+pub(super) fn parse(text: &str) -> Result<Accelerogram, RecordError> {
+    let mut reading = Reading::with_capacity(0);
+    let header = Header::read(text, &mut reading);
+    let (Some(header), true) = (header, reading.is_sound()) else { return Err(reading.stop()) };
+    let Scale { gal, counts } = header.scale;
+    for (number, line) in numbered(text).skip(header.lines) {
+        // Both products are whole numbers, so that the quotient is all that is rounded.
+        let sample = |k: f64, value: f64| (k / header.frequency, value * gal / (100.0 * counts));
+        reading.add_all(number, COLUMNS.values(line, count), sample, "whole counts");
+    }
+    let samples = (header.duration * header.frequency).round();
+    reading.check_count(header.duration_line, "Duration Time times Sampling Freq", samples as usize);
+    Ok(Accelerogram { format: Format::Knet, about: header.about, channels: Vec::new(), record: reading.complete()? })
+}
+
+/// Whether most of a line is counts, in columns or apart.
+fn is_data(line: &str) -> bool {
+    let values = COLUMNS.values(line, count);
+    2 * values.iter().filter(|value| value.is_ok()).count() > values.len()
+}
+
+fn count(text: &str) -> Option<f64> {
+    let is_short = text.len() <= COLUMNS.width;
+    text.parse::<i64>().ok().filter(|_| is_short).map(|value| value as f64)
+}
+
+struct Header {
+    /// Hz
+    frequency: f64,
+    /// s
+    duration: f64,
+    duration_line: usize,
+    scale: Scale,
+    about: String,
+    lines: usize,
+}
+
+/// `3920(gal)/6182761`: so many gal are so many counts.
+struct Scale {
+    gal: f64,
+    counts: f64,
+}
+
+impl Header {
+    fn read(text: &str, reading: &mut Reading) -> Option<Header> {
+        let head: Vec<(usize, &str)> = numbered(text).take(MOST_HEADER_LINES).collect();
+        let Some(last) = head.iter().position(|(_, line)| line.starts_with(LAST_KEY)) else {
+            let lines = HEADER_LINES;
+            reading
+                .refuse(|| format!("K-NET: no line {LAST_KEY}: expected a header of {lines} lines that ends with it"));
+            return None;
+        };
+        // A memo that goes on.
+        let memo = head[last + 1..].iter().take_while(|(_, line)| !is_data(line)).count();
+        let value = |key: &str| {
+            let found = head[..last].iter().find_map(|(number, line)| Some((*number, line.strip_prefix(key)?)));
+            found.map(|(number, rest)| (number, rest.split_once(')').map_or(rest, |(_, after)| after).trim()))
+        };
+        let about = |key: &str| value(key).map_or_else(String::new, |(_, text)| excerpt(text));
+        let frequency = positive(value("Sampling Freq"), "Sampling Freq(Hz)", reading);
+        let duration = positive(value("Duration Time"), "Duration Time(s)", reading);
+        let scale = Scale::read(&head[..last], reading);
+        Some(Header {
+            frequency: frequency?.1,
+            duration: duration?.1,
+            duration_line: duration?.0,
+            scale: scale?,
+            about: format!("{}, {}, {}", about("Station Code"), about("Dir."), about(FIRST_KEY)),
+            lines: last + 1 + memo,
+        })
+    }
+}
+
+/// The number > 0 of a header line, and its line.
+fn positive(found: Option<(usize, &str)>, key: &str, reading: &mut Reading) -> Option<(usize, f64)> {
+    let Some((number, text)) = found else {
+        reading.refuse(|| format!("K-NET: no line {key}: expected it in the header"));
+        return None;
+    };
+    let value = text.trim_end_matches(['H', 'h', 'z', 's']).trim().parse::<f64>();
+    let value = value.ok().filter(|value| *value > 0.0 && *value < 1e9);
+    if value.is_none() {
+        reading.refuse(|| on_line(number, format!("{key} {}: expected a number > 0", excerpt(text))));
+    }
+    Some((number, value?))
+}
+
+impl Scale {
+    fn read(header: &[(usize, &str)], reading: &mut Reading) -> Option<Scale> {
+        const KEY: &str = "Scale Factor";
+        let line = header.iter().find_map(|(number, line)| Some((*number, line.strip_prefix(KEY)?.trim())));
+        let Some((number, text)) = line else {
+            reading.refuse(|| format!("K-NET: no line {KEY}: expected it in the header"));
+            return None;
+        };
+        let scale = Scale::of(text);
+        if scale.is_none() {
+            let expected = "expected gal and counts, such as 3920(gal)/6182761";
+            reading.refuse(|| on_line(number, format!("{KEY} {}: {expected}", excerpt(text))));
+        }
+        scale
+    }
+
+    fn of(text: &str) -> Option<Scale> {
+        let (gal, counts) = text.split_once('/')?;
+        let (gal, unit) = gal.split_once('(')?;
+        let is_gal = unit.trim().trim_end_matches(')').eq_ignore_ascii_case("gal");
+        let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| *v > 0.0 && v.is_finite());
+        let scale = Scale { gal: number(gal)?, counts: number(counts)? };
+        is_gal.then_some(scale)
+    }
+}

@@ -1,0 +1,250 @@
+//! Records of the volume 2 of CSMIP [Shakal1985] and of COSMOS [Cosmos2001], as CESMD hands them out: channels one after the other,
+//! each with headers and with blocks of acceleration, velocity and displacement.
+
+use super::accelerogram::{Accelerogram, RecordError};
+use super::format::Format;
+use super::numbers::{Columns, fortran_number};
+use super::reading::{Reading, excerpt, numbered, on_line};
+use super::unit::Unit;
+use crate::figures::plain;
+
+/// What a file that says no format has: that of most.
+const USUAL: Columns = Columns { count: 8, width: 10 };
+/// Lines between the beginning of a channel and its first block, and more.
+const MOST_HEADER_LINES: usize = 300;
+/// Which of the real numbers of a COSMOS header is the sampling interval in s, and the one in ms; counted from 1.
+const INTERVAL: usize = 34;
+const INTERVAL_MS: usize = 62;
+
+/// Whether a text has a block of this kind.
+pub(super) fn is_it(text: &str) -> bool {
+    text.lines().take(MOST_HEADER_LINES).any(|line| Block::read(line).is_some())
+}
+
+/// Whether a text begins as such a file does, which may have been cut off within its headers.
+pub(super) fn has_title(text: &str) -> bool {
+    let first = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default().to_ascii_lowercase();
+    ["corrected accel", "corrected veloc", "corrected displ", "(format v"].iter().any(|title| first.contains(title))
+}
+
+pub(super) fn parse(text: &str, channel: Option<usize>) -> Result<Accelerogram, RecordError> {
+    let Found { channels, others } = Found::look(text);
+    let found = choose(&channels, channel).ok_or_else(|| RecordError::new(unknown(&channels, channel, others)))?;
+    let mut reading = Reading::with_capacity(0);
+    let step = found.step(&mut reading);
+    let unit = found.unit(&mut reading);
+    let (Some(step), Some(unit)) = (step, unit) else { return Err(reading.stop()) };
+    found.samples(text, step, unit, &mut reading);
+    reading.check_count(found.line, "points of acceleration", found.block.count);
+    let format = if found.block.step.is_some() { Format::Csmip } else { Format::Cosmos };
+    let channels: Vec<String> = channels.iter().map(|channel| channel.label.clone()).collect();
+    let about = found.about.clone();
+    Ok(Accelerogram { format, about, channels, record: reading.complete()? })
+}
+
+/// The channel with that number, else the one at that place; without a number the first.
+fn choose<'c, 't>(channels: &'c [Channel<'t>], number: Option<usize>) -> Option<&'c Channel<'t>> {
+    let Some(number) = number else { return channels.first() };
+    let named = channels.iter().find(|channel| channel.number == Some(number));
+    named.or_else(|| channels.get(number.checked_sub(1)?))
+}
+
+fn unknown(channels: &[Channel<'_>], number: Option<usize>, others: usize) -> String {
+    match (channels.len(), number) {
+        (0, _) if others > 0 => "it holds velocity or displacement: expected a block of acceleration".to_owned(),
+        (0, _) => {
+            let line = "\"7200 points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.3)\"";
+            format!("it ends within its headers: expected a block of acceleration, after a line such as {line}")
+        }
+        (count, number) => {
+            let labels: Vec<&str> = channels.iter().take(20).map(|channel| channel.label.as_str()).collect();
+            let number = number.unwrap_or_default();
+            format!("#{number}: expected one of its {count} channels: {}", labels.join("; "))
+        }
+    }
+}
+
+/// The line that stands before a block of samples.
+struct Block<'t> {
+    count: usize,
+    /// s; in COSMOS files the real header has it.
+    step: Option<&'t str>,
+    unit: &'t str,
+    /// s, of the whole block, where it is said: rounded.
+    length: Option<f64>,
+    is_acceleration: bool,
+    columns: Option<Columns>,
+}
+
+impl<'t> Block<'t> {
+    /// `7200 points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.3)`, or
+    /// `7200 acceleration pts, approx 72 secs, units=cm/sec2(04),Format=(8f10.5)`.
+    fn read(line: &'t str) -> Option<Block<'t>> {
+        let line = line.trim();
+        // All but few lines begin with a sign, a point or a letter, or end with a digit.
+        if !line.starts_with(|c: char| c.is_ascii_digit()) || line.len() > 200 {
+            return None;
+        }
+        let (count, rest) = line.split_once(char::is_whitespace)?;
+        let lower = rest.to_ascii_lowercase();
+        let has = |word: &str| lower.contains(word);
+        let after = |word: &str| rest.get(lower.find(word)? + word.len()..);
+        let (step, unit) = if has("points of") && has("equally spaced at") {
+            (after("equally spaced at")?.split_whitespace().next(), after(" in ").unwrap_or_default())
+        } else if (has("pts") || has("points")) && has("units") {
+            (None, after("units")?.trim_start().trim_start_matches('='))
+        } else {
+            return None;
+        };
+        Some(Block {
+            count: count.parse().ok()?,
+            step,
+            unit: unit.split(['(', ',', ';']).next()?.trim(),
+            length: after("approx").and_then(|rest| rest.split_whitespace().next()?.parse().ok()),
+            is_acceleration: has("accel"),
+            columns: Columns::find(after("format").or_else(|| after(" in ")).unwrap_or(rest)),
+        })
+    }
+}
+
+/// A channel with a block of acceleration.
+struct Channel<'t> {
+    /// As its header calls it, `Chan  2:  90 Deg`; empty where it says nothing.
+    label: String,
+    number: Option<usize>,
+    about: String,
+    block: Block<'t>,
+    /// That of the block.
+    line: usize,
+    /// The real numbers of a COSMOS header.
+    reals: Vec<f64>,
+}
+
+/// What a file holds.
+struct Found<'t> {
+    channels: Vec<Channel<'t>>,
+    /// Blocks of velocity and displacement.
+    others: usize,
+}
+
+impl<'t> Found<'t> {
+    fn look(text: &'t str) -> Found<'t> {
+        let mut found = Found { channels: Vec::new(), others: 0 };
+        let mut header: Vec<(usize, &str)> = Vec::new();
+        for (number, line) in numbered(text) {
+            match Block::read(line) {
+                Some(block) if block.is_acceleration => {
+                    found.channels.push(Channel::new(&header, block, number));
+                    header.clear();
+                }
+                Some(_) => found.others += 1,
+                None if is_end(line) => header.clear(),
+                None => header.push((number, line)),
+            }
+            // Of the lines of a long block the last are enough: those of a header may follow.
+            if header.len() > 2 * MOST_HEADER_LINES {
+                header.drain(..MOST_HEADER_LINES);
+            }
+        }
+        found
+    }
+}
+
+/// `/&  ----------  End of data for channel  1  ----------`, `End-of-data for Chan  1 acceleration`.
+fn is_end(line: &str) -> bool {
+    let line = line.trim_start().trim_start_matches(['/', '&', ' ', '-']);
+    line.get(..6).is_some_and(|start| start.eq_ignore_ascii_case("end of") || start.eq_ignore_ascii_case("end-of"))
+}
+
+impl<'t> Channel<'t> {
+    fn new(header: &[(usize, &str)], block: Block<'t>, line: usize) -> Channel<'t> {
+        let label = header.iter().find_map(|(_, line)| channel_label(line)).unwrap_or_default();
+        let digits = label.chars().skip_while(|c| !c.is_ascii_digit()).take_while(char::is_ascii_digit);
+        let station = header.iter().find(|(_, line)| {
+            let line = line.to_ascii_lowercase();
+            line.contains("station no") || line.contains("statn no")
+        });
+        let station = station.map_or_else(String::new, |(_, line)| excerpt(line));
+        let about = [station, label.clone()].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>();
+        Channel {
+            number: digits.collect::<String>().parse().ok(),
+            about: about.join(", "),
+            label,
+            block,
+            line,
+            reals: real_header(header),
+        }
+    }
+
+    /// s from sample to sample.
+    fn step(&self, reading: &mut Reading) -> Option<f64> {
+        let positive = |step: &f64| *step > 0.0 && step.is_finite();
+        let (step, place) = match self.block.step {
+            Some(text) => (fortran_number(text).filter(positive), format!("spaced at {}", excerpt(text))),
+            None => {
+                let real = |number: usize| self.reals.get(number - 1).copied().filter(positive);
+                let step = real(INTERVAL).or_else(|| Some(real(INTERVAL_MS)? / 1e3));
+                (step, format!("number {INTERVAL} of the real header"))
+            }
+        };
+        let Some(step) = step else {
+            reading.refuse(|| on_line(self.line, format!("{place}: expected the s from sample to sample")));
+            return None;
+        };
+        let length = self.block.count as f64 * step;
+        if let Some(said) = self.block.length.filter(|said| length < 0.5 * said - 2.0 || length > 2.0 * said + 2.0) {
+            let found = format!("{} samples every {} s", self.block.count, plain(step));
+            reading.refuse(|| on_line(self.line, format!("{found}: expected approx {} s of them", plain(said))));
+        }
+        Some(step)
+    }
+
+    fn unit(&self, reading: &mut Reading) -> Option<Unit> {
+        let text = self.block.unit;
+        let unit = Unit::read(text);
+        if unit.is_none() {
+            let expected = "expected a unit of acceleration, cm/sec2 or g";
+            reading.refuse(|| on_line(self.line, format!("in {}: {expected}", excerpt(text))));
+        }
+        unit
+    }
+
+    /// Reads the block up to what is no line of samples.
+    fn samples(&self, text: &str, step: f64, unit: Unit, reading: &mut Reading) {
+        let mut lines = numbered(text).skip(self.line).peekable();
+        // The format may stand in a line of its own.
+        let own = lines.peek().filter(|(_, line)| line.trim_start().starts_with('(')).map(|(_, line)| *line);
+        lines.by_ref().take(usize::from(own.is_some())).for_each(drop);
+        let columns = self.block.columns.or_else(|| Columns::find(own?)).unwrap_or(USUAL);
+        for (number, line) in lines {
+            if is_end(line) || Block::read(line).is_some() {
+                return;
+            }
+            let values = columns.values(line, fortran_number);
+            if reading.samples >= self.block.count && values.iter().any(Result::is_err) {
+                return;
+            }
+            reading.add_all(number, values, |k, value| (k * step, unit.in_si(value)), "a number");
+        }
+    }
+}
+
+/// `Chan  1: 180 Deg`, of a line with more.
+fn channel_label(line: &str) -> Option<String> {
+    let start = line.to_ascii_lowercase().find("chan")?;
+    let label = line.get(start..)?;
+    let (name, rest) = label.split_once(':')?;
+    let is_number = name.chars().any(|c| c.is_ascii_digit()) && name.len() < 16;
+    let rest = rest.trim().split("  ").next().unwrap_or_default().split('(').next().unwrap_or_default();
+    is_number.then(|| excerpt(&format!("{name}: {}", rest.trim())))
+}
+
+/// The numbers below `100 Real-header values follow on  17 lines, Format= (6F13.6)`.
+fn real_header(header: &[(usize, &str)]) -> Vec<f64> {
+    let place = header.iter().rposition(|(_, line)| line.to_ascii_lowercase().contains("real-header values"));
+    let Some(place) = place else { return Vec::new() };
+    let Some(columns) = Columns::find(header[place].1) else { return Vec::new() };
+    let count = header[place].1.split_whitespace().next().and_then(|count| count.parse().ok()).unwrap_or(0);
+    let lines = header[place + 1..].iter().map(|(_, line)| columns.values(line, fortran_number));
+    lines.flatten().map_while(Result::ok).take(count).collect()
+}
