@@ -24,12 +24,6 @@ def offices(build):
     return build(SCENE)
 
 
-def test_the_gaps_are_those_that_the_guide_quotes(offices):
-    command = [sys.executable, harness.ROOT / "examples/choose_gap.py", offices.path]
-    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    assert f"```text\n{printed}```" in GUIDE
-
-
 def test_what_yielding_does_is_what_the_guide_quotes():
     program, scene = (harness.ROOT / "examples" / name for name in ("elastic_or_yielding.py", "scenes/yielding.toml"))
     printed = subprocess.run([sys.executable, program, scene], capture_output=True, text=True, check=True).stdout
@@ -61,21 +55,6 @@ def test_damping_does_to_storeys_that_yield_what_their_page_says(tmp_path):
     assert f"a ductility of {ductility[1]:.2f} instead of {ductility[0]:.2f}" in page
     drift = [1e3 * end["left.peak_drift[1]"] for end in ends]
     assert f"drifts {drift[2]:.0f} mm on them, with `ratio = 0.05` {drift[3]:.0f} mm" in page
-
-
-def test_the_gaps_of_one_building_between_walls(build):
-    fmu = build(example_scene("isolated"))
-    command = [sys.executable, harness.ROOT / "examples/choose_gap.py", fmu.path]
-    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    stop = float(fmu.description.defaultExperiment.stopTime)
-    apart, near = (
-        fmu.simulate(stop, stop, start_values={f"contact[{p}].gap": gap for p in (1, 2)})[-1] for gap in (1000.0, 0.0)
-    )
-    assert f"left.displacement[1] {1e3 * apart['left.peak_displacement[1]']:.1f} mm" in printed
-    drift = max(near[f"left.peak_drift[{i}]"] / apart[f"left.peak_drift[{i}]"] for i in range(1, 6))
-    force = max(near[f"contact[{p}].peak_force"] for p in (1, 2)) / 1e3
-    *_, last = printed.splitlines()
-    assert last.split() == ["0.0", str(near["impacts"]), f"{force:.0f}", f"{drift:.2f}"]
 
 
 def example_scene(name):
@@ -150,9 +129,6 @@ def test_what_the_guide_makes_of_the_columns(on_a_slope):
         f"takes the force from {force / 1e6:.1f} to {soft / 1e6:.1f} MN.",
     ]:
         assert sentence in said, sentence
-    command = [sys.executable, harness.ROOT / "examples/choose_gap.py", on_a_slope.path]
-    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    assert "`contact[5]` closes by 77.5 mm" in said and "contact[5] closes by 77.5 mm" in printed
 
 
 def lasting(scene, folder):
