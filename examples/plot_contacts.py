@@ -11,8 +11,10 @@ from pathlib import Path
 
 import numpy as np
 from pounding_fmu._scenes import read_scene
+from pounding_fmu.plots.command import draw
 from pounding_fmu.plots.layout import Layout, clamped
 from pounding_fmu.plots.meetings import LABEL, number, stand
+from pounding_fmu.plots.runs import Runs
 from pounding_fmu.plots.style import BLACK, GREY, VERMILION, pyplot, save
 
 plt = pyplot()
@@ -20,6 +22,18 @@ plt = pyplot()
 ROOT = Path(__file__).resolve().parents[1]
 WIDTH = 260.0  # mm, of a building that is 40 mm from its neighbour
 LAW = {"gap": 0.04, "law": "linear", "stiffness": 1e9}
+
+
+def building(heights):
+    count = len(heights)
+    return {"mass": [2e5] * count, "stiffness": [2e8] * count, "damping": {"ratio": 0.05}, "height": heights}
+
+
+# That of the page.
+EXAMPLE = {
+    "name": "Pair", "left": building([4.0, 3.2, 3.2, 3.2, 3.2, 3.0]), "right": building([3.5, 3.0, 3.6, 3.0]),
+    "facing": {**LAW, "gap": 0.02, "level_tolerance": 0.4},
+}  # fmt: skip
 SPAN = {"arrowstyle": "<->", "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
 
 
@@ -34,16 +48,12 @@ def main():
     save(floor_and_columns(pair([3.6, 3.3], [3.6, 4.4, 3.6], [upper])), folder / "columns.png")
     save(floor_and_columns(pair([2.6], [4.4, 3.4], [lowest])), folder / "first_storey.png")
     save(walls(Layout(read_scene(ROOT / "examples/scenes/isolated.toml"))), folder / "walls.png")
+    save(draw(Runs(read_scene(EXAMPLE), 1.0), "contacts"), folder / "facing.png")
 
 
 def pair(left, right, contacts):
     """Two buildings with storeys of these heights."""
     return Layout(read_scene({"name": "Pair", "left": building(left), "right": building(right), "contact": contacts}))
-
-
-def building(heights):
-    count = len(heights)
-    return {"mass": [2e5] * count, "stiffness": [2e8] * count, "damping": {"ratio": 0.05}, "height": heights}
 
 
 def push(axes, x, y, length, text, beside=False):
