@@ -99,7 +99,7 @@ def parser() -> argparse.ArgumentParser:
 def run_options(parser: argparse.ArgumentParser, seen: str) -> None:
     """The scene, its run, and what of it is to be seen."""
     parser.add_argument("scene", type=Path, metavar="SCENE.toml")
-    parser.add_argument("--from", dest="start", type=float, metavar="S", help=f"s, where what is over time begins; {seen}")
+    parser.add_argument("--from", dest="start", type=float, metavar="S", help=f"s, where it begins; {seen}")
     parser.add_argument("--to", dest="end", type=float, metavar="S", help="s, where it ends")
     parser.add_argument("--record", type=Path, metavar="FILE", help="ground motion instead of that of the scene")
     parser.add_argument("--stop", type=float, metavar="S", help="s, end of the run; by default that of the scene")
