@@ -46,12 +46,14 @@ def main(arguments: list[str]) -> int:
     found = []
     for name in options.picture:
         file = path.with_stem(f"{path.stem}_{name}") if len(options.picture) > 1 else path
+        if sys.stderr.isatty():
+            print(f"{runs.scene.name}: {name} ...", end="\r", file=sys.stderr, flush=True)
         try:
             save(draw(runs, name), file)
         except NothingToShow as nothing:
             found.append(str(nothing))
         else:
-            print(file)
+            print(f"\x1b[K{file}" if sys.stdout.isatty() else file)
     for text in found:
         print(text, file=sys.stderr)
     return 1 if len(found) == len(options.picture) else 0
