@@ -198,7 +198,7 @@ def read_record(record: Record, key: str) -> _native.Record:
     try:
         times, accelerations = record
         # What another process has sent may lie anywhere in memory.
-        arrays = [np.require(np.asarray(column, np.float64), requirements="CA") for column in (times, accelerations)]
+        arrays = [np.require(np.asarray(column, np.float64), requirements=["C", "A"]) for column in (times, accelerations)]
     except (TypeError, ValueError):
         arrays = []
     if [array.ndim for array in arrays] != [1, 1]:
