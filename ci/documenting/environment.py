@@ -30,14 +30,18 @@ class Reader:
         }
 
     def prepare(self):
-        shutil.rmtree(HOME, ignore_errors=True)
+        shutil.rmtree(self.path, ignore_errors=True)
         self.path.mkdir(parents=True)
-        (HOME / "home").mkdir()
+        (HOME / "home").mkdir(exist_ok=True)
         # Tools of every system, one by one: the folder where they lie has compilers as well.
         for tool in ("sh", "bash", "cat", "cp", "mkdir", "ls", "sed", "head", "tail", "cut", "sort", "rm", "mv", "env"):
             (self.path / tool).symlink_to(shutil.which(tool))
-        venv.create(self.python.parents[1], with_pip=True)
-        run(self.python, "-m", "pip", "install", "--quiet", f"{self.wheel}[{EXTRAS}]", variables=self.variables)
+        if not self.python.exists():
+            venv.create(self.python.parents[1], with_pip=True)
+        # What the wheel asks for is kept between runs; the wheel itself is always this one.
+        install = [self.python, "-m", "pip", "install", "--quiet"]
+        run(*install, f"{self.wheel}[{EXTRAS}]", variables=self.variables)
+        run(*install, "--no-deps", "--force-reinstall", self.wheel, variables=self.variables)
 
     def folder(self, page):
         folder = HOME / "pages" / Path(page).with_suffix("").as_posix().replace("/", "-")

@@ -65,7 +65,7 @@ class Page:
                 lines += [(block.line, re.split(r"\s#|&&|\|", line)[0]) for line in text.split("\n")]
         # In a checkout the same command is called cargo fmu.
         lines = [(line, re.sub(r"^cargo fmu\b", "pounding-fmu", text)) for line, text in lines]
-        return [(line, text.split()) for line, text in lines if text.startswith("pounding-fmu ")]
+        return [(line, text.split()) for line, text in lines if re.match(r"pounding-fmu +\S", text)]
 
 
 def read(name, text):

@@ -188,9 +188,11 @@ def read_record(record: Record, key: str) -> _native.Record:
     """The record of a path or of a pair of arrays; `key` is what messages call it."""
     if isinstance(record, (str, os.PathLike)):
         path = os.fsdecode(record)
-        with open(path, "rb"):
-            pass
-        return _native.Record.read(path, key)
+        try:
+            return _native.Record.read(path, key)
+        except OSError:
+            with open(path, "rb"):  # which says it with the name of the file
+                raise
     import numpy as np
 
     try:
