@@ -341,8 +341,19 @@ fn the_files_that_the_documents_name_exist() {
 
 /// Folders of the project, by which a path is known as one.
 const FOLDERS: [&str; 13] = [
-    ".ci/", ".github/", "benches/", "benchmarks/", "ci/", "docs/", "examples/", "fmu-build/", "fuzz/", "python/",
-    "simulate/", "src/", "tests/",
+    ".ci/",
+    ".github/",
+    "benches/",
+    "benchmarks/",
+    "ci/",
+    "docs/",
+    "examples/",
+    "fmu-build/",
+    "fuzz/",
+    "python/",
+    "simulate/",
+    "src/",
+    "tests/",
 ];
 
 /// In sentences and in commands, wherever in a page. What has been is the change log's.
