@@ -1,7 +1,7 @@
 """The blocks of a page and the commands that it names."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from markdown_it import MarkdownIt
 
@@ -36,9 +36,13 @@ class Block:
         return self.kind in PROGRAMS
 
     @property
+    def is_session(self):
+        return self.kind == "python" and self.text.startswith(">>>")
+
+    @property
     def program(self):
         """What runs it, and its text; what a Python session prints stands in it."""
-        if self.kind == "python" and self.text.startswith(">>>"):
+        if self.is_session:
             return "python", SESSION.format(text=self.text, name=self.place)
         return PROGRAMS[self.kind], self.text
 
@@ -76,4 +80,11 @@ def read(name, text):
             blocks.append(Block(name, line, token.info.strip(), token.content))
         elif token.type == "inline":
             spans += [(line, child.content) for child in token.children if child.type == "code_inline"]
-    return Page(name, blocks, spans)
+    return Page(name, in_one_session(blocks), spans)
+
+
+def in_one_session(blocks):
+    """The parts of a Python session go on from each other: all that a page has stand where the first of them is."""
+    parts = [block for block in blocks if block.is_session]
+    whole = [replace(parts[0], text="\n".join(part.text for part in parts))] if parts else []
+    return sorted([block for block in blocks if not block.is_session] + whole, key=lambda block: block.line)

@@ -74,6 +74,12 @@ class Blocks(unittest.TestCase):
             self.assertEqual(int(ended.exception.code), code)
 
 
+    def test_a_session_goes_on(self):
+        text = "```python\n>>> a = 1\n```\n\n```sh\nls\n```\n\n```python\n>>> a\n1\n```\n"
+        session, command = page(text).blocks
+        self.assertEqual((session.text, command.kind), (">>> a = 1\n\n>>> a\n1\n", "sh"))
+
+
 class Accounts(unittest.TestCase):
     def test_a_block_that_nobody_runs(self):
         problems = follow.unaccounted([page()], LISTED)
