@@ -119,7 +119,7 @@ def simulate(
         outputs: names of the columns beside ``time``: outputs of the FMU, also its frequencies and parameters. All
             outputs where nothing is said.
         parameters: values of parameters of the FMU by name. ``ground.record`` is a path.
-        record: another ground motion: a path (CSV or AT2), or a pair of arrays of the same length, times (s, strictly
+        record: another ground motion: a path (any format), or a pair of arrays of the same length, times (s, strictly
             increasing) and accelerations (m/s2, linear in between). A scene without a record gets it as its own; it is
             scaled as the scene says.
         rows_per_impact: as many further rows within each contact, beside those at its beginning, its largest force and
