@@ -1,55 +1,59 @@
 """Draws docs/images/contacts: a picture of each kind of contact, at rest and pressed, with what its force acts on.
 
-    python3 examples/run.py examples/plot_contacts.py
+    "$(ci/environment)" examples/plot_contacts.py
 
 What meets, at which levels and in which shares comes from the engine's program. Levels are to scale; gaps and
 displacements are drawn larger than they are.
 """
 
 import argparse
-import tempfile
 from pathlib import Path
 
 import numpy as np
-
-import scenes
-from engine import ROOT
-from layout import Scene, clamped
-from meetings import LABEL, meetings, number, stand
-from style import BLACK, GREY, VERMILION, pyplot, save
+from pounding_fmu._scenes import read_scene
+from pounding_fmu.plots.command import draw
+from pounding_fmu.plots.layout import Layout, clamped
+from pounding_fmu.plots.meetings import LABEL, number, stand
+from pounding_fmu.plots.runs import Runs
+from pounding_fmu.plots.style import BLACK, GREY, VERMILION, pyplot, save
 
 plt = pyplot()
 
-FOLDER = ROOT / "docs/images/contacts"
+ROOT = Path(__file__).resolve().parents[1]
 WIDTH = 260.0  # mm, of a building that is 40 mm from its neighbour
 LAW = {"gap": 0.04, "law": "linear", "stiffness": 1e9}
+
+
+def building(heights):
+    count = len(heights)
+    return {"mass": [2e5] * count, "stiffness": [2e8] * count, "damping": {"ratio": 0.05}, "height": heights}
+
+
+# That of the page.
+EXAMPLE = {
+    "name": "Pair", "left": building([4.0, 3.2, 3.2, 3.2, 3.2, 3.0]), "right": building([3.5, 3.0, 3.6, 3.0]),
+    "facing": {**LAW, "gap": 0.02, "level_tolerance": 0.4},
+}  # fmt: skip
 SPAN = {"arrowstyle": "<->", "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--output", type=lambda name: Path(name).resolve(), default=FOLDER, help="folder")
+    parser.add_argument("--output", type=Path, default=ROOT / "docs/images/contacts", help="folder")
     folder = parser.parse_args().output
+    folder.mkdir(parents=True, exist_ok=True)
     level = [{"left_floor": floor, "right_floor": floor, **LAW} for floor in (1, 2)]
     save(floor_and_floor(pair([3.2] * 3, [3.2] * 2, level)), folder / "floors.png")
     upper, lowest = ({"left_floor": storey, "right_storey": storey, **LAW} for storey in (2, 1))
     save(floor_and_columns(pair([3.6, 3.3], [3.6, 4.4, 3.6], [upper])), folder / "columns.png")
     save(floor_and_columns(pair([2.6], [4.4, 3.4], [lowest])), folder / "first_storey.png")
-    save(walls(Scene(ROOT / "examples/scenes/isolated.toml")), folder / "walls.png")
-    save(meetings(Scene(ROOT / "examples/scenes/neighbours.toml")), folder / "facing.png")
+    save(walls(Layout(read_scene(ROOT / "examples/scenes/isolated.toml"))), folder / "walls.png")
+    save(draw(Runs(read_scene(EXAMPLE), 1.0), "contacts"), folder / "facing.png")
 
 
 def pair(left, right, contacts):
     """Two buildings with storeys of these heights."""
-    buildings = {side: building(heights) for side, heights in [("left", left), ("right", right)]}
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder, "scene.toml")
-        file.write_text(scenes.text({"name": "Pair", **buildings, "contact": contacts}))
-        return Scene(file)
-
-
-def building(heights):
-    return {**scenes.shear_building(2e5, 2e8, len(heights), 0.05), "height": heights}
+    return Layout(read_scene({"name": "Pair", "left": building(left), "right": building(right), "contact": contacts}))
 
 
 def push(axes, x, y, length, text, beside=False):

@@ -1,6 +1,6 @@
 """Draws docs/images/laws.png: force against penetration for every law, and what an impact returns.
 
-    python3 examples/run.py examples/plot_laws.py
+    "$(ci/environment)" examples/plot_laws.py
 
 The numbers are those of free impacts that the engine runs (the example `laws`).
 """
@@ -8,12 +8,13 @@ The numbers are those of free impacts that the engine runs (the example `laws`).
 import csv
 import subprocess
 from collections import defaultdict
+from pathlib import Path
 
 import numpy as np
 
-import style
-from engine import ROOT
+from pounding_fmu.plots import style
 
+ROOT = Path(__file__).resolve().parents[1]
 PICTURE = ROOT / "docs/images/laws.png"
 WORK = ROOT / "target/laws"
 

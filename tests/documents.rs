@@ -65,7 +65,7 @@ fn citations(text: &str) -> BTreeSet<String> {
 #[test]
 fn every_citation_has_its_source_and_every_source_is_cited() {
     let mut cited = BTreeSet::new();
-    for directory in ["src", "fmu-build", "tests", "examples"] {
+    for directory in ["src", "fmu-build", "tests", "examples", "python"] {
         for file in files(directory, &["rs", "py", "toml", "csv", "md"]) {
             cited.extend(citations(&fs::read_to_string(file).unwrap()));
         }

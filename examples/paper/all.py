@@ -39,6 +39,7 @@ def main():
             statement.publish(parts, page)
     folder = arguments.pictures or (None if arguments.check else statement.PICTURES)
     if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
         for figure in [*FIGURES, towers]:
             figure.draw(folder)
         if arguments.kobe is not None:

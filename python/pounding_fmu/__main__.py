@@ -33,7 +33,7 @@ COMMANDS = (
     Command("simulate", "runs a scene without an FMU; tables as CSV", "simulate offices.toml --csv motion.csv"),
     Command("report", "makes a page of a run, for any browser", "report offices.toml"),
     Command("plot", "draws a run: buildings, gaps, forces, the hardest impact", "plot offices.toml", "plots.command"),
-    Command("gap", "says how wide a gap keeps the buildings apart", "gap offices.toml", "gap"),
+    Command("gap", "says how wide a gap keeps the buildings apart", "gap offices.toml", "gap.command"),
     Command("study", "runs many gaps, records and intensities", "study offices.toml --pga 1 2 3", "study.command"),
     Command("record", "shows what is in a ground motion of any format, and converts it", "record MINE.AT2", "record"),
     Command("animate", "shows the buildings in motion", "animate offices.toml -o offices.gif", "plots.animate"),

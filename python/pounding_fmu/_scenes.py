@@ -188,15 +188,17 @@ def read_record(record: Record, key: str) -> _native.Record:
     """The record of a path or of a pair of arrays; `key` is what messages call it."""
     if isinstance(record, (str, os.PathLike)):
         path = os.fsdecode(record)
-        with open(path, "rb"):
-            pass
-        return _native.Record.read(path, key)
+        try:
+            return _native.Record.read(path, key)
+        except OSError:
+            with open(path, "rb"):  # which says it with the name of the file
+                raise
     import numpy as np
 
     try:
         times, accelerations = record
         # What another process has sent may lie anywhere in memory.
-        arrays = [np.require(np.asarray(column, np.float64), requirements="CA") for column in (times, accelerations)]
+        arrays = [np.require(np.asarray(column, np.float64), requirements=["C", "A"]) for column in (times, accelerations)]
     except (TypeError, ValueError):
         arrays = []
     if [array.ndim for array in arrays] != [1, 1]:

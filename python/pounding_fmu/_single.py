@@ -48,18 +48,21 @@ class Result(Mapping[str, "NDArray[Any]"]):
         storeys. The scene is run once more for it, since it needs more than the columns of this run."""
         return _native.summary(self._scene, self._step, float(self["time"][-1]))
 
-    def plot(self, **how: Any) -> Figure:
+    def plot(self, start: float | None = None, stop: float | None = None, picture: str = "overview") -> Figure:
         """Draws the run, as ``pounding-fmu plot`` does, and returns the matplotlib figure.
 
         Args:
-            how: ``start`` and ``stop``, s, of what is shown over time, as ``pounding_fmu.plots.figure`` takes them.
+            start: s, where the parts over time begin; the beginning, or where it is worth a look, if nothing is said.
+            stop: s, their end.
+            picture: ``overview``, or the name of a single picture, as ``pounding-fmu plot --picture`` has them.
 
         Raises:
             ImportError: matplotlib is not installed; the message has the line that installs it.
+            ValueError: times that are not in the run, a picture that there is not.
         """
         from .plots import figure
 
-        return figure(self, **how)
+        return figure(self, start, stop, picture)
 
     def to_dataframe(self) -> Any:
         """The columns as a ``pandas.DataFrame``, ``time`` first.
@@ -116,7 +119,7 @@ def simulate(
         outputs: names of the columns beside ``time``: outputs of the FMU, also its frequencies and parameters. All
             outputs where nothing is said.
         parameters: values of parameters of the FMU by name. ``ground.record`` is a path.
-        record: another ground motion: a path (CSV or AT2), or a pair of arrays of the same length, times (s, strictly
+        record: another ground motion: a path (any format), or a pair of arrays of the same length, times (s, strictly
             increasing) and accelerations (m/s2, linear in between). A scene without a record gets it as its own; it is
             scaled as the scene says.
         rows_per_impact: as many further rows within each contact, beside those at its beginning, its largest force and

@@ -92,9 +92,9 @@ def main(arguments: list[str]) -> int:
         require("matplotlib", "plot")
     if options.output and os.path.exists(options.file) and options.output.exists() and options.output.samefile(options.file):
         raise ValueError(f"{options.output}: this is the record itself, which stays as it is; expected another name")
-    read = read_native(options.file, "record")
-    motion = Motion(*read.samples())
+    motion = Motion(*read_record(options.file))
     print(options.file)
+    print("\n".join(origin(options.file)))
     removed = motion.mean if options.remove_mean else None
     motion = motion if removed is None else motion.without_mean()
     print("\n".join([*described(motion, removed), "", *spectrum(motion)]))
@@ -116,6 +116,14 @@ def parser() -> argparse.ArgumentParser:
     parser.add_argument("--remove-mean", action="store_true", help="takes the mean of the samples away first")
     parser.add_argument("--plot", type=Path, metavar="FILE.png", help="draws it and its spectrum; .png, .svg or .pdf")
     return parser
+
+
+def origin(file: str) -> list[str]:
+    """What the file says of itself, a line each."""
+    form, about, channels = _native.Record.about(file, "record")
+    lines = [("format", form), *([("about", about)] if about else [])]
+    lines += [(f"channel {number}", name) for number, name in enumerate(channels, 1)]
+    return [f"  {name:<12}{text}" for name, text in lines]
 
 
 def described(motion: Motion, removed: float | None) -> list[str]:

@@ -2,6 +2,7 @@
 
 import importlib.metadata
 import os
+import re
 import subprocess
 import sys
 import time
@@ -91,4 +92,9 @@ def test_data():
     assert (data / "LICENSE-MIT").is_file() and (PACKAGE / "py.typed").is_file()
     metadata = importlib.metadata.metadata("pounding-fmu")
     assert metadata["Requires-Python"] == ">=3.10" and metadata["Version"] == pounding_fmu.__version__
-    assert [name.split(">")[0] for name in metadata.get_all("Requires-Dist")] == ["numpy"]
+    needed = [re.split(r"[>; ]+", name) for name in metadata.get_all("Requires-Dist")]
+    assert [name for name, _, *extra in needed if not extra] == ["numpy"]
+    extras = {(name, extra[-1].strip("'\"")) for name, _, *extra in needed if extra}
+    assert extras == {("matplotlib", "plot"), ("distributed", "study"), ("pyarrow", "study")}
+    page = metadata.get_payload()
+    assert page.count("](data:image/png;base64,iVBOR") == 2 and "docs/" not in page

@@ -122,7 +122,7 @@ def test_files_that_are_not_there(tmp_path):
     with pytest.raises(ValueError, match="ground.record = .*expected a record file, but"):
         pounding_fmu.simulate(fmus.feup("el_centro", "missing"))
     (tmp_path / "no.csv").write_text("a,b\n1,2\n")
-    with pytest.raises(ValueError, match="record = .*no.csv.: expected a record file, but line 1: header a,b"):
+    with pytest.raises(ValueError, match="record = .*no.csv.: expected a record file, but line 2: nothing says the unit"):
         pounding_fmu.simulate(FEUP, record=tmp_path / "no.csv")
     (tmp_path / "no.toml").write_bytes(b"name = '\xff'\n")
     assert "not UTF-8" in pounding_fmu.problems(tmp_path / "no.toml")[0]

@@ -10,7 +10,6 @@ import time
 
 import fmus
 import matplotlib.backends.backend_agg
-import matplotlib.figure
 import numpy as np
 import pounding_fmu
 import pyarrow.parquet
@@ -391,7 +390,7 @@ def named_at_length():
 def drawn(monkeypatch, draw):
     """The figure that a picture is made of."""
     figures = []
-    monkeypatch.setattr(matplotlib.figure.Figure, "savefig", lambda figure, *_, **__: figures.append(figure))
+    monkeypatch.setattr(pictures, "save", lambda figure, _: figures.append(figure))
     draw()
     return figures[0]
 

@@ -19,8 +19,9 @@ fn root() -> &'static Path {
 fn wheel() {
     let built = require(base().arg(root().join("ci/wheel")).arg("--dev"), "ci/wheel");
     let wheel = built.lines().next().expect("the path of the wheel");
-    // The list that the wheel's tests need includes that of the FMU's.
-    let requirements = ["python/tests/requirements.txt", "tests/python/requirements.txt"].map(|list| root().join(list));
+    // The first list includes the second, and that the third.
+    let lists = ["python/tests/requirements.txt", "examples/requirements.txt", "tests/python/requirements.txt"];
+    let requirements = lists.map(|list| root().join(list));
     let environment = environment(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("wheel"), &requirements);
     let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--force-reinstall"];
     require(Command::new(&environment).args(install).arg(wheel), "pip install");

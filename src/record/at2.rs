@@ -41,11 +41,10 @@ pub(super) fn parse(text: &str) -> Result<Accelerogram, RecordError> {
     Ok(Accelerogram { format: Format::PeerAt2, about, channels: Vec::new(), record: reading.complete()? })
 }
 
-/// The line of the header that says it: the fourth, or another one where a title goes on.
+/// The line of the header that says it: the fourth, or a later one where a title goes on.
 fn sampling(text: &str) -> Option<Sampling> {
-    let head = || text.split('\n').enumerate().take(MOST_HEADER_LINES);
-    let fourth = head().skip(HEADER_LINES - 1).chain(head().skip(1));
-    fourth.filter(|(_, line)| !line.starts_with('#')).find_map(|(i, line)| Sampling::find(i + 1, line))
+    let head = text.split('\n').enumerate().take(MOST_HEADER_LINES).skip(HEADER_LINES - 1);
+    head.filter(|(_, line)| !line.starts_with('#')).find_map(|(i, line)| Sampling::find(i + 1, line))
 }
 
 /// What the last line of the header says.

@@ -1,4 +1,4 @@
-//! Records of K-NET and KiK-net in ASCII [KNET]: counts, the scale factor of the header makes them gal.
+//! Records of K-NET and KiK-net in ASCII [Nied2006]: counts, the scale factor of the header makes them gal.
 
 use super::accelerogram::{Accelerogram, RecordError};
 use super::format::Format;

@@ -1,15 +1,15 @@
 //! Accelerograms: what a ground motion is, and how its files are read.
 //!
-//! The format is told from what is in a file, not from its name; `parse` of each format's file reads it. Nothing is
+//! The format is told from what is in a file, not from its name (`parse.rs`); `parse` of each format's file reads it. Nothing is
 //! corrected: baseline, mean and filters stay as in the file.
 //!
 //! | format | told by | accelerations | times | file |
 //! |---|---|---|---|---|
 //! | CSV | its header `time_s,accel_m_s2` | m/s2 | any that increase strictly | `csv.rs` |
 //! | PEER AT2 | `NPTS=` and `DT=` in the header of four lines | g | from 0, every `DT` | `at2.rs` |
-//! | K-NET, KiK-net \[KNET\] | `Origin Time` at its beginning | counts, times the `Scale Factor` in gal | from 0, by `Sampling Freq` | `knet.rs` |
+//! | K-NET, KiK-net \[Nied2006\] | `Origin Time` at its beginning | counts, times the `Scale Factor` in gal | from 0, by `Sampling Freq` | `knet.rs` |
 //! | ESM, ITACA \[Luzi2016\] | lines `KEY: VALUE`, such as `EVENT_NAME:` | those of `UNITS` | from 0, every `SAMPLING_INTERVAL_S` | `esm.rs` |
-//! | CSMIP volume 2 | `7200 points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.3)` | those of that line | from 0, as that line says | `volume2.rs` |
+//! | CSMIP volume 2 \[ShakalHuang1985\] | `7200 points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.3)` | those of that line | from 0, as that line says | `volume2.rs` |
 //! | COSMOS volume 2 \[Cosmos2001\] | `7200 acceleration pts, approx 72 secs, units=cm/sec2(04),Format=(8f10.5)` | those of that line | from 0, number 34 of the real header in s | `volume2.rs` |
 //! | two columns | rows of two numbers | those that a header or a comment names | any that increase strictly | `columns.rs` |
 //!
@@ -28,6 +28,7 @@ mod format;
 mod knet;
 mod known;
 mod numbers;
+mod parse;
 mod reading;
 mod unit;
 mod volume2;

@@ -1,4 +1,4 @@
-//! Records of the volume 2 of CSMIP [Shakal1985] and of COSMOS [Cosmos2001], as CESMD hands them out: channels one after the other,
+//! Records of the volume 2 of CSMIP [ShakalHuang1985] and of COSMOS [Cosmos2001], as CESMD hands them out: channels one after the other,
 //! each with headers and with blocks of acceleration, velocity and displacement.
 
 use super::accelerogram::{Accelerogram, RecordError};
@@ -138,7 +138,6 @@ impl<'t> Found<'t> {
                     header.clear();
                 }
                 Some(_) => found.others += 1,
-                None if is_end(line) => header.clear(),
                 None => header.push((number, line)),
             }
             // Of the lines of a long block the last are enough: those of a header may follow.

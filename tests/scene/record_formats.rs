@@ -80,6 +80,12 @@ fn knet_as_it_is_found() {
     let kik = read(None, kik.replace("0.10", "0.05"));
     assert_eq!(kik.record.accelerations[8], 2.384185791015625e-06);
     assert_eq!(kik.record.times[9], 0.045);
+    // Ten to the second: 3 * 0.1 would be another number.
+    assert_eq!(read(None, KNET.replace("100Hz", "10Hz").replace("0.10", "1")).record.times[3], 0.3);
+    // Counts that fill their nine columns.
+    let touching = KNET.replace("        1-99999999", "100000000-99999999");
+    let touching = touching.replace("     8009     9006", "100000000100000000");
+    assert_eq!(read(None, touching).record.accelerations[9], -634.0209431999716);
 }
 
 #[test]

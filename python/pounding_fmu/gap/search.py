@@ -50,11 +50,11 @@ class RequiredGap:
     absolute_sum: float
     """sum of the largest displacements a and b of both buildings at a contact"""
     srss: float
-    """root of a2 + b2: Eurocode 8 and ASCE 7, for two buildings on one property"""
+    """root of a2 + b2: Eurocode 8, and ASCE 7 [ASCE2016, section 12.12.3], for two buildings on one property"""
     eurocode: float | None
     """0.7 times that, which Eurocode 8 allows where all contacts are between floors at the same levels; else None"""
     ddc: float
-    """root of a2 + b2 - 2 rho a b, rho the correlation of the first modes of both buildings"""
+    """root of a2 + b2 - 2 rho a b, rho the correlation of the first modes of both buildings [JengKasaiMaison1992]"""
     force_gap: float | None = None
     """from which on no gap has a larger force than the limit, to 1e-6 m on the safe side; None without a limit"""
     hardest_force: float | None = None

@@ -12,7 +12,7 @@ from .command import run_options, runs_of
 
 def main(arguments: list[str]) -> int:
     """Writes the film."""
-    parser = argparse.ArgumentParser("pounding-fmu animate", description="Shows the buildings in motion, as GIF or MP4.")
+    parser = argparse.ArgumentParser("pounding-fmu animate", description="Shows the buildings in motion.")
     what = ".gif, or .mp4 where ffmpeg is installed; by default NAME.gif in the current folder"
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help=what)
     parser.add_argument("--speed", type=float, default=0.5, help="1 is as fast as in life; by default %(default)s")

@@ -44,7 +44,7 @@ def film_file(path: Path) -> Path:
 
 
 def write(path: Path, runs: Runs, speed: float) -> int:
-    """Writes the film of what is to be seen of a run, `speed` times as fast as in life; returns how many frames it has."""
+    """Writes the film of what is to be seen of a run, so many times as fast as in life; returns the number of frames."""
     step = speed / FRAMES_PER_SECOND
     times = np.arange(*runs.window, step)
     with matplotlib.rc_context(LOOK):
@@ -77,7 +77,8 @@ def write_gif(path: Path, frames: Iterator[NDArray[Any]], palette: Image.Image) 
 def write_mp4(path: Path, frames: Iterator[NDArray[Any]]) -> None:
     """What every player shows: H.264 of an even number of pixels in 4:2:0."""
     first = next(frames)
-    raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{first.shape[1]}x{first.shape[0]}", "-r", f"{FRAMES_PER_SECOND}"]
+    height, width, _ = first.shape
+    raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", f"{FRAMES_PER_SECOND}"]
     even = ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
     command = ["ffmpeg", "-y", "-loglevel", "error", *raw, "-i", "-", *even, f"file:{path}"]
     coder = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE)

@@ -46,12 +46,14 @@ def main(arguments: list[str]) -> int:
     found = []
     for name in options.picture:
         file = path.with_stem(f"{path.stem}_{name}") if len(options.picture) > 1 else path
+        if sys.stderr.isatty():
+            print(f"{runs.scene.name}: {name} ...", end="\r", file=sys.stderr, flush=True)
         try:
             save(draw(runs, name), file)
         except NothingToShow as nothing:
             found.append(str(nothing))
         else:
-            print(file)
+            print(f"\x1b[K{file}" if sys.stdout.isatty() else file)
     for text in found:
         print(text, file=sys.stderr)
     return 1 if len(found) == len(options.picture) else 0
@@ -99,7 +101,7 @@ def parser() -> argparse.ArgumentParser:
 def run_options(parser: argparse.ArgumentParser, seen: str) -> None:
     """The scene, its run, and what of it is to be seen."""
     parser.add_argument("scene", type=Path, metavar="SCENE.toml")
-    parser.add_argument("--from", dest="start", type=float, metavar="S", help=f"s, where what is over time begins; {seen}")
+    parser.add_argument("--from", dest="start", type=float, metavar="S", help=f"s, where it begins; {seen}")
     parser.add_argument("--to", dest="end", type=float, metavar="S", help="s, where it ends")
     parser.add_argument("--record", type=Path, metavar="FILE", help="ground motion instead of that of the scene")
     parser.add_argument("--stop", type=float, metavar="S", help="s, end of the run; by default that of the scene")

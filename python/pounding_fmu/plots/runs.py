@@ -64,7 +64,7 @@ class Run:
 
 
 class Runs:
-    """A scene and, once they are asked for, its run to a time, s, and that without contacts; what of it is to be seen."""
+    """A scene, its run to a time, s, and that without contacts, once they are asked for; what of it is to be seen."""
 
     def __init__(
         self, scene: _native.Scene, stop: float, start: float | None = None, end: float | None = None

@@ -23,9 +23,10 @@ MOST_STOREYS = 4
 
 def both(runs: Runs, side: str) -> list[tuple[Run, str, Look]]:
     """The run and that without contacts, and how their lines are called and look."""
-    pounding = (runs.run, f"{side}, pounding", {**BUILDINGS[side], "linestyle": "-"})
-    # Without contacts both are the same.
-    return [pounding, (runs.alone, "without contact", ALONE)] if runs.scene.contacts else [(runs.run, side, pounding[2])]
+    look = {**BUILDINGS[side], "linestyle": "-"}
+    if not runs.scene.contacts:
+        return [(runs.run, side, look)]
+    return [(runs.run, f"{side}, pounding", look), (runs.alone, "without contact", ALONE)]
 
 
 def drift_of(run: Run, side: str, storey: int) -> NDArray[Any]:
@@ -81,10 +82,11 @@ def yielding_storeys(runs: Runs) -> dict[str, list[int]]:
 
 def most_ductile(runs: Runs, most: int) -> dict[str, list[int]]:
     """Of each building that has any, the storeys with the largest ductility, from below."""
-    return {
-        side: sorted(sorted(own, key=lambda i, side=side: runs.run[f"{side}.ductility[{i}]"][-1])[-most:])  # type: ignore[misc]
-        for side, own in yielding_storeys(runs).items()
-    }
+    found = {}
+    for side, own in yielding_storeys(runs).items():
+        ductility = {i: float(runs.run[f"{side}.ductility[{i}]"][-1]) for i in own}
+        found[side] = sorted(sorted(own, key=ductility.__getitem__)[-most:])
+    return found
 
 
 def loops(runs: Runs) -> Figure | None:
@@ -118,7 +120,8 @@ def draw_loops(axes: Axes, runs: Runs, side: str, storey: int, factor: float) ->
     axes.axhline(0, color=GREY, linewidth=0.8)
     axes.axvline(0, color=GREY, linewidth=0.8)
     pounding, *alone = (f"{one[f'{side}.ductility[{storey}]'][-1]:.1f}" for one, _, _ in lines)
-    axes.set_title(f"{side.capitalize()} storey {storey}: ductility {pounding}" + "".join(f" ({text})" for text in alone))
+    compared = f" ({alone[0]})" if alone else ""
+    axes.set_title(f"{side.capitalize()} storey {storey}: ductility {pounding}{compared}")
 
 
 def residual(runs: Runs) -> Figure | None:

@@ -1,6 +1,6 @@
-"""How the pictures look: one colour and dash for each building, in every picture.
+"""How the pictures look: one colour and dash for each building and each law of contact, in every picture.
 
-The colours are Okabe and Ito's: colour-blind eyes tell them apart; in black and white the dashes do.
+The colours are Okabe and Ito's and two of Tol's: colour-blind eyes tell them apart; in black and white the dashes do.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 Look = dict[str, Any]
 
 BLUE, SKY, GREEN, ORANGE, VERMILION, PURPLE = "#0072B2", "#56B4E9", "#009E73", "#E69F00", "#D55E00", "#CC79A7"
-YELLOW, BLACK, GREY = "#F0E442", "#000000", "#888888"
+WINE, OLIVE, YELLOW, BLACK, GREY = "#882255", "#8A8A1F", "#F0E442", "#000000", "#888888"
 
 # The two buildings, a wall beside them, and a building that stands free.
 LEFT: Look = {"color": BLUE, "linestyle": "-", "linewidth": 1.4}
@@ -28,6 +28,20 @@ FORCE: Look = {"color": BLACK, "linestyle": "-", "linewidth": 1.1}
 OPEN: Look = {"color": "#999999", "alpha": 0.3, "linewidth": 0}
 SOLID: Look = {"facecolor": "white", "edgecolor": BLACK, "hatch": "////", "linewidth": 1.0}
 OVERLAP: Look = {"facecolor": YELLOW, "edgecolor": BLACK, "hatch": "////", "linewidth": 0}
+
+# Laws, and formulas of hertz_damped.
+LAWS: dict[str, Look] = {
+    "linear": {"color": GREY, "linestyle": "-", "linewidth": 1.3},
+    "hertz": {"color": BLACK, "linestyle": "-", "linewidth": 1.0},
+    "kelvin_voigt": {"color": BLUE, "linestyle": "-", "linewidth": 1.8},
+    "kelvin_voigt_no_tension": {"color": ORANGE, "linestyle": "--", "linewidth": 1.8},
+    "jankowski": {"color": SKY, "linestyle": (0, (6, 1)), "linewidth": 2.0},
+    "exact": {"color": GREEN, "linestyle": "-", "linewidth": 1.8},
+    "lankarani_nikravesh": {"color": VERMILION, "linestyle": "--", "linewidth": 1.8},
+    "ye": {"color": OLIVE, "linestyle": "-.", "linewidth": 1.8},
+    "barros_khatami": {"color": PURPLE, "linestyle": (0, (1, 1)), "linewidth": 2.2},
+    "barros_khatami_damper": {"color": WINE, "linestyle": (0, (4, 1, 1, 1)), "linewidth": 1.8},
+}
 
 # Contacts beside each other: no colour of a building.
 CONTACTS = [BLACK, PURPLE, SKY, ORANGE]
@@ -52,6 +66,19 @@ LOOK: Any = {
 FORMATS = (".png", ".svg", ".pdf")
 
 
+def pyplot() -> Any:
+    """matplotlib.pyplot with these settings for good: for programs that draw files of their own."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    matplotlib.rcParams.update(LOOK)
+    import matplotlib.pyplot as plt
+
+    return plt
+
+
+
+
 def picture_file(path: Path) -> Path:
     """The path, where a picture can be written to."""
     if path.suffix.lower() not in FORMATS:
@@ -62,10 +89,7 @@ def picture_file(path: Path) -> Path:
 
 
 def save(figure: Figure, path: Path) -> None:
-    """Writes a PNG of 256 colours, a third of the size that all take, an SVG or a PDF.
-
-    The same numbers give the same file.
-    """
+    """Writes a PNG of 256 colours, a third of the size that all take, an SVG or a PDF, without the date."""
     import matplotlib
     from PIL import Image
 
@@ -78,3 +102,11 @@ def save(figure: Figure, path: Path) -> None:
         else:
             dates = {"Date": None} if suffix == ".svg" else {"CreationDate": None}
             figure.savefig(path, format=suffix[1:], metadata={**dates, "Creator": None})
+
+
+def name_curve(axes: Any, numbers: Any, label: str, style: Look, at: float, text: tuple[float, float]) -> None:
+    """Writes a curve's name beside it; `at` is the point of the curve that is named, as a share of its points."""
+    x, y = numbers
+    place = round(at * (len(x) - 1))
+    line = {"arrowstyle": "-", "color": style["color"], "linewidth": 1, "shrinkB": 1}
+    axes.annotate(label, (x[place], y[place]), text, arrowprops=line, va="center")

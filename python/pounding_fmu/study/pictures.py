@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .._extras import require
-from ..plots.style import ALONE, BLACK, CYCLE, LOOK
+from ..plots.style import ALONE, BLACK, CYCLE, LOOK, save
 from .cases import NEVER_CLOSES, SIDES, Row
 from .fragility import INTENSITIES, Curve, force_unit, lognormal, points
 
@@ -38,7 +38,8 @@ def fragility(curves: Sequence[Curve], records: int, path: Path, shown: Chosen =
 def _draw(path: Path, draw: Callable[[], Any]) -> None:
     matplotlib = require("matplotlib", extra="plot")
     with matplotlib.rc_context(LOOK):
-        draw().savefig(path, dpi=150)
+        figure = draw()
+    save(figure, path)
 
 
 def _panels(rows: int, columns: int, width: float, height: float, **more: Any) -> tuple[Any, Any]:

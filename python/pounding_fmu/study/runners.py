@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import logging
 import signal
 import threading
 import time
@@ -27,6 +28,7 @@ BATCH = 1.5
 # Of a cluster, whose workers hold no more than their share.
 LARGEST_BATCH = 40
 BATCHES_PER_WORKER = 20
+SILENCE = logging.CRITICAL + 1  # a scheduler whose client is stopped while workers are busy calls that critical
 PATIENCE = 60.0  # s, until a cluster has a worker
 
 
@@ -79,7 +81,7 @@ def on_cluster(
         with without_interrupts():
             if address == "local":
                 of_cluster = {"n_workers": workers, "threads_per_worker": 1, "dashboard_address": ":0"}
-                address = held.enter_context(distributed.LocalCluster(**of_cluster, silence_logs="CRITICAL"))
+                address = held.enter_context(distributed.LocalCluster(**of_cluster, silence_logs=SILENCE))
             client = held.enter_context(distributed.Client(address))
         greet(client)
         yield from through(client, cases, materials, progress)

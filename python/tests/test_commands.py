@@ -1,0 +1,131 @@
+"""The command `pounding-fmu`: its help, words that are no command, examples, reports."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import fmus
+import pounding_fmu
+import pytest
+from pounding_fmu.__main__ import COMMANDS
+from test_command import run, well
+
+SCENES = ["feup", "isolated", "neighbours", "offices", "two_blocks", "yielding"]
+
+
+def test_the_help_names_every_command_with_an_example():
+    text = well("--help")
+    for name, about, example, _ in COMMANDS:
+        assert f"  {name:<12}{about}\n" in text and f"pounding-fmu {example}\n" in text
+    assert "--platform" in text and max(map(len, text.partition("Options of")[0].splitlines())) < 90
+    assert text == well("-h") == well("help")
+
+
+@pytest.mark.parametrize("name", [command.name for command in COMMANDS[1:]])
+def test_every_command_has_a_help(name):
+    text = well(name, "--help")
+    assert f"pounding-fmu {name}" in text and text == well("help", name)
+
+
+@pytest.mark.parametrize(
+    ("word", "said"),
+    [
+        ("studdy", "studdy: no such command; did you mean study? A scene is a file, such as studdy.toml"),
+        ("simulat", "simulat: no such command; did you mean simulate?"),
+        ("xyzzy", "xyzzy: no such command; pounding-fmu --help lists them."),
+    ],
+)
+def test_words_that_are_no_command(word, said, tmp_path):
+    done = run(word, "x.toml", cwd=tmp_path)
+    assert (done.returncode, done.stdout) == (2, "") and done.stderr.startswith(f"error: {said}")
+
+
+@pytest.mark.parametrize("word", ["studdy.toml", "./studdy", "folder/scene.TOML"])
+def test_words_that_are_scenes(word, tmp_path):
+    done = run(word, cwd=tmp_path)
+    assert done.returncode == 1 and "No such file" in done.stderr and "command" not in done.stderr
+
+
+def test_a_scene_may_be_called_anything(tmp_path):
+    (tmp_path / "studdy").write_text("name = 3")
+    assert "is not a scene that can be built" in run("studdy", cwd=tmp_path).stderr
+
+
+def test_a_reader_that_has_seen_enough(tmp_path):
+    command = f"{sys.executable} -m pounding_fmu record {fmus.RECORD} | head -1"
+    done = subprocess.run(command, shell=True, capture_output=True, text=True)
+    assert (done.stdout, done.stderr) == (f"{fmus.RECORD}\n", "")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no SIGINT for another process")
+def test_ctrl_c_in_a_command_in_python(tmp_path):
+    code = "import time\ndef main(arguments):\n    print('on', flush=True)\n    time.sleep(60)\n"
+    start = f"import sys, types; m = types.ModuleType('m'); exec({code!r}, m.__dict__); import pounding_fmu.__main__ as c"
+    start += "; sys.modules['pounding_fmu.record'] = m; sys.argv[1:] = ['record', 'x']; sys.exit(c.main())"
+    process = subprocess.Popen([sys.executable, "-c", start], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "on\n"
+    time.sleep(0.2)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=20)
+    assert (process.returncode, errors) == (130, "")
+
+
+def test_a_bug_is_one_line(monkeypatch, capsys):
+    from pounding_fmu import __main__, example
+
+    monkeypatch.setattr(example, "scenes", lambda: 1 / 0)
+    assert __main__.carry_out("example", []) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("error: pounding-fmu has met a bug of its own (ZeroDivisionError: ")
+
+
+def test_examples_are_listed():
+    lines = well("example").splitlines()
+    assert [line.split()[0] for line in lines[: len(SCENES)]] == SCENES
+    assert all(len(line.split()) > 1 for line in lines[: len(SCENES)])
+    assert any(line.startswith("offices ") and "Office buildings of five and three storeys" in line for line in lines)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_an_example_runs_where_it_is_written(name, tmp_path):
+    """With the bits of the scene in the package."""
+    said = well("example", name, "-o", "a folder", cwd=tmp_path).splitlines()
+    scene = tmp_path / "a folder" / f"{name}.toml"
+    assert said[-1] == f'go on with: pounding-fmu "a folder/{name}.toml"'
+    assert {tmp_path / line for line in said[:-1]} == {file for file in tmp_path.rglob("*") if file.is_file()}
+    written, packaged = (pounding_fmu.simulate(path) for path in (scene, fmus.EXAMPLES / "scenes" / f"{name}.toml"))
+    assert list(written) == list(packaged)
+    assert all(fmus.same_bits(written[column], packaged[column]) for column in written)
+
+
+def test_an_example_is_written_over_nothing(tmp_path):
+    well("example", "feup", cwd=tmp_path)
+    well("example", "offices.toml", cwd=tmp_path)  # the record that is there is the same
+    (tmp_path / "feup.toml").write_text("mine")
+    done = run("example", "feup", cwd=tmp_path)
+    assert done.returncode == 1 and done.stderr.startswith("error: feup.toml: already there")
+    assert (tmp_path / "feup.toml").read_text() == "mine"
+    (tmp_path / "records/el_centro_1940_ns.csv").write_text("mine")
+    done = run("example", "yielding", cwd=tmp_path)
+    assert done.returncode == 1 and "el_centro_1940_ns.csv: already there" in done.stderr
+    assert not (tmp_path / "yielding.toml").exists()
+
+
+def test_no_such_example(tmp_path):
+    done = run("example", "ofices", cwd=tmp_path)
+    assert done.returncode == 1 and "ofices: there is no such example; did you mean offices?" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_report_of_a_scene(tmp_path):
+    assert well("report", fmus.FEUP, cwd=tmp_path).startswith("FeupFrames.html: ")
+    well("simulate", fmus.FEUP, "--html", "other.html", cwd=tmp_path)
+    assert (tmp_path / "FeupFrames.html").read_bytes() == (tmp_path / "other.html").read_bytes()
+    well("report", fmus.FEUP, "-o", "here.html", cwd=tmp_path)
+    assert (tmp_path / "here.html").is_file()
+    done = run("report", fmus.FEUP, "-o", "no/such/place.html", cwd=tmp_path)
+    assert done.returncode == 1 and "cannot write no/such/place.html" in done.stderr
+    done = run("report", "missing.toml", cwd=tmp_path)
+    assert done.returncode == 1 and "missing.toml" in done.stderr

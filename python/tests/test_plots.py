@@ -1,0 +1,319 @@
+"""Pictures: what they know of a scene, that they show the numbers of the run, and the commands that make them."""
+
+import sys
+
+import matplotlib
+import numpy as np
+import pounding_fmu
+import pytest
+from pounding_fmu._scenes import read_scene
+from pounding_fmu.__main__ import carry_out
+from pounding_fmu.plots.animation import FRAMES_PER_SECOND
+from pounding_fmu.plots.command import PICTURES, draw
+from pounding_fmu.plots.layout import Layout, clamped
+from pounding_fmu.plots.runs import Run, Runs
+from PIL import Image
+
+FEUP = pounding_fmu.example_scene
+RECORD = FEUP.parent.parent / "records" / "el_centro_1940_ns.csv"
+LAW = {"gap": 0.004, "law": "hertz", "stiffness": 1e6}
+
+
+def building(heights, **more):
+    count = len(heights)
+    keys = {"mass": [3.65] * count, "stiffness": [2910.0] * count, "damping": {"ratio": 0.02}, "height": heights}
+    return {**keys, **more}
+
+
+def scene_of(left, right=None, **more):
+    sides = {"left": left} if right is None else {"left": left, "right": right}
+    return {"name": "Scene", "stop_time": 8.0, "ground": {"record": str(RECORD)}, **sides, **more}
+
+
+def facing():
+    """Left floors at 0.5, 0.9, 1.3 m beside right ones at 0.65 and 0.9 m."""
+    left, right = building([0.5, 0.4, 0.4]), building([0.6, 0.25], base_level=0.05)
+    return scene_of(left, right, facing={**LAW, "level_tolerance": 0.02})
+
+
+def walls():
+    contacts = [{"left_floor": 1, **LAW, "wall": wall, "gap": gap} for wall, gap in [("left", 0.01), ("right", 0.015)]]
+    return scene_of(building([0.1, 0.5], base_level=-0.1), contact=contacts)
+
+
+def rigid():
+    contact = {"left_floor": 2, "right_floor": 2, "gap": 0.004, "law": "stereomechanical", "restitution": 0.5}
+    return scene_of(building([0.5, 0.5]), building([0.5, 0.5], mass=[1.0, 1.0]), contact=[contact])
+
+
+def yields():
+    left, right = building([0.5, 0.5], yield_force=[30.0, 40.0], post_yield_ratio=0.05), building([0.5, 0.5])
+    return scene_of(left, right, contact=[{"left_floor": 2, "right_floor": 2, **LAW}])
+
+
+def told(scene):
+    return Layout(read_scene(scene))
+
+
+def runs_of(scene, stop=8.0, *window):
+    return Runs(read_scene(scene), stop, *window)
+
+
+def panels(figure, label):
+    """The axes whose vertical axis is called so."""
+    return [axes for axes in figure.axes if axes.get_ylabel().startswith(label)]
+
+
+def curves(axes):
+    """What lines show, by their labels."""
+    return {line.get_label(): line.get_xydata().T for line in axes.get_lines()}
+
+
+def test_contacts_by_heights():
+    scene = told(facing())
+    assert scene.name == "Scene" and scene.floors == {"left": 3, "right": 2}
+    assert scene.levels["right"] == pytest.approx([0.05, 0.65, 0.9])
+    names = ["left floor 1, columns of right storey 1", "right floor 1, columns of left storey 2", "floor 2 of both"]
+    assert [contact.meeting for contact in scene.contacts] == names
+    assert [contact.height for contact in scene.contacts] == pytest.approx([0.5, 0.65, 0.9])
+    assert [contact.gap for contact in scene.contacts] == [0.004] * 3
+
+
+@pytest.mark.parametrize("make", [facing, walls])
+def test_edges_overlap_by_the_penetration(make):
+    scene = make()
+    run = Run(pounding_fmu.simulate(scene, rows_per_impact=4), set())
+    for p, contact in enumerate(told(scene).contacts, 1):
+        left, right = contact.edges(run)
+        penetration = run[f"contact[{p}].penetration"]
+        assert np.max(penetration) > 0.0
+        assert np.max(np.abs(left - right - penetration)) < 1e-14
+
+
+def test_columns_are_drawn_as_they_bend():
+    contact = told(facing()).contacts[1]
+    position = contact.surfaces["left"]["position"]
+    shares = {(side, floor): weight for side, floor, weight in contact.row}
+    assert position == pytest.approx(0.15 / 0.4)
+    assert [shares["left", floor] for floor in (2, 1)] == pytest.approx([clamped(position), 1.0 - clamped(position)])
+
+
+def test_one_building_between_walls():
+    scene = told(walls())
+    assert scene.floors == {"left": 2} and scene.bottom == -0.1 and scene.top == pytest.approx(0.5)
+    names = ["left floor 1, wall on its left, level 0 m", "left floor 1, wall on its right, level 0 m"]
+    assert [contact.name for contact in scene.contacts] == names
+
+
+def test_without_heights_storeys_are_equally_high():
+    left, right = building([0.5, 0.4]), building([0.6])
+    del right["height"]
+    contact = {"left_floor": 2, "right_storey": 1, "right_position": 0.25, **LAW}
+    scene = told(scene_of(left, right, contact=[contact]))
+    assert not scene.has_levels and list(scene.levels["left"]) == [0, 1, 2]
+    assert scene.contacts[0].name == "left floor 2, columns of right storey 1"
+    assert scene.contacts[0].height_on("right", scene.levels) == 0.25
+
+
+def test_the_overview_shows_the_numbers_of_the_run():
+    """Every row of a run of the user's own is on the curves, and the peaks are those of its table of impacts."""
+    result = pounding_fmu.simulate(FEUP, stop=8, outputs=["time"])
+    figure = pounding_fmu.plots.figure(result)
+    again = pounding_fmu.simulate(FEUP, stop=8)
+    (edges,), forces = panels(figure, "position [mm]"), panels(figure, "force [N]")[0]
+    shown = curves(edges)
+    for label, factor in [("left building", 0.0), ("right building", 5.0)]:
+        at, position = shown[label]
+        rows = np.searchsorted(at, again["time"])
+        assert np.array_equal(at[rows], again["time"])
+        side = label.split()[0]
+        assert position[rows] == pytest.approx(1e3 * again[f"{side}.displacement[2]"] + factor, abs=1e-9)
+    of_contact = again.impacts[again.impacts["contact"] == 2]
+    assert np.array_equal(shown["impact"][0], of_contact["start_s"])
+    dots = [line for line in forces.get_lines() if line.get_marker() == "."]
+    assert np.array_equal(dots[1].get_ydata(), of_contact["peak_force"])
+    assert curves(forces)["contact 2"][1].max() == pytest.approx(of_contact["peak_force"].max(), rel=1e-12)
+    assert forces.get_ylim()[1] > again.impacts["peak_force"].max() and edges.get_xlim() == (0.0, 8.0)
+    hardest = again.impacts[again.impacts["peak_force"].argmax()]
+    said = f"{len(again.impacts)} impacts, the hardest with {hardest['peak_force']:.3g} N at contact {hardest['contact']}"
+    assert said in figure.get_suptitle()
+
+
+def test_drifts_are_least_and_largest():
+    runs = runs_of(facing())
+    axes = draw(runs, "drifts").axes[0]
+    filled, low, high = (patch.get_data() for patch in axes.patches[:3])
+    drift = 1e3 * np.diff([0 * runs.run.time, *(runs.run[f"left.displacement[{i}]"] for i in (1, 2, 3))], axis=0)
+    assert low.values == pytest.approx(drift.min(axis=1)) and high.values == pytest.approx(drift.max(axis=1))
+    assert np.array_equal(filled.edges, [0.0, 0.5, 0.9, 1.3])
+    assert axes.get_xlim()[1] > max(abs(drift.min()), drift.max())
+
+
+def test_loops_are_those_of_the_storeys_that_yield():
+    runs = runs_of(yields())
+    for figure in (draw(runs, "loops"), draw(runs, "overview")):
+        axes = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith("Left storey 1: ductility"))
+        drift, shear = curves(axes)["left, pounding"]
+        assert np.array_equal(drift, 1e3 * runs.run["left.displacement[1]"])
+        assert np.array_equal(shear, runs.run["left.storey_shear[1]"])
+        assert runs.run["left.ductility[1]"][-1] > 1
+        assert f"{runs.run['left.ductility[1]'][-1]:.1f} ({runs.alone['left.ductility[1]'][-1]:.1f})" in axes.get_title(loc="left")
+
+
+def test_rigid_contacts_are_drawn_by_impulses():
+    runs = runs_of(rigid())
+    largest = runs.run.impacts["impulse"].max()
+    assert runs.run.hardest()["impulse"] == largest
+    figure = draw(runs, "overview")
+    assert f"the hardest with {largest:.3g} N s" in figure.get_suptitle()
+    (axes,) = panels(figure, "impulse")
+    tops = [segment[1][1] for segment in axes.collections[0].get_segments()]
+    assert np.array_equal(tops, runs.run.impacts["impulse"])
+
+
+@pytest.mark.parametrize("make", [facing, walls, rigid, yields])
+def test_nothing_runs_off_a_picture(make):
+    runs = runs_of(make())
+    for name in PICTURES:
+        try:
+            figure = draw(runs, name)
+        except ValueError as error:
+            assert f"no picture of {name}" in str(error)
+            continue
+        figure.draw_without_rendering()
+        page = figure.bbox.padded(1.0)
+        texts = [axes.title for axes in figure.axes] + [axes._left_title for axes in figure.axes]
+        texts += [label for axes in figure.axes for label in (axes.xaxis.label, axes.yaxis.label)]
+        texts += [figure._suptitle] if figure._suptitle else []
+        for text in texts:
+            box = text.get_window_extent()
+            assert not text.get_text() or (page.contains(*box.min) and page.contains(*box.max)), (name, text.get_text())
+
+
+def test_nothing_of_matplotlib_stays_changed():
+    import matplotlib.pyplot as plt
+
+    before = dict(matplotlib.rcParams)
+    pounding_fmu.simulate(FEUP, stop=3).plot()
+    assert dict(matplotlib.rcParams) == before and plt.get_fignums() == []
+
+
+def plot(*arguments, command="command"):
+    return carry_out(f"plots.{command}", [str(argument) for argument in arguments])
+
+
+@pytest.mark.parametrize(
+    "suffix, begins", [(".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF"), (".PNG", b"\x89PNG")]
+)
+def test_a_file_of_each_format(suffix, begins, tmp_path, capsys):
+    file = tmp_path / f"run{suffix}"
+    assert plot(FEUP, "--stop", 3, "-o", file) == 0
+    assert capsys.readouterr() == (f"{file}\n", "")
+    first = file.read_bytes()
+    assert first.startswith(begins)
+    assert plot(FEUP, "--stop", 3, "-o", file) == 0
+    # In an SVG names of parts may differ.
+    assert suffix == ".svg" or file.read_bytes() == first
+
+
+def test_pictures_by_name(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert plot(FEUP, "--stop", 3, "--picture", "floors", "loops") == 0
+    out, err = capsys.readouterr()
+    assert out == "FeupFrames_floors.png\n" and "no picture of loops" in err
+    assert [file.name for file in tmp_path.iterdir()] == ["FeupFrames_floors.png"]
+    assert plot(FEUP, "--stop", 3, "--picture", "loops") == 1
+
+
+def test_what_is_shown(tmp_path):
+    figure = pounding_fmu.plots.figure(pounding_fmu.simulate(FEUP, stop=6), 2, 4)
+    assert panels(figure, "position [mm]")[0].get_xlim() == (2.0, 4.0)
+    runs = runs_of(FEUP, 20.0)
+    impacts = runs.run.impacts
+    total = lambda start: impacts["impulse"][(impacts["start_s"] >= start) & (impacts["start_s"] < start + 5)].sum()  # noqa: E731
+    start, end = runs.window
+    assert end - start == 5.0 and total(start) >= max(map(total, range(16))) > total(0)
+
+
+@pytest.mark.parametrize(
+    "arguments, said",
+    [
+        (["-o", "run.jpg"], "run.jpg: expected a name that ends in .png, .svg, .pdf"),
+        (["-o", "nowhere/run.png"], "run.png: expected a folder that is there"),
+        (["--from", 2, "--to", 1], "from = 2: expected a time before 1 s"),
+        (["--from", 3], "from = 3: expected a time before 3 s"),
+        (["--to", 3.5], "to = 3.5: expected a time within the run, from 0 to 3 s"),
+        (["--from", -1], "from = -1: expected a time within the run"),
+        (["--from", "nan"], "from = nan: expected a time within the run"),
+        (["--record", "none.csv"], "none.csv"),
+    ],
+)
+def test_mistakes(arguments, said, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert plot(FEUP, "--stop", 3, *arguments) == 1
+    out, err = capsys.readouterr()
+    assert out == "" and err.startswith("error: ") and said in err and err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_cannot_be_drawn(tmp_path, capsys):
+    scene = tmp_path / "still.toml"
+    keys = "mass = [1.0]\nstiffness = [100.0]\ndamping = { ratio = 0.05 }\n"
+    contact = '[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.01\nlaw = "linear"\nstiffness = 1e4\n'
+    scene.write_text(f'name = "Still"\n[left]\n{keys}[right]\n{keys}{contact}')
+    assert plot(scene, "--stop", 1, "-o", tmp_path / "x.png") == 1
+    assert "nothing moves in this scene: give it a ground motion with --record FILE" in capsys.readouterr().err
+    assert plot(scene, "--stop", 1, "-o", tmp_path / "x.png", "--record", RECORD) == 0
+    assert plot(scene, "-o", tmp_path / "y.png", "--picture", "contacts") == 0
+    scene.write_text("name = 1\n")
+    assert plot(scene) == 1 and "name = 1" in capsys.readouterr().err
+    assert plot(tmp_path / "none.toml") == 1 and "none.toml" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("arguments", [[], [FEUP, "--from", "soon"], [FEUP, "--picture", "cats"]])
+def test_wrong_usage(arguments):
+    with pytest.raises(SystemExit) as end:
+        plot(*arguments)
+    assert end.value.code == 2
+
+
+@pytest.mark.parametrize("command", ["command", "animate"])
+def test_without_matplotlib(command, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    assert plot(FEUP, command=command) == 1
+    assert 'pip install "pounding-fmu[plot]"' in capsys.readouterr().err
+    with pytest.raises(ImportError, match="pip install"):
+        pounding_fmu.simulate(FEUP, stop=1).plot()
+
+
+def test_an_animation(tmp_path, capsys):
+    file = tmp_path / "run.gif"
+    assert plot(FEUP, "-o", file, "--from", 2.6, "--to", 3, "--speed", 0.5, command="animate") == 0
+    frames = round(0.4 / 0.5 * FRAMES_PER_SECOND)
+    assert f"{frames} frames" in capsys.readouterr().out
+    with Image.open(file) as film:
+        # What stays the same for longer is one image.
+        durations = [film.seek(frame) or film.info["duration"] for frame in range(film.n_frames)]
+    assert sum(durations) == frames * 1000 // FRAMES_PER_SECOND
+    for arguments, said in [
+        (["-o", tmp_path / "run.avi"], "expected a name that ends in .gif or .mp4"),
+        (["--speed", 0], "speed = 0: expected a finite number > 0"),
+    ]:
+        assert plot(FEUP, *arguments, command="animate") == 1
+        assert said in capsys.readouterr().err
+
+
+def test_a_film_needs_ffmpeg(tmp_path, monkeypatch, capsys):
+    """A coder that is there gets every frame in raw pixels; without one that is said."""
+    monkeypatch.setenv("PATH", str(tmp_path))
+    film = ["-o", tmp_path / "run.mp4", "--from", 2.6, "--to", 2.8]
+    assert plot(FEUP, *film, command="animate") == 1
+    assert "MP4 needs ffmpeg, which is not installed" in capsys.readouterr().err
+    coder = tmp_path / "ffmpeg"
+    coder.write_text(f"#!{sys.executable}\nimport sys\nopen(sys.argv[-1][5:], 'wb').write(sys.stdin.buffer.read())\n")
+    coder.chmod(0o755)
+    assert plot(FEUP, *film, command="animate") == 0
+    assert (tmp_path / "run.mp4").stat().st_size == 8 * 520 * 460 * 3
+    coder.write_text(f"#!{sys.executable}\nimport sys\nsys.exit('no such coder')\n")
+    assert plot(FEUP, *film, command="animate") == 1
+    assert "ffmpeg could not write it: no such coder" in capsys.readouterr().err
