@@ -53,10 +53,14 @@ def test_a_scene_may_be_called_anything(tmp_path):
     assert "is not a scene that can be built" in run("studdy", cwd=tmp_path).stderr
 
 
-def test_a_reader_that_has_seen_enough(tmp_path):
-    command = f"{sys.executable} -m pounding_fmu record {fmus.RECORD} | head -1"
-    done = subprocess.run(command, shell=True, capture_output=True, text=True)
-    assert (done.stdout, done.stderr) == (f"{fmus.RECORD}\n", "")
+@pytest.mark.parametrize("arguments", [["record", fmus.RECORD], ["simulate", fmus.FEUP], ["example"]])
+def test_a_reader_that_has_seen_enough(arguments):
+    reading, writing = os.pipe()
+    os.close(reading)
+    command = ["pounding-fmu", *map(str, arguments)]
+    done = subprocess.run(command, stdout=writing, stderr=subprocess.PIPE, text=True)
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 @pytest.mark.skipif(os.name == "nt", reason="no SIGINT for another process")
