@@ -71,7 +71,7 @@ fn run(
         if told_to_stop.load(Ordering::Relaxed) { Err("interrupted") } else { Ok(()) }
     };
     let solution = solve(model, instants::regular(step, stop), Some(keep));
-    for episode in &solution.map_err(|error| error.to_string())?.episodes {
+    for episode in &solution.map_err(|error| error.to_string())?.events.episodes {
         let (contact, row) = impact(episode);
         kept.contacts.push(i32::try_from(contact).unwrap_or(i32::MAX));
         kept.impacts.push(row.map(|value| value.unwrap_or(f64::NAN)));

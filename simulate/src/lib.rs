@@ -23,7 +23,7 @@ use clap::Args;
 use pounding::description::{Package, PackagedRecord};
 use pounding::engine::Model;
 use pounding::warnings;
-use solve::{Solution, Solved, episodes, solve};
+use solve::{Solution, Solved, events, solve};
 use std::error::Error;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -55,7 +55,8 @@ pub struct Arguments {
     /// Table of the motion, a row every step.
     #[arg(long, value_name = "OUT")]
     csv: Option<PathBuf>,
-    /// Rows of --csv within each contact, beside those at its beginning, largest force and end, and every step.
+    /// Rows of --csv within each contact, beside those at its beginning, largest force and end, where storeys begin to yield
+    /// or turn back, and every step.
     #[arg(long, value_name = "N")]
     rows_per_impact: Option<u16>,
     /// Table of the contact episodes.
@@ -108,7 +109,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     let solution = match arguments.rows_per_impact {
         None => solve(&model, regular, write.as_mut())?,
         Some(count) => {
-            let within = instants::within(&episodes(&model, stop)?, stop, count);
+            let within = instants::within(&events(&model, stop)?, stop, count);
             solve(&model, instants::merge(regular, within), write.as_mut())?
         }
     };
@@ -116,10 +117,10 @@ pub fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
         motion.finish()?;
     }
     if let Some(table) = impacts {
-        tables::write_impacts(table, &solution.episodes)?;
+        tables::write_impacts(table, &solution.events.episodes)?;
     }
     if let Some(page) = &mut page {
-        page.write_all(report::page(&package, &model, stop, &solution.episodes)?.as_bytes())?;
+        page.write_all(report::page(&package, &model, stop, &solution.events)?.as_bytes())?;
     }
     let Solution { time, .. } = &solution;
     let summary = tables::summary(scene, stop, &solution) + &tables::frequencies(&model);

@@ -1,6 +1,6 @@
 //! What a run prints: the table of the motion, that of the impacts, and the summary.
 
-use crate::solve::{Solution, Solved};
+use crate::solve::{Events, Solution, Solved};
 use pounding::engine::{Episode, Model, Side};
 use pounding::scene::Scene;
 use pounding::variables::{Output, Row, Slot, Table, Value};
@@ -105,7 +105,7 @@ pub(crate) fn write_impacts(mut table: CsvFile, episodes: &[Episode]) -> csv::Re
 
 /// How many impacts each contact has had, and the hardest.
 pub(crate) fn summary(scene: &Scene, stop: f64, solution: &Solution) -> String {
-    let Solution { rows, episodes, .. } = solution;
+    let Solution { rows, events: Events { episodes, .. }, .. } = solution;
     let mut text = format!("{}: 0 s to {stop} s in {rows} rows, {} impacts\n", scene.name, episodes.len());
     for (index, pair) in scene.contacts.iter().enumerate() {
         let of_this: Vec<&Episode> = episodes.iter().filter(|episode| episode.contact == index).collect();
