@@ -1,11 +1,13 @@
 //! Random scenes: every run ends, its energy is accounted for, no force pulls where the law has no tension, rigid floors
-//! do not overlap, storeys that yield keep to their lines, one communication step or a hundred give the same bits. Each begins at rest, many with floors that touch, where everything is rounding at first.
+//! do not overlap, storeys that yield keep to their lines, no peak falls or is below what is read at the same time, one
+//! communication step or two hundred give the same bits. Each begins at rest, many with floors that touch, where everything is rounding at first.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod common;
 #[path = "problems/random_frames.rs"]
 mod random_frames;
 
+use common::peaks::Watch;
 use common::problems::laws::contact;
 use common::{Run, record};
 use pounding::record::Record;
@@ -140,8 +142,13 @@ fn check(text: &str, bound: f64) -> Result<(), TestCaseError> {
     scene.ground.record = Some("motion.csv".into());
     let mut run = Run::new(&scene, Some(&motion()));
     let mut dissipated = vec![0.0; run.yielding.len()];
+    let mut watch = Watch::default();
     for k in 1..=100 {
-        run.to(0.02 * f64::from(k));
+        // Anywhere between two samples, and at the next.
+        for part in [(0.618 * f64::from(k)).fract(), 0.0] {
+            run.to(0.02 * (f64::from(k) - part));
+            watch.look(&run).map_err(|wrong| TestCaseError::fail(format!("{wrong}\n{text}")))?;
+        }
         check_storeys(&run, &scene, &mut dissipated, text)?;
         for (contact, pair) in run.contacts().iter().zip(&scene.contacts) {
             prop_assert!(contact.force >= 0.0, "{:?} pulls: {contact:?}\n{text}", pair.law.kind);

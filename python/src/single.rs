@@ -106,7 +106,7 @@ fn run(
         Some(count) => {
             let first = solve(model, regular(), Some(|_: Solved<'_>| go_on(told_to_stop)))
                 .map_err(|error| error.to_string())?;
-            instants::within(&first.episodes, stop, count)
+            instants::within(&first.events, stop, count)
         }
     };
     let mut kept = Kept { columns: vec![Vec::new(); readings.len()], ..Kept::default() };
@@ -116,7 +116,7 @@ fn run(
         go_on(told_to_stop)
     };
     let solution = solve(model, instants::merge(regular(), within), Some(keep));
-    for episode in &solution.map_err(|error| error.to_string())?.episodes {
+    for episode in &solution.map_err(|error| error.to_string())?.events.episodes {
         let (contact, row) = impact(episode);
         kept.contacts.push(i32::try_from(contact).unwrap_or(i32::MAX));
         kept.impacts.push(row.map(|value| value.unwrap_or(f64::NAN)));

@@ -1,6 +1,6 @@
 //! The instants at which a run is looked at.
 
-use pounding::engine::Episode;
+use crate::solve::Events;
 use std::iter::Peekable;
 
 /// Multiples of `step`, s, up to `stop`, and `stop`.
@@ -11,9 +11,11 @@ pub fn regular(step: f64, stop: f64) -> impl Iterator<Item = f64> {
 }
 
 /// Those that show the shape of each contact: just before and after its beginning and its end, where forces jump, its
-/// largest force, and `count` more; ascending, none after `stop`.
-pub fn within(episodes: &[Episode], stop: f64, count: u16) -> Vec<f64> {
-    let mut instants = Vec::with_capacity(episodes.len() * (usize::from(count) + 5));
+/// largest force, and `count` more; and those at which storeys begin to yield or turn back, the corners of hysteresis
+/// loops. Ascending, none after `stop`.
+pub fn within(Events { episodes, switches }: &Events, stop: f64, count: u16) -> Vec<f64> {
+    let mut instants = Vec::with_capacity(episodes.len() * (usize::from(count) + 5) + switches.len());
+    instants.extend(switches);
     for episode in episodes {
         let (start, end) = (episode.start, episode.end.unwrap_or(stop));
         let jump = (1e-4 * (end - start)).max(1e-9 * (1.0 + end));

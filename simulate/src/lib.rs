@@ -33,7 +33,7 @@ use pounding::engine::Model;
 use pounding::record::RecordFile;
 use pounding::variables::{Settings, Table};
 use pounding::warnings;
-use solve::{Solution, Solved, episodes, solve};
+use solve::{Solution, Solved, events, solve};
 use std::error::Error;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -66,7 +66,8 @@ pub struct Arguments {
     /// Table of the motion, a row every step.
     #[arg(long, value_name = "OUT")]
     csv: Option<PathBuf>,
-    /// Rows of --csv within each contact, beside those at its beginning, largest force and end, and every step.
+    /// Rows of --csv within each contact, beside those at its beginning, largest force and end, where storeys begin to yield
+    /// or turn back, and every step.
     #[arg(long, value_name = "N")]
     rows_per_impact: Option<u16>,
     /// Table of the contact episodes.
@@ -125,16 +126,16 @@ pub fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     };
     let within = match arguments.rows_per_impact {
         None => Vec::new(),
-        Some(count) => instants::within(&episodes(&model, stop)?, stop, count),
+        Some(count) => instants::within(&events(&model, stop)?, stop, count),
     };
-    let Solution { episodes, time, .. } =
+    let Solution { events, time, .. } =
         solve(&model, instants::merge(instants::regular(step, stop), within), Some(show))?;
     motion.map_or(Ok(()), tables::Motion::finish)?;
     if let Some(table) = impacts {
-        tables::write_impacts(table, &episodes)?;
+        tables::write_impacts(table, &events.episodes)?;
     }
     if let Some(page) = &mut page {
-        page.write_all(report::page(&package, &model, stop, &episodes)?.as_bytes())?;
+        page.write_all(report::page(&package, &model, stop, &events)?.as_bytes())?;
     }
     let problem = Problem::from(&package);
     let stop_reason = if arguments.stop.is_some() { "as asked" } else { problem.stop_reason() };
@@ -152,7 +153,7 @@ pub fn report(arguments: &ReportArguments) -> Result<String, Box<dyn Error>> {
     let stop = package.stop_time().unwrap_or(STOP);
     let model = model(&package)?;
     let mut page = report::create(&file)?;
-    page.write_all(report::page(&package, &model, stop, &episodes(&model, stop)?)?.as_bytes())?;
+    page.write_all(report::page(&package, &model, stop, &events(&model, stop)?)?.as_bytes())?;
     Ok(format!("{}: the run of {} from 0 s to {stop} s, for any browser\n", file.display(), package.scene.name))
 }
 

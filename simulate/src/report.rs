@@ -6,7 +6,7 @@
 
 use crate::instants;
 use crate::layout::Layout;
-use crate::solve::{Solved, solve};
+use crate::solve::{Events, Solved, solve};
 use crate::tables::{impact, outputs};
 use crate::thinning::Column;
 use pounding::description::Package;
@@ -72,9 +72,9 @@ pub fn create(file: &Path) -> Result<File, Box<dyn Error>> {
 }
 
 /// The page.
-pub fn page(package: &Package, model: &Model, stop: f64, episodes: &[Episode]) -> Result<String, Box<dyn Error>> {
+pub fn page(package: &Package, model: &Model, stop: f64, events: &Events) -> Result<String, Box<dyn Error>> {
     let Package { scene, scene_text, .. } = package;
-    let (times, columns) = columns(scene, model, stop, episodes)?;
+    let (times, columns) = columns(scene, model, stop, events)?;
     let run = Run {
         layout: Layout::of(scene),
         description: &scene.description,
@@ -82,7 +82,7 @@ pub fn page(package: &Package, model: &Model, stop: f64, episodes: &[Episode]) -
         stop,
         times,
         columns,
-        impacts: episodes.iter().map(row).collect(),
+        impacts: events.episodes.iter().map(row).collect(),
     };
     let data = serde_json::to_string(&run)?.replace('<', "\\u003c");
     let page = PARTS.iter().fold(PAGE.to_owned(), |page, (mark, part)| page.replacen(mark, part, 1));
@@ -94,9 +94,9 @@ fn columns(
     scene: &Scene,
     model: &Model,
     stop: f64,
-    episodes: &[Episode],
+    events: &Events,
 ) -> Result<(Vec<f64>, Vec<Series>), Box<dyn Error>> {
-    let within = instants::within(episodes, stop, ROWS_PER_IMPACT);
+    let within = instants::within(events, stop, ROWS_PER_IMPACT);
     let times: Vec<f64> = instants::merge(instants::regular(stop / REGULAR_ROWS, stop), within).collect();
     let outputs: Vec<_> = outputs(scene).collect();
     let all = times.len() * outputs.len();

@@ -8,12 +8,21 @@ use std::time::{Duration, Instant as Clock};
 /// A run that has come to an instant.
 pub type Solved<'a> = Instant<'a>;
 
+/// What has happened in a run.
+#[derive(Default)]
+pub struct Events {
+    /// In the order of their start, open ones included.
+    pub episodes: Vec<Episode>,
+    /// s, when storeys began to yield or turned back.
+    pub switches: Vec<f64>,
+}
+
 /// What a run has left.
 pub struct Solution {
     /// How many instants have been shown.
     pub rows: u64,
-    /// In the order of their start, open ones included.
-    pub episodes: Vec<Episode>,
+    /// What has happened.
+    pub events: Events,
     /// Of the solve alone: reading and writing files is not in it.
     pub time: Duration,
 }
@@ -25,12 +34,13 @@ pub fn solve<E: Into<Box<dyn Error>>>(
     mut show: Option<impl FnMut(Solved) -> Result<(), E>>,
 ) -> Result<Solution, Box<dyn Error>> {
     let (mut state, mut point) = (model.start(0.0), Point::default());
-    let mut solution = Solution { rows: 0, episodes: Vec::new(), time: Duration::ZERO };
+    state.note_switches();
+    let mut solution = Solution { rows: 0, events: Events::default(), time: Duration::ZERO };
     let (clock, mut shown) = (Clock::now(), Duration::ZERO);
     for time in instants {
         // The first row is the start as an FMU shows it: what happens at that very instant belongs to the first step.
         if time > 0.0 {
-            model.advance(&mut state, time, &mut |episode| solution.episodes.push(*episode))?;
+            model.advance(&mut state, time, &mut |episode| solution.events.episodes.push(*episode))?;
         }
         model.observe(&state, &mut point);
         solution.rows += 1;
@@ -41,21 +51,24 @@ pub fn solve<E: Into<Box<dyn Error>>>(
         }
     }
     solution.time = clock.elapsed() - shown;
-    add_open(model, &state, &mut solution.episodes);
+    add_last(model, &state, &mut solution.events);
     Ok(solution)
 }
 
-/// The contact episodes until `stop`, s.
-pub fn episodes(model: &Model, stop: f64) -> Result<Vec<Episode>, EngineError> {
-    let (mut state, mut episodes) = (model.start(0.0), Vec::new());
-    model.advance(&mut state, stop, &mut |episode| episodes.push(*episode))?;
-    add_open(model, &state, &mut episodes);
-    Ok(episodes)
+/// What happens until `stop`, s.
+pub fn events(model: &Model, stop: f64) -> Result<Events, EngineError> {
+    let (mut state, mut events) = (model.start(0.0), Events::default());
+    state.note_switches();
+    model.advance(&mut state, stop, &mut |episode| events.episodes.push(*episode))?;
+    add_last(model, &state, &mut events);
+    Ok(events)
 }
 
-fn add_open(model: &Model, state: &State, episodes: &mut Vec<Episode>) {
+/// Adds the episodes that are still open, and what the state has noted.
+fn add_last(model: &Model, state: &State, Events { episodes, switches }: &mut Events) {
     let mut point = Point::default();
     model.observe(state, &mut point);
     episodes.extend((0..model.contacts()).filter_map(|contact| model.open_episode(state, contact)));
     episodes.sort_by(|one, other| one.start.total_cmp(&other.start));
+    switches.extend(state.switches());
 }

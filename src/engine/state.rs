@@ -2,6 +2,7 @@
 
 use crate::collocation::Workspace as WindowWorkspace;
 use crate::engine::base::counters::Counters;
+use crate::engine::base::planned::Event;
 use crate::engine::base::{Account, Base};
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::flight::workspace::Look;
@@ -46,6 +47,17 @@ impl State {
         self.counters
     }
 
+    /// From now on notes the instants at which storeys begin to yield or turn back; unasked, nothing is noted.
+    pub fn note_switches(&mut self) {
+        self.work.switches.get_or_insert_default();
+    }
+
+    /// The instants, s, at which storeys have begun to yield or have turned back since [`State::note_switches`], ascending.
+    /// They are those of the run that this state has made: no saved state holds them.
+    pub fn switches(&self) -> &[f64] {
+        self.work.switches.as_deref().unwrap_or_default()
+    }
+
     /// Sets the ground acceleration, m/s2, at the present time; used only where the scene has no record. It is constant
     /// from now on, unless a rate is set for the same time.
     pub fn set_ground_acceleration(&mut self, acceleration: f64) {
@@ -78,16 +90,25 @@ impl State {
     }
 }
 
-/// Scratch memory of all kinds of steps; its content means nothing between calls.
+/// Scratch memory of all kinds of steps; its content means nothing between calls, but for the noted instants.
 #[derive(Clone, Debug)]
 pub struct Workspace {
     pub buffers: Buffers,
     pub look: Look,
     pub windows: WindowWorkspace,
     pub peaks: PeakRoom,
+    /// The instants at which storeys have begun to yield or turned, s, where somebody asks for them.
+    pub switches: Option<Vec<f64>>,
 }
 
 impl Workspace {
+    /// Notes an event at a time, s, if it is one of storeys and somebody asks for them.
+    pub fn note(&mut self, event: Event, time: f64) {
+        if let (Some(switches), Event::Yield(..) | Event::Turn(_)) = (&mut self.switches, event) {
+            switches.push(time);
+        }
+    }
+
     /// The part of it that the peaks use.
     pub fn for_peaks(&mut self) -> PeakWork<'_> {
         PeakWork { buffers: &mut self.buffers, peaks: &mut self.peaks }
@@ -100,6 +121,7 @@ impl Workspace {
             look: Look::new(lanes, (pairs, model.system.storeys.len())),
             windows: WindowWorkspace::new(model.windows.as_ref().map_or(0, |_| pairs)),
             peaks: PeakRoom::new(&model.system.structure, &model.peak_rows, pairs),
+            switches: None,
         }
     }
 }
@@ -128,6 +150,10 @@ impl Model {
         };
         self.set_rest(&mut state.base);
         self.system.open_account(&mut state.base);
+        // What is shown at the start counts, before a contact that begins at that very instant changes it.
+        let mut peaks = std::mem::take(&mut state.base.peaks);
+        self.raise_to_motion(&state.base, &mut peaks);
+        state.base.peaks = peaks;
         state
     }
 }

@@ -3,8 +3,8 @@
 
 use super::access::{unknown, wrong_type};
 use super::instance::Slave;
-use super::sequence::Phase;
-use super::status::Refusal;
+use super::sequence::{Call, Phase};
+use super::status::{Refusal, Status};
 use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, Slot, Type, by_parameter};
 
 impl Slave {
@@ -36,13 +36,14 @@ impl Slave {
         }
     }
 
-    /// Reads a derivative of each output in turn and hands over its place and value.
+    /// Reads a derivative of each output in turn and hands over its place and value. One that there is not is discarded:
+    /// nothing has changed, the instance goes on.
     pub fn output_derivatives(
         &mut self,
         references: &[u32],
         orders: &[i32],
         mut take: impl FnMut(usize, f64),
-    ) -> Result<(), Refusal> {
+    ) -> Result<Status, Refusal> {
         let mut problems = Vec::new();
         for (i, (&reference, &order)) in references.iter().zip(orders).enumerate() {
             match self.output_derivative(reference, order)? {
@@ -50,7 +51,7 @@ impl Slave {
                 Err(problem) => problems.push(problem),
             }
         }
-        Refusal::unless_empty(problems)
+        Ok(self.discard_for(Call::GetRealOutputDerivatives, problems))
     }
 
     fn output_derivative(&mut self, reference: u32, order: i32) -> Result<Result<f64, String>, Refusal> {
@@ -69,7 +70,8 @@ impl Slave {
     }
 
     /// The derivatives of unknowns with respect to knowns times the seed, at the present communication point with the
-    /// motion as it is. Hands over place and value of each unknown.
+    /// motion as it is. Hands over place and value of each unknown, or of none: a question that has no answer is discarded,
+    /// nothing has changed, the instance goes on.
     ///
     /// In initialization mode unknowns may be calculated parameters too, and knowns parameters.
     pub fn directional_derivative(
@@ -78,19 +80,21 @@ impl Slave {
         knowns: &[u32],
         seed: &[f64],
         mut take: impl FnMut(usize, f64),
-    ) -> Result<(), Refusal> {
+    ) -> Result<Status, Refusal> {
         let refused = unknowns.iter().filter_map(|&unknown| self.refuse_unknown(unknown));
         let changes = || knowns.iter().copied().zip(seed.iter().copied());
         let refused = refused.chain(changes().filter_map(|(known, change)| self.refuse_known(known, change)));
-        Refusal::unless_empty(refused.collect())?;
+        let mut problems: Vec<String> = refused.collect();
+        if !problems.is_empty() {
+            return Ok(self.discard_for(Call::GetDirectionalDerivative, problems));
+        }
         self.start()?;
-        let Slave { table, settings, simulation: Some(simulation), .. } = self else { return Ok(()) };
+        let Slave { table, settings, simulation: Some(simulation), .. } = self else { return Ok(Status::Ok) };
         let slot = |reference| table.row(reference).map(|row| row.slot);
         simulation.respond(changes().filter_map(|(known, change)| match slot(known)? {
             Slot::Input(input) => Some((input, change)),
             _ => None,
         }));
-        let mut problems = Vec::new();
         for (i, &unknown) in unknowns.iter().enumerate() {
             let Some(unknown) = table.row(unknown) else { continue };
             let mut sum = simulation.response(unknown.slot);
@@ -107,7 +111,7 @@ impl Slave {
             }
             take(i, sum);
         }
-        Refusal::unless_empty(problems)
+        Ok(self.discard_for(Call::GetDirectionalDerivative, problems))
     }
 
     fn refuse_unknown(&self, reference: u32) -> Option<String> {

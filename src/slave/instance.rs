@@ -226,8 +226,16 @@ impl Slave {
 
     /// Status information that there is not: nothing is ever pending.
     pub fn no_status(&mut self, call: Call, kind: StatusKind) -> Status {
-        self.log.add(Category::StatusDiscard, format!("{}: there is no {kind:?} of this type", call.name()));
-        Status::Discard
+        self.discard_for(call, vec![format!("there is no {kind:?} of this type")])
+    }
+
+    /// The status of a call that only asks: one that asks for what there is not is discarded, and the instance goes on.
+    pub(super) fn discard_for(&mut self, call: Call, problems: Vec<String>) -> Status {
+        let status = if problems.is_empty() { Status::Ok } else { Status::Discard };
+        for problem in problems {
+            self.log.add(Category::StatusDiscard, format!("{}: {problem}", call.name()));
+        }
+        status
     }
 
     /// The solution at the present time.

@@ -20,11 +20,10 @@ pub struct Log {
 }
 
 impl Log {
-    /// Warnings and errors are always logged until the master chooses otherwise, all else only where it asks for it.
+    /// Warnings, errors and why a call is discarded are always logged until the master chooses otherwise, all else only
+    /// where it asks for it.
     pub fn new(logging_on: bool) -> Log {
-        let always = |category: &Category| {
-            matches!(category, Category::StatusWarning | Category::StatusError | Category::StatusFatal)
-        };
+        let always = |category: &Category| *category != Category::Events;
         let enabled = Category::ALL.into_iter().filter(|category| logging_on || always(category)).collect();
         Log { enabled, pending: Vec::new() }
     }
@@ -75,6 +74,7 @@ mod tests {
         let log = Log::new(false);
         assert!(log.is_enabled(Category::StatusWarning));
         assert!(log.is_enabled(Category::StatusError) && log.is_enabled(Category::StatusFatal));
+        assert!(log.is_enabled(Category::StatusDiscard));
         assert!(!log.is_enabled(Category::Events));
         assert!(Category::ALL.iter().all(|&category| Log::new(true).is_enabled(category)));
     }

@@ -1,7 +1,7 @@
 //! Derivatives of outputs with respect to inputs, and of initial unknowns with respect to parameters.
 
 use crate::derivatives::{Directional, reals};
-use crate::support::{ERROR, Fmu, Instance, OK, SCENE};
+use crate::support::{DISCARD, Fmu, Instance, OK, SCENE};
 use fmi::model_description::fmi2::Causality;
 use std::ffi::c_int;
 
@@ -185,9 +185,13 @@ fn initial_unknowns_follow_parameters() {
     assert_eq!(derivative("left.displacement[1]", "left.mass[1]"), Ok(vec![0.0]));
 }
 
+/// A question without an answer is discarded with a message; the run is that of an instance that nobody has asked.
 #[test]
 fn unknowns_and_knowns_that_are_none() {
     let fmu = Fmu::new(SCENE);
+    let unasked = fmu.instance();
+    unasked.start();
+    let reference = unasked.run(0.0, 0.1, 8);
     for (in_initialization, unknown, known, seed, expected) in [
         (false, "left.force[1]", "left.force[1]", 1.0, "unknown left.force[1]: expected an output of type Real"),
         (false, "impacts", "left.force[1]", 1.0, "unknown impacts: expected an output of type Real"),
@@ -210,12 +214,17 @@ fn unknowns_and_knowns_that_are_none() {
         if !in_initialization {
             assert_eq!(instance.call("fmi2ExitInitializationMode"), OK);
         }
-        assert_eq!(directional(&instance, &[fmu.vr(unknown)], &[fmu.vr(known)], &[seed]), Err(ERROR), "{unknown}");
+        assert_eq!(directional(&instance, &[fmu.vr(unknown)], &[fmu.vr(known)], &[seed]), Err(DISCARD), "{unknown}");
         let log = instance.log();
         assert!(log.len() == 1 && log[0].message.contains(expected), "{unknown}: {log:?}");
+        assert_eq!(log[0].category, "logStatusDiscard");
+        if in_initialization {
+            assert_eq!(instance.call("fmi2ExitInitializationMode"), OK);
+        }
+        assert!(instance.run(0.0, 0.1, 8) == reference, "{unknown}: another run");
     }
     let instance = fmu.instance();
     instance.start();
-    assert_eq!(directional(&instance, &[9999], &[8888], &[1.0]), Err(ERROR));
+    assert_eq!(directional(&instance, &[9999], &[8888], &[1.0]), Err(DISCARD));
     assert_eq!(instance.log().len(), 2);
 }

@@ -1,6 +1,7 @@
 //! Small scenes with known answers, and the runs of them that the tests share.
 #![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+pub mod peaks;
 #[path = "../problems/mod.rs"]
 pub mod problems;
 

@@ -346,7 +346,8 @@ impl Session {
         } else {
             let is_real = table.row(vr).is_some_and(|row| matches!(row.ty, Type::Real(_)));
             let is_good = matches!(slot, Some((Slot::Output(_), _))) && is_real && order == 1;
-            let expected = if is_good { self.is_in(&[StepComplete, Terminated, Error]) } else { ERROR };
+            let allowed = self.is_in(&[StepComplete, Terminated, Error]);
+            let expected = if is_good || allowed == ERROR { allowed } else { DISCARD };
             let mut rate = f64::NAN;
             // SAFETY: a live component, one element.
             let call =
@@ -369,7 +370,7 @@ impl Session {
             _ => (find("left.displacement[1]"), false),
         };
         let allowed = self.is_in(&[Initialization, StepComplete, Terminated, Error]);
-        let expected = if is_unknown && is_known { allowed } else { ERROR };
+        let expected = if is_unknown && is_known || allowed == ERROR { allowed } else { DISCARD };
         let mut change = f64::NAN;
         // SAFETY: a live component, one element each.
         let call = |c| unsafe {

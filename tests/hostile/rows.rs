@@ -73,6 +73,11 @@ fn check(phase: Phase, expected: char, call: &dyn Fn(&Target<'_>) -> c_int) {
         assert!(!log.is_empty(), "an error without a message");
         assert_eq!(target.step(0.0, 0.1), ERROR, "no step after an error");
     }
+    if status == DISCARD {
+        assert!(!log.is_empty(), "refused without a message");
+        let goes_on = if phase == Phase::StepComplete { OK } else { ERROR };
+        assert_eq!(target.step(0.0, 0.1), goes_on, "the step after a call that was discarded");
+    }
     assert_eq!(target.instance.call("fmi2Reset"), OK);
     assert!(run(&target.instance) == reference, "after a reset: not the bits of a fresh instance");
 }

@@ -13,6 +13,7 @@ mod peaks;
 mod piecewise;
 mod propagator;
 mod rates;
+mod read_peaks;
 mod row_symmetry;
 mod rows;
 mod shared_floors;

@@ -1,7 +1,8 @@
 //! Yields and turns at awkward times: on samples, at communication points, both within one sample, by the thousand.
 
 use crate::bilinear::Oscillator;
-use crate::common::{Run, assert_close, record};
+use crate::common::problems::frames::zigzag;
+use crate::common::{Run, assert_close, record, scene};
 use crate::yielding::{OneStorey, assert_like};
 use pounding::engine::Side;
 use pounding::record::Record;
@@ -116,4 +117,48 @@ fn a_hundred_thousand_samples_each_of_which_yields() {
     }
     // 100 samples each, which would swing over 2 (pi / 0.125)^-2 m and yield at 5e-5 m.
     assert!(least > 100.0 * 2e-4, "{least} m");
+}
+
+/// The instants that a state notes are the corners of the hysteresis loops: rows there lie on a yield line, V = r k d +-
+/// (1 - r) V_y, and no yield or turn is missed.
+#[test]
+fn noted_instants_are_the_corners_of_the_loops() {
+    let (force, stiffness, ratio) = ([9e4, 6e4], [3e7, 2.5e7], [0.1, 0.0]);
+    let mut scene = scene(&format!(
+        "name = \"Loops\"\n[left]\nmass = [4e4, 3e4]\nstiffness = {stiffness:?}\ndamping = {{ ratio = 0.03 }}\n\
+         yield_force = {force:?}\npost_yield_ratio = {ratio:?}\n[[contact]]\nleft_floor = 2\nwall = \"right\"\n\
+         gap = 0.004\nlaw = \"hertz\"\nstiffness = 2e9\n"
+    ));
+    scene.ground.record = Some("zigzag.csv".into());
+    let record = record(1.0 / 64.0, &(0..640).map(|k| zigzag(k) / 5.0).collect::<Vec<_>>());
+    let mut first = Run::new(&scene, Some(&record));
+    first.to(5.0);
+    assert!(first.state.switches().is_empty(), "nobody has asked");
+    first.state.note_switches();
+    first.to(10.0);
+    let switches = first.state.switches();
+    assert!(switches.len() > 30 && switches[0] > 5.0 && switches.is_sorted(), "{switches:?}");
+    let mut run = Run::new(&scene, Some(&record));
+    let senses =
+        |run: &mut Run, time: f64| run.to(time).storeys().iter().map(|storey| storey.sense).collect::<Vec<_>>();
+    let (mut last, mut before) = (5.0, Vec::new());
+    for &time in switches {
+        if time - last > 1e-6 {
+            // All of the way from the last one.
+            before = senses(&mut run, last + 2e-7);
+            assert!(senses(&mut run, time - 2e-7) == before, "a switch between {last} and {time} s is not noted");
+        }
+        let is_corner = {
+            run.to(time);
+            (0..2).any(|i| {
+                let storey = run.storey(Side::Left, i);
+                let below = if i == 0 { 0.0 } else { run.displacement(Side::Left, 0) };
+                let drift = run.displacement(Side::Left, i) - below;
+                let line = |sign: f64| ratio[i] * stiffness[i] * drift + sign * (1.0 - ratio[i]) * force[i];
+                [1.0, -1.0].iter().any(|sign| (storey.shear - line(*sign)).abs() <= 1e-12 * force[i])
+            })
+        };
+        assert!(is_corner, "{time} s, after {before:?}: no storey is on its yield line");
+        last = time;
+    }
 }

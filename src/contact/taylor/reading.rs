@@ -1,7 +1,8 @@
 //! Values, bounds and integrals of the series of pairs, and where pairs are released.
 
 use super::block::{Each, PAIRS, PairBlock};
-use crate::numerics::polynomial::{Coefficients, RECIPROCAL, each};
+use crate::contact::force::Force;
+use crate::numerics::polynomial::{Coefficients, MAX_TERMS, RECIPROCAL, each, value_and_slope};
 use crate::numerics::powers::{Powers, Reading};
 
 /// The penetrations of a block at the end of a step.
@@ -61,6 +62,14 @@ impl PairBlock {
     /// The penetration of one pair, copied; returns the number of its terms.
     pub fn copy_penetration(&self, lane: usize, out: &mut Coefficients) -> usize {
         copy(&self.penetration[..self.order + 3], lane, out)
+    }
+
+    /// The force, N, that a law gives for the motion of one pair at x, where time passes at a `rate`, s.
+    pub fn force_at(&self, lane: usize, law: &Force, (x, rate): (f64, f64)) -> f64 {
+        let mut terms = [0.0; MAX_TERMS];
+        let count = self.copy_penetration(lane, &mut terms);
+        let (penetration, slope) = value_and_slope(&terms[..count], x);
+        law.value(penetration, slope / rate)
     }
 
     /// The force of one pair, copied; returns the number of its terms.

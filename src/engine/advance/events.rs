@@ -38,7 +38,10 @@ impl Model {
             }
             Event::Release(p) => base.release(p, on_episode),
             Event::Branch(p) => base.contacts[p].change_branch(),
-            Event::Yield(i, sense) => base.storeys[i].yields = Some(sense),
+            Event::Yield(i, sense) => {
+                let storey = &mut base.storeys[i];
+                (storey.yields, storey.turned) = (Some(sense), None);
+            }
             Event::Turn(i) => {
                 let storey = &mut base.storeys[i];
                 storey.turned = storey.yields.take();

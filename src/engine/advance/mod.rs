@@ -123,6 +123,7 @@ impl Model {
             counters.events += 1;
             base.clearance.restart();
             work.peaks.restart();
+            work.note(event, base.time());
             self.handle(base, event, &mut work.buffers, on_episode);
         }
         *kind = StepKind::NotPlanned;

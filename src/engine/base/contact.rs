@@ -148,6 +148,14 @@ impl Contact {
         };
     }
 
+    /// Raises the peaks to a force, N, at a time, s.
+    pub fn raise_peak(&mut self, force: f64, time: f64) {
+        if force > self.episode.peak_force {
+            (self.episode.peak_force, self.episode.peak_time) = (force, time);
+            self.peak_force = self.peak_force.max(force);
+        }
+    }
+
     /// Adds an impulse, N s, that goes through floors that are held together and stay so: one against another contact.
     pub fn pass_on(&mut self, impulse: f64) {
         self.rate = 0.0;

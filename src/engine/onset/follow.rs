@@ -52,11 +52,7 @@ impl Contact {
             let (d, slope) = value_and_slope(grid, &block.copy_penetration(grid, lane), at);
             let (peak, last) = (law.value(d, slope / scale), law.value(end.penetration[lane], end.slope[lane] / scale));
             let (at, peak) = if last > peak { (x, last) } else { (at, peak) };
-            if peak > self.episode.peak_force {
-                self.episode.peak_force = peak;
-                self.episode.peak_time = start + at * scale;
-                self.peak_force = self.peak_force.max(peak);
-            }
+            self.raise_peak(peak, start + at * scale);
         }
         let penetration = || {
             let terms = block.copy_penetration(grid, lane);

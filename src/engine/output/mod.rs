@@ -145,12 +145,14 @@ impl Model {
     }
 
     fn show(&self, contact: &Contact, penetration: f64) -> ContactPoint {
+        // A reaction that has just begun acts at this instant, and no step has been taken with it.
+        let force = contact.present_force();
         let mut shown = ContactPoint {
-            force: contact.present_force(),
+            force,
             penetration,
             active: contact.in_contact(),
             impacts: contact.impacts,
-            peak_force: contact.peak_force,
+            peak_force: contact.peak_force.max(force),
             impulse: contact.impulse,
             dissipated_energy: contact.dissipated_energy(),
             approach_velocity: contact.episode.approach_velocity.max(0.0), // a touch may have none but its rounding
@@ -167,7 +169,9 @@ impl Model {
         let elapsed = state.since_base();
         let mut powers = Powers::default();
         state.step.set_powers(elapsed, &mut powers);
-        let contact = state.step.contact_at(&self.system, &state.base, contact, elapsed, &powers);
+        let mut contact = state.step.contact_at(&self.system, &state.base, contact, elapsed, &powers);
+        let (force, time) = (contact.present_force(), state.time);
+        contact.raise_peak(force, time);
         contact.in_contact().then(|| contact.present_episode())
     }
 }

@@ -20,7 +20,7 @@ use std::ops::Range;
 
 /// Largest error of a quantity's series at the end of a step, relative to its peak, with which the series is searched.
 /// The step length controls velocities only: in an extremely short step an acceleration may be off by any amount, and
-/// its values at both ends suffice.
+/// its values at both ends suffice. In any other it tells the time of a peak, whose value follows from the motion then.
 const TRUSTED: f64 = 1e-6;
 
 impl Model {
@@ -144,7 +144,7 @@ impl Model {
     }
 
     /// Adds the accelerations by floor forces, some seconds after the base.
-    fn add_forces(&self, (base, inputs): (&Base, &Inputs), time: f64, resisted: &mut [f64]) {
+    pub(in crate::engine) fn add_forces(&self, (base, inputs): (&Base, &Inputs), time: f64, resisted: &mut [f64]) {
         let at = base.elapsed + time;
         self.system.add_floor_forces(
             inputs,
@@ -334,10 +334,12 @@ impl Model {
                 let (terms, order) = quantity.terms(series, Some(substitution));
                 let end = if part.length == step.planned.length { end.x } else { series.x_at(part.length) };
                 let off = value_and_slope(&terms[..=order], end).0 - at_end;
-                if off.abs() <= TRUSTED * larger(known, at_end.abs()) {
-                    highest(&terms, (end, order), known, &mut work.buffers.powers)
-                } else {
-                    known
+                match of {
+                    _ if off.abs() > TRUSTED * larger(known, at_end.abs()) => known,
+                    PeakOf::Acceleration(..) => {
+                        self.highest_acceleration(of, (&terms, end, order), (known, at_end), part, work)
+                    }
+                    _ => highest(&terms, (end, order), known, &mut work.buffers.powers),
                 }
             }
         };

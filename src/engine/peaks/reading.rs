@@ -7,14 +7,20 @@ use crate::engine::base::Base;
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::model::Model;
 use crate::engine::onset::series::OnsetSeries;
-use crate::engine::peaks::room::{PeakWork, ReadingRoom};
-use crate::engine::peaks::search::Quantity;
+use crate::engine::peaks::room::{FloorRoom, PeakRoom, PeakWork, ReadingRoom};
+use crate::engine::peaks::search::{Quantity, highest_by};
 use crate::engine::step::Step;
 use crate::engine::watched::rows::PeakOf;
 use crate::engine::window::free::FreeMotion;
 use crate::engine::window::solution::Window;
-use crate::numerics::polynomial::larger;
+use crate::numerics::polynomial::{Coefficients, larger};
+use crate::numerics::powers::Powers;
+use crate::numerics::roots;
 use crate::structure::MotionSeries;
+
+/// Largest difference of an acceleration's series from the equations of motion, relative to it, with which a maximum of the
+/// series is taken.
+const EXACT: f64 = 1e-11;
 
 /// Number of parts into which an onset step is divided to find turning points.
 const PARTS_OF_ONSET: u32 = 6;
@@ -26,6 +32,12 @@ const START: f64 = 1e-6;
 
 /// Share of a peak that the cubic through a part's ends has to reach for the part to be searched.
 const NEARLY: f64 = 0.95;
+
+/// Distance from the cubic through both ends of two parts in their middle, as a share of the peak, beyond which the parts
+/// are halved.
+const BENT: f64 = 0.25;
+/// How often they are halved.
+const MOST_HALVINGS: u32 = 12;
 
 /// Remaining gain at a turning point, relative to its value, at which the search ends.
 const CLOSE: f64 = 1e-13;
@@ -86,6 +98,57 @@ impl Model {
         highest((known, part.length), whole, PARTS_OF_WINDOW, read)
     }
 
+    /// The largest magnitude of an acceleration within a part of a step that is a power series, from its terms up to an x and
+    /// to an order, or `known` if that is larger; `at_end` is its value at the end.
+    pub(in crate::engine) fn highest_acceleration(
+        &self,
+        of: PeakOf,
+        (terms, end, order): (&Coefficients, f64, usize),
+        (known, at_end): (f64, f64),
+        part: &ContactStep,
+        work: &mut PeakWork,
+    ) -> f64 {
+        let mut powers = std::mem::take(&mut work.buffers.powers);
+        let within = |at: f64, value: f64| {
+            let exact = match at {
+                // There the series is what it was made of.
+                0.0 => return value,
+                at if at == end => at_end.abs(),
+                at => self.acceleration_within(of, at, part, work).abs(),
+            };
+            if (value - exact).abs() <= EXACT * exact { value } else { exact }
+        };
+        let peak = highest_by(terms, (end, order), known, &mut powers, within);
+        work.buffers.powers = powers;
+        peak
+    }
+
+    /// The absolute acceleration of a floor, m/s2, at an x of a step that is a power series, from the motion and the
+    /// contact forces there: in the series itself it has lost as many digits as its last terms have of the motion.
+    fn acceleration_within(&self, of: PeakOf, x: f64, part: &ContactStep, work: &mut PeakWork) -> f64 {
+        let PeakOf::Acceleration(side, floor) = of else { return 0.0 };
+        let ContactStep { base, step, inputs, .. } = *part;
+        let time = step.taylor.series.time(roots::roughly(x));
+        let PeakRoom { reading: ReadingRoom { q, v, floors, .. }, floors: FloorRoom { modal, .. }, .. } =
+            &mut *work.peaks;
+        let mut powers = Powers::default();
+        step.set_powers(time, &mut powers);
+        powers.set_in_time(&step.taylor.series.time_map);
+        step.taylor.series.evaluate(&powers, q, v);
+        self.find_floors(base.coordinates, (&base.rest.floors, (q, v)), floors, modal);
+        self.soften(base, q, floors);
+        if self.system.floor_forces {
+            self.add_forces((base, inputs), time, &mut floors.resisted);
+        }
+        let lane = self.system.structure.floors.lane(side as usize, floor);
+        let closed = self.system.pairs.iter().enumerate().filter(|(p, _)| base.contacts[*p].in_contact());
+        let pushes = closed.flat_map(|(p, pair)| pair.floors.into_iter().map(move |share| (p, share)));
+        let pushed = pushes
+            .filter(|(_, share)| share.lane == lane && share.push != 0.0)
+            .map(|(p, share)| share.push * step.contact_at(&self.system, base, p, time, &powers).present_force());
+        floors.resisted[lane] + pushed.sum::<f64>()
+    }
+
     /// Evaluates a quantity and its slope at a time of a window, from the equations of motion.
     fn read_in_window(
         &self,
@@ -98,7 +161,7 @@ impl Model {
         let ContactStep { base, step, inputs, .. } = *part;
         let coordinates = base.coordinates;
         let mut room = std::mem::take(&mut work.peaks.reading);
-        let ReadingRoom { q, v, acceleration, jerk } = &mut room;
+        let ReadingRoom { q, v, acceleration, jerk, .. } = &mut room;
         let mut pairs = [(0.0, 0.0); MOST_PAIRS];
         let Window { contacts, equation, solution, .. } = window;
         let contacts = &contacts[..equation.closed];
@@ -197,32 +260,62 @@ impl OnsetQuantity {
 }
 
 /// The largest magnitude over the times from..to, as far as they lie before `until`, or `known` if that is larger. The
-/// whole step is divided into the same parts, so that a turning point has the same bits whatever part is asked for.
-fn highest(
-    (known, until): (f64, f64),
-    (from, to): (f64, f64),
-    parts: u32,
-    mut read: impl FnMut(f64) -> Reading,
-) -> f64 {
-    let mut peak = known;
-    let mut last = read(from);
-    for i in 1..=parts {
-        let share = f64::from(i) / f64::from(parts);
-        let next = read(if i == parts { to } else { from + (to - from) * share });
-        for sign in [1.0, -1.0] {
-            let ends = (last.times(sign), next.times(sign));
-            if ends.0.slope > 0.0 && ends.1.slope < 0.0 && top(ends.0, ends.1).1 > NEARLY * peak {
-                let found = turn(ends.0, ends.1, |time| read(time).times(sign));
-                peak = larger(peak, if found.time <= until { found.value } else { 0.0 });
-            }
-        }
-        if next.time > until {
-            break;
-        }
-        peak = larger(peak, next.value.abs());
+/// whole step is divided into the same parts, an even number of them, so that a turning point has the same bits whatever
+/// part is asked for.
+fn highest((known, until): (f64, f64), (from, to): (f64, f64), parts: u32, read: impl FnMut(f64) -> Reading) -> f64 {
+    let mut search = Search { peak: known, until, read };
+    let at = |i: u32| if i == parts { to } else { from + (to - from) * (f64::from(i) / f64::from(parts)) };
+    let mut last = (search.read)(from);
+    for i in (0..parts).step_by(2).take_while(|i| at(*i) <= until) {
+        let (middle, next) = ((search.read)(at(i + 1)), (search.read)(at(i + 2)));
+        let halvings = if search.is_bent(last, middle, next) { MOST_HALVINGS } else { 0 };
+        search.raise(last, middle, halvings);
+        search.raise(middle, next, halvings);
         last = next;
     }
-    peak
+    search.peak
+}
+
+/// A search for the largest magnitude up to a time, s.
+struct Search<R> {
+    peak: f64,
+    until: f64,
+    read: R,
+}
+
+impl<R: FnMut(f64) -> Reading> Search<R> {
+    /// Raises the peak over the part between two readings; where nothing is seen to turn between them it may be halved.
+    fn raise(&mut self, a: Reading, b: Reading, halvings: u32) {
+        if a.time > self.until {
+            return;
+        }
+        let mut turns = false;
+        for sign in [1.0, -1.0] {
+            let ends = (a.times(sign), b.times(sign));
+            if ends.0.slope > 0.0 && ends.1.slope < 0.0 {
+                turns = true;
+                if top(ends.0, ends.1).1 > NEARLY * self.peak {
+                    let found = turn(ends.0, ends.1, |time| (self.read)(time).times(sign));
+                    self.peak = larger(self.peak, if found.time <= self.until { found.value } else { 0.0 });
+                }
+            }
+        }
+        if halvings > 0 && !turns {
+            let middle = (self.read)(0.5 * (a.time + b.time));
+            let halvings = if self.is_bent(a, middle, b) { halvings - 1 } else { 0 };
+            self.raise(a, middle, halvings);
+            self.raise(middle, b, halvings);
+        } else if b.time <= self.until {
+            self.peak = larger(self.peak, b.value.abs());
+        }
+    }
+
+    /// Whether a quantity is far from the cubic through two readings in their middle, so that it may turn twice between
+    /// them: by a share of its peak, which is small before the contact has reached a storey.
+    fn is_bent(&self, a: Reading, middle: Reading, b: Reading) -> bool {
+        let cubic = 0.5 * (a.value + b.value) + 0.125 * (b.time - a.time) * (a.slope - b.slope);
+        (middle.value - cubic).abs() > BENT * self.peak
+    }
 }
 
 impl Reading {

@@ -230,6 +230,13 @@ pub struct FloorState {
     pub shear: [f64; 2],
 }
 
+impl FloorState {
+    pub fn new(lanes: usize) -> FloorState {
+        let vector = || vec![0.0; lanes];
+        FloorState { u: vector(), v: vector(), resisted: vector(), shear: [0.0; 2] }
+    }
+}
+
 /// Scratch memory for the floors over a step in contact.
 #[derive(Clone, Debug, Default)]
 pub struct FloorRoom {
@@ -254,10 +261,9 @@ pub struct FloorRoom {
 impl FloorRoom {
     pub fn new(lanes: usize) -> FloorRoom {
         let vector = || vec![0.0; lanes];
-        let state = || FloorState { u: vector(), v: vector(), resisted: vector(), shear: [0.0; 2] };
         FloorRoom {
-            start: state(),
-            end: state(),
+            start: FloorState::new(lanes),
+            end: FloorState::new(lanes),
             least: vector(),
             most: vector(),
             largest: vector(),
@@ -295,11 +301,12 @@ pub struct ReadingRoom {
     pub v: Vec<f64>,
     pub acceleration: Vec<f64>,
     pub jerk: Vec<f64>,
+    pub floors: FloorState,
 }
 
 impl ReadingRoom {
     pub fn new(lanes: usize) -> ReadingRoom {
         let vector = || vec![0.0; lanes];
-        ReadingRoom { q: vector(), v: vector(), acceleration: vector(), jerk: vector() }
+        ReadingRoom { q: vector(), v: vector(), acceleration: vector(), jerk: vector(), floors: FloorState::new(lanes) }
     }
 }

@@ -339,7 +339,19 @@ impl Quantity<'_> {
 }
 
 /// The largest magnitude of a polynomial over 0..=x, or `known` if that is larger; `powers` is scratch.
-pub fn highest(terms: &Coefficients, (x, order): (f64, usize), known: f64, powers: &mut Powers) -> f64 {
+pub fn highest(terms: &Coefficients, end: (f64, usize), known: f64, powers: &mut Powers) -> f64 {
+    highest_by(terms, end, known, powers, |_, value| value)
+}
+
+/// The same of a quantity that the polynomial is not quite: `value` gives its magnitude where that of the polynomial is
+/// largest, from the x and the magnitude there.
+pub fn highest_by(
+    terms: &Coefficients,
+    (x, order): (f64, usize),
+    known: f64,
+    powers: &mut Powers,
+    mut value_at: impl FnMut(f64, f64) -> f64,
+) -> f64 {
     powers.set(x, order);
     let Reading { value, slope, fourth } = powers.read(terms);
     let mut peak = known;
@@ -350,7 +362,7 @@ pub fn highest(terms: &Coefficients, (x, order): (f64, usize), known: f64, power
         };
         let end = Reading { value: sign * value, slope: sign * slope, fourth };
         let top = roots::maximum_above((sign * terms[0], sign * terms[1]), x, &end, peak, copy);
-        peak = top.map_or(peak, |(_, value)| value);
+        peak = top.map_or(peak, |(at, value)| larger(peak, value_at(at, value)));
     }
     peak
 }

@@ -231,6 +231,9 @@ impl ClosedPairs {
     }
 }
 
+/// Largest difference of a force's series from the law, relative to it, with which a maximum of the series is taken.
+const TRUSTED: f64 = 1e-11;
+
 impl BlockEnd {
     fn of(block: &PairBlock, motion: BlockReading, powers: &Powers) -> BlockEnd {
         let force = match block.is_elastic() {
@@ -280,23 +283,23 @@ impl Contact {
             _ => {
                 let terms = |out: &mut Coefficients| block.copy_force(lane, out);
                 let first = (block.force[0][lane], block.force[1][lane]);
-                roots::maximum_above(first, x, &end.force.of(lane), self.episode.peak_force, terms)
+                let known = self.episode.peak_force;
+                let found = roots::maximum_above(first, x, &end.force.of(lane), known, terms);
+                found.filter(|(at, _)| *at < x).map(|(at, peak)| {
+                    let rounded = roots::roughly(at);
+                    let law = block.force_at(lane, &self.branch(), (rounded, series.time_rate(rounded)));
+                    (at, if (peak - law).abs() <= TRUSTED * law { peak } else { law })
+                })
             }
         };
-        if let Some((at, peak)) = strongest.filter(|(_, peak)| *peak > self.episode.peak_force) {
-            self.episode.peak_force = peak;
-            self.episode.peak_time = start + series.time(at);
-            self.peak_force = self.peak_force.max(peak);
+        if let Some((at, peak)) = strongest {
+            self.raise_peak(peak, start + series.time(at));
         }
         self.penetration = depth.value;
         self.rate = depth.slope / series.time_rate(x);
-        // The series of a damped force is truncated: at the end, the peak uses the force that the law gives for the
-        // motion there, as the output does.
+        // The series of a damped force is truncated, and just after an entry it is far off: the peak is the force that the law
+        // gives for the motion then, as in the output.
         let last = if block.is_elastic() { 0.0 } else { self.branch().value(self.penetration, self.rate) };
-        if last > self.episode.peak_force {
-            self.episode.peak_force = last;
-            self.episode.peak_time = start + series.time(x);
-            self.peak_force = self.peak_force.max(last);
-        }
+        self.raise_peak(last, start + series.time(x));
     }
 }

@@ -55,9 +55,7 @@ impl Contact {
         };
         let known = self.episode.peak_force;
         if let Some((at, peak)) = roots::maximum_above((terms[0], terms[1]), powers.x, &force, known, copy) {
-            self.episode.peak_force = peak;
-            self.episode.peak_time = start + at * scale;
-            self.peak_force = self.peak_force.max(peak);
+            self.raise_peak(peak, start + at * scale);
         }
         self.reaction = force.value;
     }

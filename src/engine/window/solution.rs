@@ -259,11 +259,7 @@ impl Contact {
             // the end.
             let (peak, last_force) = (law.value(d, v), law.value(end.0, end.1));
             let (x, peak) = if last_force > peak { (last, last_force) } else { (x, peak) };
-            if peak > self.episode.peak_force {
-                self.episode.peak_force = peak;
-                self.episode.peak_time = start + solution.length * solution.map.at(x).0;
-                self.peak_force = self.peak_force.max(peak);
-            }
+            self.raise_peak(peak, start + solution.length * solution.map.at(x).0);
         }
         (self.penetration, self.rate) = end;
     }

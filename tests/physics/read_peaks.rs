@@ -1,0 +1,115 @@
+//! Peaks beside what is read at the same time: never below it, never falling, the same for every communication step. The
+//! first scenes are those in which one of these was found not to hold.
+
+use crate::common::peaks::{Watch, all};
+use crate::common::{Run, scene};
+use pounding::engine::{PeakOf, Side};
+use pounding::record::Record;
+
+const PLASTIC_ROOF: &str = include_str!("../problems/peaks/perfectly_plastic_roof.toml");
+const DAMPED_ENTRY: &str = include_str!("../problems/peaks/damped_entry_while_yielding.toml");
+const PRESSED_AND_MOVING: &str = include_str!("../problems/peaks/pressed_and_moving.toml");
+const PRESSED_AT_REST: &str = include_str!("../problems/peaks/pressed_at_rest.toml");
+const MOVING_IN_CONTACT: &str = include_str!("../problems/peaks/moving_in_contact.toml");
+
+fn el_centro() -> Record {
+    let text = include_bytes!("../../examples/records/el_centro_1940_ns.csv");
+    Record::parse("el_centro_1940_ns.csv", text).unwrap()
+}
+
+fn uneven() -> Record {
+    let times = [0.07817437623771502, 0.13879673678168455, 0.1526350028822538, 0.1740234927397743];
+    Record { times: times.to_vec(), accelerations: vec![-0.412664, -0.238105, -0.0534462, 0.131213] }
+}
+
+/// The scene in steps of several lengths to `stop`, s, and with a record, whose steps are the engine's own, in one step too:
+/// the same bits of every peak.
+fn check(text: &str, record: Option<&Record>, stop: f64) {
+    let bits = |run: &Run| all(run).into_iter().flatten().map(|read| read.peak.to_bits()).collect::<Vec<_>>();
+    let mut leap = Run::new(&scene(text), record);
+    let expected = bits(leap.to(stop));
+    for step in [0.001, 0.00037, 0.01] {
+        let (mut run, mut watch) = (Run::new(&scene(text), record), Watch::default());
+        run.model.observe(&run.state, &mut run.point);
+        watch.look(&run).unwrap();
+        for k in 1..=(stop / step).ceil() as u32 {
+            run.to((step * f64::from(k)).min(stop));
+            watch.look(&run).unwrap_or_else(|wrong| panic!("steps of {step} s: {wrong}"));
+        }
+        assert!(record.is_none() || bits(&run) == expected, "other peaks in steps of {step} s");
+    }
+}
+
+/// A contact closes while a storey yields, without the double series of an entry: just after it the power series of a damped
+/// force is far off.
+#[test]
+fn a_force_counts_when_it_is_reached() {
+    check(DAMPED_ENTRY, Some(&el_centro()), 1.3);
+    let mut run = Run::new(&scene(DAMPED_ENTRY), Some(&el_centro()));
+    let mut largest = 0.0_f64;
+    for k in 0..=400 {
+        let contact = run.to(1.21415 + 5e-8 * f64::from(k)).contact(3);
+        largest = largest.max(contact.force);
+        let time = run.state.time();
+        assert!(contact.peak_force <= largest, "{time} s: peak {:e} of a force up to {largest:e}", contact.peak_force);
+    }
+    assert!(largest > 1e3, "{largest} N");
+}
+
+/// A contact begins with a jump of the force at the very start: what was read before it counts.
+#[test]
+fn what_is_shown_at_the_start_counts() {
+    check(PRESSED_AND_MOVING, None, 0.01);
+}
+
+/// The same where floors move fast from the start: what was read there is the peak of the run, to the last bit.
+#[test]
+fn a_peak_at_the_start_is_the_same_for_every_step() {
+    check(MOVING_IN_CONTACT, Some(&el_centro()), 0.1);
+}
+
+/// A storey far from a contact that has just begun swings by a billionth of what comes later.
+#[test]
+fn small_swings_at_the_start_of_a_step_count() {
+    check(PRESSED_AT_REST, Some(&uneven()), 0.1);
+}
+
+/// A storey that is perfectly plastic and not damped gives the floor above it no more than its yield force over its mass.
+#[test]
+fn a_plastic_roof_is_accelerated_by_its_yield_force() {
+    for exponent in [1.5, 1.2, 2.0, 2.7] {
+        for speed in [0.4, 0.8, 1.5, 4.0, 12.0] {
+            let text = PLASTIC_ROOF.replace("0.8, 0.8", &format!("{speed:?}, {speed:?}"));
+            let text = format!("{text}exponent = {exponent}\n");
+            let mut run = Run::new(&scene(&text), None);
+            let off = run.to(0.5).peak(PeakOf::Acceleration(Side::Left, 1)) / 7.8975 - 1.0;
+            assert!(off.abs() < 2e-11, "{speed} m/s, exponent {exponent}: {off:e}");
+        }
+    }
+}
+
+/// One storey on each side, whose rebounds die out: the reaction of floors that are held counts from the instant at which it
+/// is there, which is a row of a table.
+#[test]
+fn a_held_contact_has_a_peak_from_its_first_instant() {
+    let text = "name = \"Held\"\n[left]\nmass = [1e5]\nstiffness = [4e7]\ndamping = { ratio = 0.05 }\n\
+                [right]\nmass = [1.5e5]\nstiffness = [1.5e7]\ndamping = { ratio = 0.05 }\n\
+                [[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.0\nlaw = \"stereomechanical\"\nrestitution = 0.4\n";
+    let (mut first, record) = (Run::new(&scene(text), Some(&el_centro())), el_centro());
+    first.to(10.0);
+    let held = first.episodes.iter().filter(|episode| episode.end.is_some_and(|end| end > episode.start));
+    let starts: Vec<f64> = held.map(|episode| episode.start).collect();
+    assert!(starts.len() > 5, "{starts:?}");
+    let mut at_once = 0;
+    for start in starts {
+        let (mut run, mut watch) = (Run::new(&scene(text), Some(&record)), Watch::default());
+        for time in [start, start + 1e-7] {
+            run.to(time);
+            watch.look(&run).unwrap();
+            let (contact, open) = (run.contact(0), run.model.open_episode(&run.state, 0));
+            at_once += i32::from(time == start && contact.force > 0.0);
+            assert!(open.is_none_or(|open| open.peak_force >= contact.force), "{time} s: {open:?}");
+        }
+    }
+    assert!(at_once > 2, "a reaction at the first instant in {at_once} cases");
+}
