@@ -23,7 +23,11 @@ fn read(name: &str) -> String {
 fn documents() -> Vec<String> {
     let pages = ["docs", "ci", "fuzz", "tests"].into_iter().flat_map(|folder| files(folder, &["md"]));
     let pages = pages.map(|page| page.strip_prefix(root()).unwrap().to_str().unwrap().replace('\\', "/"));
-    ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "python/README.md"].map(str::to_owned).into_iter().chain(pages).collect()
+    ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "python/README.md"]
+        .map(str::to_owned)
+        .into_iter()
+        .chain(pages)
+        .collect()
 }
 
 /// Files below a directory, with one of the endings.
@@ -341,8 +345,19 @@ fn the_files_that_the_documents_name_exist() {
 
 /// Folders of the project, by which a path is known as one.
 const FOLDERS: [&str; 13] = [
-    ".ci/", ".github/", "benches/", "benchmarks/", "ci/", "docs/", "examples/", "fmu-build/", "fuzz/", "python/",
-    "simulate/", "src/", "tests/",
+    ".ci/",
+    ".github/",
+    "benches/",
+    "benchmarks/",
+    "ci/",
+    "docs/",
+    "examples/",
+    "fmu-build/",
+    "fuzz/",
+    "python/",
+    "simulate/",
+    "src/",
+    "tests/",
 ];
 
 /// In sentences and in commands, wherever in a page. What has been is the change log's.
