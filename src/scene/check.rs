@@ -137,8 +137,11 @@ impl Checker {
             if name.trim().is_empty() {
                 self.refuse("ground.record", problem::quoted(name), "the name of a record file");
             } else if name.contains(char::is_control) {
-                let expected = "a file name without control characters: in \"...\" a \\ begins an escape, so write / between \
-                                folders, or single quotes";
+                let meant = problem::quoted(&with_folders(name));
+                let expected = format!(
+                    "a file name without control characters: in \"...\" a \\ begins an escape, so write / between folders, \
+                     {meant}, or single quotes"
+                );
                 self.refuse("ground.record", problem::quoted(name), expected);
             }
         }
@@ -221,6 +224,12 @@ impl Checker {
             }
         }
     }
+}
+
+/// The name of a file in which each \ has made an escape of the letter after it, with / instead.
+fn with_folders(name: &str) -> String {
+    let escapes = [('\u{8}', "/b"), ('\t', "/t"), ('\n', "/n"), ('\u{c}', "/f"), ('\r', "/r"), ('\u{1b}', "/e")];
+    escapes.iter().fold(name.replace('\\', "/"), |name, (made, meant)| name.replace(*made, meant))
 }
 
 /// The key of a scene that a face has, and its number; none for a wall.

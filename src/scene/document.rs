@@ -259,11 +259,21 @@ impl<'t> Item<'t> {
         let what = match self.value.get_ref() {
             DeValue::Float(_) | DeValue::Integer(_) if !self.path.ends_with(']') => {
                 let number = excerpt(self.document.source(self.value));
-                format!("a list of numbers, [{number}] for one floor, [{number}, {number}] for two")
+                let one = self.what_an_entry_is_of();
+                format!("a list of numbers, [{number}] for one {one}, [{number}, {number}] for two")
             }
             _ => "a list of numbers".to_owned(),
         };
         self.list(&what).iter().flatten().map(|entry| entry.quantity(units)).collect()
+    }
+
+    /// What a list in a building has one number for.
+    fn what_an_entry_is_of(&self) -> &'static str {
+        match self.path.rsplit('.').next() {
+            Some("stiffness" | "height" | "yield_force" | "post_yield_ratio" | "dashpots") => "storey",
+            Some("ratios") => "mode",
+            _ => "floor",
+        }
     }
 
     /// Whether it is a number.

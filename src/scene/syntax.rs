@@ -2,8 +2,21 @@
 
 /// What was expected on a line that the parser does not understand; its own words where nothing better is known.
 pub(super) fn expected(line: &str, message: &str) -> String {
-    let line = line.split('#').next().unwrap_or_default().trim();
-    hint(line, message).unwrap_or_else(|| format!("valid TOML, but {message}"))
+    hint(without_comment(line).trim(), message).unwrap_or_else(|| format!("valid TOML, but {message}"))
+}
+
+/// A line up to a # that is in no text. Folders of Windows may end a text with a \ that hides its closing quote.
+fn without_comment(line: &str) -> &str {
+    let mut quote = None;
+    for (place, c) in line.char_indices() {
+        match (quote, c) {
+            (None, '#') => return &line[..place],
+            (None, '"' | '\'') => quote = Some(c),
+            (Some(open), _) if open == c => quote = None,
+            _ => {}
+        }
+    }
+    line
 }
 
 fn hint(line: &str, message: &str) -> Option<String> {
@@ -11,7 +24,9 @@ fn hint(line: &str, message: &str) -> Option<String> {
         return Some("[[contact]], with two brackets on either side, above every contact".to_owned());
     }
     let (key, value) = line.split_once('=').map(|(key, value)| (key.trim(), value.trim()))?;
-    if message.contains("escape") && value.contains('\\') {
+    // Where \U or \x begins an escape, digits are missing; before a quote it hides the end of the text.
+    let is_escape = ["escape", "unicode"].iter().any(|word| message.contains(word)) || value.ends_with("\\\"");
+    if is_escape && value.contains('\\') {
         let right = value.replace('\\', "/");
         return Some(format!("/ between folders, {key} = {right}, or single quotes: in \"...\" a \\ begins an escape"));
     }

@@ -52,8 +52,10 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
 /// freely from its initial motion.
 fn look_for_contacts(facts: &Facts<'_>, found: &mut Found) {
     let scene = facts.scene;
+    // Levels tell why `[facing]` has found none.
+    let is_by_levels = scene.facing.is_some();
     let swings_freely = scene.ground.record.is_none() && facts.starts_moving();
-    if scene.contacts.is_empty() && !scene.floor_forces && !swings_freely {
+    if scene.contacts.is_empty() && !scene.floor_forces && !swings_freely && !is_by_levels {
         let text = "no contact: the buildings pass through each other; each pair of floors that may collide needs a \
                     [[contact]] table";
         found.add("contact", "[]".to_owned(), text);
@@ -125,13 +127,16 @@ fn group(facts: &Facts<'_>, found: &mut Found, key: &str, odd: impl Fn(&ContactP
 /// Floors that are deep in each other at the start.
 fn overlap(facts: &Facts<'_>, pair: &ContactPair) -> Odd {
     let (overlap, _) = pair.at_start(facts.scene);
-    let lighter = lightest(facts, pair)?;
-    let force = pair.law.stiffness * overlap.max(0.0).powf(exponent(&pair.law)?);
-    let weights = force / (lighter * STANDARD_GRAVITY);
-    if overlap < 2e-3 && (overlap <= 0.0 || weights < 20.0) {
+    let (lighter, exponent) = (lightest(facts, pair)?, exponent(&pair.law)?);
+    let pressed = |overlap: f64| {
+        let force = pair.law.stiffness * overlap.max(0.0).powf(exponent);
+        (force, force / (lighter * STANDARD_GRAVITY))
+    };
+    let is_deep = |overlap: f64| overlap >= 2e-3 || overlap > 0.0 && pressed(overlap).1 >= 20.0;
+    if !is_deep(overlap) {
         return None;
     }
-    let units = facts.scene.units;
+    let ((force, weights), units) = (pressed(overlap), facts.scene.units);
     let depth = format!(
         "the floors start {} mm deep in each other, pressed with {} {}, {} times the weight of the lighter one",
         short(1e3 * overlap),
@@ -139,10 +144,11 @@ fn overlap(facts: &Facts<'_>, pair: &ContactPair) -> Odd {
         units.unit("N"),
         short(weights)
     );
-    let meant = if pair.gap < 0.0 {
+    let meant = if is_deep(-pair.gap) {
         format!("a gap that is open is positive, was {} m meant?", short(-pair.gap))
     } else {
-        "the initial displacements reach across the gap, in m; were they meant to?".to_owned()
+        let moved = short(1e3 * (overlap + pair.gap));
+        format!("the initial displacements, in m, take the floors {moved} mm towards each other; were they meant to?")
     };
     Some((pair.gap, format!("{depth}; {meant}")))
 }

@@ -156,23 +156,39 @@ fn meant_record(facts: &Facts<'_>, own: f64) -> String {
 
 fn look_at_stop_with_record(record: &Record, stop: f64, found: &mut Found) {
     let Some(&end) = record.times.last() else { return };
-    if end > 0.0 && stop > 20.0 * end && stop > end + 300.0 {
-        let text = format!("the record ends at {} s; stop_time is in s, was it given in ms?", short(end));
+    // A pulse drawn by hand may be followed by a long free vibration.
+    let (times, beyond) = if record.times.len() >= MEASURED { (10.0, 100.0) } else { (20.0, 300.0) };
+    if end > 0.0 && stop >= times * end && stop > end + beyond {
+        let meant = if stop >= 1000.0 { ", was it given in ms?" } else { ", is its power of ten right?" };
+        let text = format!(
+            "the record ends at {} s, and the ground stands still for {} s after it; stop_time is in s{meant}",
+            short(end),
+            short(stop - end)
+        );
         found.number("stop_time", stop, text);
         return;
     }
     // Of the integral of the squared acceleration; a few corners drawn by hand may be a pulse that comes late.
     let starts_before = record.times.first().is_some_and(|first| *first < stop);
     let share = shaking_before(record, stop);
-    if starts_before && record.times.len() >= MEASURED && share < 0.02 {
+    let peak_time = time_of_peak(record);
+    let is_early = share < 0.02 || share < 0.2 && stop < peak_time;
+    if starts_before && record.times.len() >= MEASURED && is_early {
         let text = format!(
-            "the run ends before the shaking: {} % of the record's energy comes before that, the record ends at {} s; \
-             stop_time is in s",
+            "the run ends before the shaking: {} % of the record's energy comes before that, its peak at {} s, its end at \
+             {} s; stop_time is in s",
             short(100.0 * share),
+            short(peak_time),
             short(end)
         );
         found.number("stop_time", stop, text);
     }
+}
+
+/// s, of the sample of the largest magnitude.
+fn time_of_peak(record: &Record) -> f64 {
+    let samples = record.times.iter().zip(&record.accelerations);
+    samples.max_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs())).map_or(0.0, |(time, _)| *time)
 }
 
 /// Share of the integral of the squared acceleration before a time; 1 of a record without any.

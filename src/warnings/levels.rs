@@ -2,21 +2,24 @@
 
 use super::facts::Facts;
 use super::found::Found;
+use super::order::{self, HIGHEST_STOREY};
 use crate::figures::six_decimals;
 use crate::scene::{ContactPair, Face, Heights, LEVEL_ROUNDING, LEVEL_TOLERANCE, Scene, Side};
 
-/// Storeys beyond are in another unit, m.
-const HIGHEST_STOREY: f64 = 30.0;
-
 pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     for side in [Side::Left, Side::Right] {
-        look_at_heights(facts.scene, side, found);
+        order::look_at_heights(side, facts.building(side), found);
+        look_at_unit_of_heights(facts.scene, side, found);
     }
     if [Side::Left, Side::Right].iter().any(|side| found.has(&format!("{side}.height"))) {
         return;
     }
-    if facts.scene.facing.is_some() {
-        look_for_buried_floors(facts.scene, found);
+    if let Some(tolerance) = facts.scene.facing {
+        look_at_tolerance(facts.scene, tolerance, found);
+        match facts.scene.contacts.as_slice() {
+            [] => look_for_what_faces_nothing(facts.scene, found),
+            _ => look_for_buried_floors(facts.scene, found),
+        }
     }
     let tolerance = facts.scene.facing.unwrap_or(LEVEL_TOLERANCE);
     for (index, pair) in facts.scene.contacts.iter().enumerate() {
@@ -24,8 +27,9 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     }
 }
 
-fn look_at_heights(scene: &Scene, side: Side, found: &mut Found) {
-    let Some(heights) = &scene.building(side).heights else { return };
+fn look_at_unit_of_heights(scene: &Scene, side: Side, found: &mut Found) {
+    let known = found.has(&format!("{side}.height"));
+    let Some(heights) = scene.building(side).heights.as_ref().filter(|_| !known) else { return };
     if let Some((index, height)) = (1..).zip(&heights.storeys).find(|(_, height)| **height > HIGHEST_STOREY) {
         let meant = if *height >= 1000.0 { ("mm", height / 1e3) } else { ("cm", height / 1e2) };
         let text = format!(
@@ -35,6 +39,51 @@ fn look_at_heights(scene: &Scene, side: Side, found: &mut Found) {
         );
         found.number(format!("{side}.height[{index}]"), *height, text);
     }
+}
+
+/// A tolerance that takes any floor for level with another one.
+fn look_at_tolerance(scene: &Scene, tolerance: f64, found: &mut Found) {
+    let storeys = [&scene.left, &scene.right].into_iter().filter_map(|building| building.heights.as_ref());
+    let lowest = storeys.flat_map(|heights| &heights.storeys).copied().reduce(f64::min);
+    if let Some(height) = lowest.filter(|height| tolerance > LEVEL_TOLERANCE.max(0.5 * height)) {
+        let text = format!(
+            "more than half of a storey of {} m: floors meet floors however far from level, and no columns; it is in m, was \
+             it given in cm or mm?",
+            six_decimals(height)
+        );
+        found.number("facing.level_tolerance", tolerance, text);
+    }
+}
+
+/// Buildings of which one begins above the roof of the other: `[facing]` finds no contact.
+fn look_for_what_faces_nothing(scene: &Scene, found: &mut Found) {
+    let [Some(left), Some(right)] = [&scene.left.heights, &scene.right.heights] else { return };
+    let roof = |heights: &Heights| heights.level(heights.storeys.len());
+    let side = if left.base_level.abs() > right.base_level.abs() { Side::Left } else { Side::Right };
+    let (own, other) = if side == Side::Left { (left, right) } else { (right, left) };
+    let meets = |base: f64| base < roof(other) && base + roof(own) - own.base_level > other.base_level;
+    let base = own.base_level;
+    let in_unit = |unit: &str, factor: f64| {
+        format!(
+            "is it from the zero of the other level, or was it given in {unit} ({} m)?",
+            six_decimals(base * factor)
+        )
+    };
+    let meant = match base.abs() {
+        _ if meets(-base) => format!("is its sign right, was {} m meant?", six_decimals(-base)),
+        500.0.. if meets(base / 1e3) => in_unit("mm", 1e-3),
+        100.0.. if meets(base / 1e2) => in_unit("cm", 1e-2),
+        _ => "are both levels from the same zero?".to_owned(),
+    };
+    let text = format!(
+        "the {side} building goes from {} m to {} m and the other one from {} m to {} m: no floor faces anything, so there \
+         is no contact and they pass through each other; {meant}",
+        six_decimals(own.base_level),
+        six_decimals(roof(own)),
+        six_decimals(other.base_level),
+        six_decimals(roof(other))
+    );
+    found.number(format!("{side}.base_level"), own.base_level, text);
 }
 
 /// Floors that `[facing]` leaves out, since the other building does not go down to them.

@@ -29,6 +29,7 @@
 //! | `whole.rs` | scenes in which every mass and stiffness is in other units |
 //! | `ground.rs` | the record, its scaling, `stop_time` |
 //! | `contacts.rs` | gaps and numbers of the laws |
+//! | `order.rs` | lists with the top floor first, levels in place of heights |
 //! | `levels.rs` | levels of what meets |
 //! | `touch.rs` | how long a contact lasts |
 //! | `facts.rs` | what the rules share: periods, the peak of the ground |
@@ -40,6 +41,7 @@ mod facts;
 mod found;
 mod ground;
 mod levels;
+mod order;
 mod touch;
 mod whole;
 mod yielding;
@@ -61,6 +63,7 @@ pub fn of(scene: &Scene, record: Option<&Record>) -> Vec<Warning> {
     buildings::look(&facts, &mut found);
     whole::look(&facts, &mut found);
     yielding::look(&facts, &mut found);
+    order::look(&facts, &mut found);
     contacts::look(&facts, &mut found);
     levels::look(&facts, &mut found);
     found.warnings

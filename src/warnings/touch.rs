@@ -17,6 +17,8 @@ const AREA_MASS: f64 = 900.0;
 pub(super) struct Touch {
     /// s.
     duration: f64,
+    /// Of the penetration.
+    exponent: f64,
     /// s, in which a wave crosses a floor of that mass and comes back.
     wave: f64,
     /// s, of a storey by itself: the longer one of both buildings, and no less than 1/20 of the period of a tower. None
@@ -42,6 +44,7 @@ impl Touch {
         let period = facts.usual_periods().map(|(_, period)| period).reduce(f64::max);
         Some(Touch {
             duration: 3.0 * depth / speed,
+            exponent,
             wave: PI * (lightest(facts, pair)? / AREA_MASS).sqrt() / SOUND,
             storey: facts.usual_periods().map(storey).chain(period.map(|period| 0.05 * period)).reduce(f64::max),
             period,
@@ -60,7 +63,9 @@ impl Touch {
 
     /// Shorter than the floors behind it let it be.
     pub fn is_hard(&self) -> bool {
-        self.duration < 0.4 * self.wave || self.period.is_some_and(|period| self.duration < 6e-4 * period)
+        // Published linear stiffnesses reach farther than those of power laws.
+        let least = if self.exponent > 1.2 { 1.2 } else { 0.4 };
+        self.duration < least * self.wave || self.period.is_some_and(|period| self.duration < 1.2e-3 * period)
     }
 
     /// For a person.

@@ -62,6 +62,53 @@ fn floors_that_are_not_level() {
 }
 
 #[test]
+fn buildings_that_do_not_face_each_other() {
+    let heights = "[3.6, 3.6, 3.6]";
+    let told = |left: &str, right: &str| {
+        let scene =
+            Scene::from_toml(&uneven(&format!("[3.0, 3.0, 3.0]{left}"), &format!("{heights}{right}"), "[facing]"));
+        warnings::of_file(&scene.unwrap(), None).iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    let base = |level: &str| format!("\nbase_level = {level}");
+    assert_eq!(
+        told(&base("-5.0"), &base("6.0")),
+        [
+            "right.base_level = 6.0: the right building goes from 6 m to 16.8 m and the other one from -5 m to 4 m: no floor \
+          faces anything, so there is no contact and they pass through each other; is its sign right, was -6 m meant?"
+        ]
+    );
+    for (left, right, path, words) in [
+        ("", "-12.0", "right.base_level = -12.0", "are both levels from the same zero?"),
+        ("100.0", "-105.0", "right.base_level = -105.0", "was 105 m meant?"),
+        ("1500.0", "", "left.base_level = 1500.0", "given in mm (1.5 m)?"),
+        ("", "-300.0", "right.base_level = -300.0", "given in cm (-3 m)?"),
+        ("312.0", "", "left.base_level = 312.0", "in cm (3.12 m)?"),
+    ] {
+        let of = |level: &str| if level.is_empty() { String::new() } else { base(level) };
+        let told = told(&of(left), &of(right));
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert!(told[0].starts_with(path) && told[0].contains(words), "{told:?}");
+    }
+    for (left, right) in [("-2.0", "2.0"), ("0.0", "-6.0"), ("110.0", "108.5")] {
+        let told = told(&base(left), &base(right));
+        assert!(!told.iter().any(|text| text.contains("no floor faces anything")), "{told:?}");
+    }
+}
+
+#[test]
+fn a_tolerance_beyond_a_storey() {
+    for (tolerance, expected) in [("0.0", 0), ("0.1", 0), ("0.5", 0), ("1.5", 0), ("1.6", 1), ("10", 1), ("100", 1)] {
+        let facing = format!("[facing]\nlevel_tolerance = {tolerance}");
+        let scene = Scene::from_toml(&uneven("[3.0, 3.0, 3.0]", "[3.6, 3.6, 3.6]", &facing)).unwrap();
+        let told = warnings::of_file(&scene, None);
+        assert_eq!(paths(&told), vec!["facing.level_tolerance"; expected], "{tolerance}: {told:?}");
+    }
+    // Storeys of laboratory frames are lower than twice the default.
+    let scene = Scene::from_toml(&uneven("[0.15, 0.15, 0.15]", "[0.18, 0.18, 0.18]", "[facing]")).unwrap();
+    assert_eq!(warnings::of_file(&scene, None), []);
+}
+
+#[test]
 fn what_is_odd_about_facing_is_told_there() {
     let text = uneven("[3.0, 3.0, 3.0]", "[3.6, 3.6, 3.6]", "[facing]").replace("gap = 0.04", "gap = 40.0");
     let scene = Scene::from_toml(&text).unwrap();

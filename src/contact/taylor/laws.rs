@@ -1,40 +1,18 @@
 //! The powers of forces from those of the penetrations, for each kind of law.
-//!
-//! Code compiled for damped power laws costs less than code that asks for the kind at every power.
 
 use super::block::{Each, LAST, PAIRS, PairBlock, ROOT, Sloped};
 use crate::contact::force::Kind;
 use crate::numerics::polynomial::{COUNT, MAX_TERMS, RECIPROCAL, each};
 
-/// What is known of the kind of law of all pairs of a block: damped power laws, or any kind.
-pub trait PairLaw {
-    /// Whether the forces need the series of the rates.
-    #[inline(always)]
-    fn needs_slopes(_: &PairBlock) -> bool {
-        false
-    }
-    /// Power n of the forces.
-    fn force(block: &mut PairBlock, n: usize) -> Each;
-}
-
-/// Any kind: asks the block which one.
-pub struct Any;
-
-impl PairLaw for Any {
-    #[inline(always)]
-    fn needs_slopes(block: &PairBlock) -> bool {
-        block.kind == Kind::Damped
-    }
-
-    #[inline(always)]
-    fn force(block: &mut PairBlock, n: usize) -> Each {
-        match block.kind {
-            Kind::None => [0.0; PAIRS],
-            Kind::Linear => linear(block, n),
-            Kind::Spring => spring(block, n),
-            Kind::Damped => Damped::force(block, n),
-            Kind::Root => root(block, n),
-        }
+/// Power n of the forces of a block.
+#[inline(always)]
+fn force(block: &mut PairBlock, n: usize) -> Each {
+    match block.kind {
+        Kind::None => [0.0; PAIRS],
+        Kind::Linear => linear(block, n),
+        Kind::Spring => spring(block, n),
+        Kind::Damped => damped(block, n),
+        Kind::Root => root(block, n),
     }
 }
 
@@ -55,33 +33,24 @@ fn spring(block: &mut PairBlock, n: usize) -> Each {
     each(|i| block.stiffness[i] * power[i])
 }
 /// [`Kind::Damped`]: d^n (1 + b d'), the product with the newest terms last.
-pub struct Damped;
-
-impl PairLaw for Damped {
-    #[inline(always)]
-    fn needs_slopes(_: &PairBlock) -> bool {
-        true
-    }
-
-    #[inline(always)]
-    fn force(block: &mut PairBlock, n: usize) -> Each {
-        let (mut sums, mut product) = ([[0.0; PAIRS]; 2], [0.0; PAIRS]);
-        if n >= 2 {
-            let depths = &block.backwards[LAST - (n - 1)..LAST - 1];
-            let slopes = &block.slope[LAST - n..LAST - 2];
-            for ((d, slope), p) in depths.iter().zip(slopes).zip(&block.power[1..n - 1]) {
-                add_products(&mut sums, d, p);
-                add_product(&mut product, &p[0], slope);
-            }
-            add_product(&mut product, &block.power[n - 1][0], &block.slope[LAST - 2]);
+#[inline(always)]
+fn damped(block: &mut PairBlock, n: usize) -> Each {
+    let (mut sums, mut product) = ([[0.0; PAIRS]; 2], [0.0; PAIRS]);
+    if n >= 2 {
+        let depths = &block.backwards[LAST - (n - 1)..LAST - 1];
+        let slopes = &block.slope[LAST - n..LAST - 2];
+        for ((d, slope), p) in depths.iter().zip(slopes).zip(&block.power[1..n - 1]) {
+            add_products(&mut sums, d, p);
+            add_product(&mut product, &p[0], slope);
         }
-        let power = block.extend_power(n, &sums);
-        if n > 0 {
-            add_product(&mut product, &power, &block.slope[LAST - 1]);
-        }
-        add_product(&mut product, &block.power[0][0], &block.slope[LAST - (n + 1)]);
-        each(|i| block.stiffness[i] * (power[i] + block.damping[i] * product[i]))
+        add_product(&mut product, &block.power[n - 1][0], &block.slope[LAST - 2]);
     }
+    let power = block.extend_power(n, &sums);
+    if n > 0 {
+        add_product(&mut product, &power, &block.slope[LAST - 1]);
+    }
+    add_product(&mut product, &block.power[0][0], &block.slope[LAST - (n + 1)]);
+    each(|i| block.stiffness[i] * (power[i] + block.damping[i] * product[i]))
 }
 
 /// [`Kind::Root`]: d^0.25 d' = (4/5) (d^1.25)', no product of series, but a root that is one power ahead.
@@ -105,26 +74,26 @@ fn root(block: &mut PairBlock, n: usize) -> Each {
 impl PairBlock {
     /// Enters power n of the penetrations, of pairs under a law.
     #[inline(always)]
-    pub fn set_penetration<L: PairLaw>(&mut self, n: usize, values: Each) {
+    pub fn set_penetration(&mut self, n: usize, values: Each) {
         if n < MAX_TERMS {
             self.penetration[n] = values;
             self.backwards[LAST - n] = values;
-            if L::needs_slopes(self) {
+            if self.kind == Kind::Damped {
                 self.slope[LAST - n] = each(|i| COUNT[n] * values[i]);
             }
         }
     }
 
-    /// Fills power n of the forces, of pairs under a law, from the powers 0..=n + 1 of the penetrations, for n = 0, 1,
+    /// Fills power n of the forces, from the powers 0..=n + 1 of the penetrations, for n = 0, 1,
     /// 2, ... in turn, and returns it.
     #[inline(always)]
-    pub fn extend_force<L: PairLaw>(&mut self, n: usize) -> Each {
+    pub fn extend_force(&mut self, n: usize) -> Each {
         // Equal lengths: no bounds checks below.
         if n + 2 >= MAX_TERMS {
             return [0.0; PAIRS];
         }
         self.order = n;
-        self.force[n] = L::force(self, n);
+        self.force[n] = force(self, n);
         self.force[n]
     }
 
@@ -199,8 +168,8 @@ mod tests {
         block.start(Kind::of(&force));
         block.add(0, &force, 1.0, 1.0, 2.0);
         for n in 0..12 {
-            block.set_penetration::<Any>(n + 2, [if n == 0 { 1.0 } else { 0.0 }; PAIRS]);
-            block.extend_force::<Any>(n);
+            block.set_penetration(n + 2, [if n == 0 { 1.0 } else { 0.0 }; PAIRS]);
+            block.extend_force(n);
             let term = |(factor, exponent): &(f64, f64)| {
                 factor * (0..n).map(|k| (exponent - k as f64) / (k + 1) as f64).product::<f64>()
             };
@@ -229,8 +198,8 @@ mod tests {
                 block.add(lane, &Force::Root { stiffness, damping }, 1.0, 0.5 + i as f64, -0.1);
             }
             for n in 0..8 {
-                block.set_penetration::<Any>(n + 2, [0.01 / (n + 1) as f64; PAIRS]);
-                block.extend_force::<Any>(n);
+                block.set_penetration(n + 2, [0.01 / (n + 1) as f64; PAIRS]);
+                block.extend_force(n);
             }
             block.force.map(|row| row[which.len() - 1])
         };

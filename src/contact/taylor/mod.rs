@@ -7,5 +7,4 @@ mod reading;
 
 pub use super::force::Kind;
 pub use block::{Each, PAIRS, PairBlock, ROOT};
-pub use laws::{Any, Damped, PairLaw};
 pub use reading::{BlockReading, ForceReading};

@@ -7,7 +7,6 @@ use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::excitation::segment::Segment;
 use crate::engine::flight::fast_account::{EnergyAccount, NoAccount, SegmentAccount};
-use crate::engine::flight::fast_certificate::{NearPairs, SegmentCheck};
 use crate::engine::model::Model;
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
@@ -26,21 +25,6 @@ pub struct FastRun {
     pub has_arrived: bool,
 }
 
-/// The check where all pairs and storeys are cleared: none is needed.
-struct NothingNear;
-
-impl<const WIDTH: usize> SegmentCheck<WIDTH> for NothingNear {
-    #[inline(always)]
-    fn stays_apart(
-        &mut self,
-        _: (&[Lane; WIDTH], &[Lane; WIDTH]),
-        _: (&[Lane; WIDTH], &[Lane; WIDTH]),
-        _: (f64, f64),
-    ) -> bool {
-        true
-    }
-}
-
 impl Model {
     /// Flies over up to `most` segments of the record, at most until the time `until`, s, while no pair needs the
     /// narrow phase.
@@ -52,53 +36,41 @@ impl Model {
             let is_free =
                 state.base.clearance.are_all_free(next) || !is_planned && self.look_ahead(ground, state, next);
             let State { base, step, counters, work, .. } = &mut *state;
-            let is_accounted = self.system.is_accounted_at_once(ground, base);
-            if next - first >= most || !is_free && is_planned || !is_accounted {
+            if !is_free || next - first >= most || !self.system.is_accounted_at_once(ground, base) {
                 break false;
             }
             if until < ground.end_of(&base.segment) {
-                if is_free && !is_planned {
+                if !is_planned {
                     step.kind = StepKind::Deferred;
                     self.count_flown(counters, 1);
                     // For whoever reads a peak within the segment.
                     self.watch_peaks(ground, base, next, &mut work.for_peaks());
                 }
-                break is_free;
+                break true;
             }
-            let end = if is_free { base.clearance.due().min(next + MOST_AT_ONCE) } else { base.clearance.next_look() };
+            let end = base.clearance.due().min(next + MOST_AT_ONCE);
             let clear = self.watch_peaks(ground, base, next, &mut work.for_peaks());
             let is_checked = clear == next;
             let end = end.min(if is_checked { next + 1 } else { clear });
             let segments = next..end.min(first.saturating_add(most));
-            let wanted = segments.end - next;
             if is_checked {
                 work.buffers.q.copy_from_slice(&base.q);
                 work.buffers.v.copy_from_slice(&base.v);
             }
-            let flown = if is_free {
-                fly_over(self, ground, base, step, segments, until)
-            } else {
-                self.fly_over_near_pairs(ground, base, counters, segments, until)
-            };
+            let flown = fly_over(self, ground, base, step, segments, until);
             if flown == 0 {
                 break false;
             }
             counters.energy_steps += if base.energy.is_some() { flown } else { 0 };
-            if is_free {
-                // No contact has a flag to clear: none was at the surface at the start, and tracked ones are not
-                // cleared.
-                base.clearance.move_on(flown);
-                self.count_flown(counters, flown - u64::from(is_planned));
-            }
+            // No contact has a flag to clear: none was at the surface at the start, and tracked ones are not cleared.
+            base.clearance.move_on(flown);
+            self.count_flown(counters, flown - u64::from(is_planned));
             if is_checked {
                 self.check_flown(base, next, work);
             }
             step.kind = StepKind::NotPlanned;
             next += flown;
             base.segment = ground.segment(next);
-            if !is_free && flown < wanted {
-                break false;
-            }
         };
         FastRun { flown: next - first, has_arrived }
     }
@@ -117,50 +89,6 @@ impl Model {
     fn look_ahead(&self, ground: &GroundMotion, state: &mut State, segment: u64) -> bool {
         let State { base, counters, work, .. } = state;
         self.flight.dismiss(&self.system, ground, base, segment, counters, &mut work.buffers.node_v)
-    }
-
-    /// Flies over segments for which not all pairs are cleared, as long as both ends of each prove that none meets;
-    /// returns the number of segments.
-    #[inline(never)]
-    fn fly_over_near_pairs(
-        &self,
-        ground: &GroundMotion,
-        base: &mut Base,
-        counters: &mut Counters,
-        segments: Range<u64>,
-        until: f64,
-    ) -> u64 {
-        let Some(near) = &self.flight.near else { return 0 };
-        // Only pairs are tested here: storeys have to be cleared.
-        let elastic =
-            if self.system.storeys.is_empty() { u64::MAX } else { base.clearance.until(self.system.pairs.len()) };
-        let segments = segments.start..segments.end.min(elastic);
-        let is_tracked = base.contacts.iter().any(|contact| contact.tracked);
-        if segments.is_empty() || !ground.is_in_record(segments.start) || is_tracked {
-            return 0;
-        }
-        let flown = fly_near(self, near, ground, base, segments.clone(), until);
-        if flown > 0 {
-            counters.flight_steps += flown;
-            self.know_near_pairs(base, segments.start..segments.start + flown, counters);
-        }
-        flown
-    }
-
-    /// Counts the evaluations of pairs that planning these segments one by one would have made, and marks the contacts
-    /// as known whose penetration at the base it would have left known.
-    fn know_near_pairs(&self, base: &mut Base, segments: Range<u64>, counters: &mut Counters) {
-        for p in 0..self.system.pairs.len() {
-            counters.pairs_evaluated += base.clearance.evaluations(p, &segments);
-        }
-        base.clearance.move_on(segments.end - segments.start);
-        for (p, pair) in self.system.pairs.iter().enumerate() {
-            if !base.clearance.is_free(p, segments.end - 1) {
-                let contact = &mut base.contacts[p];
-                (contact.penetration, contact.rate) = pair.penetration(base.rest.gaps[p], (&base.q, &base.v));
-                base.clearance.set_known(p);
-            }
-        }
     }
 
     /// The record and the number of the base's segment, if fast flight is possible from the base.
@@ -223,9 +151,9 @@ fn fly_cleared(
 ) -> u64 {
     let is_simple = ground.is_in_record(segments.start);
     match model.system.structure.lanes / LANES {
-        1 if is_simple => fly_few::<1>(model, ground, base, (NothingNear, account), segments, until),
-        2 if is_simple => fly_few::<2>(model, ground, base, (NothingNear, account), segments, until),
-        3 if is_simple => fly_few::<3>(model, ground, base, (NothingNear, account), segments, until),
+        1 if is_simple => fly_few::<1>(model, ground, base, account, segments, until),
+        2 if is_simple => fly_few::<2>(model, ground, base, account, segments, until),
+        3 if is_simple => fly_few::<3>(model, ground, base, account, segments, until),
         _ => fly_many(model, ground, (base, step), account, segments, until),
     }
 }
@@ -256,55 +184,6 @@ fn fly_many(
     flown
 }
 
-/// The loop over segments that end by `until` while some pairs are near, as long as their check proves that none meets;
-/// returns the number of segments.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn fly_near(
-    model: &Model,
-    near: &NearPairs,
-    ground: &GroundMotion,
-    base: &mut Base,
-    segments: Range<u64>,
-    until: f64,
-) -> u64 {
-    match EnergyAccount::of(ground, base) {
-        Some(account) => fly_checked(model, near, ground, base, account, segments, until),
-        None => fly_checked(model, near, ground, base, NoAccount, segments, until),
-    }
-}
-
-#[inline(always)]
-fn fly_checked(
-    model: &Model,
-    near: &NearPairs,
-    ground: &GroundMotion,
-    base: &mut Base,
-    account: impl SegmentAccount,
-    segments: Range<u64>,
-    until: f64,
-) -> u64 {
-    match model.system.structure.lanes / LANES {
-        1 => fly_with_check::<1>(model, near, ground, base, account, segments, until),
-        2 => fly_with_check::<2>(model, near, ground, base, account, segments, until),
-        3 => fly_with_check::<3>(model, near, ground, base, account, segments, until),
-        _ => 0,
-    }
-}
-
-#[inline(always)]
-fn fly_with_check<const WIDTH: usize>(
-    model: &Model,
-    near: &NearPairs,
-    ground: &GroundMotion,
-    base: &mut Base,
-    account: impl SegmentAccount,
-    segments: Range<u64>,
-    until: f64,
-) -> u64 {
-    let check = near.from((&few::<WIDTH>(&base.q), &few::<WIDTH>(&base.v)), &base.rest.gaps, base.segment.length);
-    fly_few(model, ground, base, (check, account), segments, until)
-}
-
 #[inline(always)]
 fn fly_segment(model: &Model, ground: &GroundMotion, segment: &Segment, base: &Base, step: &mut Step) -> bool {
     let Some(interval) = ground.prepared(segment) else { return false };
@@ -323,7 +202,7 @@ fn fly_few<const WIDTH: usize>(
     model: &Model,
     ground: &GroundMotion,
     base: &mut Base,
-    (mut check, mut account): (impl SegmentCheck<WIDTH>, impl SegmentAccount),
+    mut account: impl SegmentAccount,
     segments: Range<u64>,
     until: f64,
 ) -> u64 {
@@ -339,9 +218,6 @@ fn fly_few<const WIDTH: usize>(
         let (mut end_q, mut end_v) = (q, v);
         for c in 0..WIDTH {
             (end_q[c], end_v[c]) = modes[c].end_on_ground((&q[c], &v[c]), &participation[c], load);
-        }
-        if !check.stays_apart((&q, &v), (&end_q, &end_v), load) {
-            break;
         }
         account.add((&q, &v), load);
         (q, v) = (end_q, end_v);

@@ -3,7 +3,6 @@
 //! count as one more pair, the last.
 
 use serde::{Deserialize, Serialize};
-use std::ops::Range;
 
 /// Largest number of segments ahead for which one broad phase clears a pair.
 pub const MOST: u64 = 64;
@@ -56,11 +55,6 @@ impl Clearance {
         self.pairs[p] > segment
     }
 
-    /// The first segment in which a pair may meet.
-    pub fn until(&self, p: usize) -> u64 {
-        self.pairs[p]
-    }
-
     /// The first segment in which any pair may meet, as noted.
     pub fn due(&self) -> u64 {
         self.due
@@ -69,17 +63,6 @@ impl Clearance {
     /// The first segment in which another broad phase is worth its cost.
     pub fn next_look(&self) -> u64 {
         self.next_look
-    }
-
-    /// Number of evaluations of a pair's penetration for flights over segments that begin at the base: one at the end
-    /// of each segment for which the pair is not cleared, and one at the first start unless it is known there.
-    pub fn evaluations(&self, p: usize, segments: &Range<u64>) -> u64 {
-        let first = self.pairs[p].max(segments.start);
-        if first >= segments.end {
-            return 0;
-        }
-        let is_known = first == segments.start && self.is_known(p);
-        segments.end - first + u64::from(!is_known)
     }
 
     /// Whether all pairs are known to stay apart in a segment.

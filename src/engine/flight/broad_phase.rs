@@ -37,12 +37,6 @@ use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane, ModalDamping, Side, Structure};
 use std::ops::Range;
 
-/// Number of segments for which a broad phase mostly clears a pair when no pair is near.
-const USUAL: u64 = 8;
-
-/// Number of segments to wait before another broad phase where it costs less to check each segment by both of its ends.
-pub const NEAR_SEGMENTS: u64 = 16;
-
 /// sqrt(2) - 1, rounded up: sqrt(a^2 + b^2) <= a + this b for a >= b >= 0.
 const CHORD: f64 = 0.414_213_562_4;
 
@@ -119,12 +113,13 @@ impl ClosingBounds {
 
 impl ClosingBounds {
     /// Tests the pairs that are not cleared for the base's segment, which has that number, and the storeys; returns whether
-    /// all are cleared now. If not, the next broad phase is `segments_to_wait` segments later.
+    /// all are cleared now. If not, the next broad phase is that of the next segment.
     pub fn dismiss(
         &self,
         system: &System,
         ground: &GroundMotion,
-        (base, segment, segments_to_wait): (&mut Base, u64, u64),
+        base: &mut Base,
+        segment: u64,
         counters: &mut Counters,
         amplitude: &mut [f64],
     ) -> bool {
@@ -136,7 +131,7 @@ impl ClosingBounds {
             bound_all((self, system), ground, base, segment, counters, amplitude);
         }
         let due = base.clearance.first_due();
-        base.clearance.note(due, if due >= segment + USUAL { due } else { due.max(segment + segments_to_wait) });
+        base.clearance.note(due, due.max(segment + 1));
         base.clearance.are_all_free(segment)
     }
 

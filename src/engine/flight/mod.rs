@@ -8,7 +8,6 @@ pub mod certificate;
 pub mod elastic;
 pub mod envelope;
 pub mod fast_account;
-pub mod fast_certificate;
 pub mod narrow_phase;
 pub mod propagate;
 pub mod workspace;
@@ -17,9 +16,8 @@ use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::{At, Planned};
 use crate::engine::excitation::record::GroundMotion;
-use crate::engine::flight::broad_phase::{ClosingBounds, NEAR_SEGMENTS};
+use crate::engine::flight::broad_phase::ClosingBounds;
 use crate::engine::flight::certificate::Certificate;
-use crate::engine::flight::fast_certificate::NearPairs;
 use crate::engine::flight::narrow_phase::Search;
 use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
@@ -29,8 +27,6 @@ use crate::engine::system::buffers::Buffers;
 #[derive(Debug)]
 pub struct Flight {
     closing: ClosingBounds,
-    /// The fast test of both ends, where modes and pairs are few.
-    pub near: Option<NearPairs>,
     certificate: Certificate,
 }
 
@@ -41,7 +37,6 @@ impl Flight {
         let certificate = Certificate::of(structure, rows);
         Flight {
             closing: ClosingBounds::of(structure, (pairs, storeys, reach_of_storeys), &certificate.weight),
-            near: NearPairs::of(structure, pairs),
             certificate,
         }
     }
@@ -57,11 +52,7 @@ impl Flight {
         counters: &mut Counters,
         amplitude: &mut [f64],
     ) -> bool {
-        // Where modes and pairs are few, the test of a segment by both ends costs less than another broad phase; storeys have
-        // no such test in fast flight.
-        let has_fast_test = self.near.is_some() && system.storeys.is_empty();
-        let segments_to_wait = if has_fast_test { NEAR_SEGMENTS } else { 1 };
-        self.closing.dismiss(system, ground, (base, segment, segments_to_wait), counters, amplitude)
+        self.closing.dismiss(system, ground, base, segment, counters, amplitude)
     }
 
     /// Plans the flight from the base, under the load in `work`, over `longest` seconds or until the first event.

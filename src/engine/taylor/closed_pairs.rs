@@ -1,6 +1,6 @@
 //! The closed pairs, those with a contact force, during a Taylor step: series of their penetrations and forces.
 
-use crate::contact::taylor::{Any, BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
+use crate::contact::taylor::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
 use crate::engine::base::Coordinates;
 use crate::engine::base::contact::Contact;
 use crate::engine::pairs::packing::{PackedPairs, most_blocks};
@@ -87,12 +87,9 @@ impl ClosedPairs {
         Some((&mut self.blocks[0], &self.members[0], self.at_surface[0], self.waits))
     }
 
-    /// All blocks with their pairs, and the kind of force if it is the same for all.
-    pub fn blocks(&mut self) -> (Blocks<'_>, Option<Kind>) {
-        let (blocks, members) = (&mut self.blocks[..self.used], &self.members[..self.used]);
-        let kind = blocks.first().map(PairBlock::kind);
-        let kind = kind.filter(|kind| blocks.iter().all(|block| block.kind() == *kind));
-        ((blocks, members), kind)
+    /// All blocks with their pairs.
+    pub fn blocks(&mut self) -> Blocks<'_> {
+        (&mut self.blocks[..self.used], &self.members[..self.used])
     }
 
     /// Whether a new power of the penetrations can be worked out only after that of all forces (see the field).
@@ -155,7 +152,7 @@ impl ClosedPairs {
     /// Extends the forces by power n, from the powers of the penetrations up to n.
     pub fn extend_forces(&mut self, n: usize) {
         for block in &mut self.blocks[..self.used] {
-            block.extend_force::<Any>(n);
+            block.extend_force(n);
         }
     }
 
@@ -174,7 +171,7 @@ impl ClosedPairs {
         let blocks = self.blocks.iter_mut().zip(&self.members).zip(&self.at_surface);
         for ((block, members), at_surface) in blocks.take(self.used) {
             let values = values(members, block.count, *at_surface);
-            block.set_penetration::<Any>(n, values);
+            block.set_penetration(n, values);
         }
     }
 

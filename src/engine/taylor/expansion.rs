@@ -44,7 +44,7 @@ impl System {
         let storeys = &self.storeys[..];
         match base.coordinates {
             Coordinates::Floors => {
-                with_forces!(closed, [Damped], FloorJacobian, |pairs| series.expand_floors(
+                with_forces!(closed, FloorJacobian, |pairs| series.expand_floors(
                     &structure.floors,
                     order,
                     loads,
@@ -53,14 +53,14 @@ impl System {
             }
             Coordinates::Modes if structure.is_classical() && work.rigid.pairs.is_empty() => {
                 if cfg!(without = "few_modes") || base.q.len() > FEW_BLOCKS * LANES {
-                    with_forces!(closed, [], ModalJacobian(&self.pairs), |pairs| series.expand_modes(
+                    with_forces!(closed, ModalJacobian(&self.pairs), |pairs| series.expand_modes(
                         structure,
                         order,
                         loads,
                         &mut WithYielding { storeys, drifts, pairs }
                     ));
                 } else if !drifts.yielding.is_empty() || !self.expand_linear(series, closed, order, loads) {
-                    with_forces!(closed, [], PackedModalJacobian, |pairs| series.expand_few_modes(
+                    with_forces!(closed, PackedModalJacobian, |pairs| series.expand_few_modes(
                         structure,
                         order,
                         loads,

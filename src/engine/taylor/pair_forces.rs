@@ -1,44 +1,36 @@
-//! The forces of the closed pairs while a series is expanded, power by power.
-//!
-//! For many pairs that are all under damped power laws the same operations are compiled for that law alone, which saves
-//! an eighth of a run. (Few pairs under linear laws on few modes have [`crate::engine::taylor::linear_pairs`].)
+//! The forces of the closed pairs while a series is expanded, power by power. (Few pairs under linear laws on few modes
+//! have [`crate::engine::taylor::linear_pairs`].)
 
-use crate::contact::taylor::{Any, PairBlock, PairLaw};
+use crate::contact::taylor::PairBlock;
 use crate::engine::pairs::jacobian::ContactJacobian;
 use crate::engine::pairs::packing::PackedPairs;
 use crate::engine::taylor::closed_pairs::{Blocks, ClosedPairs};
 use crate::numerics::polynomial::each;
 use crate::structure::{Lane, PairForces};
-use std::marker::PhantomData;
 
 /// Closed pairs that share no floor: each penetration's new power is worked out together with its own force.
-pub struct AtOnce<'a, M, L> {
-    blocks: &'a mut [PairBlock],
-    members: &'a [PackedPairs],
-    jacobian: M,
-    law: PhantomData<L>,
+pub struct AtOnce<'a, M> {
+    pub blocks: Blocks<'a>,
+    pub jacobian: M,
 }
 
-impl<'a, M: ContactJacobian, L: PairLaw> AtOnce<'a, M, L> {
-    pub fn of((blocks, members): Blocks<'a>, jacobian: M, _: L) -> AtOnce<'a, M, L> {
-        AtOnce { blocks, members, jacobian, law: PhantomData }
-    }
-
+impl<M: ContactJacobian> AtOnce<'_, M> {
     #[inline(always)]
     fn act_by(jacobian: &M, block: &mut PairBlock, members: &PackedPairs, n: usize, factor: f64, term: &mut [Lane]) {
-        let force = block.extend_force::<L>(n);
+        let force = block.extend_force(n);
         let relative = jacobian.relative_and_apply(members, block.count, &each(|i| factor * force[i]), term);
         // The effect of a force on its own pair by its inverse mass: so the next power of the force need not wait for
         // the motion.
         let relative = each(|i| relative[i] - factor * members.softness[i] * force[i]);
-        block.set_penetration::<L>(n + 2, relative);
+        block.set_penetration(n + 2, relative);
     }
 }
 
-impl<M: ContactJacobian, L: PairLaw> PairForces for AtOnce<'_, M, L> {
+impl<M: ContactJacobian> PairForces for AtOnce<'_, M> {
     #[inline(always)]
     fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
-        for (block, members) in self.blocks.iter_mut().zip(self.members) {
+        let (blocks, members) = &mut self.blocks;
+        for (block, members) in blocks.iter_mut().zip(*members) {
             Self::act_by(&self.jacobian, block, members, n, factor, term);
         }
     }
@@ -52,9 +44,9 @@ pub struct InTurn<'a, M> {
 
 impl<M: ContactJacobian> PairForces for InTurn<'_, M> {
     fn act(&mut self, n: usize, factor: f64, term: &mut [Lane]) {
-        let ((blocks, members), _) = self.closed.blocks();
+        let (blocks, members) = self.closed.blocks();
         for (block, members) in blocks.iter_mut().zip(members) {
-            let force = block.extend_force::<Any>(n);
+            let force = block.extend_force(n);
             self.jacobian.apply(members, block.count, &force.map(|force| factor * force), term);
         }
         self.closed.set_blocks(n + 2, |members, count, at_surface| match at_surface {
@@ -64,25 +56,16 @@ impl<M: ContactJacobian> PairForces for InTurn<'_, M> {
     }
 }
 
-/// Runs an expansion with the forces of the closed pairs: compiled for one of the `$law`s if all pairs are under it.
+/// Runs an expansion with the forces of the closed pairs.
 macro_rules! with_forces {
-    ($closed:expr, [$($law:ident),*], $jacobian:expr, |$forces:ident| $expand:expr) => {{
+    ($closed:expr, $jacobian:expr, |$forces:ident| $expand:expr) => {{
         use $crate::engine::taylor::pair_forces::{AtOnce, InTurn};
-        macro_rules! under {
-            ($blocks:expr, $any:expr) => {{
-                let $forces = &mut AtOnce::of($blocks, $jacobian, $any);
-                $expand
-            }};
-        }
         if cfg!(without = "at_once") || $closed.waits() {
             let $forces = &mut InTurn { closed: $closed, jacobian: $jacobian };
             $expand
         } else {
-            let (blocks, kind) = $closed.blocks();
-            match kind.filter(|_| !cfg!(without = "one_law")) {
-                $(Some($crate::contact::taylor::Kind::$law) => under!(blocks, $crate::contact::taylor::$law),)*
-                _ => under!(blocks, $crate::contact::taylor::Any),
-            }
+            let $forces = &mut AtOnce { blocks: $closed.blocks(), jacobian: $jacobian };
+            $expand
         }
     }};
 }

@@ -207,7 +207,7 @@ fn yield_forces() {
         ("yield_force = [40.0, \"much\"]", "left.yield_force[2] = \"much\": expected a number"),
         (
             "yield_force = 40.0",
-            "left.yield_force = 40.0: expected a list of numbers, [40.0] for one floor, [40.0, 40.0] for two",
+            "left.yield_force = 40.0: expected a list of numbers, [40.0] for one storey, [40.0, 40.0] for two",
         ),
         (
             "post_yield_ratio = 0.1",

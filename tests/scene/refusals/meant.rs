@@ -31,14 +31,27 @@ fn folders_of_windows() {
     let expected =
         "expected / between folders, record = \"C:/quakes/a.csv\", or single quotes: in \"...\" a \\ begins an escape";
     assert_eq!(said(&ground("\"C:\\quakes\\a.csv\"")), expected);
+    // Escapes that want digits, a quote that is hidden, a # that begins no comment.
+    for (written, meant) in [
+        (r#""C:\Users\me\a.csv""#, "\"C:/Users/me/a.csv\""),
+        (r#""C:\users\a.csv" # a comment"#, "\"C:/users/a.csv\""),
+        (r#""D:\xray\a.csv""#, "\"D:/xray/a.csv\""),
+        (r#""C:\bridges\x.csv""#, "\"C:/bridges/x.csv\""),
+        (r#""C:\Users\me #2\a.csv""#, "\"C:/Users/me #2/a.csv\""),
+        (r#""\\server\share\a.csv""#, "\"//server/share/a.csv\""),
+        (r#""C:\data\" # a folder"#, "\"C:/data/\""),
+    ] {
+        assert_eq!(said(&ground(written)), expected.replace("\"C:/quakes/a.csv\"", meant));
+    }
+    assert!(said("note = \"a \\\"b\\\" \" c").starts_with("expected valid TOML"), "escapes that are no folders");
     // Escapes that there are: a tab, a new line.
-    for name in ["\"C:\\temp\\new.csv\"", "\"C:\\new\""] {
-        let messages = messages(&ground(name));
+    for name in ["C:\\temp\\new.csv", "C:\\new", "C:\\records\\borah\\far.csv"] {
+        let messages = messages(&ground(&format!("\"{name}\"")));
         assert_eq!(messages.len(), 1);
-        assert!(
-            messages[0].starts_with(&format!("ground.record = {name}: expected a file name without")),
-            "{messages:?}"
-        );
+        let start =
+            "a file name without control characters: in \"...\" a \\ begins an escape, so write / between folders";
+        let meant = name.replace('\\', "/");
+        assert!(messages[0].contains(&format!("{start}, \"{meant}\", or single quotes")), "{messages:?}");
     }
     for name in ["'C:\\quakes\\a.csv'", "\"C:/quakes/a.csv\"", "\"C:\\\\quakes\\\\a.csv\""] {
         assert!(Scene::from_toml(&ground(name)).is_ok(), "{name}");
@@ -63,6 +76,16 @@ fn a_number_for_a_list_or_a_table() {
             "mass = [3.0, 4.0]",
             "mass = 330e3",
             &["left.mass = 330e3: expected a list of numbers, [330e3] for one floor, [330e3, 330e3] for two"],
+        ),
+        (
+            "stiffness = [2910.0, 2920.0]",
+            "stiffness = 2e8",
+            &["left.stiffness = 2e8: expected a list of numbers, [2e8] for one storey, [2e8, 2e8] for two"],
+        ),
+        (
+            "damping = { ratio = 0.01 }",
+            "damping = { ratios = 0.05 }",
+            &["left.damping.ratios = 0.05: expected a list of numbers, [0.05] for one mode, [0.05, 0.05] for two"],
         ),
         (
             "damping = { ratio = 0.01 }",
