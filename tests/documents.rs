@@ -21,9 +21,13 @@ fn read(name: &str) -> String {
 
 /// The pages that people read, by their path from the root.
 fn documents() -> Vec<String> {
-    let pages = ["docs", "ci", "fuzz", "python", "tests"].into_iter().flat_map(|folder| files(folder, &["md"]));
+    let pages = ["docs", "ci", "fuzz", "tests"].into_iter().flat_map(|folder| files(folder, &["md"]));
     let pages = pages.map(|page| page.strip_prefix(root()).unwrap().to_str().unwrap().replace('\\', "/"));
-    ["README.md", "ARCHITECTURE.md", "CHANGELOG.md"].map(str::to_owned).into_iter().chain(pages).collect()
+    ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "python/README.md"]
+        .map(str::to_owned)
+        .into_iter()
+        .chain(pages)
+        .collect()
 }
 
 /// Files below a directory, with one of the endings.

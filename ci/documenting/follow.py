@@ -125,7 +125,8 @@ def name_problems(every, succeeds):
     """Names of the Python package that the pages mention and that it does not have."""
     pattern = re.compile(r"pounding_fmu\.((?!toml|py\b)[A-Za-z_]\w*)")
     named = {name: page.name for page in every for text in texts(page) for name in pattern.findall(text)}
-    missing = [name for name in named if not succeeds(f"import pounding_fmu; pounding_fmu.{name}")]
+    # A name in the package, or a module of it.
+    missing = [name for name in named if not succeeds(f"from pounding_fmu import {name}")]
     return [f"{named[name]}: pounding_fmu has no {name}" for name in missing]
 
 
