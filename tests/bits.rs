@@ -73,12 +73,12 @@ fn whole_runs_have_the_bits_of_every_other_machine() {
         (case(laws.hertz_of_another_exponent(), RATIO), 0x7a8f_54b2_38d5_9d09),
         (case(laws.jankowski(), RATIO), 0x8972_646d_98ce_1a18),
         (case(damped(), MATRIX), 0x90e3_e093_6f46_1eba),
-        (Case { storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0x82c8_938f_312a_e067),
+        (Case { storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0x77ea_1154_5190_1fb6),
         (Case { storeys: 9, ..case(damped(), RAYLEIGH) }, 0xdf77_cf51_3a09_4e1a),
         (Case { energy: false, ..case(damped(), RATIO) }, 0x2a0d_0bd6_3b32_da6f),
         (Case { yields: true, ..case(laws.stereomechanical(), RATIO) }, 0x47b4_31b4_c64b_2282),
         (Case { yields: true, ..case(damped(), MATRIX) }, 0x1d7d_742f_a074_4a95),
-        (Case { yields: true, storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0x88c5_4e3f_65ed_9f9a),
+        (Case { yields: true, storeys: 9, energy: false, ..case(laws.jankowski(), RAYLEIGH) }, 0xa7ba_533b_f017_4041),
         (Case { storeys: 45, ..case(laws.hertz(), RAYLEIGH) }, 0xfdad_47b9_0ab7_c325),
     ];
     let got = cases.each_ref().map(|(case, _)| fingerprint(case));

@@ -50,8 +50,8 @@ fn a_force_counts_when_it_is_reached() {
     for k in 0..=400 {
         let contact = run.to(1.21415 + 5e-8 * f64::from(k)).contact(3);
         largest = largest.max(contact.force);
-        let time = run.state.time();
-        assert!(contact.peak_force <= largest, "{time} s: peak {:e} of a force up to {largest:e}", contact.peak_force);
+        let (time, promised) = (run.state.time(), largest * (1.0 + 1e-10));
+        assert!(contact.peak_force <= promised, "{time} s: peak {:e} of a force up to {largest:e}", contact.peak_force);
     }
     assert!(largest > 1e3, "{largest} N");
 }

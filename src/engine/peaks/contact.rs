@@ -20,8 +20,11 @@ use std::ops::Range;
 
 /// Largest error of a quantity's series at the end of a step, relative to its peak, with which the series is searched.
 /// The step length controls velocities only: in an extremely short step an acceleration may be off by any amount, and
-/// its values at both ends suffice. In any other it tells the time of a peak, whose value follows from the motion then.
+/// its values at both ends suffice. In any other it tells at least the time of a peak.
 const TRUSTED: f64 = 1e-6;
+
+/// The same with which the series tells the value too.
+const EXACT: f64 = 1e-11;
 
 impl Model {
     /// Notes forces, penetrations and rates of the contacts at the start of a step.
@@ -201,7 +204,7 @@ impl Model {
         }
         strays.iter_mut().for_each(|stray| *stray += of_ground);
         for (lane, (first, last)) in first_push.iter().zip(&*last_push).enumerate() {
-            (least[lane], most[lane]) = (smaller(*first, *last), larger(*first, *last));
+            (least[lane], most[lane]) = (-larger(-first, -last), larger(*first, *last));
         }
         true
     }
@@ -334,10 +337,11 @@ impl Model {
                 let (terms, order) = quantity.terms(series, Some(substitution));
                 let end = if part.length == step.planned.length { end.x } else { series.x_at(part.length) };
                 let off = value_and_slope(&terms[..=order], end).0 - at_end;
+                let largest = larger(known, at_end.abs());
                 match of {
-                    _ if off.abs() > TRUSTED * larger(known, at_end.abs()) => known,
-                    PeakOf::Acceleration(..) => {
-                        self.highest_acceleration(of, (&terms, end, order), (known, at_end), part, work)
+                    _ if off.abs() > TRUSTED * largest => known,
+                    PeakOf::Acceleration(..) if off.abs() > EXACT * largest => {
+                        self.highest_acceleration(of, (&terms, end, order), known, part, work)
                     }
                     _ => highest(&terms, (end, order), known, &mut work.buffers.powers),
                 }
@@ -364,10 +368,6 @@ fn bound_in_time_map(
     let sag = 0.125 * x * x;
     strays.iter_mut().for_each(|stray| *stray *= sag);
     sag * of_ground
-}
-
-fn smaller(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
 }
 
 /// Bounds on the excess of the floors of a building, or the storeys below them, over their peaks of displacement, drift

@@ -18,10 +18,6 @@ use crate::numerics::powers::Powers;
 use crate::numerics::roots;
 use crate::structure::MotionSeries;
 
-/// Largest difference of an acceleration's series from the equations of motion, relative to it, with which a maximum of the
-/// series is taken.
-const EXACT: f64 = 1e-11;
-
 /// Number of parts into which an onset step is divided to find turning points.
 const PARTS_OF_ONSET: u32 = 6;
 /// Number of parts into which a window is divided.
@@ -99,24 +95,20 @@ impl Model {
     }
 
     /// The largest magnitude of an acceleration within a part of a step that is a power series, from its terms up to an x and
-    /// to an order, or `known` if that is larger; `at_end` is its value at the end.
+    /// to an order, or `known` if that is larger. The values at both ends are known without the series, which only tells the
+    /// time of the peak.
     pub(in crate::engine) fn highest_acceleration(
         &self,
         of: PeakOf,
         (terms, end, order): (&Coefficients, f64, usize),
-        (known, at_end): (f64, f64),
+        known: f64,
         part: &ContactStep,
         work: &mut PeakWork,
     ) -> f64 {
         let mut powers = std::mem::take(&mut work.buffers.powers);
-        let within = |at: f64, value: f64| {
-            let exact = match at {
-                // There the series is what it was made of.
-                0.0 => return value,
-                at if at == end => at_end.abs(),
-                at => self.acceleration_within(of, at, part, work).abs(),
-            };
-            if (value - exact).abs() <= EXACT * exact { value } else { exact }
+        let within = |at: f64, _| match at > 0.0 && at < end {
+            true => self.acceleration_within(of, at, part, work).abs(),
+            false => known,
         };
         let peak = highest_by(terms, (end, order), known, &mut powers, within);
         work.buffers.powers = powers;

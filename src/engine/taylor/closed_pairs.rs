@@ -231,7 +231,8 @@ impl ClosedPairs {
     }
 }
 
-/// Largest difference of a force's series from the law, relative to it, with which a maximum of the series is taken.
+/// Largest difference of a force's series from the law at the end of a step, relative to it, with which a maximum of the
+/// series is taken.
 const TRUSTED: f64 = 1e-11;
 
 impl BlockEnd {
@@ -278,28 +279,25 @@ impl Contact {
         if let Some((_, peak)) = deepest {
             self.episode.peak_penetration = peak;
         }
+        let law = |x: f64| block.force_at(lane, &self.branch(), (x, series.time_rate(x)));
+        let rate = depth.slope / series.time_rate(x);
+        let last = if block.is_elastic() { 0.0 } else { self.branch().value(depth.value, rate) };
         let strongest = match self.branch() {
             force if block.is_elastic() => deepest.map(|(at, peak)| (at, force.value(peak, 0.0))),
             _ => {
                 let terms = |out: &mut Coefficients| block.copy_force(lane, out);
                 let first = (block.force[0][lane], block.force[1][lane]);
-                let known = self.episode.peak_force;
-                let found = roots::maximum_above(first, x, &end.force.of(lane), known, terms);
-                found.filter(|(at, _)| *at < x).map(|(at, peak)| {
-                    let rounded = roots::roughly(at);
-                    let law = block.force_at(lane, &self.branch(), (rounded, series.time_rate(rounded)));
-                    (at, if (peak - law).abs() <= TRUSTED * law { peak } else { law })
-                })
+                let found = roots::maximum_above(first, x, &end.force.of(lane), self.episode.peak_force, terms);
+                let is_trusted = (end.force.value[lane] - last).abs() <= TRUSTED * last;
+                found.map(|(at, peak)| if is_trusted { (at, peak) } else { (at, law(roots::roughly(at).min(x))) })
             }
         };
         if let Some((at, peak)) = strongest {
             self.raise_peak(peak, start + series.time(at));
         }
-        self.penetration = depth.value;
-        self.rate = depth.slope / series.time_rate(x);
+        (self.penetration, self.rate) = (depth.value, rate);
         // The series of a damped force is truncated, and just after an entry it is far off: the peak is the force that the law
         // gives for the motion then, as in the output.
-        let last = if block.is_elastic() { 0.0 } else { self.branch().value(self.penetration, self.rate) };
         self.raise_peak(last, start + series.time(x));
     }
 }

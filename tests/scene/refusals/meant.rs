@@ -33,11 +33,11 @@ fn folders_of_windows() {
     assert_eq!(said(&ground("\"C:\\quakes\\a.csv\"")), expected);
     // Escapes that want digits, a quote that is hidden, a # that begins no comment.
     for (written, meant) in [
-        (r#""C:\Users\me\a.csv""#, "\"C:/Users/me/a.csv\""),
+        (r#""C:\Uni\me\a.csv""#, "\"C:/Uni/me/a.csv\""),
         (r#""C:\users\a.csv" # a comment"#, "\"C:/users/a.csv\""),
         (r#""D:\xray\a.csv""#, "\"D:/xray/a.csv\""),
         (r#""C:\bridges\x.csv""#, "\"C:/bridges/x.csv\""),
-        (r#""C:\Users\me #2\a.csv""#, "\"C:/Users/me #2/a.csv\""),
+        (r#""C:\Uni\me #2\a.csv""#, "\"C:/Uni/me #2/a.csv\""),
         (r#""\\server\share\a.csv""#, "\"//server/share/a.csv\""),
         (r#""C:\data\" # a folder"#, "\"C:/data/\""),
     ] {
