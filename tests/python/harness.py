@@ -1,6 +1,5 @@
 """The two programs under test, scenes made from the default one, and FMUs held by their C interface."""
 
-import importlib
 import os
 import shlex
 import subprocess
@@ -30,15 +29,6 @@ def run(command, *arguments):
     result = subprocess.run([*command, *map(str, arguments)], cwd=ROOT, capture_output=True, text=True)
     assert result.returncode == 0, result.stderr
     return result.stdout
-
-
-def example(name):
-    """A module of the examples."""
-    sys.path.insert(0, str(ROOT / "examples"))
-    try:
-        return importlib.import_module(name)
-    finally:
-        sys.path.remove(str(ROOT / "examples"))
 
 
 def scene_with_record(record=RECORD):

@@ -103,7 +103,8 @@ impl Model {
             self.system.solve_present_reactions(base, inputs, work);
             for (&k, &force) in work.rigid.pairs.iter().zip(&work.rigid.found) {
                 let p = self.system.rigid.pairs[k];
-                point.note_contact(p, ContactPoint { force, ..self.contact_in(base, point, p) });
+                let known = self.contact_in(base, point, p);
+                point.note_contact(p, ContactPoint { force, peak_force: known.peak_force.max(force), ..known });
             }
         }
     }
@@ -145,14 +146,15 @@ impl Model {
     }
 
     fn show(&self, contact: &Contact, penetration: f64) -> ContactPoint {
-        // A reaction that has just begun acts at this instant, and no step has been taken with it.
         let force = contact.present_force();
         let mut shown = ContactPoint {
             force,
             penetration,
             active: contact.in_contact(),
             impacts: contact.impacts,
-            peak_force: contact.peak_force.max(force),
+            // A reaction that has just begun acts at this instant, and no step has been taken with it. Any other force is in
+            // the peak already, but for its rounding, by which a peak must not rise and fall again.
+            peak_force: if contact.is_held() { contact.peak_force.max(force) } else { contact.peak_force },
             impulse: contact.impulse,
             dissipated_energy: contact.dissipated_energy(),
             approach_velocity: contact.episode.approach_velocity.max(0.0), // a touch may have none but its rounding
