@@ -46,7 +46,7 @@ PATHS = {
     "one_law": "code for one kind of law alone (`with_forces!` in `taylor/pair_forces.rs`)",
     "economized": "fewer terms of the kernels of a window (`collocation/economization.rs`)",
     "fast_flight": "many segments in one loop (`advance/fast_flight.rs`)",
-    "near_pairs": "the certificate of that loop in registers (`flight/fast_certificate.rs`)",
+    "near_pairs": "the certificate of that loop in registers (`bounds/cubic_in_registers.rs`)",
     "dismissal": "for how long pairs cannot meet (`flight/broad_phase.rs`)",
     "certificate": "no entry, shown by both ends of a flight (`flight/certificate.rs`)",
     "envelopes": "no entry, shown by amplitudes (`flight/envelope.rs`)",

@@ -4,10 +4,10 @@
 
 use crate::engine::base::counters::Counters;
 use crate::engine::base::{Base, Coordinates};
+use crate::engine::bounds::cubic_in_registers::{NearPairs, SegmentCheck};
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::excitation::segment::Segment;
 use crate::engine::flight::fast_account::{EnergyAccount, NoAccount, SegmentAccount};
-use crate::engine::flight::fast_certificate::{NearPairs, SegmentCheck};
 use crate::engine::model::Model;
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};

@@ -2,13 +2,11 @@
 //! ends, two floors meet or a storey yields.
 
 pub mod accounted;
-pub mod advancement;
 pub mod broad_phase;
 pub mod certificate;
 pub mod elastic;
 pub mod envelope;
 pub mod fast_account;
-pub mod fast_certificate;
 pub mod narrow_phase;
 pub mod propagate;
 pub mod workspace;
@@ -16,10 +14,10 @@ pub mod workspace;
 use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::{At, Planned};
+use crate::engine::bounds::cubic_in_registers::NearPairs;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::flight::broad_phase::{ClosingBounds, NEAR_SEGMENTS};
 use crate::engine::flight::certificate::Certificate;
-use crate::engine::flight::fast_certificate::NearPairs;
 use crate::engine::flight::narrow_phase::Search;
 use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;

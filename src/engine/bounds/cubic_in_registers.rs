@@ -1,6 +1,6 @@
 //! Proof from both ends of each segment that no pair meets in it, while fast flight passes over many segments.
 //!
-//! It is the test of [`super::certificate`] with a bound that is never sharper: every segment accepted here is accepted
+//! It is the test of `flight/certificate.rs` with a bound that is never sharper: every segment accepted here is accepted
 //! there. All pairs are tested side by side, with modes and pairs few enough for registers.
 
 use crate::engine::pairs::pair::Pair;
