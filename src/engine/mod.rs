@@ -43,6 +43,7 @@
 
 mod advance;
 mod base;
+mod bounds;
 mod budget;
 mod diagnosis;
 mod energy;
@@ -54,13 +55,13 @@ mod onset;
 mod output;
 mod pairs;
 mod peaks;
+mod quantities;
 mod rigid;
 mod saved;
 mod state;
 mod step;
 mod system;
 mod taylor;
-mod watched;
 mod window;
 mod yielding;
 
@@ -73,9 +74,9 @@ pub use crate::engine::output::feedthrough::Response;
 pub use crate::engine::output::point::{ContactPoint, EnergyPoint, Point};
 pub use crate::engine::output::point_rates::{ContactRates, EnergyRates, PEAK_ROUNDING, PointRates, Rates};
 pub use crate::engine::output::yielding::YieldingOf;
+pub use crate::engine::quantities::rows::PeakOf;
+pub use crate::engine::quantities::storeys::StoreyPeak;
 pub use crate::engine::saved::SavedState;
 pub use crate::engine::state::State;
-pub use crate::engine::watched::rows::PeakOf;
-pub use crate::engine::watched::storeys::StoreyPeak;
 pub use crate::engine::window::kernels::window_tables;
 pub use crate::structure::Side;

@@ -3,10 +3,10 @@
 use crate::engine::base::Base;
 use crate::engine::budget::{MOST_WORK, most_flights};
 use crate::engine::flight::Flight;
+use crate::engine::quantities::resistance::FloorResistance;
+use crate::engine::quantities::rows::PeakRows;
+use crate::engine::quantities::storeys::Storeys;
 use crate::engine::system::System;
-use crate::engine::watched::resistance::FloorResistance;
-use crate::engine::watched::rows::PeakRows;
-use crate::engine::watched::storeys::Storeys;
 use crate::engine::window::kernels::Windows;
 use crate::record::Record;
 use crate::scene::{Scene, SceneError};

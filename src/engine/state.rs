@@ -134,7 +134,6 @@ impl Model {
 
     /// The initial state at a time, s.
     pub fn start(&self, time: f64) -> State {
-        let _lanes = self.system.structure.lanes;
         let floors = self.floors(Side::Left) + self.floors(Side::Right);
         let mut state = State {
             time,

@@ -3,7 +3,6 @@
 import os
 import shlex
 import subprocess
-import sys
 from ctypes import byref
 from pathlib import Path
 

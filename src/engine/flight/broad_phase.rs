@@ -26,12 +26,13 @@
 
 use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
+use crate::engine::bounds::all_storeys::Reach;
+use crate::engine::bounds::amplitude::{BoundedModes, Closing, Ends, Growth, MARGIN, Seen, Sums, TRIED, bound_one};
+use crate::engine::bounds::stretch::share;
 use crate::engine::excitation::record::GroundMotion;
-use crate::engine::flight::advancement::{BoundedModes, Closing, Ends, Growth, MARGIN, Seen, Sums, TRIED, bound_one};
 use crate::engine::flight::elastic::ElasticBounds;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::system::System;
-use crate::engine::yielding::reach::Reach;
 use crate::engine::yielding::storey::YieldingStorey;
 use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane, ModalDamping, Side, Structure};
@@ -68,7 +69,7 @@ impl ClosingBounds {
             .filter(|side| matches!(structure.modes(*side).damping, ModalDamping::Coupled(_)));
         let coupled: Vec<Range<usize>> = coupled.map(|side| structure.range(side)).collect();
         for range in &coupled {
-            share_amplitude(&mut growth[range.clone()]);
+            share(&mut growth[range.clone()]);
         }
         let omega: Vec<f64> = structure.omega2.iter().map(|w2| w2.sqrt()).collect();
         let mut quickness: Vec<f64> = omega.iter().zip(&structure.damping).map(|(w, c)| w + c).collect();
@@ -152,17 +153,10 @@ impl ClosingBounds {
             size = each(|i| size[i] + mode.weight[i] * moved[i]);
         }
         for range in &self.coupled {
-            share_amplitude(&mut amplitude[range.clone()]);
+            share(&mut amplitude[range.clone()]);
         }
         size.iter().sum()
     }
-}
-
-/// Gives each of some coupled modes the amplitude of all of them together: they exchange energy, and only that
-/// amplitude cannot grow without excitation.
-fn share_amplitude(modes: &mut [f64]) {
-    let whole = modes.iter().map(|e| e * e).sum::<f64>().sqrt();
-    modes.fill(whole);
 }
 
 /// Tests each pair that is not cleared for a segment, and the storeys.

@@ -6,9 +6,9 @@
 
 use crate::engine::base::Base;
 use crate::engine::base::storey::Sense;
-use crate::engine::flight::advancement::{BoundedModes, Closing, Ends, Growth, MARGIN, Seen, TRIED, bound_one};
+use crate::engine::bounds::all_storeys::Reach;
+use crate::engine::bounds::amplitude::{BoundedModes, Closing, Ends, Growth, MARGIN, Seen, TRIED, bound_one};
 use crate::engine::system::System;
-use crate::engine::yielding::reach::Reach;
 
 /// Coefficients of the bounds on storeys; constant during a run.
 #[derive(Debug)]

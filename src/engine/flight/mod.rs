@@ -2,7 +2,6 @@
 //! ends, two floors meet or a storey yields.
 
 pub mod accounted;
-pub mod advancement;
 pub mod broad_phase;
 pub mod certificate;
 pub mod elastic;

@@ -1,14 +1,14 @@
 //! The peaks at the communication time: those of the base, raised over the planned step up to that time.
 
 use crate::engine::base::peaks::Peaks;
+use crate::engine::bounds::stretch::Stretch;
 use crate::engine::model::Model;
 use crate::engine::output::known::PointPeaks;
 use crate::engine::output::point::Point;
-use crate::engine::peaks::flight::Stretch;
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
+use crate::engine::quantities::rows::PeakOf;
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
-use crate::engine::watched::rows::PeakOf;
 
 impl Model {
     /// The largest magnitude so far of the quantity `of`; 0 where the scene keeps no peaks. `state` has to be the one

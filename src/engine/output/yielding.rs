@@ -4,9 +4,9 @@ use crate::engine::base::storey::{Sense, Storey};
 use crate::engine::model::Model;
 use crate::engine::output::point::Point;
 use crate::engine::output::point_rates::{PEAK_ROUNDING, PointRates, Rates};
+use crate::engine::quantities::rows::PeakOf;
+use crate::engine::quantities::storeys::StoreyPeak;
 use crate::engine::state::State;
-use crate::engine::watched::rows::PeakOf;
-use crate::engine::watched::storeys::StoreyPeak;
 use crate::engine::yielding::storey::YieldingStorey;
 use crate::structure::Side;
 

@@ -18,10 +18,12 @@
 
 use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;
+use crate::engine::bounds::amplitude::{Amplitudes, RowBounds, bound_block};
+use crate::engine::bounds::stretch::ModeBounds;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::model::Model;
-use crate::engine::peaks::room::{ModeBounds, PeakWatch, PeakWork, WatchedBlock};
-use crate::engine::watched::rows::{Block, BuildingRows};
+use crate::engine::peaks::room::{PeakWatch, PeakWork, WatchedBlock};
+use crate::engine::quantities::rows::BuildingRows;
 use crate::numerics::polynomial::{each, larger};
 use crate::structure::{LANES, Lane};
 
@@ -32,31 +34,6 @@ const SHORT: u64 = 16;
 
 /// Margin for rounding, relative to bounds.
 const MARGIN: f64 = 1e-10;
-
-/// The modal amplitudes of a building at the base.
-struct Amplitudes<'a> {
-    /// e of each mode.
-    own: &'a [f64],
-    /// e / w of each mode.
-    over_w: &'a [f64],
-    /// (w + c) e of each mode.
-    quick: &'a [f64],
-    /// w^2 e of each mode.
-    bent: &'a [f64],
-    /// Damping c of each mode, 1/s.
-    damping: &'a [f64],
-}
-
-/// The bounds on |y|, |y'| and |y''| without ground acceleration.
-#[derive(Default)]
-struct Reach {
-    /// On |y|.
-    swing: Lane,
-    /// On |y'|.
-    rate: Lane,
-    /// On |y''|.
-    bend: Lane,
-}
 
 impl Model {
     /// Looks ahead from the base, which is in the segment with that number, for the blocks that may exceed a peak;
@@ -117,7 +94,7 @@ impl Model {
             let amplitudes = self.amplitudes_of(building, &work.peaks.bounds);
             for (b, block) in building.blocks.iter().enumerate() {
                 let watched = &mut work.peaks.watch.blocks[building.first + b];
-                let Reach { swing, rate, bend } = reach(block, &amplitudes);
+                let RowBounds { swing, rate, bend } = bound_block(block, &amplitudes);
                 let (peaks, growth) = (&values[building.first + b], &block.growth);
                 let at_rest = base.rest.watched.as_chunks::<LANES>().0[building.first + b];
                 let most = |cumulative: f64| {
@@ -241,41 +218,4 @@ impl WatchedBlock {
         // The conversion makes 0 of negative numbers and NaN.
         (least - MARGIN) as u64
     }
-}
-
-/// The values of a block.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-pub fn values_of(block: &Block, q: &[f64], v: &[f64]) -> Lane {
-    block.values(q, v)
-}
-
-/// The bounds of a block.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn reach(block: &Block, amplitudes: &Amplitudes) -> Reach {
-    let count = block.on_q.len();
-    // Equal lengths: no bounds checks below.
-    let Amplitudes { own, over_w, quick, bent, damping } = amplitudes;
-    let (own, over_w, quick, bent, damping) =
-        (&own[..count], &over_w[..count], &quick[..count], &bent[..count], &damping[..count]);
-    let mut reach = Reach::default();
-    if block.on_v.is_empty() {
-        for m in 0..count {
-            for i in 0..LANES {
-                let a = block.on_q[m][i].abs();
-                reach.swing[i] += a * over_w[m];
-                reach.rate[i] += a * own[m];
-                reach.bend[i] += a * quick[m];
-            }
-        }
-        return reach;
-    }
-    for (m, (on_q, on_v)) in block.on_q.iter().zip(&block.on_v).enumerate().take(count) {
-        for i in 0..LANES {
-            let (a, b) = (on_q[i], on_v[i]);
-            reach.swing[i] += a.abs() * over_w[m] + b.abs() * own[m];
-            reach.rate[i] += a.abs() * own[m] + b.abs() * quick[m];
-            reach.bend[i] += (a - b * damping[m]).abs() * quick[m] + b.abs() * bent[m];
-        }
-    }
-    reach
 }

@@ -8,7 +8,7 @@
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::model::Model;
 use crate::engine::peaks::room::{FloorRoom, FloorState};
-use crate::engine::watched::resistance::Resistance;
+use crate::engine::quantities::resistance::Resistance;
 use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Side};
 

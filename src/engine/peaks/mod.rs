@@ -23,11 +23,11 @@ pub mod search;
 
 use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;
+use crate::engine::bounds::stretch::Stretch;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
 use crate::engine::step::Step;
-use flight::Stretch;
 
 impl Model {
     /// Peaks of 0.
@@ -93,7 +93,8 @@ impl Model {
                 let mut peaks = std::mem::take(&mut base.peaks);
                 let flight = segment_flight(base, start, ground, (&load, &slope));
                 if !std::mem::replace(&mut is_bounded, true) {
-                    self.bound_modes(building, &flight, &mut work.peaks.bounds, &mut work.buffers.node_v);
+                    let jerk = &mut work.buffers.node_v;
+                    work.peaks.bounds.set(&self.system.structure, building.modes.clone(), &flight, jerk);
                 }
                 self.check_block(building, b, (&flight, known_ends), &mut peaks, work);
                 base.peaks = peaks;

@@ -2,8 +2,7 @@
 
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::model::Model;
-use crate::engine::peaks::ahead::values_of;
-use crate::engine::watched::rows::{BuildingRows, PeakOf};
+use crate::engine::quantities::rows::{BuildingRows, PeakOf, values_of};
 use crate::engine::yielding::storey::YieldingStorey;
 use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane};

@@ -1,8 +1,9 @@
 //! Scratch memory for peaks, and results that are kept from segment to segment and from quantity to quantity. None of
 //! it changes a result, so no saved state holds it.
 
+use crate::engine::bounds::stretch::ModeBounds;
+use crate::engine::quantities::rows::{PeakOf, PeakRows};
 use crate::engine::system::buffers::Buffers;
-use crate::engine::watched::rows::{PeakOf, PeakRows};
 use crate::structure::{LANES, Lane, Structure};
 
 /// Number of motions within a flight that are kept.
@@ -177,43 +178,6 @@ impl PeakWatch {
     /// Whether a block cannot exceed its peaks in a segment.
     pub fn is_clear(&self, block: usize, segment: u64) -> bool {
         self.blocks[block].clear_until > segment
-    }
-}
-
-/// Bounds on each mode over a flight.
-#[derive(Clone, Debug, Default)]
-pub struct ModeBounds {
-    /// Modal accelerations relative to the ground at the start.
-    pub first: Vec<f64>,
-    /// Modal accelerations relative to the ground at the end.
-    pub last: Vec<f64>,
-    /// Amplitude of each mode's oscillation about its quasi-static displacement, in q'.
-    pub swing: Vec<f64>,
-    /// The same amplitude in q.
-    pub swing_q: Vec<f64>,
-    /// Quasi-static displacements at the start and at the end.
-    pub held: [Vec<f64>; 2],
-    /// Rate of the quasi-static displacements.
-    pub held_rate: Vec<f64>,
-    /// Factors of |A| in the bound on a fourth derivative (looking ahead: on a first one).
-    pub slow: Vec<f64>,
-    /// Factors of |B| in the bound on a fourth derivative (looking ahead: on a second one).
-    pub quick: Vec<f64>,
-}
-
-impl ModeBounds {
-    pub fn new(lanes: usize) -> ModeBounds {
-        let vector = || vec![0.0; lanes];
-        ModeBounds {
-            first: vector(),
-            last: vector(),
-            swing: vector(),
-            swing_q: vector(),
-            held: [vector(), vector()],
-            held_rate: vector(),
-            slow: vector(),
-            quick: vector(),
-        }
     }
 }
 

@@ -3,11 +3,13 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::peaks::Peaks;
+use crate::engine::bounds::cubic::course_of;
+use crate::engine::bounds::envelope::stay_below;
+use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::model::Model;
-use crate::engine::peaks::flight::{Stretch, course_of, stay_below};
-use crate::engine::peaks::room::{MOST_FLOWN, ModeBounds, PeakWork, Suspect};
+use crate::engine::peaks::room::{MOST_FLOWN, PeakWork, Suspect};
+use crate::engine::quantities::rows::{BuildingRows, PeakOf};
 use crate::engine::system::buffers::Buffers;
-use crate::engine::watched::rows::{BuildingRows, PeakOf};
 use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS, larger};
 use crate::numerics::powers::{Powers, Reading};
 use crate::numerics::roots;
@@ -175,7 +177,7 @@ impl Model {
             let Some(side) = suspects.iter().find(|s| s.cleared_in.is_none()).map(|s| s.of.side()) else { continue };
             let building = &self.peak_rows.buildings[side as usize];
             if bounded.replace(side) != Some(side) {
-                self.bound_modes(building, &own, &mut peaks.piece, jerk);
+                peaks.piece.set(&self.system.structure, building.modes.clone(), &own, jerk);
             }
             self.compare_block(building, (&own, piece, until), suspects, (&peaks.piece, &peaks.direct));
         }

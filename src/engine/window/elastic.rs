@@ -3,10 +3,10 @@
 
 use crate::engine::base::Base;
 use crate::engine::base::storey::Sense;
+use crate::engine::bounds::all_storeys::Reach;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::window::solution::Window;
-use crate::engine::yielding::reach::Reach;
 
 /// Margin for rounding.
 const MARGIN: f64 = 1e-10;

@@ -205,3 +205,28 @@ impl Block {
         Block { on_q, on_v, growth }
     }
 }
+
+/// The values of a block.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+pub fn values_of(block: &Block, q: &[f64], v: &[f64]) -> Lane {
+    block.values(q, v)
+}
+
+impl Block {
+    /// The values of the quantities.
+    #[inline(always)]
+    pub fn values(&self, q: &[f64], v: &[f64]) -> Lane {
+        let mut sum = [0.0; LANES];
+        for (row, q) in self.on_q.iter().zip(q) {
+            for i in 0..LANES {
+                sum[i] += row[i] * q;
+            }
+        }
+        for (row, v) in self.on_v.iter().zip(v) {
+            for i in 0..LANES {
+                sum[i] += row[i] * v;
+            }
+        }
+        sum
+    }
+}

@@ -1,0 +1,96 @@
+//! A block of quantities over a stretch of exact motion, from both of its ends: the cubic through values and slopes,
+//! and the bound on its error, h^4/384 max|y''''| \[BirkhoffPriver1967\].
+
+use crate::engine::bounds::stretch::{ModeBounds, Stretch};
+use crate::engine::quantities::rows::{Block, values_of};
+use crate::numerics::polynomial::{each, larger};
+use crate::numerics::roots;
+use crate::structure::{LANES, Lane};
+use std::ops::Range;
+
+/// The quantities of a block over a flight.
+#[derive(Clone, Copy, Default)]
+pub struct Course {
+    /// Values and slopes at the start.
+    pub start: [Lane; 2],
+    /// Values and slopes at the end.
+    pub end: [Lane; 2],
+    /// Bounds on their fourth derivatives.
+    pub fourth: Lane,
+}
+
+/// The quantities of a block, with their values at rest, at both ends of a flight, of which its values may be known.
+pub fn course_of(
+    (block, at_rest): (&Block, &Lane),
+    (flight, known_ends): (&Stretch, Option<[Lane; 2]>),
+    bounds: &ModeBounds,
+    modes: Range<usize>,
+) -> Course {
+    let [q, rate] = [flight.start.0, flight.start.1].map(|vector| &vector[modes.clone()]);
+    let [end_q, end_rate] = [flight.end.0, flight.end.1].map(|vector| &vector[modes.clone()]);
+    let [first, last, slow, quick] =
+        [&bounds.first, &bounds.last, &bounds.slow, &bounds.quick].map(|vector| &vector[modes.clone()]);
+    let mut course = sum_course(block, [rate, first, end_rate, last], [slow, quick]);
+    [course.start[0], course.end[0]] = known_ends.unwrap_or_else(|| {
+        let ends = [values_of(block, q, rate), values_of(block, end_q, end_rate)];
+        ends.map(|values| each(|i| values[i] + at_rest[i]))
+    });
+    course
+}
+
+/// Their slopes and the bounds on their fourth derivatives, from the modes' v and accelerations at both ends and the
+/// factors of these bounds.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn sum_course(block: &Block, ends: [&[f64]; 4], [slow, quick]: [&[f64]; 2]) -> Course {
+    let count = block.on_q.len();
+    // Equal lengths: no bounds checks below.
+    let [v, a, end_v, end_a] = ends.map(|vector| &vector[..count]);
+    let (slow, quick) = (&slow[..count], &quick[..count]);
+    let mut course = Course::default();
+    let Course { start: [_, rate], end: [_, end_rate], fourth } = &mut course;
+    for m in 0..count {
+        let row = &block.on_q[m];
+        for i in 0..LANES {
+            rate[i] += row[i] * v[m];
+            end_rate[i] += row[i] * end_v[m];
+            fourth[i] += row[i].abs() * slow[m];
+        }
+    }
+    for (m, row) in block.on_v.iter().enumerate().take(count) {
+        for i in 0..LANES {
+            rate[i] += row[i] * a[m];
+            end_rate[i] += row[i] * end_a[m];
+            fourth[i] += row[i].abs() * quick[m];
+        }
+    }
+    course
+}
+
+impl Course {
+    /// Adds to the quantities numbers that are linear in time, over an interval of h seconds that starts at `from`.
+    pub fn add(&mut self, direct: &[[f64; 2]], from: f64, h: f64) {
+        for (i, [value, rate]) in direct.iter().enumerate().take(LANES) {
+            self.start[0][i] += value + rate * from;
+            self.start[1][i] += rate;
+            self.end[0][i] += value + rate * (from + h);
+            self.end[1][i] += rate;
+        }
+    }
+
+    /// Upper bounds on the magnitudes over the flight.
+    pub fn highest(&self, h: f64) -> Lane {
+        let ([start, rate], [end, end_rate]) = (&self.start, &self.end);
+        let (third, share) = (h / 3.0, (h * h) * (h * h) / 384.0);
+        each(|i| {
+            let controls = larger((start[i] + third * rate[i]).abs(), (end[i] - third * end_rate[i]).abs());
+            larger(larger(start[i].abs(), end[i].abs()), controls) + share * self.fourth[i]
+        })
+    }
+
+    /// Whether quantity `i` may have a turning point in between, above its peak.
+    pub fn may_turn_above(&self, i: usize, h: f64, peak: f64) -> bool {
+        let (start, rate, end, end_rate) = (self.start[0][i], self.start[1][i], self.end[0][i], self.end[1][i]);
+        roots::may_turn_above((start, rate), (end, end_rate), (h, self.fourth[i]), peak)
+            || roots::may_turn_above((-start, -rate), (-end, -end_rate), (h, self.fourth[i]), peak)
+    }
+}

@@ -1,0 +1,141 @@
+//! An exact motion between two times, and bounds on its modes in between.
+
+use crate::numerics::polynomial::larger;
+use crate::structure::Structure;
+use std::ops::Range;
+
+/// Margin for rounding, relative to the terms of an amplitude.
+pub const MARGIN: f64 = 1e-12;
+
+/// A flight of both buildings, or a part of one.
+pub struct Stretch<'a> {
+    /// q and v of all modes at the start.
+    pub start: (&'a [f64], &'a [f64]),
+    /// q and v of all modes at the end.
+    pub end: (&'a [f64], &'a [f64]),
+    /// The modal load at the start and its rate, per second.
+    pub loads: (&'a [f64], &'a [f64]),
+    /// The watched quantities at rest, which those of the motion are added to.
+    pub rest: &'a [f64],
+    /// Ground acceleration at the start, m/s2, and its slope, m/s3.
+    pub ground: (f64, f64),
+    /// Length, s.
+    pub length: f64,
+    /// Whether the amplitudes of the modes have been compared with the peaks for some segments at once
+    /// (`peaks/ahead.rs`), so that doing so for this one is seldom worth it.
+    pub is_watched: bool,
+    /// The whole flight, of which this is the first part; `None` if it is whole itself.
+    pub whole: Option<&'a Stretch<'a>>,
+}
+
+/// Bounds on each mode over a flight.
+#[derive(Clone, Debug, Default)]
+pub struct ModeBounds {
+    /// Modal accelerations relative to the ground at the start.
+    pub first: Vec<f64>,
+    /// Modal accelerations relative to the ground at the end.
+    pub last: Vec<f64>,
+    /// Amplitude of each mode's oscillation about its quasi-static displacement, in q'.
+    pub swing: Vec<f64>,
+    /// The same amplitude in q.
+    pub swing_q: Vec<f64>,
+    /// Quasi-static displacements at the start and at the end.
+    pub held: [Vec<f64>; 2],
+    /// Rate of the quasi-static displacements.
+    pub held_rate: Vec<f64>,
+    /// Factors of |A| in the bound on a fourth derivative (looking ahead: on a first one).
+    pub slow: Vec<f64>,
+    /// Factors of |B| in the bound on a fourth derivative (looking ahead: on a second one).
+    pub quick: Vec<f64>,
+}
+
+impl ModeBounds {
+    pub fn new(lanes: usize) -> ModeBounds {
+        let vector = || vec![0.0; lanes];
+        ModeBounds {
+            first: vector(),
+            last: vector(),
+            swing: vector(),
+            swing_q: vector(),
+            held: [vector(), vector()],
+            held_rate: vector(),
+            slow: vector(),
+            quick: vector(),
+        }
+    }
+
+    /// Works out bounds on a building's modes over a flight: on their derivatives, and on their oscillations.
+    pub fn set(&mut self, structure: &Structure, modes: Range<usize>, flight: &Stretch, jerk: &mut [f64]) {
+        let h = flight.length;
+        let ((q, v), (end_q, end_v), (load, slope)) = (flight.start, flight.end, flight.loads);
+        for m in modes.clone() {
+            let (w2, c) = (structure.omega2[m], structure.damping[m]);
+            self.first[m] = load[m] - c * v[m] - w2 * q[m];
+            self.last[m] = load[m] + slope[m] * h - c * end_v[m] - w2 * end_q[m];
+        }
+        if !structure.is_classical() {
+            structure.subtract_coupling(v, 1.0, &mut self.first);
+            structure.subtract_coupling(end_v, 1.0, &mut self.last);
+        }
+        for m in modes.clone() {
+            jerk[m] = slope[m] - structure.damping[m] * self.first[m] - structure.omega2[m] * v[m];
+        }
+        if !structure.is_classical() {
+            structure.subtract_coupling(&self.first, 1.0, jerk);
+        }
+        for m in modes.clone() {
+            let (w2, acceleration) = (structure.omega2[m], self.first[m]);
+            self.slow[m] = (jerk[m] * jerk[m] + w2 * acceleration * acceleration).sqrt();
+        }
+        let is_coupled = structure.couples(modes.start);
+        if is_coupled {
+            share(&mut self.slow[modes.clone()]);
+        }
+        for m in modes.clone() {
+            let (w2, c) = (structure.omega2[m], structure.damping[m]);
+            let (speed, change) = match is_coupled {
+                true => (2.0 * structure.fastest, 3.0 * structure.fastest * structure.fastest),
+                false => (structure.quickness[m], c * structure.quickness[m] + w2),
+            };
+            self.quick[m] = change * self.slow[m];
+            self.slow[m] *= speed;
+        }
+        if !flight.is_watched {
+            self.set_swings(structure, modes, flight, is_coupled);
+        }
+    }
+
+    /// Works out bounds on the oscillation of a building's modes about their quasi-static displacements (see
+    /// `flight/envelope.rs`).
+    fn set_swings(&mut self, structure: &Structure, modes: Range<usize>, flight: &Stretch, is_coupled: bool) {
+        let ((q, v), (load, slope)) = (flight.start, flight.loads);
+        // With coupled modes the quasi-static displacement under a changing load is not worked out: the whole load is
+        // taken to increase the amplitude.
+        let is_pushed = is_coupled && slope[modes.clone()].iter().any(|slope| *slope != 0.0);
+        let [held, held_end] = &mut self.held;
+        for m in modes.clone() {
+            let (w2, c) = (structure.omega2[m], structure.damping[m]);
+            let rate = if is_pushed { 0.0 } else { slope[m] / w2 };
+            held[m] = if is_pushed { 0.0 } else { load[m] / w2 - c * rate / w2 };
+            (self.held_rate[m], held_end[m]) = (rate, held[m] + rate * flight.length);
+            let (h, dh) = (q[m] - held[m], v[m] - rate);
+            self.swing[m] = (dh * dh + w2 * h * h).sqrt() + MARGIN * w2.sqrt() * (held[m].abs() + q[m].abs());
+        }
+        if is_coupled {
+            share(&mut self.swing[modes.clone()]);
+        }
+        for m in modes {
+            if is_pushed {
+                let end = load[m] + slope[m] * flight.length;
+                self.swing[m] += flight.length * larger(load[m].abs(), end.abs());
+            }
+            self.swing_q[m] = self.swing[m] / structure.omega2[m].sqrt();
+        }
+    }
+}
+
+/// Gives each of some coupled modes the amplitude of all together: they exchange energy, and any may get all of it.
+pub fn share(modes: &mut [f64]) {
+    let whole = modes.iter().map(|e| e * e).sum::<f64>().sqrt();
+    modes.fill(whole);
+}
