@@ -2,10 +2,12 @@
 
 use crate::engine::base::Base;
 use crate::engine::budget::{MOST_WORK, most_flights};
+use crate::engine::excitation::record::GroundMotion;
 use crate::engine::flight::Flight;
 use crate::engine::quantities::resistance::FloorResistance;
 use crate::engine::quantities::rows::PeakRows;
 use crate::engine::quantities::storeys::Storeys;
+use crate::engine::quantities::truncated::TruncatedRows;
 use crate::engine::system::System;
 use crate::engine::window::kernels::Windows;
 use crate::record::Record;
@@ -22,6 +24,7 @@ pub struct Model {
     pub(in crate::engine) flight: Flight,
     pub(in crate::engine) windows: Option<Windows>,
     pub(in crate::engine) peak_rows: PeakRows,
+    pub(in crate::engine) truncated: TruncatedRows,
     pub(in crate::engine) resistance: FloorResistance,
     pub(in crate::engine) storeys: Storeys,
     /// Natural frequencies of the left and the right building, ascending, Hz.
@@ -35,10 +38,13 @@ impl Model {
     pub fn new(scene: &Scene, record: Option<&Record>) -> Result<Model, SceneError> {
         let system = System::of(scene, record)?;
         let structure = &system.structure;
+        let peak_rows = PeakRows::of(structure, scene.peaks);
+        let usual = system.ground.as_ref().map(GroundMotion::usual_length);
         Ok(Model {
             flight: Flight::new(&system),
             windows: Windows::of(&system),
-            peak_rows: PeakRows::of(structure, scene.peaks),
+            truncated: TruncatedRows::of(structure, &peak_rows, usual),
+            peak_rows,
             resistance: FloorResistance::of(structure),
             frequencies: [Side::Left, Side::Right]
                 .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),

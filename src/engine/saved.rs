@@ -41,10 +41,12 @@ pub struct SavedState {
     counters: Counters,
 }
 
-impl State {
-    /// The data from which [`Model::restore`] brings the state back.
-    pub fn save(&self) -> SavedState {
-        let State { time, base, step, inputs, counters, work: _ } = self;
+impl Model {
+    /// The data from which [`Model::restore`] brings the state back. The peaks in it are those of all steps so far, which the
+    /// state keeps, too; nothing else of it changes.
+    pub fn save(&self, state: &mut State) -> SavedState {
+        self.fold_log(&mut state.base, &mut state.work);
+        let State { time, base, step, inputs, counters, work: _ } = state;
         let is_planned = step.kind != StepKind::NotPlanned;
         SavedState { time: *time, base: base.clone(), is_planned, inputs: inputs.clone(), counters: *counters }
     }
@@ -77,6 +79,7 @@ impl Model {
         self.set_rest(&mut state.base);
         state.inputs.clone_from(inputs);
         state.work.peaks.forget();
+        state.work.log.clear();
         state.step.kind = StepKind::NotPlanned;
         if *is_planned {
             let limit = self.limit(&state.base.segment, state.time);

@@ -7,6 +7,7 @@ use crate::engine::base::{Account, Base};
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::flight::workspace::Look;
 use crate::engine::model::Model;
+use crate::engine::peaks::log::PeakLog;
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
 use crate::engine::step::{Step, StepKind};
 use crate::engine::system::buffers::Buffers;
@@ -90,13 +91,16 @@ impl State {
     }
 }
 
-/// Scratch memory of all kinds of steps; its content means nothing between calls, but for the noted instants.
+/// Scratch memory of all kinds of steps; its content means nothing between calls, but for the logged flights and
+/// the noted instants.
 #[derive(Clone, Debug)]
 pub struct Workspace {
     pub buffers: Buffers,
     pub look: Look,
     pub windows: WindowWorkspace,
     pub peaks: PeakRoom,
+    /// The flights over which the peaks of the base have not been raised yet.
+    pub log: PeakLog,
     /// The instants at which storeys have begun to yield or turned, s, where somebody asks for them.
     pub switches: Option<Vec<f64>>,
 }
@@ -121,6 +125,7 @@ impl Workspace {
             look: Look::new(lanes, (pairs, model.system.storeys.len())),
             windows: WindowWorkspace::new(model.windows.as_ref().map_or(0, |_| pairs)),
             peaks: PeakRoom::new(&model.system.structure, &model.peak_rows, pairs),
+            log: PeakLog::new(if model.logs_flights() { lanes } else { 0 }),
             switches: None,
         }
     }

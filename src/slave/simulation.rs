@@ -57,8 +57,8 @@ impl Simulation {
         &self.model
     }
 
-    pub fn save(&self) -> SavedRun {
-        SavedRun { model: Arc::clone(&self.model), state: self.state.save() }
+    pub fn save(&mut self) -> SavedRun {
+        SavedRun { model: Arc::clone(&self.model), state: self.model.save(&mut self.state) }
     }
 
     /// The run of that time again; `present`, if it is one of the same model, lends its memory.

@@ -15,7 +15,7 @@ impl Slave {
             phase: self.phase,
             time: self.time,
             stop_time: self.stop_time,
-            run: self.simulation.as_ref().map(Simulation::save),
+            run: self.simulation.as_mut().map(Simulation::save),
         };
         self.snapshots.keep(snapshot, earlier)
     }

@@ -8,12 +8,14 @@ use crate::engine::excitation::record::GroundMotion;
 use crate::engine::excitation::segment::Segment;
 use crate::engine::flight::fast_account::{EnergyAccount, NoAccount, SegmentAccount};
 use crate::engine::model::Model;
+use crate::engine::peaks::LEFT;
+use crate::engine::peaks::log::{Logged, PeakLog};
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
 
-/// Largest number of segments in one pass of the loop, between looks at pairs and peaks.
+/// Largest number of segments in one pass of the loop, between looks at pairs.
 const MOST_AT_ONCE: u64 = 64;
 
 /// The result of a fast flight.
@@ -43,21 +45,11 @@ impl Model {
                 if !is_planned {
                     step.kind = StepKind::Deferred;
                     self.count_flown(counters, 1);
-                    // For whoever reads a peak within the segment.
-                    self.watch_peaks(ground, base, next, &mut work.for_peaks());
                 }
                 break true;
             }
-            let end = base.clearance.due().min(next + MOST_AT_ONCE);
-            let clear = self.watch_peaks(ground, base, next, &mut work.for_peaks());
-            let is_checked = clear == next;
-            let end = end.min(if is_checked { next + 1 } else { clear });
-            let segments = next..end.min(first.saturating_add(most));
-            if is_checked {
-                work.buffers.q.copy_from_slice(&base.q);
-                work.buffers.v.copy_from_slice(&base.v);
-            }
-            let flown = fly_over(self, ground, base, step, segments, until);
+            let end = base.clearance.due().min(next + MOST_AT_ONCE).min(first.saturating_add(most));
+            let flown = self.fly_and_log(ground, (base, step, work), next..end, until);
             if flown == 0 {
                 break false;
             }
@@ -65,9 +57,6 @@ impl Model {
             // No contact has a flag to clear: none was at the surface at the start, and tracked ones are not cleared.
             base.clearance.move_on(flown);
             self.count_flown(counters, flown - u64::from(is_planned));
-            if is_checked {
-                self.check_flown(base, next, work);
-            }
             step.kind = StepKind::NotPlanned;
             next += flown;
             base.segment = ground.segment(next);
@@ -75,12 +64,28 @@ impl Model {
         FastRun { flown: next - first, has_arrived }
     }
 
-    /// Raises the peaks over the segment with that number, which has been flown from the motion in `work` to the base.
-    #[inline(never)]
-    fn check_flown(&self, base: &mut Base, segment: u64, work: &mut Workspace) {
-        let start = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));
-        self.raise_over_segment(base, segment, (&start.0, &start.1), &mut work.for_peaks());
-        (work.buffers.q, work.buffers.v) = start;
+    /// Flies over segments that end by `until`, and logs them where peaks are kept; returns their number.
+    #[inline(always)]
+    fn fly_and_log(
+        &self,
+        ground: &GroundMotion,
+        (base, step, work): (&mut Base, &mut Step, &mut Workspace),
+        segments: Range<u64>,
+        until: f64,
+    ) -> u64 {
+        if !self.logs_flights() {
+            return fly_over(self, ground, (base, step), segments, until, None);
+        }
+        if work.log.room() <= LEFT {
+            self.fold_log(base, work);
+        }
+        let log = &mut work.log;
+        log.go_on((&base.q, &base.v), base.segment.acceleration_at(0.0));
+        let segments = segments.start..segments.end.min(segments.start + (log.room() - 1) as u64);
+        let before = log.count();
+        let flown = fly_over(self, ground, (base, step), segments, until, Some(log));
+        log.truncate(before + flown as usize);
+        flown
     }
 
     /// Broad phase: tests the pairs that are not cleared for the base's segment, which has that number; returns whether
@@ -129,14 +134,21 @@ impl Model {
 fn fly_over(
     model: &Model,
     ground: &GroundMotion,
-    base: &mut Base,
-    step: &mut Step,
+    (base, step): (&mut Base, &mut Step),
     segments: Range<u64>,
     until: f64,
+    log: Option<&mut PeakLog>,
 ) -> u64 {
-    match EnergyAccount::of(ground, base) {
-        Some(account) => fly_cleared(model, ground, (base, step), account, segments, until),
-        None => fly_cleared(model, ground, (base, step), NoAccount, segments, until),
+    let (account, length) = (EnergyAccount::of(ground, base), base.segment.length);
+    match (account, log) {
+        (Some(account), None) => fly_cleared(model, ground, (base, step), account, segments, until),
+        (None, None) => fly_cleared(model, ground, (base, step), NoAccount, segments, until),
+        (Some(account), Some(log)) => {
+            fly_cleared(model, ground, (base, step), Logged { account, log, length }, segments, until)
+        }
+        (None, Some(log)) => {
+            fly_cleared(model, ground, (base, step), Logged { account: NoAccount, log, length }, segments, until)
+        }
     }
 }
 

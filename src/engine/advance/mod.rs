@@ -122,7 +122,9 @@ impl Model {
         if let Some(event) = planned.event {
             counters.events += 1;
             base.clearance.restart();
-            work.peaks.restart();
+            if work.log.is_open() {
+                work.log.close((&base.q, &base.v));
+            }
             work.note(event, base.time());
             self.handle(base, event, &mut work.buffers, on_episode);
         }
@@ -209,19 +211,19 @@ impl Model {
         }
     }
 
-    /// Moves the contacts through the step to its end, and raises the peaks over it.
+    /// Moves the contacts through the step to its end, and logs it or raises the peaks over it.
     fn follow_and_raise(&self, base: &mut Base, step: &Step, inputs: &Inputs, end: f64, work: &mut Workspace) {
-        let work = &mut work.for_peaks();
         let start = base.time();
         let is_watched = !self.peak_rows.are_none() && step.planned.length > 0.0;
         let is_flight = step.kind == StepKind::Flight;
         match is_flight && is_watched {
-            true => self.raise_over_flight(base, step, inputs, work),
-            false => self.note_starts(&base.contacts, work),
+            true if self.logs_flights() => self.log_flight(base, step, work),
+            true => self.raise_over_flight(base, step, inputs, &mut work.for_peaks()),
+            false => self.note_starts(&base.contacts, &mut work.for_peaks()),
         }
         step.follow(&self.system, &mut base.contacts, start);
         if is_watched && !is_flight {
-            self.raise_over_step(base, step, inputs, end, work);
+            self.raise_over_step(base, step, inputs, end, &mut work.for_peaks());
         }
     }
 }

@@ -18,6 +18,9 @@ impl Model {
             _ => return,
         }
         let State { base, step, inputs, counters, work, .. } = state;
+        if base.is_forced() {
+            self.leave_flight(base, work);
+        }
         let mut at = At { base, inputs, counters };
         step.kind = match at.base.is_forced() {
             true => self.plan_forced(&mut at, step, work, limit),

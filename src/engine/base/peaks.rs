@@ -33,6 +33,11 @@ impl Peaks {
         &self.values.as_chunks::<LANES>().0[block]
     }
 
+    /// Raises each peak to another one.
+    pub fn raise_all(&mut self, others: &Peaks) {
+        self.values.iter_mut().zip(&others.values).for_each(|(peak, other)| *peak = larger(*peak, *other));
+    }
+
     /// Raises the peak at an index to the magnitude of a value.
     pub fn raise(&mut self, place: usize, value: f64) {
         let peak = &mut self.values[place];

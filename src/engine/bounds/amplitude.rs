@@ -4,7 +4,6 @@
 use crate::engine::base::Base;
 use crate::engine::base::clearance::MOST;
 use crate::engine::excitation::record::Ahead;
-use crate::engine::quantities::rows::Block;
 use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane};
 
@@ -183,60 +182,4 @@ impl Sums {
         }
         Sums { speed, change, bend }
     }
-}
-
-/// The modal amplitudes of a building at the base.
-pub struct Amplitudes<'a> {
-    /// e of each mode.
-    pub own: &'a [f64],
-    /// e / w of each mode.
-    pub over_w: &'a [f64],
-    /// (w + c) e of each mode.
-    pub quick: &'a [f64],
-    /// w^2 e of each mode.
-    pub bent: &'a [f64],
-    /// Damping c of each mode, 1/s.
-    pub damping: &'a [f64],
-}
-
-/// The bounds on |y|, |y'| and |y''| without ground acceleration.
-#[derive(Default)]
-pub struct RowBounds {
-    /// On |y|.
-    pub swing: Lane,
-    /// On |y'|.
-    pub rate: Lane,
-    /// On |y''|.
-    pub bend: Lane,
-}
-
-/// The bounds of a block.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-pub fn bound_block(block: &Block, amplitudes: &Amplitudes) -> RowBounds {
-    let count = block.on_q.len();
-    // Equal lengths: no bounds checks below.
-    let Amplitudes { own, over_w, quick, bent, damping } = amplitudes;
-    let (own, over_w, quick, bent, damping) =
-        (&own[..count], &over_w[..count], &quick[..count], &bent[..count], &damping[..count]);
-    let mut bounds = RowBounds::default();
-    if block.on_v.is_empty() {
-        for m in 0..count {
-            for i in 0..LANES {
-                let a = block.on_q[m][i].abs();
-                bounds.swing[i] += a * over_w[m];
-                bounds.rate[i] += a * own[m];
-                bounds.bend[i] += a * quick[m];
-            }
-        }
-        return bounds;
-    }
-    for (m, (on_q, on_v)) in block.on_q.iter().zip(&block.on_v).enumerate().take(count) {
-        for i in 0..LANES {
-            let (a, b) = (on_q[i], on_v[i]);
-            bounds.swing[i] += a.abs() * over_w[m] + b.abs() * own[m];
-            bounds.rate[i] += a.abs() * own[m] + b.abs() * quick[m];
-            bounds.bend[i] += (a - b * damping[m]).abs() * quick[m] + b.abs() * bent[m];
-        }
-    }
-    bounds
 }

@@ -6,4 +6,5 @@ pub mod all_storeys;
 pub mod amplitude;
 pub mod cubic;
 pub mod envelope;
+pub mod span;
 pub mod stretch;

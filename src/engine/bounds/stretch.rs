@@ -35,6 +35,9 @@ pub struct ModeBounds {
     pub first: Vec<f64>,
     /// Modal accelerations relative to the ground at the end.
     pub last: Vec<f64>,
+    /// E = sqrt(q'''^2 + w^2 q''^2), which never grows: a bound on |q'''|; and E / w, one on |q''|.
+    pub energy: Vec<f64>,
+    pub energy_over_w: Vec<f64>,
     /// Amplitude of each mode's oscillation about its quasi-static displacement, in q'.
     pub swing: Vec<f64>,
     /// The same amplitude in q.
@@ -55,6 +58,8 @@ impl ModeBounds {
         ModeBounds {
             first: vector(),
             last: vector(),
+            energy: vector(),
+            energy_over_w: vector(),
             swing: vector(),
             swing_q: vector(),
             held: [vector(), vector()],
@@ -85,11 +90,11 @@ impl ModeBounds {
         }
         for m in modes.clone() {
             let (w2, acceleration) = (structure.omega2[m], self.first[m]);
-            self.slow[m] = (jerk[m] * jerk[m] + w2 * acceleration * acceleration).sqrt();
+            self.energy[m] = (jerk[m] * jerk[m] + w2 * acceleration * acceleration).sqrt();
         }
         let is_coupled = structure.couples(modes.start);
         if is_coupled {
-            share(&mut self.slow[modes.clone()]);
+            share(&mut self.energy[modes.clone()]);
         }
         for m in modes.clone() {
             let (w2, c) = (structure.omega2[m], structure.damping[m]);
@@ -97,8 +102,9 @@ impl ModeBounds {
                 true => (2.0 * structure.fastest, 3.0 * structure.fastest * structure.fastest),
                 false => (structure.quickness[m], c * structure.quickness[m] + w2),
             };
-            self.quick[m] = change * self.slow[m];
-            self.slow[m] *= speed;
+            self.quick[m] = change * self.energy[m];
+            self.slow[m] = speed * self.energy[m];
+            self.energy_over_w[m] = self.energy[m] / w2.sqrt();
         }
         if !flight.is_watched {
             self.set_swings(structure, modes, flight, is_coupled);

@@ -221,28 +221,6 @@ pub struct Ahead<'a> {
 }
 
 impl Ahead<'_> {
-    /// Length of the longest of the next `segments` segments, s.
-    pub fn longest(&self, segments: u64) -> f64 {
-        self.each(segments).fold(self.ground.spacing, |longest, (length, _)| longest.max(length))
-    }
-
-    /// The largest |ground acceleration|, m/s2, and the largest |slope|, m/s3, in the next `segments` segments.
-    pub fn largest(&self, segments: u64) -> (f64, f64) {
-        self.each(segments).fold((0.0, 0.0), |(strongest, steepest): (f64, f64), (length, [start, end])| {
-            (strongest.max(start.abs()).max(end.abs()), steepest.max(((end - start) / length).abs()))
-        })
-    }
-
-    /// Length, s, and accelerations at both ends, m/s2, of those of the next `segments` segments that lie in the
-    /// record.
-    fn each(&self, segments: u64) -> impl Iterator<Item = (f64, [f64; 2])> + '_ {
-        let GroundMotion { lengths, accelerations, .. } = self.ground;
-        let [first, end] =
-            [self.number, self.number + segments].map(|number| number.min(lengths.len() as u64) as usize);
-        let ends = accelerations[first..].windows(2).map(|ends| [ends[0], ends[1]]);
-        lengths[first..end].iter().copied().zip(ends)
-    }
-
     /// Duration of the next `segments` segments, s, and integral of |acceleration| over them, m/s: upper bounds.
     #[inline(always)]
     pub fn over(&self, segments: u64) -> (f64, f64) {

@@ -94,6 +94,10 @@ impl FloorMotions {
 pub struct PointPeaks {
     pub observation: u64,
     pub peaks: Peaks,
+    /// The peaks at the base of the step: those of the base, raised over so many entries of the log with that identity.
+    pub folded: Peaks,
+    pub identity: u64,
+    pub entries: usize,
     /// The displacements relative to the position of rest at the start of the step.
     pub q: Vec<f64>,
     pub work: Option<Box<(Buffers, PeakRoom)>>,

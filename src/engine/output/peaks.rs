@@ -5,6 +5,7 @@ use crate::engine::bounds::stretch::Stretch;
 use crate::engine::model::Model;
 use crate::engine::output::known::PointPeaks;
 use crate::engine::output::point::Point;
+use crate::engine::peaks::log::{Flights, Load};
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::state::State;
@@ -35,57 +36,59 @@ impl Model {
         });
         let (buffers, peaks) = &mut *room;
         let work = &mut PeakWork { buffers, peaks };
-        known.peaks.clone_from(&base.peaks);
+        self.fold_into_point(state, known, work);
+        let PointPeaks { peaks, q, folded, .. } = known;
+        peaks.clone_from(folded);
         let elapsed = state.since_base();
         match () {
-            _ if elapsed == 0.0 && base.is_forced() => self.raise_to_contact(base, &mut known.peaks, work),
-            _ if elapsed == 0.0 => self.raise_to_motion(base, &mut known.peaks),
+            _ if elapsed == 0.0 && base.is_forced() => self.raise_to_contact(base, peaks, work),
+            _ if elapsed == 0.0 && state.work.log.is_open() => {}
+            _ if elapsed == 0.0 => self.raise_to_motion(base, peaks),
             _ if elapsed > 0.0 && step.is_in_contact() => {
-                let q = &mut known.q;
                 q.clone_from(&point.q);
                 for ((of, storey), now) in self.system.storeys.iter().zip(&base.storeys).zip(&point.storeys) {
                     of.move_rest(point.coordinates, (now, storey), q);
                 }
-                self.raise_over_part((base, step, inputs), (elapsed, (q, &point.v)), &mut known.peaks, work);
+                self.raise_over_part((base, step, inputs), (elapsed, (q, &point.v)), peaks, work);
             }
-            _ => self.read_peaks_of_flight(state, point, elapsed, &mut known.peaks, work),
+            _ => self.read_peaks_of_flight(state, point, elapsed, peaks, work),
         }
         known.work = Some(room);
     }
 
-    /// Raises peaks over the first part of the planned flight, which ends at the observed time: of most blocks by what
-    /// is known about the segment, of the others by the motion at both ends.
+    /// Raises a copy of the base's peaks over the logged flights, of which it may have some already.
+    fn fold_into_point(&self, state: &State, known: &mut PointPeaks, work: &mut PeakWork) {
+        let (State { base, .. }, log) = (state, &state.work.log);
+        if known.identity != log.identity {
+            known.folded.clone_from(&base.peaks);
+            (known.identity, known.entries) = (log.identity, 0);
+        }
+        // Steps in contact raise the peaks of the base at once.
+        known.folded.raise_all(&base.peaks);
+        let flights = log.flights_from(known.entries, (&base.q, &base.v));
+        self.fold(&flights, &base.rest.watched, None, &mut known.folded, work);
+        known.entries = log.count();
+    }
+
+    /// Raises peaks over the first part of the planned flight, which ends at the observed time.
     fn read_peaks_of_flight(&self, state: &State, point: &Point, elapsed: f64, peaks: &mut Peaks, work: &mut PeakWork) {
         let State { base, inputs, .. } = state;
         let end = (&point.q[..], &point.v[..]);
-        if !self.raise_to_point(state, end, peaks, &mut work.peaks.open) {
-            return;
-        }
         let (mut q, mut v) = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));
         let length = self.end_of_flight(state, work, (&mut q, &mut v));
-        self.with_flight(base, inputs, (length, &q, &v), work, |whole, work| {
-            let part = Stretch { end, length: elapsed, whole: Some(whole), ..*whole };
-            self.check_blocks(&part, |block, room| room.open[block], peaks, work);
+        self.with_flight(base, inputs, (length, &q, &v), work, |whole, work| match self.logs_flights() {
+            true => {
+                let loads = [Load { acceleration: whole.ground.0, slope: whole.ground.1, length: elapsed }];
+                let (q, v) = whole.start;
+                let part = Flights { lanes: self.system.structure.lanes, q, v, loads: &loads, end };
+                self.fold(&part, whole.rest, Some(whole), peaks, work);
+            }
+            false => {
+                let part = Stretch { end, length: elapsed, whole: Some(whole), ..*whole };
+                self.check_blocks(&part, peaks, work);
+            }
         });
         (work.buffers.q, work.buffers.v) = (q, v);
-    }
-
-    /// Raises peaks to the observed motion where what is known about the base's segment shows that they are not
-    /// exceeded before; notes the blocks of which that is open, and returns whether there are any.
-    fn raise_to_point(&self, state: &State, end: (&[f64], &[f64]), peaks: &mut Peaks, open: &mut [bool]) -> bool {
-        let (base, watch) = (&state.base, &state.work.peaks.watch);
-        let is_whole = base.elapsed == 0.0 && self.system.structure.is_classical();
-        let Some((_, segment)) = self.system.watched_segment(base).filter(|_| is_whole) else {
-            open.fill(true);
-            return true;
-        };
-        for building in &self.peak_rows.buildings {
-            for b in 0..building.blocks.len() {
-                open[building.first + b] =
-                    self.raise_to_part(building, b, (watch, segment), (&base.rest.watched, end), peaks);
-            }
-        }
-        open.contains(&true)
     }
 
     /// Works out the end of the planned flight; returns its length, s.

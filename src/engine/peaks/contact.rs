@@ -63,7 +63,6 @@ impl Model {
         if self.system.rigid.pairs.is_empty() && !self.system.floor_forces && !base.is_yielding() {
             work.peaks.floors.keep([base.segment.start, end]);
         }
-        work.peaks.restart();
         base.peaks = peaks;
     }
 

@@ -13,35 +13,19 @@ use crate::engine::bounds::envelope::stay_below;
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
-use crate::engine::peaks::room::{MOST_PIECES, PeakRoom, PeakWork, Suspect};
+use crate::engine::peaks::room::{MOST_PIECES, PeakWork, Suspect};
 use crate::engine::quantities::rows::{BuildingRows, PeakOf};
 use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Lane};
 
 impl Model {
-    /// Raises the peaks over a flight of those blocks, by their numbers, that may exceed theirs.
-    pub(in crate::engine) fn check_blocks(
-        &self,
-        flight: &Stretch,
-        may_exceed: impl Fn(usize, &PeakRoom) -> bool,
-        peaks: &mut Peaks,
-        work: &mut PeakWork,
-    ) {
+    /// Raises the peaks over a flight.
+    pub(in crate::engine) fn check_blocks(&self, flight: &Stretch, peaks: &mut Peaks, work: &mut PeakWork) {
         work.peaks.start_flight();
         for building in &self.peak_rows.buildings {
-            let mut is_bounded = false;
+            let jerk = &mut work.buffers.node_v;
+            work.peaks.bounds.set(&self.system.structure, building.modes.clone(), flight, jerk);
             for b in 0..building.blocks.len() {
-                if !may_exceed(building.first + b, work.peaks) {
-                    continue;
-                }
-                if !std::mem::replace(&mut is_bounded, true) {
-                    work.peaks.bounds.set(
-                        &self.system.structure,
-                        building.modes.clone(),
-                        flight,
-                        &mut work.buffers.node_v,
-                    );
-                }
                 self.check_block(building, b, (flight, None), peaks, work);
             }
         }
@@ -116,6 +100,8 @@ impl Model {
                     of,
                     place: place + i,
                     peak,
+                    value: 0.0,
+                    bend: f64::INFINITY,
                     pieces_left: MOST_PIECES,
                     cleared_in: None,
                 });

@@ -2,9 +2,8 @@
 //! shears.
 //!
 //! Nothing is sampled. A flight is exact, so that the values and slopes of a quantity at both ends and a bound on its
-//! fourth derivative show whether it can have exceeded its peak in between ([`flight`]); for most segments of a record
-//! not even these are needed, since the modal amplitudes give a number of segments in which no peak can be exceeded
-//! ([`ahead`]). In contact the largest force and both ends of a step bound the motion of the floors ([`contact`]).
+//! fourth derivative show whether it can have exceeded its peak in between ([`flight`]). For most flights not even these
+//! are needed: flights are logged ([`log`]) and read many at once, by their slow modes ([`fold`]). In contact the largest force and both ends of a step bound the motion of the floors ([`contact`]).
 //! Where a peak may have been exceeded, the maximum is searched for: in the power series of the step ([`search`]), or
 //! by evaluating the step where it has no series in time ([`reading`]).
 //!
@@ -12,10 +11,11 @@
 //! planned step so far is added when a peak is read. Velocities jump in an impact of `stereomechanical`: the motion
 //! before and after counts, the impulse itself, in which accelerations are unbounded, does not.
 
-pub mod ahead;
 pub mod contact;
 pub mod flight;
 pub mod floors;
+pub mod fold;
+pub mod log;
 pub mod reading;
 pub mod rest;
 pub mod room;
@@ -26,8 +26,16 @@ use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
-use crate::engine::peaks::room::{PeakRoom, PeakWork};
+use crate::engine::peaks::log::Load;
+use crate::engine::peaks::room::PeakWork;
+use crate::engine::state::Workspace;
 use crate::engine::step::Step;
+
+/// Entries of the log that are kept free: a flight may bring a gap before and one after it.
+pub const LEFT: usize = 2;
+
+/// Number of logged flights that are folded before a step in contact: what is searched in it depends on the peaks so far.
+const WORTH_FOLDING: usize = 32;
 
 impl Model {
     /// Peaks of 0.
@@ -35,7 +43,8 @@ impl Model {
         Peaks::new(self.peak_rows.blocks())
     }
 
-    /// Raises the peaks of the base over the planned flight.
+    /// Raises the peaks of the base over the planned flight, at once: where damping couples the modes, or forces act on
+    /// floors, flights are not logged.
     pub(in crate::engine) fn raise_over_flight(
         &self,
         base: &mut Base,
@@ -43,67 +52,48 @@ impl Model {
         inputs: &Inputs,
         work: &mut PeakWork,
     ) {
-        let watched = self.system.watched_segment(base).filter(|_| self.system.structure.is_classical());
-        if let Some((ground, segment)) = watched {
-            self.watch_peaks(ground, base, segment, work);
-        }
         let mut peaks = std::mem::take(&mut base.peaks);
-        self.with_flight(
-            base,
-            inputs,
-            (step.planned.length, &step.planned.q, &step.planned.v),
-            work,
-            |flight, work| {
-                let is_watched = watched.is_some() && !cfg!(without = "peaks_ahead");
-                let flight = &Stretch { is_watched, ..*flight };
-                let may_exceed = |block: usize, room: &PeakRoom| {
-                    watched.is_none_or(|(_, segment)| !room.watch.is_clear(block, segment))
-                };
-                self.check_blocks(flight, may_exceed, &mut peaks, work);
-            },
-        );
+        let end = (step.planned.length, &step.planned.q[..], &step.planned.v[..]);
+        self.with_flight(base, inputs, end, work, |flight, work| self.check_blocks(flight, &mut peaks, work));
         base.peaks = peaks;
     }
 
-    /// Raises the peaks of the base over a segment of the record, from the motion at its `start` to the base.
-    pub(in crate::engine) fn raise_over_segment(
-        &self,
-        base: &mut Base,
-        segment: u64,
-        start: (&[f64], &[f64]),
-        work: &mut PeakWork,
-    ) {
-        let ground = (base.segment.acceleration_at(0.0), base.segment.slope);
-        let shares = self.system.structure.participation.iter();
-        for ((load, slope), share) in work.buffers.load.iter_mut().zip(&mut work.buffers.slope).zip(shares) {
-            (*load, *slope) = (-share * ground.0, -share * ground.1);
+    /// Whether flights are logged, and the peaks raised over them later.
+    pub(in crate::engine) fn logs_flights(&self) -> bool {
+        !self.peak_rows.are_none() && !self.system.floor_forces && self.system.structure.is_classical()
+    }
+
+    /// Logs the planned flight.
+    pub(in crate::engine) fn log_flight(&self, base: &mut Base, step: &Step, work: &mut Workspace) {
+        if work.log.room() <= LEFT {
+            self.fold_log(base, work);
         }
-        let (load, slope) = (std::mem::take(&mut work.buffers.load), std::mem::take(&mut work.buffers.slope));
-        work.peaks.start_flight();
-        for building in &self.peak_rows.buildings {
-            let mut is_bounded = false;
-            for b in 0..building.blocks.len() {
-                let known_ends = match cfg!(without = "peaks_ahead") {
-                    true => None,
-                    false => match self.raise_to_end(building, b, segment, base, work) {
-                        None => continue,
-                        ends => ends,
-                    },
-                };
-                let mut peaks = std::mem::take(&mut base.peaks);
-                let flight = segment_flight(base, start, ground, (&load, &slope));
-                if !std::mem::replace(&mut is_bounded, true) {
-                    let jerk = &mut work.buffers.node_v;
-                    work.peaks.bounds.set(&self.system.structure, building.modes.clone(), &flight, jerk);
-                }
-                self.check_block(building, b, (&flight, known_ends), &mut peaks, work);
-                base.peaks = peaks;
-            }
+        let (motion, acceleration) = ((&base.q[..], &base.v[..]), base.segment.acceleration_at(base.elapsed));
+        work.log.go_on(motion, acceleration);
+        work.log.push(motion, Load { acceleration, slope: base.segment.slope, length: step.planned.length });
+    }
+
+    /// Raises the peaks over all logged flights, and empties the log.
+    #[inline(never)]
+    pub(in crate::engine) fn fold_log(&self, base: &mut Base, work: &mut Workspace) {
+        if work.log.count() == 0 {
+            return;
         }
-        let mut peaks = std::mem::take(&mut base.peaks);
-        self.search_flight(&segment_flight(base, start, ground, (&load, &slope)), &mut peaks, work);
-        base.peaks = peaks;
-        (work.buffers.load, work.buffers.slope) = (load, slope);
+        let (mut log, mut peaks) = (std::mem::take(&mut work.log), std::mem::take(&mut base.peaks));
+        let flights = log.flights_from(0, (&base.q, &base.v));
+        self.fold(&flights, &base.rest.watched, None, &mut peaks, &mut work.for_peaks());
+        log.clear();
+        (work.log, base.peaks) = (log, peaks);
+    }
+
+    /// Makes the log ready for a step with other forces than the ground's: they change the motion, and storeys that yield the
+    /// position of rest.
+    pub(in crate::engine) fn leave_flight(&self, base: &mut Base, work: &mut Workspace) {
+        if base.is_yielding() || work.log.count() > WORTH_FOLDING {
+            self.fold_log(base, work);
+        } else if work.log.is_open() {
+            work.log.close((&base.q, &base.v));
+        }
     }
 
     /// Calls a function with the flight from the base to a motion some seconds later.
@@ -127,15 +117,4 @@ impl Model {
         then(&Stretch { start, end: (q, v), loads, rest, ground, length, is_watched, whole: None }, work);
         (work.buffers.load, work.buffers.slope) = (load, slope);
     }
-}
-
-/// The flight over a whole segment of the record to the base.
-fn segment_flight<'a>(
-    base: &'a Base,
-    start: (&'a [f64], &'a [f64]),
-    ground: (f64, f64),
-    loads: (&'a [f64], &'a [f64]),
-) -> Stretch<'a> {
-    let (end, rest, length) = ((&base.q[..], &base.v[..]), &base.rest.watched[..], base.segment.length);
-    Stretch { start, end, loads, rest, ground, length, is_watched: !cfg!(without = "peaks_ahead"), whole: None }
 }

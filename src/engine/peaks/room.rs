@@ -2,9 +2,10 @@
 //! it changes a result, so no saved state holds it.
 
 use crate::engine::bounds::stretch::ModeBounds;
+use crate::engine::peaks::fold::FoldRoom;
 use crate::engine::quantities::rows::{PeakOf, PeakRows};
 use crate::engine::system::buffers::Buffers;
-use crate::structure::{LANES, Lane, Structure};
+use crate::structure::{Interval, LANES, Structure};
 
 /// Number of motions within a flight that are kept.
 pub const MOST_FLOWN: usize = 16;
@@ -29,6 +30,10 @@ pub struct Suspect {
     pub place: usize,
     /// The largest magnitude that has been found.
     pub peak: f64,
+    /// Its value at the start of the part that is searched.
+    pub value: f64,
+    /// A bound on its second derivative from there on.
+    pub bend: f64,
     /// Number of pieces in which the flight may still be searched for it.
     pub pieces_left: u32,
     /// If it is known not to exceed its peak in the piece that is searched, or in one that this is a half of: the
@@ -36,11 +41,10 @@ pub struct Suspect {
     pub cleared_in: Option<u32>,
 }
 
-/// Scratch memory; between calls only two parts mean anything: the end of the last step in `floors`, and the bounds for
-/// the next segments in `watch`.
+/// Scratch memory; between calls only the end of the last step in `floors` means anything.
 #[derive(Clone, Debug, Default)]
 pub struct PeakRoom {
-    pub watch: PeakWatch,
+    pub fold: FoldRoom,
     /// Bounds on the modes over a flight.
     pub bounds: ModeBounds,
     /// Bounds on the modes over a piece of a flight.
@@ -51,6 +55,8 @@ pub struct PeakRoom {
     pub flown: [Flown; MOST_FLOWN],
     /// Index of the next motion to be overwritten.
     pub next_flown: usize,
+    /// Flights over parts of flights.
+    pub parts: Vec<Interval>,
     /// q and v at the start and at the end of a piece.
     pub pieces: [Vec<f64>; 4],
     /// The modal load at the start of a piece.
@@ -64,8 +70,6 @@ pub struct PeakRoom {
     pub reading: ReadingRoom,
     /// Bounds on the magnitudes of the contact forces over a step, N.
     pub strongest: Vec<f64>,
-    /// Whether each block may have exceeded its peaks in the part of a flight that is read.
-    pub open: Vec<bool>,
     /// The contact forces at the start of a step, N.
     pub first_forces: Vec<f64>,
     /// The contact forces at its end, N.
@@ -82,12 +86,13 @@ impl PeakRoom {
     pub fn new(structure: &Structure, rows: &PeakRows, pairs: usize) -> PeakRoom {
         let lanes = structure.lanes;
         PeakRoom {
-            watch: PeakWatch::new(rows.blocks()),
+            fold: FoldRoom::default(),
             bounds: ModeBounds::new(lanes),
             piece: ModeBounds::new(lanes),
             suspects: Vec::with_capacity(rows.blocks() * LANES),
             flown: std::array::from_fn(|_| Flown { time: f64::NAN, q: vec![0.0; lanes], v: vec![0.0; lanes] }),
             next_flown: 0,
+            parts: Vec::new(),
             pieces: [(); 4].map(|()| vec![0.0; lanes]),
             load: vec![0.0; lanes],
             rows: [(); 2].map(|()| vec![0.0; lanes]),
@@ -95,7 +100,6 @@ impl PeakRoom {
             floors: FloorRoom::new(lanes),
             reading: ReadingRoom::new(lanes),
             strongest: vec![0.0; pairs],
-            open: vec![true; rows.blocks()],
             first_forces: vec![0.0; pairs],
             last_forces: vec![0.0; pairs],
             starts: vec![(0.0, 0.0); pairs],
@@ -113,14 +117,6 @@ impl PeakRoom {
     /// Forgets all results that are kept: the motion has been replaced.
     pub fn forget(&mut self) {
         self.floors.forget();
-        self.watch.restart();
-    }
-
-    /// Forgets the bounds for the next segments: a contact force or an impulse has acted.
-    pub fn restart(&mut self) {
-        if self.watch.looks_ahead() {
-            self.watch.restart();
-        }
     }
 }
 
@@ -128,57 +124,6 @@ impl PeakRoom {
 pub struct PeakWork<'a> {
     pub buffers: &'a mut Buffers,
     pub peaks: &'a mut PeakRoom,
-}
-
-/// The segments until which no quantity can exceed its peak.
-#[derive(Clone, Debug, Default)]
-pub struct PeakWatch {
-    /// Number of the first segment for which the bounds do not hold.
-    pub until: u64,
-    /// Number of the first segment in which any quantity may exceed its peak, as far as is known.
-    pub due: u64,
-    /// Length of the longest segment until then, s.
-    pub longest: f64,
-    pub blocks: Vec<WatchedBlock>,
-}
-
-/// A block of watched quantities, as it is looked ahead from some segment.
-#[derive(Clone, Debug, Default)]
-pub struct WatchedBlock {
-    /// Number of the first segment in which a quantity of the block may exceed its peak.
-    pub clear_until: u64,
-    /// The values at the start of the segment `known_at`.
-    pub value: Lane,
-    /// Number of the segment at whose start the values are known.
-    pub known_at: Option<u64>,
-    /// Bounds on |y'|.
-    pub rate: Lane,
-    /// Bounds on the deviation from the chord over a segment: h^2/8 |y''|.
-    pub sag: Lane,
-}
-
-impl PeakWatch {
-    pub fn new(blocks: usize) -> PeakWatch {
-        PeakWatch { blocks: vec![WatchedBlock::default(); blocks], ..PeakWatch::default() }
-    }
-
-    /// Forgets everything: the motion has been replaced, or a contact force or an impulse has acted.
-    pub fn restart(&mut self) {
-        (self.until, self.due) = (0, 0);
-        for block in &mut self.blocks {
-            (block.clear_until, block.known_at) = (0, None);
-        }
-    }
-
-    /// Whether bounds for later segments are known.
-    pub fn looks_ahead(&self) -> bool {
-        self.until > 0
-    }
-
-    /// Whether a block cannot exceed its peaks in a segment.
-    pub fn is_clear(&self, block: usize, segment: u64) -> bool {
-        self.blocks[block].clear_until > segment
-    }
 }
 
 /// The floors of both buildings at one time.

@@ -3,22 +3,30 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::peaks::Peaks;
-use crate::engine::bounds::cubic::course_of;
 use crate::engine::bounds::envelope::stay_below;
 use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::model::Model;
 use crate::engine::peaks::room::{MOST_FLOWN, PeakWork, Suspect};
-use crate::engine::quantities::rows::{BuildingRows, PeakOf};
+use crate::engine::quantities::rows::{Block, BuildingRows, PeakOf, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS, larger};
 use crate::numerics::powers::{Powers, Reading};
 use crate::numerics::roots;
 use crate::numerics::substitution::Substitution;
-use crate::structure::{EXACT, LANES, MotionSeries, Side, dot, flight_order};
+use crate::structure::{EXACT, Interval, LANES, Lane, MotionSeries, Side, Structure, dot, flight_order};
 use std::ops::Range;
 
 /// Length of a piece, in units of 1 / (fastest rate), that one series reaches.
 const REACH: f64 = 1.5;
+
+/// Length of a piece, in the same units, from which on it is worth bounding the amplitudes at its start.
+const LONG: f64 = 64.0 * REACH;
+
+/// Largest number of parts of flights that are kept prepared.
+const MOST_PARTS: usize = 64;
+
+/// Marks the quantities that are cleared in one leaf of the search: no piece is halved so often.
+const OF_LEAF: u32 = u32::MAX;
 
 /// Largest number of halvings of pieces of a flight: then they are as short as rounding.
 const MOST_HALVINGS: u32 = 40;
@@ -29,6 +37,14 @@ struct Piece {
     from: f64,
     to: f64,
     halvings: u32,
+}
+
+impl Piece {
+    fn halves(self) -> [Piece; 2] {
+        let Piece { from, to, halvings } = self;
+        let (middle, halvings) = (from + 0.5 * (to - from), halvings - 1);
+        [Piece { from, to: middle, halvings }, Piece { from: middle, to, halvings }]
+    }
 }
 
 /// A quantity as rows over the motion in some coordinates.
@@ -49,12 +65,13 @@ pub struct Quantity<'a> {
 impl Model {
     /// Raises the peaks of the quantities that may exceed theirs within a flight. They are searched for in the whole
     /// flight, so that a turning point has the same bits whatever part is asked for, and all together: many of them
-    /// turn at about the same time.
+    /// turn at about the same time. The bounds on the modes have to be those of the flight.
     pub(in crate::engine) fn search_flight(&self, flight: &Stretch, peaks: &mut Peaks, work: &mut PeakWork) {
         if work.peaks.suspects.is_empty() {
             return;
         }
         let mut suspects = std::mem::take(&mut work.peaks.suspects);
+        self.bound_bends(&mut suspects, &work.peaks.bounds);
         let (until, flight) = (flight.length, flight.whole.unwrap_or(flight));
         let whole = Piece { from: 0.0, to: flight.length, halvings: MOST_HALVINGS };
         self.search_piece(flight, whole, until, &mut suspects, work);
@@ -62,8 +79,8 @@ impl Model {
         work.peaks.suspects = suspects;
     }
 
-    /// Searches a piece, as far as it lies in the first `until` seconds of the flight. A piece too long for one series
-    /// is halved, for the quantities that its ends do not prove to stay below their peaks in it.
+    /// Searches a piece, as far as it lies in the first `until` seconds of the flight. A very long one is halved, for the
+    /// quantities that the amplitudes at its start do not keep below their peaks.
     fn search_piece(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
         let Piece { from, to, halvings } = piece;
         if from >= until {
@@ -76,25 +93,119 @@ impl Model {
                 _ => suspect.pieces_left -= 1,
             }
         }
-        let is_long = self.system.structure.fastest * (to - from) > REACH && halvings > 0;
-        if is_long && are_any_left(suspects) {
-            self.fly_to(flight, from, [0, 1], work);
-            self.fly_to(flight, to, [2, 3], work);
-            self.compare_ends(flight, piece, until, suspects, work);
-        }
-        if are_any_left(suspects) {
-            match is_long {
-                true => {
-                    let (middle, halvings) = (from + 0.5 * (to - from), halvings - 1);
-                    self.search_piece(flight, Piece { from, to: middle, halvings }, until, suspects, work);
-                    self.search_piece(flight, Piece { from: middle, to, halvings }, until, suspects, work);
-                }
-                false => self.read_piece(flight, piece, until, suspects, work),
+        if are_any_left(suspects) && self.system.structure.fastest * (to - from) > LONG && halvings > 0 {
+            self.clear_by_amplitudes(flight, piece, suspects, work);
+            if are_any_left(suspects) {
+                piece.halves().into_iter().for_each(|half| self.search_piece(flight, half, until, suspects, work));
             }
+        } else if are_any_left(suspects) {
+            self.fly_to(flight, from, [0, 1], work);
+            self.read_values(flight, from, [0, 1], suspects, work, |suspect, value| suspect.value = value);
+            self.search_leaves(flight, piece, until, suspects, work);
         }
         for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in == Some(halvings)) {
             suspect.cleared_in = None;
         }
+    }
+
+    /// Searches a piece, in parts that one series reaches, one after the other. A quantity deviates from the chord of a part by
+    /// at most h^2/8 max|y''|; it is monotonic if its ends differ by more than 4 times that.
+    fn search_leaves(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
+        let Piece { from, to, halvings } = piece;
+        if from >= until {
+            return;
+        }
+        let length = to - from;
+        if self.system.structure.fastest * length > REACH && halvings > 0 {
+            piece.halves().into_iter().for_each(|half| self.search_leaves(flight, half, until, suspects, work));
+            return;
+        }
+        let sag = 0.125 * length * length * (1.0 + 1e-9);
+        self.fly_to(flight, to, [2, 3], work);
+        self.read_values(flight, to, [2, 3], suspects, work, |suspect, end| {
+            let (start, sag) = (std::mem::replace(&mut suspect.value, end), sag * suspect.bend);
+            suspect.peak = if to <= until { larger(suspect.peak, end.abs()) } else { suspect.peak };
+            let is_below = larger(start.abs(), end.abs()) + sag <= suspect.peak;
+            suspect.cleared_in = (is_below || (end - start).abs() > 4.0 * sag).then_some(OF_LEAF);
+        });
+        if are_any_left(suspects) {
+            self.read_piece(flight, piece, until, suspects, work);
+        }
+        for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in == Some(OF_LEAF)) {
+            suspect.cleared_in = None;
+        }
+    }
+
+    /// Calls a function with each quantity that is left and its value at a time of a flight, at which two of the vectors
+    /// `pieces` have the motion.
+    fn read_values(
+        &self,
+        flight: &Stretch,
+        time: f64,
+        [q, v]: [usize; 2],
+        suspects: &mut [Suspect],
+        work: &PeakWork,
+        mut then: impl FnMut(&mut Suspect, f64),
+    ) {
+        for suspects in suspects.chunk_by_mut(are_of_one_block) {
+            if !are_any_left(suspects) {
+                continue;
+            }
+            let (building, block) = self.block_of(suspects[0].place);
+            let [q, v] = [q, v].map(|place| &work.peaks.pieces[place][building.modes.clone()]);
+            let values = values_of(block, q, v);
+            for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
+                let [direct, rate] = match self.system.floor_forces {
+                    true => work.peaks.direct[suspect.place],
+                    false => [0.0; 2],
+                };
+                let value = values[suspect.place % LANES] + flight.rest[suspect.place] + (direct + rate * time);
+                then(suspect, value);
+            }
+        }
+    }
+
+    /// Works out bounds on |y''| from the start of some bounds on the modes on: |q''| <= E / w, |q'''| <= E.
+    fn bound_bends(&self, suspects: &mut [Suspect], bounds: &ModeBounds) {
+        for suspects in suspects.chunk_by_mut(are_of_one_block) {
+            let (building, block) = self.block_of(suspects[0].place);
+            let [energy, over_w] = [&bounds.energy, &bounds.energy_over_w].map(|all| &all[building.modes.clone()]);
+            let bends = bend_of(block, energy, over_w);
+            suspects.iter_mut().for_each(|suspect| suspect.bend = bends[suspect.place % LANES]);
+        }
+    }
+
+    /// Clears the quantities that the amplitudes of the modes at the start of a piece keep below their peaks; bounds the
+    /// second derivatives of the others anew.
+    fn clear_by_amplitudes(&self, flight: &Stretch, piece: Piece, suspects: &mut [Suspect], work: &mut PeakWork) {
+        self.fly_to(flight, piece.from, [0, 1], work);
+        self.fly_to(flight, piece.to, [2, 3], work);
+        self.set_load(flight, piece.from, work);
+        let PeakWork { buffers: Buffers { node_v: jerk, .. }, peaks } = work;
+        let [q, v, end_q, end_v] = &peaks.pieces;
+        let (loads, length) = ((&peaks.load[..], flight.loads.1), piece.to - piece.from);
+        let own = Stretch { start: (q, v), end: (end_q, end_v), loads, length, is_watched: false, whole: None, ..*flight };
+        for building in &self.peak_rows.buildings {
+            peaks.piece.set(&self.system.structure, building.modes.clone(), &own, jerk);
+        }
+        for suspects in suspects.chunk_by_mut(are_of_one_block) {
+            let (place, (building, block)) = (suspects[0].place / LANES * LANES, self.block_of(suspects[0].place));
+            let mut known = [f64::INFINITY; LANES];
+            suspects.iter().for_each(|suspect| known[suspect.place % LANES] = suspect.peak);
+            let direct = self.system.floor_forces.then_some((&peaks.direct[place..], piece.from, length));
+            let at_rest = &flight.rest.as_chunks::<LANES>().0[place / LANES];
+            let are_below = stay_below(&known, (block, at_rest), (&peaks.piece, &building.modes), direct);
+            for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
+                suspect.cleared_in = are_below[suspect.place % LANES].then_some(piece.halvings);
+            }
+        }
+        self.bound_bends(suspects, &peaks.piece);
+    }
+
+    /// The building and the block of a quantity.
+    fn block_of(&self, place: usize) -> (&BuildingRows, &Block) {
+        let building = &self.peak_rows.buildings[usize::from(place >= self.peak_rows.buildings[1].first * LANES)];
+        (building, &building.blocks[place / LANES - building.first])
     }
 
     /// Finds the largest magnitudes within a piece by its series.
@@ -127,7 +238,7 @@ impl Model {
 
     /// Works out the motion at a time of a flight in two of the vectors `pieces`.
     fn fly_to(&self, flight: &Stretch, time: f64, into: [usize; 2], work: &mut PeakWork) {
-        let PeakWork { buffers: Buffers { interval, scratch, .. }, peaks } = work;
+        let PeakWork { buffers: Buffers { scratch, .. }, peaks } = work;
         let Ok([q, v]) = peaks.pieces.get_disjoint_mut(into) else { return };
         let known = match time {
             _ if time == 0.0 => flight.start,
@@ -137,7 +248,7 @@ impl Model {
                     let place = peaks.next_flown;
                     peaks.next_flown = (place + 1) % MOST_FLOWN;
                     let flown = &mut peaks.flown[place];
-                    interval.prepare(&self.system.structure, time);
+                    let interval = part_of(&mut peaks.parts, &self.system.structure, time);
                     interval.fly(flight.start, flight.loads, (&mut flown.q, &mut flown.v), scratch);
                     flown.time = time;
                     place
@@ -154,68 +265,6 @@ impl Model {
         let (start, slope) = flight.loads;
         for (load, (start, slope)) in work.peaks.load.iter_mut().zip(start.iter().zip(slope)) {
             *load = start + slope * time;
-        }
-    }
-
-    /// Raises the peaks to the ends of a piece, whose motions are in `pieces`, and clears the quantities that cannot
-    /// exceed theirs in between.
-    fn compare_ends(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
-        self.set_load(flight, piece.from, work);
-        let PeakWork { buffers: Buffers { node_v: jerk, .. }, peaks } = work;
-        let [q, v, end_q, end_v] = &peaks.pieces;
-        let own = Stretch {
-            start: (q, v),
-            end: (end_q, end_v),
-            loads: (&peaks.load, flight.loads.1),
-            length: piece.to - piece.from,
-            is_watched: false,
-            whole: None,
-            ..*flight
-        };
-        let mut bounded = None;
-        for suspects in suspects.chunk_by_mut(|one, next| one.place / LANES == next.place / LANES) {
-            let Some(side) = suspects.iter().find(|s| s.cleared_in.is_none()).map(|s| s.of.side()) else { continue };
-            let building = &self.peak_rows.buildings[side as usize];
-            if bounded.replace(side) != Some(side) {
-                peaks.piece.set(&self.system.structure, building.modes.clone(), &own, jerk);
-            }
-            self.compare_block(building, (&own, piece, until), suspects, (&peaks.piece, &peaks.direct));
-        }
-    }
-
-    /// The same for the quantities of one block.
-    fn compare_block(
-        &self,
-        building: &BuildingRows,
-        (own, piece, until): (&Stretch, Piece, f64),
-        suspects: &mut [Suspect],
-        (bounds, direct): (&ModeBounds, &[[f64; 2]]),
-    ) {
-        let (number, modes) = (suspects[0].place / LANES, &building.modes);
-        let block = &building.blocks[number - building.first];
-        let direct = self.system.floor_forces.then_some((&direct[number * LANES..], piece.from, own.length));
-        let mut known = [f64::INFINITY; LANES];
-        let is_open = |suspect: &&mut Suspect| suspect.cleared_in.is_none();
-        suspects.iter_mut().filter(is_open).for_each(|suspect| known[suspect.place % LANES] = suspect.peak);
-        let at_rest = own.rest.as_chunks::<LANES>().0[number];
-        let are_below = stay_below(&known, (block, &at_rest), (bounds, modes), direct);
-        if are_below == [true; LANES] {
-            suspects.iter_mut().filter(is_open).for_each(|suspect| suspect.cleared_in = Some(piece.halvings));
-            return;
-        }
-        let mut course = course_of((block, &at_rest), (own, None), bounds, modes.clone());
-        if let Some((direct, from, length)) = direct {
-            course.add(direct, from, length);
-        }
-        for suspect in suspects.iter_mut().filter(is_open) {
-            let lane = suspect.place % LANES;
-            if !are_below[lane] {
-                let end = if piece.to <= until { course.end[0][lane].abs() } else { 0.0 };
-                suspect.peak = larger(suspect.peak, larger(course.start[0][lane].abs(), end));
-            }
-            if are_below[lane] || !course.may_turn_above(lane, own.length, suspect.peak) {
-                suspect.cleared_in = Some(piece.halvings);
-            }
         }
     }
 
@@ -267,6 +316,37 @@ impl Model {
         }
         None
     }
+}
+
+/// The exact flight over a part of a flight, s; flights of equal lengths have the same parts.
+fn part_of<'a>(parts: &'a mut Vec<Interval>, structure: &Structure, length: f64) -> &'a Interval {
+    let known = parts.iter().position(|part| part.length == length);
+    let place = known.unwrap_or_else(|| {
+        if parts.len() >= MOST_PARTS {
+            parts.clear();
+        }
+        let mut part = Interval::room(structure);
+        part.prepare(structure, length);
+        parts.push(part);
+        parts.len() - 1
+    });
+    &parts[place]
+}
+
+/// Bounds on the second derivatives of a block, from E and E / w of its modes.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn bend_of(block: &Block, energy: &[f64], over_w: &[f64]) -> Lane {
+    let mut bends = [0.0; LANES];
+    for (row, bound) in block.on_q.iter().zip(over_w).chain(block.on_v.iter().zip(energy)) {
+        for i in 0..LANES {
+            bends[i] += row[i].abs() * bound;
+        }
+    }
+    bends
+}
+
+fn are_of_one_block(one: &Suspect, next: &Suspect) -> bool {
+    one.place / LANES == next.place / LANES
 }
 
 /// Whether any quantity may exceed its peak in the piece that is searched.

@@ -3,3 +3,4 @@
 pub mod resistance;
 pub mod rows;
 pub mod storeys;
+pub mod truncated;

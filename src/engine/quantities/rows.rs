@@ -64,20 +64,6 @@ pub struct Block {
     pub on_q: Vec<Lane>,
     /// Row B, mode by mode; empty where it is 0.
     pub on_v: Vec<Lane>,
-    pub growth: Growth,
-}
-
-/// The ground motion's part in the bounds of `peaks/ahead.rs`.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Growth {
-    /// Change of y' and of y'' per unit of ground acceleration: |B participation| and |(A - B c) participation|.
-    pub at_once: Lane,
-    pub pushed: Lane,
-    /// Increase of the bounds on |y|, |y'| and |y''| per unit of cumulative absolute velocity (integral of |ground
-    /// acceleration|), 1 m/s.
-    pub swing: Lane,
-    pub rate: Lane,
-    pub bend: Lane,
 }
 
 impl PeakRows {
@@ -167,11 +153,11 @@ impl BuildingRows {
         let mut blocks = Vec::new();
         let count_of = |quantities: usize| if wanted { quantities } else { 0 };
         for from in (0..count_of(2 * floors)).step_by(LANES) {
-            blocks.push(Block::of(structure, side, count, |i, m| moving(from + i, m)));
+            blocks.push(Block::of(count, |i, m| moving(from + i, m)));
         }
         let moving = blocks.len();
         for from in (0..count_of(floors + 1)).step_by(LANES) {
-            blocks.push(Block::of(structure, side, count, |i, m| pulling(from + i, m)));
+            blocks.push(Block::of(count, |i, m| pulling(from + i, m)));
         }
         BuildingRows { modes: structure.range(side), first, blocks, floors, moving }
     }
@@ -179,30 +165,14 @@ impl BuildingRows {
 
 impl Block {
     /// A block from A and B of each lane and mode.
-    fn of(structure: &Structure, side: Side, count: usize, row: impl Fn(usize, usize) -> [f64; 2]) -> Block {
+    fn of(count: usize, row: impl Fn(usize, usize) -> [f64; 2]) -> Block {
         let lanes =
             |part: usize| -> Vec<Lane> { (0..count).map(|m| std::array::from_fn(|i| row(i, m)[part])).collect() };
         let (on_q, mut on_v) = (lanes(0), lanes(1));
-        let offset = structure.offset(side);
-        let mut growth = Growth::default();
-        for m in 0..count {
-            let (w2, c) = (structure.omega2[offset + m], structure.damping[offset + m]);
-            let (w, share) = (w2.sqrt(), structure.participation[offset + m].abs());
-            for i in 0..LANES {
-                let (a, b) = (on_q[m][i], on_v[m][i]);
-                growth.at_once[i] += b * structure.participation[offset + m];
-                growth.pushed[i] += (a - b * c) * structure.participation[offset + m];
-                growth.rate[i] += (a.abs() + b.abs() * (w + c)) * share;
-                growth.bend[i] += ((a - b * c).abs() * (w + c) + b.abs() * w2) * share;
-                growth.swing[i] += (a.abs() / w + b.abs()) * share;
-            }
-        }
-        growth.at_once = growth.at_once.map(f64::abs);
-        growth.pushed = growth.pushed.map(f64::abs);
         if on_v.as_flattened().iter().all(|b| *b == 0.0) {
             on_v.clear();
         }
-        Block { on_q, on_v, growth }
+        Block { on_q, on_v }
     }
 }
 

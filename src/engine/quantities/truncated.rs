@@ -1,0 +1,155 @@
+//! The watched quantities by the slow modes alone.
+//!
+//! The quick modes follow the ground quasi-statically. A mode q'' + c q' + w^2 q = -p a, with the ground's acceleration
+//! a linear in time, is at
+//!
+//! ```text
+//! q = -(p / w^2) (a - (c / w^2) a') + d
+//! ```
+//!
+//! with a free oscillation d, whose amplitude R = sqrt((w^2 d)^2 + (w d')^2) never grows. So the quick modes' part of a
+//! quantity is a number times a, which is exact ("static correction", "missing mass"), and what is left is bounded: by
+//! sum |A| R / w^2 and a number times |a'| where the quantity is a row A over q, and by sum |A| (1 + c/w) R where it is a row A
+//! over w^2 q + c q', as accelerations and base shears are. R is bounded by groups of modes.
+
+use crate::engine::quantities::rows::{Block, BuildingRows, PeakRows};
+use crate::structure::{LANES, Lane, Structure};
+use std::ops::Range;
+
+/// Modes with w h up to this, in segments of the usual length h, are slow.
+const SLOW: f64 = 2.0;
+/// Of a building with so few modes all are slow.
+const FEW: usize = 12;
+/// Least number of quick modes.
+const LEAST: usize = 5;
+/// Number of groups of the quick modes.
+const GROUPS: usize = 8;
+
+/// Length of a segment where the scene has no record, s.
+const USUAL: f64 = 0.01;
+
+/// The quantities of both buildings.
+#[derive(Debug)]
+pub struct TruncatedRows {
+    pub buildings: [TruncatedBuilding; 2],
+}
+
+/// The quantities of one building.
+#[derive(Debug)]
+pub struct TruncatedBuilding {
+    /// All modes, the slow ones first.
+    pub modes: Vec<Mode>,
+    /// Number of slow modes.
+    pub slow: usize,
+    /// Groups of the quick modes.
+    pub groups: Vec<Group>,
+    /// The blocks of the building's rows.
+    pub blocks: Vec<TruncatedBlock>,
+}
+
+/// A mode.
+#[derive(Clone, Copy, Debug)]
+pub struct Mode {
+    /// w^2, 1/s^2.
+    pub w2: f64,
+    /// w, 1/s.
+    pub w: f64,
+    /// c, 1/s.
+    pub c: f64,
+    /// Participation p in the ground's acceleration, kg^1/2.
+    pub share: f64,
+}
+
+/// Some quick modes.
+#[derive(Debug)]
+pub struct Group {
+    pub modes: Range<usize>,
+    /// Largest increase of R by a change of a', per unit of it.
+    pub kick: f64,
+}
+
+/// [`LANES`] quantities.
+#[derive(Debug)]
+pub struct TruncatedBlock {
+    /// Whether A is over w^2 q + c q', otherwise over q.
+    pub pulls: bool,
+    /// A over the slow modes.
+    pub row: Vec<Lane>,
+    /// The quick modes' part per unit of the ground's acceleration.
+    pub per_ground: Lane,
+    /// A bound on their part per unit of its slope.
+    pub per_slope: Lane,
+    /// A bound on what is left of them, for each group, per unit of its R.
+    pub left: Vec<Lane>,
+}
+
+impl TruncatedRows {
+    /// The quantities of `rows`, read at times of the `usual` distance, s, if there is one.
+    pub fn of(structure: &Structure, rows: &PeakRows, usual: Option<f64>) -> TruncatedRows {
+        let usual = usual.unwrap_or(USUAL);
+        TruncatedRows { buildings: [0, 1].map(|side| TruncatedBuilding::of(structure, &rows.buildings[side], usual)) }
+    }
+}
+
+impl TruncatedBuilding {
+    fn of(structure: &Structure, rows: &BuildingRows, usual: f64) -> TruncatedBuilding {
+        let modes: Vec<Mode> = rows
+            .modes
+            .clone()
+            .map(|m| {
+                let (w2, c, share) = (structure.omega2[m], structure.damping[m], structure.participation[m]);
+                Mode { w2, w: w2.sqrt(), c, share }
+            })
+            .collect();
+        let slow = match modes.len() {
+            all if all <= FEW => all,
+            all => match modes.iter().filter(|mode| mode.w * usual <= SLOW).count().max(LANES) {
+                slow if slow + LEAST > all => all,
+                slow => slow,
+            },
+        };
+        let groups = group(&modes, slow);
+        let blocks = rows.blocks.iter().map(|block| TruncatedBlock::of(block, (&modes, slow), &groups)).collect();
+        TruncatedBuilding { modes, slow, groups, blocks }
+    }
+}
+
+/// The quick modes in groups whose numbers grow with their frequencies.
+fn group(modes: &[Mode], slow: usize) -> Vec<Group> {
+    let ratio = modes.len() as f64 / slow.max(1) as f64;
+    let (mut groups, mut from) = (Vec::new(), slow);
+    for g in 1..=GROUPS {
+        let to = match g {
+            GROUPS => modes.len(),
+            _ => ((slow as f64 * ratio.powf(g as f64 / GROUPS as f64)) as usize).clamp(from, modes.len()),
+        };
+        if to > from {
+            let kicks = modes[from..to].iter().map(|Mode { w, c, share, .. }| share.abs() * (1.0 + c / w) / w);
+            groups.push(Group { modes: from..to, kick: kicks.fold(0.0, f64::max) });
+            from = to;
+        }
+    }
+    groups
+}
+
+impl TruncatedBlock {
+    fn of(block: &Block, (modes, slow): (&[Mode], usize), groups: &[Group]) -> TruncatedBlock {
+        let pulls = !block.on_v.is_empty();
+        let row = |m: usize, i: usize| block.on_q[m][i] / if pulls { modes[m].w2 } else { 1.0 };
+        let (mut per_ground, mut per_slope) = ([0.0; LANES], [0.0; LANES]);
+        let mut left = vec![[0.0; LANES]; groups.len()];
+        for (group, left) in groups.iter().zip(&mut left) {
+            for m in group.modes.clone() {
+                let Mode { w2, w, c, share } = modes[m];
+                for i in 0..LANES {
+                    let a = row(m, i);
+                    per_ground[i] -= a * if pulls { share } else { share / w2 };
+                    per_slope[i] += if pulls { 0.0 } else { a * share * c / (w2 * w2) };
+                    left[i] += a.abs() * if pulls { 1.0 + c / w } else { 1.0 / w2 };
+                }
+            }
+        }
+        let row = (0..slow).map(|m| std::array::from_fn(|i| row(m, i))).collect();
+        TruncatedBlock { pulls, row, per_ground, per_slope: per_slope.map(f64::abs), left }
+    }
+}
