@@ -6,5 +6,6 @@ pub mod all_storeys;
 pub mod amplitude;
 pub mod cubic;
 pub mod envelope;
+pub mod flights;
 pub mod span;
 pub mod stretch;

@@ -7,10 +7,10 @@
 //! has no deviation; what is left of them is bounded over parts of a span, from the motion at the start of the part and
 //! the changes of the ground's slope within.
 
-use crate::engine::quantities::truncated::{Group, Mode, TruncatedBlock, TruncatedBuilding};
-use crate::numerics::polynomial::larger;
+use crate::engine::bounds::flights::Flights;
+use crate::engine::quantities::truncated::{Mode, TruncatedBlock, TruncatedBuilding};
+use crate::numerics::polynomial::{each, larger};
 use crate::structure::{LANES, Lane};
-use std::ops::Range;
 
 /// Flights in a part of a span, over which one bound on what is left of the quick modes holds.
 pub const PART: usize = 5;
@@ -18,19 +18,23 @@ pub const PART: usize = 5;
 /// Rounding of a sum over modes, relative to the sum of the sizes of its terms.
 const ROUNDING: f64 = 1e-12;
 
-/// The motion of a building at N times, the ends of N - 1 flights.
-pub struct Span<'a, const N: usize> {
-    pub motions: [(&'a [f64], &'a [f64]); N],
-    /// Ground acceleration at these times, m/s2.
-    pub ground: [f64; N],
-    /// Its slopes from these times on, m/s3.
-    pub slopes: [f64; N],
-    /// Number of flights; from the last end on all is repeated.
+/// N - 1 flights that follow each other, or less, by the ground's motion at their ends.
+#[derive(Clone, Debug)]
+pub struct Span<const N: usize> {
+    /// Number of the first flight, and of flights.
+    pub from: usize,
     pub count: usize,
+    /// Ground acceleration at the ends of the flights, m/s2; the last one is repeated.
+    ground: [f64; N],
+    /// Its slopes from these times on, m/s3.
+    slopes: [f64; N],
+    /// The largest magnitudes of both.
+    strongest: f64,
+    steepest: f64,
     /// Length of the longest flight, s.
-    pub longest: f64,
+    longest: f64,
     /// Whether motion or acceleration jump anywhere.
-    pub has_gap: bool,
+    has_gap: bool,
 }
 
 /// Bounds on one slow mode over a span: on q and on w^2 q + c q' between the ends, and on the deviation from the chord.
@@ -50,51 +54,79 @@ pub struct BlockBounds<const N: usize> {
     pub left: [Lane; N],
 }
 
-impl<const N: usize> Span<'_, N> {
+impl<const N: usize> Span<N> {
+    /// The span of the flights from one on.
+    pub fn of(flights: &Flights, from: usize) -> Span<N> {
+        let count = (flights.count() - from).min(N - 1);
+        let end = flights.load(from + count);
+        let (mut ground, mut slopes) = ([end.acceleration; N], [end.slope; N]);
+        let (mut longest, mut has_gap) = (0.0, false);
+        for (t, load) in flights.loads[from..from + count].iter().enumerate() {
+            (ground[t], slopes[t]) = (load.acceleration, load.slope);
+            longest = larger(longest, load.length);
+            has_gap |= load.length == 0.0;
+        }
+        let [strongest, steepest] = [&ground, &slopes].map(|all| largest(&all.map(f64::abs)));
+        Span { from, count, ground, slopes, strongest, steepest, longest, has_gap }
+    }
+
     /// Number of parts.
     pub fn parts(&self) -> usize {
         self.count.div_ceil(PART)
     }
 
-    fn steepest(&self) -> f64 {
-        self.slopes.iter().fold(0.0, |most, slope| larger(most, slope.abs()))
-    }
-
-    /// Reads the slow modes: writes q and w^2 q + c q' at the ends, and the bounds on them. Returns a size by which spans are put
-    /// in order.
-    pub fn read(&self, modes: &[Mode], out: &mut [[[f64; N]; 2]], sizes: &mut [ModeSizes]) -> f64 {
-        for (t, (q, v)) in self.motions.iter().enumerate() {
-            for (of_mode, (q, v)) in out.iter_mut().zip(q.iter().zip(*v)) {
+    /// Reads the slow modes of a building, whose modes are `offset` and on: writes q and w^2 q + c q' at the ends, and the bounds on
+    /// them. Returns a size by which spans are put in order.
+    pub fn read(
+        &self,
+        flights: &Flights,
+        offset: usize,
+        modes: &[Mode],
+        out: &mut [[[f64; N]; 2]],
+        sizes: &mut [ModeSizes],
+    ) -> f64 {
+        for t in 0..=self.count {
+            let (q, v) = flights.motion(self.from + t);
+            for (of_mode, (q, v)) in out.iter_mut().zip(q[offset..].iter().zip(&v[offset..])) {
                 (of_mode[0][t], of_mode[1][t]) = (*q, *v);
             }
+        }
+        for of_motion in out.as_flattened_mut() {
+            let end = of_motion[self.count];
+            of_motion[self.count + 1..].fill(end);
         }
         read_modes(modes, (&self.ground, &self.slopes), 0.125 * self.longest * self.longest, out, sizes)
     }
 
-    /// Bounds on R of each group of quick modes, for each part: `out` has the groups of the first part first.
-    pub fn bound_quick(&self, building: &TruncatedBuilding, out: &mut [f64]) {
+    /// Bounds on R of each group of quick modes, for each part: `out` has the groups of the first part first, and after those
+    /// of all parts the largest ones.
+    pub fn bound_quick(&self, flights: &Flights, offset: usize, building: &TruncatedBuilding, out: &mut [f64]) {
         let TruncatedBuilding { modes, groups, .. } = building;
-        for (part, out) in out.chunks_mut(groups.len()).enumerate() {
+        let (parts, most) = out.split_at_mut(self.parts() * groups.len());
+        most.fill(0.0);
+        for (part, out) in parts.chunks_mut(groups.len()).enumerate() {
             let (from, to) = (part * PART, ((part + 1) * PART).min(self.count));
-            let slopes = &self.slopes[from..to];
-            let kinks: f64 = slopes.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
-            let restarts = if self.has_gap { from..to } else { from..from + 1 };
-            for (Group { modes: range, kick }, out) in groups.iter().zip(out) {
-                let swing = |t: usize| swing_of(&modes[range.clone()], self.motions[t], range, [self.ground[t], self.slopes[t]]);
-                *out = restarts.clone().map(swing).fold(0.0, larger) + kick * kinks;
+            let kinks: f64 = self.slopes[from..to].windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
+            out.fill(0.0);
+            for t in from..if self.has_gap { to } else { from + 1 } {
+                let (q, v) = flights.motion(self.from + t);
+                for (group, out) in groups.iter().zip(&mut *out) {
+                    let range = offset + group.modes.start..offset + group.modes.end;
+                    let (modes, motion) = (&modes[group.modes.clone()], (&q[range.clone()], &v[range]));
+                    *out = larger(*out, swing_of(modes, motion, [self.ground[t], self.slopes[t]]));
+                }
+            }
+            for ((group, out), most) in groups.iter().zip(out).zip(&mut *most) {
+                *out += group.kick * kinks;
+                *most = larger(*most, *out);
             }
         }
     }
 
-    /// An upper bound on the magnitudes of a block's quantities over the span.
+    /// An upper bound on the magnitudes of a block's quantities over the span, from the bounds on slow and quick modes.
     pub fn bound_coarsely(&self, block: &TruncatedBlock, at_rest: &Lane, sizes: &[ModeSizes], quick: &[f64]) -> Lane {
-        let strongest = self.ground.iter().fold(0.0, |most, ground| larger(most, ground.abs()));
-        let left = self.left_of(block, quick);
-        let size = sum_sizes(&block.row, sizes, usize::from(block.pulls), |sizes| &sizes.most);
-        std::array::from_fn(|i| {
-            let left = left[..self.parts()].iter().fold(0.0, |most, part| larger(most, part[i]));
-            (1.0 + ROUNDING) * (at_rest[i].abs() + size[i] + block.per_ground[i].abs() * strongest + left)
-        })
+        let most = &quick[self.parts() * block.left.len()..];
+        bound_block(block, at_rest, (sizes, most), [self.strongest, self.steepest])
     }
 
     /// The block's values at the ends, and what they may be off by in between; `coarse` is the bound above.
@@ -105,30 +137,20 @@ impl<const N: usize> Span<'_, N> {
         (motion, sizes): (&[[[f64; N]; 2]], &[ModeSizes]),
         (quick, coarse): (&[f64], &Lane),
     ) -> BlockBounds<N> {
-        let kind = usize::from(block.pulls);
-        let mut left = self.left_of(block, quick);
-        for part in &mut left {
-            for i in 0..LANES {
-                part[i] += ROUNDING * coarse[i];
-            }
-        }
-        let sag = sum_sizes(&block.row, sizes, kind, |sizes| &sizes.sag);
-        let values = values_at(&block.row, (motion, kind), (&block.per_ground, at_rest), &self.ground);
-        BlockBounds { values, sag, left }
-    }
-
-    fn left_of(&self, block: &TruncatedBlock, quick: &[f64]) -> [Lane; N] {
-        let steepest = self.steepest();
-        let mut parts = [block.per_slope.map(|per_slope| per_slope * steepest); N];
         let groups = block.left.len();
-        for (k, part) in parts.iter_mut().take(self.parts()).enumerate() {
+        let mut left = [[0.0; LANES]; N];
+        for (k, left) in left.iter_mut().take(self.parts()).enumerate() {
+            *left = each(|i| ROUNDING * coarse[i] + block.per_slope[i] * self.steepest);
             for (row, most) in block.left.iter().zip(&quick[k * groups..]) {
                 for i in 0..LANES {
-                    part[i] += row[i] * most;
+                    left[i] += row[i] * most;
                 }
             }
         }
-        parts
+        let kind = usize::from(block.pulls);
+        let sag = sum_sags(&block.row, sizes, kind);
+        let values = values_at(&block.row, (motion, kind), (&block.per_ground, at_rest), &self.ground);
+        BlockBounds { values, sag, left }
     }
 }
 
@@ -196,25 +218,48 @@ fn largest<const N: usize>(all: &[f64; N]) -> f64 {
 
 /// The largest R of some modes at a motion, with the ground's acceleration and its slope.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn swing_of(modes: &[Mode], (q, v): (&[f64], &[f64]), range: &Range<usize>, [ground, slope]: [f64; 2]) -> f64 {
-    let (q, v) = (&q[range.clone()][..modes.len()], &v[range.clone()][..modes.len()]);
+fn swing_of(modes: &[Mode], (q, v): (&[f64], &[f64]), [ground, slope]: [f64; 2]) -> f64 {
     let mut most = [0.0; 2 * LANES];
-    for (m, Mode { w2, w, c, share }) in modes.iter().enumerate() {
-        let stray = w2 * q[m] + share * (ground - c / w2 * slope);
-        let rate = w * v[m] + share * slope / w;
+    for (m, (Mode { w2, w, c, share }, (q, v))) in modes.iter().zip(q.iter().zip(v)).enumerate() {
+        let stray = w2 * q + share * (ground - c / w2 * slope);
+        let rate = w * v + share * slope / w;
         let place = &mut most[m % (2 * LANES)];
         *place = larger(*place, stray * stray + rate * rate);
     }
-    most.iter().fold(0.0, |most, one| larger(most, *one)).sqrt()
+    largest(&most).sqrt()
 }
 
-/// The sums of |A| times the bounds on the modes.
+/// An upper bound on the magnitudes of a block's quantities: the slow modes' part by the sums of |A| times the bounds on the
+/// modes, and the quick modes' with the largest R of each group and the ground's largest acceleration and slope.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn sum_sizes(row: &[Lane], sizes: &[ModeSizes], kind: usize, of: impl Fn(&ModeSizes) -> &[f64; 2]) -> Lane {
+fn bound_block(
+    TruncatedBlock { pulls, row, per_ground, per_slope, left }: &TruncatedBlock,
+    at_rest: &Lane,
+    (sizes, quick): (&[ModeSizes], &[f64]),
+    [strongest, steepest]: [f64; 2],
+) -> Lane {
+    let kind = usize::from(*pulls);
+    let mut sum = each(|i| at_rest[i].abs() + per_ground[i].abs() * strongest + per_slope[i] * steepest);
+    for (row, sizes) in row.iter().zip(sizes) {
+        for i in 0..LANES {
+            sum[i] += row[i].abs() * sizes.most[kind];
+        }
+    }
+    for (row, most) in left.iter().zip(quick) {
+        for i in 0..LANES {
+            sum[i] += row[i] * most;
+        }
+    }
+    each(|i| (1.0 + ROUNDING) * sum[i])
+}
+
+/// The sums of |A| times the modes' deviations from the chord.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn sum_sags(row: &[Lane], sizes: &[ModeSizes], kind: usize) -> Lane {
     let mut sum = [0.0; LANES];
     for (row, sizes) in row.iter().zip(sizes) {
         for i in 0..LANES {
-            sum[i] += row[i].abs() * of(sizes)[kind];
+            sum[i] += row[i].abs() * sizes.sag[kind];
         }
     }
     sum

@@ -1,11 +1,11 @@
 //! The peaks at the communication time: those of the base, raised over the planned step up to that time.
 
 use crate::engine::base::peaks::Peaks;
+use crate::engine::bounds::flights::{Flights, Load};
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::model::Model;
 use crate::engine::output::known::PointPeaks;
 use crate::engine::output::point::Point;
-use crate::engine::peaks::log::{Flights, Load};
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::state::State;

@@ -7,13 +7,13 @@
 //! to look, so that no result depends on when, and how often, the log is folded.
 
 use crate::engine::base::peaks::Peaks;
+use crate::engine::bounds::flights::{Flights, Load};
 use crate::engine::bounds::span::{BlockBounds, ModeSizes, PART, Span};
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::model::Model;
-use crate::engine::peaks::log::{Flights, Load};
 use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::{BuildingRows, values_of};
-use crate::engine::quantities::truncated::{Mode, TruncatedBuilding};
+use crate::engine::quantities::truncated::TruncatedBuilding;
 use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
@@ -33,6 +33,7 @@ pub struct FoldRoom {
 /// The same of one building, for spans of N times.
 #[derive(Clone, Debug, Default)]
 struct SpanRoom<const N: usize> {
+    spans: Vec<Span<N>>,
     /// The slow modes in one span.
     motion: Vec<[[f64; N]; 2]>,
     /// Bounds on the slow modes and on the groups of the quick ones, span by span.
@@ -88,13 +89,18 @@ impl Model {
     ) {
         let mut room = std::mem::take(&mut work.peaks.fold);
         room.survivors.clear();
+        let is_short = flights.count() < SHORT;
+        match is_short {
+            true => room.short.part(flights),
+            false => room.long.part(flights),
+        }
         for (rows, truncated) in self.peak_rows.buildings.iter().zip(&self.truncated.buildings) {
             let of_building = rows.first..rows.first + rows.blocks.len();
             let fold = Fold { flights, rows, truncated, rest: &rest.as_chunks::<LANES>().0[of_building.clone()] };
             let known = &mut peaks.values.as_chunks_mut::<LANES>().0[of_building];
-            match flights.count() {
-                0..SHORT => fold.find_survivors(known, &mut room.short, &mut room.survivors),
-                _ => fold.find_survivors(known, &mut room.long, &mut room.survivors),
+            match is_short {
+                true => fold.find_survivors(known, &mut room.short, &mut room.survivors),
+                false => fold.find_survivors(known, &mut room.long, &mut room.survivors),
             }
         }
         self.read_ends(flights, rest, peaks, &mut room.survivors);
@@ -122,7 +128,11 @@ impl Model {
             let at_rest = &rest.as_chunks::<LANES>().0[survivor.block];
             for (end, flight) in survivor.ends.iter_mut().zip(survivor.flight..) {
                 let (q, v) = flights.motion(flight);
-                *end = values_of(&rows.blocks[survivor.block - rows.first], &q[rows.modes.clone()], &v[rows.modes.clone()]);
+                *end = values_of(
+                    &rows.blocks[survivor.block - rows.first],
+                    &q[rows.modes.clone()],
+                    &v[rows.modes.clone()],
+                );
                 for i in 0..LANES {
                     end[i] += at_rest[i];
                     known[i] = larger(known[i], end[i].abs());
@@ -163,14 +173,22 @@ impl Model {
         };
         work.peaks.start_flight();
         for building in &self.peak_rows.buildings {
-            let own = |survivor: &&Survivor| (building.first..building.first + building.blocks.len()).contains(&survivor.block);
+            let own = |survivor: &&Survivor| {
+                (building.first..building.first + building.blocks.len()).contains(&survivor.block)
+            };
             let mut is_bounded = false;
             for survivor in survivors.iter().filter(own) {
                 if !std::mem::replace(&mut is_bounded, true) {
                     let jerk = &mut work.buffers.node_v;
                     work.peaks.bounds.set(&self.system.structure, building.modes.clone(), &stretch, jerk);
                 }
-                self.check_block(building, survivor.block - building.first, (&stretch, Some(survivor.ends)), peaks, work);
+                self.check_block(
+                    building,
+                    survivor.block - building.first,
+                    (&stretch, Some(survivor.ends)),
+                    peaks,
+                    work,
+                );
             }
         }
         self.search_flight(&stretch, peaks, work);
@@ -178,125 +196,130 @@ impl Model {
     }
 }
 
+impl<const N: usize> SpanRoom<N> {
+    /// Parts flights into spans.
+    fn part(&mut self, flights: &Flights) {
+        self.spans.clear();
+        self.spans.extend((0..flights.count()).step_by(N - 1).map(|from| Span::of(flights, from)));
+    }
+}
+
 impl Fold<'_> {
     /// Raises peaks to lower bounds over the flights, and notes blocks and flights that may exceed them.
-    fn find_survivors<const N: usize>(&self, known: &mut [Lane], room: &mut SpanRoom<N>, survivors: &mut Vec<Survivor>) {
-        if self.rows.blocks.is_empty() {
+    fn find_survivors<const N: usize>(
+        &self,
+        known: &mut [Lane],
+        room: &mut SpanRoom<N>,
+        survivors: &mut Vec<Survivor>,
+    ) {
+        if known.is_empty() || room.spans.is_empty() {
             return;
         }
-        self.read_spans(room);
+        let mut spans = std::mem::take(&mut room.spans);
+        self.read_spans(&spans, room);
         let mut order = std::mem::take(&mut room.order);
         order.sort_unstable_by(|one, other| other.0.total_cmp(&one.0).then(one.1.cmp(&other.1)));
-        room.open.clear();
-        for &(_, span) in &order {
-            self.read_span(span, known, room);
+        for &(_, number) in &order {
+            self.read_span((number, &spans[number]), known, room);
         }
-        room.order = order;
+        let mut open = std::mem::take(&mut room.open);
         let mut read = None;
-        let open = std::mem::take(&mut room.open);
         for one in open.iter().filter(|open| !is_below(&open.upper, &known[open.block])) {
-            let span = self.span::<N>(one.span);
+            let span = (one.span, &spans[one.span]);
             if read.replace(one.span) != Some(one.span) {
-                span.read(self.slow(), &mut room.motion, &mut room.sizes[self.sizes_of(one.span)]);
+                self.read_modes(span, room);
             }
-            let bounds = self.bound(&span, one.span, one.block, &one.coarse, room);
-            for k in 0..span.count {
-                let upper = bounds.upper(k);
-                if !is_below(&upper, &known[one.block]) {
-                    let excess = (0..LANES).fold(0.0, |most, i| larger(most, upper[i] - known[one.block][i]));
-                    let (flight, block) = (one.span * (N - 1) + k, self.rows.first + one.block);
-                    survivors.push(Survivor { flight, block, upper, excess, ends: [[0.0; LANES]; 2] });
-                }
-            }
+            self.read_block(span, one, known, room, survivors);
         }
-        room.open = open;
+        open.clear();
+        (room.spans, room.order, room.open) = (std::mem::take(&mut spans), order, open);
     }
 
     /// Works out the bounds on the modes over all spans.
-    fn read_spans<const N: usize>(&self, room: &mut SpanRoom<N>) {
-        let spans = self.flights.count().div_ceil(N - 1);
-        let (slow, groups) = (self.truncated.slow, self.truncated.groups.len());
-        room.motion.resize(slow, [[0.0; N]; 2]);
-        room.sizes.resize(spans * slow, ModeSizes::default());
-        room.quick.resize(spans * N.div_ceil(PART) * groups, 0.0);
+    fn read_spans<const N: usize>(&self, spans: &[Span<N>], room: &mut SpanRoom<N>) {
+        room.motion.resize(self.truncated.slow, [[0.0; N]; 2]);
+        room.sizes.resize(spans.len() * self.truncated.slow, ModeSizes::default());
+        room.quick.resize(spans.len() * self.quick_in::<N>(), 0.0);
         room.order.clear();
-        for number in 0..spans {
-            let span = self.span::<N>(number);
-            let size = span.read(self.slow(), &mut room.motion, &mut room.sizes[self.sizes_of(number)]);
+        for (number, span) in spans.iter().enumerate() {
+            let size = self.read_modes((number, span), room);
             room.order.push((size, number));
-            if groups > 0 {
-                let from = number * N.div_ceil(PART) * groups;
-                span.bound_quick(self.truncated, &mut room.quick[from..][..span.parts() * groups]);
+            if !self.truncated.groups.is_empty() {
+                let from = number * self.quick_in::<N>();
+                let quick = &mut room.quick[from..][..(span.parts() + 1) * self.truncated.groups.len()];
+                span.bound_quick(self.flights, self.rows.modes.start, self.truncated, quick);
             }
         }
     }
 
+    fn read_modes<const N: usize>(&self, (number, span): (usize, &Span<N>), room: &mut SpanRoom<N>) -> f64 {
+        let SpanRoom { motion, sizes, .. } = room;
+        let slow = &self.truncated.modes[..self.truncated.slow];
+        span.read(self.flights, self.rows.modes.start, slow, motion, &mut sizes[self.sizes_of(number)])
+    }
+
     /// Reads the blocks that may exceed their peaks over a span at the ends of its flights.
-    fn read_span<const N: usize>(&self, number: usize, known: &mut [Lane], room: &mut SpanRoom<N>) {
-        let span = self.span::<N>(number);
+    fn read_span<const N: usize>(&self, span: (usize, &Span<N>), known: &mut [Lane], room: &mut SpanRoom<N>) {
         let mut is_read = room.order.len() == 1;
         for (b, block) in self.truncated.blocks.iter().enumerate() {
-            let sizes = &room.sizes[self.sizes_of(number)];
-            let coarse = span.bound_coarsely(block, &self.rest[b], sizes, self.quick_of::<N>(number, room));
+            let (sizes, quick) = (&room.sizes[self.sizes_of(span.0)], self.quick_of::<N>(span.0, room));
+            let coarse = span.1.bound_coarsely(block, &self.rest[b], sizes, quick);
             if is_below(&coarse, &known[b]) {
                 continue;
             }
             if !std::mem::replace(&mut is_read, true) {
-                span.read(self.slow(), &mut room.motion, &mut room.sizes[self.sizes_of(number)]);
+                self.read_modes(span, room);
             }
-            let [least, upper] = self.bound(&span, number, b, &coarse, room).extremes(span.count);
+            let mut open = OpenBlock { span: span.0, block: b, coarse, upper: coarse };
+            let [least, upper] = self.bound(span.1, &open, room).extremes(span.1.count);
             for i in 0..LANES {
                 known[b][i] = larger(known[b][i], least[i]);
             }
             if !is_below(&upper, &known[b]) {
-                room.open.push(OpenBlock { span: number, block: b, coarse, upper });
+                open.upper = upper;
+                room.open.push(open);
             }
         }
     }
 
-    fn bound<const N: usize>(
+    /// Notes the flights of a span in which a block may exceed its peaks.
+    fn read_block<const N: usize>(
         &self,
-        span: &Span<N>,
-        number: usize,
-        block: usize,
-        coarse: &Lane,
+        (_, span): (usize, &Span<N>),
+        open: &OpenBlock,
+        known: &[Lane],
         room: &SpanRoom<N>,
-    ) -> BlockBounds<N> {
-        let read = (&room.motion[..], &room.sizes[self.sizes_of(number)]);
-        span.bound(&self.truncated.blocks[block], &self.rest[block], read, (self.quick_of::<N>(number, room), coarse))
+        survivors: &mut Vec<Survivor>,
+    ) {
+        let (bounds, known) = (self.bound(span, open, room), &known[open.block]);
+        for k in 0..span.count {
+            let upper = bounds.upper(k);
+            if !is_below(&upper, known) {
+                let excess = (0..LANES).fold(0.0, |most, i| larger(most, upper[i] - known[i]));
+                let (flight, block) = (span.from + k, self.rows.first + open.block);
+                survivors.push(Survivor { flight, block, upper, excess, ends: [[0.0; LANES]; 2] });
+            }
+        }
     }
 
-    fn slow(&self) -> &[Mode] {
-        &self.truncated.modes[..self.truncated.slow]
+    fn bound<const N: usize>(&self, span: &Span<N>, open: &OpenBlock, room: &SpanRoom<N>) -> BlockBounds<N> {
+        let read = (&room.motion[..], &room.sizes[self.sizes_of(open.span)]);
+        let quick = (self.quick_of::<N>(open.span, room), &open.coarse);
+        span.bound(&self.truncated.blocks[open.block], &self.rest[open.block], read, quick)
     }
 
     fn sizes_of(&self, span: usize) -> Range<usize> {
         span * self.truncated.slow..(span + 1) * self.truncated.slow
     }
 
-    fn quick_of<'r, const N: usize>(&self, span: usize, room: &'r SpanRoom<N>) -> &'r [f64] {
-        let each = N.div_ceil(PART) * self.truncated.groups.len();
-        &room.quick[span * each..(span + 1) * each]
+    /// Number of bounds on quick modes for one span.
+    fn quick_in<const N: usize>(&self) -> usize {
+        (N.div_ceil(PART) + 1) * self.truncated.groups.len()
     }
 
-    /// A span by its number.
-    fn span<const N: usize>(&self, number: usize) -> Span<'_, N> {
-        let from = number * (N - 1);
-        let count = (self.flights.count() - from).min(N - 1);
-        let modes = self.rows.modes.clone();
-        let loads: [Load; N] = std::array::from_fn(|t| self.flights.load(from + t.min(count)));
-        let flown = &loads[..count];
-        Span {
-            motions: std::array::from_fn(|t| {
-                let (q, v) = self.flights.motion(from + t.min(count));
-                (&q[modes.clone()], &v[modes.clone()])
-            }),
-            ground: loads.map(|load| load.acceleration),
-            slopes: loads.map(|load| load.slope),
-            count,
-            longest: flown.iter().fold(0.0, |longest, load| larger(longest, load.length)),
-            has_gap: flown.iter().any(|load| load.length == 0.0),
-        }
+    fn quick_of<'r, const N: usize>(&self, span: usize, room: &'r SpanRoom<N>) -> &'r [f64] {
+        let each = self.quick_in::<N>();
+        &room.quick[span * each..(span + 1) * each]
     }
 }
 

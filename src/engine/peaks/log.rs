@@ -5,6 +5,7 @@
 //! before a state is saved. Whoever reads a peak folds what is logged into a copy.
 
 use crate::engine::base::Base;
+use crate::engine::bounds::flights::{Flights, Load};
 use crate::engine::flight::fast_account::SegmentAccount;
 use crate::structure::Lane;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -15,17 +16,6 @@ const MOST_BYTES: usize = 4 << 20;
 
 /// Change of the ground's acceleration from one flight to the next, relative to it, that is no rounding.
 const JUMP: f64 = 1e-12;
-
-/// The load of a logged flight.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Load {
-    /// Ground acceleration at the start, m/s2.
-    pub acceleration: f64,
-    /// Its slope, m/s3.
-    pub slope: f64,
-    /// Length, s; 0: a gap, at whose end the motion or the acceleration is another one.
-    pub length: f64,
-}
 
 /// The motions at the starts of flights that follow each other, oldest first. The last flight ends at the base, unless the
 /// log is closed: then a gap is its last entry.
@@ -38,16 +28,6 @@ pub struct PeakLog {
     loads: Vec<Load>,
     /// A number that no other log has had, and this one not before it was last emptied.
     pub identity: u64,
-}
-
-/// Logged flights, or the first part of one: the motions at their starts, and at the end of the last one, if it is no gap.
-#[derive(Clone, Copy)]
-pub struct Flights<'a> {
-    pub lanes: usize,
-    pub q: &'a [f64],
-    pub v: &'a [f64],
-    pub loads: &'a [Load],
-    pub end: (&'a [f64], &'a [f64]),
 }
 
 impl PeakLog {
@@ -96,7 +76,8 @@ impl PeakLog {
 
     /// Ends the last flight at a motion, where something other than the ground is about to move the buildings.
     pub fn close(&mut self, motion: (&[f64], &[f64])) {
-        if let Some(Load { acceleration, slope, length }) = self.loads.last().copied().filter(|load| load.length > 0.0) {
+        if let Some(Load { acceleration, slope, length }) = self.loads.last().copied().filter(|load| load.length > 0.0)
+        {
             self.push(motion, Load { acceleration: acceleration + slope * length, slope: 0.0, length: 0.0 });
         }
     }
@@ -132,33 +113,6 @@ impl Clone for PeakLog {
 fn next_identity() -> u64 {
     static NEXT: AtomicU64 = AtomicU64::new(1);
     NEXT.fetch_add(1, Ordering::Relaxed)
-}
-
-impl<'a> Flights<'a> {
-    /// Number of flights and gaps.
-    pub fn count(&self) -> usize {
-        match self.loads.last() {
-            Some(load) if load.length == 0.0 => self.loads.len() - 1,
-            _ => self.loads.len(),
-        }
-    }
-
-    /// The motion at the start of flight `k`, or at the end of the last one.
-    pub fn motion(&self, k: usize) -> (&'a [f64], &'a [f64]) {
-        if k == self.loads.len() {
-            return self.end;
-        }
-        let range = k * self.lanes..(k + 1) * self.lanes;
-        (&self.q[range.clone()], &self.v[range])
-    }
-
-    /// The load of flight `k`; at the end of the last one that of a gap.
-    pub fn load(&self, k: usize) -> Load {
-        self.loads.get(k).copied().unwrap_or_else(|| {
-            let Load { acceleration, slope, length } = self.loads.last().copied().unwrap_or_default();
-            Load { acceleration: acceleration + slope * length, slope: 0.0, length: 0.0 }
-        })
-    }
 }
 
 /// An account that logs the segments as well.

@@ -23,10 +23,10 @@ pub mod search;
 
 use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;
+use crate::engine::bounds::flights::Load;
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
-use crate::engine::peaks::log::Load;
 use crate::engine::peaks::room::PeakWork;
 use crate::engine::state::Workspace;
 use crate::engine::step::Step;

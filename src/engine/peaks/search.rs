@@ -184,7 +184,8 @@ impl Model {
         let PeakWork { buffers: Buffers { node_v: jerk, .. }, peaks } = work;
         let [q, v, end_q, end_v] = &peaks.pieces;
         let (loads, length) = ((&peaks.load[..], flight.loads.1), piece.to - piece.from);
-        let own = Stretch { start: (q, v), end: (end_q, end_v), loads, length, is_watched: false, whole: None, ..*flight };
+        let own =
+            Stretch { start: (q, v), end: (end_q, end_v), loads, length, is_watched: false, whole: None, ..*flight };
         for building in &self.peak_rows.buildings {
             peaks.piece.set(&self.system.structure, building.modes.clone(), &own, jerk);
         }
@@ -213,27 +214,39 @@ impl Model {
         let Piece { from, to, .. } = piece;
         let (mut rows, (ground, slope)) = (std::mem::take(&mut work.peaks.rows), flight.ground);
         let end = if until < to { (until - from) / (to - from) } else { 1.0 };
-        self.expand_piece(flight, (from, to), work);
-        for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
-            let of = suspect.of;
-            let lanes = self.set_rows(of, Coordinates::Modes, &mut rows);
-            let span = self.span_of(of.side(), Coordinates::Modes);
-            let at_rest = flight.rest[suspect.place];
-            let quantity = Quantity { of, rows: &rows, lanes, span, at_rest, ground: (ground + slope * from, slope) };
-            let (terms, order) = quantity.terms(&work.buffers.series, None);
-            suspect.peak = highest(&terms, (end, order), suspect.peak, &mut work.buffers.powers);
+        for suspects in suspects.chunk_by_mut(|one, next| one.of.side() == next.of.side()) {
+            if !are_any_left(suspects) {
+                continue;
+            }
+            let span = self.span_of(suspects[0].of.side(), Coordinates::Modes);
+            self.expand_piece(flight, (from, to), span, work);
+            for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
+                let of = suspect.of;
+                let lanes = self.set_rows(of, Coordinates::Modes, &mut rows);
+                let at_rest = flight.rest[suspect.place];
+                let quantity =
+                    Quantity { of, rows: &rows, lanes, span, at_rest, ground: (ground + slope * from, slope) };
+                let (terms, order) = quantity.terms(&work.buffers.series, None);
+                suspect.peak = highest(&terms, (end, order), suspect.peak, &mut work.buffers.powers);
+            }
         }
         work.peaks.rows = rows;
     }
 
-    /// Expands a piece of a flight into a power series.
-    fn expand_piece(&self, flight: &Stretch, (from, to): (f64, f64), work: &mut PeakWork) {
+    /// Expands a piece of a flight into a power series, for the modes of one building.
+    fn expand_piece(&self, flight: &Stretch, (from, to): (f64, f64), modes: (usize, usize), work: &mut PeakWork) {
         self.fly_to(flight, from, [0, 1], work);
         self.set_load(flight, from, work);
         let order = flight_order(self.system.structure.fastest * (to - from), EXACT).unwrap_or(MAX_ORDER);
         let PeakWork { buffers: Buffers { series, .. }, peaks } = work;
         let ([q, v, ..], load) = (&peaks.pieces, &peaks.load);
-        series.expand_flight(&self.system.structure, (q, v), (load, flight.loads.1), (to - from, order));
+        series.expand_flight_of(
+            modes.0..modes.1,
+            &self.system.structure,
+            (q, v),
+            (load, flight.loads.1),
+            (to - from, order),
+        );
     }
 
     /// Works out the motion at a time of a flight in two of the vectors `pieces`.

@@ -6,6 +6,7 @@ use crate::numerics::time_map::TimeMap;
 use crate::structure::equations::Structure;
 use crate::structure::floors::Floors;
 use crate::structure::lanes::{FEW_BLOCKS, LANES, Lane};
+use std::ops::Range;
 
 /// Most powers of a series.
 const MOST_POWERS: usize = 40;
@@ -136,12 +137,24 @@ impl MotionSeries {
     pub fn expand_flight(
         &mut self,
         structure: &Structure,
+        motion: (&[f64], &[f64]),
+        loads: (&[f64], &[f64]),
+        extent: (f64, usize),
+    ) {
+        self.expand_flight_of(0..self.lanes, structure, motion, loads, extent);
+    }
+
+    /// The same for some modes; where damping couples modes, for all.
+    pub fn expand_flight_of(
+        &mut self,
+        modes: Range<usize>,
+        structure: &Structure,
         (q, v): (&[f64], &[f64]),
         (load, slope): (&[f64], &[f64]),
         (scale, order): (f64, usize),
     ) {
         if structure.is_classical() {
-            return expand_single_modes(self, structure, (q, v), (load, slope), (scale, order));
+            return expand_single_modes(self, (structure, modes), (q, v), (load, slope), (scale, order));
         }
         self.start(scale, q, v);
         while self.order < order.max(2) {
@@ -161,7 +174,7 @@ impl MotionSeries {
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn expand_single_modes(
     series: &mut MotionSeries,
-    structure: &Structure,
+    (structure, modes): (&Structure, Range<usize>),
     (q, v): (&[f64], &[f64]),
     (load, slope): (&[f64], &[f64]),
     (scale, order): (f64, usize),
@@ -174,7 +187,7 @@ fn expand_single_modes(
     let [(q, _), (v, _), (load, _), (slope, _), (damping, _), (omega2, _)] =
         [q, v, load, slope, &structure.damping, &structure.omega2].map(|vector| vector.as_chunks::<LANES>());
     let (terms, _) = series.coefficients.as_chunks_mut::<LANES>();
-    for c in 0..width {
+    for c in modes.start / LANES..modes.end.div_ceil(LANES) {
         let a = damping[c].map(|damping| damping * scale);
         let b = omega2[c].map(|omega2| omega2 * scale2);
         let next_of = |count: f64, factor: f64, load: &Lane, before: &Lane, last: &Lane| -> Lane {
