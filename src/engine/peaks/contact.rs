@@ -116,16 +116,49 @@ impl Model {
     }
 
     fn check_contact_step(&self, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
+        work.peaks.readings.restart();
         self.find_ends(part, work);
         self.find_pushes(part.base, work);
+        // The bounds of `floors.rs` cost less than those of a series, and often suffice.
+        let is_open = [Side::Left, Side::Right].map(|side| {
+            self.bound_building(side, part, work);
+            self.may_exceed(side, part, peaks, work)
+        });
+        if is_open == [false; 2] {
+            return;
+        }
         let has_series = self.bound_by_series(part, work);
-        for side in [Side::Left, Side::Right] {
-            match has_series {
-                true => self.bound_building_by_series(side, part, work),
-                false => self.bound_building(side, part, work),
+        for side in [Side::Left, Side::Right].into_iter().filter(|side| is_open[*side as usize]) {
+            if has_series {
+                self.bound_building_by_series(side, part, work);
+                self.may_exceed(side, part, peaks, work);
             }
             self.check_building(side, part, peaks, work);
         }
+    }
+
+    /// Whether a peak of a building may be exceeded over the step, by the bounds on its floors; works out by how much those of
+    /// each floor.
+    fn may_exceed(&self, side: Side, part: &ContactStep, peaks: &Peaks, work: &mut PeakWork) -> bool {
+        let lanes = self.system.structure.floors.lanes_of(side as usize);
+        let places = [PeakOf::Displacement(side, 0), PeakOf::Drift(side, 0), PeakOf::Acceleration(side, 0)];
+        let known = places.map(|of| &peaks.values[self.peak_rows.place(of)..][..lanes.len()]);
+        find_excess(&mut work.peaks.floors, lanes.clone(), part.length, known);
+        let shear = self.bound_shear(side, part.length, &work.peaks.floors).1;
+        // Written so that a NaN is never below anything.
+        let are_below = work.peaks.floors.excess[lanes].iter().all(|excess| *excess <= 0.0);
+        !(are_below && shear <= peaks.values[self.peak_rows.place(PeakOf::BaseShear(side))])
+    }
+
+    /// The base shears at both ends of a step, and a bound on their magnitudes in between, N.
+    fn bound_shear(
+        &self,
+        side: Side,
+        length: f64,
+        FloorRoom { start, end, largest, .. }: &FloorRoom,
+    ) -> ([f64; 2], f64) {
+        let shears = [start, end].map(|at| at.shear[side as usize]);
+        (shears, larger(shears[0].abs(), shears[1].abs()) + self.shear_strays(side, length, largest))
     }
 
     /// Works out the floors at both ends.
@@ -232,22 +265,16 @@ impl Model {
         }
     }
 
-    /// Raises the peaks of a building over the step.
+    /// Raises the peaks of a building over the step, of which it is known by how much each floor's may be exceeded.
     fn check_building(&self, side: Side, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
-        let lanes = self.system.structure.floors.lanes_of(side as usize);
-        let places = [PeakOf::Displacement(side, 0), PeakOf::Drift(side, 0), PeakOf::Acceleration(side, 0)];
-        let known = places.map(|of| &peaks.values[self.peak_rows.place(of)..][..lanes.len()]);
-        find_excess(&mut work.peaks.floors, lanes.clone(), part.length, known);
-        for (floor, lane) in lanes.enumerate() {
+        for (floor, lane) in self.system.structure.floors.lanes_of(side as usize).enumerate() {
             // Written so that a NaN is never below anything.
             let is_below = work.peaks.floors.excess[lane] <= 0.0;
             if !is_below {
                 self.check_floor(side, (floor, lane), part, peaks, work);
             }
         }
-        let FloorRoom { start, end, largest, .. } = &work.peaks.floors;
-        let shears = [start, end].map(|at| at.shear[side as usize]);
-        let bound = larger(shears[0].abs(), shears[1].abs()) + self.shear_strays(side, part.length, largest);
+        let (shears, bound) = self.bound_shear(side, part.length, &work.peaks.floors);
         self.check_one(PeakOf::BaseShear(side), shears, (bound, false), part, peaks, work);
     }
 

@@ -76,12 +76,13 @@ impl Model {
         match dense {
             None => self.system.structure.floors.add_sizes(side as usize, factors, largest, strays),
             Some([stiffness, damping]) => {
-                for (j, from) in lanes.clone().enumerate() {
-                    for (i, to) in lanes.clone().enumerate() {
-                        let share = factors[0] * stiffness[(i, j)] + factors[1] * damping[(i, j)];
-                        strays[to] += share * largest[from];
-                    }
-                }
+                let own = lanes.clone();
+                add_product(
+                    [stiffness.as_slice(), damping.as_slice()],
+                    factors,
+                    &largest[own.clone()],
+                    &mut strays[own],
+                );
             }
         }
         let whole = largest[lanes.clone()].iter().fold(0.0, |most, of| larger(most, *of));
@@ -107,5 +108,17 @@ impl Model {
             [&floors.u, &floors.v].map(|vector| self.system.structure.floors.of_building(side as usize, vector));
         let terms = on_u.iter().zip(on_v).zip(u.iter().zip(v));
         terms.map(|((k, c), (u, v))| k * u + c * v).sum()
+    }
+}
+
+/// Adds (f K + g C) x, column by column; the factors are f and g.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn add_product([stiffness, damping]: [&[f64]; 2], factors: [f64; 2], x: &[f64], out: &mut [f64]) {
+    let columns = stiffness.chunks_exact(x.len()).zip(damping.chunks_exact(x.len()));
+    for ((stiffness, damping), x) in columns.zip(x) {
+        let factors = factors.map(|factor| factor * x);
+        for ((out, k), c) in out.iter_mut().zip(stiffness).zip(damping) {
+            *out += factors[0] * k + factors[1] * c;
+        }
     }
 }

@@ -141,19 +141,47 @@ impl Model {
         floors.resisted[lane] + pushed.sum::<f64>()
     }
 
-    /// Evaluates a quantity and its slope at a time of a window, from the equations of motion.
+    /// Evaluates a quantity and its slope at a time of a window.
     fn read_in_window(
         &self,
         quantity: &Quantity,
         time: f64,
-        (window, series): (&Window, &MotionSeries),
+        window: (&Window, &MotionSeries),
         part: &ContactStep,
         work: &mut PeakWork,
     ) -> Reading {
+        let (ground, ground_slope) = quantity.ground;
+        let ground = ground + ground_slope * time;
+        let (place, is_known, mut room) = work.peaks.readings.take(time);
+        if !is_known {
+            self.read_motion((ground, ground_slope), window, part, &mut room, work);
+        }
+        let ReadingRoom { q, v, acceleration, jerk, .. } = &room;
+        let (value, slope) = match quantity.of {
+            PeakOf::Acceleration(..) => {
+                (quantity.of_motion(acceleration) + ground, quantity.of_motion(jerk) + ground_slope)
+            }
+            _ => {
+                let value = quantity.at_rest + (quantity.of_motion(q) + quantity.of_rate(v));
+                (value, quantity.of_motion(v) + quantity.of_rate(acceleration))
+            }
+        };
+        work.peaks.readings.put(place, room);
+        Reading { time, value, slope }
+    }
+
+    /// Evaluates the motion at the time of a room, its accelerations and their rates, from the equations of motion with that
+    /// acceleration of the ground and its slope.
+    fn read_motion(
+        &self,
+        (ground, ground_slope): (f64, f64),
+        (window, series): (&Window, &MotionSeries),
+        part: &ContactStep,
+        ReadingRoom { time, q, v, acceleration, jerk, .. }: &mut ReadingRoom,
+        work: &mut PeakWork,
+    ) {
         let ContactStep { base, step, inputs, .. } = *part;
-        let coordinates = base.coordinates;
-        let mut room = std::mem::take(&mut work.peaks.reading);
-        let ReadingRoom { q, v, acceleration, jerk, .. } = &mut room;
+        let (time, coordinates) = (*time, base.coordinates);
         let mut pairs = [(0.0, 0.0); MOST_PAIRS];
         let Window { contacts, equation, solution, .. } = window;
         let contacts = &contacts[..equation.closed];
@@ -169,8 +197,6 @@ impl Model {
             let free = FreeMotion::of(&self.system, (base, inputs), series, work.buffers);
             window.evaluate_with_pairs(&self.system, free, time, (q, v), &mut pairs);
         }
-        let (ground, ground_slope) = quantity.ground;
-        let ground = ground + ground_slope * time;
         for (lane, share) in self.system.participation(coordinates).iter().enumerate() {
             (acceleration[lane], jerk[lane]) = (-share * ground, -share * ground_slope);
         }
@@ -187,17 +213,6 @@ impl Model {
             let rates = base.contacts[p].branch().rates([*d, *rate, bend, 0.0]);
             self.system.push_apart_by(p, coordinates, rates.map_or(0.0, |[first, _]| first), jerk);
         }
-        let (value, slope) = match quantity.of {
-            PeakOf::Acceleration(..) => {
-                (quantity.of_motion(acceleration) + ground, quantity.of_motion(jerk) + ground_slope)
-            }
-            _ => {
-                let value = quantity.at_rest + (quantity.of_motion(q) + quantity.of_rate(v));
-                (value, quantity.of_motion(v) + quantity.of_rate(acceleration))
-            }
-        };
-        work.peaks.reading = room;
-        Reading { time, value, slope }
     }
 }
 

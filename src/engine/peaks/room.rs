@@ -7,6 +7,9 @@ use crate::engine::quantities::rows::{PeakOf, PeakRows};
 use crate::engine::system::buffers::Buffers;
 use crate::structure::{Interval, LANES, Structure};
 
+/// Number of motions of a window that are kept from the first on, and of the latest ones.
+const MOST_READ: usize = 4;
+
 /// Number of motions within a flight that are kept.
 pub const MOST_FLOWN: usize = 16;
 
@@ -42,7 +45,7 @@ pub struct Suspect {
 }
 
 /// Scratch memory; between calls only the end of the last step in `floors` means anything.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct PeakRoom {
     pub fold: FoldRoom,
     /// Bounds on the modes over a flight.
@@ -68,6 +71,7 @@ pub struct PeakRoom {
     pub direct: Vec<[f64; 2]>,
     pub floors: FloorRoom,
     pub reading: ReadingRoom,
+    pub readings: Readings,
     /// Bounds on the magnitudes of the contact forces over a step, N.
     pub strongest: Vec<f64>,
     /// The contact forces at the start of a step, N.
@@ -99,6 +103,7 @@ impl PeakRoom {
             direct: vec![[0.0; 2]; rows.blocks() * LANES],
             floors: FloorRoom::new(lanes),
             reading: ReadingRoom::new(lanes),
+            readings: Readings::new(lanes),
             strongest: vec![0.0; pairs],
             first_forces: vec![0.0; pairs],
             last_forces: vec![0.0; pairs],
@@ -203,9 +208,19 @@ impl FloorRoom {
     }
 }
 
-/// Scratch vectors of a reading.
+/// Motions of a step that have been read, for all quantities: those that are read first, and the latest.
+#[derive(Clone, Debug)]
+pub struct Readings {
+    kept: Vec<ReadingRoom>,
+    /// Number of motions that have been read, which may have replaced each other.
+    read: usize,
+}
+
+/// The motion at a time of a step.
 #[derive(Clone, Debug, Default)]
 pub struct ReadingRoom {
+    /// Time since the start of the step, s.
+    pub time: f64,
     pub q: Vec<f64>,
     pub v: Vec<f64>,
     pub acceleration: Vec<f64>,
@@ -213,9 +228,40 @@ pub struct ReadingRoom {
     pub floors: FloorState,
 }
 
+impl Readings {
+    pub fn new(lanes: usize) -> Readings {
+        Readings { kept: vec![ReadingRoom::new(lanes); 2 * MOST_READ], read: 0 }
+    }
+
+    /// Forgets the motions: another step begins.
+    pub fn restart(&mut self) {
+        self.read = 0;
+    }
+
+    /// Takes the vectors of the motion at a time, s, to be given back; returns their place and whether that motion is known.
+    pub fn take(&mut self, time: f64) -> (usize, bool, ReadingRoom) {
+        let used = self.read.min(self.kept.len());
+        let known = self.kept[..used].iter().position(|kept| kept.time == time);
+        let place = known.unwrap_or_else(|| match self.read {
+            few if few < self.kept.len() => few,
+            many => MOST_READ + many % MOST_READ,
+        });
+        self.read += usize::from(known.is_none());
+        let mut room = std::mem::take(&mut self.kept[place]);
+        room.time = time;
+        (place, known.is_some(), room)
+    }
+
+    /// Gives them back.
+    pub fn put(&mut self, place: usize, room: ReadingRoom) {
+        self.kept[place] = room;
+    }
+}
+
 impl ReadingRoom {
     pub fn new(lanes: usize) -> ReadingRoom {
         let vector = || vec![0.0; lanes];
-        ReadingRoom { q: vector(), v: vector(), acceleration: vector(), jerk: vector(), floors: FloorState::new(lanes) }
+        let floors = FloorState::new(lanes);
+        ReadingRoom { time: f64::NAN, q: vector(), v: vector(), acceleration: vector(), jerk: vector(), floors }
     }
 }
