@@ -106,7 +106,7 @@ impl Model {
         self.read_ends(flights, rest, peaks, &mut room.survivors);
         room.survivors.sort_unstable_by_key(|survivor| (survivor.flight, survivor.block));
         for of_flight in room.survivors.chunk_by(|one, next| one.flight == next.flight) {
-            self.search_one(flights, rest, whole, of_flight, peaks, work);
+            self.search_one((flights, rest, whole), of_flight, peaks, work);
         }
         work.peaks.fold = room;
     }
@@ -146,53 +146,54 @@ impl Model {
     /// Searches one flight for turning points of some blocks of quantities above their peaks.
     fn search_one(
         &self,
-        flights: &Flights,
-        rest: &[f64],
-        whole: Option<&Stretch>,
+        (flights, rest, whole): (&Flights, &[f64], Option<&Stretch>),
         survivors: &[Survivor],
         peaks: &mut Peaks,
         work: &mut PeakWork,
     ) {
         let Some(flight) = survivors.first().map(|survivor| survivor.flight) else { return };
         let Load { acceleration, slope, length } = flights.load(flight);
-        for (share, (load, rate)) in
-            self.system.structure.participation.iter().zip(work.buffers.load.iter_mut().zip(&mut work.buffers.slope))
-        {
-            (*load, *rate) = (-share * acceleration, -share * slope);
+        let mut own = None;
+        let loads = whole.map_or_else(
+            || {
+                let (load, rate) =
+                    own.insert((std::mem::take(&mut work.buffers.load), std::mem::take(&mut work.buffers.slope)));
+                let loads = load.iter_mut().zip(rate.iter_mut());
+                for (share, (load, rate)) in self.system.structure.participation.iter().zip(loads) {
+                    (*load, *rate) = (-share * acceleration, -share * slope);
+                }
+                (&load[..], &rate[..])
+            },
+            |whole| whole.loads,
+        );
+        let (start, end) = (flights.motion(flight), flights.motion(flight + 1));
+        let ground = (acceleration, slope);
+        self.search_stretch(
+            &Stretch { start, end, loads, rest, ground, length, is_watched: true, whole },
+            survivors,
+            peaks,
+            work,
+        );
+        if let Some(own) = own {
+            (work.buffers.load, work.buffers.slope) = own;
         }
-        let (load, rate) = (std::mem::take(&mut work.buffers.load), std::mem::take(&mut work.buffers.slope));
-        let stretch = Stretch {
-            start: flights.motion(flight),
-            end: flights.motion(flight + 1),
-            loads: (&load, &rate),
-            rest,
-            ground: (acceleration, slope),
-            length,
-            is_watched: true,
-            whole,
-        };
+    }
+
+    fn search_stretch(&self, stretch: &Stretch, survivors: &[Survivor], peaks: &mut Peaks, work: &mut PeakWork) {
         work.peaks.start_flight();
         for building in &self.peak_rows.buildings {
-            let own = |survivor: &&Survivor| {
-                (building.first..building.first + building.blocks.len()).contains(&survivor.block)
-            };
+            let own = building.first..building.first + building.blocks.len();
             let mut is_bounded = false;
-            for survivor in survivors.iter().filter(own) {
+            for survivor in survivors.iter().filter(|survivor| own.contains(&survivor.block)) {
                 if !std::mem::replace(&mut is_bounded, true) {
                     let jerk = &mut work.buffers.node_v;
-                    work.peaks.bounds.set(&self.system.structure, building.modes.clone(), &stretch, jerk);
+                    work.peaks.bounds.set(&self.system.structure, building.modes.clone(), stretch, jerk);
                 }
-                self.check_block(
-                    building,
-                    survivor.block - building.first,
-                    (&stretch, Some(survivor.ends)),
-                    peaks,
-                    work,
-                );
+                let known_ends = Some(survivor.ends);
+                self.check_block(building, survivor.block - building.first, (stretch, known_ends), peaks, work);
             }
         }
-        self.search_flight(&stretch, peaks, work);
-        (work.buffers.load, work.buffers.slope) = (load, rate);
+        self.search_flight(stretch, peaks, work);
     }
 }
 

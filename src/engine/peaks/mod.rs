@@ -35,7 +35,7 @@ use crate::engine::step::Step;
 pub const LEFT: usize = 2;
 
 /// Number of logged flights that are folded before a step in contact: what is searched in it depends on the peaks so far.
-const WORTH_FOLDING: usize = 32;
+const WORTH_FOLDING: usize = 128;
 
 impl Model {
     /// Peaks of 0.
