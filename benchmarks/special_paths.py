@@ -49,7 +49,6 @@ PATHS = {
     "certificate": "no entry, shown by both ends of a flight (`flight/certificate.rs`)",
     "envelopes": "no entry, shown by amplitudes (`flight/envelope.rs`)",
     "short_flight": "a short flight straight to its end (`structure/short_flight.rs`)",
-    "peaks_ahead": "for how long no quantity can exceed its peak (`peaks/ahead.rs`)",
 }
 
 

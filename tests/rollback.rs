@@ -139,7 +139,7 @@ fn a_saved_state_goes_on_to_the_same_bits() {
         let mut saved = Vec::new();
         let (mut touching, mut held, mut yielding) = (0, 0, 0);
         for (k, expected) in expected.iter().enumerate() {
-            saved.push(run.state.save());
+            saved.push(run.save());
             assert!(to(&case, &mut run, k) == *expected, "{case:?}: saving has changed point {k}");
             touching += usize::from(run.contacts().iter().any(|contact| contact.active));
             held += usize::from(run.contacts().iter().any(|contact| contact.active && contact.force > 0.0));
@@ -177,7 +177,7 @@ fn every_state_of_a_run_passes_the_checks() {
     for case in cases() {
         let (mut run, other) = (case.run(), case.run());
         for k in 0..POINTS {
-            if let Err(error) = other.model.check_saved(&run.state.save()) {
+            if let Err(error) = other.model.check_saved(&run.save()) {
                 panic!("{case:?}: point {k}: {error}");
             }
             to(&case, &mut run, k);

@@ -120,12 +120,13 @@ impl Workspace {
 
     fn new(model: &Model) -> Workspace {
         let (pairs, lanes) = (model.system.pairs.len(), model.system.structure.lanes);
+        let log = PeakLog::new(if model.logs_flights() { lanes } else { 0 });
         Workspace {
             buffers: model.buffers(),
             look: Look::new(lanes, (pairs, model.system.storeys.len())),
             windows: WindowWorkspace::new(model.windows.as_ref().map_or(0, |_| pairs)),
-            peaks: PeakRoom::new(&model.system.structure, &model.peak_rows, pairs),
-            log: PeakLog::new(if model.logs_flights() { lanes } else { 0 }),
+            peaks: model.peak_room(log.room()),
+            log,
             switches: None,
         }
     }

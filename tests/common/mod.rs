@@ -5,7 +5,7 @@ pub mod peaks;
 #[path = "../problems/mod.rs"]
 pub mod problems;
 
-use pounding::engine::{ContactPoint, EnergyPoint, Episode, Model, PeakOf, Point, Side, State, YieldingOf};
+use pounding::engine::{ContactPoint, EnergyPoint, Episode, Model, PeakOf, Point, SavedState, Side, State, YieldingOf};
 use pounding::record::Record;
 use pounding::scene::Scene;
 use problems::two_masses::{Mass, TwoMasses};
@@ -73,6 +73,11 @@ impl Run {
         self.model.advance(&mut self.state, time, &mut |episode| episodes.push(*episode)).unwrap();
         self.model.observe(&self.state, &mut self.point);
         self
+    }
+
+    /// The saved state.
+    pub fn save(&mut self) -> SavedState {
+        self.model.save(&mut self.state)
     }
 
     /// Advances to a time in steps, reading at each.

@@ -41,10 +41,10 @@ fn dense(scene: &Scene, record: Option<&Record>, stop: f64, count: usize) -> Vec
     let mut largest: Vec<(f64, f64)> = now(&run).into_iter().map(|value| (value, 0.0)).collect();
     let step = stop / count as f64;
     // States from which to read again.
-    let mut saved = vec![run.state.save()];
+    let mut saved = vec![run.save()];
     for k in 1..=count {
         run.to(k as f64 * step);
-        saved.push(run.state.save());
+        saved.push(run.save());
         for (largest, value) in largest.iter_mut().zip(now(&run)) {
             if value > largest.0 {
                 *largest = (value, k as f64);

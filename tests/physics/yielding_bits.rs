@@ -107,7 +107,7 @@ fn a_state_saved_where_a_storey_begins_to_yield_or_turns_goes_on_to_the_same_bit
         run.to(0.0);
         let (mut switches, mut yielding) = (0, 0);
         for k in 1..=800 {
-            let saved = run.state.save();
+            let saved = run.save();
             let before = run.storeys();
             run.to(0.01 * f64::from(k));
             let now = run.storeys();
@@ -124,7 +124,7 @@ fn a_state_saved_where_a_storey_begins_to_yield_or_turns_goes_on_to_the_same_bit
             for time in times {
                 other.model.restore(&saved, &mut other.state);
                 other.to(time);
-                let here = other.state.save();
+                let here = other.save();
                 other.model.check_saved(&here).unwrap();
                 let bits = seen(&other);
                 other.to(7.9);
@@ -158,7 +158,7 @@ fn storeys_let_go_beyond_their_yield_drift_can_be_saved_at_once() {
         for n in 0..20 {
             run.to(0.0002 * f64::from(n));
             at_once += i32::from(n == 1 && run.storeys().iter().any(|storey| storey.sense != 0));
-            let saved = run.state.save();
+            let saved = run.save();
             run.model.check_saved(&saved).unwrap_or_else(|error| panic!("scene {k}, row {n}: {error}"));
             let mut other = Run::new(&scene, Some(&record));
             other.model.restore(&saved, &mut other.state);

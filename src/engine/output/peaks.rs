@@ -6,7 +6,7 @@ use crate::engine::bounds::stretch::Stretch;
 use crate::engine::model::Model;
 use crate::engine::output::known::PointPeaks;
 use crate::engine::output::point::Point;
-use crate::engine::peaks::room::{PeakRoom, PeakWork};
+use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
@@ -31,9 +31,10 @@ impl Model {
     #[inline(never)]
     fn read_peaks(&self, state: &State, point: &Point, known: &mut PointPeaks) {
         let State { base, step, inputs, .. } = state;
-        let mut room = known.work.take().unwrap_or_else(|| {
-            Box::new((self.buffers(), PeakRoom::new(&self.system.structure, &self.peak_rows, self.system.pairs.len())))
-        });
+        let mut room = known
+            .work
+            .take()
+            .unwrap_or_else(|| Box::new((self.buffers(), self.peak_room(usize::from(self.logs_flights())))));
         let (buffers, peaks) = &mut *room;
         let work = &mut PeakWork { buffers, peaks };
         self.fold_into_point(state, known, work);

@@ -114,6 +114,9 @@ impl Model {
 /// Adds (f K + g C) x, column by column; the factors are f and g.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn add_product([stiffness, damping]: [&[f64]; 2], factors: [f64; 2], x: &[f64], out: &mut [f64]) {
+    if x.is_empty() {
+        return;
+    }
     let columns = stiffness.chunks_exact(x.len()).zip(damping.chunks_exact(x.len()));
     for ((stiffness, damping), x) in columns.zip(x) {
         let factors = factors.map(|factor| factor * x);

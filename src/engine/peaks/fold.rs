@@ -12,8 +12,8 @@ use crate::engine::bounds::span::{BlockBounds, ModeSizes, PART, Span};
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::model::Model;
 use crate::engine::peaks::room::PeakWork;
-use crate::engine::quantities::rows::{BuildingRows, values_of};
-use crate::engine::quantities::truncated::TruncatedBuilding;
+use crate::engine::quantities::rows::{BuildingRows, PeakRows, values_of};
+use crate::engine::quantities::truncated::{TruncatedBuilding, TruncatedRows};
 use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
@@ -21,6 +21,9 @@ use std::ops::Range;
 /// Times in a span of a long log, and of one or two flights.
 const LONG: usize = 16;
 const SHORT: usize = 2;
+
+/// Blocks and flights, per block, for which there is room from the start.
+const SURVIVORS: usize = 64;
 
 /// Scratch memory of a fold.
 #[derive(Clone, Debug, Default)]
@@ -197,7 +200,30 @@ impl Model {
     }
 }
 
+impl FoldRoom {
+    /// Room for folds of so many flights over these rows.
+    pub fn new(rows: &PeakRows, truncated: &TruncatedRows, flights: usize) -> FoldRoom {
+        let survivors = if flights == 0 { 0 } else { SURVIVORS * rows.blocks() };
+        let (long, short) = (SpanRoom::new(rows, truncated, flights), SpanRoom::new(rows, truncated, flights.min(1)));
+        FoldRoom { long, short, survivors: Vec::with_capacity(survivors) }
+    }
+}
+
 impl<const N: usize> SpanRoom<N> {
+    fn new(rows: &PeakRows, truncated: &TruncatedRows, flights: usize) -> SpanRoom<N> {
+        let spans = flights.div_ceil(N - 1);
+        let most = |of: &dyn Fn(&TruncatedBuilding) -> usize| truncated.buildings.iter().map(of).max().unwrap_or(0);
+        let blocks = rows.buildings.iter().map(|building| building.blocks.len()).max().unwrap_or(0);
+        SpanRoom {
+            spans: Vec::with_capacity(spans),
+            motion: Vec::with_capacity(most(&|building| building.slow)),
+            sizes: Vec::with_capacity(spans * most(&|building| building.slow)),
+            quick: Vec::with_capacity(spans * (N.div_ceil(PART) + 1) * most(&|building| building.groups.len())),
+            order: Vec::with_capacity(spans),
+            open: Vec::with_capacity(spans * blocks),
+        }
+    }
+
     /// Parts flights into spans.
     fn part(&mut self, flights: &Flights) {
         self.spans.clear();

@@ -27,7 +27,7 @@ use crate::engine::bounds::flights::Load;
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
-use crate::engine::peaks::room::PeakWork;
+use crate::engine::peaks::room::{PeakRoom, PeakWork};
 use crate::engine::state::Workspace;
 use crate::engine::step::Step;
 
@@ -56,6 +56,12 @@ impl Model {
         let end = (step.planned.length, &step.planned.q[..], &step.planned.v[..]);
         self.with_flight(base, inputs, end, work, |flight, work| self.check_blocks(flight, &mut peaks, work));
         base.peaks = peaks;
+    }
+
+    /// Scratch memory, in which so many flights can be folded at once.
+    pub(in crate::engine) fn peak_room(&self, flights: usize) -> PeakRoom {
+        let rows = (&self.peak_rows, &self.truncated);
+        PeakRoom::new(&self.system.structure, rows, self.system.pairs.len(), flights)
     }
 
     /// Whether flights are logged, and the peaks raised over them later.

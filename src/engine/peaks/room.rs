@@ -4,11 +4,15 @@
 use crate::engine::bounds::stretch::ModeBounds;
 use crate::engine::peaks::fold::FoldRoom;
 use crate::engine::quantities::rows::{PeakOf, PeakRows};
+use crate::engine::quantities::truncated::TruncatedRows;
 use crate::engine::system::buffers::Buffers;
 use crate::structure::{Interval, LANES, Structure};
 
 /// Number of motions of a window that are kept from the first on, and of the latest ones.
 const MOST_READ: usize = 4;
+
+/// Number of parts of flights that are kept prepared.
+const MOST_PARTS: usize = 32;
 
 /// Number of motions within a flight that are kept.
 pub const MOST_FLOWN: usize = 16;
@@ -23,6 +27,32 @@ pub struct Flown {
     pub time: f64,
     pub q: Vec<f64>,
     pub v: Vec<f64>,
+}
+
+/// Exact flights over parts of flights, in a ring: flights of equal lengths have the same parts.
+#[derive(Clone, Debug, Default)]
+pub struct Parts {
+    kept: Vec<Interval>,
+    /// Index of the next one to be replaced.
+    next: usize,
+}
+
+impl Parts {
+    fn new(structure: &Structure, count: usize) -> Parts {
+        Parts { kept: vec![Interval::room(structure); count], next: 0 }
+    }
+
+    /// The flight over a part of some length, s.
+    pub fn of(&mut self, structure: &Structure, length: f64) -> &Interval {
+        let known = self.kept.iter().position(|part| part.length == length);
+        let place = known.unwrap_or_else(|| {
+            let place = self.next;
+            self.next = (place + 1) % self.kept.len();
+            self.kept[place].prepare(structure, length);
+            place
+        });
+        &self.kept[place]
+    }
 }
 
 /// A quantity that may exceed its peak within a flight.
@@ -58,8 +88,7 @@ pub struct PeakRoom {
     pub flown: [Flown; MOST_FLOWN],
     /// Index of the next motion to be overwritten.
     pub next_flown: usize,
-    /// Flights over parts of flights.
-    pub parts: Vec<Interval>,
+    pub parts: Parts,
     /// q and v at the start and at the end of a piece.
     pub pieces: [Vec<f64>; 4],
     /// The modal load at the start of a piece.
@@ -87,16 +116,21 @@ pub struct PeakRoom {
 }
 
 impl PeakRoom {
-    pub fn new(structure: &Structure, rows: &PeakRows, pairs: usize) -> PeakRoom {
+    pub fn new(
+        structure: &Structure,
+        (rows, truncated): (&PeakRows, &TruncatedRows),
+        pairs: usize,
+        flights: usize,
+    ) -> PeakRoom {
         let lanes = structure.lanes;
         PeakRoom {
-            fold: FoldRoom::default(),
+            fold: FoldRoom::new(rows, truncated, flights),
             bounds: ModeBounds::new(lanes),
             piece: ModeBounds::new(lanes),
             suspects: Vec::with_capacity(rows.blocks() * LANES),
             flown: std::array::from_fn(|_| Flown { time: f64::NAN, q: vec![0.0; lanes], v: vec![0.0; lanes] }),
             next_flown: 0,
-            parts: Vec::new(),
+            parts: Parts::new(structure, if rows.are_none() { 0 } else { MOST_PARTS }),
             pieces: [(); 4].map(|()| vec![0.0; lanes]),
             load: vec![0.0; lanes],
             rows: [(); 2].map(|()| vec![0.0; lanes]),

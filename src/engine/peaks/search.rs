@@ -13,7 +13,7 @@ use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS, larger};
 use crate::numerics::powers::{Powers, Reading};
 use crate::numerics::roots;
 use crate::numerics::substitution::Substitution;
-use crate::structure::{EXACT, Interval, LANES, Lane, MotionSeries, Side, Structure, dot, flight_order};
+use crate::structure::{EXACT, LANES, Lane, MotionSeries, Side, dot, flight_order};
 use std::ops::Range;
 
 /// Length of a piece, in units of 1 / (fastest rate), that one series reaches.
@@ -21,9 +21,6 @@ const REACH: f64 = 1.5;
 
 /// Length of a piece, in the same units, from which on it is worth bounding the amplitudes at its start.
 const LONG: f64 = 64.0 * REACH;
-
-/// Largest number of parts of flights that are kept prepared.
-const MOST_PARTS: usize = 64;
 
 /// Marks the quantities that are cleared in one leaf of the search: no piece is halved so often.
 const OF_LEAF: u32 = u32::MAX;
@@ -261,7 +258,7 @@ impl Model {
                     let place = peaks.next_flown;
                     peaks.next_flown = (place + 1) % MOST_FLOWN;
                     let flown = &mut peaks.flown[place];
-                    let interval = part_of(&mut peaks.parts, &self.system.structure, time);
+                    let interval = peaks.parts.of(&self.system.structure, time);
                     interval.fly(flight.start, flight.loads, (&mut flown.q, &mut flown.v), scratch);
                     flown.time = time;
                     place
@@ -329,21 +326,6 @@ impl Model {
         }
         None
     }
-}
-
-/// The exact flight over a part of a flight, s; flights of equal lengths have the same parts.
-fn part_of<'a>(parts: &'a mut Vec<Interval>, structure: &Structure, length: f64) -> &'a Interval {
-    let known = parts.iter().position(|part| part.length == length);
-    let place = known.unwrap_or_else(|| {
-        if parts.len() >= MOST_PARTS {
-            parts.clear();
-        }
-        let mut part = Interval::room(structure);
-        part.prepare(structure, length);
-        parts.push(part);
-        parts.len() - 1
-    });
-    &parts[place]
 }
 
 /// Bounds on the second derivatives of a block, from E and E / w of its modes.
