@@ -1,5 +1,6 @@
 //! The closed pairs, those with a contact force, during a Taylor step: series of their penetrations and forces.
 
+use crate::contact::Force;
 use crate::contact::taylor::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
 use crate::engine::base::Coordinates;
 use crate::engine::base::contact::Contact;
@@ -218,16 +219,25 @@ impl ClosedPairs {
         for (b, block) in self.blocks[..self.used].iter().enumerate() {
             let end = BlockEnd::of(block, self.readings[b], powers);
             for (lane, pair) in self.pairs_of(b) {
-                contacts[pair].follow_lane((block, lane), &end, series, start, powers.x);
+                let contact = &mut contacts[pair];
+                let is_trusted = end.is_trusted((block, lane), &contact.branch(), series, powers.x);
+                contact.follow_lane((block, lane), (&end, is_trusted), series, start, powers.x);
             }
         }
     }
 
-    /// Moves one contact to the x of the powers, in a step that began at the time `start`, s.
-    pub fn follow_one(&self, contact: &mut Contact, series: &MotionSeries, start: f64, powers: &Powers) {
+    /// Moves one contact to the x of the powers, in a step that began at the time `start`, s, and ends at the powers `whole`.
+    pub fn follow_one(
+        &self,
+        contact: &mut Contact,
+        series: &MotionSeries,
+        start: f64,
+        (powers, whole): (&Powers, &Powers),
+    ) {
         let (block, lane) = self.of(contact.episode.contact);
-        let end = BlockEnd::of(block, block.read(powers), powers);
-        contact.follow_lane((block, lane), &end, series, start, powers.x);
+        let [end, last] = [powers, whole].map(|powers| BlockEnd::of(block, block.read(powers), powers));
+        let is_trusted = last.is_trusted((block, lane), &contact.branch(), series, whole.x);
+        contact.follow_lane((block, lane), (&end, is_trusted), series, start, powers.x);
     }
 }
 
@@ -244,6 +254,16 @@ impl BlockEnd {
         };
         BlockEnd { motion, force }
     }
+
+    /// Whether the series of a force tells the value of its maximum, by its error here, at the end of the whole step: a
+    /// peak must not depend on the part of the step that is read.
+    fn is_trusted(&self, (block, lane): (&PairBlock, usize), law: &Force, series: &MotionSeries, x: f64) -> bool {
+        if block.is_elastic() {
+            return true;
+        }
+        let by_law = law.value(self.motion.penetration[lane], self.motion.slope[lane] / series.time_rate(x));
+        (self.force.value[lane] - by_law).abs() <= TRUSTED * by_law
+    }
 }
 
 impl Contact {
@@ -251,7 +271,7 @@ impl Contact {
     fn follow_lane(
         &mut self,
         (block, lane): (&PairBlock, usize),
-        end: &BlockEnd,
+        (end, is_trusted): (&BlockEnd, bool),
         series: &MotionSeries,
         start: f64,
         x: f64,
@@ -288,7 +308,6 @@ impl Contact {
                 let terms = |out: &mut Coefficients| block.copy_force(lane, out);
                 let first = (block.force[0][lane], block.force[1][lane]);
                 let found = roots::maximum_above(first, x, &end.force.of(lane), self.episode.peak_force, terms);
-                let is_trusted = (end.force.value[lane] - last).abs() <= TRUSTED * last;
                 found.map(|(at, peak)| if is_trusted { (at, peak) } else { (at, law(roots::roughly(at).min(x))) })
             }
         };

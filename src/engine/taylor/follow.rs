@@ -21,7 +21,7 @@ impl Solution {
     /// Moves one contact to the x of the powers.
     pub fn follow_one(&self, system: &System, contact: &mut Contact, start: f64, powers: &Powers) {
         if !contact.is_held() {
-            return self.closed.follow_one(contact, &self.series, start, powers);
+            return self.closed.follow_one(contact, &self.series, start, (powers, &self.end));
         }
         let p = contact.episode.contact;
         if let Some(k) = system.rigid.pairs.iter().position(|&pair| pair == p) {
