@@ -113,3 +113,24 @@ fn a_held_contact_has_a_peak_from_its_first_instant() {
     }
     assert!(at_once > 2, "a reaction at the first instant in {at_once} cases");
 }
+
+/// A peak force that is read again and again never falls, not by a rounding either.
+#[test]
+fn a_peak_force_never_falls() {
+    let text = include_str!("../../examples/scenes/feup.toml").replace("../records/", "records/");
+    let mut run = Run::new(&scene(&text), Some(&el_centro()));
+    let mut before = [0.0; 2];
+    for k in 1..=20_000 {
+        let time = f64::from(k) * 1e-3;
+        for (p, (contact, before)) in run.to(time).contacts().into_iter().zip(&mut before).enumerate() {
+            assert!(
+                contact.peak_force >= *before,
+                "contact {}, {time} s: {} after {before}",
+                p + 1,
+                contact.peak_force
+            );
+            *before = contact.peak_force;
+        }
+    }
+    assert!(before[0] > 100.0, "{before:?} N");
+}
