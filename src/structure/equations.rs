@@ -32,6 +32,8 @@ pub struct Structure {
     /// From modes to floors and back, for each building.
     to_floors: [LaneMatrix; 2],
     to_modes: [LaneMatrix; 2],
+    /// For each floor number the shapes of all modes there; empty unless forces act on floors.
+    floor_shapes: Vec<f64>,
 }
 
 /// Off-diagonal damping of one building, 1/s.
@@ -71,6 +73,7 @@ impl Structure {
             floors,
             to_floors,
             to_modes,
+            floor_shapes: Vec::new(),
             buildings: modes,
         };
         for side in [Side::Left, Side::Right] {
@@ -167,9 +170,28 @@ impl Structure {
 
     /// Adds the modal load of a force, N, on one floor.
     pub fn add_floor_force(&self, side: Side, floor: usize, force: f64, load: &mut [f64]) {
-        let offset = self.offset(side);
-        for (shape, load) in self.modes(side).shape.row(floor).iter().zip(&mut load[offset..]) {
-            *load += shape * force;
+        let range = self.range(side);
+        let shapes = self.floor_shapes.get(floor * self.lanes..).and_then(|row| row.get(range.clone()));
+        match shapes {
+            Some(row) => add_multiple(row, force, &mut load[range]),
+            None => {
+                for (shape, load) in self.modes(side).shape.row(floor).iter().zip(&mut load[range]) {
+                    *load += shape * force;
+                }
+            }
+        }
+    }
+
+    /// Lays out the shapes floor by floor: for forces on all floors, which are projected on the modes again and again.
+    pub fn prepare_floor_forces(&mut self) {
+        let highest = self.floors(Side::Left).max(self.floors(Side::Right));
+        self.floor_shapes = vec![0.0; highest * self.lanes];
+        for side in [Side::Left, Side::Right] {
+            let range = self.range(side);
+            for (floor, row) in self.buildings[side as usize].shape.row_iter().enumerate() {
+                let out = &mut self.floor_shapes[floor * self.lanes..][range.clone()];
+                out.iter_mut().zip(row.iter()).for_each(|(out, shape)| *out = *shape);
+            }
         }
     }
 
@@ -328,5 +350,13 @@ impl Scratch {
     /// Room for two modal vectors.
     pub fn room(&mut self) -> &mut [f64] {
         &mut self.ahead
+    }
+}
+
+/// `out` += factor * row.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn add_multiple(row: &[f64], factor: f64, out: &mut [f64]) {
+    for (out, row) in out.iter_mut().zip(row) {
+        *out += row * factor;
     }
 }

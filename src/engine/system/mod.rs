@@ -61,7 +61,11 @@ pub struct System {
 impl System {
     /// The system of a checked scene; `record` is there when `scene.ground.record` is.
     pub fn of(scene: &Scene, record: Option<&Record>) -> Result<System, SceneError> {
-        let structure = Structure::new(&scene.left, &scene.right).map_err(|(side, _)| not_positive_definite(side))?;
+        let mut structure =
+            Structure::new(&scene.left, &scene.right).map_err(|(side, _)| not_positive_definite(side))?;
+        if scene.floor_forces {
+            structure.prepare_floor_forces();
+        }
         let pairs: Vec<Pair> = scene.contacts.iter().map(|pair| Pair::new(pair, scene, &structure)).collect();
         let ground = match record {
             Some(record) if record.times.len() < 2 => return Err(too_short(record)),
