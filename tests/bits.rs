@@ -41,10 +41,7 @@ fn fingerprint(case: &Case) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
     for k in 1..=40 {
         run.to(0.1 * f64::from(k));
-        let energies = run
-            .model
-            .energy(&run.state, &run.point)
-            .map(|energy| [energy.input, energy.viscous, energy.impact].map(f64::to_bits));
+        let energies = run.now().energy().map(|energy| [energy.input, energy.viscous, energy.impact].map(f64::to_bits));
         if yields {
             assert!(k < 20 || run.storeys().iter().any(|storey| storey.cumulative > 0.0), "no storey has yielded");
         }

@@ -113,7 +113,7 @@ fn time(k: usize) -> f64 {
 /// All that can be seen at a point, and the episodes on the way there.
 fn seen(run: &mut Run) -> (Vec<u64>, String) {
     let mut bits = run.bits();
-    if let Some(energy) = run.model.energy(&run.state, &run.point) {
+    if let Some(energy) = run.now().energy() {
         let terms = [energy.input, energy.viscous, energy.impact, energy.external, energy.kinetic, energy.residual];
         bits.extend(terms.map(f64::to_bits));
         bits.extend([energy.strain, energy.hysteretic].map(f64::to_bits));

@@ -4,10 +4,9 @@
 mod common;
 
 use common::{Run, record, scene};
-use pounding::engine::{Counters, PeakOf, Point, Side};
+use pounding::engine::{Counters, Output, PeakOf, Point, Side};
 use pounding::record::Record;
 use pounding::scene::Scene;
-use pounding::variables::{Instant, Output};
 
 fn frames(contacts: &str) -> (Scene, Record) {
     frames_of([2, 3], contacts)
@@ -203,7 +202,7 @@ fn floors_that_nobody_reads_are_not_worked_out() {
     let read = |run: &Run, outputs: &[Output]| {
         let before = run.point.rows_read();
         for &output in outputs {
-            Instant { model: &run.model, state: &run.state, point: &run.point }.read(output);
+            run.read(output);
         }
         run.point.rows_read() - before
     };

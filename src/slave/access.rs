@@ -5,8 +5,9 @@ use super::sequence::Phase;
 use super::simulation::started;
 use super::status::Refusal;
 use crate::description::Category;
+use crate::engine::Input;
 use crate::scene::SceneError;
-use crate::variables::{Input, Row, Settings, Slot, Table, Value};
+use crate::variables::{Row, Settings, Slot, Table, Value};
 use crate::warnings;
 use std::cell::LazyCell;
 use std::sync::Arc;
@@ -28,11 +29,11 @@ impl Slave {
                 continue;
             };
             let value = match row.slot {
-                Slot::Output(output) => now.as_ref().map_err(Refusal::clone)?.read(output),
+                Slot::Output(output) => Value::of(row.ty, now.as_ref().map_err(Refusal::clone)?.read(output)),
                 Slot::Input(input) => Value::Real(inputs.get(input).at(*time)),
                 Slot::Parameter(parameter) => settings.read(parameter),
                 Slot::Frequency(side, mode) => {
-                    Value::Real(now.as_ref().map_err(Refusal::clone)?.model.natural_frequencies(side)[mode])
+                    Value::Real(now.as_ref().map_err(Refusal::clone)?.model().natural_frequencies(side)[mode])
                 }
             };
             if take(i, value).is_none() {

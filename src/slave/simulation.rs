@@ -1,8 +1,8 @@
 //! A run: the model of the present settings, its state, and what is read out of it.
 
 use super::status::Refusal;
-use crate::engine::{Episode, Model, Point, PointRates, Response, SavedState, State};
-use crate::variables::{Input, Inputs, Instant, Settings, Slot, Table};
+use crate::engine::{Episode, Input, Instant, Model, Point, PointRates, Response, SavedState, State};
+use crate::variables::{Inputs, Settings, Slot, Table};
 use std::sync::Arc;
 
 /// Model and state, and the state as outputs show it.
@@ -97,33 +97,31 @@ impl Simulation {
             self.model.observe(&self.state, &mut self.point);
             self.is_observed = true;
         }
-        Instant { model: &self.model, state: &self.state, point: &self.point }
+        self.model.observed(&self.state, &self.point)
     }
 
     /// The same with its derivatives with respect to time.
     pub fn rates(&mut self) -> (Instant<'_>, &PointRates) {
         self.now();
         if !self.is_differentiated {
-            self.model.differentiate(&self.state, &self.point, &mut self.rates);
+            self.model.observed(&self.state, &self.point).differentiate(&mut self.rates);
             self.is_differentiated = true;
         }
         let Simulation { model, state, point, rates, .. } = self;
-        (Instant { model, state, point }, rates)
+        (model.observed(state, point), rates)
     }
 
     /// Works out the direct feedthrough of changes of inputs, at the same instant.
     pub fn respond(&mut self, changes: impl Iterator<Item = (Input, f64)>) {
         self.now();
         let Simulation { model, state, point, response, .. } = self;
-        model.clear_response(response);
-        changes.for_each(|(input, change)| input.push(change, model, response));
-        model.settle_response(state, point, response);
+        model.observed(state, point).respond(changes, response);
     }
 
     /// The change of an unknown in the last response.
     pub fn response(&self, unknown: Slot) -> f64 {
         match unknown {
-            Slot::Output(output) => output.of_response(&self.model, &self.response),
+            Slot::Output(output) => self.model.response_of(&self.response, output),
             Slot::Input(_) | Slot::Parameter(_) | Slot::Frequency(..) => 0.0,
         }
     }

@@ -1,10 +1,10 @@
 //! The rows of the table: which variables a scene has, and what a user reads about them.
 
-use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot};
+use super::slot::{Parameter, Slot};
 use super::table::{Row, Table, Type, Variability};
 use super::unit::Unit;
 use crate::contact::LawKey;
-use crate::engine::{PeakOf, Side, StoreyPeak, YieldingOf};
+use crate::engine::{ContactOutput, EnergyOutput, Input, Output, PeakOf, Side, StoreyPeak, YieldingOf};
 use crate::figures::six_decimals;
 use crate::scene::{Building, ContactPair, Damping, Scaling, Scene, Stiffness, rule};
 
@@ -232,17 +232,17 @@ impl Table {
     fn add_contact_outputs(&mut self, p: usize, pair: &ContactPair, (mass, meeting): (f64, &str)) {
         use ContactOutput as C;
         let (force, impulse, energy) = (mass * ACCELERATION, mass * VELOCITY, mass * VELOCITY * VELOCITY);
-        for (output, name, ty, scale, about) in [
-            (C::Force, "force", NEWTON, force, "contact force, compression positive,"),
-            (C::Penetration, "penetration", METRE, DISPLACEMENT, "penetration, negative while apart,"),
-            (C::Active, "active", Type::Boolean, 1.0, "contact now"),
-            (C::Impacts, "impacts", Type::Integer, 1.0, "contact episodes begun so far"),
-            (C::PeakForce, "peak_force", NEWTON, force, "largest force so far, also between communication points,"),
-            (C::Impulse, "impulse", NEWTON_SECOND, impulse, "integral of the force so far"),
-            (C::DissipatedEnergy, "dissipated_energy", JOULE, energy, "work done so far on the contact"),
-            (C::ApproachVelocity, "approach_velocity", METRE_PER_SECOND, VELOCITY, "latest approach velocity"),
+        for (output, ty, scale, about) in [
+            (C::Force, NEWTON, force, "contact force, compression positive,"),
+            (C::Penetration, METRE, DISPLACEMENT, "penetration, negative while apart,"),
+            (C::Active, Type::Boolean, 1.0, "contact now"),
+            (C::Impacts, Type::Integer, 1.0, "contact episodes begun so far"),
+            (C::PeakForce, NEWTON, force, "largest force so far, also between communication points,"),
+            (C::Impulse, NEWTON_SECOND, impulse, "integral of the force so far"),
+            (C::DissipatedEnergy, JOULE, energy, "work done so far on the contact"),
+            (C::ApproachVelocity, METRE_PER_SECOND, VELOCITY, "latest approach velocity"),
         ] {
-            let (name, about) = (format!("contact[{}].{name}", p + 1), format!("{about} {meeting}"));
+            let (name, about) = (format!("contact[{}].{}", p + 1, output.name()), format!("{about} {meeting}"));
             let row = self.add(Output::Contact(p, output), &name, ty, &about);
             row.nominal(scale);
             let is_compression = matches!(output, C::Force | C::Impulse) && !pair.law.kind.info().pulls;
@@ -293,19 +293,19 @@ impl Table {
         let mass: f64 = scene.left.mass.iter().chain(&scene.right.mass).sum();
         let yields = |building: &Building| (0..building.mass.len()).any(|i| building.yielding_storey(i).is_some());
         let hysteretic = [&scene.left, &scene.right].into_iter().any(yields);
-        for (term, name, about) in [
-            (E::Input, "input", "work of the inertia forces of the ground motion so far"),
-            (E::Kinetic, "kinetic", "kinetic energy of the motion relative to the ground"),
-            (E::Strain, "strain", "strain energy of the storeys"),
-            (E::Viscous, "viscous", "energy dissipated by structural damping so far"),
-            (E::Impact, "impact", "work done on the contacts so far, with what their springs will give back"),
-            (E::External, "external", "work of the external floor forces so far"),
-            (E::Hysteretic, "hysteretic", "energy dissipated so far by storeys that have yielded"),
+        for (term, about) in [
+            (E::Input, "work of the inertia forces of the ground motion so far"),
+            (E::Kinetic, "kinetic energy of the motion relative to the ground"),
+            (E::Strain, "strain energy of the storeys"),
+            (E::Viscous, "energy dissipated by structural damping so far"),
+            (E::Impact, "work done on the contacts so far, with what their springs will give back"),
+            (E::External, "work of the external floor forces so far"),
+            (E::Hysteretic, "energy dissipated so far by storeys that have yielded"),
         ] {
             if term == E::Hysteretic && !hysteretic {
                 continue;
             }
-            let row = self.add(Output::Energy(term), &format!("energy.{name}"), JOULE, about);
+            let row = self.add(Output::Energy(term), &format!("energy.{}", term.name()), JOULE, about);
             row.nominal(mass * VELOCITY * VELOCITY);
             if matches!(term, E::Kinetic | E::Strain | E::Hysteretic) {
                 row.at_least(0.0); // sums of squares; the others are sums of work, rounded to either side of 0

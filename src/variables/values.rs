@@ -1,8 +1,8 @@
-//! Reading and writing what a slot stands for: each one match over all slots.
+//! Values of variables: parameters, each read and written by one match over all of them, and inputs.
 
-use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot};
-use super::table::{Row, Table};
-use crate::engine::{ContactPoint, EnergyPoint, LinearInput, Model, Point, SavedState, Side, State};
+use super::slot::{Parameter, Slot};
+use super::table::{Row, Table, Type};
+use crate::engine::{Input, LinearInput, SavedState, Side, State};
 use crate::record::{KnownRecords, Record};
 use crate::scene::{
     Building, Damping, Scaling, Scene, SceneError, Stiffness, Units, read_record_file, record_problems,
@@ -26,6 +26,16 @@ pub enum Value<'a> {
 }
 
 impl<'a> Value<'a> {
+    /// A number of the engine as a value of this type. FMI integers have 32 bits: a count beyond stays at their largest.
+    #[inline(always)]
+    pub const fn of(ty: Type, number: f64) -> Value<'a> {
+        match ty {
+            Type::Integer => Value::Integer(number as i32),
+            Type::Boolean => Value::Boolean(number != 0.0),
+            Type::Real(_) | Type::String => Value::Real(number), // no number is a text
+        }
+    }
+
     /// The number, if it is one.
     pub const fn real(self) -> Option<f64> {
         if let Value::Real(value) = self { Some(value) } else { None }
@@ -346,67 +356,6 @@ impl Input {
     }
 }
 
-/// The solution at one time.
-#[derive(Clone, Copy, Debug)]
-pub struct Instant<'a> {
-    /// The model of the scene with the present parameters.
-    pub model: &'a Model,
-    /// The solution.
-    pub state: &'a State,
-    /// The outputs that `model` has observed in `state`.
-    pub point: &'a Point,
-}
-
-impl Instant<'_> {
-    /// The value of an output.
-    #[inline(always)]
-    pub fn read(&self, output: Output) -> Value<'static> {
-        let Instant { model, state, point } = *self;
-        Value::Real(match output {
-            Output::GroundAcceleration => point.ground_acceleration,
-            Output::Displacement(side, floor) => model.displacement(point, side, floor),
-            Output::Velocity(side, floor) => model.velocity(point, side, floor),
-            Output::Acceleration(side, floor) => model.acceleration(point, side, floor),
-            Output::BaseShear(side) => model.base_shear(point, side),
-            Output::Peak(of) => model.peak(state, point, of),
-            Output::OfStorey(of, side, storey) => model.storey_peak(state, point, of, (side, storey)),
-            Output::OfYielding(of, side, storey) => model.of_yielding(state, point, of, (side, storey)),
-            Output::Yielding(side, storey) => return Value::Integer(model.yielding(point, (side, storey))),
-            Output::Contact(p, output) => return read_contact(&model.contact(state, point, p), output),
-            Output::Impacts => return count(point.impacts),
-            Output::Energy(term) => read_energy(&model.energy(state, point).unwrap_or_default(), term),
-        })
-    }
-}
-
-#[inline(always)]
-fn read_contact(contact: &ContactPoint, output: ContactOutput) -> Value<'static> {
-    Value::Real(match output {
-        ContactOutput::Force => contact.force,
-        ContactOutput::Penetration => contact.penetration,
-        ContactOutput::Active => return Value::Boolean(contact.active),
-        ContactOutput::Impacts => return count(contact.impacts),
-        ContactOutput::PeakForce => contact.peak_force,
-        ContactOutput::Impulse => contact.impulse,
-        ContactOutput::DissipatedEnergy => contact.dissipated_energy,
-        ContactOutput::ApproachVelocity => contact.approach_velocity,
-    })
-}
-
-#[inline(never)]
-fn read_energy(energy: &EnergyPoint, term: EnergyOutput) -> f64 {
-    match term {
-        EnergyOutput::Input => energy.input,
-        EnergyOutput::Kinetic => energy.kinetic,
-        EnergyOutput::Strain => energy.strain,
-        EnergyOutput::Viscous => energy.viscous,
-        EnergyOutput::Impact => energy.impact,
-        EnergyOutput::External => energy.external,
-        EnergyOutput::Hysteretic => energy.hysteretic,
-        EnergyOutput::Residual => energy.residual,
-    }
-}
-
 /// The only parameter whose name is not its path in the scene.
 fn name_variable(path: &mut String) {
     for (key, name) in [
@@ -420,11 +369,6 @@ fn name_variable(path: &mut String) {
             return;
         }
     }
-}
-
-/// FMI integers have 32 bits: a count beyond stays at their largest.
-fn count(n: u64) -> Value<'static> {
-    Value::Integer(i32::try_from(n).unwrap_or(i32::MAX))
 }
 
 fn building_mut(scene: &mut Scene, side: Side) -> &mut Building {
@@ -442,7 +386,7 @@ mod tests {
     fn counts_stay_at_the_largest_integer() {
         let largest = i32::MAX as u64;
         for (n, expected) in [(0, 0), (largest, i32::MAX), (largest + 1, i32::MAX), (u64::MAX, i32::MAX)] {
-            assert_eq!(count(n), Value::Integer(expected));
+            assert_eq!(Value::of(Type::Integer, n as f64), Value::Integer(expected));
         }
     }
 }

@@ -7,7 +7,7 @@
 use crate::common::Run;
 use crate::common::problems::laws::contact;
 use crate::random::{Case, case};
-use pounding::engine::Side;
+use pounding::engine::{Output, Side};
 use pounding::record::Record;
 use pounding::scene::{Face, Scaling, Scene, Stiffness};
 use proptest::prelude::*;
@@ -129,7 +129,7 @@ impl Units {
         let Units { mass, length, time } = *self;
         let mut shown: Vec<f64> = floors(run, Run::displacement).iter().map(|u| u / length).collect();
         shown.extend(floors(run, Run::velocity).iter().map(|v| v / (length / time)));
-        let acceleration = |run: &Run, side, floor| run.model.acceleration(&run.point, side, floor);
+        let acceleration = |run: &Run, side, floor| run.read(Output::Acceleration(side, floor));
         shown.extend(floors(run, acceleration).iter().map(|a| a / (length / (time * time))));
         for contact in run.contacts() {
             shown.push(contact.penetration / length);

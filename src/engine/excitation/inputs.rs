@@ -4,6 +4,15 @@
 use crate::structure::Side;
 use serde::{Deserialize, Serialize};
 
+/// An input: a master sets it at any time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Input {
+    /// Ground acceleration, m/s2; acts where the scene has no record.
+    GroundAcceleration,
+    /// Force on a floor, counted from 0, N, positive to the right; acts where the scene has floor forces.
+    Force(Side, usize),
+}
+
 /// The inputs of a master, each constant or linear in time until it is set again.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Inputs {

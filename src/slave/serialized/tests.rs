@@ -321,7 +321,7 @@ fn inputs_are_those_of_the_run_and_within_their_limits() {
     let mut with = |value: f64, slope: f64| {
         let mut altered: Body<'_> = postcard::from_bytes(&body).unwrap();
         let mut inputs = altered.inputs.into_owned();
-        let input = inputs.get_mut(crate::variables::Input::GroundAcceleration);
+        let input = inputs.get_mut(crate::engine::Input::GroundAcceleration);
         input.set_value(value, altered.time);
         input.set_slope(slope, altered.time);
         altered.inputs = Cow::Owned(inputs);
