@@ -9,10 +9,10 @@ mod problems;
 mod support;
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
-use pounding::engine::{Model, State};
+use pounding::engine::{Model, Output, State};
 use pounding::record::Record;
 use pounding::scene::Scene;
-use pounding::variables::{Output, Slot, Table, Type};
+use pounding::variables::{Slot, Table, Type};
 use problems::laws::{Laws, contact};
 use problems::two_masses::{Mass, TwoMasses};
 use std::ffi::{c_int, c_void};

@@ -9,11 +9,11 @@
 //! for scenes without a record). A line a scene: milliseconds without and with peaks, their ratio, impacts, and a sum over
 //! the bits of all peaks, by which runs of two programs are compared.
 
-use pounding::engine::{Model, PeakOf, Point, Side, State};
+use pounding::engine::{Instant, Model, Output, PeakOf, Point, Side, State};
 use pounding::scene::Package;
 use std::error::Error;
 use std::path::Path;
-use std::time::Instant;
+use std::time::Instant as Clock;
 
 /// What drives the buildings, m/s2, where the scene has no record.
 fn shaking(time: f64) -> f64 {
@@ -43,10 +43,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         for _ in 0..repeats {
             for (model, best) in models.iter().zip(&mut best) {
                 let mut state = model.start(0.0);
-                let clock = Instant::now();
+                let clock = Clock::now();
                 run(model, &mut state, &mut point, (step, stop), how)?;
                 *best = best.min(clock.elapsed().as_secs_f64());
-                bits = peaks(model, &state, &point).fold(0_u64, |sum, peak| sum.rotate_left(7) ^ peak.to_bits());
+                bits =
+                    peaks(model.observed(&state, &point)).fold(0_u64, |sum, peak| sum.rotate_left(7) ^ peak.to_bits());
             }
         }
         let name = Path::new(path).file_stem().unwrap_or_default().to_string_lossy();
@@ -76,12 +77,10 @@ fn run(
         }
         model.advance(state, k as f64 * step, &mut |_| ())?;
         if how == "read" {
-            model.observe(state, point);
-            std::hint::black_box(peaks(model, state, point).sum::<f64>());
+            std::hint::black_box(peaks(model.observe(state, point)).sum::<f64>());
         }
     }
-    model.observe(state, point);
-    std::hint::black_box(peaks(model, state, point).sum::<f64>());
+    std::hint::black_box(peaks(model.observe(state, point)).sum::<f64>());
     Ok(())
 }
 
@@ -89,9 +88,10 @@ fn floors(model: &Model) -> impl Iterator<Item = (Side, usize)> {
     [Side::Left, Side::Right].into_iter().flat_map(|side| (0..model.floors(side)).map(move |floor| (side, floor)))
 }
 
-fn peaks(model: &Model, state: &State, point: &Point) -> impl Iterator<Item = f64> {
-    let of_floors = floors(model).flat_map(|(side, floor)| {
+fn peaks(now: Instant<'_>) -> impl Iterator<Item = f64> {
+    let of_floors = floors(now.model()).flat_map(|(side, floor)| {
         [PeakOf::Displacement(side, floor), PeakOf::Drift(side, floor), PeakOf::Acceleration(side, floor)]
     });
-    of_floors.chain([Side::Left, Side::Right].map(PeakOf::BaseShear)).map(|of| model.peak(state, point, of))
+    let all = of_floors.chain([Side::Left, Side::Right].map(PeakOf::BaseShear));
+    all.map(move |of| now.read(Output::Peak(of)))
 }

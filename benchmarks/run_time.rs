@@ -22,7 +22,7 @@
 //! `memory` makes that many instances as an FMU has them instead, ready to run, and prints the bytes that each takes
 //! (Linux only).
 
-use pounding::engine::{Model, PeakOf, Point, Side, State};
+use pounding::engine::{Model, Output, PeakOf, Point, Side, State};
 use pounding::scene::Package;
 use pounding::slave::{Log, Slave};
 use std::error::Error;
@@ -127,17 +127,18 @@ fn solve(
     };
     for row in 0..=(stop / step).round() as u64 {
         model.advance(state, row as f64 * step, &mut |_| ())?;
-        model.observe(state, point);
+        let now = model.observe(state, point);
         for side in [Side::Left, Side::Right] {
-            readings.extend((0..model.floors(side)).map(|floor| model.displacement(point, side, floor)));
+            readings.extend((0..model.floors(side)).map(|floor| now.read(Output::Displacement(side, floor))));
         }
     }
     if let Way::Whole = way {
+        let now = model.observed(state, point);
         for side in [Side::Left, Side::Right] {
-            let peak = |floor| model.peak(state, point, PeakOf::Displacement(side, floor));
+            let peak = |floor| now.read(Output::Peak(PeakOf::Displacement(side, floor)));
             readings.extend((0..model.floors(side)).map(peak));
         }
-        for contact in (0..model.contacts()).map(|p| model.contact(state, point, p)) {
+        for contact in (0..model.contacts()).map(|p| now.contact(p)) {
             readings.extend([contact.impulse, contact.peak_force, contact.dissipated_energy]);
         }
     }

@@ -31,18 +31,25 @@
 //!
 //! Sources are cited as [Key, place]; the keys are those of `REFERENCES.bib`. "Seed paper" is \[BarrosKhatami2013\].
 #![deny(unsafe_code)]
+// `pub` means public, but in the rooms of the engine that say so. Not for tests, where it means nothing.
+#![warn(unreachable_pub)]
 
 mod collocation;
 pub mod contact;
 pub mod description;
 pub mod engine;
 mod figures;
+/// Hidden: an importer finds these functions in the library of an FMU; they are public for the tests that link them.
+#[doc(hidden)]
 #[allow(unsafe_code)]
 pub mod fmi;
 mod numerics;
 pub mod record;
 pub mod scene;
 pub mod slave;
+/// Hidden: parts of the engine, public for the tests that hold them against closed forms, and for the periods that the
+/// Python module draws.
+#[doc(hidden)]
 pub mod structure;
 pub mod variables;
 pub mod warnings;

@@ -66,7 +66,7 @@ fn a_run_allocates_nothing_after_its_start() {
         // The first reading makes the buffers of the point.
         run.to(0.01);
         let mut rates = PointRates::default();
-        run.model.differentiate(&run.state, &run.point, &mut rates);
+        run.now().differentiate(&mut rates);
         let before = CALLS.get();
         for k in 2..=1000 {
             run.state.set_ground_acceleration(motion.accelerations[k / 2 % 500]);
@@ -74,7 +74,7 @@ fn a_run_allocates_nothing_after_its_start() {
             run.state.set_floor_force(Side::Left, 1, 0.1 * f64::from(k as u32 % 7));
             run.state.set_floor_force_rate(Side::Left, 1, 2.0 - f64::from(k as u32 % 5));
             run.to(k as f64 * 0.01);
-            run.model.differentiate(&run.state, &run.point, &mut rates);
+            run.now().differentiate(&mut rates);
         }
         let calls = CALLS.get() - before;
         assert!(run.point.impacts > 10, "{law}: {} impacts", run.point.impacts);

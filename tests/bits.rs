@@ -30,7 +30,7 @@ fn fingerprint(case: &Case) -> u64 {
     let &Case { ref law, damping, storeys, energy, yields } = case;
     let mut scene = scene(&Frames { storeys, damping, gap: 0.01, law, energy, floor_forces: false }.toml());
     if yields {
-        let yielding = |force: f64| Some(Yielding { force: vec![force; storeys], ratio: vec![0.05; storeys] });
+        let yielding = |force: f64| Some(Yielding::new(vec![force; storeys], vec![0.05; storeys]));
         (scene.left.yielding, scene.right.yielding) = (yielding(4e4 * storeys as f64), yielding(8e4 * storeys as f64));
     }
     // With peaks contacts of many storeys are followed floor by floor.
@@ -41,10 +41,7 @@ fn fingerprint(case: &Case) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
     for k in 1..=40 {
         run.to(0.1 * f64::from(k));
-        let energies = run
-            .model
-            .energy(&run.state, &run.point)
-            .map(|energy| [energy.input, energy.viscous, energy.impact].map(f64::to_bits));
+        let energies = run.now().energy().map(|energy| [energy.input, energy.viscous, energy.impact].map(f64::to_bits));
         if yields {
             assert!(k < 20 || run.storeys().iter().any(|storey| storey.cumulative > 0.0), "no storey has yielded");
         }

@@ -6,7 +6,7 @@
 mod common;
 
 use common::Run;
-use pounding::engine::{Side, YieldingOf};
+use pounding::engine::{Output, Side, YieldingOf};
 use pounding::scene;
 use std::collections::HashMap;
 use std::path::Path;
@@ -58,16 +58,11 @@ fn worst_of_storeys(name: &str) -> f64 {
             let (side, quantity, storey) = parts(column);
             let exact = number(row, column);
             if quantity == "yielding" {
-                assert_eq!(
-                    f64::from(run.model.yielding(&run.point, (side, storey))),
-                    exact,
-                    "{column} at {}",
-                    row["time"]
-                );
+                assert_eq!(run.read(Output::Yielding(side, storey)), exact, "{column} at {}", row["time"]);
                 continue;
             }
             let of = QUANTITIES.iter().find(|(name, _)| *name == quantity).unwrap().1;
-            let got = run.model.of_yielding(&run.state, &run.point, of, (side, storey));
+            let got = run.read(Output::OfYielding(of, side, storey));
             worst = worst.max((got - exact).abs() / largest(column));
         }
     }
@@ -115,7 +110,7 @@ fn check_switches(name: &str, allowed: f64) -> usize {
         for (at, is_after) in [(time - allowed, false), (time + allowed, true)] {
             if at > run.state.time() {
                 run.to(at);
-                let is_there = run.model.yielding(&run.point, *storey) == *sense;
+                let is_there = run.read(Output::Yielding(storey.0, storey.1)) == f64::from(*sense);
                 assert_eq!(is_there, is_after, "{name}, storey {} at {time} s, sense {sense}", storey.1 + 1);
             }
         }
@@ -140,8 +135,7 @@ fn without_peaks() {
         scene.peaks = peaks;
         let mut run = Run::new(&scene, record.as_ref());
         run.in_steps(0.37, 7.4);
-        let ductility =
-            |storey| run.model.of_yielding(&run.state, &run.point, YieldingOf::Ductility, (Side::Left, storey));
+        let ductility = |storey| run.read(Output::OfYielding(YieldingOf::Ductility, Side::Left, storey));
         ([0, 1, 2].map(|floor| run.displacement(Side::Left, floor).to_bits()), [0, 1, 2].map(ductility))
     });
     assert_eq!(runs[0].0, runs[1].0);

@@ -66,7 +66,7 @@ impl Case {
         let mut scene = scene(&Frames { storeys, damping, gap, law, energy, floor_forces }.toml());
         if yields {
             let force = (0..storeys).map(|i| if i == 1 { f64::INFINITY } else { 1e5 - 1e3 * i as f64 });
-            scene.left.yielding = Some(Yielding { force: force.collect(), ratio: vec![0.05; storeys] });
+            scene.left.yielding = Some(Yielding::new(force.collect(), vec![0.05; storeys]));
         }
         let has_record = drive != Drive::Inputs;
         scene.ground.record = has_record.then(|| "zigzag.csv".into());
@@ -113,7 +113,7 @@ fn time(k: usize) -> f64 {
 /// All that can be seen at a point, and the episodes on the way there.
 fn seen(run: &mut Run) -> (Vec<u64>, String) {
     let mut bits = run.bits();
-    if let Some(energy) = run.model.energy(&run.state, &run.point) {
+    if let Some(energy) = run.now().energy() {
         let terms = [energy.input, energy.viscous, energy.impact, energy.external, energy.kinetic, energy.residual];
         bits.extend(terms.map(f64::to_bits));
         bits.extend([energy.strain, energy.hysteretic].map(f64::to_bits));

@@ -4,10 +4,9 @@
 mod common;
 
 use common::{Run, record, scene};
-use pounding::engine::{Counters, PeakOf, Point, Side};
+use pounding::engine::{Counters, Output, PeakOf, Point, Side};
 use pounding::record::Record;
 use pounding::scene::Scene;
-use pounding::variables::{Instant, Output};
 
 fn frames(contacts: &str) -> (Scene, Record) {
     frames_of([2, 3], contacts)
@@ -191,9 +190,10 @@ fn the_energy_account_is_kept_where_it_is_asked_for_only() {
     let without = Run::new(&scene, Some(&record)).to(20.0).state.counters();
     assert_eq!(without.energy_steps, 0);
     scene.energy = true;
-    let with = Run::new(&scene, Some(&record)).to(20.0).state.counters();
+    let mut with = Run::new(&scene, Some(&record)).to(20.0).state.counters();
     assert!(with.energy_steps > 1000, "{with:?}");
-    assert_eq!(Counters { energy_steps: 0, ..with }, without, "nothing else is done for it");
+    with.energy_steps = 0;
+    assert_eq!(with, without, "nothing else is done for it");
 }
 
 #[test]
@@ -203,7 +203,7 @@ fn floors_that_nobody_reads_are_not_worked_out() {
     let read = |run: &Run, outputs: &[Output]| {
         let before = run.point.rows_read();
         for &output in outputs {
-            Instant { model: &run.model, state: &run.state, point: &run.point }.read(output);
+            run.read(output);
         }
         run.point.rows_read() - before
     };

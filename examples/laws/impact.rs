@@ -1,7 +1,7 @@
 //! One free impact under each law, run by the engine.
 
 use pounding::contact::{DampingFormula, LawKey, LawKind, StiffnessUnit};
-use pounding::engine::{ContactPoint, Episode, Model, Point, Side, State};
+use pounding::engine::{ContactPoint, Episode, Instant, Model, Output, Point, Side, State};
 use pounding::scene::{Scene, law_key};
 use std::error::Error;
 
@@ -56,6 +56,7 @@ impl Case {
                 LawKey::Stiffness => STIFFNESS,
                 LawKey::Exponent => 1.5,
                 LawKey::Restitution | LawKey::ImpulseRestitution => restitution,
+                _ => return Err(format!("{}: a number that nobody knows", info.name).into()),
             };
             law += &format!("{} = {value:?}\n", law_key::number(key).name);
         }
@@ -121,14 +122,18 @@ impl Impact {
         Ok(())
     }
 
+    fn now(&self) -> Instant<'_> {
+        self.model.observed(&self.state, &self.point)
+    }
+
     /// The contact now.
     pub fn contact(&self) -> ContactPoint {
-        self.model.contact(&self.state, &self.point, 0)
+        self.now().contact(0)
     }
 
     /// Speed now, when the floors part, relative to that before the impact.
     pub fn restitution(&self) -> f64 {
-        let velocity = |side| self.model.velocity(&self.point, side, 0);
+        let velocity = |side| self.now().read(Output::Velocity(side, 0));
         (velocity(Side::Right) - velocity(Side::Left)) / SPEED
     }
 

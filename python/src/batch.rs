@@ -5,7 +5,6 @@ use crate::scene::Scene;
 use crate::threads::{caught, work_on};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1};
 use pounding::engine::{Model, Point};
-use pounding::variables::Instant;
 use pounding_simulate::instants;
 use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
@@ -107,8 +106,7 @@ impl Batch {
         for time in instants::regular(step.unwrap_or(stop), stop).filter(|&time| time > 0.0) {
             model.advance(&mut state, time, &mut |_| {}).map_err(|error| error.to_string())?;
         }
-        model.observe(&state, &mut point);
-        let now = Instant { model: &model, state: &state, point: &point };
+        let now = model.observe(&state, &mut point);
         Ok(self.cases.readings(&settings, references).into_iter().map(|reading| reading.at(&now)).collect())
     }
 }

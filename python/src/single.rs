@@ -111,7 +111,7 @@ fn run(
     };
     let mut kept = Kept { columns: vec![Vec::new(); readings.len()], ..Kept::default() };
     let keep = |now: Solved<'_>| {
-        kept.time.push(now.point.time);
+        kept.time.push(now.time());
         kept.columns.iter_mut().zip(readings).for_each(|(column, reading)| column.push(reading.at(&now)));
         go_on(told_to_stop)
     };

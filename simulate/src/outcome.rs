@@ -1,7 +1,8 @@
 //! What a run has shown, whoever has made it: an importer of an FMU, or the engine.
 
 use crate::readings::Reading;
-use pounding::variables::{Causality, Instant, Settings, Table};
+use pounding::engine::Instant;
+use pounding::variables::{Causality, Settings, Table};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::time::Duration;
@@ -99,7 +100,7 @@ impl Follower {
     /// Takes note of a row. Rows between the communication points do not count.
     pub fn look(&mut self, now: &Instant<'_>) {
         let Experiment { stop, step, .. } = self.experiment;
-        let time = now.point.time;
+        let time = now.time();
         if time == stop || (time / step).round() * step == time {
             self.followed.iter_mut().for_each(|(_, reading, seen)| seen.look(reading.at(now)));
         }

@@ -1,7 +1,7 @@
 //! What is read of a run, by value reference.
 
-use pounding::engine::Side;
-use pounding::variables::{Instant, Output, Settings, Slot, Table, Type, Value};
+use pounding::engine::{Instant, Output, Side};
+use pounding::variables::{Settings, Slot, Table, Type};
 
 /// A numeric variable.
 #[derive(Clone, Copy)]
@@ -45,13 +45,8 @@ impl Reading {
     /// Its value at a time.
     pub fn at(self, now: &Instant<'_>) -> f64 {
         match self {
-            Reading::Computed(output, _) => match now.read(output) {
-                Value::Real(value) => value,
-                Value::Integer(value) => f64::from(value),
-                Value::Boolean(value) => f64::from(value),
-                Value::String(_) => f64::NAN, // no output is one
-            },
-            Reading::Frequency(side, mode) => now.model.natural_frequencies(side)[mode],
+            Reading::Computed(output, _) => now.read(output),
+            Reading::Frequency(side, mode) => now.model().natural_frequencies(side)[mode],
             Reading::Constant(value) => value,
         }
     }

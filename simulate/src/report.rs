@@ -12,7 +12,7 @@ use crate::thinning::Column;
 use pounding::description::Package;
 use pounding::engine::{Episode, Model};
 use pounding::scene::Scene;
-use pounding::variables::{Type, Value};
+use pounding::variables::Type;
 use serde::Serialize;
 use std::error::Error;
 use std::fs::File;
@@ -105,7 +105,7 @@ fn columns(
     let mut columns: Vec<Column> = outputs.iter().map(|_| Column::new(bin)).collect();
     let show = |solved: Solved| {
         for ((_, output), column) in outputs.iter().zip(&mut columns) {
-            column.push(as_number(solved.read(*output)));
+            column.push(solved.read(*output));
         }
         Ok::<(), Box<dyn Error>>(())
     };
@@ -128,15 +128,6 @@ fn columns(
     });
     let series = series.collect();
     Ok((times, series))
-}
-
-fn as_number(value: Value) -> f64 {
-    match value {
-        Value::Real(value) => value,
-        Value::Integer(value) => f64::from(value),
-        Value::Boolean(value) => f64::from(u8::from(value)),
-        Value::String(_) => f64::NAN,
-    }
 }
 
 /// The number with so few digits that it is short as text.

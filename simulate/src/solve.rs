@@ -1,7 +1,6 @@
 //! Runs the engine over a sequence of instants.
 
-use pounding::engine::{EngineError, Episode, Model, Point, State};
-use pounding::variables::Instant;
+use pounding::engine::{EngineError, Episode, Instant, Model, Point, State};
 use std::error::Error;
 use std::time::{Duration, Instant as Clock};
 
@@ -42,11 +41,11 @@ pub fn solve<E: Into<Box<dyn Error>>>(
         if time > 0.0 {
             model.advance(&mut state, time, &mut |episode| solution.events.episodes.push(*episode))?;
         }
-        model.observe(&state, &mut point);
+        let now = model.observe(&state, &mut point);
         solution.rows += 1;
         if let Some(show) = &mut show {
             let clock = Clock::now();
-            show(Instant { model, state: &state, point: &point }).map_err(Into::into)?;
+            show(now).map_err(Into::into)?;
             shown += clock.elapsed();
         }
     }
@@ -66,8 +65,6 @@ pub fn events(model: &Model, stop: f64) -> Result<Events, EngineError> {
 
 /// Adds the episodes that are still open, and what the state has noted.
 fn add_last(model: &Model, state: &State, Events { episodes, switches }: &mut Events) {
-    let mut point = Point::default();
-    model.observe(state, &mut point);
     episodes.extend((0..model.contacts()).filter_map(|contact| model.open_episode(state, contact)));
     episodes.sort_by(|one, other| one.start.total_cmp(&other.start));
     switches.extend(state.switches());

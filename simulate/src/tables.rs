@@ -1,9 +1,9 @@
 //! The tables of a run: that of the motion, and that of the impacts.
 
 use crate::solve::Solved;
-use pounding::engine::Episode;
+use pounding::engine::{Episode, Output};
 use pounding::scene::Scene;
-use pounding::variables::{Output, Row, Slot, Table, Value};
+use pounding::variables::{Row, Slot, Table, Type};
 use std::error::Error;
 use std::fs::File;
 use std::path::Path;
@@ -27,26 +27,25 @@ pub fn outputs(scene: &Scene) -> impl Iterator<Item = (Row, Output)> {
 /// The table of the motion: `time`, then every output of the FMU in its order.
 pub(crate) struct Motion {
     table: CsvFile,
-    outputs: Vec<Output>,
+    outputs: Vec<(Output, Type)>,
     cells: Vec<String>,
 }
 
 impl Motion {
     pub fn create(file: &Path, scene: &Scene) -> Result<Motion, Box<dyn Error>> {
         let mut table = create(file)?;
-        let (names, outputs): (Vec<_>, Vec<_>) = outputs(scene).map(|(row, output)| (row.name, output)).unzip();
+        let (names, outputs): (Vec<_>, Vec<_>) =
+            outputs(scene).map(|(row, output)| (row.name, (output, row.ty))).unzip();
         table.write_record(std::iter::once("time".to_owned()).chain(names))?;
         Ok(Motion { table, outputs, cells: Vec::new() })
     }
 
     pub fn write(&mut self, solved: Solved) -> csv::Result<()> {
         self.cells.clear();
-        self.cells.push(number(solved.point.time));
-        self.cells.extend(self.outputs.iter().map(|output| match solved.read(*output) {
-            Value::Real(value) => number(value),
-            Value::Integer(value) => value.to_string(),
-            Value::Boolean(value) => u8::from(value).to_string(),
-            Value::String(value) => value.to_owned(),
+        self.cells.push(number(solved.time()));
+        self.cells.extend(self.outputs.iter().map(|&(output, ty)| match ty {
+            Type::Real(_) => number(solved.read(output)),
+            _ => solved.read(output).to_string(),
         }));
         self.table.write_record(&self.cells)
     }

@@ -110,7 +110,7 @@ impl Force {
 
 /// Which terms a force has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// No force.
     #[default]
     None,
@@ -126,7 +126,7 @@ pub enum Kind {
 
 impl Kind {
     /// Of a force.
-    pub fn of(force: &Force) -> Kind {
+    pub(crate) fn of(force: &Force) -> Kind {
         match *force {
             Force::None => Kind::None,
             Force::Linear { .. } => Kind::Linear,
@@ -138,7 +138,7 @@ impl Kind {
 }
 
 /// d^n for d >= 0, from the same function on every platform.
-pub fn power(d: f64, exponent: f64) -> f64 {
+pub(crate) fn power(d: f64, exponent: f64) -> f64 {
     if d <= 0.0 {
         return 0.0;
     }
@@ -203,13 +203,9 @@ impl EpisodeForce {
     /// ```
     /// use pounding::contact::{DampingFormula, EpisodeForce, ImpactLaw, LawKind};
     ///
-    /// let law = ImpactLaw {
-    ///     kind: LawKind::HertzDamped,
-    ///     stiffness: 3e7, // N/m^1.5
-    ///     exponent: 1.5,
-    ///     restitution: 0.5,
-    ///     damping_formula: Some(DampingFormula::HuGuo), // a = 1.5
-    /// };
+    /// let mut law = ImpactLaw::new(LawKind::HertzDamped);
+    /// (law.stiffness, law.exponent, law.restitution) = (3e7, 1.5, 0.5); // N/m^1.5
+    /// law.damping_formula = Some(DampingFormula::HuGuo); // a = 1.5
     /// let force = EpisodeForce::new(&law, 3e4, Some(0.5));
     /// assert!((force.value(0.01, 0.2) - 3e7 * 1e-3 * (1.0 + 1.5 * 0.2 / 0.5)).abs() < 1e-9);
     /// // Pulled apart by something else, faster than V/a: no contact pulls under this law.

@@ -9,11 +9,10 @@ use crate::engine::base::contact::Phase;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::storey::Sense;
 use crate::engine::error::EngineError;
-use crate::engine::excitation::inputs::{Inputs, LinearInput};
+use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
-use crate::structure::Side;
 use serde::{Deserialize, Serialize};
 
 /// Largest count that a saved state may have: no run gets that far, and beyond it a count could overflow.
@@ -30,6 +29,25 @@ const TIME_ROUNDING: f64 = 1e-9;
 const AT_LIMIT: f64 = 1e-9;
 
 /// Everything of a state that cannot be worked out from the model: plain data, to be kept or written to bytes.
+///
+/// ```
+/// use pounding::engine::Model;
+///
+/// # let scene = pounding::scene::Scene::from_toml(
+/// #     "name = \"Mast\"\n\
+/// #     left = { mass = [1e3], stiffness = [1e5], damping = { ratio = 0.0 }, initial_velocity = [0.1] }",
+/// # )?;
+/// let model = Model::new(&scene, None)?;
+/// let mut state = model.start(0.0);
+/// model.advance(&mut state, 1.0, &mut |_| ())?;
+/// let saved = state.save();
+/// model.advance(&mut state, 3.0, &mut |_| ())?;
+/// model.restore(&saved, &mut state);
+/// assert_eq!(state.time(), 1.0);
+/// // One that comes from outside may be of another scene.
+/// model.check_saved(&saved)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SavedState {
     /// The communication time, s.
@@ -58,14 +76,9 @@ impl SavedState {
         self.time
     }
 
-    /// The ground acceleration, m/s2; meaningful where there is no record.
-    pub fn ground_acceleration(&self) -> &LinearInput {
-        &self.inputs.ground_acceleration
-    }
-
-    /// The force on a floor, counted from 0, N; `None` where the scene has no floor forces.
-    pub fn floor_force(&self, side: Side, floor: usize) -> Option<&LinearInput> {
-        self.inputs.floor_forces.get(self.inputs.place(side, floor))
+    /// The inputs as set so far.
+    pub fn inputs(&self) -> &Inputs {
+        &self.inputs
     }
 }
 
@@ -123,8 +136,7 @@ impl Model {
             && base.contacts.len() == self.system.pairs.len()
             && base.storeys.len() == self.system.storeys.len()
             && base.energy.is_some() == self.energy
-            && inputs.floor_forces.len() == fresh.inputs.floor_forces.len()
-            && inputs.left_floors == fresh.inputs.left_floors;
+            && inputs.are_as_many_as(&fresh.inputs);
         require(fits, "it is of a scene with other floors, contacts, inputs or outputs")
     }
 
@@ -150,7 +162,7 @@ impl Model {
             };
             let is_known = contact.episode.contact == p && contact.impacts <= MOST_COUNTED && contact.age >= 0.0;
             if !(fits && is_known && (is_law(None) || is_law(Some(approach)))) {
-                return Err(impossible(&format!("contact[{}] is in no state that its law has", p + 1)));
+                return Err(EngineError::ImpossibleContact { contact: p });
             }
         }
         let impacts = base.contacts.iter().fold(0_u64, |sum, contact| sum.saturating_add(contact.impacts));
@@ -167,8 +179,7 @@ impl Model {
             let is_at_limit = storey.yields.is_none_or(is_at) && storey.turned.is_none_or(is_at);
             let has_flowed = storey.furthest >= storey.plastic.abs() && storey.cumulative.value >= 0.0;
             if !(is_within && is_at_limit && has_flowed && (storey.yields.is_none() || storey.turned.is_none())) {
-                let path = format!("storey {} of the {} building", of.storey + 1, of.side);
-                return Err(impossible(&format!("{path} is in no state that it can have")));
+                return Err(EngineError::ImpossibleStorey { side: of.side, storey: of.storey });
             }
         }
         Ok(())
@@ -194,10 +205,6 @@ fn rounding(time: f64) -> f64 {
     TIME_ROUNDING * time.abs().max(1.0)
 }
 
-fn require(holds: bool, otherwise: &str) -> Result<(), EngineError> {
-    if holds { Ok(()) } else { Err(impossible(otherwise)) }
-}
-
-fn impossible(what: &str) -> EngineError {
-    EngineError { message: format!("not a state of this scene: {what}") }
+fn require(holds: bool, what: &'static str) -> Result<(), EngineError> {
+    if holds { Ok(()) } else { Err(EngineError::NotOfScene { what }) }
 }

@@ -10,16 +10,16 @@ use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, Slot, Type, by_parameter};
 impl Slave {
     /// Sets the first derivatives of inputs for the present communication point: all of them, or none where anything is
     /// wrong. From there on the inputs are linear in time.
+    ///
+    /// # Errors
+    /// References that are of no input, orders other than 1, numbers that are not finite.
     pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Result<(), Refusal> {
         let all = || references.iter().zip(orders).zip(values).map(|((r, order), value)| (*r, *order, *value));
         let problems = all().filter_map(|(reference, order, value)| self.refuse_derivative(reference, order, value));
         Refusal::unless_empty(problems.collect())?;
         for (reference, _, value) in all() {
             let Some(Slot::Input(input)) = self.table.row(reference).map(|row| row.slot) else { continue };
-            self.inputs.get_mut(input).set_slope(value, self.time);
-            if let Some(simulation) = &mut self.simulation {
-                simulation.set_input_slope(input, value);
-            }
+            self.run.set_input_rate(input, value);
         }
         Ok(())
     }
@@ -38,6 +38,9 @@ impl Slave {
 
     /// Reads a derivative of each output in turn and hands over its place and value. One that there is not is discarded:
     /// nothing has changed, the instance goes on.
+    ///
+    /// # Errors
+    /// Settings of which no model can be made.
     pub fn output_derivatives(
         &mut self,
         references: &[u32],
@@ -65,7 +68,7 @@ impl Slave {
             return Ok(Err(format!("{}: derivative of order {order}: {expected}", row.name)));
         }
         let (now, rates) = self.start()?.rates();
-        let [first, second] = now.differentiate(rates, output);
+        let [first, second] = now.rates(rates, output);
         Ok(Ok(if order == 1 { first } else { second }))
     }
 
@@ -74,6 +77,9 @@ impl Slave {
     /// nothing has changed, the instance goes on.
     ///
     /// In initialization mode unknowns may be calculated parameters too, and knowns parameters.
+    ///
+    /// # Errors
+    /// Settings of which no model can be made.
     pub fn directional_derivative(
         &mut self,
         unknowns: &[u32],
@@ -88,8 +94,8 @@ impl Slave {
         if !problems.is_empty() {
             return Ok(self.discard_for(Call::GetDirectionalDerivative, problems));
         }
-        self.start()?;
-        let Slave { table, settings, simulation: Some(simulation), .. } = self else { return Ok(Status::Ok) };
+        let Slave { table, settings, run, .. } = self;
+        let simulation = run.start(settings)?;
         let slot = |reference| table.row(reference).map(|row| row.slot);
         simulation.respond(changes().filter_map(|(known, change)| match slot(known)? {
             Slot::Input(input) => Some((input, change)),

@@ -4,10 +4,10 @@
 //! the engine - but not the choice of log categories: that is the master's at any time, as over a reset. It stays until
 //! the master frees it, whatever it says about going back when it makes a step.
 
+use super::run::SavedRun;
 use super::sequence::Phase;
-use super::simulation::SavedRun;
 use super::status::Refusal;
-use crate::variables::{Inputs, Settings};
+use crate::variables::Settings;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::num::NonZeroUsize;
@@ -29,17 +29,14 @@ pub(super) struct Snapshots {
 #[derive(Clone, Debug)]
 pub(super) struct Snapshot {
     pub settings: Arc<Settings>,
-    pub inputs: Inputs,
     pub phase: Phase,
-    pub time: f64,
     pub stop_time: Option<f64>,
-    /// Absent where nothing computed had been asked for yet.
-    pub run: Option<SavedRun>,
+    pub run: SavedRun,
 }
 
 impl Snapshots {
     /// Keeps a snapshot in place of an earlier one, or as a new one.
-    pub fn keep(&mut self, snapshot: Snapshot, earlier: Option<Handle>) -> Result<Handle, Refusal> {
+    pub(super) fn keep(&mut self, snapshot: Snapshot, earlier: Option<Handle>) -> Result<Handle, Refusal> {
         let handle = match earlier {
             Some(handle) if self.live.contains_key(&handle) => handle,
             Some(handle) => return Err(unknown(handle)),
@@ -50,13 +47,13 @@ impl Snapshots {
     }
 
     /// The snapshot of that handle.
-    pub fn get(&self, handle: Option<Handle>) -> Result<&Snapshot, Refusal> {
+    pub(super) fn get(&self, handle: Option<Handle>) -> Result<&Snapshot, Refusal> {
         let handle = handle.ok_or_else(|| Refusal::from("FMUstate is null: expected a recorded state".to_owned()))?;
         self.live.get(&handle).ok_or_else(|| unknown(handle))
     }
 
     /// Forgets the snapshot of that handle.
-    pub fn free(&mut self, handle: Handle) -> Result<(), Refusal> {
+    pub(super) fn free(&mut self, handle: Handle) -> Result<(), Refusal> {
         self.live.remove(&handle).map(drop).ok_or_else(|| unknown(handle))
     }
 }

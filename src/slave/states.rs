@@ -1,37 +1,41 @@
 //! `fmi2GetFMUstate` and its kin: the state of an instance recorded, restored, freed, and as bytes.
 
 use super::instance::Slave;
-use super::simulation::Simulation;
 use super::snapshots::{Handle, Snapshot};
 use super::status::Refusal;
 use std::sync::Arc;
 
 impl Slave {
     /// Records the present state: in place of an earlier snapshot, or as a new one.
+    ///
+    /// # Errors
+    /// An earlier snapshot that this instance does not have.
     pub fn record_state(&mut self, earlier: Option<Handle>) -> Result<Handle, Refusal> {
         let snapshot = Snapshot {
             settings: Arc::clone(&self.settings),
-            inputs: self.inputs.clone(),
             phase: self.phase,
-            time: self.time,
             stop_time: self.stop_time,
-            run: self.simulation.as_mut().map(Simulation::save),
+            run: self.run.save(),
         };
         self.snapshots.keep(snapshot, earlier)
     }
 
     /// Goes back to a snapshot, from any phase.
+    ///
+    /// # Errors
+    /// A snapshot that this instance does not have.
     pub fn restore_state(&mut self, handle: Option<Handle>) -> Result<(), Refusal> {
-        let Snapshot { settings, inputs, phase, time, stop_time, run } = self.snapshots.get(handle)?;
+        let Snapshot { settings, phase, stop_time, run } = self.snapshots.get(handle)?;
         self.settings = Arc::clone(settings);
-        self.inputs = inputs.clone();
-        (self.phase, self.time, self.stop_time) = (*phase, *time, *stop_time);
-        let present = self.simulation.take();
-        self.simulation = run.as_ref().map(|run| Simulation::restore(run, present));
+        (self.phase, self.stop_time) = (*phase, *stop_time);
+        self.run.restore(run);
         Ok(())
     }
 
     /// Frees a snapshot; there may be none.
+    ///
+    /// # Errors
+    /// A snapshot that this instance does not have.
     pub fn free_state(&mut self, handle: Option<Handle>) -> Result<(), Refusal> {
         if let Some(handle) = handle {
             self.snapshots.free(handle)?;
@@ -40,16 +44,26 @@ impl Slave {
     }
 
     /// Number of bytes that [`Slave::serialize_state`] makes of a snapshot.
+    ///
+    /// # Errors
+    /// A snapshot that this instance does not have.
     pub fn serialized_size(&self, handle: Option<Handle>) -> Result<usize, Refusal> {
         Ok(self.serialize_state(handle)?.len())
     }
 
     /// A snapshot as bytes, to be kept anywhere.
+    ///
+    /// # Errors
+    /// A snapshot that this instance does not have.
     pub fn serialize_state(&self, handle: Option<Handle>) -> Result<Vec<u8>, Refusal> {
         self.serialize(self.snapshots.get(handle)?)
     }
 
     /// Makes a snapshot of bytes: in place of an earlier one, or as a new one. The instance itself stays as it is.
+    ///
+    /// # Errors
+    /// Bytes that are damaged, of another version or FMU, or of a state that this FMU cannot be in; an earlier snapshot
+    /// that this instance does not have.
     pub fn deserialize_state(&mut self, bytes: &[u8], earlier: Option<Handle>) -> Result<Handle, Refusal> {
         let snapshot = self.deserialize(bytes)?;
         self.snapshots.keep(snapshot, earlier)

@@ -5,9 +5,9 @@
 //! matter. Whether floors overlap at the start is up to the gaps, which are parameters.
 
 use super::dependencies::floors;
-use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot};
+use super::slot::{Parameter, Slot};
 use crate::contact::EpisodeForce;
-use crate::engine::{PeakOf, Side, StoreyPeak, YieldingOf};
+use crate::engine::{ContactOutput, EnergyOutput, Input, Output, PeakOf, Side, StoreyPeak, YieldingOf};
 use crate::scene::{Building, Damping, Scene, Share, Stiffness};
 
 /// Whether an unknown may depend on a known at the start time; `unknown` is an output or a calculated parameter,

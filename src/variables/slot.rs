@@ -1,6 +1,6 @@
 //! What the variables stand for.
 
-use crate::engine::{PeakOf, Side, StoreyPeak, YieldingOf};
+use crate::engine::{Input, Output, Side};
 
 /// What a variable stands for. Floors, storeys and contacts are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,17 +15,9 @@ pub enum Slot {
     Output(Output),
 }
 
-/// An input: the master sets it at any time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Input {
-    /// m/s2
-    GroundAcceleration,
-    /// N, on a floor
-    Force(Side, usize),
-}
-
 /// A parameter: the master sets it before the end of initialisation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Parameter {
     /// Factor on the record.
     GroundScale,
@@ -55,77 +47,6 @@ pub enum Parameter {
     Restitution(usize),
     /// Error of a contact episode
     RelativeTolerance,
-}
-
-/// A result of the FMU.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Output {
-    /// m/s2, of the record
-    GroundAcceleration,
-    /// m
-    Displacement(Side, usize),
-    /// m/s
-    Velocity(Side, usize),
-    /// m/s2
-    Acceleration(Side, usize),
-    /// N
-    BaseShear(Side),
-    /// The largest magnitude so far.
-    Peak(PeakOf),
-    /// The largest so far of a quantity of a storey.
-    OfStorey(StoreyPeak, Side, usize),
-    /// Of a storey that can yield.
-    OfYielding(YieldingOf, Side, usize),
-    /// The sense in which a storey yields now.
-    Yielding(Side, usize),
-    /// One contact.
-    Contact(usize, ContactOutput),
-    /// Contact episodes so far.
-    Impacts,
-    /// One term of the energy account.
-    Energy(EnergyOutput),
-}
-
-/// A result for one contact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ContactOutput {
-    /// N
-    Force,
-    /// m
-    Penetration,
-    /// In contact now.
-    Active,
-    /// Episodes begun so far.
-    Impacts,
-    /// N
-    PeakForce,
-    /// N s
-    Impulse,
-    /// J
-    DissipatedEnergy,
-    /// m/s
-    ApproachVelocity,
-}
-
-/// The terms of the energy account.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EnergyOutput {
-    /// J
-    Input,
-    /// J
-    Kinetic,
-    /// J
-    Strain,
-    /// J
-    Viscous,
-    /// J
-    Impact,
-    /// J
-    External,
-    /// J
-    Hysteretic,
-    /// Dimensionless
-    Residual,
 }
 
 /// FMI causality.

@@ -1,14 +1,13 @@
-//! Reading and writing what a slot stands for: each one match over all slots.
+//! Values of variables; parameters, each read and written by one match over all of them.
 
-use super::slot::{ContactOutput, EnergyOutput, Input, Output, Parameter, Slot};
-use super::table::{Row, Table};
-use crate::engine::{ContactPoint, EnergyPoint, LinearInput, Model, Point, SavedState, Side, State};
+use super::slot::Parameter;
+use super::table::Type;
+use crate::engine::Side;
 use crate::record::{KnownRecords, Record};
 use crate::scene::{
     Building, Damping, Scaling, Scene, SceneError, Stiffness, Units, read_record_file, record_problems,
 };
 use crate::warnings::{self, Warning};
-use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -26,6 +25,17 @@ pub enum Value<'a> {
 }
 
 impl<'a> Value<'a> {
+    /// A number of the engine as a value of this type. FMI integers have 32 bits: a count beyond stays at their
+    /// largest.
+    #[inline(always)]
+    pub const fn of(ty: Type, number: f64) -> Value<'a> {
+        match ty {
+            Type::Integer => Value::Integer(number as i32),
+            Type::Boolean => Value::Boolean(number != 0.0),
+            Type::Real(_) | Type::String => Value::Real(number), // no number is a text
+        }
+    }
+
     /// The number, if it is one.
     pub const fn real(self) -> Option<f64> {
         if let Value::Real(value) = self { Some(value) } else { None }
@@ -130,6 +140,9 @@ impl Settings {
 
     /// Everything that is wrong with the numbers, by themselves and with the record: in the words of the scene, under
     /// the names of the variables.
+    ///
+    /// # Errors
+    /// All of that, at once.
     pub fn check(&self) -> Result<(), SceneError> {
         let mut problems = self.scene.check().err().map_or_else(Vec::new, |error| error.problems);
         let factor = self.record().map(|record| self.scene.ground.scaling.factor(record));
@@ -167,6 +180,9 @@ impl Settings {
 
     /// Sets a parameter to a value of its row's type. [`Settings::check`] is for the caller: once, after everything that
     /// is set together.
+    ///
+    /// # Errors
+    /// A record file that cannot be read, or not scaled to the peak of the scene.
     pub fn write(&mut self, parameter: Parameter, value: Value<'_>) -> Result<(), SceneError> {
         let number = match value {
             Value::Real(number) => number,
@@ -239,174 +255,6 @@ fn without_pga(mut error: SceneError, record: &str) -> SceneError {
     error
 }
 
-/// The inputs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Inputs {
-    ground_acceleration: LinearInput,
-    left_force: Vec<LinearInput>,
-    right_force: Vec<LinearInput>,
-}
-
-impl Inputs {
-    /// All 0.
-    pub fn new(scene: &Scene) -> Inputs {
-        let zeros = |building: &Building| vec![LinearInput::default(); building.mass.len()];
-        Inputs {
-            ground_acceleration: LinearInput::default(),
-            left_force: zeros(&scene.left),
-            right_force: zeros(&scene.right),
-        }
-    }
-
-    /// Whether they can be those of a scene at a time, s: as many forces as it has floors, and no number that could not
-    /// have been set.
-    pub fn fit(&self, scene: &Scene, table: &Table, time: f64) -> bool {
-        self.left_force.len() == scene.left.mass.len()
-            && self.right_force.len() == scene.right.mass.len()
-            && self.all().all(LinearInput::is_finite)
-            && self.beyond(table, time).is_empty()
-    }
-
-    /// Whether those of a saved run are the same from a time on, s.
-    pub fn are_in(&self, saved: &SavedState, table: &Table, time: f64) -> bool {
-        let is_same = |input: Input| {
-            let line = self.get(input);
-            let same = |other: &LinearInput| other.at(time) == line.at(time) && other.slope() == line.slope();
-            input.of_saved(saved).is_some_and(same)
-        };
-        table.rows.iter().all(|row| if let Slot::Input(input) = row.slot { is_same(input) } else { true })
-    }
-
-    /// A problem for each input that is out of its range at a time, s.
-    pub fn beyond(&self, table: &Table, time: f64) -> Vec<String> {
-        let value = |row: &Row| match row.slot {
-            Slot::Input(input) => row.problem(self.get(input).at(time)),
-            Slot::Parameter(_) | Slot::Frequency(..) | Slot::Output(_) => None,
-        };
-        table.rows.iter().filter_map(value).collect()
-    }
-
-    /// Whether any changes with time.
-    pub fn are_moving(&self) -> bool {
-        self.all().any(|input| input.slope() != 0.0)
-    }
-
-    fn all(&self) -> impl Iterator<Item = &LinearInput> {
-        self.left_force.iter().chain(&self.right_force).chain([&self.ground_acceleration])
-    }
-
-    /// An input as a function of time.
-    pub fn get(&self, input: Input) -> &LinearInput {
-        match input {
-            Input::GroundAcceleration => &self.ground_acceleration,
-            Input::Force(Side::Left, floor) => &self.left_force[floor],
-            Input::Force(Side::Right, floor) => &self.right_force[floor],
-        }
-    }
-
-    /// The same, to be set.
-    pub fn get_mut(&mut self, input: Input) -> &mut LinearInput {
-        match input {
-            Input::GroundAcceleration => &mut self.ground_acceleration,
-            Input::Force(Side::Left, floor) => &mut self.left_force[floor],
-            Input::Force(Side::Right, floor) => &mut self.right_force[floor],
-        }
-    }
-
-    /// The values set so far hold for this time, s.
-    pub fn begin_at(&mut self, time: f64) {
-        let forces = self.left_force.iter_mut().chain(&mut self.right_force);
-        forces.chain([&mut self.ground_acceleration]).for_each(|input| input.move_to(time));
-    }
-}
-
-impl Input {
-    /// Hands the value to the engine, for its present time.
-    pub fn apply(self, value: f64, state: &mut State) {
-        match self {
-            Input::GroundAcceleration => state.set_ground_acceleration(value),
-            Input::Force(side, floor) => state.set_floor_force(side, floor, value),
-        }
-    }
-
-    /// Its line in a saved run.
-    fn of_saved(self, saved: &SavedState) -> Option<&LinearInput> {
-        match self {
-            Input::GroundAcceleration => Some(saved.ground_acceleration()),
-            Input::Force(side, floor) => saved.floor_force(side, floor),
-        }
-    }
-
-    /// Hands the rate to the engine, from its present time on.
-    pub fn apply_slope(self, slope: f64, state: &mut State) {
-        match self {
-            Input::GroundAcceleration => state.set_ground_acceleration_rate(slope),
-            Input::Force(side, floor) => state.set_floor_force_rate(side, floor, slope),
-        }
-    }
-}
-
-/// The solution at one time.
-#[derive(Clone, Copy, Debug)]
-pub struct Instant<'a> {
-    /// The model of the scene with the present parameters.
-    pub model: &'a Model,
-    /// The solution.
-    pub state: &'a State,
-    /// The outputs that `model` has observed in `state`.
-    pub point: &'a Point,
-}
-
-impl Instant<'_> {
-    /// The value of an output.
-    #[inline(always)]
-    pub fn read(&self, output: Output) -> Value<'static> {
-        let Instant { model, state, point } = *self;
-        Value::Real(match output {
-            Output::GroundAcceleration => point.ground_acceleration,
-            Output::Displacement(side, floor) => model.displacement(point, side, floor),
-            Output::Velocity(side, floor) => model.velocity(point, side, floor),
-            Output::Acceleration(side, floor) => model.acceleration(point, side, floor),
-            Output::BaseShear(side) => model.base_shear(point, side),
-            Output::Peak(of) => model.peak(state, point, of),
-            Output::OfStorey(of, side, storey) => model.storey_peak(state, point, of, (side, storey)),
-            Output::OfYielding(of, side, storey) => model.of_yielding(state, point, of, (side, storey)),
-            Output::Yielding(side, storey) => return Value::Integer(model.yielding(point, (side, storey))),
-            Output::Contact(p, output) => return read_contact(&model.contact(state, point, p), output),
-            Output::Impacts => return count(point.impacts),
-            Output::Energy(term) => read_energy(&model.energy(state, point).unwrap_or_default(), term),
-        })
-    }
-}
-
-#[inline(always)]
-fn read_contact(contact: &ContactPoint, output: ContactOutput) -> Value<'static> {
-    Value::Real(match output {
-        ContactOutput::Force => contact.force,
-        ContactOutput::Penetration => contact.penetration,
-        ContactOutput::Active => return Value::Boolean(contact.active),
-        ContactOutput::Impacts => return count(contact.impacts),
-        ContactOutput::PeakForce => contact.peak_force,
-        ContactOutput::Impulse => contact.impulse,
-        ContactOutput::DissipatedEnergy => contact.dissipated_energy,
-        ContactOutput::ApproachVelocity => contact.approach_velocity,
-    })
-}
-
-#[inline(never)]
-fn read_energy(energy: &EnergyPoint, term: EnergyOutput) -> f64 {
-    match term {
-        EnergyOutput::Input => energy.input,
-        EnergyOutput::Kinetic => energy.kinetic,
-        EnergyOutput::Strain => energy.strain,
-        EnergyOutput::Viscous => energy.viscous,
-        EnergyOutput::Impact => energy.impact,
-        EnergyOutput::External => energy.external,
-        EnergyOutput::Hysteretic => energy.hysteretic,
-        EnergyOutput::Residual => energy.residual,
-    }
-}
-
 /// The only parameter whose name is not its path in the scene.
 fn name_variable(path: &mut String) {
     for (key, name) in [
@@ -420,11 +268,6 @@ fn name_variable(path: &mut String) {
             return;
         }
     }
-}
-
-/// FMI integers have 32 bits: a count beyond stays at their largest.
-fn count(n: u64) -> Value<'static> {
-    Value::Integer(i32::try_from(n).unwrap_or(i32::MAX))
 }
 
 fn building_mut(scene: &mut Scene, side: Side) -> &mut Building {
@@ -442,7 +285,7 @@ mod tests {
     fn counts_stay_at_the_largest_integer() {
         let largest = i32::MAX as u64;
         for (n, expected) in [(0, 0), (largest, i32::MAX), (largest + 1, i32::MAX), (u64::MAX, i32::MAX)] {
-            assert_eq!(count(n), Value::Integer(expected));
+            assert_eq!(Value::of(Type::Integer, n as f64), Value::Integer(expected));
         }
     }
 }

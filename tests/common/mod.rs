@@ -5,7 +5,9 @@ pub mod peaks;
 #[path = "../problems/mod.rs"]
 pub mod problems;
 
-use pounding::engine::{ContactPoint, EnergyPoint, Episode, Model, PeakOf, Point, SavedState, Side, State, YieldingOf};
+use pounding::engine::{
+    ContactPoint, EnergyPoint, Episode, Instant, Model, Output, PeakOf, Point, SavedState, Side, State, YieldingOf,
+};
 use pounding::record::Record;
 use pounding::scene::Scene;
 use problems::two_masses::{Mass, TwoMasses};
@@ -90,20 +92,29 @@ impl Run {
         self
     }
 
+    /// What was read last.
+    pub fn now(&self) -> Instant<'_> {
+        self.model.observed(&self.state, &self.point)
+    }
+
+    pub fn read(&self, output: Output) -> f64 {
+        self.now().read(output)
+    }
+
     pub fn displacement(&self, side: Side, floor: usize) -> f64 {
-        self.model.displacement(&self.point, side, floor)
+        self.read(Output::Displacement(side, floor))
     }
 
     pub fn velocity(&self, side: Side, floor: usize) -> f64 {
-        self.model.velocity(&self.point, side, floor)
+        self.read(Output::Velocity(side, floor))
     }
 
     pub fn peak(&self, of: PeakOf) -> f64 {
-        self.model.peak(&self.state, &self.point, of)
+        self.read(Output::Peak(of))
     }
 
     pub fn contact(&self, p: usize) -> ContactPoint {
-        self.model.contact(&self.state, &self.point, p)
+        self.now().contact(p)
     }
 
     pub fn contacts(&self) -> Vec<ContactPoint> {
@@ -111,7 +122,7 @@ impl Run {
     }
 
     pub fn storey(&self, side: Side, storey: usize) -> ShownStorey {
-        let of = |of| self.model.of_yielding(&self.state, &self.point, of, (side, storey));
+        let of = |of| self.read(Output::OfYielding(of, side, storey));
         ShownStorey {
             shear: of(YieldingOf::Shear),
             plastic: of(YieldingOf::PlasticDrift),
@@ -119,7 +130,7 @@ impl Run {
             ductility: of(YieldingOf::Ductility),
             hysteretic: of(YieldingOf::HystereticEnergy),
             cumulative: of(YieldingOf::CumulativePlasticDrift),
-            sense: self.model.yielding(&self.point, (side, storey)),
+            sense: self.read(Output::Yielding(side, storey)) as i32,
         }
     }
 
@@ -130,7 +141,7 @@ impl Run {
 
     /// The energy account of a scene that keeps one.
     pub fn energy(&self) -> EnergyPoint {
-        self.model.energy(&self.state, &self.point).unwrap()
+        self.now().energy().unwrap()
     }
 
     /// Everything that a floor, a contact or a storey that can yield shows, as bits.
@@ -145,7 +156,7 @@ impl Run {
             for floor in 0..self.model.floors(side) {
                 values.push(self.displacement(side, floor));
                 values.push(self.velocity(side, floor));
-                values.push(self.model.acceleration(&self.point, side, floor));
+                values.push(self.read(Output::Acceleration(side, floor)));
                 for of in [PeakOf::Displacement, PeakOf::Drift, PeakOf::Acceleration] {
                     values.push(self.peak(of(side, floor)));
                 }

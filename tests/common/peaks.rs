@@ -1,7 +1,7 @@
 //! Peaks beside what is read at the same time.
 
 use super::Run;
-use pounding::engine::{PeakOf, Side};
+use pounding::engine::{Output, PeakOf, Side};
 
 /// A quantity whose peak is kept.
 pub struct Read {
@@ -21,10 +21,10 @@ pub fn all(run: &Run) -> [Vec<Read>; 5] {
             let below = floor.checked_sub(1).map_or(0.0, |below| run.displacement(side, below));
             displacements.push(read(PeakOf::Displacement(side, floor), moved));
             drifts.push(read(PeakOf::Drift(side, floor), moved - below));
-            let acceleration = run.model.acceleration(&run.point, side, floor);
+            let acceleration = run.read(Output::Acceleration(side, floor));
             accelerations.push(read(PeakOf::Acceleration(side, floor), acceleration));
         }
-        shears.push(read(PeakOf::BaseShear(side), run.model.base_shear(&run.point, side)));
+        shears.push(read(PeakOf::BaseShear(side), run.read(Output::BaseShear(side))));
     }
     // A pull is no peak.
     let contacts = run.contacts().into_iter().enumerate().map(|(p, contact)| Read {

@@ -1,7 +1,7 @@
 //! Reading a solution a hair beside a sample of the record, where masters' rounded times are, and anywhere between.
 
 use crate::common::{Run, record, scene};
-use pounding::engine::Side;
+use pounding::engine::{Output, Side};
 
 const STEP: f64 = 1.0 / 64.0;
 
@@ -9,7 +9,7 @@ const STEP: f64 = 1.0 / 64.0;
 fn floors(run: &Run) -> Vec<[f64; 3]> {
     let of = |side: Side| {
         (0..run.model.floors(side)).map(move |floor| {
-            let acceleration = run.model.acceleration(&run.point, side, floor) - run.point.ground_acceleration;
+            let acceleration = run.read(Output::Acceleration(side, floor)) - run.point.ground_acceleration;
             [run.displacement(side, floor), run.velocity(side, floor), acceleration]
         })
     };

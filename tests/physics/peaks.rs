@@ -1,7 +1,7 @@
 //! Peaks in continuous time: against closed forms, against ever denser readings of the same run, at any communication steps.
 
 use crate::common::{Run, assert_close, record, scene};
-use pounding::engine::{PeakOf, Side};
+use pounding::engine::{Output, PeakOf, Side};
 use pounding::record::Record;
 use pounding::scene::Scene;
 use std::f64::consts::PI;
@@ -28,8 +28,9 @@ fn now(run: &Run) -> Vec<f64> {
         PeakOf::Displacement(side, floor) => run.displacement(side, floor),
         PeakOf::Drift(side, 0) => run.displacement(side, 0),
         PeakOf::Drift(side, storey) => run.displacement(side, storey) - run.displacement(side, storey - 1),
-        PeakOf::Acceleration(side, floor) => run.model.acceleration(&run.point, side, floor),
-        PeakOf::BaseShear(side) => run.model.base_shear(&run.point, side),
+        PeakOf::Acceleration(side, floor) => run.read(Output::Acceleration(side, floor)),
+        PeakOf::BaseShear(side) => run.read(Output::BaseShear(side)),
+        _ => panic!("{of:?}"),
     };
     all_of(run).into_iter().map(|of| f64::abs(value(of))).collect()
 }

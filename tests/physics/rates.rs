@@ -1,48 +1,26 @@
 //! Derivatives with respect to time, against what the solution does next.
 
 use crate::common::{Run, record, scene};
-use pounding::engine::{ContactRates, PointRates, Rates, Side};
+use pounding::engine::{ContactOutput as C, ContactRates, EnergyOutput as E, Output, PointRates, Rates, Side};
 use pounding::scene::{self, Scene};
 use std::path::Path;
 
 /// Everything that is differentiated, each with its first and second derivative.
-fn shown(run: &mut Run, rates: &mut PointRates) -> Vec<(String, f64, Rates)> {
-    run.model.observe(&run.state, &mut run.point);
-    run.model.differentiate(&run.state, &run.point, rates);
-    let (model, point) = (&run.model, &run.point);
-    let mut all = vec![("ground".to_owned(), point.ground_acceleration, rates.ground_acceleration)];
+fn shown(run: &mut Run, rates: &mut PointRates) -> Vec<(Output, f64, Rates)> {
+    let now = run.model.observe(&run.state, &mut run.point);
+    now.differentiate(rates);
+    let mut outputs = vec![Output::GroundAcceleration];
     for side in [Side::Left, Side::Right] {
-        let mut add = |name: &str, value, rates| all.push((format!("{side:?} {name}"), value, rates));
-        add("shear", model.base_shear(point, side), model.base_shear_rates(point, rates, side));
-        for i in 0..model.floors(side) {
-            add("displacement", model.displacement(point, side, i), model.displacement_rates(point, rates, side, i));
-            add("velocity", model.velocity(point, side, i), model.velocity_rates(point, rates, side, i));
-            add("acceleration", model.acceleration(point, side, i), model.acceleration_rates(point, rates, side, i));
-        }
+        outputs.push(Output::BaseShear(side));
+        let of_floor = [Output::Displacement, Output::Velocity, Output::Acceleration];
+        outputs.extend((0..run.model.floors(side)).flat_map(|i| of_floor.map(|output| output(side, i))));
     }
-    for (p, (contact, rates)) in run.contacts().iter().zip(&rates.contacts).enumerate() {
-        for (name, value, rates) in [
-            ("force", contact.force, rates.force),
-            ("penetration", contact.penetration, rates.penetration),
-            ("impulse", contact.impulse, rates.impulse),
-            ("work", contact.dissipated_energy, rates.dissipated_energy),
-        ] {
-            all.push((format!("{name} {p}"), value, rates));
-        }
+    let of_contact = [C::Force, C::Penetration, C::Impulse, C::DissipatedEnergy];
+    outputs.extend((0..run.model.contacts()).flat_map(|p| of_contact.map(|of| Output::Contact(p, of))));
+    if now.energy().is_some() {
+        outputs.extend([E::Input, E::Kinetic, E::Strain, E::Viscous, E::Impact, E::External].map(Output::Energy));
     }
-    if let (Some(energy), Some(rates)) = (run.model.energy(&run.state, point), &rates.energy) {
-        for (name, value, rates) in [
-            ("input", energy.input, rates.input),
-            ("kinetic", energy.kinetic, rates.kinetic),
-            ("strain", energy.strain, rates.strain),
-            ("viscous", energy.viscous, rates.viscous),
-            ("impact", energy.impact, rates.impact),
-            ("external", energy.external, rates.external),
-        ] {
-            all.push((name.to_owned(), value, rates));
-        }
-    }
-    all
+    outputs.into_iter().map(|output| (output, now.read(output), now.rates(rates, output))).collect()
 }
 
 /// What the contacts do at present: nothing of it may change where differences are taken.
@@ -74,7 +52,7 @@ fn errors(run: &mut Run, stop: f64, h: f64) -> (f64, f64, usize) {
         }
         // Near d = 0 the higher derivatives of a power law have no bound, and differences no meaning.
         let is_shallow = |(p, rates): (usize, &ContactRates)| {
-            run.contact(p).active && run.contact(p).penetration < 300.0 * h * rates.penetration[0].abs()
+            run.contact(p).active && run.contact(p).penetration < 300.0 * h * rates[C::Penetration][0].abs()
         };
         if state != phase(run) || rates_after.contacts.iter().enumerate().any(is_shallow) {
             continue;
@@ -163,14 +141,15 @@ fn what_is_singular_reads_0() {
     scene.left.initial_velocity = vec![0.1, 0.2];
     let mut run = Run::new(&scene, None);
     let mut rates = PointRates::default();
-    for (name, _, [first, second]) in shown(&mut run, &mut rates) {
+    for (output, _, [first, second]) in shown(&mut run, &mut rates) {
+        let name = format!("{output:?}");
         assert!(first.is_finite() && second.is_finite(), "{name}: {first}, {second}");
         // Whatever the rate of a force has a part in.
-        let (is_motion, is_shear) = (["velocity", "acceleration"].map(|n| name.contains(n)), name.contains("shear"));
+        let (is_motion, is_shear) = (["Velocity", "Acceleration"].map(|n| name.contains(n)), name.contains("Shear"));
         assert!(!is_motion[1] || first == 0.0, "{name}: {first}");
         assert!(!(is_motion[0] || is_motion[1] || is_shear) || second == 0.0, "{name}: {second}");
-        assert!(name != "Left shear" || first != 0.0, "{name}: stiffness times velocity");
+        assert!(name != "BaseShear(Left)" || first != 0.0, "{name}: stiffness times velocity");
     }
-    assert_eq!(rates.contacts[0].force, [0.0; 2]);
-    assert_eq!(rates.contacts[0].penetration[0], 0.2);
+    assert_eq!(rates.contacts[0][C::Force], [0.0; 2]);
+    assert_eq!(rates.contacts[0][C::Penetration][0], 0.2);
 }

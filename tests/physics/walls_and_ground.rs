@@ -2,7 +2,7 @@
 //! floors which are held against it. Against closed forms.
 
 use crate::common::{Run, assert_close, record, scene};
-use pounding::engine::{Response, Side};
+use pounding::engine::{ContactOutput, Input, Output, Response, Side};
 use std::f64::consts::PI;
 
 /// A single mass, kg, of that period, s, and more of the scene.
@@ -81,11 +81,10 @@ fn a_reaction_of_a_wall_answers_to_the_ground_at_once() {
     run.to(0.3);
     assert!(run.contact(0).active);
     assert_close(run.contact(0).force, 2.0 * mass, 1e-13, "reaction");
-    assert_close(run.model.acceleration(&run.point, Side::Left, 0), -2.0, 1e-13, "acceleration");
+    assert_close(run.read(Output::Acceleration(Side::Left, 0)), -2.0, 1e-13, "acceleration");
     let mut response = Response::default();
-    run.model.clear_response(&mut response);
-    run.model.push_ground(1.0, &mut response);
-    run.model.settle_response(&run.state, &run.point, &mut response);
-    assert_close(response.reactions[0], -mass, 1e-14, "reaction by ground acceleration");
-    assert_close(run.model.response_at(&response, Side::Left, 0), 1.0, 1e-14, "acceleration by that of the ground");
+    run.now().respond([(Input::GroundAcceleration, 1.0)], &mut response);
+    let answer = |output| run.model.response_of(&response, output);
+    assert_close(answer(Output::Contact(0, ContactOutput::Force)), -mass, 1e-14, "reaction by ground acceleration");
+    assert_close(answer(Output::Acceleration(Side::Left, 0)), 1.0, 1e-14, "acceleration by that of the ground");
 }

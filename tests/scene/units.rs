@@ -3,7 +3,7 @@
 use super::{SHORT, edited, messages};
 use crate::two_and_three_storeys::{RECORD_SCENE, RICH, SCENE as DRIVEN};
 use pounding::contact::LawKind;
-use pounding::engine::{Episode, Model, Point, Side};
+use pounding::engine::{Episode, Model, Output, Point, Side};
 use pounding::scene::{Package, PackagedRecord, Scene, Units, law_key};
 use pounding::variables::{Parameter, Settings, Value};
 use proptest::prelude::*;
@@ -137,11 +137,11 @@ fn run(scene: &Scene) -> Vec<u64> {
     for k in 1..=30 {
         let mut end = |episode: &Episode| seen.push(episode.peak_force.to_bits());
         model.advance(&mut state, 0.1 * f64::from(k), &mut end).unwrap();
-        model.observe(&state, &mut point);
+        let now = model.observe(&state, &mut point);
         for (side, floor) in [(Side::Left, 0), (Side::Left, 1)] {
-            seen.push(model.displacement(&point, side, floor).to_bits());
+            seen.push(now.read(Output::Displacement(side, floor)).to_bits());
         }
-        let contact = model.contact(&state, &point, 0);
+        let contact = now.contact(0);
         seen.extend([contact.force, contact.impulse, contact.dissipated_energy].map(f64::to_bits));
     }
     seen

@@ -1,7 +1,7 @@
 //! Scenes at the extremes of their parameters, run to an outcome: the points of the grid that `benchmarks/extremes.rs`
 //! runs and `benchmarks/extremes.py` draws, some of which are a test.
 
-use pounding::engine::{Counters, Model, Point};
+use pounding::engine::{Counters, Model, Output, Point};
 use pounding::record::Record;
 use pounding::scene::Scene;
 
@@ -140,10 +140,10 @@ impl Extreme {
         let mut state = model.start(0.0);
         let mut point = Point::default();
         let end = model.advance(&mut state, DURATION, &mut |_| ());
-        model.observe(&state, &mut point);
-        (trial.counters, trial.impacts) = (state.counters(), point.impacts);
+        let now = model.observe(&state, &mut point);
+        (trial.counters, trial.impacts) = (state.counters(), now.read(Output::Impacts) as u64);
         trial.outcome = match end {
-            Ok(()) => Outcome::Ended(model.energy(&state, &point).map_or(f64::NAN, |energy| energy.residual)),
+            Ok(()) => Outcome::Ended(now.energy().map_or(f64::NAN, |energy| energy.residual)),
             Err(error) => Outcome::Stopped(error.to_string()),
         };
         trial

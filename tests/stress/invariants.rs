@@ -7,7 +7,7 @@
 use crate::common::Run;
 use crate::common::problems::laws::contact;
 use crate::random::{Case, case};
-use pounding::engine::Side;
+use pounding::engine::{Output, Side};
 use pounding::record::Record;
 use pounding::scene::{Face, Scaling, Scene, Stiffness};
 use proptest::prelude::*;
@@ -82,7 +82,8 @@ fn mirrored_face(face: Face) -> Face {
 
 fn mirrored(case: &Case) -> Case {
     let Case { scene, record, text } = case;
-    let mut scene = Scene { left: scene.right.clone(), right: scene.left.clone(), ..scene.clone() };
+    let mut scene = scene.clone();
+    std::mem::swap(&mut scene.left, &mut scene.right);
     for pair in &mut scene.contacts {
         (pair.left, pair.right) = (mirrored_face(pair.right), mirrored_face(pair.left));
     }
@@ -129,7 +130,7 @@ impl Units {
         let Units { mass, length, time } = *self;
         let mut shown: Vec<f64> = floors(run, Run::displacement).iter().map(|u| u / length).collect();
         shown.extend(floors(run, Run::velocity).iter().map(|v| v / (length / time)));
-        let acceleration = |run: &Run, side, floor| run.model.acceleration(&run.point, side, floor);
+        let acceleration = |run: &Run, side, floor| run.read(Output::Acceleration(side, floor));
         shown.extend(floors(run, acceleration).iter().map(|a| a / (length / (time * time))));
         for contact in run.contacts() {
             shown.push(contact.penetration / length);
@@ -264,7 +265,9 @@ proptest! {
         }
         let with_it = |scene: &mut Scene| {
             let text = format!("{}{}", case.text, contact((left, right), nearest.max(0.0) + margin, &law));
-            *scene = Scene { ground: scene.ground.clone(), ..crate::common::scene(&text) };
+            let ground = scene.ground.clone();
+            *scene = crate::common::scene(&text);
+            scene.ground = ground;
             if first {
                 scene.contacts.rotate_right(1);
             }

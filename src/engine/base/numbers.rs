@@ -4,17 +4,9 @@ use crate::engine::base::contact::{Contact, Episode};
 use crate::engine::base::counters::Counters;
 use crate::engine::base::storey::Storey;
 use crate::engine::base::{Account, Base};
-use crate::engine::excitation::inputs::{Inputs, LinearInput};
-
-impl Inputs {
-    pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
-        let Inputs { ground_acceleration, floor_forces, left_floors: _ } = self;
-        floor_forces.iter().chain([ground_acceleration]).flat_map(LinearInput::numbers)
-    }
-}
 
 impl Base {
-    pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
         let Base {
             segment: _, // compared as a whole
             elapsed,
@@ -42,7 +34,7 @@ impl Base {
     }
 
     /// Displacements and velocities, with the contacts' penetrations and rates.
-    pub fn motion(&self) -> impl Iterator<Item = f64> + '_ {
+    pub(crate) fn motion(&self) -> impl Iterator<Item = f64> + '_ {
         let of_contacts = self.contacts.iter().flat_map(|contact| [contact.penetration, contact.rate]);
         let of_storeys = self.storeys.iter().flat_map(Storey::numbers);
         self.q.iter().chain(&self.v).copied().chain(of_contacts).chain(of_storeys)
@@ -50,7 +42,7 @@ impl Base {
 }
 
 impl Contact {
-    pub fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
         let &Contact {
             phase: _,
             force: _, // compared as a whole
@@ -96,7 +88,7 @@ impl Episode {
 }
 
 impl Account {
-    pub fn numbers(&self) -> [f64; 8] {
+    pub(crate) fn numbers(&self) -> [f64; 8] {
         let &Account { initial, input, external, viscous, largest } = self;
         let ([a, b], [c, d], [e, f]) = (input.numbers(), external.numbers(), viscous.numbers());
         [initial, a, b, c, d, e, f, largest]

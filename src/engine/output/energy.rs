@@ -2,15 +2,15 @@
 
 use crate::engine::base::Account;
 use crate::engine::model::Model;
-use crate::engine::output::point::{EnergyPoint, Known, Point};
+use crate::engine::output::outputs::EnergyPoint;
+use crate::engine::output::point::{Known, Point};
 use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::sum::Sum;
 
 impl Model {
-    /// The energy account at the observed time; `None` where the scene keeps none. `state` has to be the one that
-    /// `point` was observed from.
-    pub fn energy(&self, state: &State, point: &Point) -> Option<EnergyPoint> {
+    /// The energy account at the observed time; `None` where the scene keeps none.
+    pub(in crate::engine) fn energy(&self, state: &State, point: &Point) -> Option<EnergyPoint> {
         let account = state.base.energy?;
         let Known { observation, shown } = point.energy.get();
         if observation == point.floors.observation {

@@ -4,8 +4,9 @@ use crate::engine::base::Coordinates;
 use crate::engine::base::storey::{Sense, Storey};
 use crate::engine::excitation::inputs::LinearInput;
 use crate::engine::model::Model;
+use crate::engine::output::outputs::{ContactOutput, EnergyOutput as E, EnergyRates, Rates};
 use crate::engine::output::point::Point;
-use crate::engine::output::point_rates::{EnergyRates, PointRates, Rates};
+use crate::engine::output::point_rates::PointRates;
 use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::yielding::storey::YieldingStorey;
@@ -48,16 +49,15 @@ impl Model {
         let ones = self.system.participation(coordinates);
         let (momentum, push) = (inner(ones, v), inner(ones, a));
         let (ground, ground_rate) = (point.ground_acceleration, rates.ground_acceleration[0]);
-        let sum = |order: usize| rates.contacts.iter().map(|contact| contact.dissipated_energy[order]).sum();
-        Some(EnergyRates {
-            input: [-ground * momentum, -ground_rate * momentum - ground * push],
-            kinetic: [inner(v, a), jerk.map_or(0.0, |jerk| inner(a, a) + inner(v, jerk))],
-            strain,
-            viscous,
-            impact: [sum(0), sum(1)],
-            external: [inner(load, v), inner(slope, v) + inner(load, a)],
-            hysteretic,
-        })
+        let sum =
+            |order: usize| rates.contacts.iter().map(|contact| contact[ContactOutput::DissipatedEnergy][order]).sum();
+        let mut all = EnergyRates::default();
+        all[E::Input] = [-ground * momentum, -ground_rate * momentum - ground * push];
+        all[E::Kinetic] = [inner(v, a), jerk.map_or(0.0, |jerk| inner(a, a) + inner(v, jerk))];
+        (all[E::Strain], all[E::Viscous], all[E::Hysteretic]) = (strain, viscous, hysteretic);
+        all[E::Impact] = [sum(0), sum(1)];
+        all[E::External] = [inner(load, v), inner(slope, v) + inner(load, a)];
+        Some(all)
     }
 
     /// (1 - r) V_y |plastic drift rate| of the storeys that yield, and its rate, from velocities and accelerations.

@@ -6,7 +6,10 @@
 //! the ground has a share in a rigid contact, as at a wall.
 
 use crate::engine::base::Coordinates;
+use crate::engine::excitation::inputs::Input;
 use crate::engine::model::Model;
+use crate::engine::output::instant::Instant;
+use crate::engine::output::outputs::{ContactOutput, Output};
 use crate::engine::output::point::Point;
 use crate::engine::pairs::pair::relative;
 use crate::engine::state::State;
@@ -17,7 +20,7 @@ use crate::structure::Side;
 #[derive(Clone, Debug, Default)]
 pub struct Response {
     /// Reaction of each contact, N, positive in compression.
-    pub reactions: Vec<f64>,
+    reactions: Vec<f64>,
     /// Acceleration of each floor relative to the ground, m/s2.
     accelerations: Vec<f64>,
     /// Acceleration of the ground, m/s2.
@@ -26,9 +29,53 @@ pub struct Response {
     work: Option<Box<Buffers>>,
 }
 
+impl Instant<'_> {
+    /// Works out how the outputs of this instant answer to changes of inputs at the same instant, for the motion as it
+    /// is: to accelerations of the ground, m/s2, and forces on floors, N. The rigid pairs that press now go on
+    /// pressing.
+    ///
+    /// ```
+    /// use pounding::engine::{Input, Model, Output, Point, Response, Side};
+    ///
+    /// # let scene = pounding::scene::Scene::from_toml(
+    /// #     "name = \"Mast\"\ninputs = { floor_forces = true }\n\
+    /// #     left = { mass = [1e3], stiffness = [1e5], damping = { ratio = 0.0 } }",
+    /// # )?;
+    /// let model = Model::new(&scene, None)?;
+    /// let (state, mut point, mut response) = (model.start(0.0), Point::default(), Response::default());
+    /// // 500 N on a floor of 1 t.
+    /// model.observe(&state, &mut point).respond([(Input::Force(Side::Left, 0), 500.0)], &mut response);
+    /// assert_eq!(model.response_of(&response, Output::Acceleration(Side::Left, 0)), 0.5);
+    /// assert_eq!(model.response_of(&response, Output::Velocity(Side::Left, 0)), 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn respond(&self, changes: impl IntoIterator<Item = (Input, f64)>, response: &mut Response) {
+        let (model, state, point) = self.parts();
+        model.clear_response(response);
+        for (input, change) in changes {
+            match input {
+                Input::GroundAcceleration => model.push_ground(change, response),
+                Input::Force(side, floor) => model.push_floor((side, floor), change, response),
+            }
+        }
+        model.settle_response(state, point, response);
+    }
+}
+
 impl Model {
+    /// The change of an output in a response, in its unit; 0 of all that follows from the motion.
+    pub fn response_of(&self, response: &Response, output: Output) -> f64 {
+        match output {
+            Output::Acceleration(side, floor) => {
+                response.accelerations[self.system.structure.floors.lane(side as usize, floor)] + response.ground
+            }
+            Output::Contact(p, ContactOutput::Force) => response.reactions[p],
+            _ => 0.0,
+        }
+    }
+
     /// Begins the response to another set of forces, without any yet.
-    pub fn clear_response(&self, response: &mut Response) {
+    fn clear_response(&self, response: &mut Response) {
         for (vector, length) in [
             (&mut response.reactions, self.system.pairs.len()),
             (&mut response.accelerations, self.system.structure.lanes),
@@ -40,7 +87,7 @@ impl Model {
     }
 
     /// Adds an acceleration of the ground, m/s2, without reactions.
-    pub fn push_ground(&self, acceleration: f64, response: &mut Response) {
+    fn push_ground(&self, acceleration: f64, response: &mut Response) {
         response.ground += acceleration;
         let shares = self.system.participation(Coordinates::Floors);
         for (floor, share) in response.accelerations.iter_mut().zip(shares) {
@@ -49,14 +96,14 @@ impl Model {
     }
 
     /// Adds the acceleration of a floor by a force on it, N, without reactions.
-    pub fn push_floor(&self, side: Side, floor: usize, force: f64, response: &mut Response) {
+    fn push_floor(&self, (side, floor): (Side, usize), force: f64, response: &mut Response) {
         let floors = &self.system.structure.floors;
         let lane = floors.lane(side as usize, floor);
         response.accelerations[lane] += force * floors.inverse_mass(lane);
     }
 
     /// Adds the reactions of the rigid pairs that press now, as `point` shows them: their floors stay together.
-    pub fn settle_response(&self, state: &State, point: &Point, response: &mut Response) {
+    fn settle_response(&self, state: &State, point: &Point, response: &mut Response) {
         let mut work = response.work.take().unwrap_or_else(|| Box::new(self.buffers()));
         self.list_pressing(&state.base, point, &mut work);
         let (rigid, accelerations) = (&mut work.rigid, &mut response.accelerations);
@@ -72,10 +119,5 @@ impl Model {
             }
         }
         response.work = Some(work);
-    }
-
-    /// Absolute acceleration of a floor, m/s2.
-    pub fn response_at(&self, response: &Response, side: Side, floor: usize) -> f64 {
-        response.accelerations[self.system.structure.floors.lane(side as usize, floor)] + response.ground
     }
 }

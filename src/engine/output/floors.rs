@@ -20,19 +20,19 @@ impl Point {
 impl Model {
     /// Displacement of a floor, counted from 0, relative to the ground, m.
     #[inline]
-    pub fn displacement(&self, point: &Point, side: Side, floor: usize) -> f64 {
+    pub(in crate::engine) fn displacement(&self, point: &Point, side: Side, floor: usize) -> f64 {
         self.floor_motion(point, side, floor, 0)
     }
 
     /// Velocity of a floor relative to the ground, m/s.
     #[inline]
-    pub fn velocity(&self, point: &Point, side: Side, floor: usize) -> f64 {
+    pub(in crate::engine) fn velocity(&self, point: &Point, side: Side, floor: usize) -> f64 {
         self.floor_motion(point, side, floor, 1)
     }
 
     /// Absolute acceleration of a floor, m/s2.
     #[inline]
-    pub fn acceleration(&self, point: &Point, side: Side, floor: usize) -> f64 {
+    pub(in crate::engine) fn acceleration(&self, point: &Point, side: Side, floor: usize) -> f64 {
         let FloorMotions { acceleration, observation, .. } = &point.floors;
         let lane = self.system.structure.floors.lane(side as usize, floor);
         let known = &acceleration[lane / LANES];
@@ -44,7 +44,7 @@ impl Model {
 
     /// Base shear, N: the force of the building on the ground.
     #[inline(never)]
-    pub fn base_shear(&self, point: &Point, side: Side) -> f64 {
+    pub(in crate::engine) fn base_shear(&self, point: &Point, side: Side) -> f64 {
         match point.coordinates {
             Coordinates::Modes => self.system.structure.base_shear(side, &point.q, &point.v),
             Coordinates::Floors => {

@@ -1,23 +1,27 @@
 //! Reading the solution at the communication time from the dense solution of the planned step.
 
-pub mod energy;
-pub mod energy_rates;
-pub mod feedthrough;
-pub mod floors;
-pub mod frequencies;
-pub mod known;
-pub mod peaks;
-pub mod point;
-pub mod point_rates;
-pub mod rates;
+pub(super) mod energy;
+pub(super) mod energy_rates;
+pub(super) mod feedthrough;
+pub(super) mod floors;
+pub(super) mod frequencies;
+pub(super) mod instant;
+pub(super) mod known;
+pub(super) mod outputs;
+pub(super) mod peaks;
+pub(super) mod point;
+pub(super) mod point_rates;
+pub(super) mod rates;
 mod storeys;
-pub mod yielding;
+pub(super) mod yielding;
 
 use crate::engine::base::Base;
 use crate::engine::base::contact::{Contact, Episode};
 use crate::engine::base::storey::Storey;
 use crate::engine::model::Model;
-use crate::engine::output::point::{ContactPoint, Known, Point};
+use crate::engine::output::instant::Instant;
+use crate::engine::output::outputs::ContactPoint;
+use crate::engine::output::point::{Known, Point};
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
 use crate::engine::system::System;
@@ -28,8 +32,8 @@ use std::cell::Cell;
 impl Model {
     /// Evaluates the state at its present time; the memory of `point` is reused.
     ///
-    /// Floors, accelerations, open contacts and the energy account are worked out only when one is read.
-    pub fn observe(&self, state: &State, point: &mut Point) {
+    /// Floors, accelerations, open contacts, peaks and the energy account are worked out only when one is read.
+    pub fn observe<'a>(&'a self, state: &'a State, point: &'a mut Point) -> Instant<'a> {
         let (System { structure, pairs, storeys, .. }, found) = (&self.system, &*point);
         let is_of_another = found.contacts.len() != pairs.len() || found.storeys.len() != storeys.len();
         if found.q.len() != structure.lanes || is_of_another {
@@ -57,6 +61,7 @@ impl Model {
             self.read_load(state, point);
         }
         point.work.replace(Some(work));
+        self.observed(state, point)
     }
 
     /// Works out the storeys, and makes the motion that relative to their position of rest.
@@ -123,9 +128,9 @@ impl Model {
         }
     }
 
-    /// A contact, counted from 0, at the observed time; `state` has to be the one that `point` was observed from.
+    /// A contact, counted from 0, at the observed time.
     #[inline]
-    pub fn contact(&self, state: &State, point: &Point, p: usize) -> ContactPoint {
+    pub(in crate::engine) fn contact(&self, state: &State, point: &Point, p: usize) -> ContactPoint {
         self.contact_in(&state.base, point, p)
     }
 

@@ -12,9 +12,8 @@ use crate::engine::state::State;
 use crate::engine::step::StepKind;
 
 impl Model {
-    /// The largest magnitude so far of the quantity `of`; 0 where the scene keeps no peaks. `state` has to be the one
-    /// that `point` was observed from.
-    pub fn peak(&self, state: &State, point: &Point, of: PeakOf) -> f64 {
+    /// The largest magnitude so far of the quantity `of`; 0 where the scene keeps no peaks.
+    pub(in crate::engine) fn peak(&self, state: &State, point: &Point, of: PeakOf) -> f64 {
         if self.peak_rows.are_none() {
             return 0.0;
         }

@@ -3,6 +3,7 @@
 use crate::engine::base::Coordinates;
 use crate::engine::base::storey::Storey;
 use crate::engine::output::known::{FloorMotions, PeakCell};
+use crate::engine::output::outputs::{ContactPoint, EnergyPoint};
 use crate::engine::system::buffers::Buffers;
 use std::cell::{Cell, RefCell};
 
@@ -34,51 +35,9 @@ pub struct Point {
     pub(in crate::engine) peaks: PeakCell,
 }
 
-/// One contact at one time. Names and meanings as in the FMU variables `contact[p].*`.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct ContactPoint {
-    /// Force, N, positive in compression.
-    pub force: f64,
-    /// Penetration, m, negative while apart.
-    pub penetration: f64,
-    /// Whether the floors are in contact now.
-    pub active: bool,
-    /// Number of episodes begun so far.
-    pub impacts: u64,
-    /// Largest force so far, N.
-    pub peak_force: f64,
-    /// Integral of the force so far, N s.
-    pub impulse: f64,
-    /// Energy dissipated so far, J.
-    pub dissipated_energy: f64,
-    /// Approach velocity at the start of the latest episode, m/s.
-    pub approach_velocity: f64,
-}
-
-/// The energy account, J, for motion relative to the ground. Names and meanings as in the FMU variables `energy.*`.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct EnergyPoint {
-    /// Work of the inertia forces of the ground motion.
-    pub input: f64,
-    /// Kinetic energy.
-    pub kinetic: f64,
-    /// Strain energy of the storeys.
-    pub strain: f64,
-    /// Energy dissipated by structural damping.
-    pub viscous: f64,
-    /// Work done on the contacts.
-    pub impact: f64,
-    /// Work of the external floor forces.
-    pub external: f64,
-    /// Energy dissipated by storeys that have yielded.
-    pub hysteretic: f64,
-    /// Imbalance of these terms divided by the largest magnitude that any of them has had.
-    pub residual: f64,
-}
-
 /// Outputs, and the number of the observation to which they belong.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Known<T> {
+pub(crate) struct Known<T> {
     pub observation: u64,
     pub shown: T,
 }

@@ -8,19 +8,16 @@ use crate::engine::base::contact::Phase;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::excitation::inputs::LinearInput;
 use crate::engine::model::Model;
+use crate::engine::output::outputs::{ContactOutput as C, ContactRates, Rates};
 use crate::engine::output::point::Point;
-use crate::engine::output::point_rates::{ContactRates, PEAK_ROUNDING, PointRates, Rates};
+use crate::engine::output::point_rates::{PEAK_ROUNDING, PointRates};
 use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
 use crate::structure::Side;
 
 impl Model {
-    /// Works out the derivatives at the present time of the state, from which `point` was observed; the memory of
-    /// `rates` is reused.
-    ///
-    /// Where a contact begins at this very instant, its force has no derivatives yet: they, and all that depend on
-    /// them, are 0.
-    pub fn differentiate(&self, state: &State, point: &Point, rates: &mut PointRates) {
+    /// Works out the derivatives at the present time of the state, from which `point` was observed.
+    pub(in crate::engine) fn differentiate(&self, state: &State, point: &Point, rates: &mut PointRates) {
         let mut work = rates.work.take().unwrap_or_else(|| Box::new(self.buffers()));
         rates.clear(self.system.structure.lanes);
         let slope = match &self.system.ground {
@@ -41,11 +38,11 @@ impl Model {
         }
         for (p, contact) in rates.contacts.iter_mut().enumerate() {
             let shown = self.contact(state, point, p);
-            let ([v, a], force) = (contact.penetration, contact.force);
-            contact.impulse = [shown.force, force[0]];
-            contact.dissipated_energy = [shown.force * v, force[0] * v + shown.force * a];
+            let ([v, a], force) = (contact[C::Penetration], contact[C::Force]);
+            contact[C::Impulse] = [shown.force, force[0]];
+            contact[C::DissipatedEnergy] = [shown.force * v, force[0] * v + shown.force * a];
             let is_peak = shown.force > 0.0 && shown.force >= (1.0 - PEAK_ROUNDING) * shown.peak_force;
-            contact.peak_force = if is_peak && force[0] > 0.0 { force } else { [0.0; 2] };
+            contact[C::PeakForce] = if is_peak && force[0] > 0.0 { force } else { [0.0; 2] };
         }
         rates.energy = self.differentiate_energy(state, point, rates, &mut work);
         rates.work = Some(work);
@@ -74,7 +71,9 @@ impl Model {
             };
             let enters = contact.phase == Phase::Apart && contact.at_surface && contact.rate > 0.0;
             is_beginning |= enters || contact.is_singular();
-            rates.contacts.push(ContactRates { penetration, ..ContactRates::default() });
+            let mut contact_rates = ContactRates::default();
+            contact_rates[C::Penetration] = penetration;
+            rates.contacts.push(contact_rates);
             rates.forces.push((contact.branch(), contact.penetration));
         }
         is_beginning
@@ -119,10 +118,11 @@ impl Model {
             self.system.add_floor_forces(&state.inputs, coordinates, LinearInput::slope, load);
         }
         for (p, (contact, (force, d))) in contacts.iter_mut().zip(forces.iter()).enumerate() {
-            let [v, a] = contact.penetration;
+            let [v, a] = contact[C::Penetration];
             let third = if order == 0 { 0.0 } else { self.system.pairs[p].relative(coordinates, jerk) };
-            contact.force[order] = force.rates([*d, v, a, third]).map_or(0.0, |rates| rates[order]);
-            self.system.push_apart_by(p, coordinates, contact.force[order], load);
+            let rate = force.rates([*d, v, a, third]).map_or(0.0, |rates| rates[order]);
+            contact[C::Force][order] = rate;
+            self.system.push_apart_by(p, coordinates, rate, load);
         }
         let next = if order == 0 { jerk } else { snap };
         for ((next, load), resisted) in next.iter_mut().zip(load.iter()).zip(resisted.iter()) {
@@ -130,28 +130,46 @@ impl Model {
         }
         self.system.constrain(rigid, next);
         for (&k, rate) in rigid.pairs.iter().zip(&rigid.found) {
-            contacts[self.system.rigid.pairs[k]].force[order] = *rate;
+            contacts[self.system.rigid.pairs[k]][C::Force][order] = *rate;
         }
     }
 
     /// Rates of a floor's displacement relative to the ground, m/s and m/s2.
-    pub fn displacement_rates(&self, point: &Point, rates: &PointRates, side: Side, floor: usize) -> Rates {
+    pub(in crate::engine) fn displacement_rates(
+        &self,
+        point: &Point,
+        rates: &PointRates,
+        side: Side,
+        floor: usize,
+    ) -> Rates {
         self.at_floor(point, side, floor, [&point.v, &rates.acceleration])
     }
 
     /// Rates of a floor's velocity relative to the ground, m/s2 and m/s3.
-    pub fn velocity_rates(&self, point: &Point, rates: &PointRates, side: Side, floor: usize) -> Rates {
+    pub(in crate::engine) fn velocity_rates(
+        &self,
+        point: &Point,
+        rates: &PointRates,
+        side: Side,
+        floor: usize,
+    ) -> Rates {
         self.at_floor(point, side, floor, [&rates.acceleration, &rates.jerk])
     }
 
     /// Rates of a floor's absolute acceleration, m/s3 and m/s4.
-    pub fn acceleration_rates(&self, point: &Point, rates: &PointRates, side: Side, floor: usize) -> Rates {
+    pub(in crate::engine) fn acceleration_rates(
+        &self,
+        point: &Point,
+        rates: &PointRates,
+        side: Side,
+        floor: usize,
+    ) -> Rates {
         let [jerk, snap] = self.at_floor(point, side, floor, [&rates.jerk, &rates.snap]);
         [jerk + rates.ground_acceleration[0], snap]
     }
 
     /// Rates of a base shear, the force of the building on the ground, N/s and N/s2.
-    pub fn base_shear_rates(&self, point: &Point, rates: &PointRates, side: Side) -> Rates {
+    pub(in crate::engine) fn base_shear_rates(&self, point: &Point, rates: &PointRates, side: Side) -> Rates {
         let PointRates { acceleration, jerk, resisted, .. } = rates;
         let yielded = |motion: &[f64]| self.system.yielded_base_shear(point.coordinates, &point.storeys, side, motion);
         let [first, second] = match point.coordinates {

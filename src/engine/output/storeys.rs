@@ -2,17 +2,23 @@
 //! of a slab on the columns.
 
 use crate::engine::model::Model;
+use crate::engine::output::outputs::Rates;
 use crate::engine::output::point::Point;
-use crate::engine::output::point_rates::{PointRates, Rates};
+use crate::engine::output::point_rates::PointRates;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::quantities::storeys::StoreyPeak;
 use crate::engine::state::State;
 use crate::structure::Side;
 
 impl Model {
-    /// The value of a storey's quantity; 0 where the scene does not have what it is made of. `state` has to be the one that
-    /// `point` was observed from.
-    pub fn storey_peak(&self, state: &State, point: &Point, of: StoreyPeak, (side, storey): (Side, usize)) -> f64 {
+    /// The value of a storey's quantity; 0 where the scene does not have what it is made of.
+    pub(in crate::engine) fn storey_peak(
+        &self,
+        state: &State,
+        point: &Point,
+        of: StoreyPeak,
+        (side, storey): (Side, usize),
+    ) -> f64 {
         if let (StoreyPeak::Shear, Some(shear)) = (of, self.yielded_shear(point, (side, storey))) {
             return shear;
         }
@@ -25,27 +31,32 @@ impl Model {
     }
 
     /// Drift of a storey, m.
-    pub fn drift(&self, point: &Point, (side, storey): (Side, usize)) -> f64 {
+    pub(in crate::engine) fn drift(&self, point: &Point, (side, storey): (Side, usize)) -> f64 {
         let below = storey.checked_sub(1).map_or(0.0, |floor| self.displacement(point, side, floor));
         self.displacement(point, side, storey) - below
     }
 
     /// Rates of a drift, m/s and m/s2.
-    pub fn drift_rates(&self, point: &Point, rates: &PointRates, (side, storey): (Side, usize)) -> Rates {
+    pub(in crate::engine) fn drift_rates(
+        &self,
+        point: &Point,
+        rates: &PointRates,
+        (side, storey): (Side, usize),
+    ) -> Rates {
         let of = |floor: usize| self.displacement_rates(point, rates, side, floor);
         let (above, below) = (of(storey), storey.checked_sub(1).map_or([0.0; 2], of));
         [above[0] - below[0], above[1] - below[1]]
     }
 
     /// The contact that has pressed hardest on the columns of a storey, and its largest force.
-    pub fn hardest_on(&self, state: &State, point: &Point, storey: (Side, usize)) -> Option<(usize, f64)> {
+    pub(in crate::engine) fn hardest_on(
+        &self,
+        state: &State,
+        point: &Point,
+        storey: (Side, usize),
+    ) -> Option<(usize, f64)> {
         let contacts = (0..).zip(&self.storeys.struck).filter(|(_, struck)| **struck == Some(storey));
         let forces = contacts.map(|(p, _)| (p, self.contact(state, point, p).peak_force));
         forces.max_by(|(_, one), (_, other)| one.total_cmp(other))
-    }
-
-    /// How much of a quantity there is per m of drift; 0 where it is none of the drift.
-    pub fn per_drift(&self, of: StoreyPeak, storey: (Side, usize)) -> f64 {
-        self.storeys.per_drift(of, storey)
     }
 }

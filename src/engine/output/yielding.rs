@@ -2,35 +2,25 @@
 
 use crate::engine::base::storey::{Sense, Storey};
 use crate::engine::model::Model;
+use crate::engine::output::outputs::{Rates, YieldingOf};
 use crate::engine::output::point::Point;
-use crate::engine::output::point_rates::{PEAK_ROUNDING, PointRates, Rates};
+use crate::engine::output::point_rates::{PEAK_ROUNDING, PointRates};
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::quantities::storeys::StoreyPeak;
 use crate::engine::state::State;
 use crate::engine::yielding::storey::YieldingStorey;
 use crate::structure::Side;
 
-/// A quantity of a storey that can yield.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum YieldingOf {
-    /// Storey shear, N, without damping.
-    Shear,
-    /// Plastic drift, m.
-    PlasticDrift,
-    /// Drift at which the storey would come to rest, m: plastic drift times 1 - post-yield ratio.
-    ResidualDrift,
-    /// Largest drift so far over the yield drift; where no peaks are watched, 0 until the storey yields.
-    Ductility,
-    /// Energy dissipated by yielding so far, J.
-    HystereticEnergy,
-    /// Sum of the magnitudes of all changes of the plastic drift so far, m.
-    CumulativePlasticDrift,
-}
-
 impl Model {
     /// A quantity of a storey, counted from 0. Of one that cannot yield, as its yield force has been made infinite, the shear
-    /// is that of its drift, everything else 0. `state` has to be the one that `point` was observed from.
-    pub fn of_yielding(&self, state: &State, point: &Point, of: YieldingOf, place: (Side, usize)) -> f64 {
+    /// is that of its drift, everything else 0.
+    pub(in crate::engine) fn of_yielding(
+        &self,
+        state: &State,
+        point: &Point,
+        of: YieldingOf,
+        place: (Side, usize),
+    ) -> f64 {
         let Some((storey, now)) = self.yielding_storey(point, place) else {
             let elastic = self.storeys.per_drift(StoreyPeak::Shear, place);
             return if of == YieldingOf::Shear { elastic * self.drift(point, place) } else { 0.0 };
@@ -46,16 +36,18 @@ impl Model {
     }
 
     /// The sense in which a storey yields, 1 or -1; 0 while it is elastic.
-    pub fn yielding(&self, point: &Point, place: (Side, usize)) -> i32 {
-        match self.yielding_storey(point, place).and_then(|(_, now)| now.yields) {
-            Some(Sense::Positive) => 1,
-            Some(Sense::Negative) => -1,
-            None => 0,
-        }
+    pub(in crate::engine) fn yielding(&self, point: &Point, place: (Side, usize)) -> f64 {
+        self.yielding_storey(point, place).and_then(|(_, now)| now.yields).map_or(0.0, Sense::sign)
     }
 
     /// Rates of a quantity of a storey.
-    pub fn yielding_rates(&self, point: &Point, rates: &PointRates, of: YieldingOf, place: (Side, usize)) -> Rates {
+    pub(in crate::engine) fn yielding_rates(
+        &self,
+        point: &Point,
+        rates: &PointRates,
+        of: YieldingOf,
+        place: (Side, usize),
+    ) -> Rates {
         let Some((storey, now)) = self.yielding_storey(point, place) else {
             let elastic = self.storeys.per_drift(StoreyPeak::Shear, place);
             let factor = if of == YieldingOf::Shear { elastic } else { 0.0 };
@@ -89,7 +81,7 @@ impl Model {
     }
 
     /// Yield drift of a storey that can yield and has not, m.
-    pub fn unused_yield_drift(&self, point: &Point, place: (Side, usize)) -> Option<f64> {
+    pub(in crate::engine) fn unused_yield_drift(&self, point: &Point, place: (Side, usize)) -> Option<f64> {
         let (storey, now) = self.yielding_storey(point, place)?;
         (now.furthest == 0.0).then_some(storey.limit)
     }
@@ -101,7 +93,12 @@ impl Model {
     }
 
     /// Rates of the largest shear so far of a storey that has yielded, N/s and N/s2.
-    pub fn yielded_shear_rates(&self, point: &Point, rates: &PointRates, place: (Side, usize)) -> Option<Rates> {
+    pub(in crate::engine) fn yielded_shear_rates(
+        &self,
+        point: &Point,
+        rates: &PointRates,
+        place: (Side, usize),
+    ) -> Option<Rates> {
         let (storey, now) = self.yielding_storey(point, place).filter(|(_, now)| now.furthest > 0.0)?;
         let sign = now.yields.filter(|_| is_furthest(now)).map_or(0.0, Sense::sign);
         let rate = |motion: &[f64]| sign * storey.ratio * storey.stiffness * storey.drift(point.coordinates, motion);

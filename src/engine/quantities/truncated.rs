@@ -30,13 +30,13 @@ const USUAL: f64 = 0.01;
 
 /// The quantities of both buildings.
 #[derive(Debug)]
-pub struct TruncatedRows {
+pub(crate) struct TruncatedRows {
     pub buildings: [TruncatedBuilding; 2],
 }
 
 /// The quantities of one building.
 #[derive(Debug)]
-pub struct TruncatedBuilding {
+pub(crate) struct TruncatedBuilding {
     /// All modes, the slow ones first.
     pub modes: Vec<Mode>,
     /// Number of slow modes.
@@ -49,7 +49,7 @@ pub struct TruncatedBuilding {
 
 /// A mode.
 #[derive(Clone, Copy, Debug)]
-pub struct Mode {
+pub(crate) struct Mode {
     /// w^2, 1/s^2.
     pub w2: f64,
     /// w, 1/s.
@@ -62,7 +62,7 @@ pub struct Mode {
 
 /// Some quick modes.
 #[derive(Debug)]
-pub struct Group {
+pub(crate) struct Group {
     pub modes: Range<usize>,
     /// Largest increase of R by a change of a', per unit of it.
     pub kick: f64,
@@ -70,7 +70,7 @@ pub struct Group {
 
 /// [`LANES`] quantities.
 #[derive(Debug)]
-pub struct TruncatedBlock {
+pub(crate) struct TruncatedBlock {
     /// Whether A is over w^2 q + c q', otherwise over q.
     pub pulls: bool,
     /// A over the slow modes.
@@ -85,7 +85,7 @@ pub struct TruncatedBlock {
 
 impl TruncatedRows {
     /// The quantities of `rows`, read at times of the `usual` distance, s, if there is one.
-    pub fn of(structure: &Structure, rows: &PeakRows, usual: Option<f64>) -> TruncatedRows {
+    pub(crate) fn of(structure: &Structure, rows: &PeakRows, usual: Option<f64>) -> TruncatedRows {
         let usual = usual.unwrap_or(USUAL);
         TruncatedRows { buildings: [0, 1].map(|side| TruncatedBuilding::of(structure, &rows.buildings[side], usual)) }
     }
