@@ -62,6 +62,8 @@ mod state;
 mod step;
 mod system;
 mod taylor;
+#[cfg(test)]
+mod tests;
 mod window;
 mod yielding;
 
