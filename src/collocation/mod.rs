@@ -21,7 +21,7 @@ mod tables;
 
 pub use equation::{Equation, MOST_PAIRS, Workspace};
 pub use nodes::{NODES, Nodes, Row, Rule, dot, nodes};
-pub use rows::{fours, larger};
+pub use rows::fours;
 pub use solve::{Ending, Frame, Solution};
 pub use tables::{Kernel, Map, POWERS, Tables};
 

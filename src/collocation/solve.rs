@@ -5,9 +5,9 @@
 
 use super::equation::{Equation, MOST_PAIRS, Workspace};
 use super::nodes::{NODES, Row, Rule, dot, nodes};
-use super::rows::{NOTHING, add_product, combine, forces, fours, fours_mut, larger, product, row, second_derivative};
+use super::rows::{NOTHING, add_product, combine, forces, fours, fours_mut, product, row, second_derivative};
 use super::tables::{Map, Tables};
-use crate::numerics::polynomial::each;
+use crate::numerics::polynomial::{each, larger};
 
 /// Sweeps after which a window is given up: it is too long for this, or its damping too stiff.
 const MOST_SWEEPS: usize = 24;
@@ -165,7 +165,7 @@ impl Solution {
             let depths = fours_mut(&mut self.depth[p]).iter_mut().zip(fours(&free.depth));
             for ((known, free), taken) in depths.zip(&taken).take(N / 4) {
                 let new = each(|i| free[i] - scale * taken[i]);
-                changes = each(|i| larger((new[i] - known[i]).abs(), changes[i]));
+                changes = each(|i| larger(changes[i], (new[i] - known[i]).abs()));
                 *known = new;
             }
             forces::<N>(&law, &self.depth[p], &self.rate[p], &mut self.force[p]);

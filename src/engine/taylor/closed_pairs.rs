@@ -2,7 +2,7 @@
 
 use crate::contact::taylor::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
 use crate::engine::base::Coordinates;
-use crate::engine::base::contact::Contact;
+use crate::engine::base::contact::{Contact, Passage};
 use crate::engine::pairs::packing::{PackedPairs, most_blocks};
 use crate::engine::pairs::pair::Pair;
 use crate::numerics::polynomial::Coefficients;
@@ -256,18 +256,13 @@ impl Contact {
         start: f64,
         x: f64,
     ) {
-        let impulse = series.scale * end.force.impulse[lane];
-        self.impulse += impulse;
-        self.episode.impulse += impulse;
-        if block.is_damped() {
-            self.work += block.damping_work(
-                lane,
-                &self.branch(),
-                (&series.time_map, series.scale),
-                x,
-                end.motion.penetration[lane],
-            );
-        }
+        let work = match block.is_damped() {
+            true => {
+                let deepest = end.motion.penetration[lane];
+                block.damping_work(lane, &self.branch(), (&series.time_map, series.scale), x, deepest)
+            }
+            false => 0.0,
+        };
         let depth = Reading {
             value: end.motion.penetration[lane],
             slope: end.motion.slope[lane],
@@ -276,9 +271,6 @@ impl Contact {
         let terms = |out: &mut Coefficients| block.copy_penetration(lane, out);
         let first = (block.penetration[0][lane], block.penetration[1][lane]);
         let deepest = roots::maximum_above(first, x, &depth, self.episode.peak_penetration, terms);
-        if let Some((_, peak)) = deepest {
-            self.episode.peak_penetration = peak;
-        }
         let law = |x: f64| block.force_at(lane, &self.branch(), (x, series.time_rate(x)));
         let rate = depth.slope / series.time_rate(x);
         let last = if block.is_elastic() { 0.0 } else { self.branch().value(depth.value, rate) };
@@ -292,9 +284,12 @@ impl Contact {
                 found.map(|(at, peak)| if is_trusted { (at, peak) } else { (at, law(roots::roughly(at).min(x))) })
             }
         };
-        if let Some((at, peak)) = strongest {
-            self.raise_peak(peak, start + series.time(at));
-        }
+        self.book(Passage {
+            impulse: series.scale * end.force.impulse[lane],
+            work,
+            deepest: deepest.map(|(_, peak)| peak),
+            strongest: strongest.map(|(at, peak)| (peak, start + series.time(at))),
+        });
         (self.penetration, self.rate) = (depth.value, rate);
         // The series of a damped force is truncated, and just after an entry it is far off: the peak is the force that the law
         // gives for the motion then, as in the output.
