@@ -118,7 +118,7 @@ impl Workspace {
         let (pairs, lanes) = (model.system.pairs.len(), model.system.structure.lanes);
         Workspace {
             buffers: model.buffers(),
-            look: Look::new(lanes, (pairs, model.system.storeys.len())),
+            look: Look::new(lanes, model.system.limits()),
             windows: WindowWorkspace::new(model.windows.as_ref().map_or(0, |_| pairs)),
             peaks: PeakRoom::new(&model.system.structure, &model.peak_rows, pairs),
             switches: None,

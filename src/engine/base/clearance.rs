@@ -2,10 +2,8 @@
 //! phase), and at which contacts penetration and rate are those at the base. In what follows the storeys that can yield
 //! count as one more pair, the last.
 
+use crate::engine::bounds::amplitude::MOST;
 use serde::{Deserialize, Serialize};
-
-/// Largest number of segments ahead for which one broad phase clears a pair.
-pub const MOST: u64 = 64;
 
 /// Pairs that are known to stay apart, by numbers of segments of the record.
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -231,8 +231,8 @@ impl ClosedPairs {
     }
 }
 
-/// Largest difference of a force's series from the law at the end of a step, relative to it, with which a maximum of the
-/// series is taken.
+/// Largest difference of a force's series from the law at the end of a step, relative to it, with which a maximum of
+/// the series is taken.
 const TRUSTED: f64 = 1e-11;
 
 impl BlockEnd {
@@ -291,8 +291,8 @@ impl Contact {
             strongest: strongest.map(|(at, peak)| (peak, start + series.time(at))),
         });
         (self.penetration, self.rate) = (depth.value, rate);
-        // The series of a damped force is truncated, and just after an entry it is far off: the peak is the force that the law
-        // gives for the motion then, as in the output.
+        // The series of a damped force is truncated, and just after an entry it is far off: the peak is the force that
+        // the law gives for the motion then, as in the output.
         self.raise_peak(last, start + series.time(x));
     }
 }

@@ -1,19 +1,20 @@
-//! A step in which a storey yields and no contact is closed: all is linear, and a power series within reach of the fastest
-//! mode is exact. What both of its ends prove not to happen needs no search.
+//! A step in which a storey yields and no contact is closed: all is linear, and a power series within reach of the
+//! fastest mode is exact. What both of its ends prove not to happen needs no search.
 
 use crate::engine::base::planned::{At, Event, Planned};
 use crate::engine::base::{Base, touching};
+use crate::engine::bounds::certificate::{deviation, stays_below};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
-use crate::numerics::roots::highest_of_cubic;
 
 /// (Fastest rate) x (time) that one exact series reaches.
 const REACH: f64 = 2.0;
 
 impl System {
     /// Plans a step from the base over `remaining` seconds at most, under the load in `work`, if no contact is closed;
-    /// returns whether it did. `is_cut` if the remaining time has been shortened, so that the step does not reach the limit.
+    /// returns whether it did. `is_cut` if the remaining time has been shortened, so that the step does not reach the
+    /// limit.
     pub fn plan_exact(
         &self,
         at: &mut At,
@@ -60,7 +61,6 @@ impl System {
         work: &mut Buffers,
     ) -> Option<(f64, Event)> {
         let coordinates = base.coordinates;
-        let share = (h * h) * (h * h) / 384.0;
         let fourths = &mut work.node_q;
         solution.series.bound_fourths(&solution.end, fourths);
         let mut first = None;
@@ -70,8 +70,8 @@ impl System {
         for (i, (of, storey)) in self.storeys.iter().zip(&base.storeys).enumerate() {
             let at = |(q, v): (&[f64], &[f64])| (of.drift(coordinates, q), of.drift(coordinates, v));
             let (start, end) = (at((&base.q, &base.v)), at((&planned.q, &planned.v)));
-            let deviation = share * of.size(coordinates, fourths);
-            if storey.yields.is_none() && !of.stays_elastic(storey, start, end, (h, deviation)) {
+            let off = deviation(h, of.size(coordinates, fourths));
+            if storey.yields.is_none() && !of.stays_elastic(storey, start, end, (h, off)) {
                 let expanded = ((&solution.series, solution.end.in_time().0), None, true);
                 first = self.first_yield(base, i, expanded, first, 1.0).or(first);
             }
@@ -80,10 +80,8 @@ impl System {
             let at = |q: &[f64], v: &[f64]| (pair.relative(coordinates, q), pair.relative(coordinates, v));
             let (end, rate) = at(&planned.q, &planned.v);
             let (from, to) = ((contact.flight_start(), contact.rate), (end - base.rest.gaps[p], rate));
-            let deviation = share * pair.difference(coordinates, fourths).1;
-            // Written so that a NaN never counts as apart.
-            let stays_apart = highest_of_cubic(from, to, h) + deviation < 0.0;
-            if !stays_apart {
+            let off = deviation(h, pair.difference(coordinates, fourths).1);
+            if !stays_below(from, to, (h, off)) {
                 let expanded = ((&solution.series, &*solution.substitution), &mut solution.end);
                 first = self.first_entry_of(base, p, expanded, &mut work.scalar, first).or(first);
             }

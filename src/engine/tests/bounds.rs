@@ -1,8 +1,9 @@
-//! Every bound by which the engine leaves something out of sight, against the motion itself at many instants: a bound that
-//! is too sharp loses a contact or a yield in silence.
+//! Every bound by which the engine leaves something out of sight, against the motion itself at many instants: a bound
+//! that is too sharp loses a contact or a yield in silence.
 //!
-//! Each bound is asked for the least limit that it calls safe, whatever it works with. No motion may pass that limit, and
-//! for each way in which a bound is made some motion comes near to it: so a bound that has become too high is seen as well.
+//! Each bound is asked for the least limit that it calls safe, whatever it works with. No motion may pass that limit,
+//! and for each way in which a bound is made some motion comes near to it: so a bound that has become too high is seen
+//! as well.
 
 use super::motions::{
     Case, Comparison, Damping, Ground, Random, Start, course, largest, limit_storey, size, threshold,
@@ -13,9 +14,9 @@ use crate::engine::base::contact::Contact;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::{At, Event, Planned};
 use crate::engine::base::storey::Storey;
+use crate::engine::bounds::certificate::{Certificate, deviation};
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::flight::Flight;
-use crate::engine::flight::certificate::Certificate;
 use crate::engine::flight::workspace::Look;
 use crate::engine::taylor::solution::Solution;
 use crate::engine::window::certificate::keeps_off;
@@ -180,7 +181,7 @@ fn envelopes_are_never_left() {
             limit_storey(&mut case.system, 1e9);
             *(if is_storey { &mut case.system.storeys[0].limit } else { &mut case.base.rest.gaps[p] }) = limit;
             let Case { system, base, .. } = &case;
-            system.envelopes_stay_apart(base, (&base.q, &base.v), (&load, &slope), time)
+            system.envelopes_stay_within(base, (&base.q, &base.v), (&load, &slope), time)
         });
         let reached = largest(course(&row, &motion).map(value));
         let what = || format!("{start:?}, row {p}, {storeys:?} storeys, {damping:?}, {time:e} s");
@@ -219,7 +220,7 @@ fn both_ends_tell_how_far_from_a_cubic_a_quantity_goes() {
         let from = [case.base.q.clone(), case.base.v.clone()];
         let motion = case.motion(from, [load.clone(), slope.clone()], (h, 16));
         let Case { system, base, work, .. } = &mut case;
-        let certificate = Certificate::of(&system.structure, [&row].into_iter());
+        let certificate = Certificate::of(&system.structure, [&row[..]].into_iter());
         let bound = certificate.deviation(&system.structure, (&base.q, &base.v), (&load, &slope), h, &mut work.scratch);
         let [from, to] = [&motion[0], &motion[16]].map(|[q, v]| (dot(&row, q), dot(&row, v)));
         let cubic = |x: f64| hermite(from, to, h, x);
@@ -284,9 +285,8 @@ fn both_ends_show_that_a_flight_is_free() {
         let mut planned = Planned::new(row.len(), 3);
         planned.length = h;
         [planned.q, planned.v] = motion[16].clone();
-        let rows = system.pairs.iter().map(|pair| &pair.row).chain(system.storeys.iter().map(|storey| &storey.row));
-        let certificate = Certificate::of(&system.structure, rows);
-        let mut look = Look::new(row.len(), (3, 1));
+        let flight = Flight::new(system);
+        let mut look = Look::new(row.len(), 4);
         let bound = threshold(now, |limit| {
             base.rest.gaps.fill(1e9);
             system.storeys[0].limit = 1e9;
@@ -296,7 +296,7 @@ fn both_ends_show_that_a_flight_is_free() {
             }
             planned.ends.clear();
             let mut at = At { base, inputs: &Inputs::default(), counters: &mut Counters::default() };
-            certificate.holds(system, &mut at, &mut planned, (&mut look, work), None)
+            flight.both_ends_hold(system, &mut at, &mut planned, (&mut look, work), None)
         });
         let reached = largest(course(&row, &motion).map(value));
         let what = || format!("{start:?}, row {p}, {storeys:?} storeys, {damping:?}, {h:e} s");
@@ -346,7 +346,7 @@ fn searches_find_what_passes_a_limit_and_nothing_else() {
             system.load(&base, &inputs, &mut work.load, &mut work.slope);
             let mut at = At { base: &mut base, inputs: &inputs, counters: &mut counters };
             if is_flight {
-                let mut look = Look::new(row.len(), (3, 1));
+                let mut look = Look::new(row.len(), 4);
                 Flight::new(system).plan(system, &mut at, time, &mut planned, &mut look, work);
             } else {
                 assert!(system.plan_exact(&mut at, (time, false), &mut planned, &mut Solution::new(system), work));
@@ -453,6 +453,56 @@ fn no_open_pair_meets_that_its_terms_keep_apart() {
     }
     modes.comes_within(0.999);
     floors.comes_within(0.99);
+}
+
+/// The fourth derivatives of series, by which both of their ends tell what happens between them; storeys as far as
+/// their terms let them get.
+#[test]
+fn terms_bound_fourth_derivatives_and_drifts() {
+    let mut random = Random(11);
+    let (mut sizes, mut own) = (Comparison::of("fourth derivatives by sizes"), Comparison::of("by own terms"));
+    let mut switches = Comparison::of("switches");
+    for _ in 0..400 {
+        let (storeys, frequencies) = any_system(&mut random);
+        let damping = random.one_of(&[Damping::None, Damping::Coupled]);
+        let mut case = Case::new(&mut random, storeys, frequencies, damping, (Ground::Still, 0.1));
+        let (row, start) = (case.rows()[0].clone(), random.one_of(&[Start::Moving, Start::Aside, Start::Any]));
+        case.start(&mut random, start, &row);
+        let time = random.power_of_ten(-1.2, 0.2) / case.system.structure.fastest;
+        let motion = case.motion([case.base.q.clone(), case.base.v.clone()], case.load(0), (time, 16));
+        let [from, to] = [&motion[0], &motion[16]].map(|[q, v]| (dot(&row, q), dot(&row, v)));
+        let off = course(&row, &motion).enumerate();
+        let off = largest(off.map(|(i, value)| (value - hermite(from, to, time, i as f64 / 16.0)).abs()));
+        let (base, rounding) = (case.for_contact(0, from.0), 1e-13 * size(&row, &motion));
+        let Case { system, work, .. } = &mut case;
+        system.load(&base, &Inputs::default(), &mut work.load, &mut work.slope);
+        let mut solution = Solution::new(system);
+        system.expand_exactly(&base, &mut solution, work, time);
+        solution.end_at(1.0);
+        solution.series.bound_fourths(&solution.end, &mut work.node_q);
+        let fourth = system.pairs[0].difference(base.coordinates, &work.node_q).1;
+        let what = || format!("{start:?}, {storeys:?} storeys, {damping:?}, {time:e} s");
+        sizes.note(off, deviation(time, fourth), rounding, &what);
+        let Solution { open, series, end, substitution, .. } = &mut solution;
+        open.assign(&system.pairs, base.coordinates);
+        open.follow(&base, &system.pairs, (series, substitution), end, &mut work.node_q);
+        for (block, bounds) in open.apart.iter().zip(&open.bounds) {
+            let lane = open.members[*block].lanes().find(|(_, pair)| *pair == 0);
+            lane.iter().for_each(|(lane, _)| own.note(off, deviation(1.0, bounds.fourth[*lane]), rounding, &what));
+        }
+        let row = system.storeys[0].row.clone();
+        let bound = threshold(dot(&row, &motion[0][0]).abs(), |limit| {
+            limit_storey(system, limit);
+            system.first_switch(&base, &mut solution, work).is_none()
+        });
+        let reached = largest(course(&row, &motion).map(f64::abs));
+        switches.note(reached, bound, ROUNDING * size(&row, &motion), &what);
+        let h = system.structure.fastest * time / 16.0;
+        assert!(bound <= reached + (h * h + 1e-8) * size(&row, &motion), "{bound:e}, {reached:e}: {}", what());
+    }
+    sizes.comes_within(0.99);
+    own.comes_within(0.99);
+    switches.comes_within(0.9999);
 }
 
 /// A pair whose penetration is curved by at most so much, and one that is: a parabola.

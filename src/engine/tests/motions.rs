@@ -1,10 +1,11 @@
-//! Random buildings in random motions, and motions that come as near to a bound as any can; each is flown in small steps.
+//! Random buildings in random motions, and motions that come as near to a bound as any can; each is flown in small
+//! steps.
 
 use crate::engine::base::clearance::Clearance;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::bounds::all_storeys::Reach;
+use crate::engine::bounds::amplitude::Together;
 use crate::engine::excitation::segment::Segment;
 use crate::engine::flight::Flight;
 use crate::engine::system::System;
@@ -165,8 +166,8 @@ impl Case {
         pairs.chain([self.system.storeys[0].row.clone()]).collect()
     }
 
-    /// Sets the motion at the base as a row's quantity has to start, with modal velocities up to 1; returns whether there
-    /// is such a start.
+    /// Sets the motion at the base as a row's quantity has to start, with modal velocities up to 1; returns whether
+    /// there is such a start.
     pub fn start(&mut self, random: &mut Random, start: Start, row: &[f64]) -> bool {
         let Case { system, base: Base { q, v, .. }, .. } = self;
         let w = |m: usize| system.structure.omega2[m].sqrt();
@@ -235,10 +236,11 @@ impl Case {
         states
     }
 
-    /// Whether the broad phase clears a pair, or all storeys as the last of them, for so many segments from the base on.
+    /// Whether the broad phase clears a pair, or all storeys as the last of them, for so many segments from the base
+    /// on.
     pub fn clears(&mut self, flight: &Flight, p: usize, segments: u64) -> bool {
         let Case { system, base, work, .. } = self;
-        base.clearance = Clearance::new(system.cleared_together());
+        base.clearance = Clearance::new(system.cleared());
         for (p, pair) in system.pairs.iter().enumerate() {
             let (penetration, rate) = pair.penetration(base.rest.gaps[p], (&base.q, &base.v));
             (base.contacts[p].penetration, base.contacts[p].rate) = (penetration, rate);
@@ -268,7 +270,7 @@ impl Case {
 /// Gives the storey that can yield another yield drift, m.
 pub fn limit_storey(system: &mut System, limit: f64) {
     system.storeys[0].limit = limit;
-    system.reach_of_storeys = Reach::of(&system.structure, &system.storeys);
+    system.together = Together::of(&system.structure, system.storeys.iter().map(|of| (&of.row[..], of.limit)));
 }
 
 /// The quantity of a row at all of some states.
@@ -322,7 +324,8 @@ impl Comparison {
         }
     }
 
-    /// Some motion has to come that near, so that neither a bound that is too low nor one that is too high is overlooked.
+    /// Some motion has to come that near, so that neither a bound that is too low nor one that is too high is
+    /// overlooked.
     pub fn comes_within(self, share: f64) {
         let Comparison { name, nearest } = self;
         assert!(nearest >= share, "{name}: no motion has come nearer than {nearest:.4} of the bound");

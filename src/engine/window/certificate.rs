@@ -143,8 +143,8 @@ static CHEBYSHEV: LazyLock<[[f64; 4]; POINTS / 4]> = LazyLock::new(|| {
     from_fn(|c| from_fn(|i| 0.5 - 0.5 * libm::cos((2 * (4 * c + i) + 1) as f64 * PI / (2 * POINTS) as f64)))
 });
 
-/// A polynomial of degree n is at most 1 / cos(n pi / (2 N)) times as large as at N such points \[EhlichZeller1964\]: for
-/// the second derivative of one of [`FreeRows::TERMS`] terms.
+/// A polynomial of degree n is at most 1 / cos(n pi / (2 N)) times as large as at N such points \[EhlichZeller1964\]:
+/// for the second derivative of one of [`FreeRows::TERMS`] terms.
 const BETWEEN_POINTS: f64 = 1.36;
 
 /// A bound on the second derivative of a polynomial, of that sense, over 0..=x.
@@ -374,8 +374,8 @@ impl Passage<'_> {
 mod tests {
     use super::*;
 
-    /// Polynomials with terms that cancel, such as quick modes have: the bound is above the curvature at all times, and not
-    /// far above the largest.
+    /// Polynomials with terms that cancel, such as quick modes have: the bound is above the curvature at all times, and
+    /// not far above the largest.
     #[test]
     fn a_bound_by_values_at_points_holds_between_them() {
         for (rate, swing) in [(0.0, 3.0), (-13.0, 0.0), (-2.0, 9.0), (0.5, 1.0)] {

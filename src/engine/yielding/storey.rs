@@ -2,9 +2,9 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::storey::{Sense, Storey};
+use crate::engine::bounds::certificate::stays_below;
 use crate::engine::pairs::pair::apart;
 use crate::numerics::polynomial::Coefficients;
-use crate::numerics::roots::highest_of_cubic;
 use crate::scene::Scene;
 use crate::structure::{MotionSeries, Side, Structure, difference, dot};
 use std::ops::Range;
@@ -203,8 +203,13 @@ impl YieldingStorey {
             let sign = sense.sign();
             let from = (self.start_of_flight(storey, sense, start), sign * rate);
             let to = (self.excess(storey, sense, end), sign * end_rate);
-            highest_of_cubic(from, to, h) + deviation < 0.0
+            stays_below(from, to, (h, deviation))
         })
+    }
+
+    /// The share of the yield drift by which the plastic drift has moved the limits.
+    pub fn moved_share(&self, storey: &Storey) -> f64 {
+        (self.ratio * storey.plastic).abs() / self.limit
     }
 
     /// Rounding error, m, of that excess, from the `size` of all that the drift is made of.
