@@ -66,9 +66,9 @@ fn whole_runs_have_the_bits_of_every_other_machine() {
     let damped = || laws.hertz_damped("exact");
     let cases = [
         (case(laws.stereomechanical(), RATIO), 0xdb4f_62fb_f13e_9f45),
-        (case(laws.linear(), RATIO), 0xa531_af96_f027_dc97),
-        (case(laws.kelvin_voigt(), RAYLEIGH), 0xdf91_bc6f_dd3a_7486),
-        (case(laws.kelvin_voigt_no_tension(), RATIO), 0xffbf_229c_1f5c_646f),
+        (case(laws.linear(), RATIO), 0xfaf7_983d_e873_de84),
+        (case(laws.kelvin_voigt(), RAYLEIGH), 0xa8e0_aadf_4029_f314),
+        (case(laws.kelvin_voigt_no_tension(), RATIO), 0xfdae_8c4c_bc17_46a3),
         (case(laws.hertz(), RATIO), 0x2920_8686_ee98_7037),
         (case(laws.hertz_of_another_exponent(), RATIO), 0x7a8f_54b2_38d5_9d09),
         (case(laws.jankowski(), RATIO), 0x8972_646d_98ce_1a18),

@@ -75,16 +75,9 @@ impl ClosedPairs {
         self.assigned.iter().filter(|(_, kind)| *kind != Kind::None).count() as u64
     }
 
-    /// Number of pairs, if they fit into one block and are under linear laws.
-    pub fn count_linear(&self) -> Option<usize> {
-        (self.used == 1 && self.blocks[0].is_linear()).then(|| self.blocks[0].count)
-    }
-
-    /// The only block if all pairs fit into one and are under linear laws: (block, its pairs, whether one of them has
-    /// just entered with a velocity of 0, `waits`).
-    pub fn only_linear_block(&mut self) -> Option<(&mut PairBlock, &PackedPairs, bool, bool)> {
-        self.count_linear()?;
-        Some((&mut self.blocks[0], &self.members[0], self.at_surface[0], self.waits))
+    /// Whether all pairs fit into one block and are under linear laws.
+    pub fn are_linear(&self) -> bool {
+        self.used == 1 && self.blocks[0].kind() == Kind::Linear
     }
 
     /// All blocks with their pairs.

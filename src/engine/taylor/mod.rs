@@ -16,7 +16,6 @@ pub mod entries;
 pub mod exact;
 pub mod expansion;
 pub mod follow;
-pub mod linear_pairs;
 pub mod open_pairs;
 pub mod pair_forces;
 pub mod solution;
