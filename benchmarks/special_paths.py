@@ -42,11 +42,10 @@ PATHS = {
     "few_modes": "up to 16 modes in registers, all pairs abreast (`pairs/jacobian.rs`)",
     "floors": "floors instead of modes where these are many (`structure/floors.rs`)",
     "at_once": "a pair's own force without a detour by the motion (`taylor/pair_forces.rs`)",
-    "economized": "fewer terms of the kernels of a window (`collocation/economization.rs`)",
     "fast_flight": "many segments in one loop (`advance/fast_flight.rs`)",
     "dismissal": "for how long pairs cannot meet (`flight/broad_phase.rs`)",
-    "certificate": "no entry, shown by both ends of a flight (`flight/certificate.rs`)",
-    "envelopes": "no entry, shown by amplitudes (`flight/envelope.rs`)",
+    "certificate": "no entry, shown by both ends of a flight (`bounds/certificate.rs`)",
+    "envelopes": "no entry, shown by amplitudes (`bounds/oscillation.rs`)",
     "short_flight": "a short flight straight to its end (`structure/short_flight.rs`)",
     "peaks_ahead": "for how long no quantity can exceed its peak (`peaks/ahead.rs`)",
 }
@@ -226,8 +225,7 @@ def report(with_all, found, runs):
         "account; study: the same without it, with several gaps, read at the end alone; other: samples every 5 and",
         "20 ms, communication steps of 10 ms, buildings that never meet, and such that swing without a ground motion.",
         "",
-        "A path that brings less than a tenth of every scene goes, unless results would change in their last digits by",
-        "that, as with `economized`.",
+        "A path that brings less than a tenth of every scene goes.",
         "",
     ]
     return "\n".join(lines)

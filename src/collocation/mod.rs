@@ -12,7 +12,6 @@
 //! are. The time is mapped, t = h theta(x), so that roots of the time since an entry or until a release are polynomials
 //! in x.
 
-mod economization;
 mod equation;
 mod nodes;
 mod rows;
