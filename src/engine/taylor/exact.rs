@@ -11,40 +11,40 @@ use crate::engine::taylor::solution::Solution;
 /// (Fastest rate) x (time) that one exact series reaches.
 const REACH: f64 = 2.0;
 
-impl System {
-    /// Plans a step from the base over `remaining` seconds at most, under the load in `work`, if no contact is closed;
-    /// returns whether it did. `is_cut` if the remaining time has been shortened, so that the step does not reach the
-    /// limit.
-    pub fn plan_exact(
-        &self,
-        at: &mut At,
-        (remaining, is_cut): (f64, bool),
-        planned: &mut Planned,
-        solution: &mut Solution,
-        work: &mut Buffers,
-    ) -> bool {
-        let base = &*at.base;
-        if touching(base).next().is_some() {
-            return false;
-        }
-        let length = remaining.min(REACH / self.structure.fastest);
-        self.expand_exactly(base, solution, work, length);
-        at.counters.yielding_steps += 1;
-        self.end_at(1.0, solution, planned);
-        let event = self.first_of_exact(base, (length, planned), solution, work);
-        if let Some((x, _)) = event {
-            self.end_at(x, solution, planned);
-        }
-        planned.event = event.map(|(_, event)| event);
-        planned.reaches_limit = length == remaining && !is_cut && event.is_none();
-        planned.length = length * solution.end.x;
-        // The scale of contact does not change while none is closed.
-        planned.next_length = None;
-        planned.ends.clear();
-        self.track(base, &solution.series, &solution.end, &mut work.scalar, &mut planned.tracked);
-        true
+/// Plans a step from the base over `remaining` seconds at most, under the load in `work`, if no contact is closed;
+/// returns whether it did. `is_cut` if the remaining time has been shortened, so that the step does not reach the
+/// limit.
+pub fn plan_exact(
+    system: &System,
+    at: &mut At,
+    (remaining, is_cut): (f64, bool),
+    planned: &mut Planned,
+    solution: &mut Solution,
+    work: &mut Buffers,
+) -> bool {
+    let base = &*at.base;
+    if touching(base).next().is_some() {
+        return false;
     }
+    let length = remaining.min(REACH / system.structure.fastest);
+    system.expand_exactly(base, solution, work, length);
+    at.counters.yielding_steps += 1;
+    system.end_at(1.0, solution, planned);
+    let event = system.first_of_exact(base, (length, planned), solution, work);
+    if let Some((x, _)) = event {
+        system.end_at(x, solution, planned);
+    }
+    planned.event = event.map(|(_, event)| event);
+    planned.reaches_limit = length == remaining && !is_cut && event.is_none();
+    planned.length = length * solution.end.x;
+    // The scale of contact does not change while none is closed.
+    planned.next_length = None;
+    planned.ends.clear();
+    system.track(base, &solution.series, &solution.end, &mut work.scalar, &mut planned.tracked);
+    true
+}
 
+impl System {
     /// Ends the step at an x of its series.
     fn end_at(&self, x: f64, solution: &mut Solution, planned: &mut Planned) {
         solution.end_at(x);

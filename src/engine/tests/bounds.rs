@@ -18,6 +18,7 @@ use crate::engine::bounds::certificate::{Certificate, deviation};
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::flight::Flight;
 use crate::engine::flight::workspace::Look;
+use crate::engine::taylor::exact::plan_exact;
 use crate::engine::taylor::solution::Solution;
 use crate::engine::window::certificate::keeps_off;
 use crate::engine::window::solution::Window;
@@ -349,7 +350,7 @@ fn searches_find_what_passes_a_limit_and_nothing_else() {
                 let mut look = Look::new(row.len(), 4);
                 Flight::new(system).plan(system, &mut at, time, &mut planned, &mut look, work);
             } else {
-                assert!(system.plan_exact(&mut at, (time, false), &mut planned, &mut Solution::new(system), work));
+                assert!(plan_exact(system, &mut at, (time, false), &mut planned, &mut Solution::new(system), work));
             }
             !matches!(planned.event, Some(Event::Entry(_) | Event::Yield(..)))
         });
