@@ -92,8 +92,8 @@ impl Workspace {
         Workspace { responses, assembled: 0.0, error_rate: 0.0, free: [free; MOST_PAIRS] }
     }
 
-    /// Estimated error of the penetrations, m, by responses assembled for another length of the window, of which only the
-    /// first power follows its change.
+    /// Estimated error of the penetrations, m, by responses assembled for another length of the window, of which only
+    /// the first power follows its change.
     pub fn error(&self, length: f64) -> f64 {
         self.error_rate * (length - self.assembled).abs()
     }
@@ -138,8 +138,8 @@ impl Equation {
         last.unwrap_or(1)
     }
 
-    /// Whether penetrations are integrals of rates, which then come first: one matrix does for both. Where no force needs
-    /// the rates penetrations come from forces at once.
+    /// Whether penetrations are integrals of rates, which then come first: one matrix does for both. Where no force
+    /// needs the rates penetrations come from forces at once.
     #[inline(always)]
     pub fn by_rates(&self) -> bool {
         self.forces[..self.closed].iter().any(Force::is_damped)
@@ -186,8 +186,8 @@ impl Equation {
         }
     }
 
-    /// The free motion of all pairs over the longest window times the relative change of their responses with the length
-    /// beyond the first power, m/s.
+    /// The free motion of all pairs over the longest window times the relative change of their responses with the
+    /// length beyond the first power, m/s.
     #[inline(always)]
     fn error_rate(&self, length: f64) -> f64 {
         let of_pair = |p: usize| {

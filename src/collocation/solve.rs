@@ -1,4 +1,5 @@
-//! The forces at the nodes of a window, by iteration: each sweep makes penetrations of forces and forces of penetrations.
+//! The forces at the nodes of a window, by iteration: each sweep makes penetrations of forces and forces of
+//! penetrations.
 //!
 //! A sweep is an integral over time twice, so errors fall like the terms of the series of a cosine: faster and faster.
 //! Where a window ends with an event, its length is an unknown too and is corrected in between.

@@ -16,7 +16,8 @@ use crate::numerics::roots;
 const STILL: f64 = 1e-13;
 
 impl System {
-    /// A storey that yields although its drift goes back: an impulse has turned it, or rounding.
+    /// The number of a yielding storey whose drift has the wrong sense at the base, by an impulse or by rounding: it
+    /// turns at once.
     pub fn turned_at_once(&self, base: &Base) -> Option<usize> {
         let goes_back = |(of, storey): (&YieldingStorey, &Storey)| {
             let still = STILL * of.size(base.coordinates, &base.v);

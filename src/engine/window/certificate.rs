@@ -96,7 +96,8 @@ enum Curved {
     Down,
 }
 
-/// Whether an open pair, whose penetration has at most the second derivative `curvature`, m/s2, stays apart for `h` seconds.
+/// Whether an open pair, whose penetration has at most the second derivative `curvature`, m/s2, stays apart for `h`
+/// seconds.
 pub fn keeps_off(contact: &Contact, curvature: f64, h: f64) -> bool {
     let (start, rate) = (contact.flight_start(), contact.rate);
     // The penetration is below a parabola, which either falls throughout or may rise.

@@ -232,21 +232,21 @@ impl Contact {
         }
         let end = if is_whole { solution.end[place] } else { window.depth(place, elapsed, moments) };
         let last = if is_whole { 1.0 } else { solution.map.inverse(elapsed / solution.length) };
-        let way = FollowedPart { nodes, last, rates: (self.rate, end.1) };
+        let part = FollowedPart { nodes, last, rates: Some((self.rate, end.1)) };
         // Between nodes, penetrations and rates from the moments have more digits than interpolated ones.
         let read = |x: f64| {
             let elapsed = solution.length * solution.map.at(x).0;
             window.depth(place, elapsed, window.moments(elapsed, &mut None))
         };
         let at = |x: f64| (x, if x == last { end } else { read(x) });
-        let deepest = way.highest(depth, end.0, self.episode.peak_penetration).map(at);
+        let deepest = part.highest(depth, end.0, self.episode.peak_penetration).map(at);
         passage.deepest = deepest.map(|(_, (peak, _))| peak);
         let strongest = match law.is_damped() {
             // A spring's force is largest where the penetration is.
             false => deepest,
             true => {
                 let force = law.value(end.0, end.1);
-                FollowedPart { rates: (f64::NAN, f64::NAN), ..way }
+                FollowedPart { rates: None, ..part }
                     .highest(&solution.force[place], force, self.episode.peak_force)
                     .map(at)
             }
@@ -268,8 +268,8 @@ struct FollowedPart {
     nodes: &'static Nodes,
     /// x of its end.
     last: f64,
-    /// Rates of the quantity at its start and end; NaN where they are not known.
-    rates: (f64, f64),
+    /// Rates of the quantity at its start and end, where they are known.
+    rates: Option<(f64, f64)>,
 }
 
 impl FollowedPart {
@@ -285,12 +285,12 @@ impl FollowedPart {
             }
         }
         // Between nodes the quantity is at most slightly larger than at them.
-        if best < NEARLY * known || at == 0 && self.rates.0 <= 0.0 {
+        if best < NEARLY * known || at == 0 && self.rates.is_some_and(|(start, _)| start <= 0.0) {
             return None;
         }
         let x_of = |i: usize| if i < before { nodes[i] } else { last };
         let mut top = (x_of(at), best);
-        if at < before || self.rates.1 < 0.0 || self.rates.1.is_nan() {
+        if at < before || self.rates.is_none_or(|(_, end)| end < 0.0) {
             let low = if at == 0 { 0.0 } else { nodes[at - 1] };
             let found = summit(self.nodes, values, (low, x_of(at), x_of(at + 1)));
             if let Some((x, value)) = found.filter(|found| found.1 > best) {

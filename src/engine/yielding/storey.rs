@@ -185,13 +185,14 @@ impl YieldingStorey {
         sense.sign() * (x - self.ratio * storey.plastic) - self.limit
     }
 
-    /// The same at the start of a step in which the storey is elastic: exactly 0 where it has just turned, never above 0.
+    /// The same at the start of a step in which the storey is elastic: exactly 0 where it has just turned, never above
+    /// 0.
     pub fn start_of_flight(&self, storey: &Storey, sense: Sense, x: f64) -> f64 {
         if storey.turned == Some(sense) { 0.0 } else { self.excess(storey, sense, x).min(0.0) }
     }
 
-    /// Whether the storey stays elastic for `h` seconds, from a drift and its rate to others, if the drift differs by at most
-    /// `deviation` from the cubic through them.
+    /// Whether the storey stays elastic for `h` seconds, from a drift and its rate to others, if the drift differs by
+    /// at most `deviation` from the cubic through them.
     pub fn stays_elastic(
         &self,
         storey: &Storey,
@@ -244,8 +245,8 @@ impl YieldingStorey {
         self.kept() * self.force * storey.cumulative.exact()
     }
 
-    /// What the elastic energy exceeds that of the drift relative to the position of rest by, J: with x = z + r p, r k d^2/2
-    /// + (1 - r) k z^2/2 - k x^2/2.
+    /// Elastic energy locked in by the plastic drift, J, which no motion relative to the position of rest has: r (1 -
+    /// r) k p^2 / 2. With x = z + r p it is r k d^2/2 + (1 - r) k z^2/2 - k x^2/2.
     pub fn locked_energy(&self, storey: &Storey) -> f64 {
         0.5 * self.ratio * self.lost * (storey.plastic * storey.plastic)
     }
