@@ -39,15 +39,13 @@ PATHS = {
     "windows": "a whole contact in one or two collocation windows (`engine/window/`)",
     "onset": "the double series after an entry under a power law (`engine/onset/`)",
     "time_map": "series in a stretched time near entries and releases (`engine/taylor/time_map.rs`)",
-    "few_modes": "up to 16 modes in registers, all pairs abreast (`pairs/jacobian.rs`, `taylor/linear_pairs.rs`)",
-    "linear_pairs": "the same for linear laws only (`taylor/linear_pairs.rs`)",
+    "few_modes": "up to 16 modes in registers, all pairs abreast (`pairs/jacobian.rs`)",
     "floors": "floors instead of modes where these are many (`structure/floors.rs`)",
     "at_once": "a pair's own force without a detour by the motion (`taylor/pair_forces.rs`)",
-    "economized": "fewer terms of the kernels of a window (`collocation/economization.rs`)",
     "fast_flight": "many segments in one loop (`advance/fast_flight.rs`)",
     "dismissal": "for how long pairs cannot meet (`flight/broad_phase.rs`)",
-    "certificate": "no entry, shown by both ends of a flight (`flight/certificate.rs`)",
-    "envelopes": "no entry, shown by amplitudes (`flight/envelope.rs`)",
+    "certificate": "no entry, shown by both ends of a flight (`bounds/certificate.rs`)",
+    "envelopes": "no entry, shown by amplitudes (`bounds/oscillation.rs`)",
     "short_flight": "a short flight straight to its end (`structure/short_flight.rs`)",
 }
 
@@ -226,8 +224,7 @@ def report(with_all, found, runs):
         "account; study: the same without it, with several gaps, read at the end alone; other: samples every 5 and",
         "20 ms, communication steps of 10 ms, buildings that never meet, and such that swing without a ground motion.",
         "",
-        "A path that brings less than a tenth of every scene goes, unless results would change in their last digits by",
-        "that, as with `economized`.",
+        "A path that brings less than a tenth of every scene goes.",
         "",
     ]
     return "\n".join(lines)

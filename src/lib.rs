@@ -22,7 +22,7 @@
 //! | a variable in which the motion near entries and releases is smooth | `numerics/time_map.rs` | |
 //! | contact forces over a whole window from an integral equation, at Gauss nodes | `collocation/`, `engine/window/mod.rs`, `structure/impulse_response.rs` | \[Brunner2004\] |
 //! | motion just after an entry, powers i + beta j of time | `engine/onset/series.rs`, `contact/onset/mod.rs` | |
-//! | bounds of a curve by its cubic Hermite interpolant: no contact, first root, largest value | `engine/flight/certificate.rs`, `numerics/roots/mod.rs` | \[BirkhoffPriver1967\] |
+//! | bounds of a curve by its cubic Hermite interpolant: no contact, first root, largest value | `engine/bounds/certificate.rs`, `numerics/roots/mod.rs` | \[BirkhoffPriver1967\] |
 //! | storey shear V = r k d + (1 - r) k z, z = d - p, abs(z) <= V_y / k; yields and turns | `engine/yielding/mod.rs`, `engine/taylor/drifts.rs`, `engine/taylor/switches.rs` | [Chopra2001, chapter 7] |
 //! | energy account; impulse, work and peak force of a contact | `engine/energy.rs`, `engine/taylor/follow.rs`, `engine/onset/follow.rs`, `engine/window/solution.rs` | |
 //! | largest displacements, drifts, accelerations and base shears in continuous time | `engine/peaks/mod.rs` | \[BirkhoffPriver1967\] |

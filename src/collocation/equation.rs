@@ -1,6 +1,5 @@
 //! The integral equation of a window, and its matrices for a length.
 
-use super::economization::economize;
 use super::nodes::{Matrix, NODES, Row};
 use super::rows::{NOTHING, combine, combined, fours, value, values};
 use super::tables::{POWERS, Tables};
@@ -77,10 +76,7 @@ pub(crate) struct Workspace {
     /// Pair by pair, see [`Workspace::response`], for a window of length `assembled`.
     responses: Vec<Response>,
     pub assembled: f64,
-    /// Error that the responses may have, relative to G_pp.
-    pub accuracy: f64,
-    /// See [`Equation::error_scales`].
-    error_scale: f64,
+    /// See [`Equation::error_rate`].
     error_rate: f64,
     pub free: [Free; MOST_PAIRS],
 }
@@ -93,20 +89,13 @@ impl Workspace {
         let free = Free { depth: row, rate: row, end: (0.0, 0.0) };
         let most = pairs.min(MOST_PAIRS);
         let responses = vec![response; most * (most + 1) / 2];
-        Workspace {
-            responses,
-            assembled: 0.0,
-            accuracy: 0.0,
-            error_scale: 0.0,
-            error_rate: 0.0,
-            free: [free; MOST_PAIRS],
-        }
+        Workspace { responses, assembled: 0.0, error_rate: 0.0, free: [free; MOST_PAIRS] }
     }
 
-    /// Estimated errors of the penetrations, m: by responses assembled for another length of the window, of which only
-    /// the first power follows its change, and by the accuracy with which they were assembled.
-    pub(crate) fn errors(&self, length: f64) -> (f64, f64) {
-        (self.error_rate * (length - self.assembled).abs(), self.error_scale * self.accuracy)
+    /// Estimated error of the penetrations, m, by responses assembled for another length of the window, of which only
+    /// the first power follows its change.
+    pub(crate) fn error(&self, length: f64) -> f64 {
+        self.error_rate * (length - self.assembled).abs()
     }
 
     /// Index of the response of two pairs: a triangular matrix row by row.
@@ -141,41 +130,36 @@ impl Equation {
         (depth, rate)
     }
 
-    /// How many of these factors for penetrations matter where responses are to be right within an accuracy.
+    /// How many of these factors for penetrations matter.
     #[inline(always)]
-    pub(crate) fn count_over(&self, p: usize, depth: &[f64; POWERS], length: f64, accuracy: f64) -> usize {
-        let negligible = accuracy * self.kernels[p][p][1] * (length * length);
+    pub(crate) fn count_over(&self, p: usize, depth: &[f64; POWERS], length: f64) -> usize {
+        let negligible = self.remainder * self.kernels[p][p][1] * (length * length);
         let last = (2..self.powers.min(POWERS)).rev().find(|k| (COUNT[*k] * depth[*k - 1]).abs() > negligible);
         last.unwrap_or(1)
     }
 
-    /// Whether penetrations are integrals of rates, which then come first: one matrix does for both. Where no force needs
-    /// the rates penetrations come from forces at once.
+    /// Whether penetrations are integrals of rates, which then come first: one matrix does for both. Where no force
+    /// needs the rates penetrations come from forces at once.
     #[inline(always)]
     pub(crate) fn by_rates(&self) -> bool {
         self.forces[..self.closed].iter().any(Force::is_damped)
     }
 
-    /// The responses over a window of that length, within an accuracy relative to G_pp.
+    /// The responses over a window of that length.
     #[inline(always)]
-    pub(crate) fn assemble<const N: usize>(&self, tables: &Tables, length: f64, accuracy: f64, work: &mut Workspace) {
-        (work.assembled, work.accuracy) = (length, accuracy);
-        (work.error_scale, work.error_rate) = self.error_scales(length);
+    pub(crate) fn assemble<const N: usize>(&self, tables: &Tables, length: f64, work: &mut Workspace) {
+        (work.assembled, work.error_rate) = (length, self.error_rate(length));
         let by_rates = self.by_rates();
         for p in 0..self.pairs {
             for q in 0..self.closed.min(p + 1) {
-                let (mut depth, mut rate) = self.factors(p, q, length);
-                let count = self.count_over(p, &depth, length, self.remainder);
+                let (depth, rate) = self.factors(p, q, length);
+                let count = self.count_over(p, &depth, length);
                 let response = &mut work.responses[Workspace::index(p, q)];
                 response.depth_end = combined::<N>(&tables.whole[1..], &depth[..count]);
                 response.rate_end = combined::<N>(&tables.whole, &rate[..count]);
                 if p < self.closed {
-                    let first = self.kernels[p][p][1].min(self.kernels[q][q][1]) * length;
-                    let (factors, bound, tables) = match by_rates {
-                        true => (&mut rate, accuracy * first, &tables.inner[..]),
-                        false => (&mut depth, accuracy * first * length, &tables.inner[1..]),
-                    };
-                    let count = if cfg!(without = "economized") { count } else { economize(factors, count, bound) };
+                    let (factors, tables) =
+                        if by_rates { (&rate, &tables.inner[..]) } else { (&depth, &tables.inner[1..]) };
                     combine::<N>(tables, &factors[..count], &mut response.between);
                 }
             }
@@ -202,19 +186,16 @@ impl Equation {
         }
     }
 
-    /// Two error scales: the free motion of all pairs over the longest window, m, and the same times the relative
-    /// change of their responses with the length beyond the first power, m/s.
+    /// The free motion of all pairs over the longest window times the relative change of their responses with the
+    /// length beyond the first power, m/s.
     #[inline(always)]
-    fn error_scales(&self, length: f64) -> (f64, f64) {
-        let (mut error_scale, mut error_rate) = (0.0, 0.0);
-        for p in 0..self.closed {
+    fn error_rate(&self, length: f64) -> f64 {
+        let of_pair = |p: usize| {
             let (free, kernel) = (&self.free[p], &self.kernels[p][p]);
-            let of_pair = free[0].abs() + free[1].abs();
-            let last = self.powers.min(POWERS);
-            let later = (2..last).rev().fold(0.0, |sum, k| sum * length + COUNT[k - 1] * kernel[k].abs());
-            error_scale += of_pair;
-            error_rate += of_pair * later / kernel[1];
-        }
-        (error_scale, error_rate)
+            let later = (2..self.powers.min(POWERS)).rev();
+            let later = later.fold(0.0, |sum, k| sum * length + COUNT[k - 1] * kernel[k].abs());
+            (free[0].abs() + free[1].abs()) * later / kernel[1]
+        };
+        (0..self.closed).map(of_pair).sum()
     }
 }

@@ -12,7 +12,6 @@
 //! are. The time is mapped, t = h theta(x), so that roots of the time since an entry or until a release are polynomials
 //! in x.
 
-mod economization;
 mod equation;
 mod nodes;
 mod rows;
@@ -21,7 +20,7 @@ mod tables;
 
 pub(crate) use equation::{Equation, MOST_PAIRS, Workspace};
 pub(crate) use nodes::{NODES, Nodes, Row, Rule, dot, nodes};
-pub(crate) use rows::{fours, larger};
+pub(crate) use rows::fours;
 pub(crate) use solve::{Ending, Frame, Solution};
 pub(crate) use tables::{Kernel, Map, POWERS, Tables};
 

@@ -2,7 +2,7 @@
 
 use super::nodes::{Matrix, NODES, Row};
 use crate::contact::Force;
-use crate::numerics::polynomial::{SECOND, each};
+use crate::numerics::polynomial::{SECOND, each, larger};
 
 /// Columns that are added up side by side.
 const ABREAST: usize = 2;
@@ -94,12 +94,6 @@ fn add_rows<const N: usize, const FOURS: usize>(to: &mut Fours, first: usize, ma
     }
 }
 
-/// The larger of two numbers in one instruction; the second where either is not a number.
-#[inline(always)]
-pub(crate) fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
 /// Forces of penetrations and rates; none where floors are apart.
 #[inline(always)]
 pub(super) fn forces<const N: usize>(force: &Force, depth: &Row, rate: &Row, out: &mut Row) {
@@ -139,7 +133,7 @@ pub(super) fn forces<const N: usize>(force: &Force, depth: &Row, rate: &Row, out
 /// Penetrations, 0 where floors are apart.
 #[inline(always)]
 fn inside(depth: &[f64; 4]) -> [f64; 4] {
-    each(|i| larger(depth[i], 0.0))
+    each(|i| larger(0.0, depth[i]))
 }
 
 /// Values of a polynomial at N points.

@@ -1,19 +1,17 @@
-//! The forces at the nodes of a window, by iteration: each sweep makes penetrations of forces and forces of penetrations.
+//! The forces at the nodes of a window, by iteration: each sweep makes penetrations of forces and forces of
+//! penetrations.
 //!
 //! A sweep is an integral over time twice, so errors fall like the terms of the series of a cosine: faster and faster.
 //! Where a window ends with an event, its length is an unknown too and is corrected in between.
 
 use super::equation::{Equation, MOST_PAIRS, Workspace};
 use super::nodes::{NODES, Row, Rule, dot, nodes};
-use super::rows::{NOTHING, add_product, combine, forces, fours, fours_mut, larger, product, row, second_derivative};
+use super::rows::{NOTHING, add_product, combine, forces, fours, fours_mut, product, row, second_derivative};
 use super::tables::{Map, Tables};
-use crate::numerics::polynomial::each;
+use crate::numerics::polynomial::{each, larger};
 
 /// Sweeps after which a window is given up: it is too long for this, or its damping too stiff.
 const MOST_SWEEPS: usize = 24;
-
-/// Accuracy of the responses while the length of a window is not known.
-const ROUGH: f64 = 1e-5;
 
 /// What a window ends with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -165,7 +163,7 @@ impl Solution {
             let depths = fours_mut(&mut self.depth[p]).iter_mut().zip(fours(&free.depth));
             for ((known, free), taken) in depths.zip(&taken).take(N / 4) {
                 let new = each(|i| free[i] - scale * taken[i]);
-                changes = each(|i| larger((new[i] - known[i]).abs(), changes[i]));
+                changes = each(|i| larger(changes[i], (new[i] - known[i]).abs()));
                 *known = new;
             }
             forces::<N>(&law, &self.depth[p], &self.rate[p], &mut self.force[p]);
@@ -197,7 +195,7 @@ impl Solution {
             for q in 0..equation.closed {
                 let (factors, _) = equation.factors(p, q, self.length);
                 let mut response = [[0.0; NODES]; NODES];
-                let count = equation.count_over(p, &factors, self.length, equation.remainder);
+                let count = equation.count_over(p, &factors, self.length);
                 combine::<N>(&tables.inner[1..], &factors[..count], &mut response);
                 taken = add_product::<N>(&taken, &response, &self.force[q]);
             }
@@ -245,8 +243,7 @@ fn iterate<const N: usize>(
 ) -> bool {
     let tables = Tables::of(solution.map, solution.rule);
     solution.guess::<N>(equation, tables);
-    let (fine, is_given) = (equation.remainder, ending == Ending::Given);
-    equation.assemble::<N>(tables, solution.length, if is_given { fine } else { ROUGH.max(fine) }, work);
+    equation.assemble::<N>(tables, solution.length, work);
     equation.fly::<N>(tables, solution.length, work);
     let mut last_change = f64::INFINITY;
     for sweep in 1..=MOST_SWEEPS {
@@ -258,7 +255,7 @@ fn iterate<const N: usize>(
             continue;
         }
         let mut missed = 0.0;
-        if !is_given {
+        if ending != Ending::Given {
             solution.close(equation, work, ending.pair());
             let (late, speed) = solution.lateness(equation, ending);
             missed = late.abs() * speed;
@@ -273,11 +270,8 @@ fn iterate<const N: usize>(
         }
         let is_found = left.max(missed) <= tolerance;
         let negligible = if is_found { tolerance } else { 0.1 * change.max(tolerance) };
-        let (by_length, by_accuracy) = work.errors(solution.length);
-        let is_rough = work.accuracy > fine && by_accuracy > negligible;
-        if is_rough || by_length > negligible {
-            let accuracy = if is_rough { fine } else { work.accuracy };
-            equation.assemble::<N>(tables, solution.length, accuracy, work);
+        if work.error(solution.length) > negligible {
+            equation.assemble::<N>(tables, solution.length, work);
         } else if is_found {
             solution.close(equation, work, None);
             solution.watch::<N>(equation, tables, work);

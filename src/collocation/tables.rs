@@ -112,7 +112,8 @@ pub(crate) struct Tables {
 }
 
 impl Tables {
-    /// Those of a map and a rule, computed once: in memory of the library itself, which goes with it when it is unloaded.
+    /// Those of a map and a rule, computed once: in memory of the library itself, which goes with it when it is
+    /// unloaded.
     pub(crate) fn of(map: Map, rule: Rule) -> &'static Tables {
         place(map, rule).get_or_init(|| compute(map, &Fine::new(rule, self::rule(FINE))))
     }

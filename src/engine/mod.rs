@@ -70,6 +70,8 @@ mod step;
 mod system;
 #[allow(unreachable_pub, reason = "public to the engine")]
 mod taylor;
+#[cfg(test)]
+mod tests;
 #[allow(unreachable_pub, reason = "public to the engine")]
 mod window;
 mod yielding;

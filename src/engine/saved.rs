@@ -122,7 +122,7 @@ impl Model {
         self.check_storeys(base)?;
         require(base.peaks.fit(&self.start_peaks()), "the peaks in it are impossible")?;
         require(
-            base.clearance.fits(self.system.cleared_together(), number, MOST_COUNTED),
+            base.clearance.fits(self.system.cleared(), number, MOST_COUNTED),
             "what it tells of pairs apart is impossible",
         )?;
         self.restore(saved, &mut state);

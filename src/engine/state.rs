@@ -150,7 +150,7 @@ impl Workspace {
         let log = PeakLog::new(if model.logs_flights() { lanes } else { 0 });
         Workspace {
             buffers: model.buffers(),
-            look: Look::new(lanes, (pairs, model.system.storeys.len())),
+            look: Look::new(lanes, model.system.limits()),
             windows: WindowWorkspace::new(model.windows.as_ref().map_or(0, |_| pairs)),
             peaks: model.peak_room(log.room()),
             log,

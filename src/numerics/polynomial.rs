@@ -70,7 +70,7 @@ pub(crate) fn each(of: impl Fn(usize) -> f64) -> [f64; BLOCK] {
     all
 }
 
-/// The larger of two numbers that are not NaN: unlike `f64::max` without a test for NaN.
+/// The larger of two numbers in one instruction, as `f64::max` is not; the first where either is not a number.
 #[inline(always)]
 pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }

@@ -10,10 +10,7 @@
 //! the entry at t = -a is no singularity in x, nor, with a < 0, is the release at t = -a. The first n terms of the
 //! series in x follow from the first n in t alone ([`crate::numerics::substitution`]).
 
-use crate::numerics::polynomial::{COUNT, Coefficients, MAX_TERMS, RECIPROCAL};
-
-/// Series that are worked on side by side.
-pub(crate) const LANES: usize = 4;
+use crate::numerics::polynomial::{BLOCK, COUNT, Coefficients, MAX_TERMS, RECIPROCAL};
 
 /// Time, in units of a series' scale, as a function of x: t = x + curvature x^2.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -24,11 +21,11 @@ pub struct TimeMap {
 
 /// The weights of terms m - j of a series in time, j = 0, 1, ..., in its term m in x; filled up to whole blocks of
 /// lanes.
-pub(crate) type Weights = [f64; (MAX_TERMS / 2 + 1).next_multiple_of(LANES)];
+pub(crate) type Weights = [f64; (MAX_TERMS / 2 + 1).next_multiple_of(BLOCK)];
 
 /// Row n: the binomials (n over j).
 const CHOOSE: [Weights; MAX_TERMS] = {
-    let mut table = [[0.0; (MAX_TERMS / 2 + 1).next_multiple_of(LANES)]; MAX_TERMS];
+    let mut table = [[0.0; (MAX_TERMS / 2 + 1).next_multiple_of(BLOCK)]; MAX_TERMS];
     let mut n = 0;
     while n < MAX_TERMS {
         table[n][0] = 1.0;
@@ -44,7 +41,7 @@ const CHOOSE: [Weights; MAX_TERMS] = {
 
 /// Row m: the binomials (m - j over j).
 pub(crate) const BINOMIAL: [Weights; MAX_TERMS] = {
-    let mut table = [[0.0; (MAX_TERMS / 2 + 1).next_multiple_of(LANES)]; MAX_TERMS];
+    let mut table = [[0.0; (MAX_TERMS / 2 + 1).next_multiple_of(BLOCK)]; MAX_TERMS];
     let mut m = 0;
     while m < MAX_TERMS {
         let mut j = 0;
@@ -102,12 +99,12 @@ impl TimeMap {
 
     /// Factors of the terms of a series in time whose sum is the term of that power in x of its rate, times dt/dx.
     pub fn rate_term_weights(&self, power: usize, factors: &mut Coefficients) {
-        let mut bend = 1.0;
+        let mut power_of_curvature = 1.0;
         factors[..=power + 1].fill(0.0);
         for (j, binomial) in BINOMIAL[power].iter().enumerate().take(power / 2 + 1) {
             let n = power - j + 1;
-            factors[n] = n as f64 * (binomial * bend);
-            bend *= self.curvature;
+            factors[n] = n as f64 * (binomial * power_of_curvature);
+            power_of_curvature *= self.curvature;
         }
     }
 }

@@ -111,7 +111,7 @@ impl ImpulseResponse {
 
     /// A bound on the integral of the magnitude of the second derivative of a kernel over a time, s, 1/kg: a mode that
     /// swings reverses its velocity, of at most 1, once in half a period, one that creeps loses it.
-    pub fn bend(&self, structure: &Structure, row: &[f64], other: &[f64], time: f64) -> f64 {
+    pub fn curvature(&self, structure: &Structure, row: &[f64], other: &[f64], time: f64) -> f64 {
         let of_mode = |m: usize| {
             let omega = structure.omega2[m].sqrt();
             let swings = if structure.damping[m] < 2.0 * omega { omega * time / std::f64::consts::PI } else { 0.0 };
@@ -207,7 +207,7 @@ mod tests {
 
     /// The velocity after an impulse, at many times: by how much it goes up and down in all.
     #[test]
-    fn a_bound_on_the_bend_is_one() {
+    fn a_bound_on_the_curvature_is_one() {
         use crate::structure::ModeIncrement;
         for (w, c) in [(3.0, 0.0), (3.0, 0.3), (1.0, 1.9), (4.0, 13.0), (0.1, 0.0)] {
             let building = format!("mass = [1.0]\nstiffness = [{:?}]\ndamping = {{ matrix = [[{c:?}]] }}", w * w);
@@ -219,7 +219,7 @@ mod tests {
                 let velocity = |k: i32| ModeIncrement::new(w, c, time * f64::from(k) / 1000.0).dvv;
                 let way: f64 = (1..1000).map(|k| (velocity(k + 1) - velocity(k)).abs()).sum();
                 let row: Vec<f64> = (0..structure.lanes).map(|m| f64::from(m == 0)).collect();
-                let bound = response.bend(&structure, &row, &row, time);
+                let bound = response.curvature(&structure, &row, &row, time);
                 assert!(way <= bound && bound <= 6.0 * way + 4.0, "{w} {c} over {time}: {way}, {bound}");
             }
         }

@@ -48,6 +48,7 @@ pub use floors::Floors;
 pub use free_rows::FreeRows;
 pub use impulse_response::{ImpulseResponse, RESPONSE_POWERS};
 pub use interval::Interval;
+pub(crate) use lanes::from_left_to_right;
 pub use lanes::{FEW_BLOCKS, LANES, Lane, difference, dot};
 pub use modes::{ModalDamping, Modes, NotPositiveDefinite};
 pub use propagator::{CoupledIncrement, ModeIncrement};

@@ -132,26 +132,6 @@ impl PairBlock {
         self.kind
     }
 
-    /// Stiffness and damping of linear forces.
-    pub(crate) fn linear_factors(&self) -> [&Each; 2] {
-        [&self.stiffness, &self.damping]
-    }
-
-    /// Enters power n of the first linear forces and the power n + 2 of the penetrations that follows from it.
-    #[inline(always)]
-    pub(crate) fn enter_linear(&mut self, n: usize, force: &[f64], penetration: &[f64]) {
-        if n + 2 < MAX_TERMS {
-            self.force[n][..force.len()].copy_from_slice(force);
-            self.penetration[n + 2][..penetration.len()].copy_from_slice(penetration);
-            self.order = n;
-        }
-    }
-
-    /// Whether all forces are linear.
-    pub(crate) fn is_linear(&self) -> bool {
-        self.kind == Kind::Linear
-    }
-
     /// Whether its forces have a root at d = 0.
     pub(crate) fn has_roots(&self) -> bool {
         matches!(self.kind, Kind::Spring | Kind::Damped | Kind::Root)

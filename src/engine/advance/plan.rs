@@ -6,7 +6,9 @@ use crate::engine::base::{Base, Coordinates, touching};
 use crate::engine::model::Model;
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
+use crate::engine::taylor::exact::plan_exact;
 use crate::engine::taylor::solution::Solution;
+use crate::engine::{onset, taylor};
 
 impl Model {
     /// Plans the next step, up to `limit` (s since the segment's start) or the next event, unless it has been planned
@@ -69,13 +71,13 @@ impl Model {
             }
             if !cfg!(without = "onset")
                 && touching(at.base).any(|(_, contact)| contact.is_singular())
-                && self.system.plan_onset(at, remaining, planned, onset, buffers)
+                && onset::plan(&self.system, at, remaining, planned, onset, buffers)
             {
                 return StepKind::Onset;
             }
         }
-        if !self.system.plan_exact(at, (remaining, is_cut), planned, taylor, buffers) {
-            self.system.plan_taylor(at, (remaining, is_cut), planned, taylor, buffers);
+        if !plan_exact(&self.system, at, (remaining, is_cut), planned, taylor, buffers) {
+            taylor::plan(&self.system, at, (remaining, is_cut), planned, taylor, buffers);
         }
         StepKind::Taylor
     }

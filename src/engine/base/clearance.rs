@@ -1,11 +1,9 @@
-//! Until which segment of the record each pair is known to stay apart, and all storeys to stay elastic (found in the broad
-//! phase), and at which contacts penetration and rate are those at the base. In what follows the storeys that can yield
-//! count as one more pair, the last.
+//! Until which segment of the record each pair is known to stay apart, and all storeys to stay elastic (found in the
+//! broad phase), and at which contacts penetration and rate are those at the base. What is said of pairs holds for the
+//! storeys that can yield as well: they have one place together, after the pairs (`System::place_of_storeys`).
 
+use crate::engine::bounds::amplitude::MOST;
 use serde::{Deserialize, Serialize};
-
-/// Largest number of segments ahead for which one broad phase clears a pair.
-pub(crate) const MOST: u64 = 64;
 
 /// Pairs that are known to stay apart, by numbers of segments of the record.
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -42,6 +42,19 @@ pub(crate) enum Phase {
     Held,
 }
 
+/// What a contact goes through over a step or a part of it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Passage {
+    /// Integral of the force, N s.
+    pub impulse: f64,
+    /// Integral of F v of the damping part of the force, J.
+    pub work: f64,
+    /// Largest penetration, m, where it exceeds that of the episode so far.
+    pub deepest: Option<f64>,
+    /// (force, N, time, s) of the largest force, where it may exceed that of the episode so far.
+    pub strongest: Option<(f64, f64)>,
+}
+
 /// The state of one contact at the base.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Contact {
@@ -157,11 +170,23 @@ impl Contact {
         }
     }
 
+    /// Adds what the contact has gone through to its sums and those of its episode, and raises their peaks.
+    pub(crate) fn book(&mut self, Passage { impulse, work, deepest, strongest }: Passage) {
+        self.impulse += impulse;
+        self.episode.impulse += impulse;
+        self.work += work;
+        if let Some(deepest) = deepest {
+            self.episode.peak_penetration = self.episode.peak_penetration.max(deepest);
+        }
+        if let Some((force, time)) = strongest {
+            self.raise_peak(force, time);
+        }
+    }
+
     /// Adds an impulse, N s, that goes through floors that are held together and stay so: one against another contact.
     pub(crate) fn pass_on(&mut self, impulse: f64) {
         self.rate = 0.0;
-        self.impulse += impulse;
-        self.episode.impulse += impulse;
+        self.book(Passage { impulse, ..Passage::default() });
     }
 
     /// Penetration at the start of a flight, m: exactly 0 just after a release, never above 0.

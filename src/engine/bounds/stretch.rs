@@ -1,5 +1,6 @@
 //! An exact motion between two times, and bounds on its modes in between.
 
+use crate::engine::bounds::amplitude::share;
 use crate::numerics::polynomial::larger;
 use crate::structure::Structure;
 use std::ops::Range;
@@ -138,10 +139,4 @@ impl ModeBounds {
             self.swing_q[m] = self.swing[m] / structure.omega2[m].sqrt();
         }
     }
-}
-
-/// Gives each of some coupled modes the amplitude of all together: they exchange energy, and any may get all of it.
-pub fn share(modes: &mut [f64]) {
-    let whole = modes.iter().map(|e| e * e).sum::<f64>().sqrt();
-    modes.fill(whole);
 }

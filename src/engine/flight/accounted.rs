@@ -49,8 +49,9 @@ impl System {
             return false;
         }
         let (w2, damping) = (&self.structure.omega2, &self.structure.damping);
-        let held = |m: usize| if w2[m] > 0.0 { load[m] / w2[m] } else { base.q[m] };
-        let swing = |m: usize| w2[m] * (base.q[m] - held(m)) * (base.q[m] - held(m)) + base.v[m] * base.v[m];
+        let quasi_static = |m: usize| if w2[m] > 0.0 { load[m] / w2[m] } else { base.q[m] };
+        let swing =
+            |m: usize| w2[m] * (base.q[m] - quasi_static(m)) * (base.q[m] - quasi_static(m)) + base.v[m] * base.v[m];
         let moving: f64 = (0..damping.len()).filter(|m| damping[*m] > 0.0).map(swing).sum();
         moving <= QUIET * largest && self.structure.is_classical() || moving == 0.0
     }

@@ -1,23 +1,20 @@
-//! Flight: no floors touch and no storey yields, and both buildings move by their exact modal solution until the segment
-//! ends, two floors meet or a storey yields.
+//! Flight: no floors touch and no storey yields, and both buildings move by their exact modal solution until the
+//! segment ends, two floors meet or a storey yields.
 
 pub mod accounted;
 pub mod broad_phase;
-pub mod certificate;
-pub mod elastic;
-pub mod envelope;
 pub mod fast_account;
-pub mod narrow_phase;
 pub mod propagate;
+pub mod search;
 pub mod workspace;
 
 use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::{At, Planned};
+use crate::engine::bounds::certificate::{Certificate, stays_below};
 use crate::engine::excitation::record::GroundMotion;
-use crate::engine::flight::broad_phase::ClosingBounds;
-use crate::engine::flight::certificate::Certificate;
-use crate::engine::flight::narrow_phase::Search;
+use crate::engine::flight::broad_phase::BroadPhase;
+use crate::engine::flight::search::Search;
 use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
@@ -25,23 +22,19 @@ use crate::engine::system::buffers::Buffers;
 /// Coefficients for the proofs that no pair meets and no storey yields; constant during a run.
 #[derive(Debug)]
 pub struct Flight {
-    closing: ClosingBounds,
+    broad_phase: BroadPhase,
     certificate: Certificate,
 }
 
 impl Flight {
-    /// For the pairs of a system.
-    pub fn new(System { structure, pairs, storeys, reach_of_storeys, .. }: &System) -> Flight {
-        let rows = pairs.iter().map(|pair| &pair.row).chain(storeys.iter().map(|storey| &storey.row));
-        let certificate = Certificate::of(structure, rows);
-        Flight {
-            closing: ClosingBounds::of(structure, (pairs, storeys, reach_of_storeys), &certificate.weight),
-            certificate,
-        }
+    /// For the pairs and storeys of a system.
+    pub fn new(system: &System) -> Flight {
+        let certificate = Certificate::of(&system.structure, system.limited_rows());
+        Flight { broad_phase: BroadPhase::of(system, &certificate.weight), certificate }
     }
 
-    /// Broad phase: tests the pairs that are not cleared for the base's segment, which has that number, and the storeys;
-    /// returns whether all are cleared now.
+    /// Broad phase: tests the pairs that are not cleared for the base's segment, which has that number, and the
+    /// storeys; returns whether all are cleared now.
     pub fn dismiss(
         &self,
         system: &System,
@@ -51,7 +44,7 @@ impl Flight {
         counters: &mut Counters,
         amplitude: &mut [f64],
     ) -> bool {
-        self.closing.dismiss(system, ground, base, segment, counters, amplitude)
+        self.broad_phase.dismiss(system, ground, base, segment, counters, amplitude)
     }
 
     /// Plans the flight from the base, under the load in `work`, over `longest` seconds or until the first event.
@@ -71,7 +64,7 @@ impl Flight {
         planned.tracked.fill(None);
         planned.ends.clear();
         system.fly(at.base, longest, work, (&mut planned.q, &mut planned.v));
-        if system.cleared_together() == 0 {
+        if system.limits() == 0 {
             return;
         }
         let watched = system.watched_segment(at.base);
@@ -81,14 +74,53 @@ impl Flight {
         {
             at.counters.flights_cleared += 1;
             planned.ends.resize(system.pairs.len(), None);
-        } else if !self.certificate.holds(system, at, planned, (look, work), segment) {
+        } else if !self.both_ends_hold(system, at, planned, (look, work), segment) {
             let is_over = planned.ends.iter().flatten().any(|(penetration, _)| *penetration >= 0.0);
             planned.ends.clear();
             let loads = (&work.load[..], &work.slope[..]);
-            if is_over || !system.envelopes_stay_apart(at.base, (&at.base.q, &at.base.v), loads, longest) {
+            if is_over || !system.envelopes_stay_within(at.base, (&at.base.q, &at.base.v), loads, longest) {
                 let certificate = &self.certificate;
                 Search { certificate, system, base: at.base, look, work }.first_event(planned, at.counters);
             }
         }
+    }
+
+    /// Whether both ends of the planned flight prove that no pair meets and no storey yields in it; what is cleared for
+    /// its segment is not tested.
+    pub fn both_ends_hold(
+        &self,
+        system: &System,
+        At { base, counters, .. }: &mut At,
+        planned: &mut Planned,
+        (look, work): (&mut Look, &mut Buffers),
+        segment: Option<u64>,
+    ) -> bool {
+        let (h, start, loads) = (planned.length, (&base.q[..], &base.v[..]), (&work.load[..], &work.slope[..]));
+        let end = (&planned.q[..], &planned.v[..]);
+        let deviation = self.certificate.deviation(&system.structure, start, loads, h, &mut work.scratch);
+        let is_cleared = |base: &Base, p: usize| segment.is_some_and(|segment| base.clearance.is_free(p, segment));
+        for (p, pair) in system.pairs.iter().enumerate() {
+            if is_cleared(base, p) {
+                planned.ends.push(None);
+                look.is_free[p] = true;
+                continue;
+            }
+            let (gap, contact) = (base.rest.gaps[p], &mut base.contacts[p]);
+            if !base.clearance.is_known(p) {
+                counters.pairs_evaluated += 1;
+                (contact.penetration, contact.rate) = pair.penetration(gap, start);
+                base.clearance.set_known(p);
+            }
+            counters.pairs_evaluated += 1;
+            let to = pair.penetration(gap, end);
+            planned.ends.push(Some(to));
+            let from = (contact.flight_start(), contact.rate);
+            look.is_free[p] = !cfg!(without = "certificate") && stays_below(from, to, (h, deviation));
+        }
+        let are_cleared = system.place_of_storeys().is_some_and(|storeys| is_cleared(base, storeys));
+        for i in system.pairs.len()..system.limits() {
+            look.is_free[i] = are_cleared || system.stays_within(base, i, [start, end], (h, deviation));
+        }
+        look.is_free.iter().all(|is_free| *is_free)
     }
 }

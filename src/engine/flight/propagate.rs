@@ -52,8 +52,8 @@ impl System {
         interval.fly_uncoupled(start, loads, end);
     }
 
-    /// The same by series of all modes, one after another: where damping couples modes, matrices for a flight of a length
-    /// that no other flight has would cost much more.
+    /// The same by series of all modes, one after another: where damping couples modes, matrices for a flight of a
+    /// length that no other flight has would cost much more.
     fn fly_in_pieces(&self, base: &Base, h: f64, pieces: usize, work: &mut Buffers, (q, v): (&mut [f64], &mut [f64])) {
         let Buffers { load, slope, scratch, series, powers, .. } = work;
         let piece = h / pieces as f64;

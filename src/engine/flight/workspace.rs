@@ -16,18 +16,15 @@ pub struct Look {
     /// The motion at the end of the present piece.
     pub end_q: Vec<f64>,
     pub end_v: Vec<f64>,
-    /// Whether each pair is known not to meet in the whole flight.
-    pub stay_apart: Vec<bool>,
-    /// Whether each storey that can yield is known not to in the whole flight.
-    pub stay_elastic: Vec<bool>,
+    /// Whether each pair is known not to meet in the whole flight, and then each storey that can yield not to.
+    pub is_free: Vec<bool>,
 }
 
 impl Look {
-    pub fn new(lanes: usize, (pairs, storeys): (usize, usize)) -> Look {
+    pub fn new(lanes: usize, limits: usize) -> Look {
         let vector = || vec![0.0; lanes];
-        let (stay_apart, stay_elastic) = (vec![false; pairs], vec![false; storeys]);
         let (q, v, load) = (vector(), vector(), vector());
-        Look { from: 0.0, q, v, load, end_q: vector(), end_v: vector(), stay_apart, stay_elastic }
+        Look { from: 0.0, q, v, load, end_q: vector(), end_v: vector(), is_free: vec![false; limits] }
     }
 
     pub fn start(&mut self, base: &Base, load: &[f64]) {

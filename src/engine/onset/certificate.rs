@@ -35,8 +35,8 @@ impl System {
         })
     }
 
-    /// Whether all open pairs stay apart and all storeys elastic: by a bound on the displacement of each floor, or else on
-    /// the pair's own terms.
+    /// Whether all open pairs stay apart and all storeys elastic: by a bound on the displacement of each floor, or else
+    /// on the pair's own terms.
     fn stays_free(&self, base: &Base, onset: &OnsetSeries, sizes: &mut [f64]) -> bool {
         let mut apart = base.contacts.iter().enumerate().filter(|(_, contact)| !contact.in_contact()).peekable();
         if apart.peek().is_none() && self.storeys.is_empty() {

@@ -1,7 +1,7 @@
 //! Moves the contacts along an onset step.
 
 use crate::contact::onset::{GridPowers, value_and_slope, values_and_slopes};
-use crate::engine::base::contact::Contact;
+use crate::engine::base::contact::{Contact, Passage};
 use crate::engine::onset::series::OnsetSeries;
 use crate::numerics::quadrature::{TWELVE, graded};
 use crate::numerics::roots;
@@ -26,9 +26,7 @@ impl Contact {
         let (block, reading) = (&onset.blocks[block], &onset.readings[block]);
         let end = if onset.powers.x == x { *reading } else { block.read(&GridPowers::at(grid, x)) };
         let law = self.branch();
-        let impulse = end.impulse[lane] * scale;
-        self.impulse += impulse;
-        self.episode.impulse += impulse;
+        let mut passage = Passage { impulse: end.impulse[lane] * scale, ..Passage::default() };
         if law.is_damped() {
             let (mut at, mut weights) = ([0.0; 12], [0.0; 12]);
             for ((at, weight), node) in at.iter_mut().zip(&mut weights).zip(graded(TWELVE, x)) {
@@ -36,7 +34,7 @@ impl Contact {
             }
             let (depths, rates) = values_and_slopes(grid, &block.copy_penetration(grid, lane), &at);
             let powers = law.damping_powers(&depths, &rates.map(|rate| rate / scale));
-            self.work += scale * weights.iter().zip(&powers).map(|(weight, power)| weight * power).sum::<f64>();
+            passage.work = scale * weights.iter().zip(&powers).map(|(weight, power)| weight * power).sum::<f64>();
         }
         // The stored terms are those of the force times x.
         let force = || {
@@ -52,16 +50,15 @@ impl Contact {
             let (d, slope) = value_and_slope(grid, &block.copy_penetration(grid, lane), at);
             let (peak, last) = (law.value(d, slope / scale), law.value(end.penetration[lane], end.slope[lane] / scale));
             let (at, peak) = if last > peak { (x, last) } else { (at, peak) };
-            self.raise_peak(peak, start + at * scale);
+            passage.strongest = Some((peak, start + at * scale));
         }
         let penetration = || {
             let terms = block.copy_penetration(grid, lane);
             move |x: f64| value_and_slope(grid, &terms, x)
         };
         let last = (end.penetration[lane], end.slope[lane]);
-        if let Some((_, peak)) = highest(penetration, x, last, self.episode.peak_penetration) {
-            self.episode.peak_penetration = peak;
-        }
+        passage.deepest = highest(penetration, x, last, self.episode.peak_penetration).map(|(_, peak)| peak);
+        self.book(passage);
         (self.penetration, self.rate) = (last.0, last.1 / scale);
     }
 }

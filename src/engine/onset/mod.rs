@@ -1,8 +1,8 @@
 //! An onset step, the first after an entry under a power law: a double power series of the motion (see
 //! [`crate::contact::onset`]).
 //!
-//! The step ends before any event - a turn, a release, another entry, a storey that yields - is possible, as bounds on the sums of its terms
-//! prove. So it has no event of its own.
+//! The step ends before any event - a turn, a release, another entry, a storey that yields - is possible, as bounds on
+//! the sums of its terms prove. So it has no event of its own.
 
 pub mod certificate;
 pub mod follow;
@@ -21,44 +21,44 @@ use crate::engine::system::buffers::Buffers;
 /// Highest power of x in the double series: its cost grows with the square of this, its reach hardly.
 const HIGHEST: f64 = 8.0;
 
-impl System {
-    /// Plans the first step of an episode, under the load in `work`; returns `false` if a Taylor step has to do it: for
-    /// entries with hardly any approach velocity, or under different laws at the same instant.
-    pub fn plan_onset(
-        &self,
-        At { base, counters, .. }: &mut At,
-        remaining: f64,
-        planned: &mut Planned,
-        onset: &mut OnsetSeries,
-        work: &mut Buffers,
-    ) -> bool {
-        let Some((grid, scale)) = self.onset_grid(base, work, remaining) else { return false };
-        onset.start(base, &self.pairs, grid, scale);
-        let loads = (&work.load[..], &work.slope[..]);
-        match base.coordinates {
-            Coordinates::Floors => expand(onset, &self.structure, base.coordinates, loads, &FloorJacobian),
-            Coordinates::Modes => {
-                expand(onset, &self.structure, base.coordinates, loads, &ModalJacobian(&self.pairs));
-            }
+/// Plans the first step of an episode, under the load in `work`; returns `false` if a Taylor step has to do it: for
+/// entries with hardly any approach velocity, or under different laws at the same instant.
+pub fn plan(
+    system: &System,
+    At { base, counters, .. }: &mut At,
+    remaining: f64,
+    planned: &mut Planned,
+    onset: &mut OnsetSeries,
+    work: &mut Buffers,
+) -> bool {
+    let Some((grid, scale)) = system.onset_grid(base, work, remaining) else { return false };
+    onset.start(base, &system.pairs, grid, scale);
+    let loads = (&work.load[..], &work.slope[..]);
+    match base.coordinates {
+        Coordinates::Floors => expand(onset, &system.structure, base.coordinates, loads, &FloorJacobian),
+        Coordinates::Modes => {
+            expand(onset, &system.structure, base.coordinates, loads, &ModalJacobian(&system.pairs));
         }
-        let accurate = self.onset_reach(base, onset, &grid);
-        let reach = accurate.min(remaining / scale);
-        let Some(x) = self.certain_reach(base, onset, &mut work.node_q, reach) else {
-            return false;
-        };
-        counters.contact_steps += 1;
-        counters.law_evaluations += base.count_forces(Contact::branch);
-        planned.tracked.fill(None);
-        planned.ends.clear();
-        planned.event = None;
-        planned.reaches_limit = x * scale >= remaining;
-        planned.length = if planned.reaches_limit { remaining } else { x * scale };
-        onset.read(planned.length / scale);
-        onset.evaluate(planned.length / scale, &mut planned.q, &mut planned.v);
-        planned.next_length = Some(planned.length);
-        true
     }
+    let accurate = system.onset_reach(base, onset, &grid);
+    let reach = accurate.min(remaining / scale);
+    let Some(x) = system.certain_reach(base, onset, &mut work.node_q, reach) else {
+        return false;
+    };
+    counters.contact_steps += 1;
+    counters.law_evaluations += base.count_forces(Contact::branch);
+    planned.tracked.fill(None);
+    planned.ends.clear();
+    planned.event = None;
+    planned.reaches_limit = x * scale >= remaining;
+    planned.length = if planned.reaches_limit { remaining } else { x * scale };
+    onset.read(planned.length / scale);
+    onset.evaluate(planned.length / scale, &mut planned.q, &mut planned.v);
+    planned.next_length = Some(planned.length);
+    true
+}
 
+impl System {
     /// The exponents of the series, common to all entering pairs, and its time scale, s: at most the shortest time in
     /// which one of these pairs would turn round.
     fn onset_grid(&self, base: &Base, work: &mut Buffers, remaining: f64) -> Option<(Grid, f64)> {

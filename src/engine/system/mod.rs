@@ -2,6 +2,7 @@
 
 pub mod buffers;
 pub mod error_norm;
+pub mod limits;
 pub mod rest;
 pub mod tolerance;
 pub mod yields;
@@ -12,7 +13,7 @@ use crate::engine::base::contact::Contact;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::base::storey::Storey;
 use crate::engine::base::{Account, Base, Coordinates};
-use crate::engine::bounds::all_storeys::Reach;
+use crate::engine::bounds::amplitude::Together;
 use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::excitation::segment::Segment;
@@ -36,7 +37,8 @@ pub struct System {
     pub rigid: RigidPairs,
     /// The storeys that can yield.
     pub storeys: Vec<YieldingStorey>,
-    pub reach_of_storeys: Reach,
+    /// The bound on all of their drifts, as shares of their yield drifts.
+    pub together: Together,
     /// The record; absent where the ground acceleration is an input.
     pub ground: Option<GroundMotion>,
     /// Whether a master may set forces on the floors.
@@ -90,7 +92,7 @@ impl System {
         Ok(System {
             initial,
             initial_storeys,
-            reach_of_storeys: Reach::of(&structure, &storeys),
+            together: Together::of(&structure, storeys.iter().map(|of| (&of.row[..], of.limit))),
             storeys,
             rigid: RigidPairs::of(&pairs),
             floor_forces: scene.floor_forces,
@@ -119,7 +121,7 @@ impl System {
         Base {
             segment,
             elapsed: time - segment.start,
-            clearance: Clearance::new(self.cleared_together()),
+            clearance: Clearance::new(self.cleared()),
             storeys: self.initial_storeys.clone(),
             rest,
             peaks,
@@ -134,9 +136,19 @@ impl System {
         }
     }
 
-    /// Number of what is cleared for segments ahead: the pairs, and all storeys that can yield together.
-    pub fn cleared_together(&self) -> usize {
+    /// Number of what is cleared for segments ahead: the pairs, and all storeys that can yield as one more.
+    pub fn cleared(&self) -> usize {
         self.pairs.len() + usize::from(!self.storeys.is_empty())
+    }
+
+    /// The place of all storeys that can yield among what is cleared, if there are any.
+    pub fn place_of_storeys(&self) -> Option<usize> {
+        (!self.storeys.is_empty()).then_some(self.pairs.len())
+    }
+
+    /// The largest share of its yield drift by which the plastic drift of a storey has moved its limits.
+    pub fn moved_share(&self, storeys: &[Storey]) -> f64 {
+        self.storeys.iter().zip(storeys).map(|(of, storey)| of.moved_share(storey)).fold(0.0, f64::max)
     }
 
     /// Whether windows, in which few pairs of buildings of many modes are in contact, take the motion without contact
@@ -149,6 +161,7 @@ impl System {
     pub fn is_driven(&self) -> bool {
         self.ground.is_none() || self.floor_forces
     }
+
     /// The record and the number of the base's segment, if pairs can be cleared for segments ahead: if only the record
     /// acts on the buildings.
     pub fn watched_segment(&self, base: &Base) -> Option<(&GroundMotion, u64)> {

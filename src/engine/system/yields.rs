@@ -14,7 +14,7 @@ pub type Expanded<'a> = ((&'a MotionSeries, &'a Coefficients), Option<&'a Substi
 
 impl System {
     /// Sets the power 2 of a drift to 0 where it is no more than rounding of the accelerations that it is made of.
-    pub fn clear_bend(&self, coordinates: Coordinates, i: usize, series: &MotionSeries, drift: &mut Coefficients) {
+    pub fn clear_curvature(&self, coordinates: Coordinates, i: usize, series: &MotionSeries, drift: &mut Coefficients) {
         let of = &self.storeys[i];
         let reach = self.structure.fastest * series.scale;
         let rounding = 8.0 * f64::EPSILON * reach * reach * (of.size(coordinates, series.term(0)) + of.limit);
@@ -38,7 +38,7 @@ impl System {
         let noise = of.noise(storey, of.project(base.coordinates, series, factors, &mut drift));
         let count = series.order + 1;
         if is_start && storey.turned.is_some() {
-            self.clear_bend(base.coordinates, i, series, &mut drift);
+            self.clear_curvature(base.coordinates, i, series, &mut drift);
         }
         let mut found = None;
         for sense in Sense::BOTH {

@@ -3,7 +3,7 @@
 use crate::contact::Force;
 use crate::contact::taylor::{BlockReading, Each, ForceReading, Kind, PAIRS, PairBlock};
 use crate::engine::base::Coordinates;
-use crate::engine::base::contact::Contact;
+use crate::engine::base::contact::{Contact, Passage};
 use crate::engine::pairs::packing::{PackedPairs, most_blocks};
 use crate::engine::pairs::pair::Pair;
 use crate::numerics::polynomial::Coefficients;
@@ -76,16 +76,9 @@ impl ClosedPairs {
         self.assigned.iter().filter(|(_, kind)| *kind != Kind::None).count() as u64
     }
 
-    /// Number of pairs, if they fit into one block and are under linear laws.
-    pub fn count_linear(&self) -> Option<usize> {
-        (self.used == 1 && self.blocks[0].is_linear()).then(|| self.blocks[0].count)
-    }
-
-    /// The only block if all pairs fit into one and are under linear laws: (block, its pairs, whether one of them has
-    /// just entered with a velocity of 0, `waits`).
-    pub fn only_linear_block(&mut self) -> Option<(&mut PairBlock, &PackedPairs, bool, bool)> {
-        self.count_linear()?;
-        Some((&mut self.blocks[0], &self.members[0], self.at_surface[0], self.waits))
+    /// Whether all pairs fit into one block and are under linear laws.
+    pub fn are_linear(&self) -> bool {
+        self.used == 1 && self.blocks[0].kind() == Kind::Linear
     }
 
     /// All blocks with their pairs.
@@ -241,8 +234,8 @@ impl ClosedPairs {
     }
 }
 
-/// Largest difference of a force's series from the law at the end of a step, relative to it, with which a maximum of the
-/// series is taken.
+/// Largest difference of a force's series from the law at the end of a step, relative to it, with which a maximum of
+/// the series is taken.
 const TRUSTED: f64 = 1e-11;
 
 impl BlockEnd {
@@ -276,18 +269,13 @@ impl Contact {
         start: f64,
         x: f64,
     ) {
-        let impulse = series.scale * end.force.impulse[lane];
-        self.impulse += impulse;
-        self.episode.impulse += impulse;
-        if block.is_damped() {
-            self.work += block.damping_work(
-                lane,
-                &self.branch(),
-                (&series.time_map, series.scale),
-                x,
-                end.motion.penetration[lane],
-            );
-        }
+        let work = match block.is_damped() {
+            true => {
+                let deepest = end.motion.penetration[lane];
+                block.damping_work(lane, &self.branch(), (&series.time_map, series.scale), x, deepest)
+            }
+            false => 0.0,
+        };
         let depth = Reading {
             value: end.motion.penetration[lane],
             slope: end.motion.slope[lane],
@@ -296,9 +284,6 @@ impl Contact {
         let terms = |out: &mut Coefficients| block.copy_penetration(lane, out);
         let first = (block.penetration[0][lane], block.penetration[1][lane]);
         let deepest = roots::maximum_above(first, x, &depth, self.episode.peak_penetration, terms);
-        if let Some((_, peak)) = deepest {
-            self.episode.peak_penetration = peak;
-        }
         let law = |x: f64| block.force_at(lane, &self.branch(), (x, series.time_rate(x)));
         let rate = depth.slope / series.time_rate(x);
         let last = if block.is_elastic() { 0.0 } else { self.branch().value(depth.value, rate) };
@@ -311,12 +296,15 @@ impl Contact {
                 found.map(|(at, peak)| if is_trusted { (at, peak) } else { (at, law(roots::roughly(at).min(x))) })
             }
         };
-        if let Some((at, peak)) = strongest {
-            self.raise_peak(peak, start + series.time(at));
-        }
+        self.book(Passage {
+            impulse: series.scale * end.force.impulse[lane],
+            work,
+            deepest: deepest.map(|(_, peak)| peak),
+            strongest: strongest.map(|(at, peak)| (peak, start + series.time(at))),
+        });
         (self.penetration, self.rate) = (depth.value, rate);
-        // The series of a damped force is truncated, and just after an entry it is far off: the peak is the force that the law
-        // gives for the motion then, as in the output.
+        // The series of a damped force is truncated, and just after an entry it is far off: the peak is the force that
+        // the law gives for the motion then, as in the output.
         self.raise_peak(last, start + series.time(x));
     }
 }

@@ -1,7 +1,8 @@
 //! Drifts of the storeys that yield while the motion is expanded into a power series.
 //!
-//! Relative to the position of rest at the start of a step, a storey that yields is a force that pushes its floors apart by
-//! (1 - r) k times the change of its drift: it takes the initial stiffness, which the equations of motion have, back to r k.
+//! Relative to the position of rest at the start of a step, a storey that yields is a force that pushes its floors
+//! apart by (1 - r) k times the change of its drift: it takes the initial stiffness, which the equations of motion
+//! have, back to r k.
 
 use crate::engine::base::storey::Sense;
 use crate::engine::base::{Base, Coordinates};

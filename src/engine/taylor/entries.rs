@@ -3,9 +3,9 @@
 use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::planned::Event;
+use crate::engine::bounds::terms::PenetrationBounds;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
-use crate::engine::taylor::open_pairs::PenetrationBounds;
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::polynomial::Coefficients;
 use crate::numerics::powers::Powers;

@@ -1,49 +1,50 @@
-//! A step in which a storey yields and no contact is closed: all is linear, and a power series within reach of the fastest
-//! mode is exact. What both of its ends prove not to happen needs no search.
+//! A step in which a storey yields and no contact is closed: all is linear, and a power series within reach of the
+//! fastest mode is exact. What both of its ends prove not to happen needs no search.
 
 use crate::engine::base::planned::{At, Event, Planned};
 use crate::engine::base::{Base, touching};
+use crate::engine::bounds::certificate::{deviation, stays_below};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
-use crate::numerics::roots::highest_of_cubic;
 
 /// (Fastest rate) x (time) that one exact series reaches.
 const REACH: f64 = 2.0;
 
-impl System {
-    /// Plans a step from the base over `remaining` seconds at most, under the load in `work`, if no contact is closed;
-    /// returns whether it did. `is_cut` if the remaining time has been shortened, so that the step does not reach the limit.
-    pub fn plan_exact(
-        &self,
-        at: &mut At,
-        (remaining, is_cut): (f64, bool),
-        planned: &mut Planned,
-        solution: &mut Solution,
-        work: &mut Buffers,
-    ) -> bool {
-        let base = &*at.base;
-        if touching(base).next().is_some() {
-            return false;
-        }
-        let length = remaining.min(REACH / self.structure.fastest);
-        self.expand_exactly(base, solution, work, length);
-        at.counters.yielding_steps += 1;
-        self.end_at(1.0, solution, planned);
-        let event = self.first_of_exact(base, (length, planned), solution, work);
-        if let Some((x, _)) = event {
-            self.end_at(x, solution, planned);
-        }
-        planned.event = event.map(|(_, event)| event);
-        planned.reaches_limit = length == remaining && !is_cut && event.is_none();
-        planned.length = length * solution.end.x;
-        // The scale of contact does not change while none is closed.
-        planned.next_length = None;
-        planned.ends.clear();
-        self.track(base, &solution.series, &solution.end, &mut work.scalar, &mut planned.tracked);
-        true
+/// Plans a step from the base over `remaining` seconds at most, under the load in `work`, if no contact is closed;
+/// returns whether it did. `is_cut` if the remaining time has been shortened, so that the step does not reach the
+/// limit.
+pub fn plan_exact(
+    system: &System,
+    at: &mut At,
+    (remaining, is_cut): (f64, bool),
+    planned: &mut Planned,
+    solution: &mut Solution,
+    work: &mut Buffers,
+) -> bool {
+    let base = &*at.base;
+    if touching(base).next().is_some() {
+        return false;
     }
+    let length = remaining.min(REACH / system.structure.fastest);
+    system.expand_exactly(base, solution, work, length);
+    at.counters.yielding_steps += 1;
+    system.end_at(1.0, solution, planned);
+    let event = system.first_of_exact(base, (length, planned), solution, work);
+    if let Some((x, _)) = event {
+        system.end_at(x, solution, planned);
+    }
+    planned.event = event.map(|(_, event)| event);
+    planned.reaches_limit = length == remaining && !is_cut && event.is_none();
+    planned.length = length * solution.end.x;
+    // The scale of contact does not change while none is closed.
+    planned.next_length = None;
+    planned.ends.clear();
+    system.track(base, &solution.series, &solution.end, &mut work.scalar, &mut planned.tracked);
+    true
+}
 
+impl System {
     /// Ends the step at an x of its series.
     fn end_at(&self, x: f64, solution: &mut Solution, planned: &mut Planned) {
         solution.end_at(x);
@@ -60,7 +61,6 @@ impl System {
         work: &mut Buffers,
     ) -> Option<(f64, Event)> {
         let coordinates = base.coordinates;
-        let share = (h * h) * (h * h) / 384.0;
         let fourths = &mut work.node_q;
         solution.series.bound_fourths(&solution.end, fourths);
         let mut first = None;
@@ -70,8 +70,8 @@ impl System {
         for (i, (of, storey)) in self.storeys.iter().zip(&base.storeys).enumerate() {
             let at = |(q, v): (&[f64], &[f64])| (of.drift(coordinates, q), of.drift(coordinates, v));
             let (start, end) = (at((&base.q, &base.v)), at((&planned.q, &planned.v)));
-            let deviation = share * of.size(coordinates, fourths);
-            if storey.yields.is_none() && !of.stays_elastic(storey, start, end, (h, deviation)) {
+            let off = deviation(h, of.size(coordinates, fourths));
+            if storey.yields.is_none() && !of.stays_elastic(storey, start, end, (h, off)) {
                 let expanded = ((&solution.series, solution.end.in_time().0), None, true);
                 first = self.first_yield(base, i, expanded, first, 1.0).or(first);
             }
@@ -80,10 +80,8 @@ impl System {
             let at = |q: &[f64], v: &[f64]| (pair.relative(coordinates, q), pair.relative(coordinates, v));
             let (end, rate) = at(&planned.q, &planned.v);
             let (from, to) = ((contact.flight_start(), contact.rate), (end - base.rest.gaps[p], rate));
-            let deviation = share * pair.difference(coordinates, fourths).1;
-            // Written so that a NaN never counts as apart.
-            let stays_apart = highest_of_cubic(from, to, h) + deviation < 0.0;
-            if !stays_apart {
+            let off = deviation(h, pair.difference(coordinates, fourths).1);
+            if !stays_below(from, to, (h, off)) {
                 let expanded = ((&solution.series, &*solution.substitution), &mut solution.end);
                 first = self.first_entry_of(base, p, expanded, &mut work.scalar, first).or(first);
             }

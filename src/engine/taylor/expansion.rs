@@ -1,18 +1,15 @@
 //! Expansion of motion and contact forces into power series in time, power by power together.
 
-use crate::contact::taylor::PAIRS;
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::pairs::jacobian::{FloorJacobian, ModalJacobian, PackedModalJacobian};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
-use crate::engine::taylor::closed_pairs::ClosedPairs;
 use crate::engine::taylor::drifts::WithYielding;
-use crate::engine::taylor::linear_pairs::LinearPairs;
 use crate::engine::taylor::pair_forces::with_forces;
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::complementarity::Complementarity;
 use crate::numerics::polynomial::MAX_ORDER;
-use crate::structure::{FEW_BLOCKS, LANES, MotionSeries, difference, dot, flight_order};
+use crate::structure::{FEW_BLOCKS, LANES, difference, dot, flight_order};
 
 /// Remainder of a series, relative to its terms, that is less than their rounding.
 const ROUNDING: f64 = 1e-17;
@@ -59,7 +56,7 @@ impl System {
                         loads,
                         &mut WithYielding { storeys, drifts, pairs }
                     ));
-                } else if !drifts.yielding.is_empty() || !self.expand_linear(series, closed, order, loads) {
+                } else {
                     with_forces!(closed, PackedModalJacobian, |pairs| series.expand_few_modes(
                         structure,
                         order,
@@ -84,41 +81,13 @@ impl System {
             && base.q.len() <= FEW_BLOCKS * LANES
             && self.structure.is_classical()
             && work.rigid.pairs.is_empty();
-        let are_cheap = is_on_few_modes
-            && self.tolerance.linear_order > self.tolerance.order
-            && solution.closed.count_linear().is_some();
+        let are_cheap =
+            is_on_few_modes && self.tolerance.linear_order > self.tolerance.order && solution.closed.are_linear();
         if !are_cheap || solution.closed.are_some_nearly_released(reach) {
             return false;
         }
         self.expand_to(base, solution, work, self.tolerance.linear_order + 1);
         true
-    }
-
-    /// Extends a started series on few modes to `order` if all pairs are under linear laws; returns whether they are.
-    fn expand_linear(
-        &self,
-        series: &mut MotionSeries,
-        closed: &mut ClosedPairs,
-        order: usize,
-        loads: (&[f64], &[f64]),
-    ) -> bool {
-        match closed.count_linear().filter(|_| !cfg!(without = "linear_pairs")) {
-            None => false,
-            Some(1) => self.expand_linear_pairs::<1>(series, closed, order, loads),
-            Some(2) => self.expand_linear_pairs::<2>(series, closed, order, loads),
-            Some(_) => self.expand_linear_pairs::<PAIRS>(series, closed, order, loads),
-        }
-    }
-
-    fn expand_linear_pairs<const COUNT: usize>(
-        &self,
-        series: &mut MotionSeries,
-        closed: &mut ClosedPairs,
-        order: usize,
-        loads: (&[f64], &[f64]),
-    ) -> bool {
-        let forces = LinearPairs::<COUNT>::of(closed, &self.pairs, series.order - 1);
-        forces.map(|mut forces| series.expand_few_modes(&self.structure, order, loads, &mut forces)).is_some()
     }
 
     /// Extends the series on modes by one power, with the reactions between floors that are held together.

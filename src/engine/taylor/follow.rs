@@ -1,6 +1,6 @@
 //! Moves the contacts along a Taylor step.
 
-use crate::engine::base::contact::Contact;
+use crate::engine::base::contact::{Contact, Passage};
 use crate::engine::system::System;
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::polynomial::Coefficients;
@@ -46,17 +46,15 @@ impl Contact {
     /// powers.
     pub fn follow_reaction(&mut self, terms: &Coefficients, order: usize, scale: f64, start: f64, powers: &Powers) {
         let impulse = scale * powers.integral(terms);
-        self.impulse += impulse;
-        self.episode.impulse += impulse;
         let force = powers.read(terms);
         let copy = |out: &mut Coefficients| {
             *out = *terms;
             order + 1
         };
         let known = self.episode.peak_force;
-        if let Some((at, peak)) = roots::maximum_above((terms[0], terms[1]), powers.x, &force, known, copy) {
-            self.raise_peak(peak, start + at * scale);
-        }
+        let found = roots::maximum_above((terms[0], terms[1]), powers.x, &force, known, copy);
+        let strongest = found.map(|(at, peak)| (peak, start + at * scale));
+        self.book(Passage { impulse, strongest, ..Passage::default() });
         self.reaction = force.value;
     }
 }

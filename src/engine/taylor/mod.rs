@@ -16,7 +16,6 @@ pub mod entries;
 pub mod exact;
 pub mod expansion;
 pub mod follow;
-pub mod linear_pairs;
 pub mod open_pairs;
 pub mod pair_forces;
 pub mod solution;
@@ -30,42 +29,42 @@ use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
 
-impl System {
-    /// Plans a step from the base over `remaining` seconds at most, under the load in `work`; `is_cut` if the remaining
-    /// time has been shortened, so that the step does not reach the limit.
-    pub fn plan_taylor(
-        &self,
-        at: &mut At,
-        (remaining, is_cut): (f64, bool),
-        planned: &mut Planned,
-        solution: &mut Solution,
-        work: &mut Buffers,
-    ) {
-        let base = &mut *at.base;
-        let is_singular = touching(base).any(|(_, contact)| contact.is_singular());
-        let scale = self.series_scale(base, remaining);
-        self.expand(base, solution, work, scale);
-        at.counters.contact_steps += 1;
-        at.counters.law_evaluations += solution.closed.count_forces();
-        let reach = self.reach(base, solution, work, (is_singular, remaining));
-        let is_whole = solution.series.x_at(remaining) <= reach;
-        let end = if is_whole { solution.series.x_at(remaining) } else { reach };
-        let event = self.first_event(base, solution, work, end);
-        solution.end.set_in_time(&solution.series.time_map);
-        solution.series.evaluate(&solution.end, &mut planned.q, &mut planned.v);
-        planned.event = event;
-        planned.reaches_limit = is_whole && !is_cut && event.is_none();
-        planned.length = if planned.reaches_limit { remaining } else { solution.series.time(solution.end.x) };
-        planned.next_length = Some(solution.series.time(reach));
-        planned.ends.clear();
-        self.track(base, &solution.series, &solution.end, &mut work.scalar, &mut planned.tracked);
-        for (reaction, &p) in solution.reactions.iter().zip(&self.rigid.pairs) {
-            if base.contacts[p].is_held() {
-                base.contacts[p].reaction = reaction[0];
-            }
+/// Plans a step from the base over `remaining` seconds at most, under the load in `work`; `is_cut` if the remaining
+/// time has been shortened, so that the step does not reach the limit.
+pub fn plan(
+    system: &System,
+    at: &mut At,
+    (remaining, is_cut): (f64, bool),
+    planned: &mut Planned,
+    solution: &mut Solution,
+    work: &mut Buffers,
+) {
+    let base = &mut *at.base;
+    let is_singular = touching(base).any(|(_, contact)| contact.is_singular());
+    let scale = system.series_scale(base, remaining);
+    system.expand(base, solution, work, scale);
+    at.counters.contact_steps += 1;
+    at.counters.law_evaluations += solution.closed.count_forces();
+    let reach = system.reach(base, solution, work, (is_singular, remaining));
+    let is_whole = solution.series.x_at(remaining) <= reach;
+    let end = if is_whole { solution.series.x_at(remaining) } else { reach };
+    let event = system.first_event(base, solution, work, end);
+    solution.end.set_in_time(&solution.series.time_map);
+    solution.series.evaluate(&solution.end, &mut planned.q, &mut planned.v);
+    planned.event = event;
+    planned.reaches_limit = is_whole && !is_cut && event.is_none();
+    planned.length = if planned.reaches_limit { remaining } else { solution.series.time(solution.end.x) };
+    planned.next_length = Some(solution.series.time(reach));
+    planned.ends.clear();
+    system.track(base, &solution.series, &solution.end, &mut work.scalar, &mut planned.tracked);
+    for (reaction, &p) in solution.reactions.iter().zip(&system.rigid.pairs) {
+        if base.contacts[p].is_held() {
+            base.contacts[p].reaction = reaction[0];
         }
     }
+}
 
+impl System {
     /// How far the series are accurate, in x: with more powers where these are cheap, and in the x of a time map where
     /// it takes them further.
     fn reach(

@@ -1,5 +1,4 @@
-//! The forces of the closed pairs while a series is expanded, power by power. (Few pairs under linear laws on few modes
-//! have [`crate::engine::taylor::linear_pairs`].)
+//! The forces of the closed pairs while a series is expanded, power by power.
 
 use crate::contact::taylor::PairBlock;
 use crate::engine::pairs::jacobian::ContactJacobian;

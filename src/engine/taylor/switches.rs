@@ -3,6 +3,7 @@
 use crate::engine::base::Base;
 use crate::engine::base::planned::Event;
 use crate::engine::base::storey::{Sense, Storey};
+use crate::engine::bounds::terms::Horizon;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
@@ -10,12 +11,13 @@ use crate::engine::yielding::storey::YieldingStorey;
 use crate::numerics::polynomial::{ALL, COUNT, MAX_TERMS};
 use crate::numerics::roots;
 
-/// A rate of a drift below this share of the velocities that it is made of is rounding: what comes next decides. Larger than
-/// the rounding of a rate at its root, so that a storey does not turn and yield again for ever.
+/// A rate of a drift below this share of the velocities that it is made of is rounding: what comes next decides. Larger
+/// than the rounding of a rate at its root, so that a storey does not turn and yield again for ever.
 const STILL: f64 = 1e-13;
 
 impl System {
-    /// A storey that yields although its drift goes back: an impulse has turned it, or rounding.
+    /// The number of a yielding storey whose drift has the wrong sense at the base, by an impulse or by rounding: it
+    /// turns at once.
     pub fn turned_at_once(&self, base: &Base) -> Option<usize> {
         let goes_back = |(of, storey): (&YieldingStorey, &Storey)| {
             let still = STILL * of.size(base.coordinates, &base.v);
@@ -37,14 +39,12 @@ impl System {
             };
         }
         let Solution { series, end, substitution, .. } = solution;
-        let reach = end.x + series.time_map.curvature.abs() * end.x * end.x;
-        series.sum_sizes(2, reach, &mut work.node_q);
+        let horizon = Horizon::of(series, end.x, &mut work.node_q);
         for (i, (of, storey)) in self.storeys.iter().zip(&base.storeys).enumerate() {
             let [drift, step] = [0, 1].map(|n| of.drift(base.coordinates, series.term(n)));
-            let wandered = of.size(base.coordinates, &work.node_q);
-            let stays_elastic = |sense: Sense| {
-                of.excess(storey, sense, drift) + reach * (sense.sign() * step).max(0.0) + wandered < 0.0
-            };
+            let wandered = of.size(base.coordinates, horizon.wandered);
+            let stays_elastic =
+                |sense: Sense| horizon.is_beyond(of.excess(storey, sense, drift), sense.sign() * step, wandered);
             let is_sure = storey.yields.is_some() || Sense::BOTH.into_iter().all(stays_elastic);
             if is_sure || self.holds_storey(i, &mut work.rigid) {
                 continue;
@@ -58,8 +58,8 @@ impl System {
 }
 
 impl System {
-    /// The first instant at which the drift of a storey that yields turns, if before the first event known so far: at once
-    /// where it does not go on in its sense by more than rounding, as that of a floor that is held.
+    /// The first instant at which the drift of a storey that yields turns, if before the first event known so far: at
+    /// once where it does not go on in its sense by more than rounding, as that of a floor that is held.
     pub fn first_turn(
         &self,
         solution: &Solution,
@@ -78,7 +78,7 @@ impl System {
             let mut drift = [0.0; MAX_TERMS];
             self.storeys[i].project(drifts.coordinates, series, &ALL, &mut drift);
             drift[1] = if drift[1].abs() <= still { 0.0 } else { drift[1] };
-            self.clear_bend(drifts.coordinates, i, series, &mut drift);
+            self.clear_curvature(drifts.coordinates, i, series, &mut drift);
             let first = drift[1..=count].iter().find(|term| **term != 0.0);
             if first.is_none_or(|term| sense.sign() * term < 0.0) {
                 return Some((0.0, Event::Turn(i)));

@@ -37,15 +37,15 @@ impl Windows {
         let equation = &window.equation;
         let pairs_hold = (0..equation.pairs).all(|place| {
             let kernels = &equation.kernels[place].each_ref();
-            let sense = if place < equation.closed { Sense::Up } else { Sense::Down };
+            let curved = if place < equation.closed { Curved::Up } else { Curved::Down };
             let terms = &equation.free[place][..equation.terms];
-            let bends = self.bends(system, window, window.contacts[place]);
-            let bend = window.bend(sense, terms, (kernels, &bends), Some(place));
-            let passage = Passage { window, place, contact: &base.contacts[window.contacts[place]], bend, ending };
+            let of_kernels = self.of_kernels(system, window, window.contacts[place]);
+            let curvature = window.curvature(curved, terms, (kernels, &of_kernels), Some(place));
+            let passage = Passage { window, place, contact: &base.contacts[window.contacts[place]], curvature, ending };
             if place < equation.closed {
                 return passage.stays_in_contact();
             }
-            passage.stays_apart(&Approach { window, free: terms, kernels, bend })
+            passage.stays_apart(&Approach { window, free: terms, kernels, curvature })
         });
         pairs_hold
             && self.others_stay_apart(system, base, (window, free), work)
@@ -53,8 +53,8 @@ impl Windows {
     }
 
     /// Bounds on the integrals of the second derivatives of a pair's kernels, for the closed pairs of a window.
-    fn bends(&self, system: &System, window: &Window, p: usize) -> [f64; MOST_PAIRS] {
-        window.contacts.map(|q| self.bend_of_kernel(system, p, q))
+    fn of_kernels(&self, system: &System, window: &Window, p: usize) -> [f64; MOST_PAIRS] {
+        window.contacts.map(|q| self.curvature_of_kernel(system, p, q))
     }
 
     /// Whether all pairs outside the window stay apart.
@@ -75,14 +75,14 @@ impl Windows {
             for ((kernel, room), q) in kernels.iter_mut().zip(&mut room).zip(&contacts[..equation.closed]) {
                 *kernel = self.kernel(system, p, *q, room);
             }
-            let bends = self.bends(system, window, p);
-            let bend = |sense: Sense| window.bend(sense, terms, (&kernels, &bends), None);
-            if keeps_off(contact, bend(Sense::Up), solution.length) {
+            let of_kernels = self.of_kernels(system, window, p);
+            let curvature = |curved: Curved| window.curvature(curved, terms, (&kernels, &of_kernels), None);
+            if keeps_off(contact, curvature(Curved::Up), solution.length) {
                 return true;
             }
-            let bend = bend(Sense::Down);
+            let curvature = curvature(Curved::Down);
             (terms[0], terms[1]) = (contact.flight_start(), contact.rate * free.scale());
-            let approach = Approach { window, free: terms, kernels: &kernels, bend };
+            let approach = Approach { window, free: terms, kernels: &kernels, curvature };
             let end = (solution.length, approach.depth(solution.length));
             end.1 < 0.0 && approach.stays_below((0.0, terms[0]), end, MOST_HALVINGS)
         })
@@ -91,47 +91,48 @@ impl Windows {
 
 /// Sign of the curvature (second derivative) that a bound is for.
 #[derive(Clone, Copy, PartialEq)]
-enum Sense {
+enum Curved {
     Up,
     Down,
 }
 
-/// Whether an open pair, whose penetration has at most the second derivative `bend`, m/s2, stays apart for `h` seconds.
-pub fn keeps_off(contact: &Contact, bend: f64, h: f64) -> bool {
+/// Whether an open pair, whose penetration has at most the second derivative `curvature`, m/s2, stays apart for `h`
+/// seconds.
+pub fn keeps_off(contact: &Contact, curvature: f64, h: f64) -> bool {
     let (start, rate) = (contact.flight_start(), contact.rate);
     // The penetration is below a parabola, which either falls throughout or may rise.
-    let falls = start <= 0.0 && rate + 0.5 * bend * h < 0.0;
-    falls || start + h * (rate.max(0.0) + 0.5 * bend * h) < 0.0
+    let falls = start <= 0.0 && rate + 0.5 * curvature * h < 0.0;
+    falls || start + h * (rate.max(0.0) + 0.5 * curvature * h) < 0.0
 }
 
 impl Window {
-    /// Bound on the second derivative of a pair's penetration over the window, in that sense, m/s2: of its motion
+    /// Bound on the second derivative of a pair's penetration over the window, in that curved, m/s2: of its motion
     /// without contact forces, from the terms `free`, and of all contact forces, from the `kernels`. The direct effect
     /// of its own force is left out if it is number `itself` in the window.
-    fn bend(
+    fn curvature(
         &self,
-        sense: Sense,
+        curved: Curved,
         free: &[f64],
-        (kernels, bends): (&[&Kernel; MOST_PAIRS], &[f64; MOST_PAIRS]),
+        (kernels, of_kernels): (&[&Kernel; MOST_PAIRS], &[f64; MOST_PAIRS]),
         itself: Option<usize>,
     ) -> f64 {
         let Window { equation, solution, greatest, .. } = self;
         let (x, h) = (solution.length / equation.scale, solution.length);
-        let mut bend = match free.len() == FreeRows::TERMS {
+        let mut curvature = match free.len() == FreeRows::TERMS {
             // Powers of quick modes cancel: their magnitudes would say nothing.
-            true => highest_curvature(free, x, sense),
+            true => highest_curvature(free, x, curved),
             false => {
-                let at_start = if sense == Sense::Up { 2.0 * free[2] } else { -2.0 * free[2] };
+                let at_start = if curved == Curved::Up { 2.0 * free[2] } else { -2.0 * free[2] };
                 at_start + sum_of_sizes(free, 3, x) * x
             }
         };
-        bend /= equation.scale * equation.scale;
+        curvature /= equation.scale * equation.scale;
         for q in 0..equation.closed {
             let at_once = if itself == Some(q) { 0.0 } else { kernels[q][1].abs() };
             let later = sum_of_sizes(&kernels[q][..equation.powers], 2, h);
-            bend += greatest[q] * (at_once + (later * h).min(bends[q]));
+            curvature += greatest[q] * (at_once + (later * h).min(of_kernels[q]));
         }
-        bend.max(0.0)
+        curvature.max(0.0)
     }
 }
 
@@ -143,15 +144,15 @@ static CHEBYSHEV: LazyLock<[[f64; 4]; POINTS / 4]> = LazyLock::new(|| {
     from_fn(|c| from_fn(|i| 0.5 - 0.5 * libm::cos((2 * (4 * c + i) + 1) as f64 * PI / (2 * POINTS) as f64)))
 });
 
-/// A polynomial of degree n is at most 1 / cos(n pi / (2 N)) times as large as at N such points \[EhlichZeller1964\]: for
-/// the second derivative of one of [`FreeRows::TERMS`] terms.
+/// A polynomial of degree n is at most 1 / cos(n pi / (2 N)) times as large as at N such points \[EhlichZeller1964\]:
+/// for the second derivative of one of [`FreeRows::TERMS`] terms.
 const BETWEEN_POINTS: f64 = 1.36;
 
-/// A bound on the second derivative of a polynomial, of that sense, over 0..=x.
-fn highest_curvature(terms: &[f64], x: f64, sense: Sense) -> f64 {
+/// A bound on the second derivative of a polynomial, of that curved, over 0..=x.
+fn highest_curvature(terms: &[f64], x: f64, curved: Curved) -> f64 {
     let (lowest, highest) = curvatures(&CHEBYSHEV, terms, x);
     let (middle, half) = (0.5 * (highest + lowest), 0.5 * (highest - lowest));
-    let bound = BETWEEN_POINTS * half + if sense == Sense::Up { middle } else { -middle };
+    let bound = BETWEEN_POINTS * half + if curved == Curved::Up { middle } else { -middle };
     if bound.is_nan() { f64::INFINITY } else { bound }
 }
 
@@ -196,8 +197,8 @@ struct Approach<'a> {
     /// Terms of its motion without contact forces.
     free: &'a [f64],
     kernels: &'a [&'a Kernel; MOST_PAIRS],
-    /// Bound on the second derivative of its penetration, m/s2, see [`Window::bend`].
-    bend: f64,
+    /// Bound on the second derivative of its penetration, m/s2, see [`Window::curvature`].
+    curvature: f64,
 }
 
 impl Approach<'_> {
@@ -211,7 +212,7 @@ impl Approach<'_> {
     /// penetration). Pieces are halved at most `halvings` times.
     fn stays_below(&self, (start, from): (f64, f64), (end, to): (f64, f64), halvings: u32) -> bool {
         let gone = end - start;
-        if from.max(to) < -0.125 * self.bend * gone * gone {
+        if from.max(to) < -0.125 * self.curvature * gone * gone {
             return true;
         }
         let middle = start + 0.5 * gone;
@@ -231,8 +232,8 @@ struct Passage<'a> {
     /// Index of the pair in the window.
     place: usize,
     contact: &'a Contact,
-    /// Bound on the second derivative of its penetration, m/s2, see [`Window::bend`].
-    bend: f64,
+    /// Bound on the second derivative of its penetration, m/s2, see [`Window::curvature`].
+    curvature: f64,
     ending: Ending,
 }
 
@@ -250,13 +251,13 @@ struct Piece {
 }
 
 /// Whether a penetration that is above 0 at the nodes is so between them: it is below its chord by at most h^2/8
-/// `bend`.
+/// `curvature`.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn stays_above((theta, length): (&[f64], f64), depth: &[f64], bend: f64) -> bool {
+fn stays_above((theta, length): (&[f64], f64), depth: &[f64], curvature: f64) -> bool {
     let mut holds = true;
     for ((from, to), (start, end)) in theta.iter().zip(&theta[1..]).zip(depth.iter().zip(&depth[1..])) {
         let gone = to * length - from * length;
-        holds &= start.min(*end) > 0.25 * (0.5 * bend * gone) * gone;
+        holds &= start.min(*end) > 0.25 * (0.5 * curvature * gone) * gone;
     }
     holds
 }
@@ -296,7 +297,7 @@ impl Passage<'_> {
         let theta = &Tables::of(map, rule).theta[..rule.count()];
         let (depth, start, (end, _)) = (&depth[self.place][..rule.count()], self.start(), end[self.place]);
         let (before, after) = (theta[0] * length, length - theta[theta.len() - 1] * length);
-        let sag = |gone: f64| 0.5 * self.bend * gone;
+        let sag = |gone: f64| 0.5 * self.curvature * gone;
         let begins = match start == 0.0 {
             true => depth[0] / before > sag(before),
             false => start.min(depth[0]) > 0.25 * sag(before) * before,
@@ -308,7 +309,7 @@ impl Passage<'_> {
         };
         begins
             && ends
-            && stays_above((theta, length), depth, self.bend)
+            && stays_above((theta, length), depth, self.curvature)
             && match self.contact.force.guard {
                 None => true,
                 Some(_) if self.contact.phase == Phase::Slack => self.recedes(),
@@ -324,7 +325,7 @@ impl Passage<'_> {
             let (start, end) = ((time, piece.from), (time + piece.gone, piece.to));
             time = end.0;
             // The penetration exceeds its chord by at most `swell` times the distance from an end.
-            let swell = 0.5 * self.bend * piece.gone;
+            let swell = 0.5 * self.curvature * piece.gone;
             match () {
                 _ if touches && piece.is_last => -piece.from / piece.gone > swell,
                 _ if piece.from >= 0.0 => -piece.to / piece.gone > swell,
@@ -335,7 +336,7 @@ impl Passage<'_> {
 
     /// Least penetration on a piece of a pair that stays in contact, m.
     fn least(&self, piece: &Piece) -> f64 {
-        piece.from.min(piece.to) - 0.125 * self.bend * piece.gone * piece.gone
+        piece.from.min(piece.to) - 0.125 * self.curvature * piece.gone * piece.gone
     }
 
     /// Deceleration of the penetration by the spring at a depth, m/s2.
@@ -349,12 +350,12 @@ impl Passage<'_> {
         self.all(|piece| {
             // Until a turn the penetration only grows.
             let depth = if turns { piece.from } else { self.least(&piece) };
-            let falls = || self.brake(depth) > self.bend;
+            let falls = || self.brake(depth) > self.curvature;
             if turns && piece.is_last {
                 return falls();
             }
             let is_positive = |rate: f64| guard.value(piece.to, rate) > 0.0;
-            is_positive(piece.rate - self.bend * piece.gone) || is_positive(piece.rate) && falls()
+            is_positive(piece.rate - self.curvature * piece.gone) || is_positive(piece.rate) && falls()
         })
     }
 
@@ -362,9 +363,9 @@ impl Passage<'_> {
     fn recedes(&self) -> bool {
         let mut rate = self.contact.rate;
         self.all(|piece| {
-            let falls = || self.brake(self.least(&piece)) > self.bend;
-            let recedes = rate + self.bend * piece.gone < 0.0 || falls();
-            rate = rate.min((piece.to - piece.from) / piece.gone) + self.bend * piece.gone;
+            let falls = || self.brake(self.least(&piece)) > self.curvature;
+            let recedes = rate + self.curvature * piece.gone < 0.0 || falls();
+            rate = rate.min((piece.to - piece.from) / piece.gone) + self.curvature * piece.gone;
             recedes
         })
     }
@@ -374,8 +375,8 @@ impl Passage<'_> {
 mod tests {
     use super::*;
 
-    /// Polynomials with terms that cancel, such as quick modes have: the bound is above the curvature at all times, and not
-    /// far above the largest.
+    /// Polynomials with terms that cancel, such as quick modes have: the bound is above the curvature at all times, and
+    /// not far above the largest.
     #[test]
     fn a_bound_by_values_at_points_holds_between_them() {
         for (rate, swing) in [(0.0, 3.0), (-13.0, 0.0), (-2.0, 9.0), (0.5, 1.0)] {
@@ -389,10 +390,10 @@ mod tests {
             for end in [0.1, 0.77, 1.0] {
                 let at = |k: u32| end * f64::from(k) / 1000.0;
                 let curvature = |x: f64| (2..terms.len()).rev().fold(0.0, |sum, n| sum * x + SECOND[n] * terms[n]);
-                for (sense, sign) in [(Sense::Up, 1.0), (Sense::Down, -1.0)] {
+                for (curved, sign) in [(Curved::Up, 1.0), (Curved::Down, -1.0)] {
                     let largest = (0..=1000).map(|k| sign * curvature(at(k))).fold(f64::NEG_INFINITY, f64::max);
                     let size = (0..=1000).map(|k| curvature(at(k)).abs()).fold(0.0, f64::max);
-                    let bound = highest_curvature(&terms, end, sense);
+                    let bound = highest_curvature(&terms, end, curved);
                     assert!(
                         bound >= largest && bound <= largest + 0.5 * size,
                         "{rate} {swing} {end}: {bound}, {largest}"
@@ -400,6 +401,6 @@ mod tests {
                 }
             }
         }
-        assert_eq!(highest_curvature(&[f64::NAN; FreeRows::TERMS], 1.0, Sense::Up), f64::INFINITY);
+        assert_eq!(highest_curvature(&[f64::NAN; FreeRows::TERMS], 1.0, Curved::Up), f64::INFINITY);
     }
 }

@@ -1,15 +1,12 @@
-//! Proof that no storey yields within a window: the amplitude of each mode, sqrt(q'^2 + w^2 q^2), grows at most by the
-//! integral of the magnitude of its load, to which a contact force adds its share (damping couples no modes in windows).
+//! Proof that no storey yields within a window, by the amplitudes of the modes, to which the contact forces add
+//! (damping couples no modes in windows).
 
 use crate::engine::base::Base;
 use crate::engine::base::storey::Sense;
-use crate::engine::bounds::all_storeys::Reach;
+use crate::engine::bounds::amplitude::{MARGIN, pushed};
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::window::solution::Window;
-
-/// Margin for rounding.
-const MARGIN: f64 = 1e-10;
 
 impl Window {
     /// Whether no storey yields within the window; the load at its start is in `work`.
@@ -17,23 +14,15 @@ impl Window {
         if system.storeys.is_empty() {
             return true;
         }
-        let (structure, h) = (&system.structure, self.solution.length);
-        let Buffers { load, slope, node_v: fastest, .. } = work;
-        for m in 0..structure.lanes {
-            let amplitude = (base.v[m] * base.v[m] + structure.omega2[m] * base.q[m] * base.q[m]).sqrt();
-            fastest[m] = amplitude + h * (load[m].abs() + h * slope[m].abs());
-        }
-        for (p, greatest) in self.contacts.iter().zip(&self.greatest).take(self.equation.closed) {
-            let impulse = h * greatest;
-            fastest.iter_mut().zip(&system.pairs[*p].row).for_each(|(fastest, row)| *fastest += impulse * row.abs());
-        }
-        let moved = Reach::moved(&system.storeys, &base.storeys);
-        let together = (1.0 + MARGIN) * system.reach_of_storeys.swing(fastest) + moved < 1.0;
-        together
+        let h = self.solution.length;
+        let Buffers { load, slope, node_v: amplitudes, .. } = work;
+        let closed = self.contacts.iter().zip(&self.greatest).take(self.equation.closed);
+        let impulses = closed.map(|(p, greatest)| (&system.pairs[*p].row[..], h * greatest));
+        pushed(&system.structure.omega2, (&base.q, &base.v), (load, slope), h, impulses, amplitudes);
+        system.together.largest_share(amplitudes) + system.moved_share(&base.storeys) < 1.0
             || system.storeys.iter().zip(&base.storeys).all(|(of, storey)| {
-                let most: f64 = of.row.iter().zip(&*fastest).map(|(row, fastest)| row.abs() * fastest).sum();
-                let drift = of.drift(base.coordinates, &base.q);
-                let change = (1.0 + MARGIN) * h * most;
+                let most: f64 = of.row.iter().zip(&*amplitudes).map(|(row, amplitude)| row.abs() * amplitude).sum();
+                let (drift, change) = (of.drift(base.coordinates, &base.q), (1.0 + MARGIN) * h * most);
                 Sense::BOTH.into_iter().all(|sense| of.excess(storey, sense, drift) + change < 0.0)
             })
     }

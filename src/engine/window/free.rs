@@ -46,7 +46,7 @@ impl FreeTerms<'_> {
     }
 
     /// Second derivative of a pair's distance at the start, m/s2, where it is positive; `room` gets terms.
-    pub fn bend_at_start(&self, system: &System, p: usize, room: &mut [f64]) -> f64 {
+    pub fn curvature_at_start(&self, system: &System, p: usize, room: &mut [f64]) -> f64 {
         let scale = self.scale();
         let term = match self {
             FreeTerms::Series(series) => dot(&system.pairs[p].row, series.term(2)),

@@ -30,7 +30,7 @@ pub struct Windows {
     pub length_factor: f64,
     /// Bounds on the integrals of their second derivatives over [`Windows::longest`], 1/kg; empty where the kernels'
     /// terms bound these well.
-    bends: Vec<f64>,
+    curvatures: Vec<f64>,
     /// For each pair, the effect of its force over windows of that length; empty where these distances are series.
     pub prepared_pushes: Vec<PreparedPush>,
     /// For each pair, the spring of its law, where the law is a power law.
@@ -51,8 +51,8 @@ impl Windows {
         let kernels = known.iter().flat_map(|p| known.iter().map(|q| response.kernel(&p.row, &q.row))).collect();
         let allowed = BETWEEN_NODES / libm::cbrt(tolerance.step);
         let springs = pairs.iter().map(Spring::of).collect();
-        let bends = response.longest().map_or(Vec::new(), |time| {
-            let of = |p: &Pair, q: &Pair| response.bend(structure, &p.row, &q.row, time);
+        let curvatures = response.longest().map_or(Vec::new(), |time| {
+            let of = |p: &Pair, q: &Pair| response.curvature(structure, &p.row, &q.row, time);
             pairs.iter().flat_map(|p| pairs.iter().map(move |q| of(p, q))).collect()
         });
         let push = |pair: &Pair| Some(PreparedPush::new(response, &pair.row, response.longest()?));
@@ -61,15 +61,15 @@ impl Windows {
             kernels,
             allowed,
             length_factor: length_factor(tolerance.step),
-            bends,
+            curvatures,
             prepared_pushes,
             springs,
         })
     }
 
     /// A bound on the integral of the magnitude of the second derivative of a kernel over any window, 1/kg.
-    pub fn bend_of_kernel(&self, system: &System, p: usize, q: usize) -> f64 {
-        self.bends.get(p * system.pairs.len() + q).copied().unwrap_or(f64::INFINITY)
+    pub fn curvature_of_kernel(&self, system: &System, p: usize, q: usize) -> f64 {
+        self.curvatures.get(p * system.pairs.len() + q).copied().unwrap_or(f64::INFINITY)
     }
 
     /// The kernel G_pq of two pairs; it is worked out in `room` if it is not stored.

@@ -170,8 +170,8 @@ impl Windows {
             if place == MOST_PAIRS || system.pairs[p].law.is_rigid() {
                 return;
             }
-            let bend = free.bend_at_start(system, p, &mut window.equation.free[place]);
-            if keeps_off(contact, 2.0 * bend, length) {
+            let curvature = free.curvature_at_start(system, p, &mut window.equation.free[place]);
+            if keeps_off(contact, 2.0 * curvature, length) {
                 continue;
             }
             window.contacts[place] = p;

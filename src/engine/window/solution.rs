@@ -1,13 +1,13 @@
 //! The dense solution over a window (see [`crate::collocation`]): its evaluation, and the contacts along it.
 
 use crate::collocation::{
-    Equation, Kernel, MOST_PAIRS, NODES, Nodes, POWERS, Row, Rule, Solution, Tables, dot, fours, larger, nodes,
+    Equation, Kernel, MOST_PAIRS, NODES, Nodes, POWERS, Row, Rule, Solution, Tables, dot, fours, nodes,
 };
-use crate::engine::base::contact::Contact;
+use crate::engine::base::contact::{Contact, Passage};
 use crate::engine::system::System;
 use crate::engine::window::free::FreeMotion;
 use crate::engine::window::kernels::Windows;
-use crate::numerics::polynomial::{each, value_and_slope};
+use crate::numerics::polynomial::{each, larger, value_and_slope};
 use crate::numerics::roots;
 
 /// The node next to a peak has at least this share of it.
@@ -104,7 +104,7 @@ impl Window {
             // Between nodes a force is at most slightly larger than at them.
             let (d, v) = self.solution.end[place];
             let end = contacts[p].branch().value(d, v);
-            out[p] = larger(end.abs(), largest(&self.solution.force[place]) / NEARLY);
+            out[p] = larger(largest(&self.solution.force[place]) / NEARLY, end.abs());
         }
     }
 
@@ -136,7 +136,7 @@ impl Window {
 
 /// The largest magnitude of a number at the nodes.
 fn largest(row: &Row) -> f64 {
-    let sizes = fours(row).iter().fold([0.0; 4], |most, row| each(|i| larger(row[i].abs(), most[i])));
+    let sizes = fours(row).iter().fold([0.0; 4], |most, row| each(|i| larger(most[i], row[i].abs())));
     sizes.into_iter().fold(0.0, larger)
 }
 
@@ -218,12 +218,11 @@ impl Contact {
         let is_whole = elapsed == solution.length;
         let mut room = None;
         let moments = window.moments(elapsed, &mut room);
-        self.impulse += moments[place][0];
-        self.episode.impulse += moments[place][0];
+        let mut passage = Passage { impulse: moments[place][0], ..Passage::default() };
         let (depth, rate) = (&solution.depth[place], &solution.rate[place]);
         if law.is_damped() {
             let sum = |weights: &Row, d: &Row, v: &Row| dot(weights, &law.damping_powers(d, v));
-            self.work += if is_whole {
+            passage.work = if is_whole {
                 solution.length * sum(&Tables::of(solution.map, solution.rule).weight, depth, rate)
             } else {
                 let part = window.part(elapsed, solution.rule);
@@ -233,23 +232,21 @@ impl Contact {
         }
         let end = if is_whole { solution.end[place] } else { window.depth(place, elapsed, moments) };
         let last = if is_whole { 1.0 } else { solution.map.inverse(elapsed / solution.length) };
-        let way = FollowedPart { nodes, last, rates: (self.rate, end.1) };
+        let part = FollowedPart { nodes, last, rates: Some((self.rate, end.1)) };
         // Between nodes, penetrations and rates from the moments have more digits than interpolated ones.
         let read = |x: f64| {
             let elapsed = solution.length * solution.map.at(x).0;
             window.depth(place, elapsed, window.moments(elapsed, &mut None))
         };
         let at = |x: f64| (x, if x == last { end } else { read(x) });
-        let deepest = way.highest(depth, end.0, self.episode.peak_penetration).map(at);
-        if let Some((_, (peak, _))) = deepest {
-            self.episode.peak_penetration = self.episode.peak_penetration.max(peak);
-        }
+        let deepest = part.highest(depth, end.0, self.episode.peak_penetration).map(at);
+        passage.deepest = deepest.map(|(_, (peak, _))| peak);
         let strongest = match law.is_damped() {
             // A spring's force is largest where the penetration is.
             false => deepest,
             true => {
                 let force = law.value(end.0, end.1);
-                FollowedPart { rates: (f64::NAN, f64::NAN), ..way }
+                FollowedPart { rates: None, ..part }
                     .highest(&solution.force[place], force, self.episode.peak_force)
                     .map(at)
             }
@@ -259,8 +256,9 @@ impl Contact {
             // the end.
             let (peak, last_force) = (law.value(d, v), law.value(end.0, end.1));
             let (x, peak) = if last_force > peak { (last, last_force) } else { (x, peak) };
-            self.raise_peak(peak, start + solution.length * solution.map.at(x).0);
+            passage.strongest = Some((peak, start + solution.length * solution.map.at(x).0));
         }
+        self.book(passage);
         (self.penetration, self.rate) = end;
     }
 }
@@ -270,8 +268,8 @@ struct FollowedPart {
     nodes: &'static Nodes,
     /// x of its end.
     last: f64,
-    /// Rates of the quantity at its start and end; NaN where they are not known.
-    rates: (f64, f64),
+    /// Rates of the quantity at its start and end, where they are known.
+    rates: Option<(f64, f64)>,
 }
 
 impl FollowedPart {
@@ -287,12 +285,12 @@ impl FollowedPart {
             }
         }
         // Between nodes the quantity is at most slightly larger than at them.
-        if best < NEARLY * known || at == 0 && self.rates.0 <= 0.0 {
+        if best < NEARLY * known || at == 0 && self.rates.is_some_and(|(start, _)| start <= 0.0) {
             return None;
         }
         let x_of = |i: usize| if i < before { nodes[i] } else { last };
         let mut top = (x_of(at), best);
-        if at < before || self.rates.1 < 0.0 || self.rates.1.is_nan() {
+        if at < before || self.rates.is_none_or(|(_, end)| end < 0.0) {
             let low = if at == 0 { 0.0 } else { nodes[at - 1] };
             let found = summit(self.nodes, values, (low, x_of(at), x_of(at + 1)));
             if let Some((x, value)) = found.filter(|found| found.1 > best) {

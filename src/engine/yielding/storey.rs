@@ -2,9 +2,9 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::storey::{Sense, Storey};
+use crate::engine::bounds::certificate::stays_below;
 use crate::engine::pairs::pair::apart;
 use crate::numerics::polynomial::Coefficients;
-use crate::numerics::roots::highest_of_cubic;
 use crate::scene::Scene;
 use crate::structure::{MotionSeries, Side, Structure, difference, dot};
 use std::ops::Range;
@@ -190,13 +190,14 @@ impl YieldingStorey {
         sense.sign() * (x - self.ratio * storey.plastic) - self.limit
     }
 
-    /// The same at the start of a step in which the storey is elastic: exactly 0 where it has just turned, never above 0.
+    /// The same at the start of a step in which the storey is elastic: exactly 0 where it has just turned, never above
+    /// 0.
     pub(crate) fn start_of_flight(&self, storey: &Storey, sense: Sense, x: f64) -> f64 {
         if storey.turned == Some(sense) { 0.0 } else { self.excess(storey, sense, x).min(0.0) }
     }
 
-    /// Whether the storey stays elastic for `h` seconds, from a drift and its rate to others, if the drift differs by at most
-    /// `deviation` from the cubic through them.
+    /// Whether the storey stays elastic for `h` seconds, from a drift and its rate to others, if the drift differs by
+    /// at most `deviation` from the cubic through them.
     pub(crate) fn stays_elastic(
         &self,
         storey: &Storey,
@@ -208,8 +209,13 @@ impl YieldingStorey {
             let sign = sense.sign();
             let from = (self.start_of_flight(storey, sense, start), sign * rate);
             let to = (self.excess(storey, sense, end), sign * end_rate);
-            highest_of_cubic(from, to, h) + deviation < 0.0
+            stays_below(from, to, (h, deviation))
         })
+    }
+
+    /// The share of the yield drift by which the plastic drift has moved the limits.
+    pub(crate) fn moved_share(&self, storey: &Storey) -> f64 {
+        (self.ratio * storey.plastic).abs() / self.limit
     }
 
     /// Rounding error, m, of that excess, from the `size` of all that the drift is made of.
@@ -244,8 +250,8 @@ impl YieldingStorey {
         self.kept() * self.force * storey.cumulative.exact()
     }
 
-    /// What the elastic energy exceeds that of the drift relative to the position of rest by, J: with x = z + r p, r k d^2/2
-    /// + (1 - r) k z^2/2 - k x^2/2.
+    /// Elastic energy locked in by the plastic drift, J, which no motion relative to the position of rest has: r (1 -
+    /// r) k p^2 / 2. With x = z + r p it is r k d^2/2 + (1 - r) k z^2/2 - k x^2/2.
     pub(crate) fn locked_energy(&self, storey: &Storey) -> f64 {
         0.5 * self.ratio * self.lost * (storey.plastic * storey.plastic)
     }

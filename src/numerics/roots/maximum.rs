@@ -73,7 +73,7 @@ fn maximum_of_concave(terms: &Terms, a: End, b: End) -> f64 {
     let (mut low, mut high) = (a.x, b.x);
     let mut x = maximum_of_cubic(a, b);
     for _ in 0..60 {
-        let (slope, curvature) = terms.bend(x);
+        let (slope, curvature) = terms.slope_and_curvature(x);
         if slope > 0.0 {
             low = x;
         } else {

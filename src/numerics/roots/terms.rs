@@ -97,7 +97,7 @@ impl Terms {
 
     /// Slope and curvature at x.
     #[inline(always)]
-    pub(super) fn bend(&self, x: f64) -> (f64, f64) {
+    pub(crate) fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
         let at = Place::at(x);
         let (mut value, mut by_y, mut half) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
         for block in self.blocks().iter().rev() {
@@ -107,10 +107,10 @@ impl Terms {
         }
         // dy/dx = 4 x^3.
         let rate = 4.0 * at.x3;
-        let bend_of_y = 12.0 * at.x2 * at.total(by_y) + 2.0 * (rate * rate) * at.total(half);
+        let curvature_of_y = 12.0 * at.x2 * at.total(by_y) + 2.0 * (rate * rate) * at.total(half);
         let own = 2.0 * value[2] + 6.0 * (value[3] * at.x);
         let slope = at.slope(value) + rate * at.total(by_y);
-        (slope, own + 2.0 * rate * at.slope(by_y) + bend_of_y)
+        (slope, own + 2.0 * rate * at.slope(by_y) + curvature_of_y)
     }
 
     /// Sum of the magnitudes of all terms at x >= 0.

@@ -1,5 +1,5 @@
-//! The narrow phase: the first entry in a flight, or the first yield of a storey, is searched for piece by piece, in the
-//! power series of the penetrations and drifts.
+//! The narrow phase: the first entry in a flight, or the first yield of a storey, is searched for piece by piece, in
+//! the power series of the penetrations and drifts.
 //!
 //! The search does not change the motion: a flight without an entry ends at the exact solution, to the same bits
 //! whether it was searched or not. So pairs that never meet do not affect the results.
@@ -7,13 +7,13 @@
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::{Event, Planned};
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::flight::certificate::Certificate;
+use crate::engine::bounds::certificate::Certificate;
 use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
-use crate::numerics::polynomial::ALL;
+use crate::numerics::polynomial::{ALL, MAX_ORDER};
 use crate::numerics::roots;
-use crate::structure::{EXACT, FreeRows, difference, dot, flight_order};
+use crate::structure::{EXACT, FreeRows, difference, flight_order};
 
 /// Length of a piece, in units of 1 / (fastest rate), that one series reaches.
 const REACH: f64 = 1.5;
@@ -43,7 +43,7 @@ impl Search<'_> {
         let mut unit =
             if system.structure.fastest * remaining > REACH { REACH / system.structure.fastest } else { remaining };
         let is_tracked = base.contacts.iter().any(|contact| contact.tracked);
-        let are_elastic = self.look.stay_elastic.iter().all(|is_elastic| *is_elastic);
+        let are_elastic = self.look.is_free[system.pairs.len()..].iter().all(|is_elastic| *is_elastic);
         if let Some(rows) =
             system.free_rows.as_ref().filter(|rows| !is_tracked && are_elastic && remaining <= rows.length)
         {
@@ -63,10 +63,10 @@ impl Search<'_> {
                 let length = left.min(longer);
                 let (motion, loads) =
                     ((&self.look.q[..], &self.look.v[..]), (&self.look.load[..], &self.work.slope[..]));
-                if system.envelopes_stay_apart(base, motion, loads, left) {
+                if system.envelopes_stay_within(base, motion, loads, left) {
                     return;
                 }
-                if !self.piece_stays_apart(length) {
+                if !self.piece_stays_within(length) {
                     (series_left, longer) = (LONGER, f64::from(LONGER) * unit);
                     continue;
                 }
@@ -95,7 +95,7 @@ impl Search<'_> {
         let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
         let mut first: Option<(f64, usize)> = None;
         for (p, (pair, contact)) in system.pairs.iter().zip(&base.contacts).enumerate() {
-            if look.stay_apart[p] {
+            if look.is_free[p] {
                 continue;
             }
             let terms = &mut work.scalar[..FreeRows::TERMS];
@@ -132,13 +132,12 @@ impl Search<'_> {
     /// The first event in a piece by its power series: (share of the piece, event).
     fn first_upcrossing_in(&mut self, length: f64) -> Option<(f64, Event)> {
         let Search { system, base, look, work, .. } = self;
-        let order =
-            flight_order(system.structure.fastest * length, EXACT).unwrap_or(crate::numerics::polynomial::MAX_ORDER);
-        let Look { from, q, v, load, stay_apart, stay_elastic, .. } = &*look;
+        let order = flight_order(system.structure.fastest * length, EXACT).unwrap_or(MAX_ORDER);
+        let Look { from, q, v, load, is_free, .. } = &*look;
         work.series.expand_flight(&system.structure, (q, v), (load, &work.slope), (length, order));
         let mut first: Option<(f64, Event)> = None;
         for (p, (pair, contact)) in system.pairs.iter().zip(&base.contacts).enumerate() {
-            if stay_apart[p] {
+            if is_free[p] {
                 continue;
             }
             let terms = &mut work.scalar[..=work.series.order];
@@ -154,37 +153,27 @@ impl Search<'_> {
             }
         }
         let is_start = *from == 0.0;
-        for i in (0..system.storeys.len()).filter(|i| !stay_elastic[*i]) {
+        for i in (0..system.storeys.len()).filter(|i| !is_free[system.pairs.len() + i]) {
             let expanded = ((&work.series, &ALL), None, is_start);
             first = system.first_yield(base, i, expanded, first, 1.0).or(first);
         }
         first
     }
 
-    /// Whether both ends of a piece prove that no pair meets in it; if so, the search moves on to its end.
-    fn piece_stays_apart(&mut self, length: f64) -> bool {
+    /// Whether both ends of a piece prove that no limit is reached in it; if so, the search moves on to its end.
+    fn piece_stays_within(&mut self, length: f64) -> bool {
         let Search { certificate, system, look, work, .. } = self;
-        let Look { q, v, load, .. } = &*look;
-        let deviation =
-            certificate.deviation(&system.structure, (q, v), (load, &work.slope), length, &mut work.scratch);
+        let (motion, loads) = ((&look.q[..], &look.v[..]), (&look.load[..], &work.slope[..]));
+        let deviation = certificate.deviation(&system.structure, motion, loads, length, &mut work.scratch);
         self.fly(length);
         let Search { system, base, look, work, .. } = self;
-        let Look { q, v, end_q, end_v, stay_apart, .. } = &**look;
-        let stays_apart = system.pairs.iter().enumerate().all(|(p, pair)| {
-            let at = |q: &[f64], v: &[f64]| pair.penetration(base.rest.gaps[p], (q, v));
-            let (start, end) = (at(q, v), at(end_q, end_v));
-            stay_apart[p] || roots::highest_of_cubic(start, end, length) + deviation < 0.0
-        });
-        let stays_apart = stays_apart
-            && system.storeys.iter().zip(&base.storeys).enumerate().all(|(i, storey)| {
-                let at = |q: &[f64], v: &[f64]| (dot(&storey.0.row, q), dot(&storey.0.row, v));
-                look.stay_elastic[i]
-                    || storey.0.stays_elastic(storey.1, at(q, v), at(end_q, end_v), (length, deviation))
-            });
-        if stays_apart {
+        let ends = [(&look.q[..], &look.v[..]), (&look.end_q, &look.end_v)];
+        let stays_within = |i: usize| look.is_free[i] || system.stays_within(base, i, ends, (length, deviation));
+        let all_stay_within = (0..system.limits()).all(stays_within);
+        if all_stay_within {
             look.move_on(length, &work.slope);
         }
-        stays_apart
+        all_stay_within
     }
 
     /// Moves the search by the exact flight over a piece of `length` seconds.

@@ -1,0 +1,78 @@
+//! Oscillation about the quasi-static displacement, for however long a flight is.
+//!
+//! Under a load that is linear in time each mode oscillates about its quasi-static displacement s,
+//!
+//! ```text
+//! q = s + h,   s = load / w^2 - c slope / w^4,   h'' + c h' + w^2 h = 0
+//! ```
+//!
+//! and the envelope R = sqrt(h^2 + (h' / w)^2) never grows. Hence the quantity of a row exceeds the one by s alone,
+//! which is largest at one of the ends, at most by the sum over modes of |row| R. So a motion that has died out needs
+//! no further tests, nor does one that oscillates for ever without reaching a limit.
+
+use crate::structure::{Side, Structure};
+
+/// Margin for rounding, relative to the terms of a quantity.
+const MARGIN: f64 = 1e-10;
+
+/// A modal motion from which a flight begins, under a load that is linear in time.
+pub struct Oscillation<'a> {
+    structure: &'a Structure,
+    motion: (&'a [f64], &'a [f64]),
+    loads: (&'a [f64], &'a [f64]),
+    /// Length of the flight, s.
+    length: f64,
+}
+
+impl<'a> Oscillation<'a> {
+    /// From a motion on, under a load and its slope; `None` where damping couples modes and the load changes: then the
+    /// quasi-static displacement is not worked out.
+    pub fn of(
+        structure: &'a Structure,
+        motion: (&'a [f64], &'a [f64]),
+        loads: (&'a [f64], &'a [f64]),
+        length: f64,
+    ) -> Option<Oscillation<'a>> {
+        let is_known = structure.is_classical() || loads.1.iter().all(|slope| *slope == 0.0);
+        is_known.then_some(Oscillation { structure, motion, loads, length })
+    }
+
+    /// Of a mode: quasi-static displacement, its change over the flight, radius of the envelope about it.
+    fn of_mode(&self, m: usize) -> [f64; 3] {
+        let ((q, v), (load, slope)) = (self.motion, self.loads);
+        let (w2, c) = (self.structure.omega2[m], self.structure.damping[m]);
+        if w2 == 0.0 {
+            return [0.0; 3];
+        }
+        let drift = slope[m] / w2;
+        let quasi_static = load[m] / w2 - c * drift / w2;
+        let (h, rate) = (q[m] - quasi_static, v[m] - drift);
+        let radius = (h * h + rate * rate / w2).sqrt() + MARGIN * (quasi_static.abs() + q[m].abs());
+        [quasi_static, drift * self.length, radius]
+    }
+
+    /// Whether `sign` times the quantity of a row stays below a limit, m.
+    pub fn stays_below(&self, row: &[f64], sign: f64, limit: f64) -> bool {
+        let (mut start, mut change, mut swing, mut size) = (0.0, 0.0, 0.0, limit.abs());
+        for side in [Side::Left, Side::Right] {
+            for m in self.structure.range(side) {
+                let [quasi_static, drift, radius] = self.of_mode(m);
+                let radius = if self.structure.is_classical() { radius } else { self.shared_radius(side, m) };
+                start += row[m] * quasi_static;
+                change += row[m] * drift;
+                swing += row[m].abs() * radius;
+                size += (row[m] * quasi_static).abs() + (row[m] * drift).abs();
+            }
+        }
+        // Written so that a NaN never counts as below.
+        (sign * start).max(sign * (start + change)) - limit + swing + MARGIN * size < 0.0
+    }
+
+    /// Envelope radius of a mode of a building in which damping couples modes: that of all its modes, since they
+    /// exchange energy.
+    fn shared_radius(&self, side: Side, mode: usize) -> f64 {
+        let w2 = &self.structure.omega2;
+        let energy = |m: usize| w2[m] * self.of_mode(m)[2] * self.of_mode(m)[2];
+        (self.structure.range(side).map(energy).sum::<f64>() / w2[mode]).sqrt()
+    }
+}

@@ -1,0 +1,54 @@
+//! What the motion must not pass unseen: the gap of each pair, and the yield drift of each storey in either sense. The
+//! rows of the pairs come first, then those of the storeys; bounds are asked for each.
+
+use crate::engine::base::Base;
+use crate::engine::base::storey::Sense;
+use crate::engine::bounds::certificate::stays_below;
+use crate::engine::bounds::oscillation::Oscillation;
+use crate::engine::system::System;
+use crate::structure::dot;
+
+/// Displacements and velocities of all modes.
+pub type Motion<'a> = (&'a [f64], &'a [f64]);
+
+impl System {
+    /// Number of all rows with limits.
+    pub fn limits(&self) -> usize {
+        self.pairs.len() + self.storeys.len()
+    }
+
+    /// All rows with limits.
+    pub fn limited_rows(&self) -> impl Iterator<Item = &[f64]> {
+        self.pairs.iter().map(|pair| &pair.row[..]).chain(self.storeys.iter().map(|storey| &storey.row[..]))
+    }
+
+    /// Whether the quantity of row `i` stays within its limits for `h` seconds from one motion to another, if it is off
+    /// its cubic by at most `deviation`. A storey that has just turned at the base is at its limit.
+    pub fn stays_within(&self, base: &Base, i: usize, [from, to]: [Motion; 2], h: (f64, f64)) -> bool {
+        match i.checked_sub(self.pairs.len()) {
+            None => {
+                let [from, to] = [from, to].map(|motion| self.pairs[i].penetration(base.rest.gaps[i], motion));
+                stays_below(from, to, h)
+            }
+            Some(storey) => {
+                let of = &self.storeys[storey];
+                let [from, to] = [from, to].map(|(q, v)| (dot(&of.row, q), dot(&of.row, v)));
+                of.stays_elastic(&base.storeys[storey], from, to, h)
+            }
+        }
+    }
+
+    /// Whether no quantity reaches a limit within `length` seconds from a modal motion on, under a load and its slope,
+    /// by the envelopes of the oscillations. Gaps and limits are those of the base.
+    pub fn envelopes_stay_within(&self, base: &Base, motion: Motion, loads: (&[f64], &[f64]), length: f64) -> bool {
+        let oscillation = Oscillation::of(&self.structure, motion, loads, length);
+        let Some(oscillation) = oscillation.filter(|_| !cfg!(without = "envelopes")) else { return false };
+        let mut pairs = self.pairs.iter().zip(&base.rest.gaps);
+        let mut storeys = self.storeys.iter().zip(&base.storeys);
+        pairs.all(|(pair, gap)| oscillation.stays_below(&pair.row, 1.0, *gap))
+            && storeys.all(|(of, storey)| {
+                let limit = |sign: f64| of.limit + sign * of.ratio * storey.plastic;
+                Sense::BOTH.map(Sense::sign).iter().all(|sign| oscillation.stays_below(&of.row, *sign, limit(*sign)))
+            })
+    }
+}

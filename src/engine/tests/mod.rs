@@ -1,0 +1,5 @@
+//! Tests of the engine's inside, which no run shows by itself.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod bounds;
+mod motions;
