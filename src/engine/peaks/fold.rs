@@ -11,64 +11,13 @@ use crate::engine::bounds::flights::{Flights, Load};
 use crate::engine::bounds::span::{BlockBounds, ModeSizes, PART, Span};
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::model::Model;
+use crate::engine::peaks::fold_room::{OpenBlock, SHORT, SpanRoom, Survivor};
 use crate::engine::peaks::room::PeakWork;
-use crate::engine::quantities::rows::{BuildingRows, PeakRows, values_of};
-use crate::engine::quantities::truncated::{TruncatedBuilding, TruncatedRows};
+use crate::engine::quantities::rows::{BuildingRows, values_of};
+use crate::engine::quantities::truncated::TruncatedBuilding;
 use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
-
-/// Times in a span of a long log, and of one or two flights.
-const LONG: usize = 16;
-const SHORT: usize = 2;
-
-/// Blocks and flights, per block, for which there is room from the start.
-const SURVIVORS: usize = 64;
-
-/// Scratch memory of a fold.
-#[derive(Clone, Debug, Default)]
-pub struct FoldRoom {
-    long: SpanRoom<LONG>,
-    short: SpanRoom<SHORT>,
-    survivors: Vec<Survivor>,
-}
-
-/// The same of one building, for spans of N times.
-#[derive(Clone, Debug, Default)]
-struct SpanRoom<const N: usize> {
-    spans: Vec<Span<N>>,
-    /// The slow modes in one span.
-    motion: Vec<[[f64; N]; 2]>,
-    /// Bounds on the slow modes and on the groups of the quick ones, span by span.
-    sizes: Vec<ModeSizes>,
-    quick: Vec<f64>,
-    /// Sizes and numbers of the spans, largest first.
-    order: Vec<(f64, usize)>,
-    open: Vec<OpenBlock>,
-}
-
-/// A block of quantities that may exceed its peaks within a span.
-#[derive(Clone, Copy, Debug)]
-struct OpenBlock {
-    span: usize,
-    /// Number of the block among those of its building.
-    block: usize,
-    coarse: Lane,
-    upper: Lane,
-}
-
-/// A block of quantities that may exceed its peaks within a flight.
-#[derive(Clone, Copy, Debug)]
-struct Survivor {
-    flight: usize,
-    /// Number of the block among those of both buildings.
-    block: usize,
-    upper: Lane,
-    /// By how much it may exceed a peak at most.
-    excess: f64,
-    /// The values at both ends.
-    ends: [Lane; 2],
-}
 
 /// Flights, and one building's rows to be read over them.
 struct Fold<'a> {
@@ -197,37 +146,6 @@ impl Model {
             }
         }
         self.search_flight(stretch, peaks, work);
-    }
-}
-
-impl FoldRoom {
-    /// Room for folds of so many flights over these rows.
-    pub fn new(rows: &PeakRows, truncated: &TruncatedRows, flights: usize) -> FoldRoom {
-        let survivors = if flights == 0 { 0 } else { SURVIVORS * rows.blocks() };
-        let (long, short) = (SpanRoom::new(rows, truncated, flights), SpanRoom::new(rows, truncated, flights.min(1)));
-        FoldRoom { long, short, survivors: Vec::with_capacity(survivors) }
-    }
-}
-
-impl<const N: usize> SpanRoom<N> {
-    fn new(rows: &PeakRows, truncated: &TruncatedRows, flights: usize) -> SpanRoom<N> {
-        let spans = flights.div_ceil(N - 1);
-        let most = |of: &dyn Fn(&TruncatedBuilding) -> usize| truncated.buildings.iter().map(of).max().unwrap_or(0);
-        let blocks = rows.buildings.iter().map(|building| building.blocks.len()).max().unwrap_or(0);
-        SpanRoom {
-            spans: Vec::with_capacity(spans),
-            motion: Vec::with_capacity(most(&|building| building.slow)),
-            sizes: Vec::with_capacity(spans * most(&|building| building.slow)),
-            quick: Vec::with_capacity(spans * (N.div_ceil(PART) + 1) * most(&|building| building.groups.len())),
-            order: Vec::with_capacity(spans),
-            open: Vec::with_capacity(spans * blocks),
-        }
-    }
-
-    /// Parts flights into spans.
-    fn part(&mut self, flights: &Flights) {
-        self.spans.clear();
-        self.spans.extend((0..flights.count()).step_by(N - 1).map(|from| Span::of(flights, from)));
     }
 }
 

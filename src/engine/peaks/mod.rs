@@ -15,6 +15,7 @@ pub mod contact;
 pub mod flight;
 pub mod floors;
 pub mod fold;
+mod fold_room;
 pub mod log;
 pub mod reading;
 pub mod rest;

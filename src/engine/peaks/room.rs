@@ -2,7 +2,7 @@
 //! it changes a result, so no saved state holds it.
 
 use crate::engine::bounds::stretch::ModeBounds;
-use crate::engine::peaks::fold::FoldRoom;
+use crate::engine::peaks::fold_room::FoldRoom;
 use crate::engine::quantities::rows::{PeakOf, PeakRows};
 use crate::engine::quantities::truncated::TruncatedRows;
 use crate::engine::system::buffers::Buffers;

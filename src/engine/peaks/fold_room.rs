@@ -1,0 +1,90 @@
+//! Scratch memory of a fold.
+
+use crate::engine::bounds::flights::Flights;
+use crate::engine::bounds::span::{ModeSizes, PART, Span};
+use crate::engine::quantities::rows::PeakRows;
+use crate::engine::quantities::truncated::{TruncatedBuilding, TruncatedRows};
+use crate::structure::Lane;
+
+/// Times in a span of a long log, and of one or two flights.
+pub(super) const LONG: usize = 16;
+pub(super) const SHORT: usize = 2;
+
+/// Blocks and flights, per block, for which there is room from the start.
+const SURVIVORS: usize = 64;
+
+/// Scratch memory of a fold.
+#[derive(Clone, Debug, Default)]
+pub(in crate::engine) struct FoldRoom {
+    pub(super) long: SpanRoom<LONG>,
+    pub(super) short: SpanRoom<SHORT>,
+    pub(super) survivors: Vec<Survivor>,
+}
+
+/// The same of one building, for spans of N times.
+#[derive(Clone, Debug, Default)]
+pub(super) struct SpanRoom<const N: usize> {
+    pub(super) spans: Vec<Span<N>>,
+    /// The slow modes in one span.
+    pub(super) motion: Vec<[[f64; N]; 2]>,
+    /// Bounds on the slow modes and on the groups of the quick ones, span by span.
+    pub(super) sizes: Vec<ModeSizes>,
+    pub(super) quick: Vec<f64>,
+    /// Sizes and numbers of the spans, largest first.
+    pub(super) order: Vec<(f64, usize)>,
+    pub(super) open: Vec<OpenBlock>,
+}
+
+/// A block of quantities that may exceed its peaks within a span.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OpenBlock {
+    pub(super) span: usize,
+    /// Number of the block among those of its building.
+    pub(super) block: usize,
+    pub(super) coarse: Lane,
+    pub(super) upper: Lane,
+}
+
+/// A block of quantities that may exceed its peaks within a flight.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Survivor {
+    pub(super) flight: usize,
+    /// Number of the block among those of both buildings.
+    pub(super) block: usize,
+    pub(super) upper: Lane,
+    /// By how much it may exceed a peak at most.
+    pub(super) excess: f64,
+    /// The values at both ends.
+    pub(super) ends: [Lane; 2],
+}
+
+impl FoldRoom {
+    /// Room for folds of so many flights over these rows.
+    pub fn new(rows: &PeakRows, truncated: &TruncatedRows, flights: usize) -> FoldRoom {
+        let survivors = if flights == 0 { 0 } else { SURVIVORS * rows.blocks() };
+        let (long, short) = (SpanRoom::new(rows, truncated, flights), SpanRoom::new(rows, truncated, flights.min(1)));
+        FoldRoom { long, short, survivors: Vec::with_capacity(survivors) }
+    }
+}
+
+impl<const N: usize> SpanRoom<N> {
+    fn new(rows: &PeakRows, truncated: &TruncatedRows, flights: usize) -> SpanRoom<N> {
+        let spans = flights.div_ceil(N - 1);
+        let most = |of: &dyn Fn(&TruncatedBuilding) -> usize| truncated.buildings.iter().map(of).max().unwrap_or(0);
+        let blocks = rows.buildings.iter().map(|building| building.blocks.len()).max().unwrap_or(0);
+        SpanRoom {
+            spans: Vec::with_capacity(spans),
+            motion: Vec::with_capacity(most(&|building| building.slow)),
+            sizes: Vec::with_capacity(spans * most(&|building| building.slow)),
+            quick: Vec::with_capacity(spans * (N.div_ceil(PART) + 1) * most(&|building| building.groups.len())),
+            order: Vec::with_capacity(spans),
+            open: Vec::with_capacity(spans * blocks),
+        }
+    }
+
+    /// Divides flights into spans.
+    pub(super) fn part(&mut self, flights: &Flights) {
+        self.spans.clear();
+        self.spans.extend((0..flights.count()).step_by(N - 1).map(|from| Span::of(flights, from)));
+    }
+}
