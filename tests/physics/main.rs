@@ -10,6 +10,7 @@ mod impacts;
 mod linear_inputs;
 mod many_storeys;
 mod peaks;
+mod peaks_whenever;
 mod piecewise;
 mod propagator;
 mod rates;

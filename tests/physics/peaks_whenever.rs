@@ -1,0 +1,106 @@
+//! Peaks are the same, to the last bit, however often and whenever they are read, and the state is saved or restored, on the
+//! way: flights are logged, and the peaks raised over many of them at once.
+
+use crate::common::peaks::all;
+use crate::common::{Run, record, scene};
+use pounding::record::Record;
+
+/// A fixed sequence of numbers between 0 and 1.
+struct Sequence(u64);
+
+impl Sequence {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+fn building(storeys: usize, stiffness: f64, more: &str) -> String {
+    let list = |of: f64| vec![format!("{of:?}"); storeys].join(", ");
+    format!("mass = [{}]\nstiffness = [{}]\ndamping = {{ ratio = 0.03 }}\n{more}", list(1e5), list(stiffness))
+}
+
+fn text(left: &str, right: &str, contact: &str) -> String {
+    format!("name = \"Whenever\"\n[left]\n{left}\n[right]\n{right}\n{contact}")
+}
+
+/// Even samples, then a jump of the interval between them, for 12 s.
+fn shaking() -> Record {
+    let wave = |k: usize| 2.5 * (0.13 * k as f64).sin() + 1.5 * (0.41 * k as f64).sin() + (1.3 * k as f64).sin();
+    record(0.01, &(0..1200).map(wave).collect::<Vec<f64>>())
+}
+
+fn bits(run: &Run) -> Vec<u64> {
+    all(run).into_iter().flatten().map(|read| read.peak.to_bits()).collect()
+}
+
+fn check(text: &str, stop: f64) {
+    let (scene, shaking) = (scene(text), shaking());
+    let expected = bits(Run::new(&scene, Some(&shaking)).to(stop));
+    for seed in 0..4 {
+        let mut sequence = Sequence(seed);
+        let mut run = Run::new(&scene, Some(&shaking));
+        let mut time = 0.0;
+        while time < stop {
+            time = (time + 10.0_f64.powf(-3.0 + 3.0 * sequence.next())).min(stop);
+            run.to(time);
+            match (5.0 * sequence.next()) as u32 {
+                // Read here, then go on.
+                0 => drop(bits(&run)),
+                1 => drop(run.save()),
+                // Go on in another state, and come back.
+                2 => {
+                    let saved = run.save();
+                    run.to((time + 0.7).min(stop));
+                    drop(bits(&run));
+                    run.model.restore(&saved, &mut run.state);
+                    run.to(time);
+                }
+                // A copy goes another way, whose point is read in turn with this one.
+                3 => {
+                    let mut copy = run.state.clone();
+                    run.model.advance(&mut copy, (time + 0.3).min(stop), &mut |_| ()).unwrap();
+                    let mine = std::mem::replace(&mut run.state, copy);
+                    run.model.observe(&run.state, &mut run.point);
+                    drop(bits(&run));
+                    run.state = mine;
+                    run.to(time);
+                    drop(bits(&run));
+                }
+                _ => {}
+            }
+        }
+        assert!(bits(&run) == expected, "other peaks, seed {seed}");
+    }
+}
+
+const CONTACT: &str = "[[contact]]\nleft_floor = 2\nright_floor = 2\ngap = 0.02\n";
+
+#[test]
+fn apart() {
+    check(&text(&building(3, 8e7, ""), &building(2, 2e8, ""), ""), 12.0);
+}
+
+#[test]
+fn of_tall_buildings() {
+    check(&text(&building(30, 4e8, ""), &building(22, 1e9, ""), ""), 12.0);
+}
+
+#[test]
+fn with_impacts() {
+    let law = "law = \"hertz\"\nstiffness = 1e9\n";
+    check(&text(&building(3, 8e7, ""), &building(2, 2e8, ""), &format!("{CONTACT}{law}")), 12.0);
+}
+
+#[test]
+fn with_impulses() {
+    let law = "law = \"stereomechanical\"\nrestitution = 0.6\n";
+    check(&text(&building(3, 8e7, ""), &building(2, 2e8, ""), &format!("{CONTACT}{law}")), 12.0);
+}
+
+#[test]
+fn with_yields() {
+    let yielding = "yield_force = [4e5, 4e5, 4e5]\npost_yield_ratio = 0.05\n";
+    let law = "law = \"linear\"\nstiffness = 1e8\n";
+    check(&text(&building(3, 8e7, yielding), &building(2, 2e8, ""), &format!("{CONTACT}{law}")), 12.0);
+}
