@@ -108,7 +108,8 @@ impl<const N: usize> Span<N> {
             let (from, to) = (part * PART, ((part + 1) * PART).min(self.count));
             let kinks: f64 = self.slopes[from..to].windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
             out.fill(0.0);
-            for t in from..if self.has_gap { to } else { from + 1 } {
+            // After a gap the quick modes may swing more, at the end of a part as well.
+            for t in from..=if self.has_gap { to } else { from } {
                 let (q, v) = flights.motion(self.from + t);
                 for (group, out) in groups.iter().zip(&mut *out) {
                     let range = offset + group.modes.start..offset + group.modes.end;

@@ -180,6 +180,19 @@ mod tests {
     }
 
     #[test]
+    fn an_input_that_there_is_not_changes_no_other() {
+        for has_floor_forces in [true, false] {
+            let mut inputs = Inputs::of([1, 2], has_floor_forces);
+            for (side, floor) in [(Side::Left, 1), (Side::Right, 2)] {
+                inputs.set(Input::Force(side, floor), 3.0, 0.0);
+                inputs.set_rate(Input::Force(side, floor), 3.0, 0.0);
+                assert_eq!(inputs.get(Input::Force(side, floor)), LinearInput::default());
+            }
+            assert!(inputs.numbers().all(|number| number == 0.0), "{inputs:?}");
+        }
+    }
+
+    #[test]
     fn far_from_0_no_digits_are_lost() {
         let mut input = LinearInput::default();
         input.set_slope(1.0, 1e6);
