@@ -43,6 +43,7 @@ impl Separators {
     }
 
     fn number(self, field: &str) -> Option<f64> {
+        let field = field.trim_matches('"');
         match self.has_decimal_comma {
             true if !field.contains('.') => fortran_number(&field.replace(',', ".")),
             _ => fortran_number(field),

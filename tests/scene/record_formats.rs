@@ -456,8 +456,8 @@ fn two_columns_in_every_form() {
     ] {
         assert_eq!(read(None, format!("{header}{rows}")).record.accelerations, [factor, -2.0 * factor], "{header}");
     }
-    let latin = b"# \xc5re\ntime accel (g)\n0 1\n1 2\n";
-    assert_eq!(read(None, latin).record.accelerations[0], 9.80665);
+    let latin = b"# \xc5re\n\"time\",\"accel [cm/s\xb2]\"\n\"0\",\"1\"\n\"1\",\"2\"\n";
+    assert_eq!(read(None, latin).record.accelerations[0], 0.01);
 }
 
 #[test]
