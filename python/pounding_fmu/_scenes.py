@@ -143,7 +143,9 @@ class Names:
 
 def unknown(name: object, known: Iterable[str], what: str) -> str:
     """What is said of a name that is not known, and the one that may have been meant."""
-    close = difflib.get_close_matches(str(name), list(known), n=1)
+    names, start = list(known), str(name)
+    longer = [one for one in names if start and one.startswith(start)]
+    close = longer or difflib.get_close_matches(start, names, n=1)
     return f"{name}: {what}" + (f"; did you mean {close[0]}?" if close else "")
 
 

@@ -34,9 +34,11 @@ def main(arguments: list[str]) -> int:
 
 
 def scenes() -> dict[str, str]:
-    """The descriptions of all scenes by their names."""
-    read = {file.stem: _native.Scene.read(str(file))[0] for file in sorted((DATA / "scenes").glob("*.toml"))}
-    return {name: scene.description or scene.name for name, scene in read.items() if scene is not None}
+    """What all scenes are, by their names: the description, or the remark in the first line."""
+    files = sorted((DATA / "scenes").glob("*.toml"))
+    read = {file: _native.Scene.read(str(file))[0] for file in files}
+    first = {file: file.read_text(encoding="utf-8").partition("\n")[0].strip("# ") for file in files}
+    return {file.stem: scene.description or first[file] for file, scene in read.items() if scene is not None}
 
 
 def write(name: str, folder: Path) -> list[Path]:

@@ -90,6 +90,7 @@ def test_examples_are_listed():
     assert [line.split()[0] for line in lines[: len(SCENES)]] == SCENES
     assert all(len(line.split()) > 1 for line in lines[: len(SCENES)])
     assert any(line.startswith("offices ") and "Office buildings of five and three storeys" in line for line in lines)
+    assert "two_blocks  Two small blocks of concrete: the scene of the README." in lines  # has no description
 
 
 @pytest.mark.parametrize("name", SCENES)

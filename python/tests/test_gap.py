@@ -187,14 +187,6 @@ def test_the_costs_are_those_of_runs():
         assert touching.drift_ratios[side] == pytest.approx(max(near[name] / free[name] for name in names), rel=1e-12)
 
 
-def test_the_gap_on_a_slope_is_the_one_that_the_guide_quotes(tmp_path):
-    text = OFFICES.read_text().replace("../records", str(fmus.RECORD.parent))
-    scene = text.replace("[right]\n", "[right]\nbase_level = -1.2\n")
-    [row] = required_gap(scene)
-    guide = " ".join((fmus.EXAMPLES.parent / "docs/guide.md").read_text().split())
-    assert f"`contact[{row.contact}]` closes by {1e3 * row.gap:.1f} mm" in guide
-
-
 def test_mistakes_of_the_command():
     wrong = gap("nowhere.toml")
     assert wrong.returncode == 1 and "nowhere.toml: No such file" in wrong.stderr

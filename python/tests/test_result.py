@@ -53,6 +53,7 @@ def test_columns_that_there_are_not():
     for name, said in {
         "left.displacment[1]": "the run has no such column; did you mean left.displacement[1]?",
         "contact[1].gap": "not among the outputs of this run",
+        "left.dis": "did you mean left.displacement[1]?",
         "time ": "did you mean time?",
     }.items():
         with pytest.raises(KeyError, match=re.escape(said)):

@@ -43,6 +43,7 @@ impl Separators {
     }
 
     fn number(self, field: &str) -> Option<f64> {
+        let field = field.trim_matches('"');
         match self.has_decimal_comma {
             true if !field.contains('.') => fortran_number(&field.replace(',', ".")),
             _ => fortran_number(field),
@@ -161,12 +162,13 @@ fn units_in(line: &str) -> Vec<Unit> {
     units
 }
 
-/// `None` where the text holds no two columns.
+/// `None` where the text holds no two columns: no row of two numbers, or most rows have others.
 pub(super) fn parse(text: &str) -> Option<Result<Accelerogram, RecordError>> {
     let head = Head::read(text)?;
     let mut reading = Reading::with_capacity(0);
     head.check_names(&mut reading);
     let unit = head.unit(&mut reading).unwrap_or(Unit::Metres);
+    let mut others = 0;
     for (number, line) in numbered(text).skip(head.first - 1) {
         if line.trim().is_empty() || is_comment(line) {
             continue;
@@ -175,9 +177,15 @@ pub(super) fn parse(text: &str) -> Option<Result<Accelerogram, RecordError>> {
         let values: Vec<Option<f64>> = fields.iter().map(|field| head.separators.number(field)).collect();
         match values[..] {
             [Some(time), Some(value)] => reading.add(time, unit.in_si(value), |problem| on_line(number, problem)),
-            _ => reading
-                .skip(|| on_line(number, format!("{}: expected 2 numbers, time and acceleration", excerpt(line)))),
+            _ => {
+                others += usize::from(values.len() > 2 && values.iter().all(Option::is_some));
+                reading
+                    .skip(|| on_line(number, format!("{}: expected 2 numbers, time and acceleration", excerpt(line))));
+            }
         }
+    }
+    if 2 * others > reading.samples {
+        return None;
     }
     let about = head.lines.first().map_or_else(String::new, |(_, line)| excerpt(line));
     let accelerogram = |record| Accelerogram { format: Format::Columns, about, channels: Vec::new(), record };
@@ -187,5 +195,7 @@ pub(super) fn parse(text: &str) -> Option<Result<Accelerogram, RecordError>> {
 /// How many columns of numbers a text has that are not two, and in which line they begin.
 pub(super) fn count(text: &str) -> Option<(usize, usize)> {
     let rows = numbered(text).take(MOST_HEADER_LINES).filter(|(_, line)| !is_comment(line));
-    rows.filter_map(|(number, line)| Some((number, KNOWN.iter().find_map(|known| known.numbers(line))?.len()))).next()
+    let mut counts =
+        rows.filter_map(|(number, line)| Some((number, KNOWN.iter().find_map(|known| known.numbers(line))?.len())));
+    counts.find(|(_, count)| *count != 2)
 }

@@ -10,7 +10,7 @@
 //! | K-NET, KiK-net \[Nied2006\] | `Origin Time` at its beginning | counts, times the `Scale Factor` in gal | from 0, by `Sampling Freq` | `knet.rs` |
 //! | ESM, ITACA \[Luzi2016\] | lines `KEY: VALUE`, such as `EVENT_NAME:` | those of `UNITS` | from 0, every `SAMPLING_INTERVAL_S` | `esm.rs` |
 //! | CSMIP volume 2 \[ShakalHuang1985\] | `7200 points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.3)` | those of that line | from 0, as that line says | `volume2.rs` |
-//! | COSMOS volume 2 \[Cosmos2001\] | `7200 acceleration pts, approx 72 secs, units=cm/sec2(04),Format=(8f10.5)` | those of that line | from 0, number 34 of the real header in s | `volume2.rs` |
+//! | COSMOS volume 2 \[Cosmos2001\] | `7200 acceleration pts, approx 72 secs, units=cm/sec2(04),Format=(8f10.5)` | those of that line | from 0, number 62 of the real header in ms, else number 34 in s | `volume2.rs` |
 //! | two columns | rows of two numbers | those that a header or a comment names | any that increase strictly | `columns.rs` |
 //!
 //! Byte order mark, `\r\n`, blank lines, characters of any encoding in headers and comments, and a last line without an end

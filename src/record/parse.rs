@@ -12,8 +12,7 @@ impl Accelerogram {
     /// # Errors
     /// As [`Record::parse`].
     pub fn parse(name: &str, channel: Option<usize>, bytes: &[u8]) -> Result<Accelerogram, RecordError> {
-        let text = text_of(bytes);
-        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        let text = &*text_of(bytes);
         if csv::is_it(text) {
             return csv::parse(text).and_then(|found| found.of_channel(channel));
         }

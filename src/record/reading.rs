@@ -125,9 +125,12 @@ pub(super) fn numbered(text: &str) -> impl Iterator<Item = (usize, &str)> {
     text.lines().enumerate().map(|(i, line)| (i + 1, line))
 }
 
-/// The text of a file. Only comments may be in another encoding: what is not UTF-8 is no part of a number.
+/// The text of a file, without a byte order mark. What is not UTF-8 is read as Latin-1, in which a unit may be `m/s²`; of
+/// other encodings names are wrong then, but no numbers.
 pub(super) fn text_of(bytes: &[u8]) -> Cow<'_, str> {
-    std::str::from_utf8(bytes).map_or_else(|_| String::from_utf8_lossy(bytes), Cow::Borrowed)
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let latin = || bytes.iter().map(|&byte| char::from(byte)).collect();
+    std::str::from_utf8(bytes).map_or_else(|_| Cow::Owned(latin()), Cow::Borrowed)
 }
 
 /// Text of a file for a message: one line, at most 40 characters.

@@ -12,9 +12,10 @@ use crate::figures::plain;
 const USUAL: Columns = Columns { count: 8, width: 10 };
 /// Lines between the beginning of a channel and its first block, and more.
 const MOST_HEADER_LINES: usize = 300;
-/// Which of the real numbers of a COSMOS header is the sampling interval in s, and the one in ms; counted from 1.
-const INTERVAL: usize = 34;
+/// Which of the real numbers of a COSMOS header is the sampling interval of the samples in ms, and that of the recorder in
+/// s, from which the samples may have been resampled; counted from 1.
 const INTERVAL_MS: usize = 62;
+const RECORDER: usize = 34;
 
 /// Whether a text has a block of this kind.
 pub(super) fn is_it(text: &str) -> bool {
@@ -51,10 +52,14 @@ fn choose<'c, 't>(channels: &'c [Channel<'t>], number: Option<usize>) -> Option<
 
 fn unknown(channels: &[Channel<'_>], number: Option<usize>, others: usize) -> String {
     match (channels.len(), number) {
-        (0, _) if others > 0 => "it holds velocity or displacement: expected a block of acceleration".to_owned(),
+        (0, _) if others > 0 => {
+            "velocity, displacement or an uncorrected accelerogram: expected a block of acceleration".to_owned()
+        }
         (0, _) => {
             let line = "\"7200 points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.3)\"";
-            format!("it ends within its headers: expected a block of acceleration, after a line such as {line}")
+            format!(
+                "cut off within its headers or of another format: expected a block of acceleration, after a line such as {line}"
+            )
         }
         (count, number) => {
             let labels: Vec<&str> = channels.iter().take(20).map(|channel| channel.label.as_str()).collect();
@@ -89,19 +94,17 @@ impl<'t> Block<'t> {
         let lower = rest.to_ascii_lowercase();
         let has = |word: &str| lower.contains(word);
         let after = |word: &str| rest.get(lower.find(word)? + word.len()..);
-        let (step, unit) = if has("points of") && has("equally spaced at") {
-            (after("equally spaced at")?.split_whitespace().next(), after(" in ").unwrap_or_default())
-        } else if (has("pts") || has("points")) && has("units") {
-            (None, after("units")?.trim_start().trim_start_matches('='))
-        } else {
+        let is_csmip = has("points of") && has("equally spaced at");
+        if !is_csmip && !((has("pts") || has("points")) && has("units")) {
             return None;
-        };
+        }
+        let unit = after("units").or_else(|| after(" in ")).unwrap_or_default();
         Some(Block {
             count: count.parse().ok()?,
-            step,
-            unit: unit.split(['(', ',', ';']).next()?.trim(),
+            step: after("equally spaced at").filter(|_| is_csmip).and_then(|rest| rest.split_whitespace().next()),
+            unit: unit.trim_start_matches(|c: char| " :=".contains(c)).split(['(', ')', ',', ';']).next()?.trim(),
             length: after("approx").and_then(|rest| rest.split_whitespace().next()?.parse().ok()),
-            is_acceleration: has("accel"),
+            is_acceleration: has("acc") && !has("accelerogram"),
             columns: Columns::find(after("format").or_else(|| after(" in ")).unwrap_or(rest)),
         })
     }
@@ -160,8 +163,8 @@ impl<'t> Channel<'t> {
         let label = header.iter().find_map(|(_, line)| channel_label(line)).unwrap_or_default();
         let digits = label.chars().skip_while(|c| !c.is_ascii_digit()).take_while(char::is_ascii_digit);
         let station = header.iter().find(|(_, line)| {
-            let line = line.to_ascii_lowercase();
-            line.contains("station no") || line.contains("statn no")
+            let line = line.trim_start().to_ascii_lowercase();
+            line.starts_with("station ") || line.starts_with("statn ")
         });
         let station = station.map_or_else(String::new, |(_, line)| excerpt(line));
         let about = [station, label.clone()].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>();
@@ -182,8 +185,8 @@ impl<'t> Channel<'t> {
             Some(text) => (fortran_number(text).filter(positive), format!("spaced at {}", excerpt(text))),
             None => {
                 let real = |number: usize| self.reals.get(number - 1).copied().filter(positive);
-                let step = real(INTERVAL).or_else(|| Some(real(INTERVAL_MS)? / 1e3));
-                (step, format!("number {INTERVAL} of the real header"))
+                let step = real(INTERVAL_MS).map(|interval| interval / 1e3).or_else(|| real(RECORDER));
+                (step, format!("numbers {INTERVAL_MS} and {RECORDER} of the real header"))
             }
         };
         let Some(step) = step else {
@@ -191,7 +194,7 @@ impl<'t> Channel<'t> {
             return None;
         };
         let length = self.block.count as f64 * step;
-        if let Some(said) = self.block.length.filter(|said| length < 0.5 * said - 2.0 || length > 2.0 * said + 2.0) {
+        if let Some(said) = self.block.length.filter(|said| (length - said).abs() > 2.0 + 0.05 * said) {
             let found = format!("{} samples every {} s", self.block.count, plain(step));
             reading.refuse(|| on_line(self.line, format!("{found}: expected approx {} s of them", plain(said))));
         }
@@ -233,7 +236,7 @@ fn channel_label(line: &str) -> Option<String> {
     let start = line.to_ascii_lowercase().find("chan")?;
     let label = line.get(start..)?;
     let (name, rest) = label.split_once(':')?;
-    let is_number = name.chars().any(|c| c.is_ascii_digit()) && name.len() < 16;
+    let is_number = name.contains(|c: char| c.is_ascii_digit() || c == '?') && name.len() < 16;
     let rest = rest.trim().split("  ").next().unwrap_or_default().split('(').next().unwrap_or_default();
     is_number.then(|| excerpt(&format!("{name}: {}", rest.trim())))
 }

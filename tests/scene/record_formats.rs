@@ -271,6 +271,9 @@ fn csmip_as_it_is_found() {
         file.replace("Deg", "Deg \u{b0}"),
         // All in capitals, as files of the seventies are.
         file.to_uppercase(),
+        // Older ones name the unit in brackets, and without a format; USC's have shorter names.
+        file.replace("sec, in cm/sec2. (8f10.3)", "SEC.  (UNITS: CM/SEC/SEC)"),
+        file.replace("accel data", "ACC DATA").replace("in cm/sec2. (8f10.3)", "IN UNITS CM/SEC/SEC"),
         file.replace(" (8f10.3)    \n", "\n(8f10.3)\n"),
         file.replace(" (8f10.3)    \n", "\n"),
         file.replace(
@@ -305,11 +308,16 @@ fn csmip_that_is_refused() {
     let unit = "expected a unit of acceleration, cm/sec2 or g";
     assert_eq!(says("cm/sec2. ", "g/10.    "), [format!("line 46: in g/10.: {unit}")]);
     assert_eq!(says(" .010 sec", "0.000 sec"), ["line 46: spaced at 0.000: expected the s from sample to sample"]);
-    let velocity = "it holds velocity or displacement: expected a block of acceleration";
+    let velocity = "velocity, displacement or an uncorrected accelerogram: expected a block of acceleration";
     assert_eq!(refused(None, csmip(1, "Up", VELOCITY)), [velocity]);
+    let uncorrected = "    10 Accelerogram points at 100 pts/sec in units of g .      Format: (8f9.6)\n  .000001\n";
+    assert_eq!(refused(None, csmip(1, "Up", uncorrected)), [velocity]);
     let cut = csmip_file();
     let said = refused(None, &cut[..1400]);
-    assert!(said[0].starts_with("it ends within its headers: expected a block of acceleration"), "{said:?}");
+    assert!(
+        said[0].starts_with("cut off within its headers or of another format: expected a block of acceleration"),
+        "{said:?}"
+    );
     // Cut off within the third channel, the others can be read.
     let third = cut.rfind("99.000").unwrap();
     assert_eq!(read(Some(2), &cut[..third]).record.accelerations[2], 0.77);
@@ -364,6 +372,14 @@ fn cosmos_volume_2() {
     assert_eq!(found.record.accelerations, expected);
     assert_eq!(found.record.times, (0..10).map(|k| f64::from(k) * 0.005).collect::<Vec<_>>());
     assert_eq!((found.format, found.channels), (Format::Cosmos, vec!["Chan   1: 90 deg".to_owned()]));
+    // Resampled: the recorder has had an interval of 20 ms, these samples have one of 5 ms.
+    let resampled = cosmos(1, "acceleration", COSMOS_DATA).replace("     0.005000", "     0.020000");
+    let mut lines: Vec<String> = resampled.split_inclusive('\n').map(str::to_owned).collect();
+    let start = lines.iter().position(|line| line.contains("Real-header")).unwrap();
+    lines[start + 11] = lines[start + 11].replacen("  -999.000000  -999.000000", "  -999.000000     5.000000", 1);
+    assert_eq!(read(None, lines.concat()).record.times, found.record.times);
+    let unnumbered = read(None, cosmos(1, "acceleration", COSMOS_DATA).replace("Chan   1: 90 deg", "Chan   ?:Other "));
+    assert_eq!(unnumbered.channels, ["Chan   ?: Other"]);
     // Other networks: a value a line, another unit.
     let single =
         COSMOS_DATA.lines().next().unwrap().replace("(8f10.5)", "(1E15.6)").replace("cm/sec2(04)", "cm/s^2 (4)");
@@ -384,15 +400,15 @@ fn cosmos_that_is_refused() {
     let says = |from: &str, to: &str| refused(None, cosmos(1, "acceleration", COSMOS_DATA).replace(from, to));
     let unit = "expected a unit of acceleration, cm/sec2 or g";
     assert_eq!(says("cm/sec2(04)", "counts (50)"), [format!("line 45: in counts: {unit}")]);
-    let interval = "line 45: number 34 of the real header: expected the s from sample to sample";
+    let interval = "line 45: numbers 62 and 34 of the real header: expected the s from sample to sample";
     assert_eq!(says("     0.005000", "  -999.000000"), [interval]);
-    let long = "line 45: 10 samples every 0.005 s: expected approx 67 s of them";
-    assert_eq!(says("approx   0 secs", "approx  67 secs"), [long]);
+    let long = "line 45: 10 samples every 0.005 s: expected approx 3 s of them";
+    assert_eq!(says("approx   0 secs", "approx   3 secs"), [long]);
     let count = "line 45: points of acceleration = 10: expected 8, the number of samples in the file";
     assert_eq!(says("   5.00000-100.00000\n", ""), [count]);
     let velocity = COSMOS_DATA.replace("acceleration", "velocity").replace("cm/sec2(04)", "cm/sec(05)");
     let said = refused(None, cosmos(1, "velocity", &velocity));
-    assert_eq!(said, ["it holds velocity or displacement: expected a block of acceleration"]);
+    assert_eq!(said, ["velocity, displacement or an uncorrected accelerogram: expected a block of acceleration"]);
 }
 
 #[test]
@@ -440,8 +456,8 @@ fn two_columns_in_every_form() {
     ] {
         assert_eq!(read(None, format!("{header}{rows}")).record.accelerations, [factor, -2.0 * factor], "{header}");
     }
-    let latin = b"# \xc5re\ntime accel (g)\n0 1\n1 2\n";
-    assert_eq!(read(None, latin).record.accelerations[0], 9.80665);
+    let latin = b"# \xc5re\n\"time\",\"accel [cm/s\xb2]\"\n\"0\",\"1\"\n\"1\",\"2\"\n";
+    assert_eq!(read(None, latin).record.accelerations[0], 0.01);
 }
 
 #[test]
@@ -473,6 +489,9 @@ fn two_columns_that_are_refused() {
         rows("acceleration_g time_s", "0 1\n1 2\n")[0],
         "line 1: acceleration_g time_s: expected the time first"
     );
+    // A pair of numbers among rows of more, as at the end of other formats' headers, makes no two columns.
+    let six = rows("FILE 0 OF VOLUME I\n0 0", "0 0.078 0.01 0.021 0.02 -0.024\n0.03 -0.034 0.04 -0.034 0.05 -0.043\n");
+    assert!(six[0].starts_with("no known format") && six[1].starts_with("line 3: 6 columns of numbers"), "{six:?}");
     let velocity = rows("time (s) velocity (cm/s)", "0 1\n1 2\n");
     assert_eq!(velocity[0], "line 1: time (s) velocity (cm/s): expected an acceleration");
 }
