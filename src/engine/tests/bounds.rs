@@ -6,40 +6,20 @@
 //! as well.
 
 use super::motions::{
-    Case, Comparison, Damping, Ground, Random, Start, course, largest, limit_storey, size, threshold,
+    Case, Comparison, Damping, Ground, ROUNDING, Random, Start, any_system, course, largest, limit_storey, size,
+    threshold, unit_system,
 };
 use crate::collocation::Solution as WindowSolution;
-use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
-use crate::engine::base::counters::Counters;
-use crate::engine::base::planned::{At, Event, Planned};
 use crate::engine::base::storey::Storey;
-use crate::engine::bounds::certificate::{Certificate, deviation};
-use crate::engine::excitation::inputs::Inputs;
 use crate::engine::flight::Flight;
-use crate::engine::flight::workspace::Look;
-use crate::engine::taylor::exact::plan_exact;
-use crate::engine::taylor::solution::Solution;
 use crate::engine::window::certificate::keeps_off;
 use crate::engine::window::solution::Window;
 use crate::numerics::polynomial::value_and_slope;
-use crate::numerics::roots::highest_of_cubic;
 use crate::structure::dot;
 
 /// Numbers of segments for which the broad phase looks ahead.
 const AHEAD: [usize; 6] = [1, 4, 6, 16, 24, 64];
-
-/// Rounding that is allowed, relative to the terms of a quantity.
-const ROUNDING: f64 = 1e-9;
-
-fn unit_system(random: &mut Random) -> ([usize; 2], [f64; 2]) {
-    ([1, 1], [random.between(0.1, 1.0), random.between(0.1, 1.0)])
-}
-
-fn any_system(random: &mut Random) -> ([usize; 2], [f64; 2]) {
-    let storeys = |random: &mut Random| random.one_of(&[1, 2, 3, 5, 8, 25]);
-    ([storeys(random), storeys(random)], [random.power_of_ten(-1.0, 1.0), random.power_of_ten(-1.0, 1.0)])
-}
 
 /// What the broad phase says of the row number `p`, for the storey as its yield drift in a sense.
 fn compare_ahead(case: &mut Case, random: &mut Random, p: usize, comparison: &mut Comparison, what: &str) {
@@ -202,170 +182,6 @@ fn random_segment(i: usize) -> f64 {
     [1e-3, 1e-2, 0.1][i % 3]
 }
 
-#[test]
-fn both_ends_tell_how_far_from_a_cubic_a_quantity_goes() {
-    let mut random = Random(4);
-    let (mut any, mut pulled) = (Comparison::of("cubic, any motion"), Comparison::of("cubic"));
-    let mut coupled = Comparison::of("cubic, coupled modes");
-    for _ in 0..1500 {
-        let (storeys, frequencies) = any_system(&mut random);
-        let damping = random.one_of(&[Damping::None, Damping::Classical, Damping::Coupled]);
-        let ground = random.one_of(&[Ground::Still, Ground::Any]);
-        let mut case = Case::new(&mut random, storeys, frequencies, damping, (ground, 0.01));
-        let p = random.one_of(&[0, 1, 2, 3]);
-        let row = case.rows()[p].clone();
-        let start = random.one_of(&[Start::Aside, Start::Any]);
-        case.start(&mut random, start, &row);
-        let h = random.between(0.2, 3.0) / case.system.structure.fastest;
-        let [load, slope] = case.load(3);
-        let from = [case.base.q.clone(), case.base.v.clone()];
-        let motion = case.motion(from, [load.clone(), slope.clone()], (h, 16));
-        let Case { system, base, work, .. } = &mut case;
-        let certificate = Certificate::of(&system.structure, [&row[..]].into_iter());
-        let bound = certificate.deviation(&system.structure, (&base.q, &base.v), (&load, &slope), h, &mut work.scratch);
-        let [from, to] = [&motion[0], &motion[16]].map(|[q, v]| (dot(&row, q), dot(&row, v)));
-        let cubic = |x: f64| hermite(from, to, h, x);
-        let off = course(&row, &motion).enumerate().map(|(i, value)| (value - cubic(i as f64 / 16.0)).abs());
-        let what = || format!("{start:?}, row {p}, {storeys:?} storeys, {damping:?}, {h:e} s");
-        let comparison = match (system.structure.is_classical(), start) {
-            (false, _) => &mut coupled,
-            (true, Start::Aside) if ground == Ground::Still => &mut pulled,
-            _ => &mut any,
-        };
-        comparison.note(largest(off), bound, 1e-14 * size(&row, &motion), &what);
-    }
-    pulled.comes_within(0.99);
-    any.comes_within(0.9);
-    coupled.comes_within(0.2);
-}
-
-/// The cubic through values and slopes at both ends of a time h, at a share of it.
-fn hermite((start, rate): (f64, f64), (end, end_rate): (f64, f64), h: f64, x: f64) -> f64 {
-    let (b, c) = (start + h / 3.0 * rate, end - h / 3.0 * end_rate);
-    let y = 1.0 - x;
-    y * y * y * start + 3.0 * y * y * x * b + 3.0 * y * x * x * c + x * x * x * end
-}
-
-#[test]
-fn no_cubic_is_above_its_control_values() {
-    let mut random = Random(5);
-    let (mut ends, mut inside) = (Comparison::of("ends of cubics"), Comparison::of("control values of cubics"));
-    for _ in 0..2000 {
-        let (h, mut number) = (random.power_of_ten(-3.0, 3.0), || random.between(-1.0, 1.0));
-        let (from, to) = ((number(), number() / h), (number(), number() / h));
-        let bound = highest_of_cubic(from, to, h);
-        let reached = largest((0..=64).map(|i| hermite(from, to, h, f64::from(i) / 64.0)));
-        ends.note(reached + 2.0, bound + 2.0, 1e-12, &String::new);
-        // Both ends alike: all that is above them comes from the slopes.
-        let (from, to) = ((0.0, from.1.abs()), (0.0, -from.1.abs()));
-        let bound = highest_of_cubic(from, to, h);
-        inside.note(largest((0..=64).map(|i| hermite(from, to, h, f64::from(i) / 64.0))), bound, 1e-12, &String::new);
-    }
-    ends.comes_within(1.0);
-    inside.comes_within(0.75);
-}
-
-#[test]
-fn both_ends_show_that_a_flight_is_free() {
-    let mut random = Random(6);
-    let mut comparison = Comparison::of("certificate");
-    for _ in 0..1000 {
-        let (storeys, frequencies) = any_system(&mut random);
-        let damping = random.one_of(&[Damping::None, Damping::Classical, Damping::Coupled]);
-        let mut case = Case::new(&mut random, storeys, frequencies, damping, (Ground::Any, 0.01));
-        let (p, start) = (random.one_of(&[0, 1, 2, 3]), random.one_of(&[Start::Moving, Start::Pulled, Start::Any]));
-        let row = case.rows()[p].clone();
-        case.start(&mut random, start, &row);
-        let h = random.power_of_ten(-1.5, 0.3) / case.system.structure.fastest;
-        let [load, slope] = case.load(0);
-        let motion = case.motion([case.base.q.clone(), case.base.v.clone()], [load.clone(), slope.clone()], (h, 16));
-        let value = |x: f64| if p == 3 { x.abs() } else { x };
-        let now = value(dot(&row, &case.base.q));
-        let Case { system, base, work, .. } = &mut case;
-        (work.load, work.slope) = (load, slope);
-        let mut planned = Planned::new(row.len(), 3);
-        planned.length = h;
-        [planned.q, planned.v] = motion[16].clone();
-        let flight = Flight::new(system);
-        let mut look = Look::new(row.len(), 4);
-        let bound = threshold(now, |limit| {
-            base.rest.gaps.fill(1e9);
-            system.storeys[0].limit = 1e9;
-            *(if p == 3 { &mut system.storeys[0].limit } else { &mut base.rest.gaps[p] }) = limit;
-            for ((pair, gap), contact) in system.pairs.iter().zip(&base.rest.gaps).zip(&mut base.contacts) {
-                (contact.penetration, contact.rate) = pair.penetration(*gap, (&base.q, &base.v));
-            }
-            planned.ends.clear();
-            let mut at = At { base, inputs: &Inputs::of([1, 1], false), counters: &mut Counters::default() };
-            flight.both_ends_hold(system, &mut at, &mut planned, (&mut look, work), None)
-        });
-        let reached = largest(course(&row, &motion).map(value));
-        let what = || format!("{start:?}, row {p}, {storeys:?} storeys, {damping:?}, {h:e} s");
-        comparison.note(reached - now, bound - now, ROUNDING * size(&row, &motion), &what);
-    }
-    comparison.comes_within(0.999);
-}
-
-/// Searches in flights and in exact series: what they find is what happens.
-#[test]
-fn searches_find_what_passes_a_limit_and_nothing_else() {
-    let mut random = Random(7);
-    let (mut flights, mut series) = (Comparison::of("search in flights"), Comparison::of("search in series"));
-    for i in 0..500 {
-        let (storeys, frequencies) = any_system(&mut random);
-        let damping = random.one_of(&[Damping::None, Damping::Classical, Damping::Coupled]);
-        let segment = random.power_of_ten(-2.0, 0.0);
-        let mut case = Case::new(&mut random, storeys, frequencies, damping, (Ground::Any, segment));
-        let p = random.one_of(&[0, 1, 2, 3]);
-        let row = case.rows()[p].clone();
-        case.start(&mut random, Start::Any, &row);
-        let is_flight = i % 2 == 0;
-        let time = if is_flight {
-            case.segment(0).length
-        } else {
-            case.segment(0).length.min(1.9 / case.system.structure.fastest)
-        };
-        let [load, slope] = case.load(0);
-        let motion =
-            case.motion([case.base.q.clone(), case.base.v.clone()], [load.clone(), slope.clone()], (time, 4 * 64));
-        let value = |x: f64| if p == 3 { x.abs() } else { x };
-        let now = value(dot(&row, &case.base.q));
-        let bound = threshold(now, |limit| {
-            case.base.rest.gaps.fill(1e9);
-            limit_storey(&mut case.system, 1e9);
-            if p == 3 {
-                limit_storey(&mut case.system, limit);
-            }
-            let mut base = case.for_contact(p.min(2), if p == 3 { 1e9 } else { limit });
-            let mut planned = Planned::new(row.len(), 3);
-            let (inputs, mut counters) = (Inputs::of([1, 1], false), Counters::default());
-            if is_flight {
-                base =
-                    Base { q: case.base.q.clone(), v: case.base.v.clone(), coordinates: case.base.coordinates, ..base };
-            }
-            let Case { system, work, .. } = &mut case;
-            system.load(&base, &inputs, &mut work.load, &mut work.slope);
-            let mut at = At { base: &mut base, inputs: &inputs, counters: &mut counters };
-            if is_flight {
-                let mut look = Look::new(row.len(), 4);
-                Flight::new(system).plan(system, &mut at, time, &mut planned, &mut look, work);
-            } else {
-                assert!(plan_exact(system, &mut at, (time, false), &mut planned, &mut Solution::new(system), work));
-            }
-            !matches!(planned.event, Some(Event::Entry(_) | Event::Yield(..)))
-        });
-        let reached = largest(course(&row, &motion).map(value));
-        let comparison = if is_flight { &mut flights } else { &mut series };
-        let what = || format!("row {p}, {storeys:?} storeys, {damping:?}, {time:e} s");
-        comparison.note(reached - now, bound - now, ROUNDING * size(&row, &motion), &what);
-        // Between the instants that are looked at it may be a little higher.
-        let h = case.system.structure.fastest * time / 256.0;
-        assert!(bound <= reached + (h * h + 1e-8) * size(&row, &motion), "found {bound:e}, {reached:e}: {}", what());
-    }
-    flights.comes_within(0.9999);
-    series.comes_within(0.9999);
-}
-
 /// A window in which the first pair pushes with a constant force, the largest that it is said to have.
 #[test]
 fn no_storey_yields_in_a_window_that_is_called_elastic() {
@@ -413,97 +229,6 @@ fn no_storey_yields_in_a_window_that_is_called_elastic() {
     // A force that begins at once moves by half of what its whole impulse would at the start.
     pushed.comes_within(0.5);
     swings.comes_within(0.98);
-}
-
-/// Open pairs while a series is expanded, on floors and on modes.
-#[test]
-fn no_open_pair_meets_that_its_terms_keep_apart() {
-    let mut random = Random(9);
-    let (mut modes, mut floors) = (Comparison::of("terms of modes"), Comparison::of("terms of floors"));
-    for _ in 0..600 {
-        let (storeys, frequencies) = any_system(&mut random);
-        // Ratios of damping leave no floor with its neighbours alone.
-        let damping = random.one_of(&[Damping::None, Damping::Classical, Damping::Coupled]);
-        let mut case = Case::new(&mut random, storeys, frequencies, damping, (Ground::Any, 0.1));
-        let (p, start) = (random.one_of(&[0, 1, 2]), random.one_of(&[Start::Moving, Start::Pulled, Start::Any]));
-        let row = case.rows()[p].clone();
-        case.start(&mut random, start, &row);
-        let time = random.power_of_ten(-2.0, 0.2) / case.system.structure.fastest;
-        let motion = case.motion([case.base.q.clone(), case.base.v.clone()], case.load(0), (time, 64));
-        let now = dot(&row, &case.base.q);
-        let bound = threshold(now, |gap| {
-            let base = case.for_contact(p, gap);
-            let Case { system, work, .. } = &mut case;
-            system.load(&base, &Inputs::of([1, 1], false), &mut work.load, &mut work.slope);
-            let mut solution = Solution::new(system);
-            system.expand_exactly(&base, &mut solution, work, time);
-            solution.end_at(1.0);
-            let Solution { open, series, end, substitution, .. } = &mut solution;
-            open.assign(&system.pairs, base.coordinates);
-            open.follow(&base, &system.pairs, (series, substitution), end, &mut work.node_q);
-            let (followed, x) = (open.apart.iter().zip(&open.bounds), end.x);
-            let mut lanes = followed.flat_map(|(block, bounds)| {
-                open.members[*block].lanes().map(move |(lane, pair)| (pair, bounds.stays_apart(x)[lane]))
-            });
-            lanes.find(|(pair, _)| *pair == p).is_none_or(|(_, stays_apart)| stays_apart)
-        });
-        let comparison = if case.is_on_floors() { &mut floors } else { &mut modes };
-        let what = || format!("{start:?}, row {p}, {storeys:?} storeys, {time:e} s");
-        let reached = largest(course(&row, &motion));
-        comparison.note(reached - now, bound - now, ROUNDING * size(&row, &motion), &what);
-    }
-    modes.comes_within(0.999);
-    floors.comes_within(0.99);
-}
-
-/// The fourth derivatives of series, by which both of their ends tell what happens between them; storeys as far as
-/// their terms let them get.
-#[test]
-fn terms_bound_fourth_derivatives_and_drifts() {
-    let mut random = Random(11);
-    let (mut sizes, mut own) = (Comparison::of("fourth derivatives by sizes"), Comparison::of("by own terms"));
-    let mut switches = Comparison::of("switches");
-    for _ in 0..400 {
-        let (storeys, frequencies) = any_system(&mut random);
-        let damping = random.one_of(&[Damping::None, Damping::Coupled]);
-        let mut case = Case::new(&mut random, storeys, frequencies, damping, (Ground::Still, 0.1));
-        let (row, start) = (case.rows()[0].clone(), random.one_of(&[Start::Moving, Start::Aside, Start::Any]));
-        case.start(&mut random, start, &row);
-        let time = random.power_of_ten(-1.2, 0.2) / case.system.structure.fastest;
-        let motion = case.motion([case.base.q.clone(), case.base.v.clone()], case.load(0), (time, 16));
-        let [from, to] = [&motion[0], &motion[16]].map(|[q, v]| (dot(&row, q), dot(&row, v)));
-        let off = course(&row, &motion).enumerate();
-        let off = largest(off.map(|(i, value)| (value - hermite(from, to, time, i as f64 / 16.0)).abs()));
-        let (base, rounding) = (case.for_contact(0, from.0), 1e-13 * size(&row, &motion));
-        let Case { system, work, .. } = &mut case;
-        system.load(&base, &Inputs::of([1, 1], false), &mut work.load, &mut work.slope);
-        let mut solution = Solution::new(system);
-        system.expand_exactly(&base, &mut solution, work, time);
-        solution.end_at(1.0);
-        solution.series.bound_fourths(&solution.end, &mut work.node_q);
-        let fourth = system.pairs[0].difference(base.coordinates, &work.node_q).1;
-        let what = || format!("{start:?}, {storeys:?} storeys, {damping:?}, {time:e} s");
-        sizes.note(off, deviation(time, fourth), rounding, &what);
-        let Solution { open, series, end, substitution, .. } = &mut solution;
-        open.assign(&system.pairs, base.coordinates);
-        open.follow(&base, &system.pairs, (series, substitution), end, &mut work.node_q);
-        for (block, bounds) in open.apart.iter().zip(&open.bounds) {
-            let lane = open.members[*block].lanes().find(|(_, pair)| *pair == 0);
-            lane.iter().for_each(|(lane, _)| own.note(off, deviation(1.0, bounds.fourth[*lane]), rounding, &what));
-        }
-        let row = system.storeys[0].row.clone();
-        let bound = threshold(dot(&row, &motion[0][0]).abs(), |limit| {
-            limit_storey(system, limit);
-            system.first_switch(&base, &mut solution, work).is_none()
-        });
-        let reached = largest(course(&row, &motion).map(f64::abs));
-        switches.note(reached, bound, ROUNDING * size(&row, &motion), &what);
-        let h = system.structure.fastest * time / 16.0;
-        assert!(bound <= reached + (h * h + 1e-8) * size(&row, &motion), "{bound:e}, {reached:e}: {}", what());
-    }
-    sizes.comes_within(0.99);
-    own.comes_within(0.99);
-    switches.comes_within(0.9999);
 }
 
 /// A pair whose penetration is curved by at most so much, and one that is: a parabola.

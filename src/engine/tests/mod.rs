@@ -2,5 +2,6 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod bounds;
+mod ends;
 mod motions;
 mod spans;

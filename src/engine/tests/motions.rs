@@ -41,6 +41,20 @@ impl Random {
     }
 }
 
+/// Rounding that is allowed, relative to the terms of a quantity.
+pub const ROUNDING: f64 = 1e-9;
+
+/// Storeys and frequencies of two single masses.
+pub fn unit_system(random: &mut Random) -> ([usize; 2], [f64; 2]) {
+    ([1, 1], [random.between(0.1, 1.0), random.between(0.1, 1.0)])
+}
+
+/// Storeys and frequencies of two buildings, small or tall.
+pub fn any_system(random: &mut Random) -> ([usize; 2], [f64; 2]) {
+    let storeys = |random: &mut Random| random.one_of(&[1, 2, 3, 5, 8, 25]);
+    ([storeys(random), storeys(random)], [random.power_of_ten(-1.0, 1.0), random.power_of_ten(-1.0, 1.0)])
+}
+
 /// How the modes of a building are damped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Damping {
@@ -172,7 +186,8 @@ impl Case {
         let Case { system, base: Base { q, v, .. }, .. } = self;
         let w = |m: usize| system.structure.omega2[m].sqrt();
         let modes: Vec<usize> = (0..row.len()).filter(|m| row[*m] != 0.0 && w(*m) > 0.0).collect();
-        (q.fill(0.0), v.fill(0.0));
+        q.fill(0.0);
+        v.fill(0.0);
         if start == Start::Parting {
             let by_rate = |a: &&usize, b: &&usize| w(**a).total_cmp(&w(**b));
             let [slow, fast] = [modes.iter().min_by(by_rate), modes.iter().max_by(by_rate)].map(|m| *m.unwrap());
