@@ -3,8 +3,9 @@
 use super::log_category::Category;
 use super::model_structure;
 use super::writer::{Xml, number, text};
+use crate::engine::Inputs;
 use crate::scene::Package;
-use crate::variables::{Causality, HIGHEST_OUTPUT_DERIVATIVE, Inputs, Row, Settings, Slot, Table, Type, Unit, Value};
+use crate::variables::{Causality, HIGHEST_OUTPUT_DERIVATIVE, Row, Settings, Slot, Table, Type, Unit, Value};
 use quick_xml::Writer;
 use std::io;
 

@@ -9,11 +9,10 @@ use crate::engine::base::contact::Phase;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::storey::Sense;
 use crate::engine::error::EngineError;
-use crate::engine::excitation::inputs::{Inputs, LinearInput};
+use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
-use crate::structure::Side;
 use serde::{Deserialize, Serialize};
 
 /// Largest count that a saved state may have: no run gets that far, and beyond it a count could overflow.
@@ -56,14 +55,9 @@ impl SavedState {
         self.time
     }
 
-    /// The ground acceleration, m/s2; meaningful where there is no record.
-    pub fn ground_acceleration(&self) -> &LinearInput {
-        &self.inputs.ground_acceleration
-    }
-
-    /// The force on a floor, counted from 0, N; `None` where the scene has no floor forces.
-    pub fn floor_force(&self, side: Side, floor: usize) -> Option<&LinearInput> {
-        self.inputs.floor_forces.get(self.inputs.place(side, floor))
+    /// The inputs as set so far.
+    pub fn inputs(&self) -> &Inputs {
+        &self.inputs
     }
 }
 
@@ -120,8 +114,7 @@ impl Model {
             && base.contacts.len() == self.system.pairs.len()
             && base.storeys.len() == self.system.storeys.len()
             && base.energy.is_some() == self.energy
-            && inputs.floor_forces.len() == fresh.inputs.floor_forces.len()
-            && inputs.left_floors == fresh.inputs.left_floors;
+            && inputs.are_as_many_as(&fresh.inputs);
         require(fits, "it is of a scene with other floors, contacts, inputs or outputs")
     }
 

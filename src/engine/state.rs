@@ -4,7 +4,7 @@ use crate::collocation::Workspace as WindowWorkspace;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::Event;
 use crate::engine::base::{Account, Base};
-use crate::engine::excitation::inputs::{Inputs, LinearInput};
+use crate::engine::excitation::inputs::{Input, Inputs};
 use crate::engine::flight::workspace::Look;
 use crate::engine::model::Model;
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
@@ -58,35 +58,42 @@ impl State {
         self.work.switches.as_deref().unwrap_or_default()
     }
 
+    /// The inputs as set so far.
+    pub fn inputs(&self) -> &Inputs {
+        &self.inputs
+    }
+
+    /// Sets an input at the present time, in its unit. It is constant from now on, unless a rate is set for the same time.
+    /// One that the scene does not have is left alone.
+    pub fn set_input(&mut self, input: Input, value: f64) {
+        self.inputs.set(input, value, self.time);
+    }
+
+    /// Sets the rate of an input, per second, from now on until the input or its rate is set again.
+    pub fn set_input_rate(&mut self, input: Input, rate: f64) {
+        self.inputs.set_rate(input, rate, self.time);
+    }
+
     /// Sets the ground acceleration, m/s2, at the present time; used only where the scene has no record. It is constant
     /// from now on, unless a rate is set for the same time.
     pub fn set_ground_acceleration(&mut self, acceleration: f64) {
-        self.inputs.ground_acceleration.set_value(acceleration, self.time);
+        self.set_input(Input::GroundAcceleration, acceleration);
     }
 
     /// Sets the rate of the ground acceleration, m/s3, from now on until the acceleration or its rate is set again.
     pub fn set_ground_acceleration_rate(&mut self, rate: f64) {
-        self.inputs.ground_acceleration.set_slope(rate, self.time);
+        self.set_input_rate(Input::GroundAcceleration, rate);
     }
 
     /// Sets the force on a floor, counted from 0, N, at the present time; used only where the scene has floor forces.
     /// It is constant from now on, unless a rate is set for the same time.
     pub fn set_floor_force(&mut self, side: Side, floor: usize, force: f64) {
-        let time = self.time;
-        self.change_floor_force(side, floor, |input| input.set_value(force, time));
+        self.set_input(Input::Force(side, floor), force);
     }
 
     /// Sets the rate of the force on a floor, N/s, from now on until the force or its rate is set again.
     pub fn set_floor_force_rate(&mut self, side: Side, floor: usize, rate: f64) {
-        let time = self.time;
-        self.change_floor_force(side, floor, |input| input.set_slope(rate, time));
-    }
-
-    fn change_floor_force(&mut self, side: Side, floor: usize, change: impl FnOnce(&mut LinearInput)) {
-        let place = self.inputs.place(side, floor);
-        if let Some(input) = self.inputs.floor_forces.get_mut(place) {
-            change(input);
-        }
+        self.set_input_rate(Input::Force(side, floor), rate);
     }
 }
 
@@ -132,18 +139,19 @@ impl Model {
         Buffers::new(&self.system.structure, self.system.rigid.pairs.len())
     }
 
-    /// The initial state at a time, s.
+    /// The initial state at a time, s, with all inputs 0.
     pub fn start(&self, time: f64) -> State {
-        let floors = self.floors(Side::Left) + self.floors(Side::Right);
+        let floors = [Side::Left, Side::Right].map(|side| self.floors(side));
+        self.start_with(time, Inputs::of(floors, self.system.floor_forces))
+    }
+
+    /// The initial state at a time, s, with the inputs of its scene as set so far.
+    pub fn start_with(&self, time: f64, inputs: Inputs) -> State {
         let mut state = State {
             time,
             base: self.system.start(time, self.start_peaks(), self.energy.then(Account::default)),
             step: Step::new(&self.system),
-            inputs: Inputs {
-                ground_acceleration: LinearInput::default(),
-                floor_forces: vec![LinearInput::default(); if self.system.floor_forces { floors } else { 0 }],
-                left_floors: self.floors(Side::Left),
-            },
+            inputs,
             counters: Counters::default(),
             work: Workspace::new(self),
         };

@@ -2,14 +2,12 @@
 
 use super::instance::Slave;
 use super::sequence::Phase;
-use super::simulation::started;
 use super::status::Refusal;
 use crate::description::Category;
 use crate::engine::Input;
 use crate::scene::SceneError;
 use crate::variables::{Row, Settings, Slot, Table, Value};
 use crate::warnings;
-use std::cell::LazyCell;
 use std::sync::Arc;
 
 impl Slave {
@@ -20,24 +18,20 @@ impl Slave {
         wanted: &str,
         mut take: impl FnMut(usize, Value<'_>) -> Option<()>,
     ) -> Result<(), Refusal> {
-        let Slave { table, settings, inputs, simulation, time, .. } = self;
-        let now = LazyCell::new(|| Ok(started(simulation, settings, inputs, table, *time)?.now()));
         let mut problems = Vec::new();
         for (i, &reference) in references.iter().enumerate() {
-            let Some(row) = table.row(reference) else {
-                problems.push(unknown(table, reference));
+            let Some(&Row { slot, ty, .. }) = self.table.row(reference) else {
+                problems.push(unknown(&self.table, reference));
                 continue;
             };
-            let value = match row.slot {
-                Slot::Output(output) => Value::of(row.ty, now.as_ref().map_err(Refusal::clone)?.read(output)),
-                Slot::Input(input) => Value::Real(inputs.get(input).at(*time)),
-                Slot::Parameter(parameter) => settings.read(parameter),
-                Slot::Frequency(side, mode) => {
-                    Value::Real(now.as_ref().map_err(Refusal::clone)?.model().natural_frequencies(side)[mode])
-                }
+            let value = match slot {
+                Slot::Output(output) => Value::of(ty, self.start()?.now().read(output)),
+                Slot::Input(input) => Value::Real(self.run.inputs().get(input).at(self.run.time())),
+                Slot::Parameter(parameter) => self.settings.read(parameter),
+                Slot::Frequency(side, mode) => Value::Real(self.start()?.model().natural_frequencies(side)[mode]),
             };
             if take(i, value).is_none() {
-                problems.push(wrong_type(table, reference, wanted));
+                problems.push(wrong_type(&self.table, reference, wanted));
             }
         }
         Refusal::unless_empty(problems)
@@ -50,14 +44,12 @@ impl Slave {
         let changed = self.changed_settings(pairs(), &mut problems);
         Refusal::unless_empty(problems)?;
         if let Some(changed) = changed {
-            (self.settings, self.simulation) = (Arc::new(changed), None);
+            self.settings = Arc::new(changed);
+            self.run.stop();
         }
         for (reference, value) in pairs() {
             if let (Some(Slot::Input(input)), Value::Real(value)) = (self.table.row(reference).map(|r| r.slot), value) {
-                self.inputs.get_mut(input).set_value(value, self.time);
-                if let Some(simulation) = &mut self.simulation {
-                    simulation.set_input(input, value);
-                }
+                self.run.set_input(input, value);
                 self.look_at_input(input, value);
             }
         }

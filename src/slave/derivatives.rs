@@ -16,10 +16,7 @@ impl Slave {
         Refusal::unless_empty(problems.collect())?;
         for (reference, _, value) in all() {
             let Some(Slot::Input(input)) = self.table.row(reference).map(|row| row.slot) else { continue };
-            self.inputs.get_mut(input).set_slope(value, self.time);
-            if let Some(simulation) = &mut self.simulation {
-                simulation.set_input_slope(input, value);
-            }
+            self.run.set_input_rate(input, value);
         }
         Ok(())
     }
@@ -88,8 +85,8 @@ impl Slave {
         if !problems.is_empty() {
             return Ok(self.discard_for(Call::GetDirectionalDerivative, problems));
         }
-        self.start()?;
-        let Slave { table, settings, simulation: Some(simulation), .. } = self else { return Ok(Status::Ok) };
+        let Slave { table, settings, run, .. } = self;
+        let simulation = run.start(settings)?;
         let slot = |reference| table.row(reference).map(|row| row.slot);
         simulation.respond(changes().filter_map(|(known, change)| match slot(known)? {
             Slot::Input(input) => Some((input, change)),

@@ -1,15 +1,16 @@
 //! One instance: what it is made of, its life and its steps.
 
 use super::log::{Log, Message};
+use super::run::Run;
 use super::sequence::{Call, Phase};
-use super::simulation::{Simulation, started};
+use super::simulation::Simulation;
 use super::snapshots::Snapshots;
 use super::status::{Refusal, Status, StatusKind};
 use crate::description::{Category, Package, guid};
 use crate::engine::Episode;
 use crate::figures::plain;
 use crate::scene::rule::MOST_TIME;
-use crate::variables::{Inputs, Settings, Table};
+use crate::variables::{Settings, Table};
 use std::sync::Arc;
 use uuid::Uuid;
 
@@ -25,15 +26,11 @@ pub struct Slave {
     /// The parameters as the scene gives them, for a reset.
     pub(super) defaults: Arc<Settings>,
     pub(super) settings: Arc<Settings>,
-    pub(super) inputs: Inputs,
     pub(super) phase: Phase,
     pub(super) log: Log,
-    /// s, present communication point; the start time before the first step.
-    pub(super) time: f64,
     /// s, end that the master has announced.
     pub(super) stop_time: Option<f64>,
-    /// Made of the settings when something computed is asked for, dropped when they change.
-    pub(super) simulation: Option<Simulation>,
+    pub(super) run: Run,
     pub(super) snapshots: Snapshots,
     pub(super) has_warned_of_ground: bool,
 }
@@ -47,14 +44,12 @@ impl Slave {
         Slave {
             fingerprint,
             table,
-            inputs: Inputs::new(&settings.scene),
+            run: Run::new(&settings.scene),
             defaults: Arc::clone(&settings),
             settings,
             phase: Phase::Instantiated,
             log,
-            time: 0.0,
             stop_time: None,
-            simulation: None,
             snapshots: Snapshots::default(),
             has_warned_of_ground: false,
         }
@@ -124,8 +119,8 @@ impl Slave {
             ));
         }
         Refusal::unless_empty(problems)?;
-        (self.time, self.stop_time, self.simulation) = (start, stop, None);
-        self.inputs.begin_at(start);
+        self.stop_time = stop;
+        self.run.start_at(start);
         Ok(())
     }
 
@@ -159,8 +154,7 @@ impl Slave {
     /// As after instantiation. The logging stays as the master has chosen it, and so do the snapshots.
     pub fn reset(&mut self) -> Status {
         self.settings = Arc::clone(&self.defaults);
-        self.inputs = Inputs::new(&self.settings.scene);
-        (self.time, self.stop_time, self.simulation) = (0.0, None, None);
+        (self.run, self.stop_time) = (Run::new(&self.settings.scene), None);
         self.has_warned_of_ground = false;
         self.phase = Phase::Instantiated;
         Status::Ok
@@ -179,17 +173,15 @@ impl Slave {
         for event in events {
             self.log.add(Category::Events, event);
         }
-        result?;
-        self.time = target;
-        Ok(())
+        result
     }
 
     /// The communication point that a step leads to, or everything that is wrong with the step.
     fn target(&self, current: f64, step: f64) -> Result<f64, Refusal> {
-        let mut problems = Vec::new();
+        let (mut problems, now) = (Vec::new(), self.run.time());
         let tolerance = |time: f64| TIME_TOLERANCE * time.abs().max(1.0);
-        if !(current.is_finite() && (current - self.time).abs() <= tolerance(self.time)) {
-            let expected = format!("expected {} within {:e}", self.time, tolerance(self.time));
+        if !(current.is_finite() && (current - now).abs() <= tolerance(now)) {
+            let expected = format!("expected {now} within {:e}", tolerance(now));
             problems.push(format!("currentCommunicationPoint = {}: {expected}", plain(current)));
         }
         if !(step.is_finite() && step > 0.0) {
@@ -208,20 +200,20 @@ impl Slave {
             )));
         }
         // Only here it is known how far a line goes on.
-        if self.inputs.are_moving() {
-            let beyond = self.inputs.beyond(&self.table, target);
+        if self.run.inputs().are_moving() {
+            let beyond = self.table.problems(self.run.inputs(), target);
             let at_end = |problem| format!("at the end of the step, {target} s, {problem}");
             Refusal::unless_empty(beyond.into_iter().map(at_end).collect())?;
         }
         // A tiny step may fall short of the rounding of `current`: time stands still then, it never runs back. So it
         // does for steps whose inverse is no number.
-        let stands_still = target - self.time < f64::MIN_POSITIVE;
-        Ok(if stands_still { self.time } else { target })
+        let stands_still = target - now < f64::MIN_POSITIVE;
+        Ok(if stands_still { now } else { target })
     }
 
     /// s, time up to which the solution is known.
     pub fn last_successful_time(&self) -> f64 {
-        self.time
+        self.run.time()
     }
 
     /// Status information that there is not: nothing is ever pending.
@@ -239,8 +231,9 @@ impl Slave {
     }
 
     /// The solution at the present time.
+    #[inline]
     pub(super) fn start(&mut self) -> Result<&mut Simulation, Refusal> {
-        started(&mut self.simulation, &self.settings, &self.inputs, &self.table, self.time)
+        self.run.start(&self.settings)
     }
 }
 

@@ -12,6 +12,7 @@ mod instance;
 mod instantiate;
 mod log;
 mod resource_location;
+mod run;
 mod sequence;
 mod serialized;
 mod simulation;

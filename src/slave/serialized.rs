@@ -13,13 +13,14 @@
 //! trip over is refused before it meets the model.
 
 use super::instance::{Slave, is_time};
+use super::run::{Run, SavedRun};
 use super::sequence::Phase;
-use super::simulation::{SavedRun, model};
+use super::simulation::{Start, model};
 use super::snapshots::Snapshot;
 use super::status::Refusal;
 use crate::description::guid;
 use crate::engine::SavedState;
-use crate::variables::{Changes, Inputs, Settings};
+use crate::variables::{Changes, Settings};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -28,7 +29,7 @@ use uuid::Uuid;
 const MAGIC: &[u8; 8] = b"pounding";
 
 /// Of the body. It is counted up when what [`Body`] holds changes: a test notices.
-const FORMAT: u32 = 5;
+const FORMAT: u32 = 6;
 
 /// Bytes around the body.
 const ENVELOPE: usize = MAGIC.len() + size_of::<u32>() + size_of::<Uuid>() + size_of::<u64>() + size_of::<Uuid>();
@@ -37,25 +38,29 @@ const ENVELOPE: usize = MAGIC.len() + size_of::<u32>() + size_of::<Uuid>() + siz
 #[derive(Serialize, Deserialize)]
 struct Body<'a> {
     phase: Phase,
-    time: f64,
     stop_time: Option<f64>,
     changes: Changes,
-    inputs: Cow<'a, Inputs>,
-    state: Option<Cow<'a, SavedState>>,
+    run: BodyRun<'a>,
+}
+
+/// A run without its model.
+#[derive(Serialize, Deserialize)]
+#[expect(clippy::large_enum_variant, reason = "it lives as long as a call, and nearly always has a state")]
+enum BodyRun<'a> {
+    NotStarted(Cow<'a, Start>),
+    Started(Cow<'a, SavedState>),
 }
 
 impl Slave {
     /// The bytes of a snapshot.
     pub(super) fn serialize(&self, snapshot: &Snapshot) -> Result<Vec<u8>, Refusal> {
-        let Snapshot { settings, inputs, phase, time, stop_time, run } = snapshot;
-        let body = Body {
-            phase: *phase,
-            time: *time,
-            stop_time: *stop_time,
-            changes: settings.changes(&self.defaults, &self.table),
-            inputs: Cow::Borrowed(inputs),
-            state: run.as_ref().map(|run| Cow::Borrowed(&run.state)),
+        let Snapshot { settings, phase, stop_time, run } = snapshot;
+        let run = match run {
+            SavedRun::NotStarted(start) => BodyRun::NotStarted(Cow::Borrowed(start)),
+            SavedRun::Started(_, state) => BodyRun::Started(Cow::Borrowed(state)),
         };
+        let changes = settings.changes(&self.defaults, &self.table);
+        let body = Body { phase: *phase, stop_time: *stop_time, changes, run };
         let body = postcard::to_allocvec(&body).map_err(|error| Refusal::from(format!("FMUstate: {error}")))?;
         Ok(wrap(&self.fingerprint, &body))
     }
@@ -73,20 +78,21 @@ impl Slave {
 
     /// Makes a snapshot of a body in which every number can be anything.
     fn accept(&self, body: Body<'_>) -> Result<Snapshot, Refusal> {
-        let Body { phase, time, stop_time, changes, inputs, state } = body;
-        let inputs_fit = is_time(time) && inputs.fit(&self.defaults.scene, &self.table, time);
-        if !(inputs_fit && stop_time.is_none_or(f64::is_finite)) {
+        let Body { phase, stop_time, changes, run } = body;
+        let (time, inputs, is_fit) = match &run {
+            BodyRun::NotStarted(start) => (start.time, &start.inputs, start.inputs.fit(&self.defaults.scene)),
+            BodyRun::Started(state) => (state.time(), state.inputs(), true), // looked at with the rest of the state
+        };
+        let are_possible = is_fit && is_time(time) && self.table.problems(inputs, time).is_empty();
+        if !(are_possible && stop_time.is_none_or(f64::is_finite)) {
             return Err(refuse("times or inputs that this FMU cannot have"));
         }
-        if state.as_ref().is_some_and(|state| state.time().to_bits() != time.to_bits()) {
-            return Err(refuse("two different times"));
-        }
-        if state.as_ref().is_some_and(|state| !inputs.are_in(state, &self.table, time)) {
-            return Err(refuse("inputs that are not those of its run"));
-        }
         let settings = self.settings_with(&changes)?;
-        let run = state.map(|state| self.accept_run(&settings, state.into_owned())).transpose()?;
-        Ok(Snapshot { settings, inputs: inputs.into_owned(), phase, time, stop_time, run })
+        let run = match run {
+            BodyRun::NotStarted(start) => SavedRun::NotStarted(start.into_owned()),
+            BodyRun::Started(state) => self.accept_run(&settings, state.into_owned())?,
+        };
+        Ok(Snapshot { settings, phase, stop_time, run })
     }
 
     /// The settings with these changes: the present ones if they are the same.
@@ -99,13 +105,12 @@ impl Slave {
 
     /// A run of settings, with the model of the present run if that has the same ones.
     fn accept_run(&self, settings: &Arc<Settings>, state: SavedState) -> Result<SavedRun, Refusal> {
-        let present = self.simulation.as_ref().filter(|_| Arc::ptr_eq(settings, &self.settings));
-        let model = match present {
-            Some(simulation) => Arc::clone(simulation.model()),
-            None => Arc::new(model(settings)?),
+        let model = match &self.run {
+            Run::Started(present) if Arc::ptr_eq(settings, &self.settings) => Arc::clone(present.model()),
+            _ => Arc::new(model(settings)?),
         };
         model.check_saved(&state).map_err(|error| refuse(error.to_string()))?;
-        Ok(SavedRun { model, state })
+        Ok(SavedRun::Started(model, state))
     }
 }
 

@@ -1,8 +1,9 @@
-//! A run: the model of the present settings, its state, and what is read out of it.
+//! A run that has started: the model of the present settings, its state, and what is read out of it.
 
 use super::status::Refusal;
-use crate::engine::{Episode, Input, Instant, Model, Point, PointRates, Response, SavedState, State};
-use crate::variables::{Inputs, Settings, Slot, Table};
+use crate::engine::{Episode, Input, Inputs, Instant, Model, Point, PointRates, Response, State};
+use crate::variables::{Settings, Slot};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Model and state, and the state as outputs show it.
@@ -19,29 +20,19 @@ pub(super) struct Simulation {
     response: Response,
 }
 
-/// A run as it was at some time.
-#[derive(Clone, Debug)]
-pub(super) struct SavedRun {
-    pub model: Arc<Model>,
-    pub state: SavedState,
+/// What a run starts with.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Start {
+    /// The present communication point, s.
+    pub time: f64,
+    pub inputs: Inputs,
 }
 
 impl Simulation {
-    /// The initial state at a time, with the inputs as they are.
+    /// The initial state, with the inputs as set so far.
     #[cold]
-    pub fn start(settings: &Settings, inputs: &Inputs, table: &Table, time: f64) -> Result<Simulation, Refusal> {
-        let mut simulation = Simulation::of(Arc::new(model(settings)?), time);
-        for row in &table.rows {
-            if let Slot::Input(input) = row.slot {
-                simulation.set_input(input, inputs.get(input).at(time));
-                simulation.set_input_slope(input, inputs.get(input).slope());
-            }
-        }
-        Ok(simulation)
-    }
-
-    fn of(model: Arc<Model>, time: f64) -> Simulation {
-        let state = model.start(time);
+    pub fn start(model: Arc<Model>, Start { time, inputs }: Start) -> Simulation {
+        let state = model.start_with(time, inputs);
         Simulation {
             model,
             state,
@@ -57,37 +48,19 @@ impl Simulation {
         &self.model
     }
 
-    pub fn save(&self) -> SavedRun {
-        SavedRun { model: Arc::clone(&self.model), state: self.state.save() }
+    pub fn state(&self) -> &State {
+        &self.state
     }
 
-    /// The run of that time again; `present`, if it is one of the same model, lends its memory.
-    pub fn restore(saved: &SavedRun, present: Option<Simulation>) -> Simulation {
-        let present = present.filter(|present| Arc::ptr_eq(&present.model, &saved.model));
-        let mut simulation = present.unwrap_or_else(|| Simulation::of(Arc::clone(&saved.model), saved.state.time()));
-        simulation.model.restore(&saved.state, &mut simulation.state);
-        simulation.has_changed();
-        simulation
-    }
-
-    pub fn set_input(&mut self, input: Input, value: f64) {
-        input.apply(value, &mut self.state);
-        self.has_changed();
-    }
-
-    pub fn set_input_slope(&mut self, input: Input, slope: f64) {
-        input.apply_slope(slope, &mut self.state);
-        self.has_changed();
+    /// The state, to be changed: outputs and derivatives must be observed again.
+    pub fn change(&mut self) -> &mut State {
+        (self.is_observed, self.is_differentiated) = (false, false);
+        &mut self.state
     }
 
     pub fn advance(&mut self, until: f64, on_episode: &mut dyn FnMut(&Episode)) -> Result<(), Refusal> {
-        self.has_changed();
+        self.change();
         Ok(self.model.advance(&mut self.state, until, on_episode)?)
-    }
-
-    /// Outputs and derivatives must be observed again.
-    fn has_changed(&mut self) {
-        (self.is_observed, self.is_differentiated) = (false, false);
     }
 
     /// The solution at the present time, observed once for all outputs that are read there.
@@ -124,21 +97,6 @@ impl Simulation {
             Slot::Output(output) => self.model.response_of(&self.response, output),
             Slot::Input(_) | Slot::Parameter(_) | Slot::Frequency(..) => 0.0,
         }
-    }
-}
-
-/// The simulation, made of the settings where there is none yet.
-#[inline]
-pub(super) fn started<'a>(
-    simulation: &'a mut Option<Simulation>,
-    settings: &Settings,
-    inputs: &Inputs,
-    table: &Table,
-    time: f64,
-) -> Result<&'a mut Simulation, Refusal> {
-    match simulation {
-        Some(simulation) => Ok(simulation),
-        none => Ok(none.insert(Simulation::start(settings, inputs, table, time)?)),
     }
 }
 

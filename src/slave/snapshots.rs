@@ -4,10 +4,10 @@
 //! the engine - but not the choice of log categories: that is the master's at any time, as over a reset. It stays until
 //! the master frees it, whatever it says about going back when it makes a step.
 
+use super::run::SavedRun;
 use super::sequence::Phase;
-use super::simulation::SavedRun;
 use super::status::Refusal;
-use crate::variables::{Inputs, Settings};
+use crate::variables::Settings;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::num::NonZeroUsize;
@@ -29,12 +29,9 @@ pub(super) struct Snapshots {
 #[derive(Clone, Debug)]
 pub(super) struct Snapshot {
     pub settings: Arc<Settings>,
-    pub inputs: Inputs,
     pub phase: Phase,
-    pub time: f64,
     pub stop_time: Option<f64>,
-    /// Absent where nothing computed had been asked for yet.
-    pub run: Option<SavedRun>,
+    pub run: SavedRun,
 }
 
 impl Snapshots {

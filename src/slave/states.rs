@@ -1,7 +1,6 @@
 //! `fmi2GetFMUstate` and its kin: the state of an instance recorded, restored, freed, and as bytes.
 
 use super::instance::Slave;
-use super::simulation::Simulation;
 use super::snapshots::{Handle, Snapshot};
 use super::status::Refusal;
 use std::sync::Arc;
@@ -11,23 +10,19 @@ impl Slave {
     pub fn record_state(&mut self, earlier: Option<Handle>) -> Result<Handle, Refusal> {
         let snapshot = Snapshot {
             settings: Arc::clone(&self.settings),
-            inputs: self.inputs.clone(),
             phase: self.phase,
-            time: self.time,
             stop_time: self.stop_time,
-            run: self.simulation.as_ref().map(Simulation::save),
+            run: self.run.save(),
         };
         self.snapshots.keep(snapshot, earlier)
     }
 
     /// Goes back to a snapshot, from any phase.
     pub fn restore_state(&mut self, handle: Option<Handle>) -> Result<(), Refusal> {
-        let Snapshot { settings, inputs, phase, time, stop_time, run } = self.snapshots.get(handle)?;
+        let Snapshot { settings, phase, stop_time, run } = self.snapshots.get(handle)?;
         self.settings = Arc::clone(settings);
-        self.inputs = inputs.clone();
-        (self.phase, self.time, self.stop_time) = (*phase, *time, *stop_time);
-        let present = self.simulation.take();
-        self.simulation = run.as_ref().map(|run| Simulation::restore(run, present));
+        (self.phase, self.stop_time) = (*phase, *stop_time);
+        self.run.restore(run);
         Ok(())
     }
 

@@ -24,4 +24,4 @@ pub use initial_dependencies::at_start;
 pub use slot::{Causality, Parameter, Slot};
 pub use table::{Row, Table, Type, Variability};
 pub use unit::{Unit, UnitInfo};
-pub use values::{Inputs, Settings, Value};
+pub use values::{Settings, Value};

@@ -2,6 +2,7 @@
 
 use super::slot::Slot;
 use super::unit::Unit;
+use crate::engine::Inputs;
 
 /// FMI variability.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,6 +83,15 @@ impl Table {
     /// The row of a value reference.
     pub fn row(&self, value_reference: u32) -> Option<&Row> {
         self.rows.get(usize::try_from(value_reference).ok()?)
+    }
+
+    /// What is wrong with inputs at a time, s: a problem for each that is out of its range.
+    pub fn problems(&self, inputs: &Inputs, time: f64) -> Vec<String> {
+        let problem = |row: &Row| match row.slot {
+            Slot::Input(input) => row.problem(inputs.get(input).at(time)),
+            Slot::Parameter(_) | Slot::Frequency(..) | Slot::Output(_) => None,
+        };
+        self.rows.iter().filter_map(problem).collect()
     }
 
     /// Each row with its value reference.

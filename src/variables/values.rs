@@ -1,14 +1,13 @@
-//! Values of variables: parameters, each read and written by one match over all of them, and inputs.
+//! Values of variables; parameters, each read and written by one match over all of them.
 
-use super::slot::{Parameter, Slot};
-use super::table::{Row, Table, Type};
-use crate::engine::{Input, LinearInput, SavedState, Side, State};
+use super::slot::Parameter;
+use super::table::Type;
+use crate::engine::Side;
 use crate::record::{KnownRecords, Record};
 use crate::scene::{
     Building, Damping, Scaling, Scene, SceneError, Stiffness, Units, read_record_file, record_problems,
 };
 use crate::warnings::{self, Warning};
-use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -247,113 +246,6 @@ fn without_pga(mut error: SceneError, record: &str) -> SceneError {
         (problem.path, problem.found) = ("ground.record".to_owned(), format!("{record:?}"));
     }
     error
-}
-
-/// The inputs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Inputs {
-    ground_acceleration: LinearInput,
-    left_force: Vec<LinearInput>,
-    right_force: Vec<LinearInput>,
-}
-
-impl Inputs {
-    /// All 0.
-    pub fn new(scene: &Scene) -> Inputs {
-        let zeros = |building: &Building| vec![LinearInput::default(); building.mass.len()];
-        Inputs {
-            ground_acceleration: LinearInput::default(),
-            left_force: zeros(&scene.left),
-            right_force: zeros(&scene.right),
-        }
-    }
-
-    /// Whether they can be those of a scene at a time, s: as many forces as it has floors, and no number that could not
-    /// have been set.
-    pub fn fit(&self, scene: &Scene, table: &Table, time: f64) -> bool {
-        self.left_force.len() == scene.left.mass.len()
-            && self.right_force.len() == scene.right.mass.len()
-            && self.all().all(LinearInput::is_finite)
-            && self.beyond(table, time).is_empty()
-    }
-
-    /// Whether those of a saved run are the same from a time on, s.
-    pub fn are_in(&self, saved: &SavedState, table: &Table, time: f64) -> bool {
-        let is_same = |input: Input| {
-            let line = self.get(input);
-            let same = |other: &LinearInput| other.at(time) == line.at(time) && other.slope() == line.slope();
-            input.of_saved(saved).is_some_and(same)
-        };
-        table.rows.iter().all(|row| if let Slot::Input(input) = row.slot { is_same(input) } else { true })
-    }
-
-    /// A problem for each input that is out of its range at a time, s.
-    pub fn beyond(&self, table: &Table, time: f64) -> Vec<String> {
-        let value = |row: &Row| match row.slot {
-            Slot::Input(input) => row.problem(self.get(input).at(time)),
-            Slot::Parameter(_) | Slot::Frequency(..) | Slot::Output(_) => None,
-        };
-        table.rows.iter().filter_map(value).collect()
-    }
-
-    /// Whether any changes with time.
-    pub fn are_moving(&self) -> bool {
-        self.all().any(|input| input.slope() != 0.0)
-    }
-
-    fn all(&self) -> impl Iterator<Item = &LinearInput> {
-        self.left_force.iter().chain(&self.right_force).chain([&self.ground_acceleration])
-    }
-
-    /// An input as a function of time.
-    pub fn get(&self, input: Input) -> &LinearInput {
-        match input {
-            Input::GroundAcceleration => &self.ground_acceleration,
-            Input::Force(Side::Left, floor) => &self.left_force[floor],
-            Input::Force(Side::Right, floor) => &self.right_force[floor],
-        }
-    }
-
-    /// The same, to be set.
-    pub fn get_mut(&mut self, input: Input) -> &mut LinearInput {
-        match input {
-            Input::GroundAcceleration => &mut self.ground_acceleration,
-            Input::Force(Side::Left, floor) => &mut self.left_force[floor],
-            Input::Force(Side::Right, floor) => &mut self.right_force[floor],
-        }
-    }
-
-    /// The values set so far hold for this time, s.
-    pub fn begin_at(&mut self, time: f64) {
-        let forces = self.left_force.iter_mut().chain(&mut self.right_force);
-        forces.chain([&mut self.ground_acceleration]).for_each(|input| input.move_to(time));
-    }
-}
-
-impl Input {
-    /// Hands the value to the engine, for its present time.
-    pub fn apply(self, value: f64, state: &mut State) {
-        match self {
-            Input::GroundAcceleration => state.set_ground_acceleration(value),
-            Input::Force(side, floor) => state.set_floor_force(side, floor, value),
-        }
-    }
-
-    /// Its line in a saved run.
-    fn of_saved(self, saved: &SavedState) -> Option<&LinearInput> {
-        match self {
-            Input::GroundAcceleration => Some(saved.ground_acceleration()),
-            Input::Force(side, floor) => saved.floor_force(side, floor),
-        }
-    }
-
-    /// Hands the rate to the engine, from its present time on.
-    pub fn apply_slope(self, slope: f64, state: &mut State) {
-        match self {
-            Input::GroundAcceleration => state.set_ground_acceleration_rate(slope),
-            Input::Force(side, floor) => state.set_floor_force_rate(side, floor, slope),
-        }
-    }
 }
 
 /// The only parameter whose name is not its path in the scene.

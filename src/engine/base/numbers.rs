@@ -4,14 +4,6 @@ use crate::engine::base::contact::{Contact, Episode};
 use crate::engine::base::counters::Counters;
 use crate::engine::base::storey::Storey;
 use crate::engine::base::{Account, Base};
-use crate::engine::excitation::inputs::{Inputs, LinearInput};
-
-impl Inputs {
-    pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
-        let Inputs { ground_acceleration, floor_forces, left_floors: _ } = self;
-        floor_forces.iter().chain([ground_acceleration]).flat_map(LinearInput::numbers)
-    }
-}
 
 impl Base {
     pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
