@@ -6,7 +6,7 @@ use crate::engine::base::Base;
 use crate::engine::base::contact::Contact;
 use crate::engine::base::counters::Counters;
 use crate::engine::budget::{MOST_STEPS_AT_ONCE, Progress, most_flights};
-use crate::engine::error::EngineError;
+use crate::engine::error::{EngineError, GivenUp};
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::model::Model;
 use crate::engine::state::State;
@@ -34,21 +34,11 @@ impl Model {
         let closed = base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact());
         let stiffness = |p: usize| self.system.pairs[p].law.stiffness;
         let contact = closed.map(|(p, _)| p).max_by(|&p, &other| stiffness(p).total_cmp(&stiffness(other)));
-        let place = contact.map_or(String::new(), |p| {
+        let contact = contact.map(|p| {
             let law = &self.system.pairs[p].law;
-            let stiffness = match law.is_rigid() {
-                true => String::new(),
-                false => format!(", whose stiffness is {:e}", law.stiffness),
-            };
-            format!(" at contact[{}]{stiffness}", p + 1)
+            (p, (!law.is_rigid()).then_some(law.stiffness))
         });
-        EngineError {
-            message: format!(
-                "the motion exceeds what double precision can hold at t = {} s{place}; check the units of masses, \
-                 stiffnesses, gaps and ground acceleration",
-                base.time()
-            ),
-        }
+        EngineError::Overflow { time: base.time(), contact }
     }
 
     /// Limits the work of each communication step to so many seconds, estimated beforehand for a core of the year 2020
@@ -69,14 +59,9 @@ impl Model {
     }
 
     #[cold]
-    fn too_many_segments(&self, ground: &GroundMotion, time: f64, until: f64) -> EngineError {
-        let (segments, most) = (ground.segments_after(time, until), self.most_flights);
-        EngineError {
-            message: format!(
-                "a communication step from t = {time} s to {until} s is {segments:.1e} intervals after the record, as long \
-                 as between its samples, more than the {most:.1e} that one step may take: take smaller communication steps"
-            ),
-        }
+    fn too_many_segments(&self, ground: &GroundMotion, from: f64, until: f64) -> EngineError {
+        let (segments, most) = (ground.segments_after(from, until), self.most_flights);
+        EngineError::TooManyIntervals { from, until, segments, most }
     }
 
     /// The work of a communication step at its beginning, after fast flight over `flown` segments.
@@ -89,22 +74,21 @@ impl Model {
     /// Refuses to go on beyond the limit on work, or with numbers that are not finite.
     pub(in crate::engine) fn check_progress(&self, state: &State, progress: &Progress) -> Result<(), EngineError> {
         if progress.work(&state.counters) > progress.most {
-            return Err(self.gave_up(state, progress, "more work than one communication step may be"));
+            return Err(EngineError::TooMuchWork(self.give_up(state, progress)));
         }
         if progress.stalled > MOST_STEPS_AT_ONCE {
-            return Err(self.gave_up(state, progress, "internal steps shorter than the time can resolve"));
+            return Err(EngineError::Stalled(self.give_up(state, progress)));
         }
         Ok(())
     }
 
     #[cold]
-    fn gave_up(&self, state: &State, progress: &Progress, why: &str) -> EngineError {
+    fn give_up(&self, state: &State, progress: &Progress) -> GivenUp {
         let (counters, before, base) = (&state.counters, &progress.before, &state.base);
-        let time = base.time();
         let in_contact = counters.contact_steps - before.contact_steps;
         let yielding = counters.yielding_steps - before.yielding_steps;
         let steps = in_contact + yielding + counters.flight_steps - before.flight_steps;
-        let (impacts, start) = (base.impacts - progress.impacts_before, progress.start);
+        let (impacts, time, start) = (base.impacts - progress.impacts_before, base.time(), progress.start);
         let looked = counters.narrow_phase_pieces - before.narrow_phase_pieces;
         let remedy = match () {
             _ if counters.energy_steps - before.energy_steps > 16 * steps => {
@@ -117,13 +101,7 @@ impl Model {
             _ if in_contact > steps / 2 => self.stiff(base),
             _ => self.quick(),
         };
-        let while_yielding = if yielding > 0 { format!("{yielding} while a storey yields, ") } else { String::new() };
-        EngineError {
-            message: format!(
-                "{why}: given up at t = {time} s, after {steps} internal steps ({in_contact} in contact, \
-                 {while_yielding}{impacts} impacts) since t = {start} s; {remedy}, or take smaller communication steps"
-            ),
-        }
+        GivenUp { time, start, steps, in_contact, yielding, impacts, remedy }
     }
 
     /// Whether there is a record and the base is before its beginning or after its end.

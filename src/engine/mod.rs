@@ -68,7 +68,7 @@ mod yielding;
 
 pub use crate::engine::base::contact::Episode;
 pub use crate::engine::base::counters::Counters;
-pub use crate::engine::error::EngineError;
+pub use crate::engine::error::{EngineError, GivenUp};
 pub use crate::engine::excitation::inputs::{Input, Inputs, LinearInput};
 pub use crate::engine::model::Model;
 pub use crate::engine::output::feedthrough::Response;

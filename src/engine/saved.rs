@@ -140,7 +140,7 @@ impl Model {
             };
             let is_known = contact.episode.contact == p && contact.impacts <= MOST_COUNTED && contact.age >= 0.0;
             if !(fits && is_known && (is_law(None) || is_law(Some(approach)))) {
-                return Err(impossible(&format!("contact[{}] is in no state that its law has", p + 1)));
+                return Err(EngineError::ImpossibleContact { contact: p });
             }
         }
         let impacts = base.contacts.iter().fold(0_u64, |sum, contact| sum.saturating_add(contact.impacts));
@@ -157,8 +157,7 @@ impl Model {
             let is_at_limit = storey.yields.is_none_or(is_at) && storey.turned.is_none_or(is_at);
             let has_flowed = storey.furthest >= storey.plastic.abs() && storey.cumulative.value >= 0.0;
             if !(is_within && is_at_limit && has_flowed && (storey.yields.is_none() || storey.turned.is_none())) {
-                let path = format!("storey {} of the {} building", of.storey + 1, of.side);
-                return Err(impossible(&format!("{path} is in no state that it can have")));
+                return Err(EngineError::ImpossibleStorey { side: of.side, storey: of.storey });
             }
         }
         Ok(())
@@ -184,10 +183,6 @@ fn rounding(time: f64) -> f64 {
     TIME_ROUNDING * time.abs().max(1.0)
 }
 
-fn require(holds: bool, otherwise: &str) -> Result<(), EngineError> {
-    if holds { Ok(()) } else { Err(impossible(otherwise)) }
-}
-
-fn impossible(what: &str) -> EngineError {
-    EngineError { message: format!("not a state of this scene: {what}") }
+fn require(holds: bool, what: &'static str) -> Result<(), EngineError> {
+    if holds { Ok(()) } else { Err(EngineError::NotOfScene { what }) }
 }
