@@ -30,7 +30,7 @@ fn fingerprint(case: &Case) -> u64 {
     let &Case { ref law, damping, storeys, energy, yields } = case;
     let mut scene = scene(&Frames { storeys, damping, gap: 0.01, law, energy, floor_forces: false }.toml());
     if yields {
-        let yielding = |force: f64| Some(Yielding { force: vec![force; storeys], ratio: vec![0.05; storeys] });
+        let yielding = |force: f64| Some(Yielding::new(vec![force; storeys], vec![0.05; storeys]));
         (scene.left.yielding, scene.right.yielding) = (yielding(4e4 * storeys as f64), yielding(8e4 * storeys as f64));
     }
     // With peaks contacts of many storeys are followed floor by floor.

@@ -100,7 +100,9 @@ fn the_unit_of_the_stiffness_is_that_of_the_spring() {
         };
         let force = |stiffness: f64, penetration: f64| {
             let (kind, damping_formula) = (case.kind, case.formula);
-            let law = ImpactLaw { kind, stiffness, exponent, restitution: 0.5, damping_formula };
+            let mut law = ImpactLaw::new(kind);
+            (law.stiffness, law.exponent, law.restitution, law.damping_formula) =
+                (stiffness, exponent, 0.5, damping_formula);
             EpisodeForce::new(&law, 1.0, Some(1.0)).value(penetration, 0.0)
         };
         let (once, twice) = (force(3.0, 0.25), force(3.0, 0.5));

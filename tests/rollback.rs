@@ -66,7 +66,7 @@ impl Case {
         let mut scene = scene(&Frames { storeys, damping, gap, law, energy, floor_forces }.toml());
         if yields {
             let force = (0..storeys).map(|i| if i == 1 { f64::INFINITY } else { 1e5 - 1e3 * i as f64 });
-            scene.left.yielding = Some(Yielding { force: force.collect(), ratio: vec![0.05; storeys] });
+            scene.left.yielding = Some(Yielding::new(force.collect(), vec![0.05; storeys]));
         }
         let has_record = drive != Drive::Inputs;
         scene.ground.record = has_record.then(|| "zigzag.csv".into());

@@ -190,9 +190,10 @@ fn the_energy_account_is_kept_where_it_is_asked_for_only() {
     let without = Run::new(&scene, Some(&record)).to(20.0).state.counters();
     assert_eq!(without.energy_steps, 0);
     scene.energy = true;
-    let with = Run::new(&scene, Some(&record)).to(20.0).state.counters();
+    let mut with = Run::new(&scene, Some(&record)).to(20.0).state.counters();
     assert!(with.energy_steps > 1000, "{with:?}");
-    assert_eq!(Counters { energy_steps: 0, ..with }, without, "nothing else is done for it");
+    with.energy_steps = 0;
+    assert_eq!(with, without, "nothing else is done for it");
 }
 
 #[test]

@@ -56,6 +56,7 @@ impl Case {
                 LawKey::Stiffness => STIFFNESS,
                 LawKey::Exponent => 1.5,
                 LawKey::Restitution | LawKey::ImpulseRestitution => restitution,
+                _ => return Err(format!("{}: a number that nobody knows", info.name).into()),
             };
             law += &format!("{} = {value:?}\n", law_key::number(key).name);
         }

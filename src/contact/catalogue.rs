@@ -6,6 +6,7 @@ macro_rules! variants {
     ($(#[$about:meta])* $Enum:ident { $($(#[$line:meta])* $Variant:ident,)* }) => {
         $(#[$about])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[non_exhaustive]
         pub enum $Enum {
             $($(#[$line])* $Variant,)*
         }

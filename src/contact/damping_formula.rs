@@ -8,6 +8,7 @@ use super::catalogue::catalogue;
 
 /// What is known of one formula. The texts are for a person and stand in docs/laws.md as they are here.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct FormulaInfo {
     /// Name in a scene.
     pub name: &'static str,

@@ -203,13 +203,9 @@ impl EpisodeForce {
     /// ```
     /// use pounding::contact::{DampingFormula, EpisodeForce, ImpactLaw, LawKind};
     ///
-    /// let law = ImpactLaw {
-    ///     kind: LawKind::HertzDamped,
-    ///     stiffness: 3e7, // N/m^1.5
-    ///     exponent: 1.5,
-    ///     restitution: 0.5,
-    ///     damping_formula: Some(DampingFormula::HuGuo), // a = 1.5
-    /// };
+    /// let mut law = ImpactLaw::new(LawKind::HertzDamped);
+    /// (law.stiffness, law.exponent, law.restitution) = (3e7, 1.5, 0.5); // N/m^1.5
+    /// law.damping_formula = Some(DampingFormula::HuGuo); // a = 1.5
     /// let force = EpisodeForce::new(&law, 3e4, Some(0.5));
     /// assert!((force.value(0.01, 0.2) - 3e7 * 1e-3 * (1.0 + 1.5 * 0.2 / 0.5)).abs() < 1e-9);
     /// // Pulled apart by something else, faster than V/a: no contact pulls under this law.

@@ -6,6 +6,7 @@ use super::law_kind::LawKind;
 
 /// A law with its numbers. Numbers that the law does not have keep their neutral value.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ImpactLaw {
     /// Which law.
     pub kind: LawKind,
@@ -19,6 +20,13 @@ pub struct ImpactLaw {
     pub damping_formula: Option<DampingFormula>,
 }
 
+impl ImpactLaw {
+    /// A law with neutral numbers, a stiffness of 1 and no damping formula: set those that it has.
+    pub const fn new(kind: LawKind) -> ImpactLaw {
+        ImpactLaw { kind, stiffness: 1.0, exponent: 1.0, restitution: 1.0, damping_formula: None }
+    }
+}
+
 /// What is known of one law: all that is particular to it stands in its file. The texts are for a person and stand in
 /// docs/reference.md and in docs/laws.md as they are here.
 ///
@@ -26,6 +34,7 @@ pub struct ImpactLaw {
 /// entry; the reduced mass m of the two floors, kg; the coefficient of restitution e, the speed after a free impact
 /// relative to that before.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct LawInfo {
     /// Name in a scene, and of the law's file.
     pub name: &'static str,
@@ -55,6 +64,7 @@ pub struct LawInfo {
 
 /// A number that a law takes from the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum LawKey {
     /// `stiffness` k, N/m^exponent, > 0
     Stiffness,

@@ -2,6 +2,7 @@
 
 /// A log category, under the names that the standard proposes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Category {
     /// Contact episodes as they end.
     Events,

@@ -16,6 +16,7 @@ pub struct Record {
 
 /// A record with what its file says about it.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Accelerogram {
     /// That of the file.
     pub format: Format,
@@ -30,6 +31,7 @@ pub struct Accelerogram {
 /// A record file that cannot be read: everything that is wrong with it; displayed with one problem a line.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}", problems.join("\n"))]
+#[non_exhaustive]
 pub struct RecordError {
     /// What is wrong, with line and value, in the order of the file: the first [`super::MOST_PROBLEMS`], then how many more
     /// there are.

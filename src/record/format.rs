@@ -4,6 +4,7 @@ use std::fmt;
 
 /// The formats of record files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Format {
     /// `time_s,accel_m_s2`.
     Csv,

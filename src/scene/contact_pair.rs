@@ -5,6 +5,7 @@ use crate::contact::ImpactLaw;
 
 /// Two faces with a gap between them.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ContactPair {
     /// What is on the left of the gap.
     pub left: Face,
@@ -39,6 +40,7 @@ pub enum Face {
 /// Deflection of columns between their floors: N(s) is the share of the upper floor's displacement in that of the
 /// columns at the height s, 1 - N that of the lower floor's.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ColumnShape {
     /// Ends that do not rotate, N(s) = 3 s^2 - 2 s^3: the cubic of Hermite, as for a beam between two rigid floors.
     #[default]

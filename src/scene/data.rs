@@ -9,6 +9,7 @@ use crate::record::Record;
 
 /// A scene whose numbers have been checked.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Scene {
     /// C identifier: FMI model name and identifier.
     pub name: String,
@@ -40,6 +41,7 @@ pub struct Scene {
 
 /// One building: floors counted from the bottom.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Building {
     /// kg, one per floor.
     pub mass: Vec<f64>,
@@ -59,6 +61,7 @@ pub struct Building {
 
 /// Bilinear storeys with kinematic hardening.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Yielding {
     /// N, one per storey: the storey shear at first yield; infinite where a storey stays elastic.
     pub force: Vec<f64>,
@@ -66,8 +69,24 @@ pub struct Yielding {
     pub ratio: Vec<f64>,
 }
 
+impl Building {
+    /// A building at rest whose storeys stay elastic, without heights.
+    pub fn new(mass: Vec<f64>, stiffness: Stiffness, damping: Damping) -> Building {
+        let (initial_displacement, initial_velocity) = (vec![0.0; mass.len()], vec![0.0; mass.len()]);
+        Building { mass, stiffness, damping, initial_displacement, initial_velocity, heights: None, yielding: None }
+    }
+}
+
+impl Yielding {
+    /// Of one yield force, N, and one ratio per storey.
+    pub fn new(force: Vec<f64>, ratio: Vec<f64>) -> Yielding {
+        Yielding { force, ratio }
+    }
+}
+
 /// Stiffness of a building.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Stiffness {
     /// Shear building: one per storey, storey i below floor i.
     Shear(Vec<f64>),
@@ -77,6 +96,7 @@ pub enum Stiffness {
 
 /// Damping of a building.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Damping {
     /// The same ratio of critical damping in every mode.
     Ratio(f64),
@@ -97,6 +117,7 @@ pub enum Damping {
 
 /// Ground motion of the scene.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Ground {
     /// Record file as written in the scene; `None`: the acceleration is an FMI input.
     pub record: Option<String>,
@@ -115,6 +136,7 @@ pub enum Scaling {
 
 /// Accuracy.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Solver {
     /// Error of each contact episode relative to the velocities in it.
     pub relative_tolerance: f64,

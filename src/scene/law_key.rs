@@ -5,6 +5,7 @@ use crate::contact::{ImpactLaw, LawKey, LawKind};
 
 /// A number that a law takes from the scene.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct LawNumber {
     /// Key in the scene.
     pub name: &'static str,
@@ -59,9 +60,4 @@ pub(super) fn all() -> Vec<LawKey> {
         }
     }
     keys
-}
-
-/// A law whose numbers are still the neutral ones.
-pub(super) fn neutral(kind: LawKind) -> ImpactLaw {
-    ImpactLaw { kind, stiffness: 1.0, exponent: 1.0, restitution: 1.0, damping_formula: None }
 }

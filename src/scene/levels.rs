@@ -8,6 +8,7 @@ pub const ROUNDING: f64 = 1e-9;
 
 /// Heights of the storeys of a building.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Heights {
     /// m, one per storey, lowest first.
     pub storeys: Vec<f64>,

@@ -7,6 +7,7 @@ use std::fmt;
 ///
 /// Displayed as `path = found: expected ...`, for example `contact[2].restitution = 1.4: expected 0 < e <= 1`.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Problem {
     /// Path in the file, such as `contact[2].restitution`; entries of lists are counted from 1.
     pub path: String,
@@ -40,6 +41,7 @@ impl fmt::Display for Problem {
 
 /// Everything that is wrong with a scene, at once; displayed with one problem a line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub struct SceneError {
     /// In the order of the file.
     pub problems: Vec<Problem>,

@@ -234,9 +234,9 @@ fn law(mut section: Section<'_>, units: Units) -> ImpactLaw {
         }
         section.get("damping_formula").inspect(|item| _ = item.text());
         section.close(KEY);
-        return law_key::neutral(LawKind::Linear);
+        return ImpactLaw::new(LawKind::Linear);
     };
-    let mut law = law_key::neutral(kind);
+    let mut law = ImpactLaw::new(kind);
     for &key in kind.info().keys {
         let key = law_key::number(key);
         let item = match key.default {

@@ -5,6 +5,7 @@
 
 /// How a scene gives masses and forces. Lengths are in m and times in s in any case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Units {
     /// kg and N.
     #[default]

@@ -6,6 +6,7 @@ use crate::scene::Scene;
 
 /// How an unknown depends on a known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Dependence {
     /// By a factor that the parameters decide.
     Fixed,

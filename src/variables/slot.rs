@@ -17,6 +17,7 @@ pub enum Slot {
 
 /// A parameter: the master sets it before the end of initialisation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Parameter {
     /// Factor on the record.
     GroundScale,

@@ -30,6 +30,7 @@ pub enum Type {
 
 /// One variable.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Row {
     /// Structured name, such as `contact[2].gap`.
     pub name: String,

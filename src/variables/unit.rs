@@ -4,6 +4,7 @@ use crate::contact::StiffnessUnit;
 
 /// A unit, as the description declares it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Unit {
     /// Dimensionless.
     One,
@@ -36,6 +37,7 @@ pub enum Unit {
 
 /// What the description says of a unit.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct UnitInfo {
     /// Name in the description.
     pub name: &'static str,

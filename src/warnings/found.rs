@@ -7,6 +7,7 @@ use std::fmt;
 ///
 /// Displayed as `path = value: text`.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Warning {
     /// Path in the scene, such as `contact[2].gap`.
     pub path: String,

@@ -4,7 +4,6 @@
 use crate::common::problems::frames::zigzag;
 use crate::common::problems::two_masses::{FREE, Mass, TwoMasses};
 use crate::common::{Run, assert_close, record, scene};
-use pounding::engine::Counters;
 use pounding::record::Record;
 use pounding::scene::Scene;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI};
@@ -261,10 +260,11 @@ fn a_run_that_looks_at_every_pair_has_the_same_bits() {
             assert_eq!(plain.bits(), accounted.bits(), "{law}, {damping}");
             assert_eq!(plain.episodes, driven.episodes, "{law}, {damping}");
             assert_eq!(plain.episodes, accounted.episodes, "{law}, {damping}");
-            let [plain, driven, accounted] = [plain, driven, accounted].map(|run| run.state.counters());
+            let [plain, driven, mut accounted] = [plain, driven, accounted].map(|run| run.state.counters());
             assert_eq!(driven.flights_cleared, 0);
             assert!(4 * plain.flights_cleared > plain.flight_steps, "{law}, {damping}: {plain:?}");
-            assert_eq!(plain, Counters { energy_steps: 0, ..accounted });
+            accounted.energy_steps = 0;
+            assert_eq!(plain, accounted);
         }
     }
 }

@@ -30,6 +30,7 @@ fn now(run: &Run) -> Vec<f64> {
         PeakOf::Drift(side, storey) => run.displacement(side, storey) - run.displacement(side, storey - 1),
         PeakOf::Acceleration(side, floor) => run.read(Output::Acceleration(side, floor)),
         PeakOf::BaseShear(side) => run.read(Output::BaseShear(side)),
+        _ => panic!("{of:?}"),
     };
     all_of(run).into_iter().map(|of| f64::abs(value(of))).collect()
 }

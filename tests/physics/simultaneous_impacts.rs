@@ -94,7 +94,8 @@ fn the_order_of_contacts_in_the_file_does_not_matter() {
 fn an_earthquake_in_a_mirror_gives_the_motion_in_a_mirror() {
     let (scene, record) = touching_frames();
     let first = motion(&scene, &record);
-    let mirrored = Scene { left: scene.right.clone(), right: scene.left.clone(), ..scene };
+    let mut mirrored = scene;
+    std::mem::swap(&mut mirrored.left, &mut mirrored.right);
     let accelerations = record.accelerations.iter().map(|a| -a).collect();
     let second = motion(&mirrored, &Record { times: record.times.clone(), accelerations });
     let size = first.iter().fold(0.0, |a: f64, u| a.max(u.abs()));

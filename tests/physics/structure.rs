@@ -5,16 +5,7 @@ use pounding::structure::{ModalDamping, Modes};
 use std::f64::consts::PI;
 
 fn shear(mass: Vec<f64>, stiffness: Vec<f64>, damping: Damping) -> Building {
-    let rest = vec![0.0; mass.len()];
-    Building {
-        mass,
-        stiffness: Stiffness::Shear(stiffness),
-        damping,
-        initial_displacement: rest.clone(),
-        initial_velocity: rest,
-        heights: None,
-        yielding: None,
-    }
+    Building::new(mass, Stiffness::Shear(stiffness), damping)
 }
 
 /// N equal storeys: w_j = 2 sqrt(k/m) sin((2j - 1) pi / (2 (2N + 1))) (Chopra, Dynamics of Structures).

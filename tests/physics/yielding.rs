@@ -314,6 +314,6 @@ fn storeys_without_a_limit_have_the_same_bits() {
         [0.1, 0.5, 3.0].map(|time| run.to(time).bits())
     };
     let expected = bits(&plain);
-    plain.left.yielding = Some(Yielding { force: vec![f64::INFINITY; 3], ratio: vec![0.0, 0.1, 0.2] });
+    plain.left.yielding = Some(Yielding::new(vec![f64::INFINITY; 3], vec![0.0, 0.1, 0.2]));
     assert!(bits(&plain) == expected);
 }

@@ -227,7 +227,7 @@ fn the_same_motion_later_yields_alike() {
 fn identical_buildings_yield_alike_and_never_meet() {
     let mut scene = frames(&CONTACT.replace("0.02", "1e-9"));
     scene.right = scene.left.clone();
-    scene.right.yielding = Some(Yielding { force: vec![2e5, 1.5e5, f64::INFINITY], ratio: vec![0.05, 0.0, 0.1] });
+    scene.right.yielding = Some(Yielding::new(vec![2e5, 1.5e5, f64::INFINITY], vec![0.05, 0.0, 0.1]));
     let mut run = Run::new(&scene, Some(&shaking(1.0, 0.0)));
     for k in 1..=600 {
         run.to(0.01 * f64::from(k));

@@ -23,17 +23,12 @@ fn every_key_arrives() {
     assert!(scene.floor_forces && scene.energy);
     let [first, second] = scene.contacts.as_slice() else { panic!("two contacts") };
     assert_eq!((first.floors(), first.gap), (Some([1, 1]), 0.002));
-    let law = ImpactLaw {
-        kind: LawKind::KelvinVoigt,
-        stiffness: 1e6,
-        exponent: 1.0,
-        restitution: 0.65,
-        damping_formula: None,
-    };
+    let mut law = ImpactLaw::new(LawKind::KelvinVoigt);
+    (law.stiffness, law.exponent, law.restitution, law.damping_formula) = (1e6, 1.0, 0.65, None);
     assert_eq!(first.law, law);
     assert_eq!((second.floors(), second.gap), (Some([2, 2]), -0.001));
-    let law =
-        ImpactLaw { kind: LawKind::Hertz, stiffness: 2e6, exponent: 1.5, restitution: 1.0, damping_formula: None };
+    let mut law = ImpactLaw::new(LawKind::Hertz);
+    (law.stiffness, law.exponent, law.restitution, law.damping_formula) = (2e6, 1.5, 1.0, None);
     assert_eq!(second.law, law);
     assert_eq!((scene.solver.relative_tolerance, scene.solver.min_approach_velocity), (1e-10, 1e-3));
     assert_eq!(scene.check(), Ok(()));
@@ -53,7 +48,8 @@ fn every_law_of_the_catalogue_is_read_with_its_keys() {
         }
         let text = format!("{SHORT}\n[[contact]]\nleft_floor = 1\nright_floor = 1\ngap = 0.1\n{table}");
         let law = Scene::from_toml(&text).unwrap().contacts[0].law;
-        assert_eq!(law, ImpactLaw { kind, stiffness: 1.0, exponent: 1.0, restitution: 1.0, damping_formula });
+        assert_eq!((law.kind, law.damping_formula), (kind, damping_formula));
+        assert_eq!((law.stiffness, law.exponent, law.restitution), (1.0, 1.0, 1.0));
     }
 }
 

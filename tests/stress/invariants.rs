@@ -82,7 +82,8 @@ fn mirrored_face(face: Face) -> Face {
 
 fn mirrored(case: &Case) -> Case {
     let Case { scene, record, text } = case;
-    let mut scene = Scene { left: scene.right.clone(), right: scene.left.clone(), ..scene.clone() };
+    let mut scene = scene.clone();
+    std::mem::swap(&mut scene.left, &mut scene.right);
     for pair in &mut scene.contacts {
         (pair.left, pair.right) = (mirrored_face(pair.right), mirrored_face(pair.left));
     }
@@ -264,7 +265,9 @@ proptest! {
         }
         let with_it = |scene: &mut Scene| {
             let text = format!("{}{}", case.text, contact((left, right), nearest.max(0.0) + margin, &law));
-            *scene = Scene { ground: scene.ground.clone(), ..crate::common::scene(&text) };
+            let ground = scene.ground.clone();
+            *scene = crate::common::scene(&text);
+            scene.ground = ground;
             if first {
                 scene.contacts.rotate_right(1);
             }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// One contact episode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Episode {
     /// Contact, counted from 0.
     pub contact: usize,

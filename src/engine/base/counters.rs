@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// How much work a run has been: counted, not timed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Counters {
     /// Internal flight steps.
     pub flight_steps: u64,

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// An input: a master sets it at any time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Input {
     /// Ground acceleration, m/s2; acts where the scene has no record.
     GroundAcceleration,

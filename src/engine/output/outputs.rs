@@ -10,6 +10,7 @@ pub type Rates = [f64; 2];
 
 /// A quantity that a run shows. Floors, storeys and contacts are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Output {
     /// Ground acceleration, m/s2.
     GroundAcceleration,
@@ -39,6 +40,7 @@ pub enum Output {
 
 /// A quantity of a storey that can yield.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum YieldingOf {
     /// Storey shear, N, without damping.
     Shear,
@@ -63,12 +65,14 @@ macro_rules! quantities {
     ) => {
         $(#[$of_enum])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[non_exhaustive]
         pub enum $Of {
             $($(#[$about])* $Quantity,)*
         }
 
         $(#[$of_values])*
         #[derive(Clone, Copy, Debug, Default, PartialEq)]
+        #[non_exhaustive]
         pub struct $Values {
             $($(#[$about])* pub $name: $ty,)*
         }

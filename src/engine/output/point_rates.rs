@@ -9,6 +9,7 @@ pub const PEAK_ROUNDING: f64 = 1e-12;
 
 /// The derivatives of all outputs at one time.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct PointRates {
     /// Of the ground acceleration: m/s3 and m/s4.
     pub ground_acceleration: Rates,

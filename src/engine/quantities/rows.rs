@@ -15,6 +15,7 @@ use std::ops::Range;
 
 /// A quantity whose largest magnitude is kept. Floors and storeys count from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum PeakOf {
     /// Displacement of a floor relative to the ground, m.
     Displacement(Side, usize),

@@ -5,6 +5,7 @@ use crate::structure::Side;
 
 /// A quantity of one storey. Each is a factor times another output, or the largest of some.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum StoreyPeak {
     /// Peak drift over the storey's height.
     DriftRatio,
