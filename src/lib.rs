@@ -37,12 +37,17 @@ pub mod contact;
 pub mod description;
 pub mod engine;
 mod figures;
+// Hidden: an importer finds these functions in the library of an FMU; they are public for the tests that link them.
+#[doc(hidden)]
 #[allow(unsafe_code)]
 pub mod fmi;
 mod numerics;
 pub mod record;
 pub mod scene;
 pub mod slave;
+// Hidden: parts of the engine, public for the tests that hold them against closed forms, and for the periods that the
+// Python module draws.
+#[doc(hidden)]
 pub mod structure;
 pub mod variables;
 pub mod warnings;
