@@ -20,6 +20,11 @@ impl Model {
     /// With a record inside, the engine's own steps end at segments, events and where series end, whatever `until` is.
     /// Where a master drives the ground or the floors, its input changes at communication points, so that steps end
     /// there too.
+    ///
+    /// # Errors
+    /// Too much work for one communication step, steps shorter than the time can resolve, or numbers beyond double
+    /// precision, each with what to change in the scene. The state then still has the time that it came with, and its
+    /// motion is what had been reached: it can be read, and restored from what was saved before.
     pub fn advance(
         &self,
         state: &mut State,
@@ -27,6 +32,8 @@ impl Model {
         on_episode: &mut dyn FnMut(&Episode),
     ) -> Result<(), EngineError> {
         if self.system.ground.is_none() {
+            // The ground as it is from here to `until`: no second copy of the input, which may be set anew at `until`
+            // while the base still stands at the end of this segment.
             let input = &state.inputs.ground_acceleration;
             state.base.segment = Segment::under_input(state.time, until - state.time, input);
             state.base.elapsed = 0.0;
@@ -104,21 +111,41 @@ impl Model {
     }
 
     /// Takes the planned step, which ends at `end` (s since the segment's start), and handles its event.
+    ///
+    /// The order must not change. The step is a function of the base that it was planned from: whatever integrates it,
+    /// or follows it, has to see that base and comes first. Then the base moves to the end, each part after those that
+    /// it is worked out from.
     fn take(&self, state: &mut State, end: f64, on_episode: &mut dyn FnMut(&Episode)) {
         let State { base, step, inputs, counters, work, .. } = state;
+        // Work integrates the step from the motion, the contacts and the storeys at its start.
         self.system.add_work(&mut At { base, inputs, counters }, step, &mut work.buffers);
+        // So do impulses and peaks. From here on forces, impulses and work of closed contacts are those of the end, and
+        // all else is still that of the start.
         self.follow_and_raise(base, step, inputs, end, work);
+        // The time map of a series reads the age at the start: it goes on only when the series has been followed.
         let Step { planned, .. } = step;
         base.contacts.iter_mut().filter(|contact| contact.in_contact()).for_each(|c| c.age += planned.length);
+        // The motion of the base is that of the end, still about the position of rest of the start; `planned` has the
+        // old one, which nothing reads any more.
         std::mem::swap(&mut base.q, &mut planned.q);
         std::mem::swap(&mut base.v, &mut planned.v);
+        // From here on `base.time()` is the end of the step.
         base.elapsed = end;
+        // Plastic drifts move the position of rest, and with it `q` and the gaps at rest: before anything is measured
+        // from them.
         self.move_storeys(base, step);
         let Step { kind, planned, .. } = step;
+        // What planned the length of this step says where the next one begins to look; an entry, below, forgets it.
         base.last_length = planned.next_length.unwrap_or(base.last_length);
+        // Penetrations of open contacts are measured on `q` with the new gaps; of closed ones the step knows them
+        // better.
         self.move_contacts(base, planned);
+        // Floors that are held together are put together again, by what rounding has moved them apart: after the
+        // contacts, whose phases say which they are and whose penetrations do not change by it.
         self.system.project_constraints(base, &mut work.buffers);
+        // That may have moved a storey that yields off its limit: it is put back by plastic drift, not by its floors.
         self.anchor_storeys(base);
+        // The event sees all of this at its instant, and begins or ends what changes there.
         if let Some(event) = planned.event {
             counters.events += 1;
             base.clearance.restart();
@@ -126,6 +153,7 @@ impl Model {
             work.note(event, base.time());
             self.handle(base, event, &mut work.buffers, on_episode);
         }
+        // The base has moved: the step that was planned from the old one means nothing.
         *kind = StepKind::NotPlanned;
     }
 
