@@ -2,6 +2,16 @@
 //!
 //! `package.rs` says what a scene and its record give an FMU: description, fingerprint, default experiment; `xml.rs`
 //! writes the document, `model_structure.rs` its model structure.
+//!
+//! ```
+//! use pounding::description::Package;
+//!
+//! let text = "name = \"Mast\"\nleft = { mass = [1e3], stiffness = [1e5], damping = { ratio = 0.0 } }";
+//! let package = Package::from_scene_text(text.to_owned(), ".".as_ref())?;
+//! let description = package.model_description();
+//! assert!(description.contains("modelName=\"Mast\"") && description.contains(&package.guid()));
+//! # Ok::<(), pounding::scene::SceneError>(())
+//! ```
 
 mod log_category;
 mod model_structure;

@@ -1,7 +1,7 @@
 //! The engine: event-driven integration of two buildings with contacts.
 //!
-//! [`Model`] never changes during a run, [`State`] is plain data; a communication point is read into a [`Point`], which an
-//! [`Instant`] shows.
+//! [`Model`] never changes during a run, [`State`] is plain data; a communication point is read into a [`Point`], which
+//! an [`Instant`] shows.
 //!
 //! ```
 //! use pounding::engine::{Model, Output, Point, Side};

@@ -31,7 +31,12 @@ pub struct Model {
 }
 
 impl Model {
-    /// Prepares a checked scene. `record` is there when `scene.ground.record` is.
+    /// Prepares a checked scene, as [`Scene::from_toml`] and [`load`](crate::scene::load) return it. `record` is there
+    /// when `scene.ground.record` is.
+    ///
+    /// # Errors
+    /// A stiffness that is not positive definite, a record of less than two samples, or one that cannot be scaled to a
+    /// peak: under the path of the scene's key.
     pub fn new(scene: &Scene, record: Option<&Record>) -> Result<Model, SceneError> {
         let system = System::of(scene, record)?;
         let structure = &system.structure;

@@ -29,6 +29,25 @@ const TIME_ROUNDING: f64 = 1e-9;
 const AT_LIMIT: f64 = 1e-9;
 
 /// Everything of a state that cannot be worked out from the model: plain data, to be kept or written to bytes.
+///
+/// ```
+/// use pounding::engine::Model;
+///
+/// # let scene = pounding::scene::Scene::from_toml(
+/// #     "name = \"Mast\"\n\
+/// #     left = { mass = [1e3], stiffness = [1e5], damping = { ratio = 0.0 }, initial_velocity = [0.1] }",
+/// # )?;
+/// let model = Model::new(&scene, None)?;
+/// let mut state = model.start(0.0);
+/// model.advance(&mut state, 1.0, &mut |_| ())?;
+/// let saved = state.save();
+/// model.advance(&mut state, 3.0, &mut |_| ())?;
+/// model.restore(&saved, &mut state);
+/// assert_eq!(state.time(), 1.0);
+/// // One that comes from outside may be of another scene.
+/// model.check_saved(&saved)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SavedState {
     /// The communication time, s.

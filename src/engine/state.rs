@@ -17,6 +17,26 @@ use crate::structure::Side;
 /// `base` is the end of the engine's last own step at or before the communication time, and `step` is the dense
 /// solution from there on. `step` follows from `base` and the inputs alone; with a record inside it does not depend on
 /// the communication points.
+///
+/// Where a master drives the ground or the floors, it sets them between two calls of [`Model::advance`]:
+///
+/// ```
+/// use pounding::engine::{Input, Model, Output, Point, Side};
+///
+/// # let scene = pounding::scene::Scene::from_toml(
+/// #     "name = \"Mast\"\n\
+/// #     left = { mass = [1e3], stiffness = [1e5], damping = { ratio = 0.0 } }",
+/// # )?;
+/// let model = Model::new(&scene, None)?;
+/// let (mut state, mut point) = (model.start(0.0), Point::default());
+/// state.set_input(Input::GroundAcceleration, 1.0); // m/s2, held from here on
+/// model.advance(&mut state, 0.05, &mut |_| ())?;
+/// let now = model.observe(&state, &mut point);
+/// // The mast swings with 10 rad/s about the displacement at which its spring takes the ground along.
+/// let exact = -1.0 / 100.0 * (1.0 - f64::cos(10.0 * 0.05));
+/// assert!((now.read(Output::Displacement(Side::Left, 0)) - exact).abs() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct State {
     /// The communication time, s.
@@ -63,8 +83,8 @@ impl State {
         &self.inputs
     }
 
-    /// Sets an input at the present time, in its unit. It is constant from now on, unless a rate is set for the same time.
-    /// One that the scene does not have is left alone.
+    /// Sets an input at the present time, in its unit. It is constant from now on, unless a rate is set for the same
+    /// time. One that the scene does not have is left alone.
     pub fn set_input(&mut self, input: Input, value: f64) {
         self.inputs.set(input, value, self.time);
     }

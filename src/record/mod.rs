@@ -17,6 +17,19 @@
 //! are accepted in all. CSV and columns have comments, lines that start with `#`. Columns are set apart by semicolons, commas or
 //! blanks; beside semicolons and blanks decimals may have a comma. Of a file of the volume 2 the first channel is read, or the
 //! one that is named behind the file, `CHAN.v2#2` ([`RecordFile`]).
+//!
+//! ```
+//! use pounding::record::Record;
+//!
+//! let record = Record::parse("motion.csv", b"time_s,accel_m_s2\n0,0\n0.01,-1.5\n0.02,0.5\n")?;
+//! assert_eq!(record.times, [0.0, 0.01, 0.02]); // s
+//! assert_eq!(record.peak(), 1.5); // m/s2
+//!
+//! // What is wrong is said with its place.
+//! let error = Record::parse("motion.csv", b"time_s,accel_m_s2\n0,0\n0,1\n").unwrap_err();
+//! assert!(error.to_string().contains("line 3"), "{error}");
+//! # Ok::<(), pounding::record::RecordError>(())
+//! ```
 
 mod accelerogram;
 mod at2;

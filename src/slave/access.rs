@@ -12,6 +12,9 @@ use std::sync::Arc;
 
 impl Slave {
     /// Reads each variable in turn and hands over its place and value; `take` is `None` where it is not of `wanted` type.
+    ///
+    /// # Errors
+    /// References that there are not, variables that `take` refuses, and settings of which no model can be made.
     pub fn get(
         &mut self,
         references: &[u32],
@@ -38,6 +41,10 @@ impl Slave {
     }
 
     /// Sets each variable to the value of its place: all of them, or none where anything is wrong.
+    ///
+    /// # Errors
+    /// References that there are not, values of another type or out of their range, variables that cannot be set now,
+    /// and parameters that the scene's rules refuse.
     pub fn set<'v>(&mut self, references: &[u32], value: impl Fn(usize) -> Value<'v>) -> Result<(), Refusal> {
         let pairs = || references.iter().enumerate().map(|(i, &reference)| (reference, value(i)));
         let mut problems: Vec<_> = pairs().filter_map(|(reference, value)| self.refuse(reference, value)).collect();

@@ -10,6 +10,9 @@ use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, Slot, Type, by_parameter};
 impl Slave {
     /// Sets the first derivatives of inputs for the present communication point: all of them, or none where anything is
     /// wrong. From there on the inputs are linear in time.
+    ///
+    /// # Errors
+    /// References that are of no input, orders other than 1, numbers that are not finite.
     pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Result<(), Refusal> {
         let all = || references.iter().zip(orders).zip(values).map(|((r, order), value)| (*r, *order, *value));
         let problems = all().filter_map(|(reference, order, value)| self.refuse_derivative(reference, order, value));
@@ -35,6 +38,9 @@ impl Slave {
 
     /// Reads a derivative of each output in turn and hands over its place and value. One that there is not is discarded:
     /// nothing has changed, the instance goes on.
+    ///
+    /// # Errors
+    /// Settings of which no model can be made.
     pub fn output_derivatives(
         &mut self,
         references: &[u32],
@@ -71,6 +77,9 @@ impl Slave {
     /// nothing has changed, the instance goes on.
     ///
     /// In initialization mode unknowns may be calculated parameters too, and knowns parameters.
+    ///
+    /// # Errors
+    /// Settings of which no model can be made.
     pub fn directional_derivative(
         &mut self,
         unknowns: &[u32],

@@ -61,6 +61,9 @@ impl Slave {
     }
 
     /// Whether the standard allows a call now.
+    ///
+    /// # Errors
+    /// A call that the standard does not allow in the present phase.
     pub fn check(&self, call: Call) -> Result<(), Refusal> {
         if call.is_allowed_in(self.phase) { Ok(()) } else { Err(self.out_of_sequence(call)) }
     }
@@ -97,11 +100,17 @@ impl Slave {
     }
 
     /// Chooses the log categories.
+    ///
+    /// # Errors
+    /// Categories that there are not.
     pub fn set_debug_logging(&mut self, on: bool, categories: &[&str]) -> Result<(), Refusal> {
         self.log.choose(on, categories).map_err(|problems| Refusal { problems })
     }
 
     /// Start and end, s. The tolerance is only looked at: `solver.relative_tolerance` rules the accuracy.
+    ///
+    /// # Errors
+    /// Numbers that are not finite, negative tolerances, an end before the start, times beyond what can be followed.
     pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Result<(), Refusal> {
         let mut problems = Vec::new();
         if let Some(tolerance) = tolerance.filter(|tolerance| !(tolerance.is_finite() && *tolerance >= 0.0)) {
@@ -131,6 +140,9 @@ impl Slave {
     }
 
     /// The parameters are fixed from here on: what looks like a slip in them is said.
+    ///
+    /// # Errors
+    /// Settings of which no model can be made.
     pub fn exit_initialization(&mut self) -> Result<(), Refusal> {
         self.start()?;
         self.phase = Phase::StepComplete;
@@ -161,6 +173,10 @@ impl Slave {
     }
 
     /// One communication step, s: from the last communication point, give or take the rounding of the master.
+    ///
+    /// # Errors
+    /// A step that does not begin at the present communication point or leads beyond the end, inputs that leave their
+    /// range in it, and a step that the engine gives up ([`EngineError`](crate::engine::EngineError)).
     pub fn do_step(&mut self, current: f64, step: f64) -> Result<(), Refusal> {
         let target = self.target(current, step)?;
         let log_events = self.log.is_enabled(Category::Events);

@@ -8,6 +8,9 @@ use crate::description::Package;
 use crate::scene::SCENE_RESOURCE;
 
 /// Loads the resources of the FMU and checks that they are those of the description.
+///
+/// # Errors
+/// A location that is none, resources that cannot be read or hold no scene, and a GUID that is not theirs.
 pub fn instantiate(guid: &str, resource_location: &[u8], log: Log) -> Result<Slave, Refusal> {
     let candidates = paths(resource_location);
     let shown = String::from_utf8_lossy(resource_location);

@@ -28,8 +28,10 @@ impl Log {
         Log { enabled, pending: Vec::new() }
     }
 
-    /// Logging on in these categories only, in all where none is named, or off; every name that there is not is
-    /// reported.
+    /// Logging on in these categories only, in all where none is named, or off.
+    ///
+    /// # Errors
+    /// Every name that there is not; nothing is chosen then.
     pub fn choose(&mut self, on: bool, names: &[&str]) -> Result<(), Vec<String>> {
         let exists = |name: &&str| *name == Category::ALL_MESSAGES.0 || Category::ALL.iter().any(|c| c.name() == *name);
         let unknown = names.iter().filter(|name| !exists(name)).map(|name| {

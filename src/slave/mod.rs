@@ -4,7 +4,25 @@
 //! [`Slave::report`] and hands the messages of [`Slave::take_messages`] to the master. `instance.rs` has its life and its
 //! steps. Values go through `access.rs`, which walks the table of variables, derivatives through `derivatives.rs`;
 //! `states.rs` records what the master wants to come back to, `snapshots.rs` keeps it, `serialized.rs` turns it into bytes
-//! and back.
+//! and back; `run.rs` holds time and inputs until a simulation starts, and that from then on.
+//!
+//! ```
+//! use pounding::description::Package;
+//! use pounding::slave::{Log, Slave};
+//!
+//! let text = "name = \"Mast\"\n\
+//!     left = { mass = [1e3], stiffness = [1e5], damping = { ratio = 0.0 }, initial_velocity = [0.1] }";
+//! let package = Package::from_scene_text(text.to_owned(), ".".as_ref())?;
+//! let mut slave = Slave::new(package, Log::new(false));
+//! slave.enter_initialization();
+//! slave.exit_initialization().expect("a sound scene");
+//! slave.do_step(0.0, 2.0).expect("2 s of nothing but swinging");
+//! assert_eq!(slave.last_successful_time(), 2.0);
+//! # Ok::<(), pounding::scene::SceneError>(())
+//! ```
+//!
+//! A [`Refusal`] lists everything that was wrong with a call. The call has then changed nothing, but for a step that
+//! the engine has given up on its way.
 
 mod access;
 mod derivatives;

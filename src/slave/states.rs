@@ -7,6 +7,9 @@ use std::sync::Arc;
 
 impl Slave {
     /// Records the present state: in place of an earlier snapshot, or as a new one.
+    ///
+    /// # Errors
+    /// An earlier snapshot that this instance does not have.
     pub fn record_state(&mut self, earlier: Option<Handle>) -> Result<Handle, Refusal> {
         let snapshot = Snapshot {
             settings: Arc::clone(&self.settings),
@@ -18,6 +21,9 @@ impl Slave {
     }
 
     /// Goes back to a snapshot, from any phase.
+    ///
+    /// # Errors
+    /// A snapshot that this instance does not have.
     pub fn restore_state(&mut self, handle: Option<Handle>) -> Result<(), Refusal> {
         let Snapshot { settings, phase, stop_time, run } = self.snapshots.get(handle)?;
         self.settings = Arc::clone(settings);
@@ -27,6 +33,9 @@ impl Slave {
     }
 
     /// Frees a snapshot; there may be none.
+    ///
+    /// # Errors
+    /// A snapshot that this instance does not have.
     pub fn free_state(&mut self, handle: Option<Handle>) -> Result<(), Refusal> {
         if let Some(handle) = handle {
             self.snapshots.free(handle)?;
@@ -35,16 +44,26 @@ impl Slave {
     }
 
     /// Number of bytes that [`Slave::serialize_state`] makes of a snapshot.
+    ///
+    /// # Errors
+    /// A snapshot that this instance does not have.
     pub fn serialized_size(&self, handle: Option<Handle>) -> Result<usize, Refusal> {
         Ok(self.serialize_state(handle)?.len())
     }
 
     /// A snapshot as bytes, to be kept anywhere.
+    ///
+    /// # Errors
+    /// A snapshot that this instance does not have.
     pub fn serialize_state(&self, handle: Option<Handle>) -> Result<Vec<u8>, Refusal> {
         self.serialize(self.snapshots.get(handle)?)
     }
 
     /// Makes a snapshot of bytes: in place of an earlier one, or as a new one. The instance itself stays as it is.
+    ///
+    /// # Errors
+    /// Bytes that are damaged, of another version or FMU, or of a state that this FMU cannot be in; an earlier snapshot
+    /// that this instance does not have.
     pub fn deserialize_state(&mut self, bytes: &[u8], earlier: Option<Handle>) -> Result<Handle, Refusal> {
         let snapshot = self.deserialize(bytes)?;
         self.snapshots.keep(snapshot, earlier)

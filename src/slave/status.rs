@@ -43,6 +43,9 @@ pub struct Refusal {
 
 impl Refusal {
     /// No refusal if there is no problem.
+    ///
+    /// # Errors
+    /// The problems, if there are any.
     pub fn unless_empty(problems: Vec<String>) -> Result<(), Refusal> {
         if problems.is_empty() { Ok(()) } else { Err(Refusal { problems }) }
     }

@@ -1,5 +1,5 @@
-//! Derivatives of initial unknowns with respect to parameters. Those of outputs with respect to time and to inputs are the
-//! engine's.
+//! Derivatives of initial unknowns with respect to parameters. Those of outputs with respect to time and to inputs are
+//! the engine's.
 
 use super::initial_dependencies::at_start;
 use super::slot::{Parameter, Slot};

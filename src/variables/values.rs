@@ -25,7 +25,8 @@ pub enum Value<'a> {
 }
 
 impl<'a> Value<'a> {
-    /// A number of the engine as a value of this type. FMI integers have 32 bits: a count beyond stays at their largest.
+    /// A number of the engine as a value of this type. FMI integers have 32 bits: a count beyond stays at their
+    /// largest.
     #[inline(always)]
     pub const fn of(ty: Type, number: f64) -> Value<'a> {
         match ty {
@@ -139,6 +140,9 @@ impl Settings {
 
     /// Everything that is wrong with the numbers, by themselves and with the record: in the words of the scene, under
     /// the names of the variables.
+    ///
+    /// # Errors
+    /// All of that, at once.
     pub fn check(&self) -> Result<(), SceneError> {
         let mut problems = self.scene.check().err().map_or_else(Vec::new, |error| error.problems);
         let factor = self.record().map(|record| self.scene.ground.scaling.factor(record));
@@ -176,6 +180,9 @@ impl Settings {
 
     /// Sets a parameter to a value of its row's type. [`Settings::check`] is for the caller: once, after everything that
     /// is set together.
+    ///
+    /// # Errors
+    /// A record file that cannot be read, or not scaled to the peak of the scene.
     pub fn write(&mut self, parameter: Parameter, value: Value<'_>) -> Result<(), SceneError> {
         let number = match value {
             Value::Real(number) => number,

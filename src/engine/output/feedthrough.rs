@@ -30,8 +30,25 @@ pub struct Response {
 }
 
 impl Instant<'_> {
-    /// Works out how the outputs of this instant answer to changes of inputs at the same instant, for the motion as it is: to
-    /// accelerations of the ground, m/s2, and forces on floors, N. The rigid pairs that press now go on pressing.
+    /// Works out how the outputs of this instant answer to changes of inputs at the same instant, for the motion as it
+    /// is: to accelerations of the ground, m/s2, and forces on floors, N. The rigid pairs that press now go on
+    /// pressing.
+    ///
+    /// ```
+    /// use pounding::engine::{Input, Model, Output, Point, Response, Side};
+    ///
+    /// # let scene = pounding::scene::Scene::from_toml(
+    /// #     "name = \"Mast\"\ninputs = { floor_forces = true }\n\
+    /// #     left = { mass = [1e3], stiffness = [1e5], damping = { ratio = 0.0 } }",
+    /// # )?;
+    /// let model = Model::new(&scene, None)?;
+    /// let (state, mut point, mut response) = (model.start(0.0), Point::default(), Response::default());
+    /// // 500 N on a floor of 1 t.
+    /// model.observe(&state, &mut point).respond([(Input::Force(Side::Left, 0), 500.0)], &mut response);
+    /// assert_eq!(model.response_of(&response, Output::Acceleration(Side::Left, 0)), 0.5);
+    /// assert_eq!(model.response_of(&response, Output::Velocity(Side::Left, 0)), 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn respond(&self, changes: impl IntoIterator<Item = (Input, f64)>, response: &mut Response) {
         let (model, state, point) = self.parts();
         model.clear_response(response);

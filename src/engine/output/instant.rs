@@ -41,8 +41,25 @@ impl<'a> Instant<'a> {
         self.point.time
     }
 
-    /// An output as a number: what is true is 1, and counts are exact up to 2^53. What the scene has not, such as an energy
-    /// account or peaks, is 0.
+    /// An output as a number: what is true is 1, and counts are exact up to 2^53. What the scene has not, such as an
+    /// energy account or peaks, is 0.
+    ///
+    /// ```
+    /// use pounding::engine::{Model, Output, PeakOf, Point, Side};
+    ///
+    /// // A mast that swings with 10 rad/s and begins with 0.1 m/s.
+    /// # let scene = pounding::scene::Scene::from_toml(
+    /// #     "name = \"Mast\"\n\
+    /// #     left = { mass = [1e3], stiffness = [1e5], damping = { ratio = 0.0 }, initial_velocity = [0.1] }",
+    /// # )?;
+    /// let model = Model::new(&scene, None)?;
+    /// let (mut state, mut point) = (model.start(0.0), Point::default());
+    /// model.advance(&mut state, 2.0, &mut |_| ())?;
+    /// let now = model.observe(&state, &mut point);
+    /// assert!((now.read(Output::Displacement(Side::Left, 0)) - 0.01 * f64::sin(20.0)).abs() < 1e-12);
+    /// assert!((now.read(Output::Peak(PeakOf::Displacement(Side::Left, 0))) - 0.01).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Panics
     /// Where the scene has no such floor, storey or contact.
@@ -78,16 +95,33 @@ impl<'a> Instant<'a> {
         self.model.energy(self.state, self.point)
     }
 
-    /// Works out the derivatives with respect to time, of which [`Instant::rates`] reads; the memory of `rates` is reused.
+    /// Works out the derivatives with respect to time, of which [`Instant::rates`] reads; the memory of `rates` is
+    /// reused.
     ///
-    /// Where a contact begins at this very instant, its force has no derivatives yet: they, and all that depend on them,
-    /// are 0.
+    /// Where a contact begins at this very instant, its force has no derivatives yet: they, and all that depend on
+    /// them, are 0.
     pub fn differentiate(&self, rates: &mut PointRates) {
         self.model.differentiate(self.state, self.point, rates);
     }
 
-    /// First and second derivative of an output with respect to time, per s and per s2 of its unit, from the derivatives of
-    /// this very instant.
+    /// First and second derivative of an output with respect to time, per s and per s2 of its unit, from the
+    /// derivatives of this very instant.
+    ///
+    /// ```
+    /// use pounding::engine::{Model, Output, Point, PointRates, Side};
+    ///
+    /// # let scene = pounding::scene::Scene::from_toml(
+    /// #     "name = \"Mast\"\n\
+    /// #     left = { mass = [1e3], stiffness = [1e5], damping = { ratio = 0.0 }, initial_velocity = [0.1] }",
+    /// # )?;
+    /// let model = Model::new(&scene, None)?;
+    /// let (state, mut point, mut rates) = (model.start(0.0), Point::default(), PointRates::default());
+    /// let now = model.observe(&state, &mut point);
+    /// now.differentiate(&mut rates);
+    /// // The acceleration of a floor with 0.1 m/s on a spring with k / m = 100 1/s2.
+    /// assert_eq!(now.rates(&rates, Output::Acceleration(Side::Left, 0)), [-10.0, 0.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Panics
     /// As [`Instant::read`].

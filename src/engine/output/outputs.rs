@@ -56,8 +56,8 @@ pub enum YieldingOf {
     CumulativePlasticDrift,
 }
 
-/// Makes of one list of quantities an enum of them, a struct of their values, each of which can be had by its field or by
-/// its variant, and a struct of their rates.
+/// Makes of one list of quantities an enum of them, a struct of their values, each of which can be had by its field or
+/// by its variant, and a struct of their rates.
 macro_rules! quantities {
     (
         $(#[$of_enum:meta])* $Of:ident, $(#[$of_values:meta])* $Values:ident, $(#[$of_rates:meta])* $Rates:ident:
