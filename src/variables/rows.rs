@@ -30,34 +30,34 @@ impl Table {
     pub fn new(scene: &Scene) -> Table {
         let mut table = Table { rows: Vec::new() };
         table.add_ground(scene);
-        for (side, name) in [Side::Left, Side::Right].map(|side| (side, side.name())) {
+        for side in [Side::Left, Side::Right] {
             let building = scene.building(side);
             if building.is_absent() {
                 continue;
             }
             for floor in 0..building.mass.len() {
-                table.add_floor(building, (side, name), floor, scene.floor_forces);
+                table.add_floor(building, side, floor, scene.floor_forces);
                 if scene.peaks {
-                    table.add_peaks((side, name), floor);
-                    table.add_drift_ratio(building, (side, name), floor);
+                    table.add_peaks(side, floor);
+                    table.add_drift_ratio(building, side, floor);
                 }
             }
             for storey in 0..building.mass.len() {
                 if scene.contacts.iter().any(|pair| pair.columns() == Some((side, storey + 1))) {
-                    table.add_struck_storey(building, (side, name), storey, scene.peaks);
+                    table.add_struck_storey(building, side, storey, scene.peaks);
                 }
             }
             for storey in 0..building.mass.len() {
-                table.add_yielding(building, (side, name), storey);
+                table.add_yielding(building, side, storey);
             }
-            table.add_building(building, (side, name), scene.peaks);
+            table.add_building(building, side, scene.peaks);
         }
         for (p, pair) in scene.contacts.iter().enumerate() {
             let meeting = &pair.meeting(scene);
             table.add_contact(p, pair, meeting);
             table.add_law(p, pair, meeting);
             let mass = pair.row().map(|share| scene.building(share.side).mass[share.floor]).sum();
-            table.add_contact_outputs(p, pair, (mass, meeting));
+            table.add_contact_outputs(p, pair, mass, meeting);
         }
         table
             .add(Output::Impacts, "impacts", Type::Integer, "contact episodes begun so far, all contacts")
@@ -91,7 +91,8 @@ impl Table {
         self.add(Parameter::GroundRecord, "ground.record", Type::String, &about);
     }
 
-    fn add_floor(&mut self, building: &Building, (side, name): (Side, &str), floor: usize, floor_forces: bool) {
+    fn add_floor(&mut self, building: &Building, side: Side, floor: usize, floor_forces: bool) {
+        let name = side.name();
         let i = floor + 1;
         if floor_forces {
             let about = format!("external force on floor {i}, positive to the right");
@@ -119,7 +120,8 @@ impl Table {
         }
     }
 
-    fn add_peaks(&mut self, (side, name): (Side, &str), floor: usize) {
+    fn add_peaks(&mut self, side: Side, floor: usize) {
+        let name = side.name();
         let i = floor + 1;
         for (of, quantity, ty, about, scale) in [
             (PeakOf::Displacement(side, floor), "displacement", METRE, "displacement of floor", DISPLACEMENT),
@@ -139,7 +141,8 @@ impl Table {
         }
     }
 
-    fn add_drift_ratio(&mut self, building: &Building, (side, name): (Side, &str), storey: usize) {
+    fn add_drift_ratio(&mut self, building: &Building, side: Side, storey: usize) {
+        let name = side.name();
         let Some(height) = building.heights.as_ref().and_then(|heights| heights.storeys.get(storey)) else { return };
         let (i, output) = (storey + 1, Output::OfStorey(StoreyPeak::DriftRatio, side, storey));
         let about = format!("largest drift of storey {i} so far over its height of {height:?} m");
@@ -148,7 +151,8 @@ impl Table {
     }
 
     /// What is checked where slabs hit columns.
-    fn add_struck_storey(&mut self, building: &Building, (side, name): (Side, &str), storey: usize, peaks: bool) {
+    fn add_struck_storey(&mut self, building: &Building, side: Side, storey: usize, peaks: bool) {
+        let name = side.name();
         let (i, force) = (storey + 1, building.mass.iter().sum::<f64>() * ACCELERATION);
         let about = format!("largest force so far of one slab on the columns of storey {i}");
         let output = Output::OfStorey(StoreyPeak::ColumnForce, side, storey);
@@ -163,7 +167,8 @@ impl Table {
         }
     }
 
-    fn add_building(&mut self, building: &Building, (side, name): (Side, &str), peaks: bool) {
+    fn add_building(&mut self, building: &Building, side: Side, peaks: bool) {
+        let name = side.name();
         let about = "force of the building on the ground: sum of K u + C v over its floors";
         let row = self.add(Output::BaseShear(side), &format!("{name}.base_shear"), NEWTON, about);
         row.nominal(building.mass.iter().sum::<f64>() * ACCELERATION);
@@ -229,7 +234,7 @@ impl Table {
         }
     }
 
-    fn add_contact_outputs(&mut self, p: usize, pair: &ContactPair, (mass, meeting): (f64, &str)) {
+    fn add_contact_outputs(&mut self, p: usize, pair: &ContactPair, mass: f64, meeting: &str) {
         use ContactOutput as C;
         let (force, impulse, energy) = (mass * ACCELERATION, mass * VELOCITY, mass * VELOCITY * VELOCITY);
         for (output, ty, scale, about) in [
@@ -256,7 +261,8 @@ impl Table {
     }
 
     /// What there is of a storey that can yield.
-    fn add_yielding(&mut self, building: &Building, (side, name): (Side, &str), storey: usize) {
+    fn add_yielding(&mut self, building: &Building, side: Side, storey: usize) {
+        let name = side.name();
         use YieldingOf as Y;
         let Some((force, ratio)) = building.yielding_storey(storey) else { return };
         let Some(stiffness) = building.stiffness.of_storey(storey) else { return };
