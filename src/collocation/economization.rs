@@ -42,7 +42,7 @@ const SIZE: [f64; POWERS] = {
 /// Replaces a polynomial of `count` terms by one of fewer terms that differs from it by at most `bound` for x in 0..=1;
 /// returns how many terms are left.
 #[inline(always)]
-pub fn economize(terms: &mut [f64; POWERS], mut count: usize, bound: f64) -> usize {
+pub(super) fn economize(terms: &mut [f64; POWERS], mut count: usize, bound: f64) -> usize {
     let mut left = bound;
     while count > 1 {
         let top = terms[count - 1];

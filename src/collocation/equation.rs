@@ -8,11 +8,11 @@ use crate::contact::Force;
 use crate::numerics::polynomial::{COUNT, Coefficients, MAX_TERMS, each, value_and_slope};
 
 /// Pairs that a window is solved for at once: those in contact, and those that may come into contact.
-pub const MOST_PAIRS: usize = 4;
+pub(crate) const MOST_PAIRS: usize = 4;
 
 /// All that is known before a window is solved.
 #[derive(Clone, Debug)]
-pub struct Equation {
+pub(crate) struct Equation {
     /// Number of pairs.
     pub pairs: usize,
     /// How many of them are in contact: the first. The others are watched.
@@ -54,7 +54,7 @@ impl Default for Equation {
 
 /// The response of the penetration of one pair to the force of another, which is the same in both directions.
 #[derive(Clone, Copy, Debug)]
-pub struct Response {
+pub(crate) struct Response {
     /// From node to node, of pairs in contact: on the penetration, m/N, or on its rate, m/(N s), see
     /// [`Equation::by_rates`].
     pub between: Matrix,
@@ -65,7 +65,7 @@ pub struct Response {
 
 /// The motion of a pair without contact forces, m and m/s.
 #[derive(Clone, Copy, Debug)]
-pub struct Free {
+pub(crate) struct Free {
     pub depth: Row,
     pub rate: Row,
     pub end: (f64, f64),
@@ -73,7 +73,7 @@ pub struct Free {
 
 /// What a window is solved with.
 #[derive(Clone, Debug)]
-pub struct Workspace {
+pub(crate) struct Workspace {
     /// Pair by pair, see [`Workspace::response`], for a window of length `assembled`.
     responses: Vec<Response>,
     pub assembled: f64,
@@ -87,7 +87,7 @@ pub struct Workspace {
 
 impl Workspace {
     /// For scenes with that many pairs.
-    pub fn new(pairs: usize) -> Workspace {
+    pub(crate) fn new(pairs: usize) -> Workspace {
         let (row, matrix) = ([0.0; NODES], [[0.0; NODES]; NODES]);
         let response = Response { between: matrix, depth_end: row, rate_end: row };
         let free = Free { depth: row, rate: row, end: (0.0, 0.0) };
@@ -105,7 +105,7 @@ impl Workspace {
 
     /// Estimated errors of the penetrations, m: by responses assembled for another length of the window, of which only
     /// the first power follows its change, and by the accuracy with which they were assembled.
-    pub fn errors(&self, length: f64) -> (f64, f64) {
+    pub(crate) fn errors(&self, length: f64) -> (f64, f64) {
         (self.error_rate * (length - self.assembled).abs(), self.error_scale * self.accuracy)
     }
 
@@ -116,7 +116,7 @@ impl Workspace {
     }
 
     /// The response of two pairs to each other.
-    pub fn response(&self, p: usize, q: usize) -> &Response {
+    pub(crate) fn response(&self, p: usize, q: usize) -> &Response {
         &self.responses[Workspace::index(p, q)]
     }
 }
@@ -125,7 +125,7 @@ impl Equation {
     /// The factors of the tables over a window of that length, for penetrations and for rates: each power of a kernel,
     /// from the first on, times that power of the length.
     #[inline(always)]
-    pub fn factors(&self, p: usize, q: usize, length: f64) -> ([f64; POWERS], [f64; POWERS]) {
+    pub(crate) fn factors(&self, p: usize, q: usize, length: f64) -> ([f64; POWERS], [f64; POWERS]) {
         let mut reach = [0.0; POWERS];
         let kernel = &self.kernels[p][q][..self.powers.min(POWERS)];
         let mut power = length;
@@ -143,7 +143,7 @@ impl Equation {
 
     /// How many of these factors for penetrations matter where responses are to be right within an accuracy.
     #[inline(always)]
-    pub fn count_over(&self, p: usize, depth: &[f64; POWERS], length: f64, accuracy: f64) -> usize {
+    pub(crate) fn count_over(&self, p: usize, depth: &[f64; POWERS], length: f64, accuracy: f64) -> usize {
         let negligible = accuracy * self.kernels[p][p][1] * (length * length);
         let last = (2..self.powers.min(POWERS)).rev().find(|k| (COUNT[*k] * depth[*k - 1]).abs() > negligible);
         last.unwrap_or(1)
@@ -152,13 +152,13 @@ impl Equation {
     /// Whether penetrations are integrals of rates, which then come first: one matrix does for both. Where no force needs
     /// the rates penetrations come from forces at once.
     #[inline(always)]
-    pub fn by_rates(&self) -> bool {
+    pub(crate) fn by_rates(&self) -> bool {
         self.forces[..self.closed].iter().any(Force::is_damped)
     }
 
     /// The responses over a window of that length, within an accuracy relative to G_pp.
     #[inline(always)]
-    pub fn assemble<const N: usize>(&self, tables: &Tables, length: f64, accuracy: f64, work: &mut Workspace) {
+    pub(crate) fn assemble<const N: usize>(&self, tables: &Tables, length: f64, accuracy: f64, work: &mut Workspace) {
         (work.assembled, work.accuracy) = (length, accuracy);
         (work.error_scale, work.error_rate) = self.error_scales(length);
         let by_rates = self.by_rates();
@@ -184,7 +184,7 @@ impl Equation {
 
     /// The motion without contact forces over a window of that length: rates where they are asked for, and the end.
     #[inline(always)]
-    pub fn fly<const N: usize>(&self, tables: &Tables, length: f64, work: &mut Workspace) {
+    pub(crate) fn fly<const N: usize>(&self, tables: &Tables, length: f64, work: &mut Workspace) {
         let x = length / self.scale;
         let mut at = NOTHING;
         for (at, theta) in at.iter_mut().zip(fours(&tables.theta)).take(N / 4) {

@@ -19,11 +19,11 @@ mod rows;
 mod solve;
 mod tables;
 
-pub use equation::{Equation, MOST_PAIRS, Workspace};
-pub use nodes::{NODES, Nodes, Row, Rule, dot, nodes};
-pub use rows::{fours, larger};
-pub use solve::{Ending, Frame, Solution};
-pub use tables::{Kernel, Map, POWERS, Tables};
+pub(crate) use equation::{Equation, MOST_PAIRS, Workspace};
+pub(crate) use nodes::{NODES, Nodes, Row, Rule, dot, nodes};
+pub(crate) use rows::{fours, larger};
+pub(crate) use solve::{Ending, Frame, Solution};
+pub(crate) use tables::{Kernel, Map, POWERS, Tables};
 
 #[cfg(test)]
 mod tests;

@@ -3,17 +3,17 @@
 use std::sync::OnceLock;
 
 /// Most nodes of a window.
-pub const NODES: usize = 16;
+pub(crate) const NODES: usize = 16;
 
 /// A number at each node; 0 beyond those of the rule.
-pub type Row = [f64; NODES];
+pub(crate) type Row = [f64; NODES];
 
 /// A number for each two nodes, column by column: entry `[j][i]` is what node j adds at node i.
-pub type Matrix = [Row; NODES];
+pub(super) type Matrix = [Row; NODES];
 
 /// How many nodes a window has: sixteen for long ones, fewer for those that samples of the record or events cut short.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Rule {
+pub(crate) enum Rule {
     Eight,
     Twelve,
     #[default]
@@ -21,10 +21,10 @@ pub enum Rule {
 }
 
 impl Rule {
-    pub const ALL: [Rule; 3] = [Rule::Eight, Rule::Twelve, Rule::Sixteen];
+    pub(crate) const ALL: [Rule; 3] = [Rule::Eight, Rule::Twelve, Rule::Sixteen];
 
     /// Number of nodes.
-    pub const fn count(self) -> usize {
+    pub(crate) const fn count(self) -> usize {
         match self {
             Rule::Eight => 8,
             Rule::Twelve => 12,
@@ -33,7 +33,7 @@ impl Rule {
     }
 
     /// With more nodes, if there is one.
-    pub fn next(self) -> Option<Rule> {
+    pub(crate) fn next(self) -> Option<Rule> {
         match self {
             Rule::Eight => Some(Rule::Twelve),
             Rule::Twelve => Some(Rule::Sixteen),
@@ -43,7 +43,7 @@ impl Rule {
 }
 
 /// Nodes and weights of a Gauss rule on 0..=1, from Newton's method on the Legendre polynomials.
-pub fn rule(count: usize) -> Vec<(f64, f64)> {
+pub(super) fn rule(count: usize) -> Vec<(f64, f64)> {
     let node = |i: usize| {
         let mut x = -libm::cos(std::f64::consts::PI * (i as f64 + 0.75) / (count as f64 + 0.5));
         let mut slope = 1.0;
@@ -72,7 +72,7 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
 }
 
 /// The nodes of a rule, and what leads from values at them to polynomials.
-pub struct Nodes {
+pub(crate) struct Nodes {
     pub count: usize,
     /// x of each node in 0..=1.
     pub x: Row,
@@ -88,7 +88,7 @@ pub struct Nodes {
 
 /// Sum of products in a fixed order.
 #[inline(always)]
-pub fn dot(a: &Row, b: &Row) -> f64 {
+pub(crate) fn dot(a: &Row, b: &Row) -> f64 {
     let mut sum = [0.0; 4];
     for (a, b) in a.as_chunks::<4>().0.iter().zip(b.as_chunks::<4>().0) {
         for i in 0..4 {
@@ -99,7 +99,7 @@ pub fn dot(a: &Row, b: &Row) -> f64 {
 }
 
 /// Those of a rule, computed once.
-pub fn nodes(rule: Rule) -> &'static Nodes {
+pub(crate) fn nodes(rule: Rule) -> &'static Nodes {
     static OF_RULES: [OnceLock<Nodes>; 3] = [const { OnceLock::new() }; 3];
     OF_RULES[rule as usize].get_or_init(|| Nodes::compute(rule.count()))
 }
@@ -134,13 +134,13 @@ impl Nodes {
 
     /// Coefficient n of the Legendre series through values at the nodes.
     #[inline(always)]
-    pub fn coefficient(&self, values: &Row, n: usize) -> f64 {
+    pub(crate) fn coefficient(&self, values: &Row, n: usize) -> f64 {
         dot(values, &self.legendre[n])
     }
 
     /// The polynomial through values at the nodes.
     #[inline(always)]
-    pub fn interpolant(&self, values: &Row) -> Interpolant {
+    pub(crate) fn interpolant(&self, values: &Row) -> Interpolant {
         let mut legendre = [0.0; NODES];
         for (column, value) in self.to_legendre.iter().zip(values).take(self.count) {
             for (c, share) in legendre.iter_mut().zip(column) {
@@ -164,7 +164,7 @@ const RECURRENCE: [(f64, f64); NODES] = {
 
 /// A polynomial through values at nodes.
 #[derive(Clone, Copy, Debug)]
-pub struct Interpolant {
+pub(crate) struct Interpolant {
     legendre: Row,
     count: usize,
 }
@@ -172,7 +172,7 @@ pub struct Interpolant {
 impl Interpolant {
     /// Its values at points x of 0..=1.
     #[inline(always)]
-    pub fn at<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
+    pub(crate) fn at<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
         let z = x.map(|x| 2.0 * x - 1.0);
         let (mut last, mut before, mut sum) = ([1.0; N], [0.0; N], [0.0; N]);
         for (c, (rising, falling)) in self.legendre[..self.count].iter().zip(&RECURRENCE) {
@@ -187,7 +187,7 @@ impl Interpolant {
 
     /// Value and first and second derivative by x.
     #[inline(always)]
-    pub fn derivatives(&self, x: f64) -> [f64; 3] {
+    pub(crate) fn derivatives(&self, x: f64) -> [f64; 3] {
         let z = 2.0 * x - 1.0;
         let (mut last, mut before, mut sum) = ([1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]);
         for (c, (rising, falling)) in self.legendre[..self.count].iter().zip(&RECURRENCE) {

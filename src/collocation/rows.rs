@@ -9,24 +9,24 @@ const ABREAST: usize = 2;
 
 /// A row by fours, as many numbers as wide instructions take: the first N / 4 of these are the first N numbers. Without
 /// this form the compiler bundles sixteen sums in another way and does the rest one by one.
-pub type Fours = [[f64; 4]; NODES / 4];
+pub(super) type Fours = [[f64; 4]; NODES / 4];
 
 /// Zeros to add to.
-pub const NOTHING: Fours = [[0.0; 4]; NODES / 4];
+pub(super) const NOTHING: Fours = [[0.0; 4]; NODES / 4];
 
 #[inline(always)]
-pub fn fours(row: &Row) -> &[[f64; 4]] {
+pub(crate) fn fours(row: &Row) -> &[[f64; 4]] {
     row.as_chunks::<4>().0
 }
 
 #[inline(always)]
-pub fn fours_mut(row: &mut Row) -> &mut [[f64; 4]] {
+pub(super) fn fours_mut(row: &mut Row) -> &mut [[f64; 4]] {
     row.as_chunks_mut::<4>().0
 }
 
 /// The sum of tables times factors.
 #[inline(always)]
-pub fn combine<const N: usize>(tables: &[Matrix], factors: &[f64], out: &mut Matrix) {
+pub(super) fn combine<const N: usize>(tables: &[Matrix], factors: &[f64], out: &mut Matrix) {
     let tables = &tables[..factors.len()];
     for (j, out) in out[..N].as_chunks_mut::<ABREAST>().0.iter_mut().enumerate() {
         let mut sums = [NOTHING; ABREAST];
@@ -44,7 +44,7 @@ pub fn combine<const N: usize>(tables: &[Matrix], factors: &[f64], out: &mut Mat
 }
 
 #[inline(always)]
-pub fn combined<const N: usize>(rows: &[Row], factors: &[f64]) -> Row {
+pub(super) fn combined<const N: usize>(rows: &[Row], factors: &[f64]) -> Row {
     let mut sum = NOTHING;
     for (row, factor) in rows.iter().zip(factors) {
         for (sum, row) in sum.iter_mut().zip(fours(row)).take(N / 4) {
@@ -56,13 +56,13 @@ pub fn combined<const N: usize>(rows: &[Row], factors: &[f64]) -> Row {
 
 /// A matrix times values.
 #[inline(always)]
-pub fn product<const N: usize>(matrix: &Matrix, values: &Row) -> Fours {
+pub(super) fn product<const N: usize>(matrix: &Matrix, values: &Row) -> Fours {
     add_product::<N>(&NOTHING, matrix, values)
 }
 
 /// Numbers and a matrix times values.
 #[inline(always)]
-pub fn add_product<const N: usize>(to: &Fours, matrix: &Matrix, values: &Row) -> Fours {
+pub(super) fn add_product<const N: usize>(to: &Fours, matrix: &Matrix, values: &Row) -> Fours {
     let mut sum = *to;
     match N {
         // Half of them at a time: the compiler keeps no more sums in wide registers.
@@ -96,13 +96,13 @@ fn add_rows<const N: usize, const FOURS: usize>(to: &mut Fours, first: usize, ma
 
 /// The larger of two numbers in one instruction; the second where either is not a number.
 #[inline(always)]
-pub fn larger(a: f64, b: f64) -> f64 {
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
 /// Forces of penetrations and rates; none where floors are apart.
 #[inline(always)]
-pub fn forces<const N: usize>(force: &Force, depth: &Row, rate: &Row, out: &mut Row) {
+pub(super) fn forces<const N: usize>(force: &Force, depth: &Row, rate: &Row, out: &mut Row) {
     let all = fours_mut(out).iter_mut().zip(fours(depth)).zip(fours(rate)).take(N / 4);
     match *force {
         Force::Power { stiffness, exponent: 1.5, damping: 0.0 } => {
@@ -144,7 +144,7 @@ fn inside(depth: &[f64; 4]) -> [f64; 4] {
 
 /// Values of a polynomial at N points.
 #[inline(always)]
-pub fn value<const N: usize>(terms: &[f64], x: &Fours) -> Row {
+pub(super) fn value<const N: usize>(terms: &[f64], x: &Fours) -> Row {
     let mut value = NOTHING;
     for (value, x) in value.iter_mut().zip(x).take(N / 4) {
         *value = terms.iter().rev().fold([0.0; 4], |value, term| each(|i| value[i] * x[i] + term));
@@ -154,7 +154,7 @@ pub fn value<const N: usize>(terms: &[f64], x: &Fours) -> Row {
 
 /// Values and derivatives by t of a polynomial in x = t / scale.
 #[inline(always)]
-pub fn values<const N: usize>(terms: &[f64], x: &Fours, scale: f64) -> (Row, Row) {
+pub(super) fn values<const N: usize>(terms: &[f64], x: &Fours, scale: f64) -> (Row, Row) {
     let (mut value, mut rate) = (NOTHING, NOTHING);
     let per_second = 1.0 / scale;
     for ((value, rate), x) in value.iter_mut().zip(&mut rate).zip(x).take(N / 4) {
@@ -167,14 +167,14 @@ pub fn values<const N: usize>(terms: &[f64], x: &Fours, scale: f64) -> (Row, Row
 }
 
 #[inline(always)]
-pub fn row(fours: &Fours) -> Row {
+pub(super) fn row(fours: &Fours) -> Row {
     let mut row = [0.0; NODES];
     fours_mut(&mut row).copy_from_slice(fours);
     row
 }
 
 /// Of a polynomial.
-pub fn second_derivative(terms: &[f64], x: f64) -> f64 {
+pub(super) fn second_derivative(terms: &[f64], x: f64) -> f64 {
     let last = terms.len().min(SECOND.len());
     terms[2..last].iter().zip(&SECOND[2..last]).rev().fold(0.0, |sum, (c, count)| sum * x + count * c)
 }

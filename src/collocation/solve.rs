@@ -17,7 +17,7 @@ const ROUGH: f64 = 1e-5;
 
 /// What a window ends with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ending {
+pub(crate) enum Ending {
     /// Its length is given.
     Given,
     /// Penetration of a pair is back at 0.
@@ -40,7 +40,7 @@ impl Ending {
 
 /// The map, nodes, length and end that a window is to have.
 #[derive(Clone, Copy, Debug)]
-pub struct Frame {
+pub(crate) struct Frame {
     pub map: Map,
     pub rule: Rule,
     /// s; roughly where it ends with an event.
@@ -50,7 +50,7 @@ pub struct Frame {
 
 /// A solved window.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Solution {
+pub(crate) struct Solution {
     /// Of the time.
     pub map: Map,
     /// Its nodes.
@@ -70,7 +70,7 @@ pub struct Solution {
 impl Solution {
     /// Solves an equation over a window until penetrations are right within `tolerance`, m; whether a solution has been
     /// found.
-    pub fn solve(&mut self, equation: &Equation, work: &mut Workspace, frame: Frame, tolerance: f64) -> bool {
+    pub(crate) fn solve(&mut self, equation: &Equation, work: &mut Workspace, frame: Frame, tolerance: f64) -> bool {
         (self.map, self.rule, self.length) = (frame.map, frame.rule, frame.length);
         let (all, count) = (equation.pairs, frame.rule.count());
         let rows = self.depth[..all].iter_mut().chain(&mut self.rate[..all]).chain(&mut self.force[..all]);
@@ -207,7 +207,7 @@ impl Solution {
     }
 
     /// Estimated error of the velocities, m/s: from the last terms of the Legendre series of the forces.
-    pub fn velocity_error(&self, equation: &Equation) -> f64 {
+    pub(crate) fn velocity_error(&self, equation: &Equation) -> f64 {
         let nodes = nodes(self.rule);
         let of_pair = |p: usize| {
             let last = (nodes.count - 3..nodes.count).map(|n| nodes.coefficient(&self.force[p], n).abs());

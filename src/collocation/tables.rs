@@ -7,14 +7,14 @@ use crate::structure::RESPONSE_POWERS;
 use std::sync::OnceLock;
 
 /// Powers of the time left that are tabulated.
-pub const POWERS: usize = RESPONSE_POWERS;
+pub(crate) const POWERS: usize = RESPONSE_POWERS;
 
 /// G of one pair under the force of another, in powers of t.
-pub type Kernel = [f64; POWERS];
+pub(crate) type Kernel = [f64; POWERS];
 
 /// How the time of a window goes with x, both from 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Map {
+pub(crate) enum Map {
     /// theta = x.
     #[default]
     Plain,
@@ -32,7 +32,7 @@ pub enum Map {
 
 impl Map {
     /// theta and its derivative at x.
-    pub fn at(self, x: f64) -> (f64, f64) {
+    pub(crate) fn at(self, x: f64) -> (f64, f64) {
         match self {
             Map::Plain => (x, 1.0),
             Map::SquareStart => (x * x, 2.0 * x),
@@ -44,7 +44,7 @@ impl Map {
     }
 
     /// x of a theta in 0..=1.
-    pub fn inverse(self, theta: f64) -> f64 {
+    pub(crate) fn inverse(self, theta: f64) -> f64 {
         match self {
             Map::Plain => theta,
             Map::SquareStart => theta.sqrt(),
@@ -71,7 +71,7 @@ impl Map {
     }
 
     /// The same map without square roots at the end.
-    pub fn without_end(self) -> Map {
+    pub(crate) fn without_end(self) -> Map {
         match self {
             Map::SquareEnd => Map::Plain,
             Map::SquareBoth => Map::SquareStart,
@@ -81,7 +81,7 @@ impl Map {
     }
 
     /// The same map with polynomials for square roots of the time left until the end.
-    pub fn with_end(self) -> Map {
+    pub(crate) fn with_end(self) -> Map {
         match self {
             Map::Plain => Map::SquareEnd,
             Map::SquareStart => Map::SquareBoth,
@@ -91,14 +91,14 @@ impl Map {
     }
 
     /// Without fourth roots.
-    pub const SQUARE: [Map; 4] = [Map::Plain, Map::SquareStart, Map::SquareEnd, Map::SquareBoth];
+    pub(crate) const SQUARE: [Map; 4] = [Map::Plain, Map::SquareStart, Map::SquareEnd, Map::SquareBoth];
 
-    pub const ALL: [Map; 6] =
+    pub(crate) const ALL: [Map; 6] =
         [Map::Plain, Map::SquareStart, Map::FourthStart, Map::SquareEnd, Map::SquareBoth, Map::FourthBoth];
 }
 
 /// The integrals of one map and rule.
-pub struct Tables {
+pub(crate) struct Tables {
     /// theta of each node.
     pub theta: Row,
     /// theta / (d theta / dx): by how much x of an instant falls per relative growth of the window.
@@ -113,12 +113,12 @@ pub struct Tables {
 
 impl Tables {
     /// Those of a map and a rule, computed once: in memory of the library itself, which goes with it when it is unloaded.
-    pub fn of(map: Map, rule: Rule) -> &'static Tables {
+    pub(crate) fn of(map: Map, rule: Rule) -> &'static Tables {
         place(map, rule).get_or_init(|| compute(map, &Fine::new(rule, self::rule(FINE))))
     }
 
     /// Computes those of some maps and all rules, as far as that has not been done: not in the middle of a run.
-    pub fn prepare(maps: &[Map]) {
+    pub(crate) fn prepare(maps: &[Map]) {
         let is_missing = |map: Map, rule| place(map, rule).get().is_none();
         let mut points = Vec::new();
         for rule in Rule::ALL.into_iter().filter(|rule| maps.iter().any(|map| is_missing(*map, *rule))) {
@@ -134,7 +134,7 @@ impl Tables {
     }
 
     /// Number of tables that the process has computed.
-    pub fn count() -> usize {
+    pub(crate) fn count() -> usize {
         Map::ALL
             .into_iter()
             .flat_map(|map| Rule::ALL.map(|rule| place(map, rule)))

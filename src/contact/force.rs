@@ -110,7 +110,7 @@ impl Force {
 
 /// Which terms a force has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// No force.
     #[default]
     None,
@@ -126,7 +126,7 @@ pub enum Kind {
 
 impl Kind {
     /// Of a force.
-    pub fn of(force: &Force) -> Kind {
+    pub(crate) fn of(force: &Force) -> Kind {
         match *force {
             Force::None => Kind::None,
             Force::Linear { .. } => Kind::Linear,
@@ -138,7 +138,7 @@ impl Kind {
 }
 
 /// d^n for d >= 0, from the same function on every platform.
-pub fn power(d: f64, exponent: f64) -> f64 {
+pub(crate) fn power(d: f64, exponent: f64) -> f64 {
     if d <= 0.0 {
         return 0.0;
     }

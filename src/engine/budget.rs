@@ -7,20 +7,20 @@ use crate::structure::Structure;
 
 /// Limit on the work of one communication step, in microseconds: some ten seconds. A whole earthquake takes some
 /// thousandths of that.
-pub const MOST_WORK: f64 = 1e7;
+pub(super) const MOST_WORK: f64 = 1e7;
 
 /// Limit on the number of consecutive steps of length 0.
-pub const MOST_STEPS_AT_ONCE: u32 = 100_000;
+pub(super) const MOST_STEPS_AT_ONCE: u32 = 100_000;
 
 /// Number of flights that take `work` microseconds; one internal step with a series takes as long as some twenty
 /// flights.
-pub fn most_flights(structure: &Structure, pairs: usize, work: f64) -> f64 {
+pub(super) fn most_flights(structure: &Structure, pairs: usize, work: f64) -> f64 {
     let step_work = 2.0 + 0.2 * structure.lanes as f64 + 0.5 * pairs as f64;
     work / (0.05 * step_work)
 }
 
 /// The work of one communication step so far.
-pub struct Progress {
+pub(super) struct Progress {
     /// Time at which the communication step began, s.
     pub start: f64,
     /// The counts at its beginning.
@@ -35,7 +35,7 @@ pub struct Progress {
 
 impl Progress {
     /// Work of the communication step so far, in flights.
-    pub fn work(&self, counters: &Counters) -> u64 {
+    pub(super) fn work(&self, counters: &Counters) -> u64 {
         let before = &self.before;
         let series = |of: &Counters| of.contact_steps + of.yielding_steps;
         let with_series = series(counters) - series(before);
@@ -46,12 +46,12 @@ impl Progress {
     }
 
     /// Number of flights that may be taken before the work is looked at again.
-    pub fn flights_left(&self, counters: &Counters) -> u64 {
+    pub(super) fn flights_left(&self, counters: &Counters) -> u64 {
         self.most.saturating_sub(self.work(counters))
     }
 
     /// Notes whether a step has a length above 0.
-    pub fn note(&mut self, takes_time: bool) {
+    pub(super) fn note(&mut self, takes_time: bool) {
         self.stalled = if takes_time { 0 } else { self.stalled + 1 };
     }
 }

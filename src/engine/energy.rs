@@ -19,7 +19,7 @@ use crate::structure::{FlightWork, LANES, MotionSeries, dot, flight_order};
 
 /// Work over an interval of time, J.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Work {
+pub(super) struct Work {
     /// Work of the ground motion.
     pub input: f64,
     /// Energy dissipated by structural damping.
@@ -30,7 +30,7 @@ pub struct Work {
 
 impl Account {
     /// Adds work over an interval of time.
-    pub fn add(&mut self, done: &Work) {
+    pub(super) fn add(&mut self, done: &Work) {
         self.input.add(done.input);
         self.viscous.add(done.viscous);
         self.external.add(done.external);
@@ -39,7 +39,12 @@ impl Account {
 
 impl System {
     /// Kinetic and recoverable strain energy, J, of a motion relative to the position of rest of some storeys.
-    pub fn energies(&self, (coordinates, storeys): (Coordinates, &[Storey]), q: &[f64], v: &[f64]) -> (f64, f64) {
+    pub(super) fn energies(
+        &self,
+        (coordinates, storeys): (Coordinates, &[Storey]),
+        q: &[f64],
+        v: &[f64],
+    ) -> (f64, f64) {
         let (kinetic, strain) = match coordinates {
             Coordinates::Modes => self.structure.energies(q, v),
             Coordinates::Floors => self.structure.floors.energies(q, v),
@@ -48,7 +53,7 @@ impl System {
     }
 
     /// Opens the account with the energy at the start.
-    pub fn open_account(&self, base: &mut Base) {
+    pub(super) fn open_account(&self, base: &mut Base) {
         let (kinetic, strain) = self.energies((base.coordinates, &base.storeys), &base.q, &base.v);
         if let Some(account) = &mut base.energy {
             account.initial = kinetic + strain;
@@ -57,7 +62,7 @@ impl System {
     }
 
     /// Adds the work of a step to the account of the base.
-    pub fn add_work(&self, At { base, inputs, counters }: &mut At, step: &Step, work: &mut Buffers) {
+    pub(super) fn add_work(&self, At { base, inputs, counters }: &mut At, step: &Step, work: &mut Buffers) {
         if base.energy.is_none() {
             return;
         }
@@ -90,7 +95,7 @@ impl System {
     }
 
     /// The work from the base over `length` seconds.
-    pub fn work_over(&self, base: &Base, step: &Step, inputs: &Inputs, work: &mut Buffers, length: f64) -> Work {
+    pub(super) fn work_over(&self, base: &Base, step: &Step, inputs: &Inputs, work: &mut Buffers, length: f64) -> Work {
         let mut done = Work::default();
         self.find_force_slopes(inputs, base.coordinates, work);
         match step.dense() {

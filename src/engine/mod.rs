@@ -42,27 +42,35 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#[allow(unreachable_pub, reason = "public to the engine")]
 mod advance;
 mod base;
+#[allow(unreachable_pub, reason = "public to the engine")]
 mod bounds;
 mod budget;
 mod diagnosis;
 mod energy;
 mod error;
 mod excitation;
+#[allow(unreachable_pub, reason = "public to the engine")]
 mod flight;
 mod model;
+#[allow(unreachable_pub, reason = "public to the engine")]
 mod onset;
 mod output;
 mod pairs;
+#[allow(unreachable_pub, reason = "public to the engine")]
 mod peaks;
 mod quantities;
 mod rigid;
 mod saved;
 mod state;
 mod step;
+#[allow(unreachable_pub, reason = "public to the engine")]
 mod system;
+#[allow(unreachable_pub, reason = "public to the engine")]
 mod taylor;
+#[allow(unreachable_pub, reason = "public to the engine")]
 mod window;
 mod yielding;
 

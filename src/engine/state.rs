@@ -119,7 +119,7 @@ impl State {
 
 /// Scratch memory of all kinds of steps; its content means nothing between calls, but for the noted instants.
 #[derive(Clone, Debug)]
-pub struct Workspace {
+pub(super) struct Workspace {
     pub buffers: Buffers,
     pub look: Look,
     pub windows: WindowWorkspace,
@@ -130,14 +130,14 @@ pub struct Workspace {
 
 impl Workspace {
     /// Notes an event at a time, s, if it is one of storeys and somebody asks for them.
-    pub fn note(&mut self, event: Event, time: f64) {
+    pub(super) fn note(&mut self, event: Event, time: f64) {
         if let (Some(switches), Event::Yield(..) | Event::Turn(_)) = (&mut self.switches, event) {
             switches.push(time);
         }
     }
 
     /// The part of it that the peaks use.
-    pub fn for_peaks(&mut self) -> PeakWork<'_> {
+    pub(super) fn for_peaks(&mut self) -> PeakWork<'_> {
         PeakWork { buffers: &mut self.buffers, peaks: &mut self.peaks }
     }
 

@@ -17,7 +17,7 @@ use crate::structure::{MotionSeries, exact_order, fly_in_one_series};
 
 /// The planned step and its dense solution from the base on. Memory for each kind is kept, so that no step allocates.
 #[derive(Clone, Debug)]
-pub struct Step {
+pub(super) struct Step {
     pub kind: StepKind,
     /// Length, event and end of the planned step.
     pub planned: Planned,
@@ -31,7 +31,7 @@ pub struct Step {
 
 /// The kinds of step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StepKind {
+pub(super) enum StepKind {
     /// No step has been planned.
     NotPlanned,
     Flight,
@@ -45,7 +45,7 @@ pub enum StepKind {
 }
 
 /// The dense solution of a step.
-pub enum Dense<'a> {
+pub(super) enum Dense<'a> {
     /// The exact motion of the buildings apart, from the base on.
     Flight,
     /// Power series in time, or in the x of a time map.
@@ -57,7 +57,7 @@ pub enum Dense<'a> {
 
 impl Step {
     /// No step yet, with memory for any kind.
-    pub fn new(system: &System) -> Step {
+    pub(super) fn new(system: &System) -> Step {
         Step {
             kind: StepKind::NotPlanned,
             planned: Planned::new(system.structure.lanes, system.pairs.len()),
@@ -68,17 +68,17 @@ impl Step {
     }
 
     /// Whether the planned step is a flight.
-    pub fn is_flight(&self) -> bool {
+    pub(super) fn is_flight(&self) -> bool {
         matches!(self.kind, StepKind::Flight | StepKind::Deferred)
     }
 
     /// Whether the planned step is one in contact.
-    pub fn is_in_contact(&self) -> bool {
+    pub(super) fn is_in_contact(&self) -> bool {
         matches!(self.kind, StepKind::Taylor | StepKind::Onset | StepKind::Window)
     }
 
     /// The solution of the step; for a step that has not been planned, a flight.
-    pub fn dense(&self) -> Dense<'_> {
+    pub(super) fn dense(&self) -> Dense<'_> {
         match self.kind {
             StepKind::NotPlanned | StepKind::Flight | StepKind::Deferred => Dense::Flight,
             StepKind::Taylor => Dense::Taylor(&self.taylor),
@@ -88,7 +88,7 @@ impl Step {
     }
 
     /// Displacements and velocities, in the coordinates of the base, `elapsed` seconds after the base.
-    pub fn evaluate(
+    pub(super) fn evaluate(
         &self,
         system: &System,
         (base, inputs): (&Base, &Inputs),
@@ -199,7 +199,7 @@ impl Step {
     }
 
     /// Moves storey `i` from the base to the x of the powers, by which a series in time is evaluated there.
-    pub fn move_storey(&self, i: usize, powers: &Powers, storey: &mut Storey) {
+    pub(super) fn move_storey(&self, i: usize, powers: &Powers, storey: &mut Storey) {
         if let (Some(_), Dense::Taylor(solution)) = (storey.yields, self.dense())
             && powers.x > 0.0
         {
@@ -208,7 +208,7 @@ impl Step {
     }
 
     /// Moves the contacts to the end of the step, which began at the time `start` \[s\].
-    pub fn follow(&self, system: &System, contacts: &mut [Contact], start: f64) {
+    pub(super) fn follow(&self, system: &System, contacts: &mut [Contact], start: f64) {
         let length = self.planned.length;
         match self.dense() {
             Dense::Onset(onset) => {
@@ -225,7 +225,7 @@ impl Step {
 
     /// Moves one contact to `elapsed` seconds into a step that began at the time `start` \[s\]; `powers` are those of
     /// that time, used by series in time.
-    pub fn follow_one(&self, system: &System, contact: &mut Contact, elapsed: f64, start: f64, powers: &Powers) {
+    pub(super) fn follow_one(&self, system: &System, contact: &mut Contact, elapsed: f64, start: f64, powers: &Powers) {
         match self.dense() {
             Dense::Onset(onset) => contact.follow_onset(onset, elapsed / onset.scale, start),
             Dense::Window(window, _) if elapsed > 0.0 => contact.follow_window(window, elapsed, start),
@@ -235,7 +235,7 @@ impl Step {
     }
 
     /// One contact, `elapsed` seconds after the base; `powers` are those of that time, used by series in time.
-    pub fn contact_at(&self, system: &System, base: &Base, p: usize, elapsed: f64, powers: &Powers) -> Contact {
+    pub(super) fn contact_at(&self, system: &System, base: &Base, p: usize, elapsed: f64, powers: &Powers) -> Contact {
         let mut contact = base.contacts[p];
         if contact.in_contact() && elapsed > 0.0 {
             self.follow_one(system, &mut contact, elapsed, base.time(), powers);
@@ -244,18 +244,18 @@ impl Step {
     }
 
     /// Sets the powers of the step's series in time, for a time after the base, s.
-    pub fn set_powers(&self, elapsed: f64, powers: &mut Powers) {
+    pub(super) fn set_powers(&self, elapsed: f64, powers: &mut Powers) {
         self.taylor.series.set_powers(elapsed, powers);
     }
 
     /// The powers of the step's series in time at the end of the step.
-    pub fn end_powers(&self) -> &Powers {
+    pub(super) fn end_powers(&self) -> &Powers {
         &self.taylor.end
     }
 
     /// Bounds on the magnitudes of the contact forces, N, from the base to an elapsed time, s, with the powers of that
     /// time.
-    pub fn bound_forces(
+    pub(super) fn bound_forces(
         &self,
         system: &System,
         contacts: &[Contact],

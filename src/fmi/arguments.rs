@@ -10,7 +10,7 @@ use std::slice;
 ///
 /// # Safety
 /// Where `array` is not null it points to `n` elements that nobody changes during `'a`.
-pub unsafe fn slice_in<'a, T>(name: &str, array: *const T, n: usize) -> Result<&'a [T], Refusal> {
+pub(super) unsafe fn slice_in<'a, T>(name: &str, array: *const T, n: usize) -> Result<&'a [T], Refusal> {
     if n == 0 {
         return Ok(&[]);
     }
@@ -23,7 +23,11 @@ pub unsafe fn slice_in<'a, T>(name: &str, array: *const T, n: usize) -> Result<&
 ///
 /// # Safety
 /// Where `array` is not null it points to room for `n` elements that nobody else uses during `'a`.
-pub unsafe fn slice_out<'a, T>(name: &str, array: *mut T, n: usize) -> Result<&'a mut [MaybeUninit<T>], Refusal> {
+pub(super) unsafe fn slice_out<'a, T>(
+    name: &str,
+    array: *mut T,
+    n: usize,
+) -> Result<&'a mut [MaybeUninit<T>], Refusal> {
     if n == 0 {
         return Ok(&mut []);
     }
@@ -36,7 +40,7 @@ pub unsafe fn slice_out<'a, T>(name: &str, array: *mut T, n: usize) -> Result<&'
 ///
 /// # Safety
 /// As for [`slice_out`] with one element.
-pub unsafe fn store<T>(name: &str, place: *mut T, value: T) -> Result<(), Refusal> {
+pub(super) unsafe fn store<T>(name: &str, place: *mut T, value: T) -> Result<(), Refusal> {
     check_array(name, place, 1)?;
     // SAFETY: not null, aligned, and the rest is the caller's promise.
     unsafe { place.write(value) };
@@ -47,7 +51,7 @@ pub unsafe fn store<T>(name: &str, place: *mut T, value: T) -> Result<(), Refusa
 ///
 /// # Safety
 /// As for [`slice_in`] with one element.
-pub unsafe fn load<T: Copy>(name: &str, place: *const T) -> Result<T, Refusal> {
+pub(super) unsafe fn load<T: Copy>(name: &str, place: *const T) -> Result<T, Refusal> {
     check_array(name, place, 1)?;
     // SAFETY: not null, aligned, and the rest is the caller's promise.
     Ok(unsafe { place.read() })
@@ -71,7 +75,7 @@ fn check_array<T>(name: &str, array: *const T, n: usize) -> Result<(), Refusal> 
 ///
 /// # Safety
 /// `text` is null or ends with a zero, and nobody changes it during `'a`.
-pub unsafe fn bytes_in<'a>(name: &str, text: Text) -> Result<&'a CStr, Refusal> {
+pub(super) unsafe fn bytes_in<'a>(name: &str, text: Text) -> Result<&'a CStr, Refusal> {
     if text.is_null() {
         return Err(Refusal::from(format!("{name} is null: expected a string")));
     }
@@ -83,7 +87,7 @@ pub unsafe fn bytes_in<'a>(name: &str, text: Text) -> Result<&'a CStr, Refusal> 
 ///
 /// # Safety
 /// As for [`bytes_in`].
-pub unsafe fn str_in<'a>(name: &str, text: Text) -> Result<&'a str, Refusal> {
+pub(super) unsafe fn str_in<'a>(name: &str, text: Text) -> Result<&'a str, Refusal> {
     // SAFETY: the caller's promise.
     let bytes = unsafe { bytes_in(name, text) }?;
     bytes.to_str().map_err(|error| Refusal::from(format!("{name} = {:?}: expected UTF-8 ({error})", bytes)))
@@ -93,7 +97,7 @@ pub unsafe fn str_in<'a>(name: &str, text: Text) -> Result<&'a str, Refusal> {
 ///
 /// # Safety
 /// As for [`slice_in`] and [`bytes_in`].
-pub unsafe fn strs_in<'a>(name: &str, array: *const Text, n: usize) -> Result<Vec<&'a str>, Refusal> {
+pub(super) unsafe fn strs_in<'a>(name: &str, array: *const Text, n: usize) -> Result<Vec<&'a str>, Refusal> {
     // SAFETY: the caller's promise.
     let texts = unsafe { slice_in(name, array, n) }?;
     let (mut strings, mut problems) = (Vec::new(), Vec::new());
@@ -109,7 +113,7 @@ pub unsafe fn strs_in<'a>(name: &str, array: *const Text, n: usize) -> Result<Ve
 }
 
 /// `fmi2Boolean`
-pub fn boolean(name: &str, value: Boolean) -> Result<bool, Refusal> {
+pub(super) fn boolean(name: &str, value: Boolean) -> Result<bool, Refusal> {
     match value {
         0 => Ok(false),
         1 => Ok(true),
@@ -118,7 +122,7 @@ pub fn boolean(name: &str, value: Boolean) -> Result<bool, Refusal> {
 }
 
 /// `fmi2StatusKind`
-pub fn status_kind(value: c_int) -> Result<StatusKind, Refusal> {
+pub(super) fn status_kind(value: c_int) -> Result<StatusKind, Refusal> {
     match value {
         0 => Ok(StatusKind::DoStepStatus),
         1 => Ok(StatusKind::PendingStatus),

@@ -14,7 +14,7 @@ use std::ffi::c_int;
 ///
 /// # Safety
 /// `component` is null or a live one that no other thread uses.
-pub unsafe fn with_instance<T: Into<Status>>(
+pub(super) unsafe fn with_instance<T: Into<Status>>(
     component: Component,
     call: Call,
     body: impl FnOnce(&mut Instance) -> Result<T, Refusal>,

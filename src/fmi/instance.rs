@@ -11,7 +11,7 @@ use std::ptr;
 
 /// What a component points to.
 #[derive(Debug)]
-pub struct Instance {
+pub(super) struct Instance {
     /// The instance itself.
     pub slave: Slave,
     /// Where its messages go.
@@ -23,7 +23,7 @@ pub struct Instance {
 }
 
 /// The arguments of `fmi2Instantiate`.
-pub struct Request {
+pub(super) struct Request {
     pub instance_name: Text,
     pub fmu_type: c_int,
     pub guid: Text,
@@ -37,7 +37,7 @@ pub struct Request {
 /// # Safety
 /// The strings are null or end with a zero; `functions` is null or points to callbacks that can be called for as long
 /// as the component lives.
-pub unsafe fn create(request: &Request) -> Component {
+pub(super) unsafe fn create(request: &Request) -> Component {
     // SAFETY: null is answered here; the rest is the caller's promise. The struct is not needed after this call.
     let Some(functions) = (unsafe { request.functions.as_ref() }) else { return ptr::null_mut() };
     // SAFETY: the caller's promise.
@@ -90,7 +90,7 @@ unsafe fn slave(request: &Request, name: Result<&CStr, Refusal>) -> Result<Slave
 ///
 /// # Safety
 /// `component` is null or a live one; it is not used afterwards.
-pub unsafe fn free(component: Component) {
+pub(super) unsafe fn free(component: Component) {
     if component.is_null() {
         return;
     }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// The master's logger with what it wants to get back at each call.
 #[derive(Clone, Debug)]
-pub struct Logger {
+pub(super) struct Logger {
     function: Option<LoggerFunction>,
     environment: ComponentEnvironment,
     instance_name: Arc<CStr>,
@@ -17,12 +17,16 @@ pub struct Logger {
 impl Logger {
     /// # Safety
     /// `function` must be callable with `environment` for as long as messages are sent.
-    pub unsafe fn new(function: Option<LoggerFunction>, environment: ComponentEnvironment, name: &CStr) -> Logger {
+    pub(super) unsafe fn new(
+        function: Option<LoggerFunction>,
+        environment: ComponentEnvironment,
+        name: &CStr,
+    ) -> Logger {
         Logger { function, environment, instance_name: name.into() }
     }
 
     /// Sends the messages. Nothing of the instance may be borrowed: the master may call back into the FMU.
-    pub fn send(&self, messages: &[Message]) {
+    pub(super) fn send(&self, messages: &[Message]) {
         let Some(function) = self.function else { return };
         for message in messages {
             let (category, text) = (c_string(message.category.name()), c_string(&escape(&message.text)));
@@ -50,6 +54,6 @@ fn escape(text: &str) -> String {
 }
 
 /// Zeros cannot be passed on: they become blanks.
-pub fn c_string(text: &str) -> CString {
+pub(super) fn c_string(text: &str) -> CString {
     CString::new(text.replace('\0', " ")).unwrap_or_default()
 }

@@ -11,14 +11,14 @@ use std::ffi::{CStr, c_int};
 use std::mem;
 
 /// A component with its own logger.
-pub struct Logged {
+pub(super) struct Logged {
     pub component: Component,
     messages: *mut Vec<String>,
 }
 
 impl Logged {
     /// Two buildings of one floor without a contact.
-    pub fn new() -> Logged {
+    pub(super) fn new() -> Logged {
         let messages = Box::into_raw(Box::new(Vec::new()));
         // SAFETY: the logger has no variable arguments in any call, and a function without them takes such a call.
         let function = unsafe {
@@ -32,7 +32,7 @@ impl Logged {
     }
 
     /// What has been logged.
-    pub fn messages(&self) -> &[String] {
+    pub(super) fn messages(&self) -> &[String] {
         // SAFETY: alive, and nothing is being logged.
         unsafe { &*self.messages }
     }

@@ -8,21 +8,21 @@ use std::ffi::{c_char, c_int, c_void};
 /// `fmi2Component`: an `Instance` (`instance.rs`).
 pub type Component = *mut c_void;
 /// `fmi2ComponentEnvironment`: the master's, opaque.
-pub type ComponentEnvironment = *mut c_void;
+pub(super) type ComponentEnvironment = *mut c_void;
 /// `fmi2FMUstate`: the name of a snapshot of one instance, not an address.
 pub type FmuState = *mut c_void;
 /// `fmi2ValueReference`
-pub type ValueReference = u32;
+pub(super) type ValueReference = u32;
 /// `fmi2String`
-pub type Text = *const c_char;
+pub(super) type Text = *const c_char;
 /// `fmi2Boolean`: 0 or 1.
-pub type Boolean = c_int;
+pub(super) type Boolean = c_int;
 
 /// `fmi2CoSimulation` of `fmi2Type`.
-pub const CO_SIMULATION: c_int = 1;
+pub(super) const CO_SIMULATION: c_int = 1;
 
 /// `fmi2CallbackLogger`: environment, instance name, status, category, message as a `printf` format.
-pub type LoggerFunction = unsafe extern "C" fn(ComponentEnvironment, Text, c_int, Text, Text, ...);
+pub(super) type LoggerFunction = unsafe extern "C" fn(ComponentEnvironment, Text, c_int, Text, Text, ...);
 
 /// `fmi2CallbackFunctions`. The memory functions and `stepFinished` are never called, so their types do not matter.
 #[repr(C)]

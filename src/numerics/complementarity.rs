@@ -15,7 +15,7 @@ const DEPENDENT: f64 = 1e-10;
 
 /// The problem for some pairs, its solution, and the factors of the active pairs' matrix.
 #[derive(Clone, Debug, Default)]
-pub struct Complementarity {
+pub(crate) struct Complementarity {
     /// The pairs in question, as row numbers of G.
     pub pairs: Vec<usize>,
     /// b, one per pair in question.
@@ -34,7 +34,7 @@ pub struct Complementarity {
 
 impl Complementarity {
     /// Allocates for at most `most` pairs.
-    pub fn new(most: usize) -> Complementarity {
+    pub(crate) fn new(most: usize) -> Complementarity {
         let numbers = || Vec::with_capacity(most);
         Complementarity {
             pairs: Vec::with_capacity(most),
@@ -48,7 +48,7 @@ impl Complementarity {
     }
 
     /// Forgets all pairs.
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.pairs.clear();
         self.known.clear();
         self.found.clear();
@@ -56,7 +56,7 @@ impl Complementarity {
     }
 
     /// Adds a pair with b and the rounding error of b.
-    pub fn add(&mut self, pair: usize, known: f64, noise: f64) {
+    pub(crate) fn add(&mut self, pair: usize, known: f64, noise: f64) {
         self.pairs.push(pair);
         self.known.push(known);
         self.found.push(0.0);
@@ -65,14 +65,14 @@ impl Complementarity {
 
     /// Solves for bilateral contact: makes all pairs active, so that G x = b from the next `solve` on; x of either
     /// sign.
-    pub fn close_all(&mut self, matrix: &DMatrix<f64>) {
+    pub(crate) fn close_all(&mut self, matrix: &DMatrix<f64>) {
         self.active.clear();
         self.active.extend(0..self.pairs.len());
         self.factorise(matrix);
     }
 
     /// `found` from `known` for the active pairs; 0 for the others.
-    pub fn solve(&mut self) {
+    pub(crate) fn solve(&mut self) {
         self.try_active();
         self.found.fill(0.0);
         for (i, &position) in self.active.iter().enumerate() {
@@ -81,7 +81,7 @@ impl Complementarity {
     }
 
     /// Solves the complementarity problem: forces x >= 0 that only push.
-    pub fn push(&mut self, matrix: &DMatrix<f64>) {
+    pub(crate) fn push(&mut self, matrix: &DMatrix<f64>) {
         self.close_all(matrix);
         self.solve();
         if self.found.iter().all(|x| *x >= 0.0) {

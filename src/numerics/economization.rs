@@ -1,14 +1,14 @@
 //! Fewer terms for a polynomial of any degree, by Chebyshev economization: done where a model is made, not in steps.
 
 /// Chebyshev polynomials of 0..=1, each divided by the factor of its highest power.
-pub struct Economization {
+pub(crate) struct Economization {
     /// Row n: factors of x^0 to x^n.
     rows: Vec<Vec<f64>>,
 }
 
 impl Economization {
     /// For polynomials of up to that many terms.
-    pub fn new(most_terms: usize) -> Economization {
+    pub(crate) fn new(most_terms: usize) -> Economization {
         let mut rows: Vec<Vec<f64>> = vec![vec![1.0]];
         for n in 1..most_terms {
             // T_n = 2 (2 x - 1) T_{n-1} - T_{n-2}, and T_n begins with 2^(2 n - 1) x^n.
@@ -27,7 +27,7 @@ impl Economization {
 
     /// Replaces a polynomial by one of `keep` terms and sets its other terms to 0; returns a bound on the difference
     /// for x in 0..=1.
-    pub fn shorten(&self, terms: &mut [f64], keep: usize) -> f64 {
+    pub(crate) fn shorten(&self, terms: &mut [f64], keep: usize) -> f64 {
         let mut error = 0.0;
         for n in (keep.max(1)..terms.len()).rev() {
             let top = terms[n];

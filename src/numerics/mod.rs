@@ -4,12 +4,12 @@
 //! Here and in all other modules a function marked `multiversion` is compiled twice, with wide instructions and without: the
 //! same operations in the same order, so the same bits.
 
-pub mod complementarity;
-pub mod economization;
-pub mod polynomial;
-pub mod powers;
-pub mod quadrature;
-pub mod roots;
-pub mod substitution;
-pub mod sum;
-pub mod time_map;
+pub(crate) mod complementarity;
+pub(crate) mod economization;
+pub(crate) mod polynomial;
+pub(crate) mod powers;
+pub(crate) mod quadrature;
+pub(crate) mod roots;
+pub(crate) mod substitution;
+pub(crate) mod sum;
+pub(crate) mod time_map;

@@ -2,22 +2,22 @@
 //! which vectorise, whereas each operation of Horner's rule waits for the one before.
 
 /// Highest power of any Taylor series of the motion.
-pub const MAX_ORDER: usize = 30;
+pub(crate) const MAX_ORDER: usize = 30;
 
 /// Length of a coefficient array: the powers of a series and of its derivatives; a multiple of [`BLOCK`].
-pub const MAX_TERMS: usize = 36;
+pub(crate) const MAX_TERMS: usize = 36;
 
 /// Number of terms that are summed side by side, one per lane of a vector register.
-pub const BLOCK: usize = 4;
+pub(crate) const BLOCK: usize = 4;
 
 /// The coefficients of a polynomial; 0 or at least finite beyond its highest power.
-pub type Coefficients = [f64; MAX_TERMS];
+pub(crate) type Coefficients = [f64; MAX_TERMS];
 
 /// 1 for each power.
-pub const ALL: Coefficients = [1.0; MAX_TERMS];
+pub(crate) const ALL: Coefficients = [1.0; MAX_TERMS];
 
 /// n for each power n.
-pub const COUNT: Coefficients = {
+pub(crate) const COUNT: Coefficients = {
     let mut table = [0.0; MAX_TERMS];
     let mut n = 0;
     while n < MAX_TERMS {
@@ -28,7 +28,7 @@ pub const COUNT: Coefficients = {
 };
 
 /// n (n-1) for each power n: factors of the second derivative.
-pub const SECOND: Coefficients = {
+pub(crate) const SECOND: Coefficients = {
     let mut table = [0.0; MAX_TERMS];
     let mut n = 1;
     while n < MAX_TERMS {
@@ -39,7 +39,7 @@ pub const SECOND: Coefficients = {
 };
 
 /// n (n-1) (n-2) (n-3) for each power n: factors of the fourth derivative.
-pub const FOURTH: Coefficients = {
+pub(crate) const FOURTH: Coefficients = {
     let mut table = [0.0; MAX_TERMS];
     let mut n = 4;
     while n < MAX_TERMS {
@@ -50,7 +50,7 @@ pub const FOURTH: Coefficients = {
 };
 
 /// 1/(n + 1) for each power n, and for one power more: factors of the integral.
-pub const RECIPROCAL: [f64; MAX_TERMS + 1] = {
+pub(crate) const RECIPROCAL: [f64; MAX_TERMS + 1] = {
     let mut table = [0.0; MAX_TERMS + 1];
     let mut n = 0;
     while n < MAX_TERMS + 1 {
@@ -62,7 +62,7 @@ pub const RECIPROCAL: [f64; MAX_TERMS + 1] = {
 
 /// The numbers `of(0)`, `of(1)`, ... of one block: unlike `std::array::from_fn` it is always unrolled.
 #[inline(always)]
-pub fn each(of: impl Fn(usize) -> f64) -> [f64; BLOCK] {
+pub(crate) fn each(of: impl Fn(usize) -> f64) -> [f64; BLOCK] {
     let mut all = [0.0; BLOCK];
     for (i, one) in all.iter_mut().enumerate() {
         *one = of(i);
@@ -72,17 +72,17 @@ pub fn each(of: impl Fn(usize) -> f64) -> [f64; BLOCK] {
 
 /// The larger of two numbers that are not NaN: unlike `f64::max` without a test for NaN.
 #[inline(always)]
-pub fn larger(a: f64, b: f64) -> f64 {
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
 /// Value and slope of a polynomial at x.
-pub fn value_and_slope(coefficients: &[f64], x: f64) -> (f64, f64) {
+pub(crate) fn value_and_slope(coefficients: &[f64], x: f64) -> (f64, f64) {
     coefficients.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * x + c, slope * x + value))
 }
 
 /// x^(1/n) for x > 0 within 1 %, for step lengths, which need no more.
-pub fn rough_root(x: f64, n: usize) -> f64 {
+pub(crate) fn rough_root(x: f64, n: usize) -> f64 {
     const MANTISSA: u64 = (1 << 52) - 1;
     let bits = x.to_bits();
     let exponent = (bits >> 52) as i64 - 1023;

@@ -13,7 +13,7 @@
 use crate::numerics::polynomial::{COUNT, Coefficients, MAX_TERMS, RECIPROCAL};
 
 /// Series that are worked on side by side.
-pub const LANES: usize = 4;
+pub(crate) const LANES: usize = 4;
 
 /// Time, in units of a series' scale, as a function of x: t = x + curvature x^2.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -24,7 +24,7 @@ pub struct TimeMap {
 
 /// The weights of terms m - j of a series in time, j = 0, 1, ..., in its term m in x; filled up to whole blocks of
 /// lanes.
-pub type Weights = [f64; (MAX_TERMS / 2 + 1).next_multiple_of(LANES)];
+pub(crate) type Weights = [f64; (MAX_TERMS / 2 + 1).next_multiple_of(LANES)];
 
 /// Row n: the binomials (n over j).
 const CHOOSE: [Weights; MAX_TERMS] = {
@@ -43,7 +43,7 @@ const CHOOSE: [Weights; MAX_TERMS] = {
 };
 
 /// Row m: the binomials (m - j over j).
-pub const BINOMIAL: [Weights; MAX_TERMS] = {
+pub(crate) const BINOMIAL: [Weights; MAX_TERMS] = {
     let mut table = [[0.0; (MAX_TERMS / 2 + 1).next_multiple_of(LANES)]; MAX_TERMS];
     let mut m = 0;
     while m < MAX_TERMS {

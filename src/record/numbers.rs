@@ -50,7 +50,7 @@ pub(super) struct Columns {
 
 impl Columns {
     /// The first format in a text, in brackets: `(8f10.3)`, `(10I8)`, `(1P6E13.5)`.
-    pub fn find(text: &str) -> Option<Columns> {
+    pub(super) fn find(text: &str) -> Option<Columns> {
         text.match_indices('(').find_map(|(place, _)| Columns::read(text.get(place + 1..)?))
     }
 
@@ -69,7 +69,7 @@ impl Columns {
 
     /// The numbers of a line: those that blanks set apart, and where they touch each from its columns. An error is the
     /// text that is no number.
-    pub fn values(self, line: &str, number: fn(&str) -> Option<f64>) -> Vec<Result<f64, String>> {
+    pub(super) fn values(self, line: &str, number: fn(&str) -> Option<f64>) -> Vec<Result<f64, String>> {
         let read = |field: &str| number(field).ok_or_else(|| field.to_owned());
         let wrong = |fields: &[Result<f64, String>]| fields.iter().filter(|field| field.is_err()).count();
         let apart: Vec<_> = line.split_whitespace().map(read).collect();

@@ -18,13 +18,13 @@ pub(super) struct Reading {
 }
 
 impl Reading {
-    pub fn with_capacity(samples: usize) -> Reading {
+    pub(super) fn with_capacity(samples: usize) -> Reading {
         let record = Record { times: Vec::with_capacity(samples), accelerations: Vec::with_capacity(samples) };
         Reading { record, problems: Vec::new(), more: 0, samples: 0 }
     }
 
     /// Adds a sample, or what is wrong with it; `place` says where.
-    pub fn add(&mut self, time: f64, acceleration: f64, place: impl Fn(String) -> String) {
+    pub(super) fn add(&mut self, time: f64, acceleration: f64, place: impl Fn(String) -> String) {
         self.samples += 1;
         if !time.is_finite() {
             self.refuse(|| place(format!("time {} s: expected a finite time", plain(time))));
@@ -47,7 +47,7 @@ impl Reading {
     }
 
     /// Adds what a line holds at the same interval after the sample before it; `expected` is what an error is none of.
-    pub fn add_all(
+    pub(super) fn add_all(
         &mut self,
         line: usize,
         values: Vec<Result<f64, String>>,
@@ -66,12 +66,12 @@ impl Reading {
     }
 
     /// Notes a sample that is none.
-    pub fn skip(&mut self, problem: impl FnOnce() -> String) {
+    pub(super) fn skip(&mut self, problem: impl FnOnce() -> String) {
         self.samples += 1;
         self.refuse(problem);
     }
 
-    pub fn refuse(&mut self, problem: impl FnOnce() -> String) {
+    pub(super) fn refuse(&mut self, problem: impl FnOnce() -> String) {
         if self.problems.len() < MOST_PROBLEMS {
             self.problems.push(problem());
         } else {
@@ -80,12 +80,12 @@ impl Reading {
     }
 
     /// Whether nothing has been wrong so far.
-    pub fn is_sound(&self) -> bool {
+    pub(super) fn is_sound(&self) -> bool {
         self.problems.is_empty()
     }
 
     /// Compares the samples that have been found with those that a line of the header announces.
-    pub fn check_count(&mut self, line: usize, announced: &str, samples: usize) {
+    pub(super) fn check_count(&mut self, line: usize, announced: &str, samples: usize) {
         let found = self.samples;
         if found != samples {
             let expected = format!("{announced} = {samples}: expected {found}, the number of samples in the file");
@@ -94,7 +94,7 @@ impl Reading {
     }
 
     /// The record once its file has been read to the end.
-    pub fn complete(mut self) -> Result<Record, RecordError> {
+    pub(super) fn complete(mut self) -> Result<Record, RecordError> {
         match self.samples {
             0 => self.refuse(|| "0 samples: expected at least 2".to_owned()),
             1 => self.refuse(|| "1 sample: expected at least 2".to_owned()),
@@ -104,7 +104,7 @@ impl Reading {
     }
 
     /// What has been found, where nothing behind it can be read.
-    pub fn stop(self) -> RecordError {
+    pub(super) fn stop(self) -> RecordError {
         let Reading { mut problems, more, .. } = self;
         match more {
             0 => {}

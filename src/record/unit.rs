@@ -13,7 +13,7 @@ pub(super) enum Unit {
 
 impl Unit {
     /// The unit that a word names: `cm/s^2`, `cm/sec/sec`, `gal`, `m/s2`, `m_s2`, `g`.
-    pub fn read(word: &str) -> Option<Unit> {
+    pub(super) fn read(word: &str) -> Option<Unit> {
         let plain = word.to_lowercase().replace('²', "2").replace("sec", "s").replace('_', "/");
         let plain: String = plain.chars().filter(|c| !matches!(c, '^' | '*' | '.') && !c.is_whitespace()).collect();
         Some(match plain.as_str() {
@@ -26,7 +26,7 @@ impl Unit {
     }
 
     /// m/s2
-    pub fn in_si(self, value: f64) -> f64 {
+    pub(super) fn in_si(self, value: f64) -> f64 {
         match self {
             Unit::Metres => value,
             // A division by a power of ten is rounded once, a product with its inverse twice.

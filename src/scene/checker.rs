@@ -14,28 +14,28 @@ pub(super) struct Checker {
 }
 
 impl Checker {
-    pub fn refuse(&mut self, path: impl Display, found: impl Into<String>, expected: impl Into<String>) {
+    pub(super) fn refuse(&mut self, path: impl Display, found: impl Into<String>, expected: impl Into<String>) {
         self.problems.push(Problem::new(path.to_string(), found, expected));
     }
 
-    pub fn number(&mut self, path: impl Display, value: f64, rule: Rule) {
+    pub(super) fn number(&mut self, path: impl Display, value: f64, rule: Rule) {
         self.problems.extend(rule.problem_in(self.units, path, value));
     }
 
-    pub fn numbers(&mut self, path: impl Display, values: &[f64], rule: Rule) {
+    pub(super) fn numbers(&mut self, path: impl Display, values: &[f64], rule: Rule) {
         for (i, &value) in values.iter().enumerate() {
             self.number(format_args!("{path}[{}]", i + 1), value, rule);
         }
     }
 
     /// One number per floor, storey or mode, as `each` says.
-    pub fn list(&mut self, path: impl Display, values: &[f64], rule: Rule, floors: usize, each: &str) {
+    pub(super) fn list(&mut self, path: impl Display, values: &[f64], rule: Rule, floors: usize, each: &str) {
         self.length(&path, values, rule, floors, each);
         self.numbers(path, values, rule);
     }
 
     /// As many numbers as there are floors, storeys or modes.
-    pub fn length(&mut self, path: impl Display, values: &[f64], rule: Rule, floors: usize, each: &str) {
+    pub(super) fn length(&mut self, path: impl Display, values: &[f64], rule: Rule, floors: usize, each: &str) {
         if floors > 0 && values.len() != floors {
             let expected = format!("{}, one per {each}, not {}", count(floors, "number"), values.len());
             self.refuse(path, self.written(values, rule), expected);
@@ -43,7 +43,7 @@ impl Checker {
     }
 
     /// A list of numbers under a rule as the file may have it.
-    pub fn written(&self, values: &[f64], rule: Rule) -> String {
+    pub(super) fn written(&self, values: &[f64], rule: Rule) -> String {
         let units = rule.units(self.units);
         excerpt(&numbers(&values.iter().map(|&value| units.written(value)).collect::<Vec<_>>()))
     }

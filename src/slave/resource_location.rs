@@ -10,7 +10,7 @@ use percent_encoding::percent_decode;
 use std::path::PathBuf;
 
 /// The paths that a location may mean, the likeliest first; none if it points to another machine and has no path here.
-pub fn paths(location: &[u8]) -> Vec<PathBuf> {
+pub(super) fn paths(location: &[u8]) -> Vec<PathBuf> {
     candidates(location, cfg!(windows)).into_iter().filter_map(|bytes| to_path(&bytes)).collect()
 }
 

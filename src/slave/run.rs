@@ -25,12 +25,12 @@ pub(super) enum SavedRun {
 
 impl Run {
     /// At time 0, with all inputs 0.
-    pub fn new(scene: &Scene) -> Run {
+    pub(super) fn new(scene: &Scene) -> Run {
         Run::NotStarted(Start { time: 0.0, inputs: Inputs::new(scene) })
     }
 
     /// The present communication point, s; the start time before the first step.
-    pub fn time(&self) -> f64 {
+    pub(super) fn time(&self) -> f64 {
         match self {
             Run::NotStarted(start) => start.time,
             Run::Started(simulation) => simulation.state().time(),
@@ -38,7 +38,7 @@ impl Run {
     }
 
     /// The inputs as set so far.
-    pub fn inputs(&self) -> &Inputs {
+    pub(super) fn inputs(&self) -> &Inputs {
         match self {
             Run::NotStarted(start) => &start.inputs,
             Run::Started(simulation) => simulation.state().inputs(),
@@ -46,7 +46,7 @@ impl Run {
     }
 
     /// Sets an input at the present time.
-    pub fn set_input(&mut self, input: Input, value: f64) {
+    pub(super) fn set_input(&mut self, input: Input, value: f64) {
         match self {
             Run::NotStarted(start) => start.inputs.set(input, value, start.time),
             Run::Started(simulation) => simulation.change().set_input(input, value),
@@ -54,7 +54,7 @@ impl Run {
     }
 
     /// Sets the rate of an input from the present time on, per second.
-    pub fn set_input_rate(&mut self, input: Input, rate: f64) {
+    pub(super) fn set_input_rate(&mut self, input: Input, rate: f64) {
         match self {
             Run::NotStarted(start) => start.inputs.set_rate(input, rate, start.time),
             Run::Started(simulation) => simulation.change().set_input_rate(input, rate),
@@ -63,7 +63,7 @@ impl Run {
 
     /// The simulation, of these settings where there is none yet.
     #[inline]
-    pub fn start(&mut self, settings: &Settings) -> Result<&mut Simulation, Refusal> {
+    pub(super) fn start(&mut self, settings: &Settings) -> Result<&mut Simulation, Refusal> {
         match self {
             Run::Started(simulation) => Ok(simulation),
             Run::NotStarted(start) => {
@@ -75,7 +75,7 @@ impl Run {
     }
 
     /// Drops the simulation; time and inputs stay.
-    pub fn stop(&mut self) {
+    pub(super) fn stop(&mut self) {
         if let Run::Started(simulation) = self {
             let state = simulation.state();
             *self = Run::NotStarted(Start { time: state.time(), inputs: state.inputs().clone() });
@@ -83,14 +83,14 @@ impl Run {
     }
 
     /// Drops the simulation, and has the inputs that are set so far hold for another time, s.
-    pub fn start_at(&mut self, time: f64) {
+    pub(super) fn start_at(&mut self, time: f64) {
         let mut inputs = self.inputs().clone();
         inputs.move_to(time);
         *self = Run::NotStarted(Start { time, inputs });
     }
 
     /// As it is now.
-    pub fn save(&self) -> SavedRun {
+    pub(super) fn save(&self) -> SavedRun {
         match self {
             Run::NotStarted(start) => SavedRun::NotStarted(start.clone()),
             Run::Started(simulation) => SavedRun::Started(Arc::clone(simulation.model()), simulation.state().save()),
@@ -98,7 +98,7 @@ impl Run {
     }
 
     /// As it was then. A simulation of the same model lends its memory.
-    pub fn restore(&mut self, saved: &SavedRun) {
+    pub(super) fn restore(&mut self, saved: &SavedRun) {
         match (self, saved) {
             (run, SavedRun::NotStarted(start)) => *run = Run::NotStarted(start.clone()),
             (Run::Started(present), SavedRun::Started(model, state)) if Arc::ptr_eq(present.model(), model) => {

@@ -31,7 +31,7 @@ pub(super) struct Start {
 impl Simulation {
     /// The initial state, with the inputs as set so far.
     #[cold]
-    pub fn start(model: Arc<Model>, Start { time, inputs }: Start) -> Simulation {
+    pub(super) fn start(model: Arc<Model>, Start { time, inputs }: Start) -> Simulation {
         let state = model.start_with(time, inputs);
         Simulation {
             model,
@@ -44,28 +44,28 @@ impl Simulation {
         }
     }
 
-    pub fn model(&self) -> &Arc<Model> {
+    pub(super) fn model(&self) -> &Arc<Model> {
         &self.model
     }
 
-    pub fn state(&self) -> &State {
+    pub(super) fn state(&self) -> &State {
         &self.state
     }
 
     /// The state, to be changed: outputs and derivatives must be observed again.
-    pub fn change(&mut self) -> &mut State {
+    pub(super) fn change(&mut self) -> &mut State {
         (self.is_observed, self.is_differentiated) = (false, false);
         &mut self.state
     }
 
-    pub fn advance(&mut self, until: f64, on_episode: &mut dyn FnMut(&Episode)) -> Result<(), Refusal> {
+    pub(super) fn advance(&mut self, until: f64, on_episode: &mut dyn FnMut(&Episode)) -> Result<(), Refusal> {
         self.change();
         Ok(self.model.advance(&mut self.state, until, on_episode)?)
     }
 
     /// The solution at the present time, observed once for all outputs that are read there.
     #[inline]
-    pub fn now(&mut self) -> Instant<'_> {
+    pub(super) fn now(&mut self) -> Instant<'_> {
         if !self.is_observed {
             self.model.observe(&self.state, &mut self.point);
             self.is_observed = true;
@@ -74,7 +74,7 @@ impl Simulation {
     }
 
     /// The same with its derivatives with respect to time.
-    pub fn rates(&mut self) -> (Instant<'_>, &PointRates) {
+    pub(super) fn rates(&mut self) -> (Instant<'_>, &PointRates) {
         self.now();
         if !self.is_differentiated {
             self.model.observed(&self.state, &self.point).differentiate(&mut self.rates);
@@ -85,14 +85,14 @@ impl Simulation {
     }
 
     /// Works out the direct feedthrough of changes of inputs, at the same instant.
-    pub fn respond(&mut self, changes: impl Iterator<Item = (Input, f64)>) {
+    pub(super) fn respond(&mut self, changes: impl Iterator<Item = (Input, f64)>) {
         self.now();
         let Simulation { model, state, point, response, .. } = self;
         model.observed(state, point).respond(changes, response);
     }
 
     /// The change of an unknown in the last response.
-    pub fn response(&self, unknown: Slot) -> f64 {
+    pub(super) fn response(&self, unknown: Slot) -> f64 {
         match unknown {
             Slot::Output(output) => self.model.response_of(&self.response, output),
             Slot::Input(_) | Slot::Parameter(_) | Slot::Frequency(..) => 0.0,

@@ -36,7 +36,7 @@ pub(super) struct Snapshot {
 
 impl Snapshots {
     /// Keeps a snapshot in place of an earlier one, or as a new one.
-    pub fn keep(&mut self, snapshot: Snapshot, earlier: Option<Handle>) -> Result<Handle, Refusal> {
+    pub(super) fn keep(&mut self, snapshot: Snapshot, earlier: Option<Handle>) -> Result<Handle, Refusal> {
         let handle = match earlier {
             Some(handle) if self.live.contains_key(&handle) => handle,
             Some(handle) => return Err(unknown(handle)),
@@ -47,13 +47,13 @@ impl Snapshots {
     }
 
     /// The snapshot of that handle.
-    pub fn get(&self, handle: Option<Handle>) -> Result<&Snapshot, Refusal> {
+    pub(super) fn get(&self, handle: Option<Handle>) -> Result<&Snapshot, Refusal> {
         let handle = handle.ok_or_else(|| Refusal::from("FMUstate is null: expected a recorded state".to_owned()))?;
         self.live.get(&handle).ok_or_else(|| unknown(handle))
     }
 
     /// Forgets the snapshot of that handle.
-    pub fn free(&mut self, handle: Handle) -> Result<(), Refusal> {
+    pub(super) fn free(&mut self, handle: Handle) -> Result<(), Refusal> {
         self.live.remove(&handle).map(drop).ok_or_else(|| unknown(handle))
     }
 }

@@ -85,14 +85,14 @@ impl ModeIncrements {
 
 /// How often an interval is halved for a block of modes whose quickest rate times the interval is `reach`; `None` where
 /// that would be too often.
-pub fn halvings(reach: f64) -> Option<i32> {
+pub(super) fn halvings(reach: f64) -> Option<i32> {
     (0..=MOST_DOUBLINGS).find(|halvings| libm::ldexp(reach, -halvings) <= SERIES_REACH)
 }
 
 /// The increments of modes of squared frequencies w^2, 1/s2, and damping, 1/s, over an interval of `h` seconds that is
 /// halved so many times.
 #[inline(always)]
-pub fn increments((omega2, damping): (&Lane, &Lane), h: f64, halvings: i32) -> ModeIncrements {
+pub(super) fn increments((omega2, damping): (&Lane, &Lane), h: f64, halvings: i32) -> ModeIncrements {
     let mut short = h;
     for _ in 0..halvings {
         short *= 0.5;

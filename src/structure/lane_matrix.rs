@@ -4,7 +4,7 @@ use super::lanes::{LANES, Lane};
 
 /// A matrix whose columns and rows stand at given lanes of a source and a target vector.
 #[derive(Clone, Debug)]
-pub struct LaneMatrix {
+pub(super) struct LaneMatrix {
     /// Lane of the source that the first column belongs to.
     source: usize,
     columns: usize,
@@ -16,7 +16,7 @@ pub struct LaneMatrix {
 
 impl LaneMatrix {
     /// `size` rows from lane `target` on and columns from lane `source` on.
-    pub fn new(size: usize, source: usize, target: usize, entry: impl Fn(usize, usize) -> f64) -> LaneMatrix {
+    pub(super) fn new(size: usize, source: usize, target: usize, entry: impl Fn(usize, usize) -> f64) -> LaneMatrix {
         let blocks = target / LANES..(target + size).div_ceil(LANES);
         let of_row = |lane: usize, column: usize| match lane.checked_sub(target) {
             Some(row) if row < size => entry(row, column),
@@ -38,7 +38,7 @@ impl LaneMatrix {
     }
 
     /// `out` += the magnitudes of the matrix * `vector`.
-    pub fn add_sizes(&self, vector: &[f64], out: &mut [Lane]) {
+    pub(super) fn add_sizes(&self, vector: &[f64], out: &mut [Lane]) {
         for (rows, out) in self.entries.chunks_exact(self.columns.max(1)).zip(&mut out[self.target..]) {
             for (row, value) in rows.iter().zip(&vector[self.source..]) {
                 for i in 0..LANES {
@@ -49,7 +49,7 @@ impl LaneMatrix {
     }
 
     /// `out` += matrix * `vector`.
-    pub fn add(&self, vector: &[f64], out: &mut [Lane]) {
+    pub(super) fn add(&self, vector: &[f64], out: &mut [Lane]) {
         add_all(self, vector, out);
     }
 }

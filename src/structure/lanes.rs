@@ -39,6 +39,6 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// The sum of one block.
 #[inline(always)]
-pub fn from_left_to_right([a, b, c, d]: Lane) -> f64 {
+pub(super) fn from_left_to_right([a, b, c, d]: Lane) -> f64 {
     ((a + b) + c) + d
 }

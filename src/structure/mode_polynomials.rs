@@ -4,7 +4,7 @@
 use crate::numerics::economization::Economization;
 
 /// Terms of these polynomials, from t^0 on.
-pub const POLYNOMIAL_TERMS: usize = 20;
+pub(super) const POLYNOMIAL_TERMS: usize = 20;
 
 /// Terms of the power series that they come from.
 const SERIES_TERMS: usize = 64;
@@ -12,29 +12,29 @@ const SERIES_TERMS: usize = 64;
 /// Largest (rate) x (time). Beyond it the series converges too late and its terms cancel. At it the quickest modes, which
 /// damping stops at once, are right to 1e-10 of what they do, which is next to nothing: the floors of the tallest buildings
 /// were right to rounding (measured).
-pub const FURTHEST: f64 = 13.5;
+pub(super) const FURTHEST: f64 = 13.5;
 
 /// The motions of a mode from q = 1, from v = 1, and from rest under a load of 1 and under a load t, in powers of
 /// t / `length`.
-pub struct ModePolynomials {
+pub(super) struct ModePolynomials {
     pub of: [[f64; POLYNOMIAL_TERMS]; 4],
 }
 
 /// Makes them for a length of time.
-pub struct PolynomialMaker {
+pub(super) struct PolynomialMaker {
     /// s.
     length: f64,
     economization: Economization,
 }
 
 impl PolynomialMaker {
-    pub fn new(length: f64) -> PolynomialMaker {
+    pub(super) fn new(length: f64) -> PolynomialMaker {
         PolynomialMaker { length, economization: Economization::new(SERIES_TERMS) }
     }
 
     /// Of a mode of squared frequency w^2, 1/s2, and damping, 1/s. The first two terms are exact: the accelerations are
     /// what is economized, so that errors are integrated twice.
-    pub fn mode(&self, omega2: f64, damping: f64) -> ModePolynomials {
+    pub(super) fn mode(&self, omega2: f64, damping: f64) -> ModePolynomials {
         let h = self.length;
         let starts = [
             ([1.0, 0.0], [0.0, 0.0]),

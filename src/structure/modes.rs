@@ -132,7 +132,7 @@ fn refine(shape: &mut DMatrix<f64>, factor: &DMatrix<f64>, mass: &DVector<f64>) 
 
 /// Factors of mass, 1/s, and stiffness, s, for a ratio of critical damping in two modes, counted from 1:
 /// alpha + beta w^2 = 2 ratio w at both frequencies (Chopra, Dynamics of Structures, sec. 11.4).
-pub fn rayleigh_factors(ratio: f64, [i, j]: [usize; 2], omega: &[f64]) -> (f64, f64) {
+pub(super) fn rayleigh_factors(ratio: f64, [i, j]: [usize; 2], omega: &[f64]) -> (f64, f64) {
     let (wi, wj) = (omega[i - 1], omega[j - 1]);
     (2.0 * ratio * wi * wj / (wi + wj), 2.0 * ratio / (wi + wj))
 }

@@ -35,7 +35,7 @@ pub(super) enum Pace {
 }
 
 impl<'a> Facts<'a> {
-    pub fn of(scene: &'a Scene, record: Option<&'a Record>) -> Facts<'a> {
+    pub(super) fn of(scene: &'a Scene, record: Option<&'a Record>) -> Facts<'a> {
         let factor = record.and_then(|record| scene.ground.scaling.factor(record).ok());
         let peak = record.zip(factor).map(|(record, factor)| (factor * record.peak()).abs());
         let first = [&scene.left, &scene.right].map(|building| FirstMode::of(building).ok());
@@ -44,28 +44,28 @@ impl<'a> Facts<'a> {
         facts
     }
 
-    pub fn building(&self, side: Side) -> &'a Building {
+    pub(super) fn building(&self, side: Side) -> &'a Building {
         self.scene.building(side)
     }
 
-    pub fn pace(&self, side: Side) -> Pace {
+    pub(super) fn pace(&self, side: Side) -> Pace {
         self.pace[side as usize]
     }
 
     /// s.
-    pub fn period(&self, side: Side) -> Option<f64> {
+    pub(super) fn period(&self, side: Side) -> Option<f64> {
         self.first[side as usize].as_ref().map(|first| 2.0 * PI / first.omega)
     }
 
     /// Whether any floor is displaced or moves at the start.
-    pub fn starts_moving(&self) -> bool {
+    pub(super) fn starts_moving(&self) -> bool {
         let buildings = [&self.scene.left, &self.scene.right];
         let motions = buildings.into_iter().flat_map(|b| b.initial_displacement.iter().chain(&b.initial_velocity));
         motions.into_iter().any(|number| *number != 0.0)
     }
 
     /// s of the buildings that swing as buildings do.
-    pub fn usual_periods(&self) -> impl Iterator<Item = (Side, f64)> + '_ {
+    pub(super) fn usual_periods(&self) -> impl Iterator<Item = (Side, f64)> + '_ {
         let usual = |side| (self.pace(side) == Pace::Usual).then(|| self.period(side)).flatten();
         [Side::Left, Side::Right].into_iter().filter_map(move |side| Some((side, usual(side)?)))
     }

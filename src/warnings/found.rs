@@ -32,42 +32,42 @@ pub(super) struct Found {
 }
 
 impl Found {
-    pub fn new(units: Units) -> Found {
+    pub(super) fn new(units: Units) -> Found {
         Found { warnings: Vec::new(), units }
     }
 
     /// The SI number of one with a mass or a force in its unit.
-    pub fn quantity(&mut self, path: impl Into<String>, value: f64, text: impl Into<String>) {
+    pub(super) fn quantity(&mut self, path: impl Into<String>, value: f64, text: impl Into<String>) {
         self.number(path, self.units.written(value), text);
     }
 
-    pub fn quantities(&mut self, path: impl Into<String>, values: &[f64], text: impl Into<String>) {
+    pub(super) fn quantities(&mut self, path: impl Into<String>, values: &[f64], text: impl Into<String>) {
         self.numbers(path, &values.iter().map(|&value| self.units.written(value)).collect::<Vec<_>>(), text);
     }
 
-    pub fn matrix(&mut self, path: impl Into<String>, rows: &[Vec<f64>], text: impl Into<String>) {
+    pub(super) fn matrix(&mut self, path: impl Into<String>, rows: &[Vec<f64>], text: impl Into<String>) {
         self.add(path, matrix_text(rows, self.units), text);
     }
 
-    pub fn number(&mut self, path: impl Into<String>, value: f64, text: impl Into<String>) {
+    pub(super) fn number(&mut self, path: impl Into<String>, value: f64, text: impl Into<String>) {
         // 2.75e9, not 2750000000.0.
         self.add(path, if value.abs() >= 1e6 { format!("{value:e}") } else { number(value) }, text);
     }
 
-    pub fn numbers(&mut self, path: impl Into<String>, values: &[f64], text: impl Into<String>) {
+    pub(super) fn numbers(&mut self, path: impl Into<String>, values: &[f64], text: impl Into<String>) {
         self.add(path, excerpt(&numbers(values)), text);
     }
 
-    pub fn text(&mut self, path: impl Into<String>, value: &str, text: impl Into<String>) {
+    pub(super) fn text(&mut self, path: impl Into<String>, value: &str, text: impl Into<String>) {
         self.add(path, quoted(value), text);
     }
 
-    pub fn add(&mut self, path: impl Into<String>, value: String, text: impl Into<String>) {
+    pub(super) fn add(&mut self, path: impl Into<String>, value: String, text: impl Into<String>) {
         self.warnings.push(Warning { path: path.into(), value, text: text.into() });
     }
 
     /// Whether anything has been found at a path or below it.
-    pub fn has(&self, path: &str) -> bool {
+    pub(super) fn has(&self, path: &str) -> bool {
         let below = |rest: &str| rest.is_empty() || rest.starts_with(['.', '[']);
         self.warnings.iter().any(|warning| warning.path.strip_prefix(path).is_some_and(below))
     }

@@ -30,7 +30,7 @@ pub(super) struct Touch {
 
 impl Touch {
     /// None where no floor presses into another.
-    pub fn of(facts: &Facts<'_>, pair: &ContactPair) -> Option<Touch> {
+    pub(super) fn of(facts: &Facts<'_>, pair: &ContactPair) -> Option<Touch> {
         let exponent = exponent(&pair.law)?;
         let reduced = pair.reduced_mass(facts.scene);
         let speed = speed(facts);
@@ -52,7 +52,7 @@ impl Touch {
     }
 
     /// Longer than a storey swings, which papers take contacts to last. Small floors have a wave's time to tell by as well.
-    pub fn is_soft(&self) -> bool {
+    pub(super) fn is_soft(&self) -> bool {
         let beyond_wave = self.duration > 400.0 * self.wave;
         let beyond_period = self.period.is_some_and(|period| self.duration > 0.6 * period);
         self.storey.is_some_and(|storey| {
@@ -62,14 +62,14 @@ impl Touch {
     }
 
     /// Shorter than the floors behind it let it be.
-    pub fn is_hard(&self) -> bool {
+    pub(super) fn is_hard(&self) -> bool {
         // Published linear stiffnesses reach farther than those of power laws.
         let least = if self.exponent > 1.2 { 1.2 } else { 0.4 };
         self.duration < least * self.wave || self.period.is_some_and(|period| self.duration < 1.2e-3 * period)
     }
 
     /// For a person.
-    pub fn milliseconds(&self) -> String {
+    pub(super) fn milliseconds(&self) -> String {
         short(1e3 * self.duration)
     }
 }

@@ -10,7 +10,7 @@ type Rows = [Each; MOST_TERMS];
 
 /// Up to [`PAIRS`] contacts of one kind over an onset step, all of which enter or all of which touch already.
 #[derive(Clone, Debug)]
-pub struct OnsetBlock {
+pub(crate) struct OnsetBlock {
     kind: Kind,
     /// Whether the pairs enter now: d = 0.
     pub enters: bool,
@@ -56,7 +56,7 @@ impl Default for OnsetBlock {
 impl OnsetBlock {
     /// Empties the block for pairs of one kind. Lanes without a pair hold springs without stiffness, whose series are
     /// 0.
-    pub fn start(&mut self, grid: &Grid, kind: Kind, enters: bool) {
+    pub(crate) fn start(&mut self, grid: &Grid, kind: Kind, enters: bool) {
         let zeros = [0.0; PAIRS];
         (self.kind, self.enters, self.count) = (kind, enters, 0);
         (self.stiffness, self.damping, self.exponent, self.inverse) = (zeros, zeros, zeros, zeros);
@@ -67,12 +67,12 @@ impl OnsetBlock {
     }
 
     /// Whether its pairs are of a kind and enter or touch already.
-    pub fn is_of(&self, kind: Kind, enters: bool) -> bool {
+    pub(crate) fn is_of(&self, kind: Kind, enters: bool) -> bool {
         self.kind == kind && self.enters == enters
     }
 
     /// Adds a pair in a lane from its penetration, m, and its rate times the scale, m.
-    pub fn add(&mut self, lane: usize, force: &Force, scale: f64, penetration: f64, step_rate: f64) {
+    pub(crate) fn add(&mut self, lane: usize, force: &Force, scale: f64, penetration: f64, step_rate: f64) {
         self.count = self.count.max(lane + 1);
         (self.stiffness[lane], self.exponent[lane], self.damping[lane]) = force.in_units_of(scale);
         let first = if self.enters { step_rate } else { penetration };
@@ -89,7 +89,7 @@ impl OnsetBlock {
 
     /// Enters terms of the penetrations.
     #[inline(always)]
-    pub fn set_penetration(&mut self, grid: &Grid, i: usize, j: usize, values: Each) {
+    pub(crate) fn set_penetration(&mut self, grid: &Grid, i: usize, j: usize, values: Each) {
         let here = grid.index(i, j);
         let exponent = grid.exponent(i, j) - f64::from(u8::from(self.enters));
         self.penetration[here] = values;
@@ -98,7 +98,7 @@ impl OnsetBlock {
 
     /// The force terms of a row for pairs that enter; they follow from the rows before.
     #[inline(always)]
-    pub fn extend_entering_row(&mut self, grid: &Grid, products: &Products, j: usize) {
+    pub(crate) fn extend_entering_row(&mut self, grid: &Grid, products: &Products, j: usize) {
         if j == 0 {
             return;
         }
@@ -141,7 +141,7 @@ impl OnsetBlock {
 
     /// One force term, x^(i + beta j), of pairs that are in contact already.
     #[inline(always)]
-    pub fn extend_touching(&mut self, grid: &Grid, products: &Products, (i, j): (usize, usize)) {
+    pub(crate) fn extend_touching(&mut self, grid: &Grid, products: &Products, (i, j): (usize, usize)) {
         let here = grid.index(i, j);
         let (d, slope) = (self.penetration[here], self.slopes[here + 1]);
         self.force[here + 1] = match self.kind {

@@ -3,13 +3,13 @@
 use crate::contact::force::{Force, power};
 
 /// Most terms of a double series.
-pub const MOST_TERMS: usize = 64;
+pub(crate) const MOST_TERMS: usize = 64;
 /// Most rows (powers of z).
 const MOST_ROWS: usize = 12;
 
 /// Which powers x^(i + beta j) a double series has: those up to `highest`.
 #[derive(Clone, Copy, Debug)]
-pub struct Grid {
+pub(crate) struct Grid {
     /// Second exponent.
     pub beta: f64,
     /// Number of rows j.
@@ -20,7 +20,7 @@ pub struct Grid {
 
 impl Grid {
     /// The grid of a force, with powers up to about `highest`; `None` for a force that has a Taylor series.
-    pub fn of(force: &Force, highest: f64) -> Option<Grid> {
+    pub(crate) fn of(force: &Force, highest: f64) -> Option<Grid> {
         let beta = match *force {
             Force::None | Force::Linear { .. } => return None,
             Force::Power { exponent, .. } => exponent + 1.0,
@@ -40,27 +40,27 @@ impl Grid {
     }
 
     /// Number of terms.
-    pub fn terms(&self) -> usize {
+    pub(crate) fn terms(&self) -> usize {
         self.starts[self.rows]
     }
 
     /// Index of the term x^(i + beta j).
-    pub fn index(&self, i: usize, j: usize) -> usize {
+    pub(crate) fn index(&self, i: usize, j: usize) -> usize {
         self.starts[j] + i
     }
 
     /// Highest i in a row.
-    pub fn last(&self, j: usize) -> usize {
+    pub(crate) fn last(&self, j: usize) -> usize {
         self.starts[j + 1] - self.starts[j] - 1
     }
 
     /// The exponent of a term.
-    pub fn exponent(&self, i: usize, j: usize) -> f64 {
+    pub(crate) fn exponent(&self, i: usize, j: usize) -> f64 {
         i as f64 + self.beta * j as f64
     }
 
     /// Value at x of a double series.
-    pub fn sum(&self, terms: &[f64], x: f64) -> f64 {
+    pub(crate) fn sum(&self, terms: &[f64], x: f64) -> f64 {
         let z = power(x, self.beta);
         let mut sum = 0.0;
         for j in (0..self.rows).rev() {
@@ -71,7 +71,7 @@ impl Grid {
     }
 
     /// Calls for each term with its index and exponent.
-    pub fn each(&self, mut visit: impl FnMut(usize, f64)) {
+    pub(crate) fn each(&self, mut visit: impl FnMut(usize, f64)) {
         for j in 0..self.rows {
             for i in 0..=self.last(j) {
                 visit(self.index(i, j), self.exponent(i, j));
@@ -86,7 +86,7 @@ const MOST_PRODUCTS: usize = 320;
 /// For each term of a power b^n of b = e or d: the products of a term of b and a term of b^n that Miller's recurrence
 /// sums, without those with b_0.
 #[derive(Clone, Debug, Default)]
-pub struct Products {
+pub(crate) struct Products {
     /// Indices of both factors, for one term after the other.
     places: Vec<[u8; 2]>,
     /// Where each term's begin, and the end of the last.
@@ -95,12 +95,12 @@ pub struct Products {
 
 impl Products {
     /// Room for any grid.
-    pub fn room() -> Products {
+    pub(crate) fn room() -> Products {
         Products { places: vec![[0; 2]; MOST_PRODUCTS], starts: vec![0; MOST_TERMS + 1] }
     }
 
     /// Those of a grid, for pairs that enter or that touch already.
-    pub fn set(&mut self, grid: &Grid, enters: bool) {
+    pub(crate) fn set(&mut self, grid: &Grid, enters: bool) {
         let mut count = 0;
         for j in 0..grid.rows {
             let last = if enters { grid.last(j) } else { grid.last(j) + 1 };
@@ -123,7 +123,7 @@ impl Products {
 
     /// Indices of the factors of the products for a term.
     #[inline(always)]
-    pub fn of(&self, place: usize) -> impl Iterator<Item = (usize, usize)> {
+    pub(crate) fn of(&self, place: usize) -> impl Iterator<Item = (usize, usize)> {
         let places = &self.places[self.starts[place]..self.starts[place + 1]];
         // The remainder keeps indices in range without a check; it changes none.
         places.iter().map(|[factor, other]| (usize::from(*factor) % MOST_TERMS, usize::from(*other) % MOST_TERMS))
@@ -131,11 +131,11 @@ impl Products {
 }
 
 /// A scalar double series.
-pub type Terms = [f64; MOST_TERMS];
+pub(crate) type Terms = [f64; MOST_TERMS];
 
 /// The powers of x of a grid, and what derivatives and integrals need.
 #[derive(Clone, Debug)]
-pub struct GridPowers {
+pub(crate) struct GridPowers {
     /// x > 0.
     pub x: f64,
     pub(super) terms: usize,
@@ -156,14 +156,14 @@ impl Default for GridPowers {
 
 impl GridPowers {
     /// Tables for x > 0.
-    pub fn at(grid: &Grid, x: f64) -> GridPowers {
+    pub(crate) fn at(grid: &Grid, x: f64) -> GridPowers {
         let mut powers = GridPowers::default();
         powers.set(grid, x);
         powers
     }
 
     /// The same in place.
-    pub fn set(&mut self, grid: &Grid, x: f64) {
+    pub(crate) fn set(&mut self, grid: &Grid, x: f64) {
         (self.x, self.terms) = (x, grid.terms());
         let (z, inverse) = (power(x, grid.beta), 1.0 / x);
         let mut shift = 0.0;
@@ -183,13 +183,13 @@ impl GridPowers {
     }
 
     /// x^e and e x^(e-1) of each exponent e.
-    pub fn all(&self) -> (&[f64], &[f64]) {
+    pub(crate) fn all(&self) -> (&[f64], &[f64]) {
         (&self.value[..self.terms], &self.slope[..self.terms])
     }
 }
 
 /// Value and slope at x of a double series.
-pub fn value_and_slope(grid: &Grid, terms: &[f64], x: f64) -> (f64, f64) {
+pub(crate) fn value_and_slope(grid: &Grid, terms: &[f64], x: f64) -> (f64, f64) {
     let ([value], [slope]) = values_and_slopes(grid, terms, &[x]);
     (value, slope)
 }

@@ -16,6 +16,6 @@ mod block;
 mod grid;
 mod reading;
 
-pub use block::OnsetBlock;
-pub use grid::{Grid, GridPowers, MOST_TERMS, Products, Terms, value_and_slope, values_and_slopes};
-pub use reading::OnsetReading;
+pub(crate) use block::OnsetBlock;
+pub(crate) use grid::{Grid, GridPowers, MOST_TERMS, Products, Terms, value_and_slope, values_and_slopes};
+pub(crate) use reading::OnsetReading;

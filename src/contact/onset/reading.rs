@@ -7,7 +7,7 @@ use crate::numerics::polynomial::each;
 
 /// The contacts of a block at some x.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct OnsetReading {
+pub(crate) struct OnsetReading {
     /// Penetration, m.
     pub penetration: Each,
     /// Its derivative by x.
@@ -22,22 +22,22 @@ pub struct OnsetReading {
 
 impl OnsetBlock {
     /// Penetrations, forces and their integrals at the x of the powers.
-    pub fn read(&self, powers: &GridPowers) -> OnsetReading {
+    pub(crate) fn read(&self, powers: &GridPowers) -> OnsetReading {
         read(&self.penetration[..powers.terms], &self.force[..powers.terms], powers)
     }
 
     /// Bounds over 0..=x on the sum of all terms but the first two, of the penetrations and of their derivatives by x.
-    pub fn bounds(&self, powers: &GridPowers) -> [Each; 2] {
+    pub(crate) fn bounds(&self, powers: &GridPowers) -> [Each; 2] {
         bounds(&self.penetration[..powers.terms], powers)
     }
 
     /// The penetration of one pair, copied.
-    pub fn copy_penetration(&self, grid: &Grid, lane: usize) -> Terms {
+    pub(crate) fn copy_penetration(&self, grid: &Grid, lane: usize) -> Terms {
         copy(&self.penetration[..grid.terms()], lane)
     }
 
     /// The force of one pair times x, copied.
-    pub fn copy_force(&self, grid: &Grid, lane: usize) -> Terms {
+    pub(crate) fn copy_force(&self, grid: &Grid, lane: usize) -> Terms {
         copy(&self.force[..grid.terms()], lane)
     }
 }

@@ -5,10 +5,10 @@ use crate::numerics::polynomial::{COUNT, MAX_TERMS};
 use crate::numerics::substitution::Substitution;
 
 /// Pairs that are worked on together: as many as today's machines take in one instruction.
-pub const PAIRS: usize = 4;
+pub(crate) const PAIRS: usize = 4;
 
 /// One number of each pair.
-pub type Each = [f64; PAIRS];
+pub(crate) type Each = [f64; PAIRS];
 
 /// A series of each pair.
 type Rows = [Each; MAX_TERMS];
@@ -17,7 +17,7 @@ type Rows = [Each; MAX_TERMS];
 pub(super) type Sloped = [[Each; 2]; MAX_TERMS];
 
 /// Exponent of the power whose rate damps in a root law.
-pub const ROOT: f64 = 1.25;
+pub(crate) const ROOT: f64 = 1.25;
 
 /// Where a series that is kept backwards begins.
 pub(super) const LAST: usize = MAX_TERMS - 1;
@@ -25,7 +25,7 @@ pub(super) const LAST: usize = MAX_TERMS - 1;
 /// The scalar series of up to [`PAIRS`] contacts over a step, in powers of x, where x = t / scale or that of a time
 /// map.
 #[derive(Clone, Debug)]
-pub struct PairBlock {
+pub(crate) struct PairBlock {
     pub(super) kind: Kind,
     /// Number of lanes up to the last one that holds a pair.
     pub count: usize,
@@ -80,7 +80,7 @@ impl Default for PairBlock {
 impl PairBlock {
     /// Empties the block for pairs of one kind. Lanes without a pair hold springs without stiffness, whose series are
     /// 0.
-    pub fn start(&mut self, kind: Kind) {
+    pub(crate) fn start(&mut self, kind: Kind) {
         let zeros = [0.0; PAIRS];
         self.kind = kind;
         self.count = 0;
@@ -93,7 +93,7 @@ impl PairBlock {
     }
 
     /// Adds a pair in a lane from its penetration and its rate per unit of x, both m.
-    pub fn add(&mut self, lane: usize, force: &Force, scale: f64, penetration: f64, step_rate: f64) {
+    pub(crate) fn add(&mut self, lane: usize, force: &Force, scale: f64, penetration: f64, step_rate: f64) {
         self.count = self.count.max(lane + 1);
         (self.stiffness[lane], self.exponent[lane], self.damping[lane]) = force.in_units_of(scale);
         let inverse = 1.0 / penetration;
@@ -114,7 +114,7 @@ impl PairBlock {
     }
 
     /// Whether its forces follow from the penetrations alone.
-    pub fn is_elastic(&self) -> bool {
+    pub(crate) fn is_elastic(&self) -> bool {
         match self.kind {
             Kind::None | Kind::Spring => true,
             Kind::Linear => self.damping == [0.0; PAIRS],
@@ -123,23 +123,23 @@ impl PairBlock {
     }
 
     /// Whether its forces may have a damping part.
-    pub fn is_damped(&self) -> bool {
+    pub(crate) fn is_damped(&self) -> bool {
         !matches!(self.kind, Kind::None | Kind::Spring)
     }
 
     /// The kind of law of its pairs.
-    pub fn kind(&self) -> Kind {
+    pub(crate) fn kind(&self) -> Kind {
         self.kind
     }
 
     /// Stiffness and damping of linear forces.
-    pub fn linear_factors(&self) -> [&Each; 2] {
+    pub(crate) fn linear_factors(&self) -> [&Each; 2] {
         [&self.stiffness, &self.damping]
     }
 
     /// Enters power n of the first linear forces and the power n + 2 of the penetrations that follows from it.
     #[inline(always)]
-    pub fn enter_linear(&mut self, n: usize, force: &[f64], penetration: &[f64]) {
+    pub(crate) fn enter_linear(&mut self, n: usize, force: &[f64], penetration: &[f64]) {
         if n + 2 < MAX_TERMS {
             self.force[n][..force.len()].copy_from_slice(force);
             self.penetration[n + 2][..penetration.len()].copy_from_slice(penetration);
@@ -148,18 +148,18 @@ impl PairBlock {
     }
 
     /// Whether all forces are linear.
-    pub fn is_linear(&self) -> bool {
+    pub(crate) fn is_linear(&self) -> bool {
         self.kind == Kind::Linear
     }
 
     /// Whether its forces have a root at d = 0.
-    pub fn has_roots(&self) -> bool {
+    pub(crate) fn has_roots(&self) -> bool {
         matches!(self.kind, Kind::Spring | Kind::Damped | Kind::Root)
     }
 
     /// Re-expands the series of penetrations in the x of a time map, and those of the forces unless they are elastic:
     /// elastic forces are integrated in time.
-    pub fn substitute(&mut self, substitution: &Substitution) {
+    pub(crate) fn substitute(&mut self, substitution: &Substitution) {
         let terms = self.order + 3;
         match self.is_elastic() {
             true => substitution.apply(&mut self.penetration[..terms], 1),

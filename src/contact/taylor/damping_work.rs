@@ -12,7 +12,7 @@ const NEARLY_RELEASED: f64 = 0.1;
 
 impl PairBlock {
     /// J, work of the damping part of a pair's force over 0..=x, where the penetration is `end`.
-    pub fn damping_work(
+    pub(crate) fn damping_work(
         &self,
         lane: usize,
         force: &Force,

@@ -74,7 +74,7 @@ fn root(block: &mut PairBlock, n: usize) -> Each {
 impl PairBlock {
     /// Enters power n of the penetrations, of pairs under a law.
     #[inline(always)]
-    pub fn set_penetration(&mut self, n: usize, values: Each) {
+    pub(crate) fn set_penetration(&mut self, n: usize, values: Each) {
         if n < MAX_TERMS {
             self.penetration[n] = values;
             self.backwards[LAST - n] = values;
@@ -87,7 +87,7 @@ impl PairBlock {
     /// Fills power n of the forces, from the powers 0..=n + 1 of the penetrations, for n = 0, 1,
     /// 2, ... in turn, and returns it.
     #[inline(always)]
-    pub fn extend_force(&mut self, n: usize) -> Each {
+    pub(crate) fn extend_force(&mut self, n: usize) -> Each {
         // Equal lengths: no bounds checks below.
         if n + 2 >= MAX_TERMS {
             return [0.0; PAIRS];

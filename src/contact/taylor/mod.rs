@@ -5,6 +5,6 @@ mod damping_work;
 mod laws;
 mod reading;
 
-pub use super::force::Kind;
-pub use block::{Each, PAIRS, PairBlock, ROOT};
-pub use reading::{BlockReading, ForceReading};
+pub(crate) use super::force::Kind;
+pub(crate) use block::{Each, PAIRS, PairBlock, ROOT};
+pub(crate) use reading::{BlockReading, ForceReading};

@@ -7,7 +7,7 @@ use crate::numerics::powers::{Powers, Reading};
 
 /// The penetrations of a block at the end of a step.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct BlockReading {
+pub(crate) struct BlockReading {
     /// Penetration, m.
     pub penetration: Each,
     /// Its derivative by x.
@@ -20,7 +20,7 @@ pub struct BlockReading {
 
 /// The forces of a block at the end of a step.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct ForceReading {
+pub(crate) struct ForceReading {
     /// N.
     pub value: Each,
     /// Its derivative by x.
@@ -33,39 +33,39 @@ pub struct ForceReading {
 
 impl ForceReading {
     /// Of one pair.
-    pub fn of(&self, lane: usize) -> Reading {
+    pub(crate) fn of(&self, lane: usize) -> Reading {
         Reading { value: self.value[lane], slope: self.slope[lane], fourth: self.fourth[lane] }
     }
 }
 
 impl PairBlock {
     /// Estimate of the x at which each pair is released, if that is before `limit`; else infinite.
-    pub fn releases(&self, limit: f64) -> Each {
+    pub(crate) fn releases(&self, limit: f64) -> Each {
         releases(&self.penetration[..self.order + 3], limit)
     }
 
     /// Penetrations and their bounds at the x of the powers.
-    pub fn read(&self, powers: &Powers) -> BlockReading {
+    pub(crate) fn read(&self, powers: &Powers) -> BlockReading {
         read(&self.penetration[..self.order + 3], powers)
     }
 
     /// Forces at the x of the powers, and their integral over 0..=x, N s per unit of the scale.
-    pub fn read_force(&self, powers: &Powers) -> ForceReading {
+    pub(crate) fn read_force(&self, powers: &Powers) -> ForceReading {
         read_force(&self.force[..=self.order], powers)
     }
 
     /// Integrals of elastic forces over time up to that of the powers, N s per unit of the scale.
-    pub fn elastic_impulses(&self, powers: &Powers) -> Each {
+    pub(crate) fn elastic_impulses(&self, powers: &Powers) -> Each {
         elastic_impulses(&self.force[..=self.order], powers.integral_in_time())
     }
 
     /// The penetration of one pair, copied; returns the number of its terms.
-    pub fn copy_penetration(&self, lane: usize, out: &mut Coefficients) -> usize {
+    pub(crate) fn copy_penetration(&self, lane: usize, out: &mut Coefficients) -> usize {
         copy(&self.penetration[..self.order + 3], lane, out)
     }
 
     /// The force, N, that a law gives for the motion of one pair at x, where time passes at a `rate`, s.
-    pub fn force_at(&self, lane: usize, law: &Force, (x, rate): (f64, f64)) -> f64 {
+    pub(crate) fn force_at(&self, lane: usize, law: &Force, (x, rate): (f64, f64)) -> f64 {
         let mut terms = [0.0; MAX_TERMS];
         let count = self.copy_penetration(lane, &mut terms);
         let (penetration, slope) = value_and_slope(&terms[..count], x);
@@ -73,7 +73,7 @@ impl PairBlock {
     }
 
     /// The force of one pair, copied; returns the number of its terms.
-    pub fn copy_force(&self, lane: usize, out: &mut Coefficients) -> usize {
+    pub(crate) fn copy_force(&self, lane: usize, out: &mut Coefficients) -> usize {
         copy(&self.force[..=self.order], lane, out)
     }
 }

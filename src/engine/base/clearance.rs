@@ -5,11 +5,11 @@
 use serde::{Deserialize, Serialize};
 
 /// Largest number of segments ahead for which one broad phase clears a pair.
-pub const MOST: u64 = 64;
+pub(crate) const MOST: u64 = 64;
 
 /// Pairs that are known to stay apart, by numbers of segments of the record.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Clearance {
+pub(crate) struct Clearance {
     /// Number of the first segment in which any pair may meet, as far as is known: the minimum of `pairs`.
     due: u64,
     /// Number of the first segment in which another broad phase is worth its cost.
@@ -25,73 +25,73 @@ pub struct Clearance {
 
 impl Clearance {
     /// No pair is cleared; the penetration of every contact is known at the base.
-    pub fn new(pairs: usize) -> Clearance {
+    pub(crate) fn new(pairs: usize) -> Clearance {
         Clearance { due: 0, next_look: 0, pairs: vec![0; pairs], moves: 0, known: vec![0; pairs] }
     }
 
     /// Withdraws the clearance of all pairs: a contact force or an impulse acts, which the bounds do not include.
-    pub fn restart(&mut self) {
+    pub(crate) fn restart(&mut self) {
         (self.due, self.next_look) = (0, 0);
         self.pairs.fill(0);
     }
 
     /// Clears a pair up to the segment `until`, in which it may meet.
-    pub fn clear(&mut self, p: usize, until: u64) {
+    pub(crate) fn clear(&mut self, p: usize, until: u64) {
         self.pairs[p] = until;
     }
 
     /// The first segment in which any pair may meet, from the numbers of all pairs.
-    pub fn first_due(&self) -> u64 {
+    pub(crate) fn first_due(&self) -> u64 {
         self.pairs.iter().copied().min().unwrap_or(u64::MAX)
     }
 
     /// Notes the first segment in which any pair may meet, and the one in which another broad phase is worth its cost.
-    pub fn note(&mut self, due: u64, next_look: u64) {
+    pub(crate) fn note(&mut self, due: u64, next_look: u64) {
         (self.due, self.next_look) = (due, next_look);
     }
 
     /// Whether a pair is known to stay apart in a segment.
-    pub fn is_free(&self, p: usize, segment: u64) -> bool {
+    pub(crate) fn is_free(&self, p: usize, segment: u64) -> bool {
         self.pairs[p] > segment
     }
 
     /// The first segment in which any pair may meet, as noted.
-    pub fn due(&self) -> u64 {
+    pub(crate) fn due(&self) -> u64 {
         self.due
     }
 
     /// The first segment in which another broad phase is worth its cost.
-    pub fn next_look(&self) -> u64 {
+    pub(crate) fn next_look(&self) -> u64 {
         self.next_look
     }
 
     /// Whether all pairs are known to stay apart in a segment.
-    pub fn are_all_free(&self, segment: u64) -> bool {
+    pub(crate) fn are_all_free(&self, segment: u64) -> bool {
         self.due > segment
     }
 
     /// Notes that the base has moved that often: no contact's penetration is known at the base any more.
-    pub fn move_on(&mut self, moves: u64) {
+    pub(crate) fn move_on(&mut self, moves: u64) {
         self.moves += moves;
     }
 
     /// Notes that penetration and rate of a contact are those at the base.
-    pub fn set_known(&mut self, p: usize) {
+    pub(crate) fn set_known(&mut self, p: usize) {
         self.known[p] = self.moves;
     }
 
     /// Notes that penetration and rate of all contacts are those at the base.
-    pub fn set_all_known(&mut self) {
+    pub(crate) fn set_all_known(&mut self) {
         self.known.fill(self.moves);
     }
 
     /// Whether penetration and rate of a contact are those at the base.
-    pub fn is_known(&self, p: usize) -> bool {
+    pub(crate) fn is_known(&self, p: usize) -> bool {
         self.known[p] == self.moves
     }
 
     /// Whether a restored clearance is possible for that many pairs in that segment, after at most `most_moves` moves.
-    pub fn fits(&self, pairs: usize, segment: u64, most_moves: u64) -> bool {
+    pub(crate) fn fits(&self, pairs: usize, segment: u64, most_moves: u64) -> bool {
         let Clearance { due, next_look, pairs: free, moves, known } = self;
         // A pair may have been cleared in an earlier segment, but never for longer than from the present one.
         let furthest = segment.saturating_add(2 * MOST);

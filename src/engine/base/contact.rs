@@ -31,7 +31,7 @@ pub struct Episode {
 
 /// The phase of a contact, which decides its force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Phase {
+pub(crate) enum Phase {
     /// Apart: no force.
     Apart,
     /// In contact, the law's force acts.
@@ -44,7 +44,7 @@ pub enum Phase {
 
 /// The state of one contact at the base.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub struct Contact {
+pub(crate) struct Contact {
     pub phase: Phase,
     /// The forces of the latest episode on both sides of the law's guard, and the guard.
     pub force: EpisodeForce,
@@ -86,17 +86,17 @@ pub struct Contact {
 
 impl Contact {
     /// Whether the floors touch: engaged, slack or held.
-    pub fn in_contact(&self) -> bool {
+    pub(crate) fn in_contact(&self) -> bool {
         self.phase != Phase::Apart
     }
 
     /// Whether rigid floors are held together by a reaction.
-    pub fn is_held(&self) -> bool {
+    pub(crate) fn is_held(&self) -> bool {
         self.phase == Phase::Held
     }
 
     /// Integral of F v of all episodes so far, J.
-    pub fn dissipated_energy(&self) -> f64 {
+    pub(crate) fn dissipated_energy(&self) -> f64 {
         match self.phase {
             Phase::Apart => self.work,
             _ => self.work + (self.branch().stored_energy(self.penetration) - self.stored_reference),
@@ -104,7 +104,7 @@ impl Contact {
     }
 
     /// The force law of the present phase.
-    pub fn branch(&self) -> Force {
+    pub(crate) fn branch(&self) -> Force {
         match self.phase {
             Phase::Apart | Phase::Held => Force::None,
             Phase::Engaged => self.force.engaged,
@@ -113,12 +113,12 @@ impl Contact {
     }
 
     /// The latest episode up to the base, with its dissipated energy.
-    pub fn present_episode(&self) -> Episode {
+    pub(crate) fn present_episode(&self) -> Episode {
         Episode { dissipated_energy: self.dissipated_energy() - self.work_before, ..self.episode }
     }
 
     /// The force at the base, N, positive in compression.
-    pub fn present_force(&self) -> f64 {
+    pub(crate) fn present_force(&self) -> f64 {
         match self.phase {
             Phase::Held => self.reaction,
             _ => self.branch().value(self.penetration, self.rate),
@@ -126,7 +126,7 @@ impl Contact {
     }
 
     /// Begins an episode at the present penetration.
-    pub fn begin(&mut self, time: f64, approach_velocity: f64) {
+    pub(crate) fn begin(&mut self, time: f64, approach_velocity: f64) {
         self.impacts += 1;
         self.phase = if self.force.is_engaged(self.penetration, self.rate) { Phase::Engaged } else { Phase::Slack };
         self.stored_reference = self.branch().stored_energy(self.penetration);
@@ -150,7 +150,7 @@ impl Contact {
     }
 
     /// Raises the peaks to a force, N, at a time, s.
-    pub fn raise_peak(&mut self, force: f64, time: f64) {
+    pub(crate) fn raise_peak(&mut self, force: f64, time: f64) {
         if force > self.episode.peak_force {
             (self.episode.peak_force, self.episode.peak_time) = (force, time);
             self.peak_force = self.peak_force.max(force);
@@ -158,36 +158,36 @@ impl Contact {
     }
 
     /// Adds an impulse, N s, that goes through floors that are held together and stay so: one against another contact.
-    pub fn pass_on(&mut self, impulse: f64) {
+    pub(crate) fn pass_on(&mut self, impulse: f64) {
         self.rate = 0.0;
         self.impulse += impulse;
         self.episode.impulse += impulse;
     }
 
     /// Penetration at the start of a flight, m: exactly 0 just after a release, never above 0.
-    pub fn flight_start(&self) -> f64 {
+    pub(crate) fn flight_start(&self) -> f64 {
         if self.at_surface { 0.0 } else { self.penetration.min(0.0) }
     }
 
     /// Whether it has just entered under a force that has no power series at d = 0.
-    pub fn is_singular(&self) -> bool {
+    pub(crate) fn is_singular(&self) -> bool {
         self.in_contact() && self.penetration <= 0.0 && !self.branch().is_regular()
     }
 
     /// The force with which the series of the next step starts.
-    pub fn starting_force(&self) -> Force {
+    pub(crate) fn starting_force(&self) -> Force {
         if self.is_singular() { Force::None } else { self.branch() }
     }
 
     /// Passes to the force on the other side of the law's guard.
-    pub fn change_branch(&mut self) {
+    pub(crate) fn change_branch(&mut self) {
         self.settle();
         self.phase = if self.phase == Phase::Engaged { Phase::Slack } else { Phase::Engaged };
         self.stored_reference = self.branch().stored_energy(self.penetration);
     }
 
     /// Adds to the work the change of elastic energy since the reference.
-    pub fn settle(&mut self) {
+    pub(crate) fn settle(&mut self) {
         self.work += self.branch().stored_energy(self.penetration) - self.stored_reference;
         self.stored_reference = 0.0;
     }

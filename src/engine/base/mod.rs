@@ -1,12 +1,12 @@
 //! The base: the solution at the end of the last internal step. With the inputs it determines the rest of a run.
 
-pub mod clearance;
-pub mod contact;
-pub mod counters;
-pub mod numbers;
-pub mod peaks;
-pub mod planned;
-pub mod storey;
+pub(super) mod clearance;
+pub(super) mod contact;
+pub(super) mod counters;
+pub(super) mod numbers;
+pub(super) mod peaks;
+pub(super) mod planned;
+pub(super) mod storey;
 
 use crate::contact::Force;
 use crate::engine::base::clearance::Clearance;
@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 
 /// The coordinates of a vector of motion: floor by floor or mode by mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Coordinates {
+pub(super) enum Coordinates {
     /// Modal coordinates: in flight, and near rigid contacts.
     #[default]
     Modes,
@@ -30,7 +30,7 @@ pub enum Coordinates {
 
 /// The solution at the end of an internal step.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Base {
+pub(super) struct Base {
     /// The segment of the ground motion that contains the base.
     pub segment: Segment,
     /// Time since the start of the segment, s.
@@ -63,7 +63,7 @@ pub struct Base {
 
 /// The position in which the buildings would come to rest, which plastic drifts have moved.
 #[derive(Clone, Debug, Default)]
-pub struct Rest {
+pub(super) struct Rest {
     /// Displacements of all floors, m.
     pub floors: Vec<f64>,
     /// The gap of each contact there, m.
@@ -74,7 +74,7 @@ pub struct Rest {
 
 /// The energy account: the energy at the start and the work done since, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Account {
+pub(super) struct Account {
     /// Kinetic and elastic energy at the start.
     pub initial: f64,
     /// Work of the ground motion.
@@ -89,33 +89,33 @@ pub struct Account {
 
 impl Base {
     /// Number of contacts on which a force acts, with `of` for a contact's force.
-    pub fn count_forces(&self, of: impl Fn(&Contact) -> Force) -> u64 {
+    pub(super) fn count_forces(&self, of: impl Fn(&Contact) -> Force) -> u64 {
         let is_pressed = |contact: &&Contact| contact.in_contact() && of(contact) != Force::None;
         self.contacts.iter().filter(is_pressed).count() as u64
     }
 
     /// Energy dissipated by all contacts so far, J.
-    pub fn dissipated_by_contacts(&self) -> f64 {
+    pub(super) fn dissipated_by_contacts(&self) -> f64 {
         self.contacts.iter().map(Contact::dissipated_energy).sum()
     }
 
     /// Whether a storey yields.
-    pub fn is_yielding(&self) -> bool {
+    pub(super) fn is_yielding(&self) -> bool {
         self.storeys.iter().any(|storey| storey.yields.is_some())
     }
 
     /// Whether forces act that flights do not know of: those of contacts, or of storeys that yield.
-    pub fn is_forced(&self) -> bool {
+    pub(super) fn is_forced(&self) -> bool {
         self.contacts.iter().any(Contact::in_contact) || self.is_yielding()
     }
 
     /// Time of the base, s.
-    pub fn time(&self) -> f64 {
+    pub(super) fn time(&self) -> f64 {
         self.segment.start + self.elapsed
     }
 
     /// Ends the episode of a contact.
-    pub fn release(&mut self, p: usize, on_episode: &mut dyn FnMut(&Episode)) {
+    pub(super) fn release(&mut self, p: usize, on_episode: &mut dyn FnMut(&Episode)) {
         let time = self.time();
         let contact = &mut self.contacts[p];
         contact.let_go = contact.is_held() && contact.rate == 0.0;
@@ -134,20 +134,20 @@ impl Base {
 impl Account {
     /// Adds a flight without forces on the floors, while the contacts have dissipated `impact`, J.
     #[inline(always)]
-    pub fn add_flight(&mut self, flight: &FlightEnergy, impact: f64) {
+    pub(super) fn add_flight(&mut self, flight: &FlightEnergy, impact: f64) {
         self.input.add(flight.input);
         self.viscous.add(flight.viscous);
         self.update_largest([flight.kinetic, flight.strain, impact]);
     }
 
     /// Raises `largest` to the magnitudes of the account's terms and of the `others`.
-    pub fn update_largest<const N: usize>(&mut self, others: [f64; N]) {
+    pub(super) fn update_largest<const N: usize>(&mut self, others: [f64; N]) {
         let terms = [self.initial, self.input.value, self.external.value, self.viscous.value];
         self.largest = terms.iter().chain(&others).fold(self.largest, |largest, term| largest.max(term.abs()));
     }
 }
 
 /// The contacts whose floors touch, each with its number.
-pub fn touching(base: &Base) -> impl Iterator<Item = (usize, &Contact)> {
+pub(super) fn touching(base: &Base) -> impl Iterator<Item = (usize, &Contact)> {
     base.contacts.iter().enumerate().filter(|(_, contact)| contact.in_contact())
 }

@@ -6,7 +6,7 @@ use crate::engine::base::storey::Storey;
 use crate::engine::base::{Account, Base};
 
 impl Base {
-    pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
         let Base {
             segment: _, // compared as a whole
             elapsed,
@@ -34,7 +34,7 @@ impl Base {
     }
 
     /// Displacements and velocities, with the contacts' penetrations and rates.
-    pub fn motion(&self) -> impl Iterator<Item = f64> + '_ {
+    pub(crate) fn motion(&self) -> impl Iterator<Item = f64> + '_ {
         let of_contacts = self.contacts.iter().flat_map(|contact| [contact.penetration, contact.rate]);
         let of_storeys = self.storeys.iter().flat_map(Storey::numbers);
         self.q.iter().chain(&self.v).copied().chain(of_contacts).chain(of_storeys)
@@ -42,7 +42,7 @@ impl Base {
 }
 
 impl Contact {
-    pub fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
         let &Contact {
             phase: _,
             force: _, // compared as a whole
@@ -88,7 +88,7 @@ impl Episode {
 }
 
 impl Account {
-    pub fn numbers(&self) -> [f64; 8] {
+    pub(crate) fn numbers(&self) -> [f64; 8] {
         let &Account { initial, input, external, viscous, largest } = self;
         let ([a, b], [c, d], [e, f]) = (input.numbers(), external.numbers(), viscous.numbers());
         [initial, a, b, c, d, e, f, largest]

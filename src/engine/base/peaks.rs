@@ -6,35 +6,35 @@ use serde::{Deserialize, Serialize};
 
 /// The peaks up to the base, in the order and units of [`PeakRows`].
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct Peaks {
+pub(crate) struct Peaks {
     /// One peak per watched quantity, in blocks of [`LANES`]; 0 in lanes without a quantity.
     pub values: Vec<f64>,
 }
 
 impl Peaks {
     /// Peaks of 0, for that many blocks of quantities.
-    pub fn new(blocks: usize) -> Peaks {
+    pub(crate) fn new(blocks: usize) -> Peaks {
         Peaks { values: vec![0.0; blocks * LANES] }
     }
 
     /// Whether these are as many peaks as `other` and none of them is negative or NaN.
-    pub fn fit(&self, other: &Peaks) -> bool {
+    pub(crate) fn fit(&self, other: &Peaks) -> bool {
         self.values.len() == other.values.len() && self.values.iter().all(|peak| *peak >= 0.0)
     }
 
     /// All peaks.
-    pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
         let Peaks { values } = self;
         values.iter().copied()
     }
 
     /// The peaks of one block of quantities.
-    pub fn block(&self, block: usize) -> &Lane {
+    pub(crate) fn block(&self, block: usize) -> &Lane {
         &self.values.as_chunks::<LANES>().0[block]
     }
 
     /// Raises the peak at an index to the magnitude of a value.
-    pub fn raise(&mut self, place: usize, value: f64) {
+    pub(crate) fn raise(&mut self, place: usize, value: f64) {
         let peak = &mut self.values[place];
         *peak = larger(*peak, value.abs());
     }

@@ -7,7 +7,7 @@ use crate::engine::excitation::inputs::Inputs;
 
 /// The event that ends a step, with the number of its contact or storey.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Event {
+pub(crate) enum Event {
     /// Penetration passes 0 upwards.
     Entry(usize),
     /// Penetration is back at 0.
@@ -21,11 +21,11 @@ pub enum Event {
 }
 
 /// Penetration, m, and its rate, m/s, one per contact; `None` where they are not tracked or not needed.
-pub type Tracked = Vec<Option<(f64, f64)>>;
+pub(crate) type Tracked = Vec<Option<(f64, f64)>>;
 
 /// The end of a planned step, whatever its kind.
 #[derive(Clone, Debug)]
-pub struct Planned {
+pub(crate) struct Planned {
     /// Length, s.
     pub length: f64,
     /// Whether the step ends where the segment (or the communication step that cuts it) does.
@@ -47,7 +47,7 @@ pub struct Planned {
 
 impl Planned {
     /// No step yet, for vectors of that many lanes and that many pairs.
-    pub fn new(lanes: usize, pairs: usize) -> Planned {
+    pub(crate) fn new(lanes: usize, pairs: usize) -> Planned {
         Planned {
             length: 0.0,
             reaches_limit: false,
@@ -61,7 +61,7 @@ impl Planned {
     }
 
     /// Plans a step of length 0: the event is at the base.
-    pub fn plan_zero_length(&mut self, base: &Base, event: Event) {
+    pub(crate) fn plan_zero_length(&mut self, base: &Base, event: Event) {
         self.event = Some(event);
         self.reaches_limit = false;
         self.length = 0.0;
@@ -74,7 +74,7 @@ impl Planned {
 }
 
 /// The start of a step: the base, the inputs that act on it, and the counts of work.
-pub struct At<'a> {
+pub(crate) struct At<'a> {
     pub base: &'a mut Base,
     pub inputs: &'a Inputs,
     pub counters: &'a mut Counters,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// The sense in which a storey yields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Sense {
+pub(crate) enum Sense {
     /// Its drift grows: the upper floor moves to the right.
     Positive,
     Negative,
@@ -13,10 +13,10 @@ pub enum Sense {
 
 impl Sense {
     /// Both senses.
-    pub const BOTH: [Sense; 2] = [Sense::Positive, Sense::Negative];
+    pub(crate) const BOTH: [Sense; 2] = [Sense::Positive, Sense::Negative];
 
     /// 1 or -1.
-    pub fn sign(self) -> f64 {
+    pub(crate) fn sign(self) -> f64 {
         match self {
             Sense::Positive => 1.0,
             Sense::Negative => -1.0,
@@ -27,7 +27,7 @@ impl Sense {
 /// The state of one storey that can yield. What its elastic part z = drift - plastic drift is follows from the motion, but
 /// while the storey yields and where it has just turned back: there |z| is the yield drift exactly.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Storey {
+pub(crate) struct Storey {
     /// The sense in which it yields; `None` while it is elastic.
     pub yields: Option<Sense>,
     /// The sense in which it has yielded up to this very instant, at which its drift turns: the rate of z is exactly 0.
@@ -42,7 +42,7 @@ pub struct Storey {
 
 impl Storey {
     /// The storey after its plastic drift has changed by `step`, m, in one sense.
-    pub fn after(self, step: f64) -> Storey {
+    pub(crate) fn after(self, step: f64) -> Storey {
         let plastic = self.plastic + step;
         let mut cumulative = self.cumulative;
         cumulative.add(step.abs());
@@ -50,7 +50,7 @@ impl Storey {
     }
 
     /// Its numbers, for the checks of a saved state.
-    pub fn numbers(&self) -> [f64; 4] {
+    pub(crate) fn numbers(&self) -> [f64; 4] {
         let &Storey { yields: _, turned: _, plastic, cumulative, furthest } = self;
         [plastic, cumulative.value, cumulative.lost, furthest]
     }

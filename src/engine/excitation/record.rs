@@ -11,7 +11,7 @@ const MOST_PREPARED: usize = 8;
 
 /// A scaled record, divided into segments.
 #[derive(Debug)]
-pub struct GroundMotion {
+pub(crate) struct GroundMotion {
     /// Times of the samples, s.
     times: Vec<f64>,
     /// Accelerations at the samples, m/s2.
@@ -32,7 +32,7 @@ pub struct GroundMotion {
 
 impl GroundMotion {
     /// Prepares a record, its accelerations times `factor`, for a structure.
-    pub fn new(record: &Record, factor: f64, structure: &Structure, has_account: bool) -> GroundMotion {
+    pub(crate) fn new(record: &Record, factor: f64, structure: &Structure, has_account: bool) -> GroundMotion {
         let times = record.times.clone();
         let accelerations: Vec<f64> = record.accelerations.iter().map(|a| a * factor).collect();
         let spacing = spacing_of(&times);
@@ -52,7 +52,7 @@ impl GroundMotion {
     }
 
     /// The segment that contains a time, s.
-    pub fn segment_at(&self, time: f64) -> Segment {
+    pub(crate) fn segment_at(&self, time: f64) -> Segment {
         let first = self.times.first().copied().unwrap_or(time);
         if time < first {
             return Segment {
@@ -72,19 +72,19 @@ impl GroundMotion {
     }
 
     /// Number of segments between two times, s, other than those before and within the record.
-    pub fn segments_after(&self, from: f64, until: f64) -> f64 {
+    pub(crate) fn segments_after(&self, from: f64, until: f64) -> f64 {
         let end = self.times.last().copied().unwrap_or(from);
         (until - from.max(end)) / self.spacing
     }
 
     /// Whether the number of segments between two times, other than those before and within the record, exceeds
     /// `segments`.
-    pub fn are_more_after(&self, (from, until): (f64, f64), segments: f64) -> bool {
+    pub(crate) fn are_more_after(&self, (from, until): (f64, f64), segments: f64) -> bool {
         until - from > segments * self.spacing && self.segments_after(from, until) > segments
     }
 
     /// The segment that follows another.
-    pub fn following(&self, segment: &Segment) -> Segment {
+    pub(crate) fn following(&self, segment: &Segment) -> Segment {
         match self.number(segment) {
             Some(number) => self.segment(number + 1),
             None => self.segment_at(segment.start + segment.length),
@@ -93,7 +93,7 @@ impl GroundMotion {
 
     /// The segment with a number, counted from the first sample and on after the record's end.
     #[inline(always)]
-    pub fn segment(&self, number: u64) -> Segment {
+    pub(crate) fn segment(&self, number: u64) -> Segment {
         let samples = self.lengths.len() as u64;
         if number < samples { self.sample(number as usize) } else { self.after(number - samples) }
     }
@@ -101,7 +101,7 @@ impl GroundMotion {
     /// The end of a segment, s: the start of the one that follows, from which the start and the length may differ by
     /// rounding.
     #[inline(always)]
-    pub fn end_of(&self, segment: &Segment) -> f64 {
+    pub(crate) fn end_of(&self, segment: &Segment) -> f64 {
         match segment.place {
             RecordPlace::Outside => segment.start + segment.length,
             RecordPlace::Sample(i) => self.times[i + 1],
@@ -110,13 +110,13 @@ impl GroundMotion {
     }
 
     /// Whether a number is that of a segment of the record.
-    pub fn is_in_record(&self, number: u64) -> bool {
+    pub(crate) fn is_in_record(&self, number: u64) -> bool {
         number < self.lengths.len() as u64
     }
 
     /// (end, length, (acceleration, slope)) of the segments of the record with these numbers.
     #[inline(always)]
-    pub fn of_record(&self, numbers: Range<u64>) -> impl Iterator<Item = (f64, f64, (f64, f64))> {
+    pub(crate) fn of_record(&self, numbers: Range<u64>) -> impl Iterator<Item = (f64, f64, (f64, f64))> {
         let samples = self.lengths.len() as u64;
         let [first, end] = [numbers.start, numbers.end].map(|number| number.min(samples) as usize);
         let ends = self.accelerations[first..].windows(2);
@@ -125,22 +125,22 @@ impl GroundMotion {
     }
 
     /// The exact flight over a whole segment, where its length has been prepared.
-    pub fn prepared(&self, segment: &Segment) -> Option<&Interval> {
+    pub(crate) fn prepared(&self, segment: &Segment) -> Option<&Interval> {
         self.prepared.iter().find(|interval| interval.length == segment.length)
     }
 
     /// The work over flights of the length of a segment, where it has been prepared.
-    pub fn work_over(&self, segment: &Segment) -> Option<&FlightWork> {
+    pub(crate) fn work_over(&self, segment: &Segment) -> Option<&FlightWork> {
         self.work.iter().find(|work| work.length == segment.length)
     }
 
     /// The longest of the prepared lengths, s: that of all segments of an even record.
-    pub fn usual_length(&self) -> f64 {
+    pub(crate) fn usual_length(&self) -> f64 {
         self.prepared.iter().fold(0.0, |longest, interval| interval.length.max(longest))
     }
 
     /// The number of a segment, counted on after the record's end; `None` before the first sample.
-    pub fn number(&self, segment: &Segment) -> Option<u64> {
+    pub(crate) fn number(&self, segment: &Segment) -> Option<u64> {
         match segment.place {
             RecordPlace::Outside => None,
             RecordPlace::Sample(i) => Some(i as u64),
@@ -149,7 +149,7 @@ impl GroundMotion {
     }
 
     /// Whether a segment is one of this record's.
-    pub fn has(&self, segment: &Segment) -> bool {
+    pub(crate) fn has(&self, segment: &Segment) -> bool {
         const MOST: u64 = 1 << 53;
         // A forged state may contain any number.
         let own = match segment.place {
@@ -163,7 +163,7 @@ impl GroundMotion {
     }
 
     /// Bounds on the ground motion from the start of a segment on.
-    pub fn ahead_of(&self, number: u64) -> Ahead<'_> {
+    pub(crate) fn ahead_of(&self, number: u64) -> Ahead<'_> {
         let (start, before) = self.passed_at(number);
         Ahead { ground: self, number, start, before }
     }
@@ -210,7 +210,7 @@ impl GroundMotion {
 }
 
 /// Bounds on the ground motion from the start of a segment on.
-pub struct Ahead<'a> {
+pub(crate) struct Ahead<'a> {
     ground: &'a GroundMotion,
     /// Number of the segment.
     number: u64,
@@ -222,12 +222,12 @@ pub struct Ahead<'a> {
 
 impl Ahead<'_> {
     /// Length of the longest of the next `segments` segments, s.
-    pub fn longest(&self, segments: u64) -> f64 {
+    pub(crate) fn longest(&self, segments: u64) -> f64 {
         self.each(segments).fold(self.ground.spacing, |longest, (length, _)| longest.max(length))
     }
 
     /// The largest |ground acceleration|, m/s2, and the largest |slope|, m/s3, in the next `segments` segments.
-    pub fn largest(&self, segments: u64) -> (f64, f64) {
+    pub(crate) fn largest(&self, segments: u64) -> (f64, f64) {
         self.each(segments).fold((0.0, 0.0), |(strongest, steepest): (f64, f64), (length, [start, end])| {
             (strongest.max(start.abs()).max(end.abs()), steepest.max(((end - start) / length).abs()))
         })
@@ -245,7 +245,7 @@ impl Ahead<'_> {
 
     /// Duration of the next `segments` segments, s, and integral of |acceleration| over them, m/s: upper bounds.
     #[inline(always)]
-    pub fn over(&self, segments: u64) -> (f64, f64) {
+    pub(crate) fn over(&self, segments: u64) -> (f64, f64) {
         const ROUNDING: f64 = 4.0 * f64::EPSILON;
         let (end, after) = self.ground.passed_at(self.number + segments);
         (end - self.start + ROUNDING * end, after - self.before + ROUNDING * after)

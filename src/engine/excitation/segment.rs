@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// An interval of time in which the ground acceleration is linear.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Segment {
+pub(crate) struct Segment {
     /// Start, s.
     pub start: f64,
     /// Length, s.
@@ -19,7 +19,7 @@ pub struct Segment {
 
 /// The position of a segment in the record.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum RecordPlace {
+pub(crate) enum RecordPlace {
     /// Before the first sample, or an interval under an input.
     Outside,
     /// From this sample to the next.
@@ -30,19 +30,19 @@ pub enum RecordPlace {
 
 impl Segment {
     /// A segment under an input.
-    pub fn under_input(start: f64, length: f64, input: &LinearInput) -> Segment {
+    pub(crate) fn under_input(start: f64, length: f64, input: &LinearInput) -> Segment {
         Segment { start, length, acceleration: input.at(start), slope: input.slope(), place: RecordPlace::Outside }
     }
 
     /// Whether it can be a segment under an input: outside a record, with finite numbers and a length of 0 or more.
-    pub fn is_under_input(&self) -> bool {
+    pub(crate) fn is_under_input(&self) -> bool {
         let Segment { start, length, acceleration, slope, place } = *self;
         let numbers = [start, length, acceleration, slope];
         place == RecordPlace::Outside && length >= 0.0 && numbers.into_iter().all(f64::is_finite)
     }
 
     /// Ground acceleration, m/s2, at a time since the start, s.
-    pub fn acceleration_at(&self, elapsed: f64) -> f64 {
+    pub(crate) fn acceleration_at(&self, elapsed: f64) -> f64 {
         self.acceleration + self.slope * elapsed
     }
 }

@@ -8,14 +8,14 @@ use std::cell::{Cell, OnceCell, RefCell};
 
 /// Some quantities of a block of floors, and the number of the observation to which they belong.
 #[derive(Clone, Debug)]
-pub struct KnownBlock<const N: usize> {
+pub(crate) struct KnownBlock<const N: usize> {
     pub observation: Cell<u64>,
     pub numbers: [[Cell<f64>; LANES]; N],
 }
 
 /// The floors' motions at one time.
 #[derive(Clone, Debug, Default)]
-pub struct FloorMotions {
+pub(crate) struct FloorMotions {
     /// Number of this observation, from 1 on.
     pub observation: u64,
     /// Displacements, m, and velocities, m/s, relative to the ground.
@@ -36,7 +36,7 @@ pub struct FloorMotions {
 
 /// Accelerations in the coordinates of a point, m/s2.
 #[derive(Clone, Debug, Default)]
-pub struct Accelerations {
+pub(crate) struct Accelerations {
     /// Absolute accelerations: without the ground's inertia load.
     pub absolute: Vec<f64>,
     /// The part by the buildings' own stiffness and damping.
@@ -52,7 +52,7 @@ impl<const N: usize> KnownBlock<N> {
 
     /// Stores the quantities of a block for an observation.
     #[inline]
-    pub fn set(&self, observation: u64, blocks: &[Lane; N]) {
+    pub(crate) fn set(&self, observation: u64, blocks: &[Lane; N]) {
         self.observation.set(observation);
         for (numbers, block) in self.numbers.iter().zip(blocks) {
             for i in 0..LANES {
@@ -64,7 +64,7 @@ impl<const N: usize> KnownBlock<N> {
 
 impl FloorMotions {
     /// Allocates for vectors of all floors of that length.
-    pub fn make_room(&mut self, lanes: usize) {
+    pub(crate) fn make_room(&mut self, lanes: usize) {
         self.motion = KnownBlock::unknown(lanes);
         self.acceleration = KnownBlock::unknown(lanes);
         self.load = vec![0.0; lanes];
@@ -73,7 +73,7 @@ impl FloorMotions {
     }
 
     /// Begins a new observation, of which nothing is known.
-    pub fn forget(&mut self) {
+    pub(crate) fn forget(&mut self) {
         self.observation += 1;
         self.is_loaded = false;
         if let Some(accelerations) = self.accelerations.take() {
@@ -82,7 +82,7 @@ impl FloorMotions {
     }
 
     /// The load, to which forces are to be added.
-    pub fn start_load(&mut self) -> &mut [f64] {
+    pub(crate) fn start_load(&mut self) -> &mut [f64] {
         self.is_loaded = true;
         self.load.fill(0.0);
         &mut self.load
@@ -91,7 +91,7 @@ impl FloorMotions {
 
 /// The peaks at an observed time, worked out when one is first read.
 #[derive(Clone, Debug, Default)]
-pub struct PointPeaks {
+pub(crate) struct PointPeaks {
     pub observation: u64,
     pub peaks: Peaks,
     /// The displacements relative to the position of rest at the start of the step.
@@ -100,4 +100,4 @@ pub struct PointPeaks {
 }
 
 /// Shared mutable, since a [`Point`] is read through a shared reference.
-pub type PeakCell = RefCell<PointPeaks>;
+pub(crate) type PeakCell = RefCell<PointPeaks>;

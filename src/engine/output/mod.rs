@@ -1,19 +1,19 @@
 //! Reading the solution at the communication time from the dense solution of the planned step.
 
-pub mod energy;
-pub mod energy_rates;
-pub mod feedthrough;
-pub mod floors;
-pub mod frequencies;
-pub mod instant;
-pub mod known;
-pub mod outputs;
-pub mod peaks;
-pub mod point;
-pub mod point_rates;
-pub mod rates;
+pub(super) mod energy;
+pub(super) mod energy_rates;
+pub(super) mod feedthrough;
+pub(super) mod floors;
+pub(super) mod frequencies;
+pub(super) mod instant;
+pub(super) mod known;
+pub(super) mod outputs;
+pub(super) mod peaks;
+pub(super) mod point;
+pub(super) mod point_rates;
+pub(super) mod rates;
 mod storeys;
-pub mod yielding;
+pub(super) mod yielding;
 
 use crate::engine::base::Base;
 use crate::engine::base::contact::{Contact, Episode};

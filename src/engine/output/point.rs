@@ -37,7 +37,7 @@ pub struct Point {
 
 /// Outputs, and the number of the observation to which they belong.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Known<T> {
+pub(crate) struct Known<T> {
     pub observation: u64,
     pub shown: T,
 }

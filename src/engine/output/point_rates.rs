@@ -5,7 +5,7 @@ use crate::engine::output::outputs::{ContactRates, EnergyRates, Rates};
 use crate::engine::system::buffers::Buffers;
 
 /// Difference of a quantity from its peak, relative to it, up to which it counts as the peak: rounding.
-pub const PEAK_ROUNDING: f64 = 1e-12;
+pub(crate) const PEAK_ROUNDING: f64 = 1e-12;
 
 /// The derivatives of all outputs at one time.
 #[derive(Clone, Debug, Default)]

@@ -8,7 +8,7 @@ use crate::numerics::polynomial::each;
 use crate::structure::{self, LANES, Lane};
 
 /// The contact Jacobian for a packed block of pairs, of which the first `count` lanes may hold pairs.
-pub trait ContactJacobian {
+pub(crate) trait ContactJacobian {
     /// Relative motion of each pair: that of its left face less that of its right one.
     fn relative(&self, members: &PackedPairs, count: usize, term: &[Lane]) -> Each;
     /// Relative motion of each pair, set to 0 where the two motions agree within rounding.
@@ -30,7 +30,7 @@ pub trait ContactJacobian {
 }
 
 /// The Jacobian where the motion is that of the floors: a row has a 1 and a -1, or the weights of up to three floors.
-pub struct FloorJacobian;
+pub(crate) struct FloorJacobian;
 
 impl ContactJacobian for FloorJacobian {
     #[inline(always)]
@@ -95,7 +95,7 @@ impl FloorJacobian {
 }
 
 /// The Jacobian on modes where these are few enough for its rows to be stored in the packed pairs.
-pub struct PackedModalJacobian;
+pub(crate) struct PackedModalJacobian;
 
 impl ContactJacobian for PackedModalJacobian {
     #[inline(always)]
@@ -124,7 +124,7 @@ impl ContactJacobian for PackedModalJacobian {
 }
 
 /// The Jacobian on modes, by the rows of all pairs.
-pub struct ModalJacobian<'a>(pub &'a [Pair]);
+pub(crate) struct ModalJacobian<'a>(pub &'a [Pair]);
 
 impl ModalJacobian<'_> {
     #[inline(always)]
@@ -163,7 +163,7 @@ fn lane_by_lane(count: usize, of: impl Fn(usize) -> f64) -> Each {
 
 /// Product of a row with a term: four partial sums, added as (0+2)+(1+3).
 #[inline(always)]
-pub fn dot_blocks(row: &[Lane], term: &[Lane]) -> f64 {
+pub(crate) fn dot_blocks(row: &[Lane], term: &[Lane]) -> f64 {
     let mut sum = [0.0; LANES];
     for (row, term) in row.iter().zip(term) {
         for i in 0..LANES {

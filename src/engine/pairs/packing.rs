@@ -7,7 +7,7 @@ use crate::structure::{FEW_BLOCKS, LANES, Lane};
 
 /// The block, among those of pairs with the same kind of force, to which a pair may belong.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum LanePlace {
+pub(crate) enum LanePlace {
     /// Any block with a free lane.
     #[default]
     Any,
@@ -22,7 +22,7 @@ pub enum LanePlace {
 
 impl LanePlace {
     /// The place of a pair whose motion has these coordinates.
-    pub fn of(pair: &Pair, coordinates: Coordinates) -> LanePlace {
+    pub(crate) fn of(pair: &Pair, coordinates: Coordinates) -> LanePlace {
         let [left, right, _] = pair.floors.map(|floor| floor.lane);
         match coordinates {
             Coordinates::Floors if left % LANES == right % LANES && pair.is_of_floors() => {
@@ -35,7 +35,7 @@ impl LanePlace {
 
 /// Data of the pairs of a block, lane by lane; lanes without a pair hold what an earlier pair has left there.
 #[derive(Clone, Debug, Default)]
-pub struct PackedPairs {
+pub(crate) struct PackedPairs {
     /// Numbers of the pairs.
     pub pairs: [usize; PAIRS],
     /// Whether each lane holds a pair.
@@ -56,7 +56,7 @@ pub struct PackedPairs {
 
 impl PackedPairs {
     /// Begins a block without pairs; returns the lane of its first pair, whose place is given.
-    pub fn start(&mut self, place: LanePlace) -> usize {
+    pub(crate) fn start(&mut self, place: LanePlace) -> usize {
         self.taken = [false; PAIRS];
         let (between, lane) = match place {
             LanePlace::Any => (None, 0),
@@ -67,7 +67,7 @@ impl PackedPairs {
     }
 
     /// The lane for another pair, if there is one free at its place.
-    pub fn free_lane(&self, place: LanePlace) -> Option<usize> {
+    pub(crate) fn free_lane(&self, place: LanePlace) -> Option<usize> {
         match place {
             LanePlace::Any if self.between.is_none() => self.taken.iter().position(|taken| !taken),
             LanePlace::Between { blocks, lane } if self.between == Some(blocks) && !self.taken[lane] => Some(lane),
@@ -76,7 +76,7 @@ impl PackedPairs {
     }
 
     /// Enters a pair, by its number and data, into a lane.
-    pub fn set(&mut self, lane: usize, pair: usize, data: &Pair, coordinates: Coordinates) {
+    pub(crate) fn set(&mut self, lane: usize, pair: usize, data: &Pair, coordinates: Coordinates) {
         self.pairs[lane] = pair;
         self.taken[lane] = true;
         self.floors[lane] = data.floors;
@@ -90,18 +90,18 @@ impl PackedPairs {
     }
 
     /// Number of lanes up to the last one that holds a pair.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.taken.iter().rposition(|taken| *taken).map_or(0, |lane| lane + 1)
     }
 
     /// (lane, number of the pair) of each lane that holds a pair.
-    pub fn lanes(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+    pub(crate) fn lanes(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.pairs.iter().copied().enumerate().zip(&self.taken).filter(|(_, taken)| **taken).map(|(pair, _)| pair)
     }
 }
 
 /// Upper bound on the number of blocks that `pairs` pairs of `kinds` kinds of force fill.
-pub fn most_blocks(pairs: usize, kinds: usize, on_floors: bool) -> usize {
+pub(crate) fn most_blocks(pairs: usize, kinds: usize, on_floors: bool) -> usize {
     // Every block has at least one pair; on floors, pairs at different places cannot share a block.
     if on_floors || pairs == 0 { pairs } else { pairs.min(pairs.div_ceil(PAIRS) + kinds - 1) }
 }

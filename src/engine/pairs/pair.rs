@@ -8,7 +8,7 @@ use crate::structure::{FEW_BLOCKS, LANES, Lane, Structure};
 
 /// One contact, between two floors or a floor and columns or a wall: a row of weights over the floors of both buildings.
 #[derive(Clone, Debug)]
-pub struct Pair {
+pub(crate) struct Pair {
     /// Row of the modal Jacobian, kg^-1/2: penetration = row . q - gap, and a contact force F loads the modes with -row
     /// F.
     pub row: Vec<f64>,
@@ -24,11 +24,11 @@ pub struct Pair {
 }
 
 /// A floor and columns between two others.
-pub type RowOfFloors = [FloorShare; 3];
+pub(crate) type RowOfFloors = [FloorShare; 3];
 
 /// The part of a floor in the row of a contact.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct FloorShare {
+pub(crate) struct FloorShare {
     /// Index in a vector of all floors.
     pub lane: usize,
     /// How far a displacement of the floor goes into the penetration.
@@ -39,7 +39,7 @@ pub struct FloorShare {
 
 impl Pair {
     /// A contact of the scene, with its masses and its row of the modal Jacobian.
-    pub fn new(pair: &crate::scene::ContactPair, scene: &Scene, structure: &Structure) -> Pair {
+    pub(crate) fn new(pair: &crate::scene::ContactPair, scene: &Scene, structure: &Structure) -> Pair {
         let mut row = vec![0.0; structure.lanes];
         let mut floors = RowOfFloors::default();
         for (share, floor) in pair.row().zip(&mut floors) {
@@ -56,35 +56,35 @@ impl Pair {
     }
 
     /// Whether its force is a power of the penetration with a fractional exponent.
-    pub fn has_power_law(&self) -> bool {
+    pub(crate) fn has_power_law(&self) -> bool {
         matches!(EpisodeForce::new(&self.law, self.mass, None).engaged, Force::Power { .. } | Force::Root { .. })
     }
 
     /// Whether its force is a power of the penetration throughout, from the entry to the release.
-    pub fn has_one_power_law(&self) -> bool {
+    pub(crate) fn has_one_power_law(&self) -> bool {
         matches!(EpisodeForce::new(&self.law, self.mass, None).engaged, Force::Power { .. })
     }
 
     /// Penetration, m, and its rate, m/s, for a modal motion relative to a position of rest in which it has that gap.
-    pub fn penetration(&self, gap: f64, (q, v): (&[f64], &[f64])) -> (f64, f64) {
+    pub(crate) fn penetration(&self, gap: f64, (q, v): (&[f64], &[f64])) -> (f64, f64) {
         use crate::structure::dot;
         (dot(&self.row, q) - gap, dot(&self.row, v))
     }
 
     /// The gap in another position of rest, in which all floors have those displacements, m.
-    pub fn gap_at(&self, rest: &[f64]) -> f64 {
+    pub(crate) fn gap_at(&self, rest: &[f64]) -> f64 {
         self.gap - relative(&self.floors, rest)
     }
 
     /// Rounding error, m, of a penetration that is a sum of terms of that total `size`, m: a smaller excess is no
     /// contact.
-    pub fn noise(&self, size: f64) -> f64 {
+    pub(crate) fn noise(&self, size: f64) -> f64 {
         2.0 * f64::EPSILON * (size + self.gap.abs())
     }
 
     /// The contact at the start of a run, for a modal motion and the gap in its position of rest. A pair that overlaps there begins an episode without
     /// approach velocity.
-    pub fn at_start(&self, index: usize, time: f64, gap: f64, (q, v): (&[f64], &[f64])) -> Contact {
+    pub(crate) fn at_start(&self, index: usize, time: f64, gap: f64, (q, v): (&[f64], &[f64])) -> Contact {
         let (penetration, rate) = self.penetration(gap, (q, v));
         let force = EpisodeForce::new(&self.law, self.mass, None);
         let mut contact = Contact {
@@ -121,7 +121,7 @@ impl Pair {
 
     /// Motion (displacement, velocity, ...) of the left face less that of the right one.
     #[inline(always)]
-    pub fn relative(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
+    pub(crate) fn relative(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
         match coordinates {
             Coordinates::Modes => crate::structure::dot(&self.row, motion),
             Coordinates::Floors => relative(&self.floors, motion),
@@ -130,7 +130,7 @@ impl Pair {
 
     /// (left minus right, size): the relative motion, set to 0 where the faces' motions agree within rounding, and the
     /// size of the numbers that were subtracted.
-    pub fn difference(&self, coordinates: Coordinates, motion: &[f64]) -> (f64, f64) {
+    pub(crate) fn difference(&self, coordinates: Coordinates, motion: &[f64]) -> (f64, f64) {
         match coordinates {
             Coordinates::Modes => crate::structure::difference(&self.row, motion),
             Coordinates::Floors => difference(&self.floors, motion),
@@ -138,18 +138,18 @@ impl Pair {
     }
 
     /// Minus the relative acceleration by that of the ground: 0 between two floors.
-    pub fn share_of_ground(&self) -> f64 {
+    pub(crate) fn share_of_ground(&self) -> f64 {
         self.floors.iter().map(|floor| floor.weight).sum()
     }
 
     /// Whether it is between two floors, so that their motions are subtracted as they are.
-    pub fn is_of_floors(&self) -> bool {
+    pub(crate) fn is_of_floors(&self) -> bool {
         self.floors.map(|floor| floor.weight) == [1.0, -1.0, 0.0]
     }
 
     /// Sum of the products of its weights with its own accelerations by a unit force of another contact, 1/kg: minus what
     /// that force adds to its relative acceleration. 0 where they have no floor in common.
-    pub fn softness(&self, other: &Pair) -> f64 {
+    pub(crate) fn softness(&self, other: &Pair) -> f64 {
         let products = self.floors.iter().flat_map(|own| {
             let same = other.floors.iter().filter(|floor| floor.lane == own.lane);
             same.map(|floor| -own.weight * floor.push)
@@ -160,18 +160,18 @@ impl Pair {
 
 /// Relative motion from that of all floors.
 #[inline(always)]
-pub fn relative([one, two, three]: &RowOfFloors, motion: &[f64]) -> f64 {
+pub(crate) fn relative([one, two, three]: &RowOfFloors, motion: &[f64]) -> f64 {
     one.weight * motion[one.lane] + two.weight * motion[two.lane] + three.weight * motion[three.lane]
 }
 
 /// The same, 0 where it is no more than rounding, and the size of the numbers that it is made of.
-pub fn difference(floors: &RowOfFloors, motion: &[f64]) -> (f64, f64) {
+pub(crate) fn difference(floors: &RowOfFloors, motion: &[f64]) -> (f64, f64) {
     let size = floors.iter().map(|floor| (floor.weight * motion[floor.lane]).abs()).sum();
     (beyond_rounding(relative(floors, motion), size), size)
 }
 
 /// Difference of the motions of two floors, set to 0 where they agree within rounding.
-pub fn apart(left: f64, right: f64) -> f64 {
+pub(crate) fn apart(left: f64, right: f64) -> f64 {
     beyond_rounding(left - right, left.abs() + right.abs())
 }
 

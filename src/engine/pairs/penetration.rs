@@ -8,7 +8,13 @@ use crate::structure::MotionSeries;
 impl Pair {
     /// Writes the terms of a pair's relative motion to `out[n]`, as a series in time. Returns the sum of the magnitudes
     /// of all that was added up, each term times its `factor`, m.
-    pub fn project(&self, coordinates: Coordinates, series: &MotionSeries, factors: &[f64], out: &mut [f64]) -> f64 {
+    pub(crate) fn project(
+        &self,
+        coordinates: Coordinates,
+        series: &MotionSeries,
+        factors: &[f64],
+        out: &mut [f64],
+    ) -> f64 {
         if coordinates == Coordinates::Modes {
             return series.project(&self.row, factors, out);
         }
@@ -25,7 +31,7 @@ impl Pair {
 impl Contact {
     /// Replaces the first terms of an open pair's penetration by the contact's own numbers, which are more accurate;
     /// returns the rounding error that remains, m.
-    pub fn begin_flight(&self, terms: &mut [f64], scale: f64, noise: f64) -> f64 {
+    pub(crate) fn begin_flight(&self, terms: &mut [f64], scale: f64, noise: f64) -> f64 {
         terms[0] = self.flight_start();
         if !self.tracked {
             return noise;

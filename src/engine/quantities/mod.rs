@@ -1,5 +1,5 @@
 //! The quantities whose peaks are kept, and the coupling of floors that bounds on them need; constant during a run.
 
-pub mod resistance;
-pub mod rows;
-pub mod storeys;
+pub(super) mod resistance;
+pub(super) mod rows;
+pub(super) mod storeys;

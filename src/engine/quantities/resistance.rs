@@ -6,13 +6,13 @@ use std::ops::Range;
 
 /// Magnitudes of the coupling between floors, for both buildings.
 #[derive(Debug)]
-pub struct FloorResistance {
+pub(crate) struct FloorResistance {
     pub buildings: [Resistance; 2],
 }
 
 /// The coupling between the floors of one building.
 #[derive(Debug)]
-pub struct Resistance {
+pub(crate) struct Resistance {
     /// |M^-1 K| and |M^-1 C|, entry by entry, where a floor is coupled to more than its neighbours.
     pub dense: Option<[DMatrix<f64>; 2]>,
     /// Largest row sums of |M^-1 K| and |M^-1 C|, 1/s2 and 1/s.
@@ -23,13 +23,13 @@ pub struct Resistance {
 
 impl FloorResistance {
     /// For both buildings of a structure.
-    pub fn of(structure: &Structure) -> FloorResistance {
+    pub(crate) fn of(structure: &Structure) -> FloorResistance {
         FloorResistance { buildings: [Side::Left, Side::Right].map(|side| Resistance::of(structure, side)) }
     }
 
     /// Writes the rows of the base shear over the displacements and the velocities of all floors; the building has the
     /// given `lanes` of them.
-    pub fn set_shear_rows(&self, side: usize, lanes: Range<usize>, row: &mut [f64], row_v: &mut [f64]) {
+    pub(crate) fn set_shear_rows(&self, side: usize, lanes: Range<usize>, row: &mut [f64], row_v: &mut [f64]) {
         let [on_u, on_v] = &self.buildings[side].shear;
         row[lanes.clone()].copy_from_slice(on_u);
         row_v[lanes].copy_from_slice(on_v);

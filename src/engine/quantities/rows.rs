@@ -39,14 +39,14 @@ impl PeakOf {
 
 /// The watched quantities of both buildings.
 #[derive(Debug)]
-pub struct PeakRows {
+pub(crate) struct PeakRows {
     pub buildings: [BuildingRows; 2],
 }
 
 /// The watched quantities of one building, in blocks of [`LANES`]: first displacements and drifts, then accelerations
 /// and the base shear.
 #[derive(Debug)]
-pub struct BuildingRows {
+pub(crate) struct BuildingRows {
     /// The building's modes in a modal vector.
     pub modes: Range<usize>,
     /// Number of its first block among the blocks of both buildings.
@@ -60,7 +60,7 @@ pub struct BuildingRows {
 
 /// [`LANES`] quantities of one building.
 #[derive(Debug)]
-pub struct Block {
+pub(crate) struct Block {
     /// Row A, mode by mode.
     pub on_q: Vec<Lane>,
     /// Row B, mode by mode; empty where it is 0.
@@ -70,7 +70,7 @@ pub struct Block {
 
 /// The ground motion's part in the bounds of `peaks/ahead.rs`.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Growth {
+pub(crate) struct Growth {
     /// Change of y' and of y'' per unit of ground acceleration: |B participation| and |(A - B c) participation|.
     pub at_once: Lane,
     pub pushed: Lane,
@@ -83,24 +83,24 @@ pub struct Growth {
 
 impl PeakRows {
     /// The watched quantities of both buildings; none unless `wanted`.
-    pub fn of(structure: &Structure, wanted: bool) -> PeakRows {
+    pub(crate) fn of(structure: &Structure, wanted: bool) -> PeakRows {
         let left = BuildingRows::of(structure, Side::Left, 0, wanted);
         let right = BuildingRows::of(structure, Side::Right, left.blocks.len(), wanted);
         PeakRows { buildings: [left, right] }
     }
 
     /// Whether no quantity is watched.
-    pub fn are_none(&self) -> bool {
+    pub(crate) fn are_none(&self) -> bool {
         self.blocks() == 0
     }
 
     /// Number of blocks of both buildings.
-    pub fn blocks(&self) -> usize {
+    pub(crate) fn blocks(&self) -> usize {
         self.buildings.iter().map(|building| building.blocks.len()).sum()
     }
 
     /// Index of a quantity among those of all blocks.
-    pub fn place(&self, of: PeakOf) -> usize {
+    pub(crate) fn place(&self, of: PeakOf) -> usize {
         let building = &self.buildings[of.side() as usize];
         let floors = building.floors;
         building.first * LANES
@@ -114,7 +114,7 @@ impl PeakRows {
 
     /// Writes the quantities of floors that have those displacements, m, and no velocities, in the order of their peaks:
     /// accelerations and base shears by the position of rest are 0.
-    pub fn set_at_rest(&self, structure: &Structure, floors: &[f64], out: &mut [f64]) {
+    pub(crate) fn set_at_rest(&self, structure: &Structure, floors: &[f64], out: &mut [f64]) {
         for side in [Side::Left, Side::Right] {
             let mut below = 0.0;
             for (floor, lane) in structure.floors.lanes_of(side as usize).enumerate() {
@@ -126,7 +126,7 @@ impl PeakRows {
     }
 
     /// The quantity at an index; `None` in a lane that is not used.
-    pub fn at(&self, place: usize) -> Option<PeakOf> {
+    pub(crate) fn at(&self, place: usize) -> Option<PeakOf> {
         let side = if place < self.buildings[1].first * LANES { Side::Left } else { Side::Right };
         let building = &self.buildings[side as usize];
         let (place, floors, moving) = (place - building.first * LANES, building.floors, building.moving * LANES);
@@ -216,7 +216,7 @@ pub fn values_of(block: &Block, q: &[f64], v: &[f64]) -> Lane {
 impl Block {
     /// The values of the quantities.
     #[inline(always)]
-    pub fn values(&self, q: &[f64], v: &[f64]) -> Lane {
+    pub(crate) fn values(&self, q: &[f64], v: &[f64]) -> Lane {
         let mut sum = [0.0; LANES];
         for (row, q) in self.on_q.iter().zip(q) {
             for i in 0..LANES {

@@ -17,7 +17,7 @@ pub enum StoreyPeak {
 
 /// What is known of the storeys of both buildings.
 #[derive(Debug)]
-pub struct Storeys {
+pub(crate) struct Storeys {
     /// m, where the scene has heights.
     heights: [Vec<f64>; 2],
     /// N/m, of a shear building.
@@ -28,7 +28,7 @@ pub struct Storeys {
 
 impl Storeys {
     /// Of a checked scene.
-    pub fn of(scene: &Scene) -> Storeys {
+    pub(crate) fn of(scene: &Scene) -> Storeys {
         let stiffness = |building: &Building| match &building.stiffness {
             Stiffness::Shear(storeys) => storeys.clone(),
             Stiffness::Matrix(_) => Vec::new(),
@@ -44,7 +44,7 @@ impl Storeys {
     }
 
     /// How much of a quantity there is per m of drift.
-    pub fn per_drift(&self, of: StoreyPeak, (side, storey): (Side, usize)) -> f64 {
+    pub(crate) fn per_drift(&self, of: StoreyPeak, (side, storey): (Side, usize)) -> f64 {
         let of_storey = |all: &[Vec<f64>; 2]| all[side as usize].get(storey).copied();
         let factor = match of {
             StoreyPeak::DriftRatio => of_storey(&self.heights).map(f64::recip),

@@ -24,7 +24,7 @@ const STILL: f64 = 3e-14;
 impl System {
     /// Handles the contact of a rigid pair: an impulse, or where its approach velocity is rounding, the floors stay
     /// together.
-    pub fn resolve_contact(
+    pub(crate) fn resolve_contact(
         &self,
         base: &mut Base,
         first: usize,

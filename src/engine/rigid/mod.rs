@@ -1,5 +1,5 @@
 //! Rigid contacts (`stereomechanical`): impulses, rebounds that die out, and reactions between floors held together.
 
-pub mod impulses;
-pub mod reactions;
-pub mod rebounds;
+pub(super) mod impulses;
+pub(super) mod reactions;
+pub(super) mod rebounds;

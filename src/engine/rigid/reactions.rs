@@ -10,7 +10,7 @@ use crate::structure::{difference, dot};
 
 impl System {
     /// Removes from the motion the relative displacements and velocities that rounding gives to floors held together.
-    pub fn project_constraints(&self, base: &mut Base, work: &mut Buffers) {
+    pub(crate) fn project_constraints(&self, base: &mut Base, work: &mut Buffers) {
         if !self.rigid.pairs.iter().any(|&p| base.contacts[p].is_held()) {
             return;
         }
@@ -38,14 +38,14 @@ impl System {
 
     /// Works out the modal accelerations at the base, with all contact forces, in `work.q`, and the reactions in
     /// `work.rigid`. Returns a pair that is held together although its floors move apart.
-    pub fn solve_reactions(&self, base: &Base, inputs: &Inputs, work: &mut Buffers) -> Option<usize> {
+    pub(crate) fn solve_reactions(&self, base: &Base, inputs: &Inputs, work: &mut Buffers) -> Option<usize> {
         self.load(base, inputs, &mut work.load, &mut work.slope);
         self.solve_reactions_to_load(base, work)
     }
 
     /// The same under the inputs as they are now: the ground's acceleration may have been set since the base began its
     /// segment, which matters where the ground has a share in a contact.
-    pub fn solve_present_reactions(&self, base: &Base, inputs: &Inputs, work: &mut Buffers) {
+    pub(crate) fn solve_present_reactions(&self, base: &Base, inputs: &Inputs, work: &mut Buffers) {
         self.load(base, inputs, &mut work.load, &mut work.slope);
         let has_ground = |p: &usize| self.pairs[*p].share_of_ground() != 0.0;
         if self.ground.is_none() && self.rigid.pairs.iter().any(has_ground) {
@@ -83,7 +83,7 @@ impl System {
 
     /// Adds to one power of the modal accelerations the part of the reactions that keeps held floors together; their
     /// terms of that power stay in `rigid.found`.
-    pub fn constrain(&self, rigid: &mut Complementarity, acceleration: &mut [f64]) {
+    pub(crate) fn constrain(&self, rigid: &mut Complementarity, acceleration: &mut [f64]) {
         if rigid.pairs.is_empty() {
             return;
         }
@@ -96,7 +96,7 @@ impl System {
 
     /// Whether the pairs in `rigid`, which are held together, hold the drift of storey `i` as well, so that it does not move
     /// but for rounding: whether its row is made of theirs.
-    pub fn holds_storey(&self, i: usize, rigid: &mut Complementarity) -> bool {
+    pub(crate) fn holds_storey(&self, i: usize, rigid: &mut Complementarity) -> bool {
         const LEFT: f64 = 1e-12;
         if rigid.pairs.is_empty() {
             return false;
@@ -113,7 +113,7 @@ impl System {
 
     /// Adds to modal accelerations (velocities, displacements) the effect of the forces (impulses, shifts) in
     /// `rigid.found`.
-    pub fn push_apart(&self, rigid: &Complementarity, modal: &mut [f64]) {
+    pub(crate) fn push_apart(&self, rigid: &Complementarity, modal: &mut [f64]) {
         for (&k, found) in rigid.pairs.iter().zip(&rigid.found) {
             for (modal, row) in modal.iter_mut().zip(&self.pairs[self.rigid.pairs[k]].row) {
                 *modal -= row * found;

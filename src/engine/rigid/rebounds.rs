@@ -20,7 +20,7 @@ const SHORT_WHILE: f64 = 1e-3;
 impl System {
     /// Upper bound on the step length, s, so that the next rebound of every pair near the surface takes a good part of
     /// the step; from the modal accelerations at the base.
-    pub fn rebound_step_limit(&self, base: &Base, acceleration: &[f64]) -> f64 {
+    pub(crate) fn rebound_step_limit(&self, base: &Base, acceleration: &[f64]) -> f64 {
         let apart = base.contacts.iter().zip(&self.pairs).filter(|(contact, _)| contact.tracked);
         let bounce = |(contact, pair): (&Contact, &Pair)| {
             4.0 * time_to_surface(contact.penetration, contact.rate, dot(&pair.row, acceleration))
@@ -30,7 +30,7 @@ impl System {
 
     /// (length, is cut): the step length, s, near rigid contacts, at most `remaining`; or the release that comes first.
     /// Leaves the pairs that are held together in `work.rigid`, all active.
-    pub fn time_for_rigid_pairs(
+    pub(crate) fn time_for_rigid_pairs(
         &self,
         base: &Base,
         inputs: &Inputs,
@@ -53,12 +53,12 @@ impl System {
     }
 
     /// Whether rigid floors are held together or about to collide again.
-    pub fn has_close_rigid_pair(&self, base: &Base) -> bool {
+    pub(crate) fn has_close_rigid_pair(&self, base: &Base) -> bool {
         self.rigid.pairs.iter().any(|&p| base.contacts[p].is_held() || base.contacts[p].tracked)
     }
 
     /// Writes penetration and rate of each tracked pair at the x of the powers of a series in time.
-    pub fn track(
+    pub(crate) fn track(
         &self,
         base: &Base,
         series: &MotionSeries,
@@ -80,7 +80,7 @@ impl System {
     }
 
     /// Whether a rigid pair at this penetration, m, is to be tracked.
-    pub fn is_close(&self, p: usize, penetration: f64, coordinates: Coordinates, q: &[f64]) -> bool {
+    pub(crate) fn is_close(&self, p: usize, penetration: f64, coordinates: Coordinates, q: &[f64]) -> bool {
         penetration > -CLOSE * self.pairs[p].noise(self.pairs[p].difference(coordinates, q).1)
     }
 }

@@ -14,4 +14,4 @@
 //! times the change of its drift since the step began; with it the motion is a power series in time
 //! (`taylor/drifts.rs`). Where the step ends the rest position is moved.
 
-pub mod storey;
+pub(super) mod storey;

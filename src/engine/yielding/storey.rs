@@ -11,7 +11,7 @@ use std::ops::Range;
 
 /// A storey with a finite yield force.
 #[derive(Clone, Debug)]
-pub struct YieldingStorey {
+pub(crate) struct YieldingStorey {
     pub side: Side,
     /// Counted from 0.
     pub storey: usize,
@@ -39,7 +39,7 @@ pub struct YieldingStorey {
 
 impl YieldingStorey {
     /// All storeys of a scene that can yield, those of the left building first, from the bottom.
-    pub fn all(scene: &Scene, structure: &Structure) -> Vec<YieldingStorey> {
+    pub(crate) fn all(scene: &Scene, structure: &Structure) -> Vec<YieldingStorey> {
         let of = |side: Side| {
             let storeys = 0..scene.building(side).mass.len();
             storeys.filter_map(move |storey| YieldingStorey::of(scene, structure, (side, storey)))
@@ -76,7 +76,7 @@ impl YieldingStorey {
     }
 
     /// The storey at the start of a run: beyond its yield drift it has been pushed there slowly.
-    pub fn at_start(&self, scene: &Scene) -> Storey {
+    pub(crate) fn at_start(&self, scene: &Scene) -> Storey {
         let building = scene.building(self.side);
         let of = |floors: &[f64]| floors[self.storey] - self.storey.checked_sub(1).map_or(0.0, |below| floors[below]);
         let (drift, rate) = (of(&building.initial_displacement), of(&building.initial_velocity));
@@ -91,7 +91,7 @@ impl YieldingStorey {
 
     /// Drift, or its rate, in a motion.
     #[inline(always)]
-    pub fn drift(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
+    pub(crate) fn drift(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
         match coordinates {
             Coordinates::Modes => dot(&self.row, motion),
             Coordinates::Floors => motion[self.floors.0] - self.floors.1.map_or(0.0, |below| motion[below]),
@@ -99,7 +99,7 @@ impl YieldingStorey {
     }
 
     /// Drift or its rate, set to 0 where it is no more than rounding of what it is made of.
-    pub fn beyond_rounding(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
+    pub(crate) fn beyond_rounding(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
         match coordinates {
             Coordinates::Modes => difference(&self.row, motion).0,
             Coordinates::Floors => apart(motion[self.floors.0], self.floors.1.map_or(0.0, |below| motion[below])),
@@ -108,7 +108,7 @@ impl YieldingStorey {
 
     /// Writes the series of the drift; returns the sum of the magnitudes of all that was added up, each term times its
     /// factor, m.
-    pub fn project(
+    pub(crate) fn project(
         &self,
         coordinates: Coordinates,
         series: &MotionSeries,
@@ -129,7 +129,7 @@ impl YieldingStorey {
     }
 
     /// Sum of the magnitudes that a drift is made of, from those of the motion.
-    pub fn size(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
+    pub(crate) fn size(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
         match coordinates {
             Coordinates::Modes => difference(&self.row, motion).1,
             Coordinates::Floors => motion[self.floors.0].abs() + self.floors.1.map_or(0.0, |below| motion[below].abs()),
@@ -138,7 +138,7 @@ impl YieldingStorey {
 
     /// Adds to accelerations those by a force, N, that pushes its floors apart.
     #[inline(always)]
-    pub fn push_apart(&self, coordinates: Coordinates, force: f64, acceleration: &mut [f64]) {
+    pub(crate) fn push_apart(&self, coordinates: Coordinates, force: f64, acceleration: &mut [f64]) {
         match coordinates {
             Coordinates::Modes => {
                 acceleration.iter_mut().zip(&self.row).for_each(|(acceleration, row)| *acceleration += row * force);
@@ -151,7 +151,7 @@ impl YieldingStorey {
     }
 
     /// Moves all floors above the storey, m.
-    pub fn lift(&self, coordinates: Coordinates, by: f64, displacements: &mut [f64]) {
+    pub(crate) fn lift(&self, coordinates: Coordinates, by: f64, displacements: &mut [f64]) {
         match coordinates {
             Coordinates::Modes => {
                 displacements.iter_mut().zip(&self.lift).for_each(|(displacement, lift)| *displacement += lift * by);
@@ -161,12 +161,17 @@ impl YieldingStorey {
     }
 
     /// Minus the acceleration of its drift by that of the ground.
-    pub fn share_of_ground(&self) -> f64 {
+    pub(crate) fn share_of_ground(&self) -> f64 {
         if self.floors.1.is_none() { 1.0 } else { 0.0 }
     }
 
     /// Makes displacements relative to the position of rest relative to that after the plastic drift has changed.
-    pub fn move_rest(&self, coordinates: Coordinates, (from, to): (&Storey, &Storey), displacements: &mut [f64]) {
+    pub(crate) fn move_rest(
+        &self,
+        coordinates: Coordinates,
+        (from, to): (&Storey, &Storey),
+        displacements: &mut [f64],
+    ) {
         let change = to.plastic - from.plastic;
         if change != 0.0 {
             self.lift(coordinates, -self.kept() * change, displacements);
@@ -174,25 +179,25 @@ impl YieldingStorey {
     }
 
     /// The share of a plastic drift that the storey keeps when no force acts on it, 1 - r.
-    pub fn kept(&self) -> f64 {
+    pub(crate) fn kept(&self) -> f64 {
         1.0 - self.ratio
     }
 
     /// How far beyond the limit of one sense the storey is with a drift x relative to the position of rest, m: below 0
     /// while it is elastic.
     #[inline(always)]
-    pub fn excess(&self, storey: &Storey, sense: Sense, x: f64) -> f64 {
+    pub(crate) fn excess(&self, storey: &Storey, sense: Sense, x: f64) -> f64 {
         sense.sign() * (x - self.ratio * storey.plastic) - self.limit
     }
 
     /// The same at the start of a step in which the storey is elastic: exactly 0 where it has just turned, never above 0.
-    pub fn start_of_flight(&self, storey: &Storey, sense: Sense, x: f64) -> f64 {
+    pub(crate) fn start_of_flight(&self, storey: &Storey, sense: Sense, x: f64) -> f64 {
         if storey.turned == Some(sense) { 0.0 } else { self.excess(storey, sense, x).min(0.0) }
     }
 
     /// Whether the storey stays elastic for `h` seconds, from a drift and its rate to others, if the drift differs by at most
     /// `deviation` from the cubic through them.
-    pub fn stays_elastic(
+    pub(crate) fn stays_elastic(
         &self,
         storey: &Storey,
         (start, rate): (f64, f64),
@@ -208,12 +213,12 @@ impl YieldingStorey {
     }
 
     /// Rounding error, m, of that excess, from the `size` of all that the drift is made of.
-    pub fn noise(&self, storey: &Storey, size: f64) -> f64 {
+    pub(crate) fn noise(&self, storey: &Storey, size: f64) -> f64 {
         2.0 * f64::EPSILON * (size + self.limit + (self.ratio * storey.plastic).abs())
     }
 
     /// Storey shear, N, with a drift x relative to the position of rest; while it yields, exactly on its yield line.
-    pub fn shear(&self, storey: &Storey, x: f64) -> f64 {
+    pub(crate) fn shear(&self, storey: &Storey, x: f64) -> f64 {
         match storey.yields {
             Some(sense) => sense.sign() * self.force + self.stiffness * (self.ratio * storey.plastic),
             None => self.stiffness * x,
@@ -221,13 +226,13 @@ impl YieldingStorey {
     }
 
     /// The largest shear so far of a storey that has yielded, N: it has been largest where the plastic drift was.
-    pub fn peak_shear(&self, storey: &Storey) -> f64 {
+    pub(crate) fn peak_shear(&self, storey: &Storey) -> f64 {
         self.force + self.ratio * self.stiffness * storey.furthest
     }
 
     /// The largest drift so far over the yield drift, from the largest drift that has been watched: once the storey has
     /// yielded its drift has been largest where the plastic drift was.
-    pub fn ductility(&self, storey: &Storey, peak_drift: f64) -> f64 {
+    pub(crate) fn ductility(&self, storey: &Storey, peak_drift: f64) -> f64 {
         match storey.furthest > 0.0 {
             true => (self.limit + storey.furthest) / self.limit,
             false => peak_drift / self.limit,
@@ -235,13 +240,13 @@ impl YieldingStorey {
     }
 
     /// Energy dissipated by yielding so far, J: (1 - r) V_y times the sum of all plastic steps, exactly.
-    pub fn hysteretic_energy(&self, storey: &Storey) -> f64 {
+    pub(crate) fn hysteretic_energy(&self, storey: &Storey) -> f64 {
         self.kept() * self.force * storey.cumulative.exact()
     }
 
     /// What the elastic energy exceeds that of the drift relative to the position of rest by, J: with x = z + r p, r k d^2/2
     /// + (1 - r) k z^2/2 - k x^2/2.
-    pub fn locked_energy(&self, storey: &Storey) -> f64 {
+    pub(crate) fn locked_energy(&self, storey: &Storey) -> f64 {
         0.5 * self.ratio * self.lost * (storey.plastic * storey.plastic)
     }
 }

@@ -23,7 +23,7 @@ const MOST_DOUBLINGS: u32 = 12;
 ///
 /// A start above 0 is rounding and counts as exactly 0. A crossing after which the polynomial stays below `noise`, the
 /// rounding error of its coefficients, is none.
-pub fn first_upcrossing(coefficients: &mut [f64], end: f64, noise: f64) -> Option<f64> {
+pub(crate) fn first_upcrossing(coefficients: &mut [f64], end: f64, noise: f64) -> Option<f64> {
     coefficients[0] = coefficients[0].min(0.0);
     if coefficients[0] == 0.0 {
         return first_upcrossing_from_zero(coefficients, end, noise);

@@ -2,11 +2,11 @@
 //! interpolation) and a bound on its fourth derivative.
 
 /// Pieces are not halved below this fraction of the step: two roots closer than this are one touch without duration.
-pub const NARROWEST: f64 = 1e-9;
+pub(super) const NARROWEST: f64 = 1e-9;
 
 /// The function at one end of a piece.
 #[derive(Clone, Copy)]
-pub struct End {
+pub(super) struct End {
     pub x: f64,
     pub value: f64,
     pub slope: f64,
@@ -16,14 +16,14 @@ pub struct End {
 
 impl End {
     /// Upper bound of the function over the piece from `a` to here.
-    pub fn upper_bound_from(self, a: End) -> f64 {
+    pub(super) fn upper_bound_from(self, a: End) -> f64 {
         let w = self.x - a.x;
         upper_bound((a.value, a.slope), (self.value, self.slope), w, self.fourth)
     }
 
     /// Bounds on the slope over the piece from `a` to here (the interpolant's is off by at most sqrt(3)/216 w^3
     /// max|f''''|).
-    pub fn slopes_from(self, a: End) -> (f64, f64) {
+    pub(super) fn slopes_from(self, a: End) -> (f64, f64) {
         let w = self.x - a.x;
         // Bernstein control values of the interpolant's slope: a.slope, `middle`, b.slope.
         let middle = 3.0 * (self.value - a.value) / w - (a.slope + self.slope);
@@ -32,7 +32,7 @@ impl End {
     }
 
     /// Whether the curvature is negative over the piece (the interpolant's is off by at most w^2/12 max|f''''|).
-    pub fn is_concave_from(self, a: End) -> bool {
+    pub(super) fn is_concave_from(self, a: End) -> bool {
         let w = self.x - a.x;
         let secant = (self.value - a.value) / w;
         let at_a = (6.0 * secant - 4.0 * a.slope - 2.0 * self.slope) / w;
@@ -42,13 +42,13 @@ impl End {
 }
 
 /// Upper bound over 0..=x of a function from its values and slopes at both ends and the bound on its fourth derivative.
-pub fn upper_bound((value, slope): (f64, f64), (end, end_slope): (f64, f64), x: f64, fourth: f64) -> f64 {
+pub(crate) fn upper_bound((value, slope): (f64, f64), (end, end_slope): (f64, f64), x: f64, fourth: f64) -> f64 {
     highest_of_cubic((value, slope), (end, end_slope), x) + (x * x) * (x * x) / 384.0 * fourth
 }
 
 /// Whether a function may have a local maximum above `known` in 0..=x, from its values and slopes at both ends and a
 /// bound on its fourth derivative.
-pub fn may_turn_above(
+pub(crate) fn may_turn_above(
     (value, slope): (f64, f64),
     (end, end_slope): (f64, f64),
     (x, fourth): (f64, f64),
@@ -63,6 +63,6 @@ pub fn may_turn_above(
 
 /// The largest control value of the cubic Hermite interpolant through values and rates at both ends: an upper bound of
 /// it.
-pub fn highest_of_cubic((start, rate): (f64, f64), (end, end_rate): (f64, f64), h: f64) -> f64 {
+pub(crate) fn highest_of_cubic((start, rate): (f64, f64), (end, end_rate): (f64, f64), h: f64) -> f64 {
     start.max(start + h / 3.0 * rate).max(end - h / 3.0 * end_rate).max(end)
 }

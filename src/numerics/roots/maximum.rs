@@ -8,7 +8,7 @@ use crate::numerics::powers::Reading;
 /// (x, value) of the maximum of a polynomial over 0..=end if it exceeds `known`, from its value and slope at 0 and its
 /// `reading` at the end. Where the maximum may lie inside, `copy` is called for the coefficients: it writes them and
 /// returns their number.
-pub fn maximum_above(
+pub(crate) fn maximum_above(
     (value, slope): (f64, f64),
     end: f64,
     reading: &Reading,
@@ -110,7 +110,7 @@ fn maximum_of_cubic(a: End, b: End) -> f64 {
 
 /// x rounded to eight digits. Near a maximum the value is flat, so that it keeps sixteen digits; and it is the same to
 /// the last bit however much of the curve is searched, so that no peak ever falls by a rounding.
-pub fn roughly(x: f64) -> f64 {
+pub(crate) fn roughly(x: f64) -> f64 {
     const LEFT_OUT: u64 = (1 << 26) - 1;
     f64::from_bits((x.to_bits() + (LEFT_OUT >> 1)) & !LEFT_OUT)
 }

@@ -12,6 +12,6 @@ mod terms;
 #[cfg(test)]
 mod tests;
 
-pub use crossing::first_upcrossing;
-pub use hermite::{highest_of_cubic, may_turn_above, upper_bound};
-pub use maximum::{maximum_above, roughly};
+pub(crate) use crossing::first_upcrossing;
+pub(crate) use hermite::{highest_of_cubic, may_turn_above, upper_bound};
+pub(crate) use maximum::{maximum_above, roughly};

@@ -4,23 +4,23 @@ use super::hermite::End;
 use crate::numerics::polynomial::{Coefficients, FOURTH, MAX_TERMS, each};
 
 /// Number of terms that are worked on side by side.
-pub const BLOCK: usize = 4;
+pub(super) const BLOCK: usize = 4;
 
 /// The coefficients of a polynomial, filled up with zeros to whole blocks.
 ///
 /// With y = x^[`BLOCK`] it is P0(y) + x P1(y) + x^2 P2(y) + x^3 P3(y); the four are evaluated side by side.
-pub struct Terms {
+pub(super) struct Terms {
     pub all: Coefficients,
     /// Number of blocks in use.
     blocks: usize,
 }
 
 /// Values of P0, P1, P2 and P3, or four coefficients, one for each of them.
-pub type Block = [f64; BLOCK];
+pub(super) type Block = [f64; BLOCK];
 
 /// The powers of x up to y = x^[`BLOCK`].
 #[derive(Clone, Copy)]
-pub struct Place {
+pub(super) struct Place {
     x: f64,
     x2: f64,
     x3: f64,
@@ -29,27 +29,27 @@ pub struct Place {
 
 impl Place {
     #[inline(always)]
-    pub fn at(x: f64) -> Place {
+    pub(super) fn at(x: f64) -> Place {
         let x2 = x * x;
         Place { x, x2, x3: x * x2, y: x2 * x2 }
     }
 
     /// P0 + x P1 + x^2 P2 + x^3 P3, from the values of the four.
     #[inline(always)]
-    pub fn total(self, [a, b, c, d]: Block) -> f64 {
+    pub(super) fn total(self, [a, b, c, d]: Block) -> f64 {
         (a + c * self.x2) + (b * self.x + d * self.x3)
     }
 
     /// P1 + 2 x P2 + 3 x^2 P3: the slope at constant y, from the values of the four.
     #[inline(always)]
-    pub fn slope(self, [_, b, c, d]: Block) -> f64 {
+    pub(super) fn slope(self, [_, b, c, d]: Block) -> f64 {
         (b + 3.0 * d * self.x2) + 2.0 * c * self.x
     }
 }
 
 impl Terms {
     /// A polynomial with these coefficients.
-    pub fn of(coefficients: &[f64]) -> Terms {
+    pub(super) fn of(coefficients: &[f64]) -> Terms {
         let mut terms = Terms::empty();
         terms.all[..coefficients.len()].copy_from_slice(coefficients);
         terms.complete(coefficients.len());
@@ -57,30 +57,30 @@ impl Terms {
     }
 
     /// No terms, to be filled and completed.
-    pub fn empty() -> Terms {
+    pub(super) fn empty() -> Terms {
         Terms { all: [0.0; MAX_TERMS], blocks: 0 }
     }
 
     /// Fills up with zeros after the first `count` coefficients, which are in place.
-    pub fn complete(&mut self, count: usize) {
+    pub(super) fn complete(&mut self, count: usize) {
         self.blocks = count.div_ceil(BLOCK).min(MAX_TERMS / BLOCK);
         self.all[count..self.blocks * BLOCK].fill(0.0);
     }
 
     /// The coefficients in blocks.
     #[inline(always)]
-    pub fn blocks(&self) -> &[Block] {
+    pub(super) fn blocks(&self) -> &[Block] {
         &self.all.as_chunks::<BLOCK>().0[..self.blocks]
     }
 
     /// Value, slope and bound on the fourth derivative at x.
-    pub fn at(&self, x: f64) -> End {
+    pub(super) fn at(&self, x: f64) -> End {
         point(self.blocks(), x)
     }
 
     /// Value at x.
     #[inline(always)]
-    pub fn value(&self, x: f64) -> f64 {
+    pub(super) fn value(&self, x: f64) -> f64 {
         let at = Place::at(x);
         let mut value = [0.0; BLOCK];
         for block in self.blocks().iter().rev() {
@@ -91,13 +91,13 @@ impl Terms {
 
     /// Value and slope at x.
     #[inline(always)]
-    pub fn value_and_slope(&self, x: f64) -> (f64, f64) {
+    pub(super) fn value_and_slope(&self, x: f64) -> (f64, f64) {
         value_and_slope(self.blocks(), Place::at(x))
     }
 
     /// Slope and curvature at x.
     #[inline(always)]
-    pub fn bend(&self, x: f64) -> (f64, f64) {
+    pub(super) fn bend(&self, x: f64) -> (f64, f64) {
         let at = Place::at(x);
         let (mut value, mut by_y, mut half) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
         for block in self.blocks().iter().rev() {
@@ -114,7 +114,7 @@ impl Terms {
     }
 
     /// Sum of the magnitudes of all terms at x >= 0.
-    pub fn size(&self, x: f64) -> f64 {
+    pub(super) fn size(&self, x: f64) -> f64 {
         let at = Place::at(x);
         let mut size = [0.0; BLOCK];
         for block in self.blocks().iter().rev() {
@@ -126,7 +126,7 @@ impl Terms {
 
 /// Value and slope at a point, as [`Terms::value_and_slope`], from the blocks.
 #[inline(always)]
-pub fn value_and_slope(blocks: &[Block], at: Place) -> (f64, f64) {
+pub(super) fn value_and_slope(blocks: &[Block], at: Place) -> (f64, f64) {
     let (mut value, mut by_y) = ([0.0; BLOCK], [0.0; BLOCK]);
     for block in blocks.iter().rev() {
         by_y = each(|i| by_y[i] * at.y + value[i]);

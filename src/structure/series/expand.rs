@@ -11,7 +11,7 @@ use crate::structure::lanes::{FEW_BLOCKS, LANES, Lane};
 const MOST_POWERS: usize = 40;
 
 /// 1 / ((n + 1) (n + 2)).
-pub const SECOND_RECIPROCAL: [f64; MOST_POWERS] = {
+pub(crate) const SECOND_RECIPROCAL: [f64; MOST_POWERS] = {
     let mut table = [0.0; MOST_POWERS];
     let mut n = 0;
     while n < MOST_POWERS {

@@ -1,9 +1,9 @@
 //! Power series in time of all modes, or of all floors: the dense solution of a step.
 
-pub mod expand;
+pub(super) mod expand;
 mod power;
 mod project;
-pub mod sums;
+pub(super) mod sums;
 
 use super::lanes::{LANES, Lane};
 use crate::numerics::polynomial::{MAX_TERMS, SECOND};

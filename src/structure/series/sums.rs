@@ -40,7 +40,7 @@ fn sum_next<const N: usize>(
 
 /// q and v of `N` blocks of lanes.
 #[inline(always)]
-pub fn sum_blocks<const N: usize>(
+pub(crate) fn sum_blocks<const N: usize>(
     (terms, width): (&[Lane], usize),
     first: usize,
     (powers, slopes): (&[f64], &[f64]),
