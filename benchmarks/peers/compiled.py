@@ -39,9 +39,9 @@ class Solver:
         return Outcome(times[-1], displacements, impacts, counters, times[0])
 
 
-def build_engine(environment=None):
-    """The program of benchmarks/run_time.rs."""
-    command = ["cargo", "build", "--release", "--quiet", "--example", "run_time", "--message-format", "json"]
+def build_engine(environment=None, program="run_time"):
+    """The program of benchmarks/run_time.rs, or another one of that folder."""
+    command = ["cargo", "build", "--release", "--quiet", "--example", program, "--message-format", "json"]
     done = subprocess.run(command, cwd=ROOT, env=environment, check=True, stdout=subprocess.PIPE, text=True)
     lines = done.stdout.splitlines()
     programs = [line.split('"executable":"')[1].split('"')[0] for line in lines if '"executable":"' in line]

@@ -125,13 +125,23 @@ fn compare<const N: usize>(case: &Case) -> f64 {
                     let upper = bounds.upper(k);
                     for i in 0..LANES {
                         assert!(reached[i] <= upper[i], "flight {}: {} beyond {}", from + k, reached[i], upper[i]);
-                        assert!(upper[i] <= coarse[i] * (1.0 + 1e-9), "{} beyond the coarse bound {}", upper[i], coarse[i]);
+                        assert!(
+                            upper[i] <= coarse[i] * (1.0 + 1e-9),
+                            "{} beyond the coarse bound {}",
+                            upper[i],
+                            coarse[i]
+                        );
                         nearest = if reached[i] > 0.0 { nearest.min(upper[i] / reached[i]) } else { nearest };
                         largest[i] = largest[i].max(reached[i]);
                     }
                 }
                 for i in 0..LANES {
-                    assert!(least[i] <= largest[i] * (1.0 + 1e-12), "{} above what is reached, {}", least[i], largest[i]);
+                    assert!(
+                        least[i] <= largest[i] * (1.0 + 1e-12),
+                        "{} above what is reached, {}",
+                        least[i],
+                        largest[i]
+                    );
                     assert!(largest[i] <= most[i], "{} beyond {}", largest[i], most[i]);
                 }
             }
@@ -152,7 +162,8 @@ fn no_quantity_passes_its_bounds_over_a_span() {
                 case.fly(37, 1.0);
                 case.fly(20, random.between(-3.0, 3.0));
                 nearest = nearest.min(compare::<16>(&case)).min(compare::<2>(&case));
-                truncated += case.model.truncated.buildings.iter().filter(|building| !building.groups.is_empty()).count();
+                truncated +=
+                    case.model.truncated.buildings.iter().filter(|building| !building.groups.is_empty()).count();
             }
         }
     }
