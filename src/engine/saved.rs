@@ -63,7 +63,8 @@ impl Model {
     /// The data from which [`Model::restore`] brings the state back. The peaks in it are those of all steps so far, which the
     /// state keeps, too; nothing else of it changes.
     pub fn save(&self, state: &mut State) -> SavedState {
-        self.fold_log(&mut state.base, &mut state.work);
+        let (log, mut work) = state.work.for_log();
+        self.fold_log(&mut state.base, (log, &mut work));
         let State { time, base, step, inputs, counters, work: _ } = state;
         let is_planned = step.kind != StepKind::NotPlanned;
         SavedState { time: *time, base: base.clone(), is_planned, inputs: inputs.clone(), counters: *counters }

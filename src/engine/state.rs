@@ -145,6 +145,11 @@ impl Workspace {
         PeakWork { buffers: &mut self.buffers, peaks: &mut self.peaks }
     }
 
+    /// The log of flights, and the part of it that the peaks use.
+    pub(in crate::engine) fn for_log(&mut self) -> (&mut PeakLog, PeakWork<'_>) {
+        (&mut self.log, PeakWork { buffers: &mut self.buffers, peaks: &mut self.peaks })
+    }
+
     fn new(model: &Model) -> Workspace {
         let (pairs, lanes) = (model.system.pairs.len(), model.system.structure.lanes);
         let log = PeakLog::new(if model.logs_flights() { lanes } else { 0 });

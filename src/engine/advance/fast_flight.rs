@@ -77,7 +77,8 @@ impl Model {
             return fly_over(self, ground, (base, step), segments, until, None);
         }
         if work.log.room() <= LEFT {
-            self.fold_log(base, work);
+            let (log, mut peaks) = work.for_log();
+            self.fold_log(base, (log, &mut peaks));
         }
         let log = &mut work.log;
         log.go_on((&base.q, &base.v), base.segment.acceleration_at(0.0));

@@ -28,8 +28,8 @@ use crate::engine::bounds::flights::Load;
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
+use crate::engine::peaks::log::PeakLog;
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
-use crate::engine::state::Workspace;
 use crate::engine::step::Step;
 
 /// Entries of the log that are kept free: a flight may bring a gap before and one after it.
@@ -71,35 +71,40 @@ impl Model {
     }
 
     /// Logs the planned flight.
-    pub(in crate::engine) fn log_flight(&self, base: &mut Base, step: &Step, work: &mut Workspace) {
-        if work.log.room() <= LEFT {
-            self.fold_log(base, work);
+    pub(in crate::engine) fn log_flight(
+        &self,
+        base: &mut Base,
+        step: &Step,
+        (log, mut work): (&mut PeakLog, PeakWork),
+    ) {
+        if log.room() <= LEFT {
+            self.fold_log(base, (log, &mut work));
         }
         let (motion, acceleration) = ((&base.q[..], &base.v[..]), base.segment.acceleration_at(base.elapsed));
-        work.log.go_on(motion, acceleration);
-        work.log.push(motion, Load { acceleration, slope: base.segment.slope, length: step.planned.length });
+        log.go_on(motion, acceleration);
+        log.push(motion, Load { acceleration, slope: base.segment.slope, length: step.planned.length });
     }
 
     /// Raises the peaks over all logged flights, and empties the log.
     #[inline(never)]
-    pub(in crate::engine) fn fold_log(&self, base: &mut Base, work: &mut Workspace) {
-        if work.log.count() == 0 {
+    pub(in crate::engine) fn fold_log(&self, base: &mut Base, (log, work): (&mut PeakLog, &mut PeakWork)) {
+        if log.count() == 0 {
             return;
         }
-        let (mut log, mut peaks) = (std::mem::take(&mut work.log), std::mem::take(&mut base.peaks));
+        let mut peaks = std::mem::take(&mut base.peaks);
         let flights = log.flights_from(0, (&base.q, &base.v));
-        self.fold(&flights, &base.rest.watched, None, &mut peaks, &mut work.for_peaks());
+        self.fold(&flights, &base.rest.watched, None, &mut peaks, work);
         log.clear();
-        (work.log, base.peaks) = (log, peaks);
+        base.peaks = peaks;
     }
 
     /// Makes the log ready for a step with other forces than the ground's: they change the motion, and storeys that yield the
     /// position of rest.
-    pub(in crate::engine) fn leave_flight(&self, base: &mut Base, work: &mut Workspace) {
-        if base.is_yielding() || work.log.count() > WORTH_FOLDING {
-            self.fold_log(base, work);
-        } else if work.log.is_open() {
-            work.log.close((&base.q, &base.v));
+    pub(in crate::engine) fn leave_flight(&self, base: &mut Base, (log, mut work): (&mut PeakLog, PeakWork)) {
+        if base.is_yielding() || log.count() > WORTH_FOLDING {
+            self.fold_log(base, (log, &mut work));
+        } else {
+            log.close((&base.q, &base.v));
         }
     }
 

@@ -1,5 +1,5 @@
 //! Tests of the engine's inside, which no run shows by itself.
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::panic, unreachable_pub)]
 
 mod bounds;
 mod ends;
