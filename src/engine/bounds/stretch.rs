@@ -22,9 +22,8 @@ pub struct Stretch<'a> {
     pub ground: (f64, f64),
     /// Length, s.
     pub length: f64,
-    /// Whether the amplitudes of the modes have been compared with the peaks for some segments at once
-    /// (`peaks/ahead.rs`), so that doing so for this one is seldom worth it.
-    pub is_watched: bool,
+    /// Whether a peak may well be exceeded in it, as other bounds have shown, so that those by amplitudes are left out.
+    pub is_suspect: bool,
     /// The whole flight, of which this is the first part; `None` if it is whole itself.
     pub whole: Option<&'a Stretch<'a>>,
 }
@@ -107,7 +106,7 @@ impl ModeBounds {
             self.slow[m] = speed * self.energy[m];
             self.energy_over_w[m] = self.energy[m] / w2.sqrt();
         }
-        if !flight.is_watched {
+        if !flight.is_suspect {
             self.set_swings(structure, modes, flight, is_coupled);
         }
     }

@@ -108,8 +108,8 @@ impl Model {
             self.system.solve_present_reactions(base, inputs, work);
             for (&k, &force) in work.rigid.pairs.iter().zip(&work.rigid.found) {
                 let p = self.system.rigid.pairs[k];
-                let known = self.contact_in(base, point, p);
-                point.note_contact(p, ContactPoint { force, peak_force: known.peak_force.max(force), ..known });
+                // It counts in the peak from the next step on.
+                point.note_contact(p, ContactPoint { force, ..self.contact_in(base, point, p) });
             }
         }
     }

@@ -79,7 +79,7 @@ impl Model {
         let known = *peaks.block(building.first + b);
         let added = self.system.floor_forces.then_some((direct, 0.0, h));
         let at_rest = flight.rest.as_chunks::<LANES>().0[building.first + b];
-        if !flight.is_watched && stay_below(&known, (block, &at_rest), (bounds, &modes), added) == [true; LANES] {
+        if !flight.is_suspect && stay_below(&known, (block, &at_rest), (bounds, &modes), added) == [true; LANES] {
             return;
         }
         let mut course = course_of((block, &at_rest), (flight, known_ends), bounds, modes);

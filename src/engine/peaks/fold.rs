@@ -121,7 +121,7 @@ impl Model {
         let (start, end) = (flights.motion(flight), flights.motion(flight + 1));
         let ground = (acceleration, slope);
         self.search_stretch(
-            &Stretch { start, end, loads, rest, ground, length, is_watched: true, whole },
+            &Stretch { start, end, loads, rest, ground, length, is_suspect: true, whole },
             survivors,
             peaks,
             work,

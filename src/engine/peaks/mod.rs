@@ -124,9 +124,9 @@ impl Model {
         }
         let ground = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
         let loads = (&load[..], &slope[..]);
-        let (start, is_watched) = ((&base.q[..], &base.v[..]), false);
+        let (start, is_suspect) = ((&base.q[..], &base.v[..]), false);
         let rest = &base.rest.watched;
-        then(&Stretch { start, end: (q, v), loads, rest, ground, length, is_watched, whole: None }, work);
+        then(&Stretch { start, end: (q, v), loads, rest, ground, length, is_suspect, whole: None }, work);
         (work.buffers.load, work.buffers.slope) = (load, slope);
     }
 }

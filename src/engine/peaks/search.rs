@@ -182,7 +182,7 @@ impl Model {
         let [q, v, end_q, end_v] = &peaks.pieces;
         let (loads, length) = ((&peaks.load[..], flight.loads.1), piece.to - piece.from);
         let own =
-            Stretch { start: (q, v), end: (end_q, end_v), loads, length, is_watched: false, whole: None, ..*flight };
+            Stretch { start: (q, v), end: (end_q, end_v), loads, length, is_suspect: false, whole: None, ..*flight };
         for building in &self.peak_rows.buildings {
             peaks.piece.set(&self.system.structure, building.modes.clone(), &own, jerk);
         }
