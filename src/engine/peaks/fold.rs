@@ -92,7 +92,11 @@ impl Model {
             }
             true
         });
-        survivors.retain(|survivor| !is_below(&survivor.upper, &all[survivor.block]));
+        // Over a gap there is nothing between its ends.
+        survivors.retain(|survivor| {
+            let is_flight = flights.load(survivor.flight).length > 0.0;
+            is_flight && !is_below(&survivor.upper, &all[survivor.block])
+        });
     }
 
     /// Searches one flight for turning points of some blocks of quantities above their peaks.

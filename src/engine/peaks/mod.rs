@@ -3,12 +3,13 @@
 //!
 //! Nothing is sampled. A flight is exact, so that the values and slopes of a quantity at both ends and a bound on its
 //! fourth derivative show whether it can have exceeded its peak in between ([`flight`]). For most flights not even these
-//! are needed: flights are logged ([`log`]) and read many at once, by their slow modes ([`fold`]). In contact the largest force and both ends of a step bound the motion of the floors ([`contact`]).
-//! Where a peak may have been exceeded, the maximum is searched for: in the power series of the step ([`search`]), or
-//! by evaluating the step where it has no series in time ([`reading`]).
+//! are needed: flights are logged ([`log`]) and read many at once, by their slow modes ([`fold`]). In contact the largest
+//! force and both ends of a step bound the motion of the floors ([`contact`]). Where a peak may have been exceeded, the
+//! maximum is searched for: in the power series of the step ([`search`]), or by evaluating the step where it has no
+//! series in time ([`reading`]).
 //!
-//! The peaks do not depend on the communication points: the base holds those of all whole steps, and the part of the
-//! planned step so far is added when a peak is read. Velocities jump in an impact of `stereomechanical`: the motion
+//! The peaks do not depend on the communication points: the base holds those of all steps but the logged ones, and
+//! these and the part of the planned step so far are added when a peak is read. Velocities jump in an impact of `stereomechanical`: the motion
 //! before and after counts, the impulse itself, in which accelerations are unbounded, does not.
 
 pub mod contact;
