@@ -22,7 +22,8 @@ class Result(Mapping[str, "NDArray[Any]"]):
     """A run: numpy columns by name, ``time`` first, all as long as there are rows.
 
     ``float64`` for Real, ``int32`` for Integer, ``bool`` for Boolean variables. Notebooks show it as a small table and,
-    where matplotlib is installed, a small picture.
+    where matplotlib is installed, a small picture. A copy through ``pickle`` has the columns and the impacts, but no scene:
+    ``summary`` and ``plot`` are for the run itself.
     """
 
     impacts: NDArray[Any]
@@ -35,7 +36,17 @@ class Result(Mapping[str, "NDArray[Any]"]):
     ) -> None:
         self._columns = dict(columns)
         self.impacts = impacts
-        self._scene, self._step = scene, step
+        self._own_scene: _native.Scene | None = scene
+        self._name, self._step = scene.name, step
+
+    def __getstate__(self) -> dict[str, Any]:
+        return self.__dict__ | {"_own_scene": None}
+
+    @property
+    def _scene(self) -> _native.Scene:
+        if self._own_scene is None:
+            raise RuntimeError("a pickled run has its columns and impacts only; call this on the run itself")
+        return self._own_scene
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         try:
@@ -73,11 +84,11 @@ class Result(Mapping[str, "NDArray[Any]"]):
         return require("pandas").DataFrame(dict(self))
 
     def _repr_html_(self) -> str:
-        return page(self, self._scene.name)
+        return page(self, self._name)
 
     def _unknown(self, name: object) -> str:
         text = unknown(name, self._columns, "the run has no such column")
-        if name not in self._columns and name in variables_of(self._scene):
+        if self._own_scene and name not in self._columns and name in variables_of(self._own_scene):
             return f"{name}: not among the outputs of this run; name it in outputs"
         return text
 

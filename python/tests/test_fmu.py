@@ -87,6 +87,11 @@ def test_rows_and_types():
     assert "nothing" not in result and len(list(result.items())) == len(result)
     again = pickle.loads(pickle.dumps(result))
     assert list(again) == list(result) and again != result and again.impacts.dtype == result.impacts.dtype
+    assert "FeupFrames" in again._repr_html_()
+    with pytest.raises(KeyError, match="no such column"):
+        again["left.displacement[9]"]
+    with pytest.raises(RuntimeError, match="pickled"):
+        again.summary()
 
 
 def test_impacts_are_those_of_the_command(tmp_path):

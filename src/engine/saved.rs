@@ -40,7 +40,7 @@ const AT_LIMIT: f64 = 1e-9;
 /// let model = Model::new(&scene, None)?;
 /// let mut state = model.start(0.0);
 /// model.advance(&mut state, 1.0, &mut |_| ())?;
-/// let saved = state.save();
+/// let saved = model.save(&mut state);
 /// model.advance(&mut state, 3.0, &mut |_| ())?;
 /// model.restore(&saved, &mut state);
 /// assert_eq!(state.time(), 1.0);
