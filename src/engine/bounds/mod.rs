@@ -7,7 +7,7 @@
 //! a storey, a displacement. Its *limit* is a gap, a yield drift, the peak so far. All bounds answer the same question:
 //! **can y pass its limit before some time?** "No" is certain; "yes" is a guess, after which somebody looks closer. A
 //! bound never changes a result, only the work: what cannot happen is left out of sight. One that is too sharp would
-//! lose a contact in silence, one that is too wide costs a search in vain. `engine/tests/bounds.rs` holds each of them
+//! lose a contact in silence, one that is too wide costs a search in vain. `engine/tests/` holds each of them
 //! against the motion itself, and has motions that come within a hundredth of each.
 //!
 //! Bounds know rows and modes: no pairs, storeys, steps or models. These ask.

@@ -1,8 +1,8 @@
 //! The log of flights over which the peaks have not been raised yet.
 //!
 //! Most quantities never come near their peaks, and which do is known best when the peaks are almost known. So flights
-//! are only logged; the log is folded into the peaks (`fold.rs`) when it is full, when a storey begins to yield, and
-//! before a state is saved. Whoever reads a peak folds what is logged into a copy.
+//! are only logged; the log is folded into the peaks (`fold.rs`) when it is full, before a contact if it is long, when a
+//! storey begins to yield, and before a state is saved. Whoever reads a peak folds what is logged into a copy.
 
 use crate::engine::base::Base;
 use crate::engine::bounds::flights::{Flights, Load};
