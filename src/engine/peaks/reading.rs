@@ -121,8 +121,7 @@ impl Model {
         let PeakOf::Acceleration(side, floor) = of else { return 0.0 };
         let ContactStep { base, step, inputs, .. } = *part;
         let time = step.taylor.series.time(roots::roughly(x));
-        let PeakRoom { reading: ReadingRoom { q, v, floors, .. }, floors: FloorRoom { modal, .. }, .. } =
-            &mut *work.peaks;
+        let PeakRoom { within: floors, floors: FloorRoom { modal, .. }, pieces: [q, v, ..], .. } = &mut *work.peaks;
         let mut powers = Powers::default();
         step.set_powers(time, &mut powers);
         powers.set_in_time(&step.taylor.series.time_map);
@@ -177,7 +176,7 @@ impl Model {
         (ground, ground_slope): (f64, f64),
         (window, series): (&Window, &MotionSeries),
         part: &ContactStep,
-        ReadingRoom { time, q, v, acceleration, jerk, .. }: &mut ReadingRoom,
+        ReadingRoom { time, q, v, acceleration, jerk }: &mut ReadingRoom,
         work: &mut PeakWork,
     ) {
         let ContactStep { base, step, inputs, .. } = *part;

@@ -99,7 +99,8 @@ pub struct PeakRoom {
     /// rate, m/s3.
     pub direct: Vec<[f64; 2]>,
     pub floors: FloorRoom,
-    pub reading: ReadingRoom,
+    /// The floors within a step that is a power series.
+    pub within: FloorState,
     pub readings: Readings,
     /// Bounds on the magnitudes of the contact forces over a step, N.
     pub strongest: Vec<f64>,
@@ -136,8 +137,8 @@ impl PeakRoom {
             rows: [(); 2].map(|()| vec![0.0; lanes]),
             direct: vec![[0.0; 2]; rows.blocks() * LANES],
             floors: FloorRoom::new(lanes),
-            reading: ReadingRoom::new(lanes),
-            readings: Readings::new(lanes),
+            within: FloorState::new(lanes),
+            readings: Readings::new(if rows.are_none() { 0 } else { lanes }),
             strongest: vec![0.0; pairs],
             first_forces: vec![0.0; pairs],
             last_forces: vec![0.0; pairs],
@@ -259,7 +260,6 @@ pub struct ReadingRoom {
     pub v: Vec<f64>,
     pub acceleration: Vec<f64>,
     pub jerk: Vec<f64>,
-    pub floors: FloorState,
 }
 
 impl Readings {
@@ -295,7 +295,6 @@ impl Readings {
 impl ReadingRoom {
     pub fn new(lanes: usize) -> ReadingRoom {
         let vector = || vec![0.0; lanes];
-        let floors = FloorState::new(lanes);
-        ReadingRoom { time: f64::NAN, q: vector(), v: vector(), acceleration: vector(), jerk: vector(), floors }
+        ReadingRoom { time: f64::NAN, q: vector(), v: vector(), acceleration: vector(), jerk: vector() }
     }
 }
