@@ -46,9 +46,9 @@ pub struct ModeBounds {
     pub held: [Vec<f64>; 2],
     /// Rate of the quasi-static displacements.
     pub held_rate: Vec<f64>,
-    /// Factors of |A| in the bound on a fourth derivative (looking ahead: on a first one).
+    /// Factors of |A| in the bound on a fourth derivative.
     pub slow: Vec<f64>,
-    /// Factors of |B| in the bound on a fourth derivative (looking ahead: on a second one).
+    /// Factors of |B| in the bound on a fourth derivative.
     pub quick: Vec<f64>,
 }
 
@@ -112,7 +112,7 @@ impl ModeBounds {
     }
 
     /// Works out bounds on the oscillation of a building's modes about their quasi-static displacements (see
-    /// `flight/envelope.rs`).
+    /// `envelope.rs`).
     fn set_swings(&mut self, structure: &Structure, modes: Range<usize>, flight: &Stretch, is_coupled: bool) {
         let ((q, v), (load, slope)) = (flight.start, flight.loads);
         // With coupled modes the quasi-static displacement under a changing load is not worked out: the whole load is

@@ -196,7 +196,9 @@ impl Model {
             vector.fill(0.0);
         }
         for (p, pair) in self.system.pairs.iter().enumerate().filter(|(p, _)| base.contacts[*p].in_contact()) {
-            let (strongest, pulls) = (room.strongest[p], pair.law.kind.info().pulls);
+            // A truncated series of a force may lie below the law's force at an end.
+            let ends = larger(room.first_forces[p].abs(), room.last_forces[p].abs());
+            let (strongest, pulls) = (larger(room.strongest[p], ends), pair.law.kind.info().pulls);
             let pulled = if pulls { strongest } else { 0.0 };
             for FloorShare { lane, push, .. } in pair.floors {
                 // Pushed to the left, which a pull does to the right; or the other way round.

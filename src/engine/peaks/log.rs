@@ -13,6 +13,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Largest number of logged motions, and of bytes.
 const MOST: usize = 1024;
 const MOST_BYTES: usize = 4 << 20;
+/// Least number: a flight with a gap before and one after it.
+const LEAST: usize = 4;
 
 /// Change of the ground's acceleration from one flight to the next, relative to it, that is no rounding.
 const JUMP: f64 = 1e-12;
@@ -32,7 +34,7 @@ pub struct PeakLog {
 
 impl PeakLog {
     pub fn new(lanes: usize) -> PeakLog {
-        let most = if lanes == 0 { 0 } else { MOST.min(MOST_BYTES / (16 * lanes)) };
+        let most = if lanes == 0 { 0 } else { MOST.min(MOST_BYTES / (16 * lanes)).max(LEAST) };
         let room = || Vec::with_capacity(most * lanes);
         PeakLog { lanes, most, q: room(), v: room(), loads: Vec::with_capacity(most), identity: next_identity() }
     }
