@@ -71,17 +71,8 @@ impl ModeBounds {
 
     /// Works out bounds on a building's modes over a flight: on their derivatives, and on their oscillations.
     pub fn set(&mut self, structure: &Structure, modes: Range<usize>, flight: &Stretch, jerk: &mut [f64]) {
-        let h = flight.length;
-        let ((q, v), (end_q, end_v), (load, slope)) = (flight.start, flight.end, flight.loads);
-        for m in modes.clone() {
-            let (w2, c) = (structure.omega2[m], structure.damping[m]);
-            self.first[m] = load[m] - c * v[m] - w2 * q[m];
-            self.last[m] = load[m] + slope[m] * h - c * end_v[m] - w2 * end_q[m];
-        }
-        if !structure.is_classical() {
-            structure.subtract_coupling(v, 1.0, &mut self.first);
-            structure.subtract_coupling(end_v, 1.0, &mut self.last);
-        }
+        self.set_accelerations(structure, modes.clone(), flight);
+        let (v, slope) = (flight.start.1, flight.loads.1);
         for m in modes.clone() {
             jerk[m] = slope[m] - structure.damping[m] * self.first[m] - structure.omega2[m] * v[m];
         }
@@ -108,6 +99,20 @@ impl ModeBounds {
         }
         if !flight.is_suspect {
             self.set_swings(structure, modes, flight, is_coupled);
+        }
+    }
+
+    /// Works out the accelerations of a building's modes at both ends of a flight.
+    pub fn set_accelerations(&mut self, structure: &Structure, modes: Range<usize>, flight: &Stretch) {
+        let ((q, v), (end_q, end_v), (load, slope)) = (flight.start, flight.end, flight.loads);
+        for m in modes {
+            let (w2, c) = (structure.omega2[m], structure.damping[m]);
+            self.first[m] = load[m] - c * v[m] - w2 * q[m];
+            self.last[m] = load[m] + slope[m] * flight.length - c * end_v[m] - w2 * end_q[m];
+        }
+        if !structure.is_classical() {
+            structure.subtract_coupling(v, 1.0, &mut self.first);
+            structure.subtract_coupling(end_v, 1.0, &mut self.last);
         }
     }
 

@@ -100,7 +100,7 @@ impl Model {
                     of,
                     place: place + i,
                     peak,
-                    value: 0.0,
+                    ends: [0.0; 2],
                     bend: f64::INFINITY,
                     pieces_left: MOST_PIECES,
                     cleared_in: None,

@@ -63,8 +63,8 @@ pub struct Suspect {
     pub place: usize,
     /// The largest magnitude that has been found.
     pub peak: f64,
-    /// Its value at the start of the part that is searched.
-    pub value: f64,
+    /// Its values at the start and at the end of the part that is searched.
+    pub ends: [f64; 2],
     /// A bound on its second derivative from there on.
     pub bend: f64,
     /// Number of pieces in which the flight may still be searched for it.

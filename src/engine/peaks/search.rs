@@ -3,10 +3,11 @@
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::peaks::Peaks;
+use crate::engine::bounds::cubic::slopes_of;
 use crate::engine::bounds::envelope::stay_below;
 use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::model::Model;
-use crate::engine::peaks::room::{MOST_FLOWN, PeakWork, Suspect};
+use crate::engine::peaks::room::{MOST_FLOWN, PeakRoom, PeakWork, Suspect};
 use crate::engine::quantities::rows::{Block, BuildingRows, PeakOf, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS, larger};
@@ -97,7 +98,7 @@ impl Model {
             }
         } else if are_any_left(suspects) {
             self.fly_to(flight, from, [0, 1], work);
-            self.read_values(flight, from, [0, 1], suspects, work, |suspect, value| suspect.value = value);
+            self.read_values(flight, from, [0, 1], suspects, work, |suspect, value| suspect.ends[1] = value);
             self.search_leaves(flight, piece, until, suspects, work);
         }
         for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in == Some(halvings)) {
@@ -106,7 +107,8 @@ impl Model {
     }
 
     /// Searches a piece, in parts that one series reaches, one after the other. A quantity deviates from the chord of a part by
-    /// at most h^2/8 max|y''|; it is monotonic if its ends differ by more than 4 times that.
+    /// at most h^2/8 max|y''|; it is monotonic if its ends differ by more than 4 times that. For those that are left the
+    /// cubics through both ends are read, and only then the series.
     fn search_leaves(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
         let Piece { from, to, halvings } = piece;
         if from >= until {
@@ -120,11 +122,15 @@ impl Model {
         let sag = 0.125 * length * length * (1.0 + 1e-9);
         self.fly_to(flight, to, [2, 3], work);
         self.read_values(flight, to, [2, 3], suspects, work, |suspect, end| {
-            let (start, sag) = (std::mem::replace(&mut suspect.value, end), sag * suspect.bend);
+            let ([_, start], sag) = (suspect.ends, sag * suspect.bend);
+            suspect.ends = [start, end];
             suspect.peak = if to <= until { larger(suspect.peak, end.abs()) } else { suspect.peak };
             let is_below = larger(start.abs(), end.abs()) + sag <= suspect.peak;
             suspect.cleared_in = (is_below || (end - start).abs() > 4.0 * sag).then_some(OF_LEAF);
         });
+        if are_any_left(suspects) {
+            self.clear_by_cubics(flight, piece, suspects, work);
+        }
         if are_any_left(suspects) {
             self.read_piece(flight, piece, until, suspects, work);
         }
@@ -198,6 +204,31 @@ impl Model {
             }
         }
         self.bound_bends(suspects, &peaks.piece);
+    }
+
+    /// Clears the quantities that do not turn above their peaks in a leaf, by their values and slopes at both ends, at which
+    /// the vectors `pieces` have the motion.
+    fn clear_by_cubics(&self, flight: &Stretch, piece: Piece, suspects: &mut [Suspect], work: &mut PeakWork) {
+        let length = piece.to - piece.from;
+        self.set_load(flight, piece.from, work);
+        let PeakRoom { pieces: [q, v, end_q, end_v], load, piece: ends, bounds, direct, .. } = &mut *work.peaks;
+        let own = Stretch { start: (q, v), end: (end_q, end_v), loads: (load, flight.loads.1), length, ..*flight };
+        for building in &self.peak_rows.buildings {
+            ends.set_accelerations(&self.system.structure, building.modes.clone(), &own);
+        }
+        for suspects in suspects.chunk_by_mut(are_of_one_block).filter(|suspects| are_any_left(suspects)) {
+            let (building, block) = self.block_of(suspects[0].place);
+            let accelerations = [&ends.first, &ends.last].map(|all| &all[building.modes.clone()]);
+            let mut course = slopes_of(block, (&own, accelerations), bounds, building.modes.clone());
+            for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
+                let i = suspect.place % LANES;
+                if self.system.floor_forces {
+                    course.add_slope(i, direct[suspect.place][1]);
+                }
+                [course.start[0][i], course.end[0][i]] = suspect.ends;
+                suspect.cleared_in = (!course.may_turn_above(i, length, suspect.peak)).then_some(OF_LEAF);
+            }
+        }
     }
 
     /// The building and the block of a quantity.
