@@ -1,6 +1,7 @@
 //! Storage of the quantities of a point that are worked out when first read.
 
 use crate::engine::base::peaks::Peaks;
+use crate::engine::peaks::ahead::FlightsAhead;
 use crate::engine::peaks::room::PeakRoom;
 use crate::engine::system::buffers::Buffers;
 use crate::structure::{LANES, Lane};
@@ -98,6 +99,8 @@ pub(crate) struct PointPeaks {
     pub folded: Peaks,
     pub identity: u64,
     pub entries: usize,
+    /// The flights that are expected next, where peaks are read often.
+    pub ahead: FlightsAhead,
     /// The displacements relative to the position of rest at the start of the step.
     pub q: Vec<f64>,
     pub work: Option<Box<(Buffers, PeakRoom)>>,

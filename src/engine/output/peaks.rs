@@ -6,10 +6,14 @@ use crate::engine::bounds::stretch::Stretch;
 use crate::engine::model::Model;
 use crate::engine::output::known::PointPeaks;
 use crate::engine::output::point::Point;
+use crate::engine::peaks::ahead::FlightsAhead;
 use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
+
+/// Number of flights from one read to the next up to which it is worth looking ahead.
+const OFTEN: usize = 4;
 
 impl Model {
     /// The largest magnitude so far of the quantity `of`; 0 where the scene keeps no peaks.
@@ -37,7 +41,7 @@ impl Model {
         let (buffers, peaks) = &mut *room;
         let work = &mut PeakWork { buffers, peaks };
         self.fold_into_point(state, known, work);
-        let PointPeaks { peaks, q, folded, .. } = known;
+        let PointPeaks { peaks, q, folded, ahead, .. } = known;
         peaks.clone_from(folded);
         let elapsed = state.since_base();
         match () {
@@ -51,7 +55,7 @@ impl Model {
                 }
                 self.raise_over_part((base, step, inputs), (elapsed, (q, &point.v)), peaks, work);
             }
-            _ => self.read_peaks_of_flight(state, point, elapsed, peaks, work),
+            _ => self.read_peaks_of_flight(state, (point, elapsed), ahead, peaks, work),
         }
         known.work = Some(room);
     }
@@ -66,23 +70,40 @@ impl Model {
         // Steps in contact raise the peaks of the base at once.
         known.folded.raise_all(&base.peaks);
         let flights = log.flights_from(known.entries, (&base.q, &base.v));
-        self.fold(&flights, &base.rest.watched, None, &mut known.folded, work);
+        let (rest, count) = (&base.rest.watched, flights.loads.len());
+        let PointPeaks { folded, peaks, ahead, .. } = known;
+        if !self.fold_expected((&flights, rest), ahead, folded, work) {
+            self.fold(&flights, rest, None, folded, work);
+            ahead.forget();
+        }
         known.entries = log.count();
+        if ahead.are_none() && log.is_open() && count <= OFTEN {
+            peaks.clone_from(folded);
+            self.look_at_flights_ahead(base, ahead, peaks, work);
+        }
     }
 
     /// Raises peaks over the first part of the planned flight, which ends at the observed time.
-    fn read_peaks_of_flight(&self, state: &State, point: &Point, elapsed: f64, peaks: &mut Peaks, work: &mut PeakWork) {
+    fn read_peaks_of_flight(
+        &self,
+        state: &State,
+        (point, elapsed): (&Point, f64),
+        ahead: &FlightsAhead,
+        peaks: &mut Peaks,
+        work: &mut PeakWork,
+    ) {
         let State { base, inputs, .. } = state;
-        let end = (&point.q[..], &point.v[..]);
+        let (acceleration, slope) = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
+        let loads = [Load { acceleration, slope, length: elapsed }];
+        let (lanes, end) = (self.system.structure.lanes, (&point.q[..], &point.v[..]));
+        let part = Flights { lanes, q: &base.q, v: &base.v, loads: &loads, end };
+        if ahead.stay_below(&part, &base.rest.watched, peaks) {
+            return;
+        }
         let (mut q, mut v) = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));
         let length = self.end_of_flight(state, work, (&mut q, &mut v));
         self.with_flight(base, inputs, (length, &q, &v), work, |whole, work| match self.logs_flights() {
-            true => {
-                let loads = [Load { acceleration: whole.ground.0, slope: whole.ground.1, length: elapsed }];
-                let (q, v) = whole.start;
-                let part = Flights { lanes: self.system.structure.lanes, q, v, loads: &loads, end };
-                self.fold(&part, whole.rest, Some(whole), peaks, work);
-            }
+            true => self.fold(&part, whole.rest, Some(whole), peaks, work),
             false => {
                 let part = Stretch { end, length: elapsed, whole: Some(whole), ..*whole };
                 self.check_blocks(&part, peaks, work);

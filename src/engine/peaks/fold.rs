@@ -11,11 +11,11 @@ use crate::engine::bounds::flights::{Flights, Load};
 use crate::engine::bounds::span::{BlockBounds, ModeSizes, PART, Span};
 use crate::engine::bounds::stretch::Stretch;
 use crate::engine::model::Model;
-use crate::engine::peaks::fold_room::{OpenBlock, SHORT, SpanRoom, Survivor};
+use crate::engine::peaks::fold_room::{FoldRoom, OpenBlock, SHORT, SpanRoom, Survivor};
 use crate::engine::peaks::room::PeakWork;
 use crate::engine::quantities::rows::{BuildingRows, values_of};
 use crate::engine::quantities::truncated::TruncatedBuilding;
-use crate::numerics::polynomial::larger;
+use crate::numerics::polynomial::{each, larger};
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
 
@@ -26,6 +26,8 @@ struct Fold<'a> {
     truncated: &'a TruncatedBuilding,
     /// The quantities at rest.
     rest: &'a [Lane],
+    /// Whether peaks rise to lower bounds.
+    rise: bool,
 }
 
 impl Model {
@@ -40,6 +42,20 @@ impl Model {
         work: &mut PeakWork,
     ) {
         let mut room = std::mem::take(&mut work.peaks.fold);
+        self.find_survivors(flights, (rest, true), peaks, &mut room);
+        self.read_survivors((flights, rest, whole), &mut room.survivors, peaks, work);
+        work.peaks.fold = room;
+    }
+
+    /// Notes the blocks and flights that may exceed the peaks. Where these `rise`, they are raised to lower bounds over the
+    /// flights on the way.
+    pub(super) fn find_survivors(
+        &self,
+        flights: &Flights,
+        (rest, rise): (&[f64], bool),
+        peaks: &mut Peaks,
+        room: &mut FoldRoom,
+    ) {
         room.survivors.clear();
         let is_short = flights.count() < SHORT;
         match is_short {
@@ -48,19 +64,28 @@ impl Model {
         }
         for (rows, truncated) in self.peak_rows.buildings.iter().zip(&self.truncated.buildings) {
             let of_building = rows.first..rows.first + rows.blocks.len();
-            let fold = Fold { flights, rows, truncated, rest: &rest.as_chunks::<LANES>().0[of_building.clone()] };
+            let fold = Fold { flights, rows, truncated, rest: &rest.as_chunks::<LANES>().0[of_building.clone()], rise };
             let known = &mut peaks.values.as_chunks_mut::<LANES>().0[of_building];
             match is_short {
                 true => fold.find_survivors(known, &mut room.short, &mut room.survivors),
                 false => fold.find_survivors(known, &mut room.long, &mut room.survivors),
             }
         }
-        self.read_ends(flights, rest, peaks, &mut room.survivors);
-        room.survivors.sort_unstable_by_key(|survivor| (survivor.flight, survivor.block));
-        for of_flight in room.survivors.chunk_by(|one, next| one.flight == next.flight) {
+    }
+
+    /// Raises peaks over the blocks and flights that may exceed them.
+    pub(super) fn read_survivors(
+        &self,
+        (flights, rest, whole): (&Flights, &[f64], Option<&Stretch>),
+        survivors: &mut Vec<Survivor>,
+        peaks: &mut Peaks,
+        work: &mut PeakWork,
+    ) {
+        self.read_ends(flights, rest, peaks, survivors);
+        survivors.sort_unstable_by_key(|survivor| (survivor.flight, survivor.block));
+        for of_flight in survivors.chunk_by(|one, next| one.flight == next.flight) {
             self.search_one((flights, rest, whole), of_flight, peaks, work);
         }
-        work.peaks.fold = room;
     }
 
     /// Raises peaks to both ends of the flights that may exceed them, and leaves only those that still may in between.
@@ -221,8 +246,8 @@ impl Fold<'_> {
             }
             let mut open = OpenBlock { span: span.0, block: b, coarse, upper: coarse };
             let [least, upper] = self.bound(span.1, &open, room).extremes(span.1.count);
-            for i in 0..LANES {
-                known[b][i] = larger(known[b][i], least[i]);
+            if self.rise {
+                known[b] = each(|i| larger(known[b][i], least[i]));
             }
             if !is_below(&upper, &known[b]) {
                 open.upper = upper;
@@ -273,6 +298,6 @@ impl Fold<'_> {
 }
 
 /// Whether bounds leave all peaks of a block as they are; a NaN leaves none.
-fn is_below(upper: &Lane, peaks: &Lane) -> bool {
+pub(super) fn is_below(upper: &Lane, peaks: &Lane) -> bool {
     (0..LANES).all(|i| upper[i] <= peaks[i])
 }

@@ -34,7 +34,11 @@ pub struct PeakLog {
 
 impl PeakLog {
     pub fn new(lanes: usize) -> PeakLog {
-        let most = if lanes == 0 { 0 } else { MOST.min(MOST_BYTES / (16 * lanes)).max(LEAST) };
+        PeakLog::with_room(lanes, if lanes == 0 { 0 } else { MOST.min(MOST_BYTES / (16 * lanes)).max(LEAST) })
+    }
+
+    /// A log for so many entries.
+    pub fn with_room(lanes: usize, most: usize) -> PeakLog {
         let room = || Vec::with_capacity(most * lanes);
         PeakLog { lanes, most, q: room(), v: room(), loads: Vec::with_capacity(most), identity: next_identity() }
     }

@@ -12,6 +12,7 @@
 //! these and the part of the planned step so far are added when a peak is read. Velocities jump in an impact of `stereomechanical`: the motion
 //! before and after counts, the impulse itself, in which accelerations are unbounded, does not.
 
+pub mod ahead;
 pub mod contact;
 pub mod flight;
 pub mod floors;
