@@ -14,6 +14,7 @@ use crate::engine::bounds::stretch::Stretch;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
 use crate::engine::peaks::room::{MOST_PIECES, PeakWork, Suspect};
+use crate::engine::peaks::search::LEAVES;
 use crate::engine::quantities::rows::{BuildingRows, PeakOf};
 use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Lane};
@@ -100,7 +101,7 @@ impl Model {
                     of,
                     place: place + i,
                     peak,
-                    ends: [0.0; 2],
+                    values: [0.0; LEAVES + 1],
                     bend: f64::INFINITY,
                     pieces_left: MOST_PIECES,
                     cleared_in: None,

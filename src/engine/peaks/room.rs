@@ -3,6 +3,7 @@
 
 use crate::engine::bounds::stretch::ModeBounds;
 use crate::engine::peaks::fold_room::FoldRoom;
+use crate::engine::peaks::search::LEAVES;
 use crate::engine::quantities::rows::{PeakOf, PeakRows};
 use crate::engine::quantities::truncated::TruncatedRows;
 use crate::engine::system::buffers::Buffers;
@@ -63,8 +64,8 @@ pub struct Suspect {
     pub place: usize,
     /// The largest magnitude that has been found.
     pub peak: f64,
-    /// Its values at the start and at the end of the part that is searched.
-    pub ends: [f64; 2],
+    /// Its values at the ends of the leaves that are searched.
+    pub values: [f64; LEAVES + 1],
     /// A bound on its second derivative from there on.
     pub bend: f64,
     /// Number of pieces in which the flight may still be searched for it.

@@ -23,6 +23,9 @@ const REACH: f64 = 1.5;
 /// Length of a piece, in the same units, from which on it is worth bounding the amplitudes at its start.
 const LONG: f64 = 64.0 * REACH;
 
+/// Largest number of leaves of a piece, whose ends are read together; a power of 2.
+pub const LEAVES: usize = 8;
+
 /// Marks the quantities that are cleared in one leaf of the search: no piece is halved so often.
 const OF_LEAF: u32 = u32::MAX;
 
@@ -42,6 +45,24 @@ impl Piece {
         let Piece { from, to, halvings } = self;
         let (middle, halvings) = (from + 0.5 * (to - from), halvings - 1);
         [Piece { from, to: middle, halvings }, Piece { from: middle, to, halvings }]
+    }
+
+    /// The number of leaves of a piece that reaches so far, in units of 1 / (fastest rate), and the times at their ends.
+    fn leaves(self, reach: f64) -> (usize, [f64; LEAVES + 1]) {
+        let mut count = 1;
+        while count < LEAVES && reach > count as f64 * REACH {
+            count *= 2;
+        }
+        let mut times = [self.to; LEAVES + 1];
+        times[0] = self.from;
+        let mut width = count;
+        while width > 1 {
+            for k in (0..count).step_by(width) {
+                times[k + width / 2] = times[k] + 0.5 * (times[k + width] - times[k]);
+            }
+            width /= 2;
+        }
+        (count, times)
     }
 }
 
@@ -97,8 +118,6 @@ impl Model {
                 piece.halves().into_iter().for_each(|half| self.search_piece(flight, half, until, suspects, work));
             }
         } else if are_any_left(suspects) {
-            self.fly_to(flight, from, [0, 1], work);
-            self.read_values(flight, from, [0, 1], suspects, work, |suspect, value| suspect.ends[1] = value);
             self.search_leaves(flight, piece, until, suspects, work);
         }
         for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in == Some(halvings)) {
@@ -106,33 +125,53 @@ impl Model {
         }
     }
 
-    /// Searches a piece, in parts that one series reaches, one after the other. A quantity deviates from the chord of a part by
-    /// at most h^2/8 max|y''|; it is monotonic if its ends differ by more than 4 times that. For those that are left the
-    /// cubics through both ends are read, and only then the series.
+    /// Searches a piece, in leaves that one series reaches. The peaks are raised to the values at the ends of all leaves
+    /// first: then few leaves are left that may exceed them.
     fn search_leaves(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
-        let Piece { from, to, halvings } = piece;
-        if from >= until {
+        let reach = self.system.structure.fastest * (piece.to - piece.from);
+        if piece.from >= until {
             return;
         }
-        let length = to - from;
-        if self.system.structure.fastest * length > REACH && halvings > 0 {
+        if reach > LEAVES as f64 * REACH && piece.halvings > 0 {
             piece.halves().into_iter().for_each(|half| self.search_leaves(flight, half, until, suspects, work));
             return;
         }
+        let (count, times) = piece.leaves(reach);
+        let asked = times[..count].partition_point(|start| *start < until);
+        for (k, &time) in times.iter().enumerate().take(asked + 1) {
+            self.fly_to(flight, time, [2, 3], work);
+            self.read_values(flight, time, [2, 3], suspects, work, |suspect, value| {
+                suspect.values[k] = value;
+                suspect.peak = if time <= until { larger(suspect.peak, value.abs()) } else { suspect.peak };
+            });
+        }
+        for k in 0..asked {
+            self.search_leaf(flight, (k, [times[k], times[k + 1]]), until, suspects, work);
+        }
+    }
+
+    /// Searches leaf `k`. A quantity deviates from its chord by at most h^2/8 max|y''|; it is monotonic if its ends differ by
+    /// more than 4 times that. For those that are left the cubics through both ends are read, and only then the series.
+    fn search_leaf(
+        &self,
+        flight: &Stretch,
+        (k, leaf): (usize, [f64; 2]),
+        until: f64,
+        suspects: &mut [Suspect],
+        work: &mut PeakWork,
+    ) {
+        let length = leaf[1] - leaf[0];
         let sag = 0.125 * length * length * (1.0 + 1e-9);
-        self.fly_to(flight, to, [2, 3], work);
-        self.read_values(flight, to, [2, 3], suspects, work, |suspect, end| {
-            let ([_, start], sag) = (suspect.ends, sag * suspect.bend);
-            suspect.ends = [start, end];
-            suspect.peak = if to <= until { larger(suspect.peak, end.abs()) } else { suspect.peak };
+        for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
+            let (start, end, sag) = (suspect.values[k], suspect.values[k + 1], sag * suspect.bend);
             let is_below = larger(start.abs(), end.abs()) + sag <= suspect.peak;
             suspect.cleared_in = (is_below || (end - start).abs() > 4.0 * sag).then_some(OF_LEAF);
-        });
-        if are_any_left(suspects) {
-            self.clear_by_cubics(flight, piece, suspects, work);
         }
         if are_any_left(suspects) {
-            self.read_piece(flight, piece, until, suspects, work);
+            self.clear_by_cubics(flight, (k, leaf), suspects, work);
+        }
+        if are_any_left(suspects) {
+            self.read_leaf(flight, leaf, until, suspects, work);
         }
         for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in == Some(OF_LEAF)) {
             suspect.cleared_in = None;
@@ -206,11 +245,18 @@ impl Model {
         self.bound_bends(suspects, &peaks.piece);
     }
 
-    /// Clears the quantities that do not turn above their peaks in a leaf, by their values and slopes at both ends, at which
-    /// the vectors `pieces` have the motion.
-    fn clear_by_cubics(&self, flight: &Stretch, piece: Piece, suspects: &mut [Suspect], work: &mut PeakWork) {
-        let length = piece.to - piece.from;
-        self.set_load(flight, piece.from, work);
+    /// Clears the quantities that do not turn above their peaks in leaf `k`, by their values and slopes at both ends.
+    fn clear_by_cubics(
+        &self,
+        flight: &Stretch,
+        (k, [from, to]): (usize, [f64; 2]),
+        suspects: &mut [Suspect],
+        work: &mut PeakWork,
+    ) {
+        let length = to - from;
+        self.fly_to(flight, from, [0, 1], work);
+        self.fly_to(flight, to, [2, 3], work);
+        self.set_load(flight, from, work);
         let PeakRoom { pieces: [q, v, end_q, end_v], load, piece: ends, bounds, direct, .. } = &mut *work.peaks;
         let own = Stretch { start: (q, v), end: (end_q, end_v), loads: (load, flight.loads.1), length, ..*flight };
         for building in &self.peak_rows.buildings {
@@ -225,7 +271,7 @@ impl Model {
                 if self.system.floor_forces {
                     course.add_slope(i, direct[suspect.place][1]);
                 }
-                [course.start[0][i], course.end[0][i]] = suspect.ends;
+                (course.start[0][i], course.end[0][i]) = (suspect.values[k], suspect.values[k + 1]);
                 suspect.cleared_in = (!course.may_turn_above(i, length, suspect.peak)).then_some(OF_LEAF);
             }
         }
@@ -237,9 +283,15 @@ impl Model {
         (building, &building.blocks[place / LANES - building.first])
     }
 
-    /// Finds the largest magnitudes within a piece by its series.
-    fn read_piece(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
-        let Piece { from, to, .. } = piece;
+    /// Finds the largest magnitudes within a leaf by its series.
+    fn read_leaf(
+        &self,
+        flight: &Stretch,
+        [from, to]: [f64; 2],
+        until: f64,
+        suspects: &mut [Suspect],
+        work: &mut PeakWork,
+    ) {
         let (mut rows, (ground, slope)) = (std::mem::take(&mut work.peaks.rows), flight.ground);
         let end = if until < to { (until - from) / (to - from) } else { 1.0 };
         for suspects in suspects.chunk_by_mut(|one, next| one.of.side() == next.of.side()) {
@@ -247,7 +299,7 @@ impl Model {
                 continue;
             }
             let span = self.span_of(suspects[0].of.side(), Coordinates::Modes);
-            self.expand_piece(flight, (from, to), span, work);
+            self.expand_leaf(flight, (from, to), span, work);
             for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
                 let of = suspect.of;
                 let lanes = self.set_rows(of, Coordinates::Modes, &mut rows);
@@ -262,7 +314,7 @@ impl Model {
     }
 
     /// Expands a piece of a flight into a power series, for the modes of one building.
-    fn expand_piece(&self, flight: &Stretch, (from, to): (f64, f64), modes: (usize, usize), work: &mut PeakWork) {
+    fn expand_leaf(&self, flight: &Stretch, (from, to): (f64, f64), modes: (usize, usize), work: &mut PeakWork) {
         self.fly_to(flight, from, [0, 1], work);
         self.set_load(flight, from, work);
         let order = flight_order(self.system.structure.fastest * (to - from), EXACT).unwrap_or(MAX_ORDER);
