@@ -4,6 +4,7 @@
 use crate::common::peaks::all;
 use crate::common::{Run, record, scene};
 use pounding::record::Record;
+use pounding::scene::Scene;
 
 /// A fixed sequence of numbers between 0 and 1.
 struct Sequence(u64);
@@ -71,6 +72,22 @@ fn check(text: &str, stop: f64) {
             }
         }
         assert!(bits(&run) == expected, "other peaks, seed {seed}");
+    }
+    check_often(&scene, &shaking, stop);
+}
+
+/// Read at every point: the same, at every time, as when they are read there for the first time.
+fn check_often(scene: &Scene, shaking: &Record, stop: f64) {
+    for step in [0.01, 0.0037, 0.025] {
+        let mut run = Run::new(scene, Some(shaking));
+        for k in 1..=(stop / step) as u32 {
+            let time = step * f64::from(k);
+            let often = bits(run.to(time));
+            if k % 61 == 0 {
+                let once = bits(Run::new(scene, Some(shaking)).to(time));
+                assert!(often == once, "other peaks at {time} s when read every {step} s");
+            }
+        }
     }
 }
 
