@@ -121,3 +121,23 @@ fn with_yields() {
     let law = "law = \"linear\"\nstiffness = 1e8\n";
     check(&text(&building(3, 8e7, yielding), &building(2, 2e8, ""), &format!("{CONTACT}{law}")), 12.0);
 }
+
+/// Two runs that are read in turn through one point, of which one starts later, from rest: the same loads of the ground, other
+/// motions.
+#[test]
+fn of_two_runs_in_turn() {
+    let (scene, shaking) = (scene(&text(&building(3, 8e7, ""), &building(2, 2e8, ""), "")), shaking());
+    let (mut one, mut other) = (Run::new(&scene, Some(&shaking)), Run::new(&scene, Some(&shaking)));
+    one.to(2.0);
+    other.state = other.model.start(2.0);
+    let mut alone = Run::new(&scene, Some(&shaking));
+    alone.state = alone.model.start(2.0);
+    for k in 201..=300 {
+        let time = 0.01 * f64::from(k);
+        drop(bits(one.to(time)));
+        drop(bits(one.to(time + 0.002)));
+        std::mem::swap(&mut one.point, &mut other.point);
+        assert!(bits(other.to(time)) == bits(alone.to(time)), "{time} s");
+        std::mem::swap(&mut one.point, &mut other.point);
+    }
+}
