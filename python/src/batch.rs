@@ -104,7 +104,10 @@ impl Batch {
         let model = Model::new(&settings.scene, settings.record()).map_err(|error| error.to_string())?;
         let (mut state, mut point) = (model.start(0.0), Point::default());
         for time in instants::regular(step.unwrap_or(stop), stop).filter(|&time| time > 0.0) {
-            model.advance(&mut state, time, &mut |_| {}).map_err(|error| error.to_string())?;
+            let collapse = model.advance(&mut state, time, &mut |_| {}).map_err(|error| error.to_string())?;
+            if collapse.is_some() {
+                break;
+            }
         }
         let now = model.observe(&state, &mut point);
         Ok(self.cases.readings(&settings, references).into_iter().map(|reading| reading.at(&now)).collect())

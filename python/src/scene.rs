@@ -181,7 +181,7 @@ impl Scene {
                 value => value.real().into_bound_py_any(py)?,
             },
             Slot::Input(_) => 0.0.into_bound_py_any(py)?,
-            Slot::Frequency(..) | Slot::Output(_) => py.None().into_bound(py),
+            Slot::Calculated(_) | Slot::Output(_) => py.None().into_bound(py),
         };
         let (causality, variability) = (row.slot.causality().name(), row.variability.name());
         let (name, description) = (row.name.as_str(), row.description.as_str());

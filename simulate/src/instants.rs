@@ -13,7 +13,7 @@ pub fn regular(step: f64, stop: f64) -> impl Iterator<Item = f64> {
 /// Those that show the shape of each contact: just before and after its beginning and its end, where forces jump, its
 /// largest force, and `count` more; and those at which storeys begin to yield or turn back, the corners of hysteresis
 /// loops. Ascending, none after `stop`.
-pub fn within(Events { episodes, switches }: &Events, stop: f64, count: u16) -> Vec<f64> {
+pub fn within(Events { episodes, switches, .. }: &Events, stop: f64, count: u16) -> Vec<f64> {
     let mut instants = Vec::with_capacity(episodes.len() * (usize::from(count) + 5) + switches.len());
     instants.extend(switches);
     for episode in episodes {

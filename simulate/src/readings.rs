@@ -1,7 +1,7 @@
 //! What is read of a run, by value reference.
 
 use pounding::engine::{Instant, Output, Side};
-use pounding::variables::{Settings, Slot, Table, Type};
+use pounding::variables::{Calculated, Settings, Slot, Table, Type};
 
 /// A numeric variable.
 #[derive(Clone, Copy)]
@@ -31,7 +31,8 @@ impl Reading {
         let row = table.row(reference)?;
         Some(match row.slot {
             Slot::Output(output) => Reading::Computed(output, Kind::of(row.ty)?),
-            Slot::Frequency(side, mode) => Reading::Frequency(side, mode),
+            Slot::Calculated(Calculated::Frequency(side, mode)) => Reading::Frequency(side, mode),
+            Slot::Calculated(calculated) => Reading::Constant(settings.calculate(calculated)),
             Slot::Input(_) => Reading::Constant(0.0),
             Slot::Parameter(parameter) => Reading::Constant(settings.read(parameter).real()?),
         })

@@ -97,19 +97,21 @@ fn columns(
     events: &Events,
 ) -> Result<(Vec<f64>, Vec<Series>), Box<dyn Error>> {
     let within = instants::within(events, stop, ROWS_PER_IMPACT);
-    let times: Vec<f64> = instants::merge(instants::regular(stop / REGULAR_ROWS, stop), within).collect();
+    let instants: Vec<f64> = instants::merge(instants::regular(stop / REGULAR_ROWS, stop), within).collect();
     let outputs: Vec<_> = outputs(scene).collect();
-    let all = times.len() * outputs.len();
+    let all = instants.len() * outputs.len();
     let bin = if all <= MOST_NUMBERS { 1 } else { 2 * all.div_ceil(MOST_NUMBERS) };
 
     let mut columns: Vec<Column> = outputs.iter().map(|_| Column::new(bin)).collect();
+    let mut times = Vec::with_capacity(instants.len());
     let show = |solved: Solved| {
+        times.push(solved.time());
         for ((_, output), column) in outputs.iter().zip(&mut columns) {
             column.push(solved.read(*output));
         }
         Ok::<(), Box<dyn Error>>(())
     };
-    solve(model, times.iter().copied(), Some(show))?;
+    solve(model, instants.into_iter(), Some(show))?;
     let series = outputs.into_iter().zip(columns).map(|((row, _), column)| {
         let info = match row.ty {
             Type::Real(unit) => Some(unit.info()),

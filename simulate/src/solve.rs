@@ -1,6 +1,6 @@
 //! Runs the engine over a sequence of instants.
 
-use pounding::engine::{EngineError, Episode, Instant, Model, Point, State};
+use pounding::engine::{Collapse, EngineError, Episode, Instant, Model, Point, State};
 use std::error::Error;
 use std::time::{Duration, Instant as Clock};
 
@@ -14,6 +14,8 @@ pub struct Events {
     pub episodes: Vec<Episode>,
     /// s, when storeys began to yield or turned back.
     pub switches: Vec<f64>,
+    /// The collapse of a storey that has ended the run.
+    pub collapse: Option<Collapse>,
 }
 
 /// What a run has left.
@@ -26,7 +28,8 @@ pub struct Solution {
     pub time: Duration,
 }
 
-/// Solves from 0 to the last of ascending instants, s, and shows the solution at each, if it is to be shown.
+/// Solves from 0 to the last of ascending instants, s, and shows the solution at each, if it is to be shown. Where a storey
+/// collapses the run ends, and is shown for the last time.
 pub fn solve<E: Into<Box<dyn Error>>>(
     model: &Model,
     instants: impl Iterator<Item = f64>,
@@ -39,7 +42,8 @@ pub fn solve<E: Into<Box<dyn Error>>>(
     for time in instants {
         // The first row is the start as an FMU shows it: what happens at that very instant belongs to the first step.
         if time > 0.0 {
-            model.advance(&mut state, time, &mut |episode| solution.events.episodes.push(*episode))?;
+            let Events { episodes, collapse, .. } = &mut solution.events;
+            *collapse = model.advance(&mut state, time, &mut |episode| episodes.push(*episode))?;
         }
         let now = model.observe(&state, &mut point);
         solution.rows += 1;
@@ -47,6 +51,9 @@ pub fn solve<E: Into<Box<dyn Error>>>(
             let clock = Clock::now();
             show(now).map_err(Into::into)?;
             shown += clock.elapsed();
+        }
+        if solution.events.collapse.is_some() {
+            break;
         }
     }
     solution.time = clock.elapsed() - shown;
@@ -58,13 +65,13 @@ pub fn solve<E: Into<Box<dyn Error>>>(
 pub fn events(model: &Model, stop: f64) -> Result<Events, EngineError> {
     let (mut state, mut events) = (model.start(0.0), Events::default());
     state.note_switches();
-    model.advance(&mut state, stop, &mut |episode| events.episodes.push(*episode))?;
+    events.collapse = model.advance(&mut state, stop, &mut |episode| events.episodes.push(*episode))?;
     add_last(model, &state, &mut events);
     Ok(events)
 }
 
 /// Adds the episodes that are still open, and what the state has noted.
-fn add_last(model: &Model, state: &State, Events { episodes, switches }: &mut Events) {
+fn add_last(model: &Model, state: &State, Events { episodes, switches, .. }: &mut Events) {
     episodes.extend((0..model.contacts()).filter_map(|contact| model.open_episode(state, contact)));
     episodes.sort_by(|one, other| one.start.total_cmp(&other.start));
     switches.extend(state.switches());

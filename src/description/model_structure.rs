@@ -18,7 +18,7 @@ pub(super) fn write(xml: &mut Xml, scene: &Scene, table: &Table) -> io::Result<(
             })
         })?;
         xml.create_element("InitialUnknowns").write_inner_content(|xml| {
-            let is_computed = |row: &Row| matches!(row.slot, Slot::Output(_) | Slot::Frequency(..));
+            let is_computed = |row: &Row| matches!(row.slot, Slot::Output(_) | Slot::Calculated(_));
             // Of the kinds only `dependent`, which goes without saying, and `constant` are allowed here.
             let depends = |unknown, known| at_start(scene, unknown, known).then_some(Dependence::Dependent);
             write_unknowns(xml, table, is_computed, depends)

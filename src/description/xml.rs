@@ -126,7 +126,7 @@ fn write_variables(xml: &mut Xml, package: &Package, table: &Table) -> io::Resul
             let start = match row.slot {
                 Slot::Input(input) => Some(Value::Real(inputs.get(input).at(0.0))),
                 Slot::Parameter(parameter) => Some(settings.read(parameter)),
-                Slot::Frequency(..) | Slot::Output(_) => None,
+                Slot::Calculated(_) | Slot::Output(_) => None,
             };
             write_variable(xml, value_reference, row, start)?;
         }

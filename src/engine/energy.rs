@@ -38,26 +38,30 @@ impl Account {
 }
 
 impl System {
-    /// Kinetic and recoverable strain energy, J, of a motion relative to the position of rest of some storeys.
-    pub(super) fn energies(
-        &self,
-        (coordinates, storeys): (Coordinates, &[Storey]),
-        q: &[f64],
-        v: &[f64],
-    ) -> (f64, f64) {
+    /// Kinetic, recoverable strain and gravity energy, J, of a motion relative to the position of rest of some storeys.
+    pub(super) fn energies(&self, (coordinates, storeys): (Coordinates, &[Storey]), q: &[f64], v: &[f64]) -> [f64; 3] {
         let (kinetic, strain) = match coordinates {
             Coordinates::Modes => self.structure.energies(q, v),
             Coordinates::Floors => self.structure.floors.energies(q, v),
         };
-        (kinetic, strain + self.locked_energy(storeys))
+        let gravity = self.gravity_energy((coordinates, storeys), q);
+        // That of the net storeys is the sum of both.
+        [kinetic, strain + self.locked_energy(storeys) - gravity, gravity]
+    }
+
+    /// What the weights have given, J: -1/2 sum of g drift^2.
+    fn gravity_energy(&self, motion: (Coordinates, &[Storey]), q: &[f64]) -> f64 {
+        let mut sum = 0.0;
+        self.for_each_lean(motion, q, |_, g, drift| sum -= 0.5 * g * (drift * drift));
+        sum
     }
 
     /// Opens the account with the energy at the start.
     pub(super) fn open_account(&self, base: &mut Base) {
-        let (kinetic, strain) = self.energies((base.coordinates, &base.storeys), &base.q, &base.v);
+        let [kinetic, strain, gravity] = self.energies((base.coordinates, &base.storeys), &base.q, &base.v);
         if let Some(account) = &mut base.energy {
-            account.initial = kinetic + strain;
-            account.largest = account.initial;
+            account.initial = kinetic + strain + gravity;
+            account.update_largest([kinetic, strain, gravity]);
         }
     }
 
@@ -78,11 +82,11 @@ impl System {
         counters.energy_steps += if step.is_flight() { self.pieces(length).min(MOST_PIECES as u64) } else { 1 };
         let done = self.work_over(base, step, inputs, work, length);
         let impact = base.dissipated_by_contacts();
-        let (kinetic, strain) = self.energies((base.coordinates, &base.storeys), &base.q, &base.v);
+        let [kinetic, strain, gravity] = self.energies((base.coordinates, &base.storeys), &base.q, &base.v);
         let hysteretic = self.hysteretic_energy(&base.storeys);
         if let Some(account) = &mut base.energy {
             account.add(&done);
-            account.update_largest([kinetic, strain, impact, hysteretic]);
+            account.update_largest([kinetic, strain, gravity, impact, hysteretic]);
         }
     }
 

@@ -76,6 +76,7 @@ mod tests;
 mod window;
 mod yielding;
 
+pub use crate::engine::advance::Collapse;
 pub use crate::engine::base::contact::Episode;
 pub use crate::engine::base::counters::Counters;
 pub use crate::engine::error::{EngineError, GivenUp};

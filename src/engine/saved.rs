@@ -183,7 +183,14 @@ impl Model {
                 return Err(EngineError::ImpossibleStorey { side: of.side, storey: of.storey });
             }
         }
-        Ok(())
+        let fallen = base.collapsed.map(|i| (self.system.storeys.get(i), base.storeys.get(i)));
+        let has_fallen = fallen.is_none_or(|fallen| {
+            let (Some(of), Some(storey)) = fallen else { return false };
+            let drift = of.limit + storey.plastic.abs();
+            storey.yields.is_some()
+                && of.collapse.is_some_and(|collapse| (drift - collapse).abs() <= AT_LIMIT * collapse)
+        });
+        require(has_fallen, "the storey in it that has collapsed stands")
     }
 
     /// A planned step contains the communication time. Without one the base is at that time already (after a failed

@@ -49,7 +49,7 @@ pub unsafe extern "C" fn fmi2GetBooleanStatus(c: Component, kind: c_int, value: 
     // SAFETY: as the module says.
     unsafe {
         with_instance(c, Call::GetBooleanStatus, |instance| match status_kind(kind)? {
-            StatusKind::Terminated => store("value", value, 0).map(Status::from),
+            StatusKind::Terminated => store("value", value, Boolean::from(instance.slave.is_over())).map(Status::from),
             other => Ok(instance.slave.no_status(Call::GetBooleanStatus, other)),
         })
     }

@@ -85,6 +85,7 @@ impl Checker {
             self.number(format_args!("{path}.base_level"), heights.base_level, rule::LEVEL);
         }
         building.yielding.iter().for_each(|yielding| self.yielding(path, yielding, floors));
+        self.p_delta(path, building);
     }
 
     fn yielding(&mut self, path: &str, Yielding { force, ratio }: &Yielding, floors: usize) {

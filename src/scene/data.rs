@@ -2,6 +2,7 @@
 
 use super::contact_pair::ContactPair;
 use super::levels::Heights;
+use super::p_delta::PDelta;
 use super::problem::{Problem, number};
 use super::rule;
 use super::units::Units;
@@ -57,6 +58,8 @@ pub struct Building {
     pub heights: Option<Heights>,
     /// Where the storeys of a shear building yield; `None` where none does.
     pub yielding: Option<Yielding>,
+    /// Gravity on storeys that lean; `None` where a scene leaves it out.
+    pub p_delta: Option<PDelta>,
 }
 
 /// Bilinear storeys with kinematic hardening.
@@ -73,7 +76,16 @@ impl Building {
     /// A building at rest whose storeys stay elastic, without heights.
     pub fn new(mass: Vec<f64>, stiffness: Stiffness, damping: Damping) -> Building {
         let (initial_displacement, initial_velocity) = (vec![0.0; mass.len()], vec![0.0; mass.len()]);
-        Building { mass, stiffness, damping, initial_displacement, initial_velocity, heights: None, yielding: None }
+        Building {
+            mass,
+            stiffness,
+            damping,
+            initial_displacement,
+            initial_velocity,
+            heights: None,
+            yielding: None,
+            p_delta: None,
+        }
     }
 }
 
@@ -155,6 +167,7 @@ impl Building {
             initial_velocity: Vec::new(),
             heights: None,
             yielding: None,
+            p_delta: None,
         }
     }
 

@@ -18,8 +18,7 @@ pub(super) struct Definiteness {
 }
 
 /// Of a stiffness matrix: no motion without a restoring force.
-pub(super) const STIFFNESS: Definiteness =
-    Definiteness { name: "positive definite", unit: "N/m", holds: |smallest, largest| smallest > ROUNDING * largest };
+pub(super) const STIFFNESS: Definiteness = Definiteness { name: "positive definite", unit: "N/m", holds: is_positive };
 
 /// Of a damping matrix: no motion that gains energy.
 pub(super) const DAMPING: Definiteness = Definiteness {
@@ -27,6 +26,18 @@ pub(super) const DAMPING: Definiteness = Definiteness {
     unit: "N s/m",
     holds: |smallest, largest| smallest >= -ROUNDING * largest.abs(),
 };
+
+/// Whether a matrix with these eigenvalues is positive definite beyond rounding.
+pub(super) fn is_positive(smallest: f64, largest: f64) -> bool {
+    smallest > ROUNDING * largest
+}
+
+/// Whether rows are a finite symmetric matrix of that size.
+pub(super) fn is_symmetric(rows: &[Vec<f64>], size: usize) -> bool {
+    let allowed = ROUNDING * largest_entry(rows);
+    let is_square = rows.len() == size && rows.iter().all(|row| row.len() == size);
+    is_square && (0..size).all(|i| (0..=i).all(|j| (rows[i][j] - rows[j][i]).abs() <= allowed))
+}
 
 impl Checker {
     /// One row and column per floor, finite, symmetric and definite; each is looked at where the ones before hold.
@@ -100,7 +111,7 @@ fn largest_entry(rows: &[Vec<f64>]) -> f64 {
 }
 
 /// The smallest and the largest eigenvalue of a symmetric matrix; NaN, which no rule allows, where they are not found.
-fn extreme_eigenvalues(rows: &[Vec<f64>]) -> [f64; 2] {
+pub(super) fn extreme_eigenvalues(rows: &[Vec<f64>]) -> [f64; 2] {
     const ITERATIONS_PER_ROW: usize = 100;
     let size = rows.len();
     let scale = largest_entry(rows);
@@ -116,6 +127,6 @@ fn extreme_eigenvalues(rows: &[Vec<f64>]) -> [f64; 2] {
 }
 
 /// For a person.
-fn six_digits(value: f64) -> String {
+pub(super) fn six_digits(value: f64) -> String {
     number(format!("{value:.5e}").parse().unwrap_or(value))
 }

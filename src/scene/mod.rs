@@ -50,12 +50,12 @@
 //! left.mass[2] = -3.65: expected a finite mass > 0 kg
 //! left.stiffness = [2910.0]: expected 2 numbers, one per storey, not 1
 //! right.mas = [3.65]: expected a known key (mass, stiffness, stiffness_matrix, damping, initial_displacement, \
-//! initial_velocity, height, base_level, yield_force, post_yield_ratio); did you mean mass?");
+//! initial_velocity, height, base_level, yield_force, post_yield_ratio, p_delta, gravity_load, collapse_drift_ratio); did you mean mass?");
 //! ```
 //!
 //! Where things are: `data` is the scene, `contact_pair` what meets in it, [`rule`] says which numbers are allowed, `check`
 //! which shapes and combinations, `read` and `read_contacts` go through the keys of the file, `levels` adds up heights,
-//! `facing` makes contacts of them, `meeting` says in words what meets, `document` is the file as a tree, `syntax` knows what
+//! `p_delta` is gravity on storeys that lean, `facing` makes contacts of them, `meeting` says in words what meets, `document` is the file as a tree, `syntax` knows what
 //! is often written instead of TOML, `units` converts masses and forces, `files` loads scenes with their records.
 
 mod check;
@@ -70,6 +70,7 @@ pub mod law_key;
 mod levels;
 mod matrix;
 mod meeting;
+mod p_delta;
 mod problem;
 mod read;
 mod read_contacts;
@@ -83,6 +84,7 @@ pub use data::{Building, Damping, Ground, Scaling, Scene, Solver, Stiffness, Yie
 pub use files::{Package, PackagedRecord, load};
 pub(crate) use files::{SCENE_RESOURCE, read_record_file, record_problems};
 pub use levels::{Heights, LEVEL_TOLERANCE, ROUNDING as LEVEL_ROUNDING};
+pub use p_delta::{COLLAPSE_DRIFT_RATIO, NetStorey, PDelta, STANDARD_GRAVITY};
 pub use problem::{Problem, SceneError};
 pub(crate) use problem::{excerpt, matrix_text, number, numbers, quoted};
 pub use side::Side;

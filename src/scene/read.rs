@@ -3,6 +3,7 @@
 use super::data::{Building, Damping, Ground, Scaling, Scene, Solver, Stiffness, Yielding};
 use super::document::{self, Document, Item, KEY, Section, Span};
 use super::levels::Heights;
+use super::p_delta::PDelta;
 use super::problem::{Problem, SceneError, excerpt};
 use super::side::Side;
 use super::units::{self, Units};
@@ -162,8 +163,41 @@ fn building(mut section: Section<'_>, units: Units) -> Building {
     let initial_velocity = section.get("initial_velocity").map_or_else(at_rest, |item| item.numbers());
     let heights = heights(&mut section);
     let yielding = yielding(&mut section, &stiffness, units);
+    let p_delta = p_delta(&mut section, (heights.is_some(), yielding.is_some()), mass.len(), units);
     section.close(KEY);
-    Building { stiffness, damping, initial_displacement, initial_velocity, heights, yielding, mass }
+    Building { stiffness, damping, initial_displacement, initial_velocity, heights, yielding, p_delta, mass }
+}
+
+fn p_delta(
+    section: &mut Section<'_>,
+    (has_heights, can_yield): (bool, bool),
+    storeys: usize,
+    units: Units,
+) -> Option<PDelta> {
+    let (leaning, load) = (section.get("p_delta"), section.get("gravity_load"));
+    let ratio = section.get("collapse_drift_ratio");
+    let Some(leaning) = leaning else {
+        load.inspect(|item| item.refuse("p_delta as well, the storeys that gravity pushes on as they lean"));
+        ratio.inspect(|item| item.refuse("p_delta as well: without gravity no storey collapses"));
+        return None;
+    };
+    let mut p_delta = PDelta::new(match leaning.is_list() {
+        true => leaning.list("true, false or a list of them").iter().flatten().map(|entry| entry.boolean()).collect(),
+        false => vec![leaning.boolean(); storeys],
+    });
+    if !has_heights && p_delta.leaning.contains(&true) {
+        leaning.refuse(
+            "height as well, the heights of the storeys: a weight pushes on with its share of drift over height",
+        );
+    }
+    p_delta.load = load.map(|item| item.quantities(units));
+    if let Some(item) = ratio {
+        match can_yield {
+            true => p_delta.collapse_drift_ratio = item.number(),
+            false => item.refuse("yield_force as well: only storeys that yield collapse"),
+        }
+    }
+    Some(p_delta)
 }
 
 fn yielding(section: &mut Section<'_>, stiffness: &Stiffness, units: Units) -> Option<Yielding> {

@@ -89,6 +89,12 @@ pub const YIELD_FORCE: Rule = Rule {
 /// `post_yield_ratio` of a storey.
 pub const POST_YIELD_RATIO: Rule =
     Rule { expected: "0 <= r < 1", in_kn_t: None, holds: |ratio| (0.0..1.0).contains(&ratio) };
+/// `gravity_load` of a floor, N.
+pub const GRAVITY_LOAD: Rule =
+    Rule { expected: "a finite weight >= 0 N", in_kn_t: Some("a finite weight >= 0 kN"), holds: |load| load >= 0.0 };
+/// `collapse_drift_ratio` of a building.
+pub const COLLAPSE_DRIFT_RATIO: Rule =
+    Rule { expected: "a finite share of the height > 0", in_kn_t: None, holds: |ratio| ratio > 0.0 };
 /// Every damping ratio, 1 = critical.
 pub const DAMPING_RATIO: Rule =
     Rule { expected: "a finite damping ratio >= 0", in_kn_t: None, holds: |ratio| ratio >= 0.0 };

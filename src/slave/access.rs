@@ -6,7 +6,7 @@ use super::status::Refusal;
 use crate::description::Category;
 use crate::engine::Input;
 use crate::scene::SceneError;
-use crate::variables::{Row, Settings, Slot, Table, Value};
+use crate::variables::{Calculated, Row, Settings, Slot, Table, Value};
 use crate::warnings;
 use std::sync::Arc;
 
@@ -31,7 +31,10 @@ impl Slave {
                 Slot::Output(output) => Value::of(ty, self.start()?.now().read(output)),
                 Slot::Input(input) => Value::Real(self.run.inputs().get(input).at(self.run.time())),
                 Slot::Parameter(parameter) => self.settings.read(parameter),
-                Slot::Frequency(side, mode) => Value::Real(self.start()?.model().natural_frequencies(side)[mode]),
+                Slot::Calculated(Calculated::Frequency(side, mode)) => {
+                    Value::Real(self.start()?.model().natural_frequencies(side)[mode])
+                }
+                Slot::Calculated(calculated) => Value::Real(self.settings.calculate(calculated)),
             };
             if take(i, value).is_none() {
                 problems.push(wrong_type(&self.table, reference, wanted));
@@ -89,7 +92,7 @@ impl Slave {
                     row.name
                 ));
             }
-            (Slot::Frequency(..) | Slot::Output(_), _) => {
+            (Slot::Calculated(_) | Slot::Output(_), _) => {
                 return Some(format!("{}: computed by the FMU, it cannot be set", row.name));
             }
         }

@@ -32,7 +32,7 @@ impl Slave {
             Slot::Input(_) if order != 1 => Some(format!("{name}: derivative of order {order}: expected order 1")),
             Slot::Input(_) if value.is_finite() => None,
             Slot::Input(_) => Some(format!("{name}: derivative {value}: expected a finite number")),
-            Slot::Parameter(_) | Slot::Frequency(..) | Slot::Output(_) => Some(format!("{name}: expected an input")),
+            Slot::Parameter(_) | Slot::Calculated(_) | Slot::Output(_) => Some(format!("{name}: expected an input")),
         }
     }
 
@@ -124,7 +124,7 @@ impl Slave {
         let Some(row) = self.table.row(reference) else { return Some(unknown(&self.table, reference)) };
         let (is_unknown, expected) = match self.phase {
             Phase::Initialization => {
-                (matches!(row.slot, Slot::Output(_) | Slot::Frequency(..)), "an output or a calculated parameter")
+                (matches!(row.slot, Slot::Output(_) | Slot::Calculated(_)), "an output or a calculated parameter")
             }
             _ => (matches!(row.slot, Slot::Output(_)), "an output"),
         };

@@ -7,7 +7,7 @@ use super::simulation::Simulation;
 use super::snapshots::Snapshots;
 use super::status::{Refusal, Status, StatusKind};
 use crate::description::{Category, Package, guid};
-use crate::engine::Episode;
+use crate::engine::{Collapse, Episode};
 use crate::figures::plain;
 use crate::scene::rule::MOST_TIME;
 use crate::variables::{Settings, Table};
@@ -172,12 +172,16 @@ impl Slave {
         Status::Ok
     }
 
-    /// One communication step, s: from the last communication point, give or take the rounding of the master.
+    /// One communication step, s: from the last communication point, give or take the rounding of the master. Where a storey
+    /// collapses the run ends: the step is discarded, outputs are those of that time, and so is every further step.
     ///
     /// # Errors
     /// A step that does not begin at the present communication point or leads beyond the end, inputs that leave their
     /// range in it, and a step that the engine gives up ([`EngineError`](crate::engine::EngineError)).
-    pub fn do_step(&mut self, current: f64, step: f64) -> Result<(), Refusal> {
+    pub fn do_step(&mut self, current: f64, step: f64) -> Result<Status, Refusal> {
+        if let Some(collapse) = self.run.collapse() {
+            return Ok(self.discard_for(Call::DoStep, vec![describe_collapse(&collapse)]));
+        }
         let target = self.target(current, step)?;
         let log_events = self.log.is_enabled(Category::Events);
         let mut events = Vec::new();
@@ -189,7 +193,13 @@ impl Slave {
         for event in events {
             self.log.add(Category::Events, event);
         }
-        result
+        let collapse = result?.as_ref().map(describe_collapse);
+        Ok(self.discard_for(Call::DoStep, collapse.into_iter().collect()))
+    }
+
+    /// Whether a storey has collapsed, which ends the run.
+    pub fn is_over(&self) -> bool {
+        self.run.collapse().is_some()
     }
 
     /// The communication point that a step leads to, or everything that is wrong with the step.
@@ -256,6 +266,10 @@ impl Slave {
 /// Whether motion can be followed at a time, s.
 pub(super) fn is_time(time: f64) -> bool {
     time.abs() <= MOST_TIME
+}
+
+fn describe_collapse(Collapse { side, storey, time, .. }: &Collapse) -> String {
+    format!("storey {} of the {side} building has collapsed at {time:.9} s, and the run ends there", storey + 1)
 }
 
 /// An episode in one line, as the contacts are counted in the scene.

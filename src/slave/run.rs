@@ -2,7 +2,7 @@
 
 use super::simulation::{Simulation, Start, model};
 use super::status::Refusal;
-use crate::engine::{Input, Inputs, Model, SavedState};
+use crate::engine::{Collapse, Input, Inputs, Model, SavedState};
 use crate::scene::Scene;
 use crate::variables::Settings;
 use std::sync::Arc;
@@ -42,6 +42,14 @@ impl Run {
         match self {
             Run::NotStarted(start) => &start.inputs,
             Run::Started(simulation) => simulation.state().inputs(),
+        }
+    }
+
+    /// The collapse that has ended the run, if one has.
+    pub(super) fn collapse(&self) -> Option<Collapse> {
+        match self {
+            Run::NotStarted(_) => None,
+            Run::Started(simulation) => simulation.collapse(),
         }
     }
 

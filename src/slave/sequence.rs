@@ -1,7 +1,8 @@
 //! Which call is allowed when: the table of FMI 2.0.4, section 4.2.4, as data.
 
-/// Where an instance is in its life. Steps are done when they return, so none is ever in progress, and none is ever
-/// discarded: the standard's `stepInProgress`, `stepFailed` and `stepCanceled` are not reached.
+/// Where an instance is in its life. Steps are done when they return, so none is ever in progress: the standard's
+/// `stepInProgress` and `stepCanceled` are not reached. A step that is discarded, since a storey has collapsed, leaves the
+/// instance at the communication point of that time (`stepFailed`): it can be read, terminated and set back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Phase {
     /// After `fmi2Instantiate` or `fmi2Reset`.

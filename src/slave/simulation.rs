@@ -1,7 +1,7 @@
 //! A run that has started: the model of the present settings, its state, and what is read out of it.
 
 use super::status::Refusal;
-use crate::engine::{Episode, Input, Inputs, Instant, Model, Point, PointRates, Response, SavedState, State};
+use crate::engine::{Collapse, Episode, Input, Inputs, Instant, Model, Point, PointRates, Response, SavedState, State};
 use crate::variables::{Settings, Slot};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -63,9 +63,18 @@ impl Simulation {
         &mut self.state
     }
 
-    pub(super) fn advance(&mut self, until: f64, on_episode: &mut dyn FnMut(&Episode)) -> Result<(), Refusal> {
+    pub(super) fn advance(
+        &mut self,
+        until: f64,
+        on_episode: &mut dyn FnMut(&Episode),
+    ) -> Result<Option<Collapse>, Refusal> {
         self.change();
         Ok(self.model.advance(&mut self.state, until, on_episode)?)
+    }
+
+    /// The collapse that has ended the run, if one has.
+    pub(super) fn collapse(&self) -> Option<Collapse> {
+        self.model.collapse(&self.state)
     }
 
     /// The solution at the present time, observed once for all outputs that are read there.
@@ -100,7 +109,7 @@ impl Simulation {
     pub(super) fn response(&self, unknown: Slot) -> f64 {
         match unknown {
             Slot::Output(output) => self.model.response_of(&self.response, output),
-            Slot::Input(_) | Slot::Parameter(_) | Slot::Frequency(..) => 0.0,
+            Slot::Input(_) | Slot::Parameter(_) | Slot::Calculated(_) => 0.0,
         }
     }
 }

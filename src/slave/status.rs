@@ -10,7 +10,7 @@ pub enum Status {
     Ok = 0,
     /// Of messages only: what they are about has been done.
     Warning = 1,
-    /// Status information or a derivative that there is not; a step is never discarded.
+    /// Status information or a derivative that there is not, or a step at which a collapse has ended the run.
     Discard = 2,
     /// Refused, or failed; the instance can be reset.
     Error = 3,

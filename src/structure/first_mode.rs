@@ -21,7 +21,8 @@ pub struct FirstMode {
 impl FirstMode {
     /// Of a checked building.
     pub fn of(building: &Building) -> Result<FirstMode, NotPositiveDefinite> {
-        let flexibility = Flexibility::of(&building.stiffness)?;
+        let stiffness = building.net_stiffness();
+        let flexibility = Flexibility::of(&stiffness)?;
         let mut shape = vec![1.0; building.mass.len()];
         let mut omega2 = f64::INFINITY;
         for _ in 0..MOST_ITERATIONS {
@@ -98,6 +99,7 @@ mod tests {
             initial_velocity: rest,
             heights: None,
             yielding: None,
+            p_delta: None,
         }
     }
 

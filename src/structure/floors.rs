@@ -115,7 +115,7 @@ impl Floors {
             self.mass[first + i] = mass;
             self.inverse_mass[first + i] = 1.0 / mass;
         }
-        match &building.stiffness {
+        match &*building.net_stiffness() {
             Stiffness::Shear(stiffness) => {
                 self.storey[first..first + n].copy_from_slice(stiffness);
                 let storeys = stiffness.iter().zip(stiffness.iter().skip(1).chain(&[0.0]));

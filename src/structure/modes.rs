@@ -40,7 +40,7 @@ impl Modes {
             return Ok(Modes::none());
         }
         let mass = DVector::from_column_slice(&building.mass);
-        let factor = stiffness_factor(&building.stiffness)?;
+        let factor = stiffness_factor(&building.net_stiffness())?;
         let root_mass = mass.map(f64::sqrt);
         let scaled = DMatrix::from_fn(factor.nrows(), factor.ncols(), |i, j| factor[(i, j)] / root_mass[j]);
         let eigen = SymmetricEigen::new(scaled.transpose() * &scaled);

@@ -2,7 +2,7 @@
 //! the engine's.
 
 use super::initial_dependencies::at_start;
-use super::slot::{Parameter, Slot};
+use super::slot::{Calculated, Parameter, Slot};
 use crate::engine::{ContactOutput, Model, Output};
 use crate::scene::Scene;
 
@@ -15,8 +15,10 @@ pub fn by_parameter(scene: &Scene, model: &Model, unknown: Slot, parameter: Para
         return Some(0.0);
     }
     match (unknown, parameter) {
-        (Slot::Frequency(side, mode), Parameter::Mass(_, floor)) => model.frequency_by_mass(side, mode, floor),
-        (Slot::Frequency(side, mode), Parameter::Stiffness(_, storey)) => {
+        (Slot::Calculated(Calculated::Frequency(side, mode)), Parameter::Mass(_, floor)) => {
+            model.frequency_by_mass(side, mode, floor)
+        }
+        (Slot::Calculated(Calculated::Frequency(side, mode)), Parameter::Stiffness(_, storey)) => {
             model.frequency_by_stiffness(side, mode, storey)
         }
         (Slot::Output(Output::Contact(_, ContactOutput::Penetration)), Parameter::Gap(_)) => Some(-1.0),

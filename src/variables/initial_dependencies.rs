@@ -5,7 +5,7 @@
 //! matter. Whether floors overlap at the start is up to the gaps, which are parameters.
 
 use super::dependencies::floors;
-use super::slot::{Parameter, Slot};
+use super::slot::{Calculated, Parameter, Slot};
 use crate::contact::EpisodeForce;
 use crate::engine::{ContactOutput, EnergyOutput, Input, Output, PeakOf, Side, StoreyPeak, YieldingOf};
 use crate::scene::{Building, Damping, Scene, Share, Stiffness};
@@ -15,7 +15,14 @@ use crate::scene::{Building, Damping, Scene, Share, Stiffness};
 pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
     use ContactOutput as C;
     let output = match unknown {
-        Slot::Frequency(side, _) => return is_of_modes(side, known),
+        Slot::Calculated(Calculated::Frequency(side, _)) => return is_of_modes(side, known),
+        Slot::Calculated(Calculated::StabilityCoefficient(side, storey)) => {
+            return known == Slot::Parameter(Parameter::Stiffness(side, storey))
+                || is_of_weight(scene, (side, storey), known);
+        }
+        Slot::Calculated(Calculated::CriticalDrift(side, storey)) => {
+            return is_of_storey(known, (side, storey)) || is_of_weight(scene, (side, storey), known);
+        }
         Slot::Output(output) => output,
         Slot::Input(_) | Slot::Parameter(_) => return false,
     };
@@ -32,13 +39,18 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
         }
         // What has been dissipated, and whether a storey yields, begins with the first step.
         Output::OfYielding(YieldingOf::HystereticEnergy | YieldingOf::CumulativePlasticDrift, ..)
-        | Output::Yielding(..) => false,
+        | Output::Yielding(..)
+        | Output::Collapsed(_)
+        | Output::CollapseTime(_) => false,
         Output::OfYielding(YieldingOf::Ductility | YieldingOf::PlasticDrift, side, storey) => {
             let is_ratio = known == Slot::Parameter(Parameter::PostYieldRatio(side, storey));
             is_of_storey(known, (side, storey)) && !is_ratio && drifts(scene.building(side), storey)
         }
-        Output::OfYielding(YieldingOf::Shear | YieldingOf::ResidualDrift, side, storey) => {
+        Output::OfYielding(YieldingOf::Shear, side, storey) => {
             is_of_storey(known, (side, storey)) && drifts(scene.building(side), storey)
+        }
+        Output::OfYielding(YieldingOf::ResidualDrift | YieldingOf::PeakStabilityIndex, side, storey) => {
+            is_of_net_storey(scene, known, (side, storey)) && drifts(scene.building(side), storey)
         }
         Output::OfStorey(StoreyPeak::ColumnForce, side, storey) => {
             let hits = |p: &usize| scene.contacts[*p].columns() == Some((side, storey + 1));
@@ -87,9 +99,22 @@ fn is_of_storey(known: Slot, place: (Side, usize)) -> bool {
     matches!(known, Slot::Parameter(parameter) if storey_of(parameter) == Some(place))
 }
 
+/// Whether a parameter is a mass whose weight pushes a storey on that leans.
+fn is_of_weight(scene: &Scene, (side, storey): (Side, usize), known: Slot) -> bool {
+    let Slot::Parameter(Parameter::Mass(s, floor)) = known else { return false };
+    let building = scene.building(side);
+    (s == side && floor >= storey) && building.weighs_by_mass() && building.leans(storey)
+}
+
+/// Whether a parameter changes the force by stiffness and gravity with which a storey resists a given drift.
+fn is_of_net_storey(scene: &Scene, known: Slot, place: (Side, usize)) -> bool {
+    is_of_storey(known, place) || is_of_weight(scene, place, known)
+}
+
 /// The sum of K u is the force of the lowest storey.
 fn base_shear(scene: &Scene, side: Side, known: Slot) -> bool {
-    is_of_storey(known, (side, 0)) && drifts(scene.building(side), 0) || damping_force(scene, side, known, [0, 0])
+    is_of_net_storey(scene, known, (side, 0)) && drifts(scene.building(side), 0)
+        || damping_force(scene, side, known, [0, 0])
 }
 
 /// Forces on a floor over its mass.
@@ -107,7 +132,7 @@ fn acceleration(scene: &Scene, (side, floor): (Side, usize), known: Slot) -> boo
             scene.floor_forces || is_strained || is_damped(building) || contacts().any(|p| is_pushed(scene, p))
         }
         _ => {
-            let is_strain = |storey| is_of_storey(known, (side, storey)) && drifts(building, storey);
+            let is_strain = |storey| is_of_net_storey(scene, known, (side, storey)) && drifts(building, storey);
             storeys.into_iter().any(is_strain)
                 || damping_force(scene, side, known, storeys)
                 || contacts().any(|p| contact_force(scene, p, known))

@@ -39,7 +39,7 @@ pub use changes::Changes;
 pub use dependencies::{Dependence, at_communication_points};
 pub use derivatives::{HIGHEST_OUTPUT_DERIVATIVE, by_parameter};
 pub use initial_dependencies::at_start;
-pub use slot::{Causality, Parameter, Slot};
+pub use slot::{Calculated, Causality, Parameter, Slot};
 pub use table::{Row, Table, Type, Variability};
 pub use unit::{Unit, UnitInfo};
 pub use values::{Settings, Value};

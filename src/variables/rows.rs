@@ -1,6 +1,6 @@
 //! The rows of the table: which variables a scene has, and what a user reads about them.
 
-use super::slot::{Parameter, Slot};
+use super::slot::{Calculated, Parameter, Slot};
 use super::table::{Row, Table, Type, Variability};
 use super::unit::Unit;
 use crate::contact::LawKey;
@@ -24,6 +24,7 @@ const METRE_PER_SECOND_SQUARED: Type = Type::Real(Unit::MetrePerSecondSquared);
 const NEWTON: Type = Type::Real(Unit::Newton);
 const NEWTON_SECOND: Type = Type::Real(Unit::NewtonSecond);
 const JOULE: Type = Type::Real(Unit::Joule);
+const SECOND: Type = Type::Real(Unit::Second);
 
 impl Table {
     /// The variables of a scene.
@@ -49,6 +50,10 @@ impl Table {
             }
             for storey in 0..building.mass.len() {
                 table.add_yielding(building, side, storey);
+                table.add_lean(building, side, storey);
+            }
+            if building.can_collapse() {
+                table.add_collapse(side);
             }
             table.add_building(building, side, scene.peaks);
         }
@@ -194,7 +199,7 @@ impl Table {
         for mode in 0..building.mass.len() {
             let (i, ty) = (mode + 1, Type::Real(Unit::Hertz));
             let about = format!("natural frequency of mode {i} of the {name} building alone");
-            let row = self.add(Slot::Frequency(side, mode), &format!("{name}.frequency[{i}]"), ty, &about);
+            let row = self.add(Calculated::Frequency(side, mode), &format!("{name}.frequency[{i}]"), ty, &about);
             row.at_least(0.0).nominal(typical_frequency(building));
         }
     }
@@ -294,11 +299,41 @@ impl Table {
         row.between(-1.0, 1.0);
     }
 
+    /// What gravity does to a storey that leans.
+    fn add_lean(&mut self, building: &Building, side: Side, storey: usize) {
+        let (name, i) = (side.name(), storey + 1);
+        if !building.leans(storey) {
+            return;
+        }
+        if matches!(building.stiffness, Stiffness::Shear(_)) {
+            let about = format!("share of the stiffness of storey {i} that gravity takes");
+            let slot = Calculated::StabilityCoefficient(side, storey);
+            self.add(slot, &format!("{name}.stability_coefficient[{i}]"), ONE, &about).at_least(0.0).nominal(1.0);
+        }
+        let Some(critical) = building.net_storey(storey).and_then(|net| net.critical_drift()) else { return };
+        let about = format!("drift of storey {i} at which it resists no push any more");
+        let slot = Calculated::CriticalDrift(side, storey);
+        self.add(slot, &format!("{name}.critical_drift[{i}]"), METRE, &about).at_least(0.0).nominal(critical);
+        let about = format!("largest drift so far over the critical drift of storey {i}");
+        let output = Output::OfYielding(YieldingOf::PeakStabilityIndex, side, storey);
+        self.add(output, &format!("{name}.peak_stability_index[{i}]"), ONE, &about).at_least(0.0).nominal(1.0);
+    }
+
+    fn add_collapse(&mut self, side: Side) {
+        let name = side.name();
+        let about = format!("whether a storey of the {name} building has collapsed, which ends the run");
+        self.add(Output::Collapsed(side), &format!("{name}.collapsed"), Type::Boolean, &about);
+        let about = format!("time at which a storey of the {name} building has collapsed; -1 until then");
+        let row = self.add(Output::CollapseTime(side), &format!("{name}.collapse_time"), SECOND, &about);
+        row.variability = Variability::Discrete;
+    }
+
     fn add_energy(&mut self, scene: &Scene) {
         use EnergyOutput as E;
         let mass: f64 = scene.left.mass.iter().chain(&scene.right.mass).sum();
         let yields = |building: &Building| (0..building.mass.len()).any(|i| building.yielding_storey(i).is_some());
         let hysteretic = [&scene.left, &scene.right].into_iter().any(yields);
+        let gravity = [&scene.left, &scene.right].into_iter().any(Building::has_gravity);
         for (term, about) in [
             (E::Input, "work of the inertia forces of the ground motion so far"),
             (E::Kinetic, "kinetic energy of the motion relative to the ground"),
@@ -307,8 +342,9 @@ impl Table {
             (E::Impact, "work done on the contacts so far, with what their springs will give back"),
             (E::External, "work of the external floor forces so far"),
             (E::Hysteretic, "energy dissipated so far by storeys that have yielded"),
+            (E::Gravity, "what the weights on storeys that lean have given"),
         ] {
-            if term == E::Hysteretic && !hysteretic {
+            if term == E::Hysteretic && !hysteretic || term == E::Gravity && !gravity {
                 continue;
             }
             let row = self.add(Output::Energy(term), &format!("energy.{}", term.name()), JOULE, about);
@@ -324,7 +360,7 @@ impl Table {
     fn add(&mut self, slot: impl Into<Slot>, name: &str, ty: Type, description: &str) -> &mut Row {
         let slot = slot.into();
         let variability = match slot {
-            Slot::Parameter(_) | Slot::Frequency(..) => Variability::Fixed,
+            Slot::Parameter(_) | Slot::Calculated(_) => Variability::Fixed,
             Slot::Input(_) | Slot::Output(_) if matches!(ty, Type::Real(_)) => Variability::Continuous,
             Slot::Input(_) | Slot::Output(_) => Variability::Discrete,
         };

@@ -9,10 +9,22 @@ pub enum Slot {
     Input(Input),
     /// Set by the master before the end of initialisation.
     Parameter(Parameter),
-    /// Hz: natural frequency of a building alone, a calculated parameter.
-    Frequency(Side, usize),
+    /// Worked out from the parameters.
+    Calculated(Calculated),
     /// Result.
     Output(Output),
+}
+
+/// A calculated parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Calculated {
+    /// Hz: natural frequency of a building alone.
+    Frequency(Side, usize),
+    /// Share of a storey's stiffness that gravity takes.
+    StabilityCoefficient(Side, usize),
+    /// m: drift at which a storey that yields resists no push any more.
+    CriticalDrift(Side, usize),
 }
 
 /// A parameter: the master sets it before the end of initialisation.
@@ -68,7 +80,7 @@ impl Slot {
         match self {
             Slot::Input(_) => Causality::Input,
             Slot::Parameter(_) => Causality::Parameter,
-            Slot::Frequency(..) => Causality::CalculatedParameter,
+            Slot::Calculated(_) => Causality::CalculatedParameter,
             Slot::Output(_) => Causality::Output,
         }
     }
@@ -77,6 +89,12 @@ impl Slot {
 impl From<Input> for Slot {
     fn from(input: Input) -> Slot {
         Slot::Input(input)
+    }
+}
+
+impl From<Calculated> for Slot {
+    fn from(calculated: Calculated) -> Slot {
+        Slot::Calculated(calculated)
     }
 }
 

@@ -90,7 +90,7 @@ impl Table {
     pub fn problems(&self, inputs: &Inputs, time: f64) -> Vec<String> {
         let problem = |row: &Row| match row.slot {
             Slot::Input(input) => row.problem(inputs.get(input).at(time)),
-            Slot::Parameter(_) | Slot::Frequency(..) | Slot::Output(_) => None,
+            Slot::Parameter(_) | Slot::Calculated(_) | Slot::Output(_) => None,
         };
         self.rows.iter().filter_map(problem).collect()
     }

@@ -1,6 +1,7 @@
 //! The units of the variables.
 
 use crate::contact::StiffnessUnit;
+use crate::scene::STANDARD_GRAVITY;
 
 /// A unit, as the description declares it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -33,6 +34,8 @@ pub enum Unit {
     NewtonPerMetreToTheExponent,
     /// J
     Joule,
+    /// s
+    Second,
 }
 
 /// What the description says of a unit.
@@ -47,12 +50,9 @@ pub struct UnitInfo {
     pub display: Option<(&'static str, f64)>,
 }
 
-/// g, m/s2: the standard acceleration of free fall.
-const STANDARD_GRAVITY: f64 = 9.80665;
-
 impl Unit {
     /// All units, in the order of the description.
-    pub const ALL: [Unit; 13] = [
+    pub const ALL: [Unit; 14] = [
         Unit::One,
         Unit::Metre,
         Unit::MetrePerSecond,
@@ -66,6 +66,7 @@ impl Unit {
         Unit::NewtonPerMetreToTheThreeHalves,
         Unit::NewtonPerMetreToTheExponent,
         Unit::Joule,
+        Unit::Second,
     ];
 
     /// That of the stiffness of a contact. Where the exponent is a parameter, the unit follows it.
@@ -96,6 +97,7 @@ impl Unit {
                 unit(StiffnessUnit::NewtonPerMetreToTheThreeHalves.name(), None, None)
             }
             Unit::NewtonPerMetreToTheExponent => unit(StiffnessUnit::NewtonPerMetreToTheExponent.name(), None, None),
+            Unit::Second => unit("s", Some(&[("s", 1)]), None),
             Unit::Joule => unit("J", Some(&[("kg", 1), ("m", 2), ("s", -2)]), Some(("kJ", 1e-3))),
         }
     }

@@ -1,6 +1,6 @@
 //! Values of variables; parameters, each read and written by one match over all of them.
 
-use super::slot::Parameter;
+use super::slot::{Calculated, Parameter};
 use super::table::Type;
 use crate::engine::Side;
 use crate::record::{KnownRecords, Record};
@@ -136,6 +136,23 @@ impl Settings {
             Parameter::Restitution(p) => scene.contacts[p].law.restitution,
             Parameter::RelativeTolerance => scene.solver.relative_tolerance,
         })
+    }
+
+    /// A calculated parameter that needs no model: 0 where it is none of the scene's, and for frequencies.
+    pub fn calculate(&self, calculated: Calculated) -> f64 {
+        match calculated {
+            Calculated::Frequency(..) => 0.0,
+            Calculated::StabilityCoefficient(side, storey) => {
+                let building = self.scene.building(side);
+                let gravity = building.gravity_stiffness();
+                let of = |stiffness: f64| gravity.get(storey).map_or(0.0, |g| g / stiffness);
+                building.stiffness.of_storey(storey).map_or(0.0, of)
+            }
+            Calculated::CriticalDrift(side, storey) => {
+                let net = self.scene.building(side).net_storey(storey);
+                net.and_then(|net| net.critical_drift()).unwrap_or_default()
+            }
+        }
     }
 
     /// Everything that is wrong with the numbers, by themselves and with the record: in the words of the scene, under

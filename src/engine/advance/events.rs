@@ -46,6 +46,7 @@ impl Model {
                 let storey = &mut base.storeys[i];
                 storey.turned = storey.yields.take();
             }
+            Event::Collapse(i) => base.collapsed = Some(i),
         }
     }
 }

@@ -13,6 +13,19 @@ use crate::engine::excitation::segment::Segment;
 use crate::engine::model::Model;
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
+use crate::structure::Side;
+
+/// The collapse of a storey, which ends a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Collapse {
+    /// Its building.
+    pub side: Side,
+    /// Counted from 0.
+    pub storey: usize,
+    /// s.
+    pub time: f64,
+}
 
 impl Model {
     /// Advances the state to the time `until`, s, and reports each episode when it ends.
@@ -20,6 +33,8 @@ impl Model {
     /// With a record inside, the engine's own steps end at segments, events and where series end, whatever `until` is.
     /// Where a master drives the ground or the floors, its input changes at communication points, so that steps end
     /// there too.
+    ///
+    /// A run ends where a storey collapses: the state stays at that time, which is returned, and goes no further.
     ///
     /// # Errors
     /// Too much work for one communication step, steps shorter than the time can resolve, or numbers beyond double
@@ -30,7 +45,10 @@ impl Model {
         state: &mut State,
         until: f64,
         on_episode: &mut dyn FnMut(&Episode),
-    ) -> Result<(), EngineError> {
+    ) -> Result<Option<Collapse>, EngineError> {
+        if state.base.collapsed.is_some() {
+            return Ok(self.collapse(state));
+        }
         if self.system.ground.is_none() {
             // The ground as it is from here to `until`: no second copy of the input, which may be set anew at `until`
             // while the base still stands at the end of this segment.
@@ -46,8 +64,14 @@ impl Model {
         if !fast.has_arrived {
             self.go_on(state, until, fast.flown, on_episode)?;
         }
-        state.time = until;
-        Ok(())
+        state.time = if state.base.collapsed.is_some() { state.base.time().min(until) } else { until };
+        Ok(self.collapse(state))
+    }
+
+    /// The collapse that has ended the run of a state, if one has.
+    pub fn collapse(&self, state: &State) -> Option<Collapse> {
+        let of = &self.system.storeys[state.base.collapsed?];
+        Some(Collapse { side: of.side, storey: of.storey, time: state.time })
     }
 
     /// Advances step by step from the end of a fast flight over `flown` segments.
@@ -74,6 +98,9 @@ impl Model {
                 self.take(state, end, on_episode);
                 self.check_numbers(state)?;
                 self.check_progress(state, &progress)?;
+                if state.base.collapsed.is_some() {
+                    break;
+                }
             }
             if state.base.elapsed >= state.base.segment.length {
                 let Some(ground) = &self.system.ground else { break };

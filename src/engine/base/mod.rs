@@ -59,6 +59,8 @@ pub(super) struct Base {
     pub last_length: f64,
     /// Number of episodes of all contacts.
     pub impacts: u64,
+    /// The storey that has collapsed at the base, numbered among those that can yield: the run has ended there.
+    pub collapsed: Option<usize>,
 }
 
 /// The position in which the buildings would come to rest, which plastic drifts have moved.

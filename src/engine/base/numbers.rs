@@ -22,6 +22,7 @@ impl Base {
             velocity_scale,
             last_length: _, // infinite where a series ended by itself
             impacts: _,
+            collapsed: _, // looked at with the storeys
         } = self;
         let of_motion = [q, v].into_iter().flatten().chain([elapsed, velocity_scale]).copied();
         let of_contacts = contacts.iter().flat_map(Contact::numbers);

@@ -18,6 +18,8 @@ pub(crate) enum Event {
     Yield(usize, Sense),
     /// The drift of a storey that yields turns: it is elastic again.
     Turn(usize),
+    /// A storey that yields has collapsed: the run ends.
+    Collapse(usize),
 }
 
 /// Penetration, m, and its rate, m/s, one per contact; `None` where they are not tracked or not needed.

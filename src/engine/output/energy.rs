@@ -31,18 +31,18 @@ impl Model {
             let done = self.system.work_over(&state.base, &state.step, &state.inputs, work, elapsed);
             account.add(&done);
         }
-        let (kinetic, strain) = self.system.energies((point.coordinates, &point.storeys), &point.q, &point.v);
+        let [kinetic, strain, gravity] = self.system.energies((point.coordinates, &point.storeys), &point.q, &point.v);
         let hysteretic = self.system.hysteretic_energy(&point.storeys);
         let contacts = 0..self.system.pairs.len();
         let impact = contacts.map(|p| self.contact_in(&state.base, point, p).dissipated_energy).sum();
-        account.update_largest([kinetic, strain, impact, hysteretic]);
+        account.update_largest([kinetic, strain, gravity, impact, hysteretic]);
         let Account { initial, largest, .. } = account;
         // Yielding goes on for tens of thousands of steps: there the rounding of plain sums would show.
         let is_long = !self.system.storeys.is_empty();
         let of = |sum: Sum| if is_long { sum.exact() } else { sum.value };
         let [input, external, viscous] = [account.input, account.external, account.viscous].map(of);
-        let imbalance = initial + input + external - kinetic - strain - viscous - impact - hysteretic;
+        let imbalance = initial + input + external - kinetic - (strain + gravity) - viscous - impact - hysteretic;
         let residual = if largest > 0.0 { imbalance / largest } else { 0.0 };
-        EnergyPoint { input, kinetic, strain, viscous, impact, external, hysteretic, residual }
+        EnergyPoint { input, kinetic, strain, viscous, impact, external, hysteretic, gravity, residual }
     }
 }

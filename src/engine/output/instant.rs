@@ -1,7 +1,7 @@
 //! The solution at one time: the door through which outputs and their derivatives are read.
 
 use crate::engine::model::Model;
-use crate::engine::output::outputs::{ContactOutput, ContactPoint, EnergyPoint, Output, Rates, YieldingOf};
+use crate::engine::output::outputs::{ContactOutput, ContactPoint, EnergyPoint, Output, Rates};
 use crate::engine::output::point::Point;
 use crate::engine::output::point_rates::{PEAK_ROUNDING, PointRates};
 use crate::engine::quantities::rows::PeakOf;
@@ -76,6 +76,11 @@ impl<'a> Instant<'a> {
             Output::OfStorey(of, side, storey) => model.storey_peak(state, point, of, (side, storey)),
             Output::OfYielding(of, side, storey) => model.of_yielding(state, point, of, (side, storey)),
             Output::Yielding(side, storey) => model.yielding(point, (side, storey)),
+            Output::Collapsed(side) => f64::from(model.collapse(state).is_some_and(|collapse| collapse.side == side)),
+            Output::CollapseTime(side) => {
+                let of_side = model.collapse(state).filter(|collapse| collapse.side == side);
+                of_side.map_or(-1.0, |collapse| collapse.time)
+            }
             Output::Contact(p, of) => model.contact(state, point, p).get(of),
             Output::Impacts => point.impacts as f64,
             Output::Energy(of) => model.energy(state, point).unwrap_or_default().get(of),
@@ -146,16 +151,14 @@ impl<'a> Instant<'a> {
                 let factor = model.storeys.per_drift(of, (side, storey));
                 self.differentiate_peak(rates, PeakOf::Drift(side, storey)).map(|rate| factor * rate)
             }
-            Output::OfYielding(of, side, storey) => match model.unused_yield_drift(point, (side, storey)) {
-                Some(limit) if of == YieldingOf::Ductility => {
-                    self.differentiate_peak(rates, PeakOf::Drift(side, storey)).map(|rate| rate / limit)
-                }
-                _ => model.yielding_rates(point, rates, of, (side, storey)),
+            Output::OfYielding(of, side, storey) => match model.unused_drift(point, of, (side, storey)) {
+                Some(drift) => self.differentiate_peak(rates, PeakOf::Drift(side, storey)).map(|rate| rate / drift),
+                None => model.yielding_rates(point, rates, of, (side, storey)),
             },
             Output::Contact(p, of) => rates.contacts[p][of],
             Output::Energy(of) => rates.energy.unwrap_or_default()[of],
             // Held from one event to the next.
-            Output::Impacts | Output::Yielding(..) => [0.0; 2],
+            Output::Impacts | Output::Yielding(..) | Output::Collapsed(_) | Output::CollapseTime(_) => [0.0; 2],
         }
     }
 

@@ -30,6 +30,10 @@ pub enum Output {
     OfYielding(YieldingOf, Side, usize),
     /// The sense in which a storey yields now: 1 or -1, or 0 while it is elastic.
     Yielding(Side, usize),
+    /// Whether a storey of a building has collapsed, which ends the run.
+    Collapsed(Side),
+    /// The time of that, s; -1 until then.
+    CollapseTime(Side),
     /// One contact.
     Contact(usize, ContactOutput),
     /// Contact episodes begun so far, of all contacts.
@@ -54,6 +58,9 @@ pub enum YieldingOf {
     HystereticEnergy,
     /// Sum of the magnitudes of all changes of the plastic drift so far, m.
     CumulativePlasticDrift,
+    /// Largest drift so far over the critical drift, beyond which gravity pushes a storey that yields on; where no peaks
+    /// are watched, 0 until the storey yields.
+    PeakStabilityIndex,
 }
 
 /// Makes of one list of quantities an enum of them, a struct of their values, each of which can be had by its field or
@@ -162,6 +169,8 @@ quantities! {
     External external: f64,
     /// Energy dissipated by storeys that have yielded, J.
     Hysteretic hysteretic: f64,
+    /// What the weights on storeys that lean have given, J: 0 or below.
+    Gravity gravity: f64,
     /// Imbalance of these terms divided by the largest magnitude that any of them has had.
     Residual residual: f64,
 }

@@ -28,8 +28,14 @@ impl Model {
         match of {
             YieldingOf::Shear => storey.shear(now, storey.drift(point.coordinates, &point.q)),
             YieldingOf::PlasticDrift => now.plastic,
-            YieldingOf::ResidualDrift => storey.kept() * now.plastic,
-            YieldingOf::Ductility => storey.ductility(now, self.peak(state, point, PeakOf::Drift(place.0, place.1))),
+            YieldingOf::ResidualDrift => storey.residual_drift(now),
+            YieldingOf::Ductility => {
+                storey.largest_drift(now, self.peak(state, point, PeakOf::Drift(place.0, place.1))) / storey.limit
+            }
+            YieldingOf::PeakStabilityIndex => {
+                let peak = self.peak(state, point, PeakOf::Drift(place.0, place.1));
+                storey.critical.map_or(0.0, |critical| storey.largest_drift(now, peak) / critical)
+            }
             YieldingOf::HystereticEnergy => storey.hysteretic_energy(now),
             YieldingOf::CumulativePlasticDrift => now.cumulative.exact(),
         }
@@ -56,34 +62,25 @@ impl Model {
         let drift = [&point.v, &rates.acceleration].map(|motion| storey.drift(point.coordinates, motion));
         let flow = now.yields.map_or(0.0, Sense::sign);
         let factor = match of {
-            YieldingOf::Shear => {
-                if now.yields.is_some() {
-                    storey.ratio * storey.stiffness
-                } else {
-                    storey.stiffness
-                }
-            }
+            YieldingOf::Shear => storey.stiffness(now),
             YieldingOf::PlasticDrift => flow.abs(),
+            YieldingOf::ResidualDrift if storey.cannot_rest(now) => 0.0,
             YieldingOf::ResidualDrift => flow.abs() * storey.kept(),
             YieldingOf::HystereticEnergy => flow * storey.kept() * storey.force,
             YieldingOf::CumulativePlasticDrift => flow,
-            // While the storey has not yielded it is a share of its peak drift.
-            YieldingOf::Ductility if now.furthest == 0.0 => return [0.0; 2],
-            YieldingOf::Ductility => {
-                if is_furthest(now) {
-                    flow / storey.limit
-                } else {
-                    0.0
-                }
+            // While the storey has not yielded they are shares of its peak drift.
+            YieldingOf::Ductility | YieldingOf::PeakStabilityIndex => {
+                let drift = storey.drift_of_share(of).filter(|_| is_furthest(now));
+                drift.map_or(0.0, |drift| flow / drift)
             }
         };
         drift.map(|rate| factor * rate)
     }
 
-    /// Yield drift of a storey that can yield and has not, m.
-    pub(in crate::engine) fn unused_yield_drift(&self, point: &Point, place: (Side, usize)) -> Option<f64> {
+    /// The drift, m, of which a quantity of a storey that can yield and has not is the share that the peak drift has reached.
+    pub(in crate::engine) fn unused_drift(&self, point: &Point, of: YieldingOf, place: (Side, usize)) -> Option<f64> {
         let (storey, now) = self.yielding_storey(point, place)?;
-        (now.furthest == 0.0).then_some(storey.limit)
+        storey.drift_of_share(of).filter(|_| now.furthest == 0.0)
     }
 
     /// The largest shear so far of a storey that has yielded, N, and its rates.
@@ -101,7 +98,7 @@ impl Model {
     ) -> Option<Rates> {
         let (storey, now) = self.yielding_storey(point, place).filter(|(_, now)| now.furthest > 0.0)?;
         let sign = now.yields.filter(|_| is_furthest(now)).map_or(0.0, Sense::sign);
-        let rate = |motion: &[f64]| sign * storey.ratio * storey.stiffness * storey.drift(point.coordinates, motion);
+        let rate = |motion: &[f64]| sign * storey.stiffness(now) * storey.drift(point.coordinates, motion);
         Some([rate(&point.v), rate(&rates.acceleration)])
     }
 

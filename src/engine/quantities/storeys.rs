@@ -22,6 +22,8 @@ pub(crate) struct Storeys {
     heights: [Vec<f64>; 2],
     /// N/m, of a shear building.
     stiffness: [Vec<f64>; 2],
+    /// What a mass above each storey takes of its stiffness by its weight, N/m per kg; empty where weights are given.
+    pub weights: [Vec<f64>; 2],
     /// The storey whose columns are hit at each contact.
     pub struck: Vec<Option<(Side, usize)>>,
 }
@@ -39,6 +41,7 @@ impl Storeys {
         Storeys {
             heights: buildings.map(heights),
             stiffness: buildings.map(stiffness),
+            weights: buildings.map(Building::gravity_per_mass),
             struck: scene.contacts.iter().map(struck).collect(),
         }
     }

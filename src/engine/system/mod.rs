@@ -33,6 +33,10 @@ const MANY_MODES: usize = 80;
 #[derive(Debug)]
 pub struct System {
     pub structure: Structure,
+    /// What gravity takes of the stiffness of each storey, N/m; empty for a building on whose lean it does not act.
+    pub gravity: [Vec<f64>; 2],
+    /// The fastest rate of the buildings with or without storeys that yield, 1/s.
+    pub fastest: f64,
     pub pairs: Vec<Pair>,
     pub rigid: RigidPairs,
     /// The storeys that can yield.
@@ -89,7 +93,11 @@ impl System {
         for (of, storey) in storeys.iter().zip(&initial_storeys) {
             of.lift(Coordinates::Modes, -of.kept() * storey.plastic, &mut initial[0]);
         }
+        let gravity =
+            |building: &Building| if building.has_gravity() { building.gravity_stiffness() } else { Vec::new() };
         Ok(System {
+            gravity: [&scene.left, &scene.right].map(gravity),
+            fastest: storeys.iter().fold(structure.fastest, |most, of| most.max(of.growth() * structure.fastest)),
             initial,
             initial_storeys,
             together: Together::of(&structure, storeys.iter().map(|of| (&of.row[..], of.limit))),
@@ -129,6 +137,7 @@ impl System {
             velocity_scale: 0.0,
             last_length: 0.0,
             impacts: contacts.iter().map(|contact| contact.impacts).sum(),
+            collapsed: None,
             coordinates: Coordinates::Modes,
             contacts,
             q,

@@ -57,6 +57,36 @@ impl System {
         self.storeys.iter().zip(storeys).map(|(of, storey)| of.locked_energy(storey)).sum()
     }
 
+    /// Calls a function with each storey on whose lean gravity acts, with g, N/m, and its drift, m, in a motion relative to the
+    /// position of rest.
+    pub fn for_each_lean(
+        &self,
+        (coordinates, storeys): (Coordinates, &[Storey]),
+        q: &[f64],
+        mut then: impl FnMut((Side, usize), f64, f64),
+    ) {
+        for side in [Side::Left, Side::Right] {
+            let leaning = self.gravity[side as usize].iter().enumerate().filter(|(_, g)| **g != 0.0);
+            for (storey, g) in leaning {
+                let place = (side, storey);
+                let plastic = self.number_of_storey(place).map_or(0.0, |i| self.storeys[i].kept() * storeys[i].plastic);
+                then(place, *g, self.drift(coordinates, place, q) + plastic);
+            }
+        }
+    }
+
+    /// Drift of a storey, or its rate, in a motion.
+    pub fn drift(&self, coordinates: Coordinates, (side, storey): (Side, usize), motion: &[f64]) -> f64 {
+        let floor = |floor: usize| match coordinates {
+            Coordinates::Modes => {
+                let shape = self.structure.modes(side).shape.row(floor);
+                shape.iter().zip(&motion[self.structure.range(side)]).map(|(shape, q)| shape * q).sum::<f64>()
+            }
+            Coordinates::Floors => motion[self.structure.floors.lane(side as usize, floor)],
+        };
+        floor(storey) - storey.checked_sub(1).map_or(0.0, floor)
+    }
+
     /// Energy dissipated by all storeys that have yielded, J.
     pub fn hysteretic_energy(&self, storeys: &[Storey]) -> f64 {
         self.storeys.iter().zip(storeys).map(|(of, storey)| of.hysteretic_energy(storey)).sum()

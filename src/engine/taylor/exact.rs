@@ -26,7 +26,7 @@ pub fn plan_exact(
     if touching(base).next().is_some() {
         return false;
     }
-    let length = remaining.min(REACH / system.structure.fastest);
+    let length = remaining.min(REACH / system.fastest);
     system.expand_exactly(base, solution, work, length);
     at.counters.yielding_steps += 1;
     system.end_at(1.0, solution, planned);
@@ -65,7 +65,7 @@ impl System {
         solution.series.bound_fourths(&solution.end, fourths);
         let mut first = None;
         for &(i, sense) in &solution.drifts.yielding {
-            first = self.first_turn(solution, (i, sense), first).or(first);
+            first = self.first_change(base, solution, (i, sense), first);
         }
         for (i, (of, storey)) in self.storeys.iter().zip(&base.storeys).enumerate() {
             let at = |(q, v): (&[f64], &[f64])| (of.drift(coordinates, q), of.drift(coordinates, v));

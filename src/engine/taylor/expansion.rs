@@ -24,7 +24,7 @@ impl System {
     /// Expands a linear motion so that its series is exact up to `length`, s, its time unit.
     pub fn expand_exactly(&self, base: &Base, solution: &mut Solution, work: &mut Buffers, length: f64) {
         self.start_series(base, solution, length);
-        let order = flight_order(self.structure.fastest * length, ROUNDING).unwrap_or(MAX_ORDER);
+        let order = flight_order(self.fastest * length, ROUNDING).unwrap_or(MAX_ORDER);
         self.expand_to(base, solution, work, order);
     }
 

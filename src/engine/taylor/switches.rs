@@ -35,7 +35,7 @@ impl System {
         for &(i, sense) in &solution.drifts.yielding {
             first = match self.holds_storey(i, &mut work.rigid) {
                 true => Some((0.0, Event::Turn(i))),
-                false => self.first_turn(solution, (i, sense), first).or(first),
+                false => self.first_change(base, solution, (i, sense), first),
             };
         }
         let Solution { series, end, substitution, .. } = solution;
@@ -58,6 +58,38 @@ impl System {
 }
 
 impl System {
+    /// The first instant at which a storey that yields turns or collapses, or the first event known so far.
+    pub fn first_change(
+        &self,
+        base: &Base,
+        solution: &Solution,
+        yielding: (usize, Sense),
+        first: Option<(f64, Event)>,
+    ) -> Option<(f64, Event)> {
+        let first = self.first_turn(solution, yielding, first).or(first);
+        self.first_collapse(base, solution, yielding, first).or(first)
+    }
+
+    /// The first instant at which the drift of a storey that yields is that of its collapse, if before the first event known
+    /// so far.
+    fn first_collapse(
+        &self,
+        base: &Base,
+        Solution { series, drifts, substitution, end, .. }: &Solution,
+        (i, sense): (usize, Sense),
+        first: Option<(f64, Event)>,
+    ) -> Option<(f64, Event)> {
+        let collapse = self.storeys[i].collapse?;
+        let (count, until) = (series.order + 1, first.map_or(end.x, |(x, _)| x));
+        let mut terms = drifts.drifts[i].map(|term| sense.sign() * term);
+        terms[0] = (sense.sign() * base.storeys[i].plastic + self.storeys[i].limit - collapse).min(0.0);
+        if series.time_map.is_curved() {
+            substitution.apply_to_one(&mut terms[..count]);
+        }
+        let noise = 4.0 * f64::EPSILON * collapse;
+        roots::first_upcrossing(&mut terms[..count], until, noise).map(|x| (x, Event::Collapse(i)))
+    }
+
     /// The first instant at which the drift of a storey that yields turns, if before the first event known so far: at
     /// once where it does not go on in its sense by more than rounding, as that of a floor that is held.
     pub fn first_turn(

@@ -1,11 +1,15 @@
 //! A storey that can yield: its limits, and its row of weights over the floors; constant during a run.
+//!
+//! Its motion is that of the net storey, its columns and gravity together (`scene/p_delta.rs`); what is told of it is that of
+//! the columns. Without gravity both are the same.
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::storey::{Sense, Storey};
 use crate::engine::bounds::certificate::stays_below;
+use crate::engine::output::outputs::YieldingOf;
 use crate::engine::pairs::pair::apart;
 use crate::numerics::polynomial::Coefficients;
-use crate::scene::Scene;
+use crate::scene::{NetStorey, Scene};
 use crate::structure::{MotionSeries, Side, Structure, difference, dot};
 use std::ops::Range;
 
@@ -15,16 +19,19 @@ pub(crate) struct YieldingStorey {
     pub side: Side,
     /// Counted from 0.
     pub storey: usize,
-    /// Initial stiffness, N/m.
-    pub stiffness: f64,
-    /// Yield force V_y, N.
+    /// The columns, and gravity.
+    pub of: NetStorey,
+    /// Net yield force V_y', N.
     pub force: f64,
-    /// Post-yield ratio r.
+    /// Net post-yield ratio r', below 0 where gravity exceeds what yielding leaves of the stiffness.
     pub ratio: f64,
     /// Yield drift V_y / k, m.
     pub limit: f64,
     /// Stiffness that yielding takes away, (1 - r) k, N/m.
     pub lost: f64,
+    /// Drift at which a storey that yields resists no push any more, m, and that at which it has collapsed.
+    pub critical: Option<f64>,
+    pub collapse: Option<f64>,
     /// The drift as a row over the modes, kg^-1/2.
     pub row: Vec<f64>,
     /// The lanes of the floor above it and, unless the ground is, of the floor below it.
@@ -49,8 +56,7 @@ impl YieldingStorey {
 
     fn of(scene: &Scene, structure: &Structure, (side, storey): (Side, usize)) -> Option<YieldingStorey> {
         let building = scene.building(side);
-        let (force, ratio) = building.yielding_storey(storey)?;
-        let stiffness = building.stiffness.of_storey(storey)?;
+        let of = building.net_storey(storey)?;
         let lane = |floor: usize| structure.floors.lane(side as usize, floor);
         let mut row = vec![0.0; structure.lanes];
         structure.add_floor_force(side, storey, 1.0, &mut row);
@@ -62,11 +68,13 @@ impl YieldingStorey {
         Some(YieldingStorey {
             side,
             storey,
-            stiffness,
-            force,
-            ratio,
-            limit: force / stiffness,
-            lost: (1.0 - ratio) * stiffness,
+            of,
+            force: of.net_force(),
+            ratio: of.net_ratio(),
+            limit: of.yield_drift(),
+            lost: (1.0 - of.ratio) * of.stiffness,
+            critical: of.critical_drift(),
+            collapse: building.collapse_drift(storey),
             row,
             floors: (lane(storey), below.map(lane)),
             push: (1.0 / building.mass[storey], below.map_or(0.0, |floor| -1.0 / building.mass[floor])),
@@ -178,9 +186,16 @@ impl YieldingStorey {
         }
     }
 
-    /// The share of a plastic drift that the storey keeps when no force acts on it, 1 - r.
+    /// The share of a plastic drift that the storey keeps when no force acts on it, 1 - r'.
     pub(crate) fn kept(&self) -> f64 {
         1.0 - self.ratio
+    }
+
+    /// Root of the share of its net stiffness that the storey pushes on with while it yields: the buildings fall at most at this
+    /// rate, relative to their fastest mode (the eigenvalues of K + the stiffnesses lost are bounded by those of K). Below 1 for
+    /// all but storeys on the brink of falling while they are elastic.
+    pub(crate) fn growth(&self) -> f64 {
+        (-self.ratio).max(0.0).sqrt()
     }
 
     /// How far beyond the limit of one sense the storey is with a drift x relative to the position of rest, m: below 0
@@ -223,25 +238,52 @@ impl YieldingStorey {
         2.0 * f64::EPSILON * (size + self.limit + (self.ratio * storey.plastic).abs())
     }
 
-    /// Storey shear, N, with a drift x relative to the position of rest; while it yields, exactly on its yield line.
+    /// Storey shear, N, what the columns resist with, at a drift x relative to the position of rest; while it yields,
+    /// exactly on its yield line.
     pub(crate) fn shear(&self, storey: &Storey, x: f64) -> f64 {
+        let NetStorey { stiffness, force, ratio, gravity } = self.of;
         match storey.yields {
-            Some(sense) => sense.sign() * self.force + self.stiffness * (self.ratio * storey.plastic),
-            None => self.stiffness * x,
+            Some(sense) => sense.sign() * force + stiffness * (ratio * storey.plastic),
+            None => stiffness * x + gravity * (self.kept() * storey.plastic),
         }
+    }
+
+    /// Stiffness of the columns, N/m: what is left of it while the storey yields.
+    pub(crate) fn stiffness(&self, storey: &Storey) -> f64 {
+        if storey.yields.is_some() { self.of.ratio * self.of.stiffness } else { self.of.stiffness }
     }
 
     /// The largest shear so far of a storey that has yielded, N: it has been largest where the plastic drift was.
     pub(crate) fn peak_shear(&self, storey: &Storey) -> f64 {
-        self.force + self.ratio * self.stiffness * storey.furthest
+        self.of.force + self.of.ratio * self.of.stiffness * storey.furthest
     }
 
-    /// The largest drift so far over the yield drift, from the largest drift that has been watched: once the storey has
-    /// yielded its drift has been largest where the plastic drift was.
-    pub(crate) fn ductility(&self, storey: &Storey, peak_drift: f64) -> f64 {
-        match storey.furthest > 0.0 {
-            true => (self.limit + storey.furthest) / self.limit,
-            false => peak_drift / self.limit,
+    /// The drift at which the storey would come to rest, m: beyond a plastic drift that gravity does not let it come back
+    /// from, the critical one.
+    pub(crate) fn residual_drift(&self, storey: &Storey) -> f64 {
+        match self.critical.filter(|_| self.cannot_rest(storey)) {
+            Some(critical) => critical.copysign(storey.plastic),
+            None => self.kept() * storey.plastic,
+        }
+    }
+
+    /// Whether gravity pushes the storey on wherever it might rest.
+    pub(crate) fn cannot_rest(&self, storey: &Storey) -> bool {
+        self.ratio < 0.0 && self.ratio * storey.plastic.abs() < -self.limit
+    }
+
+    /// The largest drift so far, m, from the largest one that has been watched: once the storey has yielded its drift has been
+    /// largest where the plastic drift was.
+    pub(crate) fn largest_drift(&self, storey: &Storey, peak_drift: f64) -> f64 {
+        if storey.furthest > 0.0 { self.limit + storey.furthest } else { peak_drift }
+    }
+
+    /// The drift, m, of which a quantity is the share that the largest drift has reached.
+    pub(crate) fn drift_of_share(&self, of: YieldingOf) -> Option<f64> {
+        match of {
+            YieldingOf::Ductility => Some(self.limit),
+            YieldingOf::PeakStabilityIndex => self.critical,
+            _ => None,
         }
     }
 
@@ -250,8 +292,8 @@ impl YieldingStorey {
         self.kept() * self.force * storey.cumulative.exact()
     }
 
-    /// Elastic energy locked in by the plastic drift, J, which no motion relative to the position of rest has: r (1 -
-    /// r) k p^2 / 2. With x = z + r p it is r k d^2/2 + (1 - r) k z^2/2 - k x^2/2.
+    /// Elastic energy of the net storey locked in by the plastic drift, J, which no motion relative to the position of rest
+    /// has: r' (1 - r') k' p^2 / 2. With x = z + r' p it is r' k' d^2/2 + (1 - r') k' z^2/2 - k' x^2/2.
     pub(crate) fn locked_energy(&self, storey: &Storey) -> f64 {
         0.5 * self.ratio * self.lost * (storey.plastic * storey.plastic)
     }
