@@ -143,7 +143,7 @@ impl Extreme {
         let now = model.observe(&state, &mut point);
         (trial.counters, trial.impacts) = (state.counters(), now.read(Output::Impacts) as u64);
         trial.outcome = match end {
-            Ok(()) => Outcome::Ended(now.energy().map_or(f64::NAN, |energy| energy.residual)),
+            Ok(_) => Outcome::Ended(now.energy().map_or(f64::NAN, |energy| energy.residual)),
             Err(error) => Outcome::Stopped(error.to_string()),
         };
         trial
