@@ -196,16 +196,15 @@ impl System {
         part: impl Fn(&LinearInput) -> f64,
         load: &mut [f64],
     ) {
-        let left = self.structure.floors(Side::Left);
-        let forces = inputs.floor_forces.iter().map(part).enumerate();
-        for (i, force) in forces.filter(|(_, force)| *force != 0.0) {
-            let (side, floor) = if i < left { (Side::Left, i) } else { (Side::Right, i - left) };
+        let (left, right) = inputs.floor_forces.split_at(inputs.floor_forces.len().min(inputs.left_floors));
+        for (side, forces) in [(Side::Left, left), (Side::Right, right)] {
+            let acting = forces.iter().map(&part).enumerate().filter(|(_, force)| *force != 0.0);
             match coordinates {
-                Coordinates::Modes => self.structure.add_floor_force(side, floor, force, load),
-                Coordinates::Floors => {
+                Coordinates::Modes => self.structure.add_floor_forces(side, acting, load),
+                Coordinates::Floors => acting.for_each(|(floor, force)| {
                     let lane = self.structure.floors.lane(side as usize, floor);
                     load[lane] += force * self.structure.floors.inverse_mass(lane);
-                }
+                }),
             }
         }
     }
