@@ -76,16 +76,18 @@ impl Model {
         let end = (&point.q[..], &point.v[..]);
         let (mut q, mut v) = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));
         let length = self.end_of_flight(state, work, (&mut q, &mut v));
-        self.with_flight(base, inputs, (length, &q, &v), work, |whole, work| match self.logs_flights() {
-            true => {
-                let loads = [Load { acceleration: whole.ground.0, slope: whole.ground.1, length: elapsed }];
-                let (q, v) = whole.start;
-                let part = Flights { lanes: self.system.structure.lanes, q, v, loads: &loads, end };
-                self.fold(&part, whole.rest, Some(whole), peaks, work);
-            }
-            false => {
-                let part = Stretch { end, length: elapsed, whole: Some(whole), ..*whole };
-                self.check_blocks(&part, peaks, work);
+        self.with_flight(base, inputs, (length, &q, &v), work, |whole, work| {
+            match self.logs_flights() && !self.system.floor_forces {
+                true => {
+                    let loads = [Load { acceleration: whole.ground.0, slope: whole.ground.1, length: elapsed }];
+                    let (q, v) = whole.start;
+                    let part = Flights { lanes: self.system.structure.lanes, q, v, loads: &loads, end, forces: None };
+                    self.fold(&part, whole.rest, Some(whole), peaks, work);
+                }
+                false => {
+                    let part = Stretch { end, length: elapsed, whole: Some(whole), ..*whole };
+                    self.check_blocks(&part, peaks, work);
+                }
             }
         });
         (work.buffers.q, work.buffers.v) = (q, v);
