@@ -258,24 +258,27 @@ fn read_modes<const N: usize>(
 ) -> f64 {
     let mut total = 0.0;
     for (Mode { w2, w, c, share }, ([q, v], sizes)) in modes.iter().zip(motion.iter_mut().zip(sizes)) {
-        let mut pull = [0.0; N];
-        for t in 0..N {
-            pull[t] = w2 * q[t] + c * v[t];
-        }
+        let (mut energy, mut moved) = ([0.0; N], [0.0; N]);
         if let Some((ground, slopes)) = load {
-            let mut energy = [0.0; N];
             for t in 0..N {
-                let acceleration = -share * ground[t] - pull[t];
+                let pull = w2 * q[t] + c * v[t];
+                let acceleration = -share * ground[t] - pull;
                 let jerk = -share * slopes[t] - c * acceleration - w2 * v[t];
                 energy[t] = jerk * jerk + w2 * acceleration * acceleration;
+                moved[t] = q[t].abs();
+                v[t] = pull;
             }
             sizes.sag[0] = largest(&energy);
+        } else {
+            for t in 0..N {
+                moved[t] = q[t].abs();
+                v[t] = w2 * q[t] + c * v[t];
+            }
         }
-        *v = pull;
         let sag = chord * sizes.sag[0].sqrt();
         let pulled = largest(&v.map(f64::abs));
         sizes.sag = [sag / w, sag * (w + c)];
-        sizes.most = [largest(&q.map(f64::abs)) + sizes.sag[0], pulled + sizes.sag[1]];
+        sizes.most = [largest(&moved) + sizes.sag[0], pulled + sizes.sag[1]];
         total += pulled * share.abs();
     }
     total
