@@ -12,7 +12,7 @@
 //! start of the other.
 
 use crate::engine::bounds::flights::{Flights, Forces};
-use crate::engine::quantities::truncated::{Mode, TruncatedBlock, TruncatedBuilding};
+use crate::engine::quantities::truncated::{Mode, PushedFloors, TruncatedBlock, TruncatedBuilding};
 use crate::numerics::polynomial::{each, larger};
 use crate::structure::{LANES, Lane};
 
@@ -71,12 +71,13 @@ impl<const N: usize> Span<N> {
         let end = flights.load(from + count);
         let (mut ground, mut slopes) = ([[end.acceleration; N]; 2], [end.slope; N]);
         let (mut longest, mut jumps) = (0.0, false);
+        let mut before = flights.load(from).acceleration;
         for (t, load) in flights.loads[from..from + count].iter().enumerate() {
             let last = load.acceleration + load.slope * load.length;
             (ground[0][t], ground[1][t], slopes[t]) = (load.acceleration, last, load.slope);
             longest = larger(longest, load.length);
-            let next = flights.load(from + t + 1).acceleration;
-            jumps |= load.length == 0.0 || (last - next).abs() > JUMP * (last.abs() + next.abs());
+            jumps |= load.length == 0.0 || is_jump(before, load.acceleration);
+            before = last;
         }
         let strongest = ground.map(|all| largest(&all.map(f64::abs)));
         let is_pushed = flights.forces.is_some_and(|forces| forces.of[from..from + count].iter().any(|set| *set > 0));
@@ -168,7 +169,8 @@ impl<const N: usize> Span<N> {
     ) -> Lane {
         let most = &quick[self.parts() * block.left.len()..];
         let mut added = at_rest.map(f64::abs);
-        if let Some([starts, ends]) = self.pushes(flights, block) {
+        if let Some(floors) = block.pushed.filter(|_| self.is_pushed) {
+            let [starts, ends] = self.pushes(flights, &floors);
             let mut strongest = [0.0; LANES];
             for push in starts.iter().chain(&ends) {
                 strongest = each(|i| larger(strongest[i], push[i].abs()));
@@ -178,19 +180,18 @@ impl<const N: usize> Span<N> {
         bound_block(block, &added, (sizes, most), [self.strongest, self.steepest])
     }
 
-    /// The accelerations by floor forces at the starts and at the ends of the flights, m/s2, if there are any.
-    fn pushes(&self, flights: &Flights, block: &TruncatedBlock) -> Option<[[Lane; N]; 2]> {
-        let (forces, floors) = (flights.forces.filter(|_| self.is_pushed)?, block.pushed?);
+    /// The accelerations by floor forces at the starts and at the ends of the flights, m/s2.
+    fn pushes(&self, flights: &Flights, floors: &PushedFloors) -> [[Lane; N]; 2] {
         let mut pushes = [[[0.0; LANES]; N]; 2];
         let [starts, ends] = &mut pushes;
         for t in 0..self.count {
-            if let Some((acting, rates)) = forces.acting(self.from + t) {
+            if let Some((acting, rates)) = flights.forces.and_then(|forces| forces.acting(self.from + t)) {
                 let length = flights.load(self.from + t).length;
                 let (first, rate) = (floors.accelerations(acting), floors.accelerations(rates));
                 (starts[t], ends[t]) = (first, each(|i| first[i] + rate[i] * length));
             }
         }
-        Some(pushes)
+        pushes
     }
 
     /// The block's values at the ends, and what they may be off by in between; `coarse` is the bound above.
@@ -214,13 +215,14 @@ impl<const N: usize> Span<N> {
         let kind = usize::from(block.pulls);
         let sag = sum_sags(&block.row, sizes, kind);
         let values = values_at(&block.row, (motion, kind), at_rest);
-        let pushes = self.pushes(flights, block);
-        let mut highest = highest_at(&values, &block.per_ground, &self.ground, pushes.as_ref());
-        for (k, load) in flights.loads[self.from..self.from + self.count].iter().enumerate() {
-            // Both ends of a gap are those of the flights beside it.
-            if load.length == 0.0 {
-                highest.iter_mut().for_each(|highest| highest[k] = 0.0);
-            }
+        let mut highest = match block.pushed.filter(|_| self.is_pushed) {
+            Some(floors) => highest_of_pushed(&values, &self.pushes(flights, &floors)),
+            None => highest_at(&values, &block.per_ground, &self.ground),
+        };
+        // Both ends of a gap are those of the flights beside it.
+        let loads = &flights.loads[self.from..self.from + self.count];
+        for (k, _) in loads.iter().enumerate().filter(|(_, load)| self.jumps && load.length == 0.0) {
+            highest.iter_mut().for_each(|highest| highest[k] = 0.0);
         }
         BlockBounds { highest, sag, left }
     }
@@ -367,29 +369,37 @@ fn values_at<const N: usize>(
     all
 }
 
-/// The larger magnitude at the start and at the end of each flight, from the modes' values at their ends: with shares of the
-/// ground's acceleration, and what else is added at the starts and at the ends.
+/// The larger magnitude at the start and at the end of each flight, from the modes' values at their ends and shares of the
+/// ground's acceleration.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn highest_at<const N: usize>(
     values: &[[f64; N]; LANES],
     per_ground: &Lane,
     [first, last]: &[[f64; N]; 2],
-    added: Option<&[[Lane; N]; 2]>,
 ) -> [[f64; N]; LANES] {
     let mut highest = [[0.0; N]; LANES];
-    for (i, (values, highest)) in values.iter().zip(&mut highest).enumerate() {
-        let (mut starts, mut ends) = ([0.0; N], [0.0; N]);
+    for i in 0..LANES {
         for k in 0..N - 1 {
-            (starts[k], ends[k]) = (values[k] + per_ground[i] * first[k], values[k + 1] + per_ground[i] * last[k]);
-        }
-        if let Some([at_starts, at_ends]) = added {
-            for k in 0..N - 1 {
-                (starts[k], ends[k]) = (starts[k] + at_starts[k][i], ends[k] + at_ends[k][i]);
-            }
-        }
-        for k in 0..N {
-            highest[k] = larger(starts[k].abs(), ends[k].abs());
+            let (start, end) = (values[i][k] + per_ground[i] * first[k], values[i][k + 1] + per_ground[i] * last[k]);
+            highest[i][k] = larger(start.abs(), end.abs());
         }
     }
     highest
+}
+
+/// The same with what forces add to accelerations at the starts and at the ends; all modes are slow then.
+fn highest_of_pushed<const N: usize>(values: &[[f64; N]; LANES], [starts, ends]: &[[Lane; N]; 2]) -> [[f64; N]; LANES] {
+    let mut highest = [[0.0; N]; LANES];
+    for k in 0..N - 1 {
+        for i in 0..LANES {
+            let (start, end) = (values[i][k] + starts[k][i], values[i][k + 1] + ends[k][i]);
+            highest[i][k] = larger(start.abs(), end.abs());
+        }
+    }
+    highest
+}
+
+/// Whether the ground's acceleration jumps between two flights by more than rounding.
+fn is_jump(before: f64, after: f64) -> bool {
+    (before - after).abs() > JUMP * (before.abs() + after.abs())
 }

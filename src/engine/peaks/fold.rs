@@ -103,13 +103,13 @@ impl Model {
 
     /// What the forces on floors add to a block's quantities at the start of a flight, and its rate.
     fn pushes(&self, flights: &Flights, survivor: &Survivor) -> [Lane; 2] {
+        let Some(acting) = flights.forces.and_then(|forces| forces.acting(survivor.flight)) else {
+            return [[0.0; LANES]; 2];
+        };
         let second = self.truncated.buildings[0].blocks.len();
         let (side, first) = if survivor.block < second { (0, 0) } else { (1, second) };
         let floors = self.truncated.buildings[side].blocks[survivor.block - first].pushed;
-        match floors.zip(flights.forces.and_then(|forces| forces.acting(survivor.flight))) {
-            Some((floors, (forces, rates))) => [forces, rates].map(|forces| floors.accelerations(forces)),
-            None => [[0.0; LANES]; 2],
-        }
+        floors.map_or([[0.0; LANES]; 2], |floors| [acting.0, acting.1].map(|forces| floors.accelerations(forces)))
     }
 
     /// Searches one flight for turning points of some blocks of quantities above their peaks.
