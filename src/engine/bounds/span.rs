@@ -167,17 +167,17 @@ impl<const N: usize> Span<N> {
         (block, at_rest): (&TruncatedBlock, &Lane),
         (sizes, quick): (&[ModeSizes], &[f64]),
     ) -> Lane {
-        let most = &quick[self.parts() * block.left.len()..];
-        let mut added = at_rest.map(f64::abs);
-        if let Some(floors) = block.pushed.filter(|_| self.is_pushed) {
-            let [starts, ends] = self.pushes(flights, &floors);
-            let mut strongest = [0.0; LANES];
-            for push in starts.iter().chain(&ends) {
-                strongest = each(|i| larger(strongest[i], push[i].abs()));
-            }
-            added = each(|i| added[i] + strongest[i]);
+        let bounds = (sizes, &quick[self.parts() * block.left.len()..]);
+        let ground = [self.strongest, self.steepest];
+        let Some(floors) = block.pushed.filter(|_| self.is_pushed) else {
+            return bound_block(block, at_rest, bounds, ground);
+        };
+        let [starts, ends] = self.pushes(flights, &floors);
+        let mut added = [0.0; LANES];
+        for push in starts.iter().chain(&ends) {
+            added = each(|i| larger(added[i], push[i].abs()));
         }
-        bound_block(block, &added, (sizes, most), [self.strongest, self.steepest])
+        bound_block(block, &each(|i| at_rest[i].abs() + added[i]), bounds, ground)
     }
 
     /// The accelerations by floor forces at the starts and at the ends of the flights, m/s2.
