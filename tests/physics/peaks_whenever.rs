@@ -128,7 +128,10 @@ fn check_run(scene: &Scene, stop: f64, is_pushed: bool) {
         }
         assert!(bits(&run) == expected, "other peaks, seed {seed}");
     }
-    check_often(&scene, &shaking, stop);
+    // Where a master pushes floors, the engine's steps end where the master's do.
+    if !is_pushed {
+        check_often(&scene, &shaking, stop);
+    }
 }
 
 /// Read at every point: the same, at every time, as when they are read there for the first time.
