@@ -48,7 +48,7 @@ impl Model {
         Ok(Model {
             flight: Flight::new(&system),
             windows: Windows::of(&system),
-            truncated: TruncatedRows::of(structure, &peak_rows, usual),
+            truncated: TruncatedRows::of(structure, &peak_rows, usual, scene.floor_forces),
             peak_rows,
             resistance: FloorResistance::of(structure),
             frequencies: [Side::Left, Side::Right]

@@ -8,6 +8,9 @@ use crate::scene::{Building, Side};
 use nalgebra::DMatrix;
 use std::ops::Range;
 
+/// Number of floor forces that are projected on the modes at a time.
+const AT_ONCE: usize = 8;
+
 /// Both buildings in modal coordinates.
 #[derive(Clone, Debug)]
 pub struct Structure {
@@ -182,6 +185,26 @@ impl Structure {
         }
     }
 
+    /// Adds the modal load of forces, N, on some floors of a building: to the same bits as one after the other.
+    pub fn add_floor_forces(&self, side: Side, forces: impl Iterator<Item = (usize, f64)>, load: &mut [f64]) {
+        let range = self.range(side);
+        let (mut group, mut count) = ([(0, 0.0); AT_ONCE], 0);
+        for force in forces {
+            group[count] = force;
+            count += 1;
+            if count == AT_ONCE {
+                match self.floor_shapes.is_empty() {
+                    true => group.iter().for_each(|&(floor, force)| self.add_floor_force(side, floor, force, load)),
+                    false => {
+                        add_multiples(&self.floor_shapes, (self.lanes, range.start), &group, &mut load[range.clone()])
+                    }
+                }
+                count = 0;
+            }
+        }
+        group[..count].iter().for_each(|&(floor, force)| self.add_floor_force(side, floor, force, load));
+    }
+
     /// Lays out the shapes floor by floor: for forces on all floors, which are projected on the modes again and again.
     pub fn prepare_floor_forces(&mut self) {
         let highest = self.floors(Side::Left).max(self.floors(Side::Right));
@@ -350,6 +373,24 @@ impl Scratch {
     /// Room for two modal vectors.
     pub fn room(&mut self) -> &mut [f64] {
         &mut self.ahead
+    }
+}
+
+/// `out` += the sum of some rows, which begin at `first` in each `width` numbers of `all`, times factors, in their order: so
+/// many at a time, since `out` is read and written faster once than once for each.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn add_multiples(all: &[f64], (width, first): (usize, usize), group: &[(usize, f64); AT_ONCE], out: &mut [f64]) {
+    // Equal lengths: no bounds checks below.
+    let (count, mut rows) = (out.len(), [&[][..]; AT_ONCE]);
+    for k in 0..AT_ONCE {
+        rows[k] = &all[group[k].0 * width + first..][..count];
+    }
+    for (m, out) in out.iter_mut().enumerate() {
+        let mut sum = *out;
+        for k in 0..AT_ONCE {
+            sum += rows[k][m] * group[k].1;
+        }
+        *out = sum;
     }
 }
 

@@ -81,7 +81,6 @@ impl Model {
             self.fold_log(base, (log, &mut peaks));
         }
         let log = &mut work.log;
-        log.go_on((&base.q, &base.v), base.segment.acceleration_at(0.0));
         let segments = segments.start..segments.end.min(segments.start + (log.room() - 1) as u64);
         let before = log.count();
         let flown = fly_over(self, ground, (base, step), segments, until, Some(log));

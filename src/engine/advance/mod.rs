@@ -270,7 +270,7 @@ impl Model {
         let is_watched = !self.peak_rows.are_none() && step.planned.length > 0.0;
         let is_flight = step.kind == StepKind::Flight;
         match is_flight && is_watched {
-            true if self.logs_flights() => self.log_flight(base, step, work.for_log()),
+            true if self.logs_flights() => self.log_flight(base, step, inputs, work.for_log()),
             true => self.raise_over_flight(base, step, inputs, &mut work.for_peaks()),
             false => self.note_starts(&base.contacts, &mut work.for_peaks()),
         }

@@ -39,6 +39,8 @@ impl Model {
         let longest = self.system.accounted_flight(at.base, (&buffers.load, &buffers.slope), whole);
         step.planned.reaches_limit = longest >= whole;
         self.flight.plan(&self.system, at, longest, &mut step.planned, look, buffers);
+        std::mem::swap(&mut step.planned.load, &mut buffers.load);
+        std::mem::swap(&mut step.planned.slope, &mut buffers.slope);
         StepKind::Flight
     }
 

@@ -40,6 +40,9 @@ pub(crate) struct Planned {
     pub q: Vec<f64>,
     /// Velocities at the end, in the coordinates of the base.
     pub v: Vec<f64>,
+    /// Of a flight: the modal load at its start, and its rate, per second.
+    pub load: Vec<f64>,
+    pub slope: Vec<f64>,
     /// Penetration and rate at the end, of each contact that is tracked.
     pub tracked: Tracked,
     /// After a flight without an entry: penetration and rate at the end, of each contact for which they were needed.
@@ -57,6 +60,8 @@ impl Planned {
             event: None,
             q: vec![0.0; lanes],
             v: vec![0.0; lanes],
+            load: vec![0.0; lanes],
+            slope: vec![0.0; lanes],
             tracked: vec![None; pairs],
             ends: Vec::with_capacity(pairs),
         }

@@ -77,19 +77,20 @@ fn sum_course(block: &Block, ends: [&[f64]; 4], [slow, quick]: [&[f64]; 2]) -> C
 }
 
 impl Course {
-    /// Adds to the quantities numbers that are linear in time, over an interval of h seconds that starts at `from`.
-    pub fn add(&mut self, direct: &[[f64; 2]], from: f64, h: f64) {
+    /// Adds to the values numbers that are linear in time, given by their values at the start and their rates.
+    pub fn add_values(&mut self, direct: &[[f64; 2]], h: f64) {
         for (i, [value, rate]) in direct.iter().enumerate().take(LANES) {
-            self.start[0][i] += value + rate * from;
-            self.end[0][i] += value + rate * (from + h);
-            self.add_slope(i, *rate);
+            self.start[0][i] += value;
+            self.end[0][i] += value + rate * h;
         }
     }
 
-    /// Adds to the slopes of quantity `i`.
-    pub fn add_slope(&mut self, i: usize, rate: f64) {
-        self.start[1][i] += rate;
-        self.end[1][i] += rate;
+    /// Adds their rates to the slopes.
+    pub fn add_rates(&mut self, direct: &[[f64; 2]]) {
+        for (i, [_, rate]) in direct.iter().enumerate().take(LANES) {
+            self.start[1][i] += rate;
+            self.end[1][i] += rate;
+        }
     }
 
     /// Upper bounds on the magnitudes over the flight.

@@ -1,4 +1,6 @@
-//! Flights on the ground's motion that follow each other.
+//! Flights that follow each other, on the ground's motion and under forces on floors.
+
+use crate::structure::Structure;
 
 /// The load of a flight.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -7,7 +9,7 @@ pub struct Load {
     pub acceleration: f64,
     /// Its slope, m/s3.
     pub slope: f64,
-    /// Length, s; 0: a gap, at whose end the motion or the acceleration is another one.
+    /// Length, s; 0: a gap, at whose end the motion is another one.
     pub length: f64,
 }
 
@@ -19,6 +21,48 @@ pub struct Flights<'a> {
     pub v: &'a [f64],
     pub loads: &'a [Load],
     pub end: (&'a [f64], &'a [f64]),
+    /// The forces on floors, in scenes that have them.
+    pub forces: Option<Forces<'a>>,
+}
+
+/// Forces on floors, linear in time over each flight.
+#[derive(Clone, Copy)]
+pub struct Forces<'a> {
+    /// E^2 = q'''^2 + w^2 q''^2 of all modes at the start of each flight, under the ground's load and the forces'.
+    pub energies: &'a [f64],
+    /// For each flight the number of the set that acts in it.
+    pub of: &'a [usize],
+    /// Sets of forces at the starts of flights, N, and of their rates, N/s, each of `width` numbers; those of the first set
+    /// are 0.
+    pub sets: &'a [f64],
+    pub width: usize,
+}
+
+impl<'a> Forces<'a> {
+    /// The forces at the start of flight `k`, and their rates; `None` where there are none.
+    pub fn acting(&self, k: usize) -> Option<(&'a [f64], &'a [f64])> {
+        let number = self.of.get(k).filter(|number| **number > 0)?;
+        Some(self.sets[2 * self.width * number..][..2 * self.width].split_at(self.width))
+    }
+}
+
+/// Writes E^2 of all modes for a motion and a load with its slope, where damping couples no modes.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+pub fn set_energies(
+    Structure { omega2, damping, .. }: &Structure,
+    (q, v): (&[f64], &[f64]),
+    (load, slope): (&[f64], &[f64]),
+    out: &mut [f64],
+) {
+    // Equal lengths: no bounds checks below.
+    let count = out.len();
+    let (omega2, damping, q, v) = (&omega2[..count], &damping[..count], &q[..count], &v[..count]);
+    let (load, slope) = (&load[..count], &slope[..count]);
+    for m in 0..count {
+        let acceleration = load[m] - damping[m] * v[m] - omega2[m] * q[m];
+        let jerk = slope[m] - damping[m] * acceleration - omega2[m] * v[m];
+        out[m] = jerk * jerk + omega2[m] * acceleration * acceleration;
+    }
 }
 
 impl<'a> Flights<'a> {
@@ -39,7 +83,7 @@ impl<'a> Flights<'a> {
         (&self.q[range.clone()], &self.v[range])
     }
 
-    /// The load of flight `k`; at the end of the last one that of a gap.
+    /// The load by the ground's motion in flight `k`; at the end of the last one that of a gap.
     pub fn load(&self, k: usize) -> Load {
         self.loads.get(k).copied().unwrap_or_else(|| {
             let Load { acceleration, slope, length } = self.loads.last().copied().unwrap_or_default();

@@ -1,14 +1,18 @@
-//! A block of quantities over a span: some flights on the ground's motion that follow each other, read at their ends over
-//! the slow modes (`quantities/truncated.rs`).
+//! A block of quantities over a span: some flights that follow each other, read at their ends over the slow modes
+//! (`quantities/truncated.rs`).
 //!
 //! Between two ends a quantity deviates from the chord by at most h^2/8 max|y''|. A mode's q'' is a free oscillation while the
 //! load is linear in time, so that E = sqrt(q'''^2 + w^2 q''^2) never grows: |y''| <= sum |A| E / w for a row over q, and sum
 //! |A| (w + c) E for a row over w^2 q + c q'. The quick modes' share of the ground's acceleration is linear in time, and
 //! has no deviation; what is left of them is bounded over parts of a span, from the motion at the start of the part and
-//! the changes of the ground's slope within.
+//! the changes of the ground's slope within. The accelerations that forces give to the floors on which they act are linear,
+//! too.
+//!
+//! Loads may jump from one flight to the next: then a quantity is read with the load at the end of the one, and with that at the
+//! start of the other.
 
-use crate::engine::bounds::flights::Flights;
-use crate::engine::quantities::truncated::{Mode, TruncatedBlock, TruncatedBuilding};
+use crate::engine::bounds::flights::{Flights, Forces};
+use crate::engine::quantities::truncated::{Mode, PushedFloors, TruncatedBlock, TruncatedBuilding};
 use crate::numerics::polynomial::{each, larger};
 use crate::structure::{LANES, Lane};
 
@@ -18,15 +22,19 @@ pub const PART: usize = 5;
 /// Rounding of a sum over modes, relative to the sum of the sizes of its terms.
 const ROUNDING: f64 = 1e-12;
 
+/// Change of the ground's acceleration from one flight to the next, relative to it, that is no rounding.
+const JUMP: f64 = 1e-12;
+
 /// N - 1 flights that follow each other, or less, by the ground's motion at their ends.
 #[derive(Clone, Debug)]
 pub struct Span<const N: usize> {
     /// Number of the first flight, and of flights.
     pub from: usize,
     pub count: usize,
-    /// Ground acceleration at the ends of the flights, m/s2; the last one is repeated.
-    ground: [f64; N],
-    /// Its slopes from these times on, m/s3.
+    /// Ground acceleration at the starts of the flights and after the last one, which is repeated, and at the ends of the
+    /// flights, m/s2.
+    ground: [[f64; N]; 2],
+    /// Its slopes from the starts on, m/s3.
     slopes: [f64; N],
     /// The largest magnitudes of both.
     strongest: f64,
@@ -34,7 +42,9 @@ pub struct Span<const N: usize> {
     /// Length of the longest flight, s.
     longest: f64,
     /// Whether motion or acceleration jump anywhere.
-    has_gap: bool,
+    jumps: bool,
+    /// Whether forces act on floors.
+    is_pushed: bool,
 }
 
 /// Bounds on one slow mode over a span: on q and on w^2 q + c q' between the ends, and on the deviation from the chord.
@@ -46,8 +56,8 @@ pub struct ModeSizes {
 
 /// Bounds on a block of quantities over a span.
 pub struct BlockBounds<const N: usize> {
-    /// The values at the ends, without what is left of the quick modes.
-    pub values: [[f64; N]; LANES],
+    /// For each flight the larger magnitude at its start and its end, without what is left of the quick modes; 0 over a gap.
+    pub highest: [[f64; N]; LANES],
     /// A bound on the deviation from the chord.
     pub sag: Lane,
     /// A bound on what is left of the quick modes, for each part, with the rounding of the values.
@@ -59,15 +69,29 @@ impl<const N: usize> Span<N> {
     pub fn of(flights: &Flights, from: usize) -> Span<N> {
         let count = (flights.count() - from).min(N - 1);
         let end = flights.load(from + count);
-        let (mut ground, mut slopes) = ([end.acceleration; N], [end.slope; N]);
-        let (mut longest, mut has_gap) = (0.0, false);
+        let (mut ground, mut slopes) = ([[end.acceleration; N]; 2], [end.slope; N]);
+        let (mut longest, mut jumps) = (0.0, false);
+        let mut before = flights.load(from).acceleration;
         for (t, load) in flights.loads[from..from + count].iter().enumerate() {
-            (ground[t], slopes[t]) = (load.acceleration, load.slope);
+            let last = load.acceleration + load.slope * load.length;
+            (ground[0][t], ground[1][t], slopes[t]) = (load.acceleration, last, load.slope);
             longest = larger(longest, load.length);
-            has_gap |= load.length == 0.0;
+            jumps |= load.length == 0.0 || is_jump(before, load.acceleration);
+            before = last;
         }
-        let [strongest, steepest] = [&ground, &slopes].map(|all| largest(&all.map(f64::abs)));
-        Span { from, count, ground, slopes, strongest, steepest, longest, has_gap }
+        let strongest = ground.map(|all| largest(&all.map(f64::abs)));
+        let is_pushed = flights.forces.is_some_and(|forces| forces.of[from..from + count].iter().any(|set| *set > 0));
+        Span {
+            from,
+            count,
+            ground,
+            slopes,
+            strongest: larger(strongest[0], strongest[1]),
+            steepest: largest(&slopes.map(f64::abs)),
+            longest,
+            jumps,
+            is_pushed,
+        }
     }
 
     /// Number of parts.
@@ -75,8 +99,8 @@ impl<const N: usize> Span<N> {
         self.count.div_ceil(PART)
     }
 
-    /// Reads the slow modes of a building, whose modes are `offset` and on: writes q and w^2 q + c q' at the ends, and the bounds on
-    /// them. Returns a size by which spans are put in order.
+    /// Reads the slow modes of a building, whose modes are `offset` and on, and which are all of them where forces may act on
+    /// floors: writes q and w^2 q + c q' at the ends, and the bounds on them. Returns a size by which spans are put in order.
     pub fn read(
         &self,
         flights: &Flights,
@@ -95,7 +119,19 @@ impl<const N: usize> Span<N> {
             let end = of_motion[self.count];
             of_motion[self.count + 1..].fill(end);
         }
-        read_modes(modes, (&self.ground, &self.slopes), 0.125 * self.longest * self.longest, out, sizes)
+        let load = match flights.forces {
+            Some(Forces { energies, .. }) => {
+                sizes.iter_mut().for_each(|size| size.sag[0] = 0.0);
+                for energies in energies[self.from * flights.lanes..].chunks_exact(flights.lanes).take(self.count) {
+                    for (size, energy) in sizes.iter_mut().zip(&energies[offset..]) {
+                        size.sag[0] = larger(size.sag[0], *energy);
+                    }
+                }
+                None
+            }
+            None => Some((&self.ground[0], &self.slopes)),
+        };
+        read_modes(modes, load, 0.125 * self.longest * self.longest, out, sizes)
     }
 
     /// Bounds on R of each group of quick modes, for each part: `out` has the groups of the first part first, and after those
@@ -108,13 +144,13 @@ impl<const N: usize> Span<N> {
             let (from, to) = (part * PART, ((part + 1) * PART).min(self.count));
             let kinks: f64 = self.slopes[from..to].windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
             out.fill(0.0);
-            // After a gap the quick modes may swing more, at the end of a part as well.
-            for t in from..=if self.has_gap { to } else { from } {
+            // After a jump the quick modes may swing more.
+            for t in from..if self.jumps { to } else { from + 1 } {
                 let (q, v) = flights.motion(self.from + t);
                 for (group, out) in groups.iter().zip(&mut *out) {
                     let range = offset + group.modes.start..offset + group.modes.end;
                     let (modes, motion) = (&modes[group.modes.clone()], (&q[range.clone()], &v[range]));
-                    *out = larger(*out, swing_of(modes, motion, [self.ground[t], self.slopes[t]]));
+                    *out = larger(*out, swing_of(modes, motion, [self.ground[0][t], self.slopes[t]]));
                 }
             }
             for ((group, out), most) in groups.iter().zip(out).zip(&mut *most) {
@@ -125,16 +161,44 @@ impl<const N: usize> Span<N> {
     }
 
     /// An upper bound on the magnitudes of a block's quantities over the span, from the bounds on slow and quick modes.
-    pub fn bound_coarsely(&self, block: &TruncatedBlock, at_rest: &Lane, sizes: &[ModeSizes], quick: &[f64]) -> Lane {
-        let most = &quick[self.parts() * block.left.len()..];
-        bound_block(block, at_rest, (sizes, most), [self.strongest, self.steepest])
+    pub fn bound_coarsely(
+        &self,
+        flights: &Flights,
+        (block, at_rest): (&TruncatedBlock, &Lane),
+        (sizes, quick): (&[ModeSizes], &[f64]),
+    ) -> Lane {
+        let bounds = (sizes, &quick[self.parts() * block.left.len()..]);
+        let ground = [self.strongest, self.steepest];
+        let Some(floors) = block.pushed.filter(|_| self.is_pushed) else {
+            return bound_block(block, at_rest, bounds, ground);
+        };
+        let [starts, ends] = self.pushes(flights, &floors);
+        let mut added = [0.0; LANES];
+        for push in starts.iter().chain(&ends) {
+            added = each(|i| larger(added[i], push[i].abs()));
+        }
+        bound_block(block, &each(|i| at_rest[i].abs() + added[i]), bounds, ground)
+    }
+
+    /// The accelerations by floor forces at the starts and at the ends of the flights, m/s2.
+    fn pushes(&self, flights: &Flights, floors: &PushedFloors) -> [[Lane; N]; 2] {
+        let mut pushes = [[[0.0; LANES]; N]; 2];
+        let [starts, ends] = &mut pushes;
+        for t in 0..self.count {
+            if let Some((acting, rates)) = flights.forces.and_then(|forces| forces.acting(self.from + t)) {
+                let length = flights.load(self.from + t).length;
+                let (first, rate) = (floors.accelerations(acting), floors.accelerations(rates));
+                (starts[t], ends[t]) = (first, each(|i| first[i] + rate[i] * length));
+            }
+        }
+        pushes
     }
 
     /// The block's values at the ends, and what they may be off by in between; `coarse` is the bound above.
     pub fn bound(
         &self,
-        block: &TruncatedBlock,
-        at_rest: &Lane,
+        flights: &Flights,
+        (block, at_rest): (&TruncatedBlock, &Lane),
         (motion, sizes): (&[[[f64; N]; 2]], &[ModeSizes]),
         (quick, coarse): (&[f64], &Lane),
     ) -> BlockBounds<N> {
@@ -150,8 +214,17 @@ impl<const N: usize> Span<N> {
         }
         let kind = usize::from(block.pulls);
         let sag = sum_sags(&block.row, sizes, kind);
-        let values = values_at(&block.row, (motion, kind), (&block.per_ground, at_rest), &self.ground);
-        BlockBounds { values, sag, left }
+        let values = values_at(&block.row, (motion, kind), at_rest);
+        let mut highest = match block.pushed.filter(|_| self.is_pushed) {
+            Some(floors) => highest_of_pushed(&values, &self.pushes(flights, &floors)),
+            None => highest_at(&values, &block.per_ground, &self.ground),
+        };
+        // Both ends of a gap are those of the flights beside it.
+        let loads = &flights.loads[self.from..self.from + self.count];
+        for (k, _) in loads.iter().enumerate().filter(|(_, load)| self.jumps && load.length == 0.0) {
+            highest.iter_mut().for_each(|highest| highest[k] = 0.0);
+        }
+        BlockBounds { highest, sag, left }
     }
 }
 
@@ -159,7 +232,7 @@ impl<const N: usize> BlockBounds<N> {
     /// Upper bounds over flight `k`.
     pub fn upper(&self, k: usize) -> Lane {
         let left = &self.left[k / PART];
-        std::array::from_fn(|i| larger(self.values[i][k].abs(), self.values[i][k + 1].abs()) + self.sag[i] + left[i])
+        each(|i| self.highest[i][k] + self.sag[i] + left[i])
     }
 
     /// Lower bounds on the largest magnitudes, and upper ones, over all `count` flights.
@@ -168,7 +241,7 @@ impl<const N: usize> BlockBounds<N> {
         for (part, left) in self.left.iter().enumerate().take(count.div_ceil(PART)) {
             let to = ((part + 1) * PART).min(count);
             for i in 0..LANES {
-                let value = self.values[i][part * PART..=to].iter().fold(0.0, |most, value| larger(most, value.abs()));
+                let value = self.highest[i][part * PART..to].iter().fold(0.0, |most, value| larger(most, *value));
                 least[i] = larger(least[i], value - left[i]);
                 most[i] = larger(most[i], value + self.sag[i] + left[i]);
             }
@@ -180,7 +253,7 @@ impl<const N: usize> BlockBounds<N> {
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn read_modes<const N: usize>(
     modes: &[Mode],
-    (ground, slopes): (&[f64; N], &[f64; N]),
+    load: Option<(&[f64; N], &[f64; N])>,
     chord: f64,
     motion: &mut [[[f64; N]; 2]],
     sizes: &mut [ModeSizes],
@@ -188,15 +261,23 @@ fn read_modes<const N: usize>(
     let mut total = 0.0;
     for (Mode { w2, w, c, share }, ([q, v], sizes)) in modes.iter().zip(motion.iter_mut().zip(sizes)) {
         let (mut energy, mut moved) = ([0.0; N], [0.0; N]);
-        for t in 0..N {
-            let pull = w2 * q[t] + c * v[t];
-            let acceleration = -share * ground[t] - pull;
-            let jerk = -share * slopes[t] - c * acceleration - w2 * v[t];
-            energy[t] = jerk * jerk + w2 * acceleration * acceleration;
-            moved[t] = q[t].abs();
-            v[t] = pull;
+        if let Some((ground, slopes)) = load {
+            for t in 0..N {
+                let pull = w2 * q[t] + c * v[t];
+                let acceleration = -share * ground[t] - pull;
+                let jerk = -share * slopes[t] - c * acceleration - w2 * v[t];
+                energy[t] = jerk * jerk + w2 * acceleration * acceleration;
+                moved[t] = q[t].abs();
+                v[t] = pull;
+            }
+            sizes.sag[0] = largest(&energy);
+        } else {
+            for t in 0..N {
+                moved[t] = q[t].abs();
+                v[t] = w2 * q[t] + c * v[t];
+            }
         }
-        let sag = chord * largest(&energy).sqrt();
+        let sag = chord * sizes.sag[0].sqrt();
         let pulled = largest(&v.map(f64::abs));
         sizes.sag = [sag / w, sag * (w + c)];
         sizes.most = [largest(&moved) + sizes.sag[0], pulled + sizes.sag[1]];
@@ -234,7 +315,7 @@ fn swing_of(modes: &[Mode], (q, v): (&[f64], &[f64]), [ground, slope]: [f64; 2])
 /// modes, and the quick modes' with the largest R of each group and the ground's largest acceleration and slope.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn bound_block(
-    TruncatedBlock { pulls, row, per_ground, per_slope, left }: &TruncatedBlock,
+    TruncatedBlock { pulls, row, per_ground, per_slope, left, pushed: _ }: &TruncatedBlock,
     at_rest: &Lane,
     (sizes, quick): (&[ModeSizes], &[f64]),
     [strongest, steepest]: [f64; 2],
@@ -270,18 +351,13 @@ fn sum_sags(row: &[Lane], sizes: &[ModeSizes], kind: usize) -> Lane {
 fn values_at<const N: usize>(
     row: &[Lane],
     (motion, kind): (&[[[f64; N]; 2]], usize),
-    (per_ground, at_rest): (&Lane, &Lane),
-    ground: &[f64; N],
+    at_rest: &Lane,
 ) -> [[f64; N]; LANES] {
     let mut all = [[0.0; N]; LANES];
     // Two quantities at a time stay in registers.
     for (pair, out) in all.chunks_exact_mut(2).enumerate() {
         let (i, j) = (2 * pair, 2 * pair + 1);
         let (mut one, mut other) = ([at_rest[i]; N], [at_rest[j]; N]);
-        for t in 0..N {
-            one[t] += per_ground[i] * ground[t];
-            other[t] += per_ground[j] * ground[t];
-        }
         for (row, motion) in row.iter().zip(motion) {
             for t in 0..N {
                 one[t] += row[i] * motion[kind][t];
@@ -291,4 +367,39 @@ fn values_at<const N: usize>(
         (out[0], out[1]) = (one, other);
     }
     all
+}
+
+/// The larger magnitude at the start and at the end of each flight, from the modes' values at their ends and shares of the
+/// ground's acceleration.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn highest_at<const N: usize>(
+    values: &[[f64; N]; LANES],
+    per_ground: &Lane,
+    [first, last]: &[[f64; N]; 2],
+) -> [[f64; N]; LANES] {
+    let mut highest = [[0.0; N]; LANES];
+    for i in 0..LANES {
+        for k in 0..N - 1 {
+            let (start, end) = (values[i][k] + per_ground[i] * first[k], values[i][k + 1] + per_ground[i] * last[k]);
+            highest[i][k] = larger(start.abs(), end.abs());
+        }
+    }
+    highest
+}
+
+/// The same with what forces add to accelerations at the starts and at the ends; all modes are slow then.
+fn highest_of_pushed<const N: usize>(values: &[[f64; N]; LANES], [starts, ends]: &[[Lane; N]; 2]) -> [[f64; N]; LANES] {
+    let mut highest = [[0.0; N]; LANES];
+    for k in 0..N - 1 {
+        for i in 0..LANES {
+            let (start, end) = (values[i][k] + starts[k][i], values[i][k + 1] + ends[k][i]);
+            highest[i][k] = larger(start.abs(), end.abs());
+        }
+    }
+    highest
+}
+
+/// Whether the ground's acceleration jumps between two flights by more than rounding.
+fn is_jump(before: f64, after: f64) -> bool {
+    (before - after).abs() > JUMP * (before.abs() + after.abs())
 }

@@ -96,13 +96,14 @@ impl Model {
         let (acceleration, slope) = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
         let loads = [Load { acceleration, slope, length: elapsed }];
         let (lanes, end) = (self.system.structure.lanes, (&point.q[..], &point.v[..]));
-        let part = Flights { lanes, q: &base.q, v: &base.v, loads: &loads, end };
+        let part = Flights { lanes, q: &base.q, v: &base.v, loads: &loads, end, forces: None };
         if ahead.stay_below(&part, &base.rest.watched, peaks) {
             return;
         }
         let (mut q, mut v) = (std::mem::take(&mut work.buffers.q), std::mem::take(&mut work.buffers.v));
         let length = self.end_of_flight(state, work, (&mut q, &mut v));
-        self.with_flight(base, inputs, (length, &q, &v), work, |whole, work| match self.logs_flights() {
+        let is_folded = self.logs_flights() && !self.system.floor_forces;
+        self.with_flight(base, inputs, (length, &q, &v), work, |whole, work| match is_folded {
             true => self.fold(&part, whole.rest, Some(whole), peaks, work),
             false => {
                 let part = Stretch { end, length: elapsed, whole: Some(whole), ..*whole };

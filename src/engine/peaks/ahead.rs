@@ -100,8 +100,7 @@ impl Model {
         ahead.forget();
         let FlightsAhead { log, rest, survivors, .. } = ahead;
         if log.room() == 0 {
-            // A gap may come before each flight.
-            *log = PeakLog::with_room(self.system.structure.lanes, 2 * AHEAD);
+            *log = PeakLog::with_room((self.system.structure.lanes, 0), AHEAD + 1);
         }
         let is_flight = base.coordinates == Coordinates::Modes && base.elapsed == 0.0 && !base.is_forced();
         let Some((ground, first)) = self.system.watched_segment(base).filter(|_| is_flight) else { return };
@@ -117,7 +116,6 @@ impl Model {
             if !ground.prepared(&segment).is_some_and(is_finite) {
                 break;
             }
-            log.go_on((&q, &v), load.0);
             log.push((&q, &v), Load { acceleration: load.0, slope: load.1, length: segment.length });
             std::mem::swap(&mut q, &mut end_q);
             std::mem::swap(&mut v, &mut end_v);

@@ -85,7 +85,10 @@ impl Model {
         }
         let mut course = course_of((block, &at_rest), (flight, known_ends), bounds, modes);
         if self.system.floor_forces {
-            course.add(&work.peaks.direct[place..], 0.0, h);
+            course.add_rates(&work.peaks.direct[place..]);
+            if known_ends.is_none() {
+                course.add_values(&work.peaks.direct[place..], h);
+            }
         }
         let highest = course.highest(h);
         for i in 0..LANES {

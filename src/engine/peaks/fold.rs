@@ -6,6 +6,7 @@
 //! modes, and searched for turning points: of many thousands a few. All peaks come from there; the slow modes only tell where
 //! to look, so that no result depends on when, and how often, the log is folded.
 
+use crate::engine::base::Coordinates;
 use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::flights::{Flights, Load};
 use crate::engine::bounds::span::{BlockBounds, ModeSizes, PART, Span};
@@ -103,7 +104,9 @@ impl Model {
             }
             let rows = &self.peak_rows.buildings[usize::from(survivor.block >= self.peak_rows.buildings[1].first)];
             let at_rest = &rest.as_chunks::<LANES>().0[survivor.block];
-            for (end, flight) in survivor.ends.iter_mut().zip(survivor.flight..) {
+            let [push, rate] = self.pushes(flights, survivor);
+            let times = [0.0, flights.load(survivor.flight).length];
+            for (end, (flight, time)) in survivor.ends.iter_mut().zip((survivor.flight..).zip(times)) {
                 let (q, v) = flights.motion(flight);
                 *end = values_of(
                     &rows.blocks[survivor.block - rows.first],
@@ -112,16 +115,26 @@ impl Model {
                 );
                 for i in 0..LANES {
                     end[i] += at_rest[i];
+                    if self.system.floor_forces {
+                        end[i] += push[i] + rate[i] * time;
+                    }
                     known[i] = larger(known[i], end[i].abs());
                 }
             }
             true
         });
-        // Over a gap there is nothing between its ends.
-        survivors.retain(|survivor| {
-            let is_flight = flights.load(survivor.flight).length > 0.0;
-            is_flight && !is_below(&survivor.upper, &all[survivor.block])
-        });
+        survivors.retain(|survivor| !is_below(&survivor.upper, &all[survivor.block]));
+    }
+
+    /// What the forces on floors add to a block's quantities at the start of a flight, and its rate.
+    fn pushes(&self, flights: &Flights, survivor: &Survivor) -> [Lane; 2] {
+        let Some(acting) = flights.forces.and_then(|forces| forces.acting(survivor.flight)) else {
+            return [[0.0; LANES]; 2];
+        };
+        let second = self.truncated.buildings[0].blocks.len();
+        let (side, first) = if survivor.block < second { (0, 0) } else { (1, second) };
+        let floors = self.truncated.buildings[side].blocks[survivor.block - first].pushed;
+        floors.map_or([[0.0; LANES]; 2], |floors| [acting.0, acting.1].map(|forces| floors.accelerations(forces)))
     }
 
     /// Searches one flight for turning points of some blocks of quantities above their peaks.
@@ -134,21 +147,30 @@ impl Model {
     ) {
         let Some(flight) = survivors.first().map(|survivor| survivor.flight) else { return };
         let Load { acceleration, slope, length } = flights.load(flight);
+        let (ground, forces) = ((acceleration, slope), flights.forces.and_then(|forces| forces.acting(flight)));
         let mut own = None;
         let loads = whole.map_or_else(
             || {
                 let (load, rate) =
                     own.insert((std::mem::take(&mut work.buffers.load), std::mem::take(&mut work.buffers.slope)));
-                let loads = load.iter_mut().zip(rate.iter_mut());
-                for (share, (load, rate)) in self.system.structure.participation.iter().zip(loads) {
-                    (*load, *rate) = (-share * acceleration, -share * slope);
+                self.system.load_of(Coordinates::Modes, ground, load, rate);
+                if let Some((forces, rates)) = forces {
+                    self.system.add_forces(forces.iter().copied(), Coordinates::Modes, load);
+                    self.system.add_forces(rates.iter().copied(), Coordinates::Modes, rate);
                 }
                 (&load[..], &rate[..])
             },
             |whole| whole.loads,
         );
+        if self.system.floor_forces {
+            for survivor in survivors {
+                let [push, rate] = self.pushes(flights, survivor);
+                for (i, direct) in work.peaks.direct[survivor.block * LANES..][..LANES].iter_mut().enumerate() {
+                    *direct = [push[i], rate[i]];
+                }
+            }
+        }
         let (start, end) = (flights.motion(flight), flights.motion(flight + 1));
-        let ground = (acceleration, slope);
         self.search_stretch(
             &Stretch { start, end, loads, rest, ground, length, is_suspect: true, whole },
             survivors,
@@ -237,7 +259,7 @@ impl Fold<'_> {
         let mut is_read = room.order.len() == 1;
         for (b, block) in self.truncated.blocks.iter().enumerate() {
             let (sizes, quick) = (&room.sizes[self.sizes_of(span.0)], self.quick_of::<N>(span.0, room));
-            let coarse = span.1.bound_coarsely(block, &self.rest[b], sizes, quick);
+            let coarse = span.1.bound_coarsely(self.flights, (block, &self.rest[b]), (sizes, quick));
             if is_below(&coarse, &known[b]) {
                 continue;
             }
@@ -266,7 +288,7 @@ impl Fold<'_> {
         survivors: &mut Vec<Survivor>,
     ) {
         let (bounds, known) = (self.bound(span, open, room), &known[open.block]);
-        for k in 0..span.count {
+        for k in (0..span.count).filter(|k| self.flights.load(span.from + k).length > 0.0) {
             let upper = bounds.upper(k);
             if !is_below(&upper, known) {
                 let excess = (0..LANES).fold(0.0, |most, i| larger(most, upper[i] - known[i]));
@@ -279,7 +301,7 @@ impl Fold<'_> {
     fn bound<const N: usize>(&self, span: &Span<N>, open: &OpenBlock, room: &SpanRoom<N>) -> BlockBounds<N> {
         let read = (&room.motion[..], &room.sizes[self.sizes_of(open.span)]);
         let quick = (self.quick_of::<N>(open.span, room), &open.coarse);
-        span.bound(&self.truncated.blocks[open.block], &self.rest[open.block], read, quick)
+        span.bound(self.flights, (&self.truncated.blocks[open.block], &self.rest[open.block]), read, quick)
     }
 
     fn sizes_of(&self, span: usize) -> Range<usize> {

@@ -5,19 +5,16 @@
 //! storey begins to yield, and before a state is saved. Whoever reads a peak folds what is logged into a copy.
 
 use crate::engine::base::Base;
-use crate::engine::bounds::flights::{Flights, Load};
+use crate::engine::bounds::flights::{Flights, Forces, Load};
 use crate::engine::flight::fast_account::SegmentAccount;
-use crate::structure::Lane;
+use crate::structure::{LANES, Lane};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Largest number of logged motions, and of bytes.
 const MOST: usize = 1024;
 const MOST_BYTES: usize = 4 << 20;
-/// Least number: a flight with a gap before and one after it.
+/// Least number: a flight with a gap after it, and as many more.
 const LEAST: usize = 4;
-
-/// Change of the ground's acceleration from one flight to the next, relative to it, that is no rounding.
-const JUMP: f64 = 1e-12;
 
 /// The motions at the starts of flights that follow each other, oldest first. The last flight ends at the base, unless the
 /// log is closed: then a gap is its last entry.
@@ -28,26 +25,47 @@ pub struct PeakLog {
     q: Vec<f64>,
     v: Vec<f64>,
     loads: Vec<Load>,
+    /// In scenes with forces on floors.
+    forces: Option<ForceLog>,
     /// A number that no other log has had, and this one not before it was last emptied.
     pub identity: u64,
 }
 
+/// The forces on floors during the logged flights, as [`Forces`] has them.
+#[derive(Debug)]
+struct ForceLog {
+    /// Number of floors on which they may act.
+    floors: usize,
+    energies: Vec<f64>,
+    of: Vec<usize>,
+    sets: Vec<f64>,
+}
+
 impl PeakLog {
-    pub fn new(lanes: usize) -> PeakLog {
-        PeakLog::with_room(lanes, if lanes == 0 { 0 } else { MOST.min(MOST_BYTES / (16 * lanes)).max(LEAST) })
+    /// For vectors of that many lanes, with forces on so many floors.
+    pub fn new(lanes: usize, floors: usize) -> PeakLog {
+        let numbers = 2 * lanes + if floors == 0 { 0 } else { lanes + 2 * (floors + LANES) };
+        let most = if lanes == 0 { 0 } else { MOST.min(MOST_BYTES / (8 * numbers)).max(LEAST) };
+        PeakLog::with_room((lanes, floors), most)
     }
 
     /// A log for so many entries.
-    pub fn with_room(lanes: usize, most: usize) -> PeakLog {
+    pub fn with_room((lanes, floors): (usize, usize), most: usize) -> PeakLog {
         let room = || Vec::with_capacity(most * lanes);
-        PeakLog { lanes, most, q: room(), v: room(), loads: Vec::with_capacity(most), identity: next_identity() }
+        PeakLog {
+            lanes,
+            most,
+            q: room(),
+            v: room(),
+            loads: Vec::with_capacity(most),
+            forces: (floors > 0).then(|| ForceLog::new(lanes, floors, most)),
+            identity: next_identity(),
+        }
     }
 
     /// Empties the log.
     pub fn clear(&mut self) {
-        self.q.clear();
-        self.v.clear();
-        self.loads.clear();
+        self.truncate(0);
         self.identity = next_identity();
     }
 
@@ -56,6 +74,7 @@ impl PeakLog {
         self.q.truncate(count * self.lanes);
         self.v.truncate(count * self.lanes);
         self.loads.truncate(count);
+        self.forces.iter_mut().for_each(|forces| forces.truncate(count, self.lanes));
     }
 
     /// Number of entries.
@@ -80,38 +99,87 @@ impl PeakLog {
         self.loads.push(load);
     }
 
-    /// Ends the last flight at a motion, where something other than the ground is about to move the buildings.
+    /// Adds the forces on floors during the flight that has just been added, N, with their rates, and the energies of its modes,
+    /// which are to be written.
+    pub fn push_forces(&mut self, forces: impl Iterator<Item = (f64, f64)>, set_energies: impl FnOnce(&mut [f64])) {
+        if let Some(of) = &mut self.forces {
+            let start = of.energies.len();
+            of.energies.resize(start + self.lanes, 0.0);
+            set_energies(&mut of.energies[start..]);
+            of.push_set(forces);
+        }
+    }
+
+    /// Ends the last flight at a motion, where something other than the ground and forces on floors is about to move the
+    /// buildings.
     pub fn close(&mut self, motion: (&[f64], &[f64])) {
         if let Some(Load { acceleration, slope, length }) = self.loads.last().copied().filter(|load| load.length > 0.0)
         {
             self.push(motion, Load { acceleration: acceleration + slope * length, slope: 0.0, length: 0.0 });
-        }
-    }
-
-    /// Makes the log ready for a flight that starts with a motion and an acceleration of the ground, m/s2: ends the last
-    /// one there if the acceleration jumps.
-    pub fn go_on(&mut self, motion: (&[f64], &[f64]), acceleration: f64) {
-        if let Some(load) = self.loads.last() {
-            let end = load.acceleration + load.slope * load.length;
-            if (end - acceleration).abs() > JUMP * (load.acceleration.abs() + end.abs()) {
-                self.close(motion);
-            }
+            self.push_forces(std::iter::empty(), |_| ());
         }
     }
 
     /// The logged flights from an entry on; the last one ends at the base, with the motion `end`.
     pub fn flights_from<'a>(&'a self, entry: usize, end: (&'a [f64], &'a [f64])) -> Flights<'a> {
         let from = entry * self.lanes;
-        Flights { lanes: self.lanes, q: &self.q[from..], v: &self.v[from..], loads: &self.loads[entry..], end }
+        let forces = self.forces.as_ref().map(|ForceLog { floors, energies, of, sets }| Forces {
+            energies: &energies[from..],
+            of: &of[entry..],
+            sets,
+            width: floors + LANES,
+        });
+        Flights { lanes: self.lanes, q: &self.q[from..], v: &self.v[from..], loads: &self.loads[entry..], end, forces }
+    }
+}
+
+impl ForceLog {
+    fn new(lanes: usize, floors: usize, most: usize) -> ForceLog {
+        let set = 2 * (floors + LANES);
+        let mut sets = Vec::with_capacity((most + 2) * set);
+        sets.resize(set, 0.0);
+        ForceLog { floors, energies: Vec::with_capacity(most * lanes), of: Vec::with_capacity(most), sets }
+    }
+
+    fn truncate(&mut self, count: usize, lanes: usize) {
+        self.energies.truncate(count * lanes);
+        self.of.truncate(count);
+        let used = self.of.iter().max().map_or(1, |last| last + 1);
+        self.sets.truncate(used * 2 * (self.floors + LANES));
+    }
+
+    /// Notes the forces on all floors, or on none, as those of the next flight; those of the last one, or none, need no new set.
+    fn push_set(&mut self, forces: impl Iterator<Item = (f64, f64)>) {
+        let (start, width) = (self.sets.len(), self.floors + LANES);
+        self.sets.resize(start + 2 * width, 0.0);
+        let (before, new) = self.sets.split_at_mut(start);
+        let (values, rates) = new.split_at_mut(width);
+        for ((value, rate), force) in values.iter_mut().zip(rates).zip(forces) {
+            (*value, *rate) = force;
+        }
+        let known = match before {
+            _ if new.iter().all(|number| *number == 0.0) => Some(0),
+            _ if before.ends_with(new) => Some(start / (2 * width) - 1),
+            _ => None,
+        };
+        if known.is_some() {
+            self.sets.truncate(start);
+        }
+        self.of.push(known.unwrap_or(start / (2 * width)));
     }
 }
 
 impl Clone for PeakLog {
     fn clone(&self) -> PeakLog {
-        let mut log = PeakLog::new(self.lanes);
+        let mut log = PeakLog::new(self.lanes, self.forces.as_ref().map_or(0, |forces| forces.floors));
         log.q.extend_from_slice(&self.q);
         log.v.extend_from_slice(&self.v);
         log.loads.extend_from_slice(&self.loads);
+        if let (Some(copy), Some(forces)) = (&mut log.forces, &self.forces) {
+            copy.energies.extend_from_slice(&forces.energies);
+            copy.of.extend_from_slice(&forces.of);
+            copy.sets.clone_from(&forces.sets);
+        }
         log
     }
 }

@@ -26,16 +26,16 @@ pub mod search;
 
 use crate::engine::base::Base;
 use crate::engine::base::peaks::Peaks;
-use crate::engine::bounds::flights::Load;
+use crate::engine::bounds::flights::{Load, set_energies};
 use crate::engine::bounds::stretch::Stretch;
-use crate::engine::excitation::inputs::Inputs;
+use crate::engine::excitation::inputs::{Inputs, LinearInput};
 use crate::engine::model::Model;
 use crate::engine::peaks::log::PeakLog;
 use crate::engine::peaks::room::{PeakRoom, PeakWork};
 use crate::engine::step::Step;
 
-/// Entries of the log that are kept free: a flight may bring a gap before and one after it.
-pub const LEFT: usize = 2;
+/// Entries of the log that are kept free: a flight may bring a gap after it.
+pub const LEFT: usize = 1;
 
 /// Number of logged flights that are folded before a step in contact: what is searched in it depends on the peaks so far.
 const WORTH_FOLDING: usize = 128;
@@ -46,8 +46,8 @@ impl Model {
         Peaks::new(self.peak_rows.blocks())
     }
 
-    /// Raises the peaks of the base over the planned flight, at once: where damping couples the modes, or forces act on
-    /// floors, flights are not logged.
+    /// Raises the peaks of the base over the planned flight, at once: where damping couples the modes, flights are not
+    /// logged.
     pub(in crate::engine) fn raise_over_flight(
         &self,
         base: &mut Base,
@@ -69,22 +69,29 @@ impl Model {
 
     /// Whether flights are logged, and the peaks raised over them later.
     pub(in crate::engine) fn logs_flights(&self) -> bool {
-        !self.peak_rows.are_none() && !self.system.floor_forces && self.system.structure.is_classical()
+        !self.peak_rows.are_none() && self.system.structure.is_classical()
     }
 
     /// Logs the planned flight.
     pub(in crate::engine) fn log_flight(
         &self,
         base: &mut Base,
-        step: &Step,
+        Step { planned, .. }: &Step,
+        inputs: &Inputs,
         (log, mut work): (&mut PeakLog, PeakWork),
     ) {
         if log.room() <= LEFT {
             self.fold_log(base, (log, &mut work));
         }
         let (motion, acceleration) = ((&base.q[..], &base.v[..]), base.segment.acceleration_at(base.elapsed));
-        log.go_on(motion, acceleration);
-        log.push(motion, Load { acceleration, slope: base.segment.slope, length: step.planned.length });
+        log.push(motion, Load { acceleration, slope: base.segment.slope, length: planned.length });
+        if self.system.floor_forces {
+            let at = |force: &LinearInput| (force.after(base.segment.start, base.elapsed), force.slope());
+            let loads = (&planned.load[..], &planned.slope[..]);
+            log.push_forces(inputs.floor_forces.iter().map(at), |energies| {
+                set_energies(&self.system.structure, motion, loads, energies);
+            });
+        }
     }
 
     /// Raises the peaks over all logged flights, and empties the log.
@@ -100,7 +107,7 @@ impl Model {
         base.peaks = peaks;
     }
 
-    /// Makes the log ready for a step with other forces than the ground's: they change the motion, and storeys that yield the
+    /// Makes the log ready for a step in contact or in which a storey yields: contact forces change the motion, and storeys that yield the
     /// position of rest.
     pub(in crate::engine) fn leave_flight(&self, base: &mut Base, (log, mut work): (&mut PeakLog, PeakWork)) {
         if base.is_yielding() || log.count() > WORTH_FOLDING {

@@ -266,11 +266,11 @@ impl Model {
             let (building, block) = self.block_of(suspects[0].place);
             let accelerations = [&ends.first, &ends.last].map(|all| &all[building.modes.clone()]);
             let mut course = slopes_of(block, (&own, accelerations), bounds, building.modes.clone());
+            if self.system.floor_forces {
+                course.add_rates(&direct[suspects[0].place / LANES * LANES..]);
+            }
             for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
                 let i = suspect.place % LANES;
-                if self.system.floor_forces {
-                    course.add_slope(i, direct[suspect.place][1]);
-                }
                 (course.start[0][i], course.end[0][i]) = (suspect.values[k], suspect.values[k + 1]);
                 suspect.cleared_in = (!course.may_turn_above(i, length, suspect.peak)).then_some(OF_LEAF);
             }

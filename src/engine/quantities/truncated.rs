@@ -11,9 +11,12 @@
 //! quantity is a number times a, which is exact ("static correction", "missing mass"), and what is left is bounded: by
 //! sum |A| R / w^2 and a number times |a'| where the quantity is a row A over q, and by sum |A| (1 + c/w) R where it is a row A
 //! over w^2 q + c q', as accelerations and base shears are. R is bounded by groups of modes.
+//!
+//! Where forces may act on floors all modes are taken for slow: the quick ones follow each force by itself. The absolute
+//! acceleration of a floor is then the sum over all modes and its own force by its mass.
 
-use crate::engine::quantities::rows::{Block, BuildingRows, PeakRows};
-use crate::structure::{LANES, Lane, Structure};
+use crate::engine::quantities::rows::{Block, BuildingRows, PeakOf, PeakRows};
+use crate::structure::{LANES, Lane, Side, Structure};
 use std::ops::Range;
 
 /// Modes with w h up to this, in segments of the usual length h, are slow.
@@ -81,14 +84,54 @@ pub(crate) struct TruncatedBlock {
     pub per_slope: Lane,
     /// A bound on what is left of them, for each group, per unit of its R.
     pub left: Vec<Lane>,
+    /// The floors whose accelerations these are, where forces may act on them.
+    pub pushed: Option<PushedFloors>,
+}
+
+/// The floors of a block of accelerations.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PushedFloors {
+    /// Number of the first one among the floors of both buildings.
+    first: usize,
+    /// 1 / mass, 1/kg; 0 where the quantity is no acceleration.
+    inverse_mass: Lane,
+}
+
+impl PushedFloors {
+    /// What the forces on all floors, N, add to the accelerations, m/s2.
+    #[inline(always)]
+    pub(crate) fn accelerations(&self, forces: &[f64]) -> Lane {
+        let forces = &forces[self.first..self.first + LANES];
+        std::array::from_fn(|i| forces[i] * self.inverse_mass[i])
+    }
 }
 
 impl TruncatedRows {
-    /// The quantities of `rows`, read at times of the `usual` distance, s, if there is one.
-    pub(crate) fn of(structure: &Structure, rows: &PeakRows, usual: Option<f64>) -> TruncatedRows {
-        let usual = usual.unwrap_or(USUAL);
-        TruncatedRows { buildings: [0, 1].map(|side| TruncatedBuilding::of(structure, &rows.buildings[side], usual)) }
+    /// The quantities of `rows`, read at times of the `usual` distance, s, if there is one; forces may act on floors.
+    pub(crate) fn of(structure: &Structure, rows: &PeakRows, usual: Option<f64>, has_forces: bool) -> TruncatedRows {
+        // So short that no mode is quick.
+        let usual = if has_forces { 0.0 } else { usual.unwrap_or(USUAL) };
+        let mut buildings = [0, 1].map(|side| TruncatedBuilding::of(structure, &rows.buildings[side], usual));
+        for side in [Side::Left, Side::Right].into_iter().filter(|_| has_forces) {
+            for (b, block) in buildings[side as usize].blocks.iter_mut().enumerate() {
+                block.pushed = pushed_floors(structure, rows, (side, b));
+            }
+        }
+        TruncatedRows { buildings }
     }
+}
+
+/// The floors of block `b` of a building, if it is one of accelerations.
+fn pushed_floors(structure: &Structure, rows: &PeakRows, (side, b): (Side, usize)) -> Option<PushedFloors> {
+    let place = (rows.buildings[side as usize].first + b) * LANES;
+    let Some(PeakOf::Acceleration(_, first)) = rows.at(place) else { return None };
+    let inverse_mass = std::array::from_fn(|i| match rows.at(place + i) {
+        Some(PeakOf::Acceleration(_, floor)) => {
+            structure.floors.inverse_mass(structure.floors.lane(side as usize, floor))
+        }
+        _ => 0.0,
+    });
+    Some(PushedFloors { first: structure.offset(side) + first, inverse_mass })
 }
 
 impl TruncatedBuilding {
@@ -150,6 +193,6 @@ impl TruncatedBlock {
             }
         }
         let row = (0..slow).map(|m| std::array::from_fn(|i| row(m, i))).collect();
-        TruncatedBlock { pulls, row, per_ground, per_slope: per_slope.map(f64::abs), left }
+        TruncatedBlock { pulls, row, per_ground, per_slope: per_slope.map(f64::abs), left, pushed: None }
     }
 }

@@ -181,12 +181,16 @@ impl System {
     /// The load at the base per unit of mass, in its coordinates, and its rate of change until the segment's end.
     pub fn load(&self, base: &Base, inputs: &Inputs, load: &mut [f64], slope: &mut [f64]) {
         let Base { segment, elapsed, coordinates, .. } = base;
-        let (acceleration, rate) = (segment.acceleration_at(*elapsed), segment.slope);
-        set_load(self.participation(*coordinates), (acceleration, rate), load, slope);
+        self.load_of(*coordinates, (segment.acceleration_at(*elapsed), segment.slope), load, slope);
         if self.floor_forces {
             self.add_floor_forces(inputs, *coordinates, |force| force.after(segment.start, *elapsed), load);
             self.add_floor_forces(inputs, *coordinates, LinearInput::slope, slope);
         }
+    }
+
+    /// The same by the ground's acceleration and its slope alone.
+    pub fn load_of(&self, coordinates: Coordinates, ground: (f64, f64), load: &mut [f64], slope: &mut [f64]) {
+        set_load(self.participation(coordinates), ground, load, slope);
     }
 
     /// The load per unit of mass by a ground acceleration of -1 m/s2.
@@ -205,16 +209,20 @@ impl System {
         part: impl Fn(&LinearInput) -> f64,
         load: &mut [f64],
     ) {
-        let left = self.structure.floors(Side::Left);
-        let forces = inputs.floor_forces.iter().map(part).enumerate();
-        for (i, force) in forces.filter(|(_, force)| *force != 0.0) {
-            let (side, floor) = if i < left { (Side::Left, i) } else { (Side::Right, i - left) };
+        self.add_forces(inputs.floor_forces.iter().map(part), coordinates, load);
+    }
+
+    /// Adds forces on all floors, N, or on none.
+    pub fn add_forces(&self, mut forces: impl Iterator<Item = f64>, coordinates: Coordinates, load: &mut [f64]) {
+        for side in [Side::Left, Side::Right] {
+            let of_side = forces.by_ref().take(self.structure.floors(side)).enumerate();
+            let acting = of_side.filter(|(_, force)| *force != 0.0);
             match coordinates {
-                Coordinates::Modes => self.structure.add_floor_force(side, floor, force, load),
-                Coordinates::Floors => {
+                Coordinates::Modes => self.structure.add_floor_forces(side, acting, load),
+                Coordinates::Floors => acting.for_each(|(floor, force)| {
                     let lane = self.structure.floors.lane(side as usize, floor);
                     load[lane] += force * self.structure.floors.inverse_mass(lane);
-                }
+                }),
             }
         }
     }
