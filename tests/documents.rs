@@ -265,7 +265,7 @@ fn the_variables_of_the_reference_are_those_of_the_table() {
     let driven = scene.lines().filter(|line| !line.starts_with("record") && !line.starts_with("pga"));
     let driven: String = driven.flat_map(|line| [line, "\n"]).collect();
     let mut variables = BTreeSet::new();
-    for scene in [&scene, &driven, &facing_buildings(), &yielding_buildings()] {
+    for scene in [&scene, &driven, &facing_buildings(), &without_outputs("yielding"), &without_outputs("leaning")] {
         let scene =
             Scene::from_toml(&format!("{scene}[inputs]\nfloor_forces = true\n[outputs]\nenergy = true")).unwrap();
         for row in Table::new(&scene).rows {
@@ -281,9 +281,9 @@ fn the_variables_of_the_reference_are_those_of_the_table() {
     assert_eq!(described, variables);
 }
 
-/// The example in which storeys yield, without its outputs.
-fn yielding_buildings() -> String {
-    read("examples/scenes/yielding.toml").split_once("[outputs]").unwrap().0.to_owned()
+/// An example without its outputs.
+fn without_outputs(name: &str) -> String {
+    read(&format!("examples/scenes/{name}.toml")).split_once("[outputs]").unwrap().0.to_owned()
 }
 
 /// The buildings of the page on contacts, where slabs hit columns.
@@ -303,8 +303,8 @@ fn the_derivatives_of_the_coupling_page_are_those_that_there_are() {
     let numbers = (1..=6).map(|i| format!("[{i}]")).collect::<Vec<_>>();
     let general = |name: &str| numbers.iter().fold(name.to_owned(), |name, i| name.replace(i, "[i]"));
     let facing = Scene::from_toml(&facing_buildings()).unwrap();
-    let yielding = Scene::from_toml(&read("examples/scenes/yielding.toml")).unwrap();
-    let rows = [&scene, &facing, &yielding].map(|scene| Table::new(scene).rows).concat();
+    let leaning = Scene::from_toml(&read("examples/scenes/leaning.toml")).unwrap();
+    let rows = [&scene, &facing, &leaning].map(|scene| Table::new(scene).rows).concat();
     let expected: BTreeSet<String> = (rows.iter().filter(is_real_output))
         .map(|row| general(&row.name).replace("right", "left").replace("contact[i]", "contact[p]"))
         .collect();

@@ -17,6 +17,7 @@ type Get<T> = unsafe extern "C" fn(Component, *const u32, usize, *mut T) -> c_in
 type Simple = unsafe extern "C" fn(Component) -> c_int;
 type SetupExperiment = unsafe extern "C" fn(Component, c_int, f64, f64, c_int, f64) -> c_int;
 type DoStep = unsafe extern "C" fn(Component, f64, f64, c_int) -> c_int;
+type GetStatus<T> = unsafe extern "C" fn(Component, c_int, *mut T) -> c_int;
 type Free = unsafe extern "C" fn(Component);
 type Instantiate = unsafe extern "C" fn(
     *const c_char,
@@ -44,6 +45,9 @@ struct Callbacks {
 const CO_SIMULATION: c_int = 1;
 const OK: c_int = 0;
 const WARNING: c_int = 1;
+const DISCARD: c_int = 2;
+const LAST_SUCCESSFUL_TIME: c_int = 2;
+const TERMINATED: c_int = 3;
 
 /// The library of an FMU.
 pub struct Binary {
@@ -150,6 +154,14 @@ impl<'a> Instance<'a> {
         })?;
         Ok(values)
     }
+
+    fn status<T: Default>(&self, name: &str, kind: c_int) -> Result<T> {
+        let function: GetStatus<T> = self.binary.function(name)?;
+        let mut value = T::default();
+        // SAFETY: the component is alive until `self` is dropped, and the value has the type that the function writes.
+        self.call(name, || unsafe { function(self.component, kind, &mut value) })?;
+        Ok(value)
+    }
 }
 
 impl CoSimulation for Instance<'_> {
@@ -164,10 +176,15 @@ impl CoSimulation for Instance<'_> {
         self.simple("fmi2ExitInitializationMode")
     }
 
-    fn do_step(&self, time: f64, step: f64) -> Result<()> {
+    fn do_step(&self, time: f64, step: f64) -> Result<Option<f64>> {
         let do_step: DoStep = self.binary.function("fmi2DoStep")?;
         // SAFETY: the component is alive until `self` is dropped.
-        self.call("fmi2DoStep", || unsafe { do_step(self.component, time, step, 1) })
+        let status = unsafe { do_step(self.component, time, step, 1) };
+        let is_over = status == DISCARD && self.status::<c_int>("fmi2GetBooleanStatus", TERMINATED)? != 0;
+        match is_over {
+            true => self.status("fmi2GetRealStatus", LAST_SUCCESSFUL_TIME).map(Some),
+            false => self.call("fmi2DoStep", || status).map(|()| None),
+        }
     }
 
     fn reals(&self, references: &[u32]) -> Result<Vec<f64>> {

@@ -12,8 +12,8 @@ pub trait CoSimulation {
     fn set_up(&self, start: f64, stop: f64) -> Result<()>;
     /// Initialization mode -> ready for the first step.
     fn begin(&self) -> Result<()>;
-    /// From one communication point to the next.
-    fn do_step(&self, time: f64, step: f64) -> Result<()>;
+    /// From one communication point to the next; the time, s, at which the FMU has ended the run, where it has.
+    fn do_step(&self, time: f64, step: f64) -> Result<Option<f64>>;
     /// Values of Real variables.
     fn reals(&self, references: &[u32]) -> Result<Vec<f64>>;
     /// Values of Integer variables.
@@ -93,8 +93,8 @@ impl Groups {
     }
 }
 
-/// Runs a fresh instance over the default experiment, reads every output at every communication point and everything
-/// else at the end. An output that is not finite is an error.
+/// Runs a fresh instance over the default experiment, or as far as the FMU goes, reads every output at every communication
+/// point and everything else at the end. An output that is not finite is an error, and so is an end out of the last step.
 pub fn run(description: &ModelDescription, fmu: &dyn CoSimulation) -> Result<Outcome> {
     let experiment = experiment(description)?;
     fmu.set_up(experiment.start, experiment.stop)?;
@@ -104,20 +104,27 @@ pub fn run(description: &ModelDescription, fmu: &dyn CoSimulation) -> Result<Out
         description.modelVariables.iter().partition(|variable| variable.causality == Causality::Output);
     let (outputs, others) = (Groups::of(outputs.into_iter()), Groups::of(others.into_iter()));
     let mut seen = HashMap::new();
-    let mut solving = Duration::ZERO;
+    let (mut solving, mut steps, mut end) = (Duration::ZERO, 0, None);
     look(&outputs, fmu, experiment.start, &mut seen)?;
-    for index in 0..experiment.steps() {
-        let (time, next) = (experiment.point(index), experiment.point(index + 1));
+    while end.is_none() && steps < experiment.steps() {
+        let (time, next) = (experiment.point(steps), experiment.point(steps + 1));
         let clock = Instant::now();
-        fmu.do_step(time, next - time).with_context(|| format!("the step from {time} s to {next} s fails"))?;
+        end = fmu.do_step(time, next - time).with_context(|| format!("the step from {time} s to {next} s fails"))?;
         solving += clock.elapsed();
-        look(&outputs, fmu, next, &mut seen)?;
+        steps += 1;
+        if let Some(end) = end.filter(|end| !(time..=next).contains(end)) {
+            bail!("the step from {time} s to {next} s ends the run, and the last successful time is {end} s");
+        }
+        look(&outputs, fmu, end.unwrap_or(next), &mut seen)?;
     }
-    look(&others, fmu, experiment.stop, &mut seen)?;
+    look(&others, fmu, end.unwrap_or(experiment.stop), &mut seen)?;
 
+    // That a step is discarded is the end of the run, which its outputs tell, and no warning.
+    let mut warnings = fmu.end()?;
+    warnings.retain(|warning| !warning.starts_with("logStatusDiscard"));
     let seen = seen.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
     let variables = variables(description);
-    Ok(Outcome { variables, experiment, steps: experiment.steps(), solving, seen, warnings: fmu.end()? })
+    Ok(Outcome { variables, experiment, steps, solving, seen, warnings })
 }
 
 fn look<'a>(groups: &'a Groups, fmu: &dyn CoSimulation, time: f64, seen: &mut HashMap<&'a str, Seen>) -> Result<()> {

@@ -4,7 +4,7 @@ use crate::experiment::CoSimulation;
 use crate::log::Log;
 use anyhow::{Result, anyhow, bail};
 use fmi::fmi2::log::Logger;
-use fmi::fmi2::types::fmi2Status;
+use fmi::fmi2::types::{fmi2Status, fmi2StatusKind};
 use fmi::fmi2::{CS, FMU2};
 use fmi::model_description::fmi2::ModelDescription;
 use std::path::Path;
@@ -56,8 +56,18 @@ impl CoSimulation for Imported {
         self.call("fmi2ExitInitializationMode", self.fmu.exitInitializationMode())
     }
 
-    fn do_step(&self, time: f64, step: f64) -> Result<()> {
-        self.call("fmi2DoStep", self.fmu.doStep(time, step, 1))
+    fn do_step(&self, time: f64, step: f64) -> Result<Option<f64>> {
+        let status = self.fmu.doStep(time, step, 1);
+        let (mut is_over, mut end) = (0, time);
+        if status == fmi2Status::Discard {
+            let asked = self.fmu.getBooleanStatus(&fmi2StatusKind::Terminated, &mut is_over);
+            self.call("fmi2GetBooleanStatus", asked)?;
+        }
+        if is_over == 0 {
+            return self.call("fmi2DoStep", status).map(|()| None);
+        }
+        self.call("fmi2GetRealStatus", self.fmu.getRealStatus(&fmi2StatusKind::LastSuccessfulTime, &mut end))?;
+        Ok(Some(end))
     }
 
     fn reals(&self, references: &[u32]) -> Result<Vec<f64>> {

@@ -68,7 +68,8 @@ def simulate_batch(
         progress: called with (cases done, n) about ten times a second, and at the end.
 
     Returns:
-        ``float64`` of shape (n, m): a row for each case, a column for each output. Booleans are 0 and 1.
+        ``float64`` of shape (n, m): a row for each case, a column for each output. Booleans are 0 and 1. A case ends where
+        a storey collapses: the output ``left.collapsed`` or ``right.collapsed`` is 1 then.
 
     >>> import pounding_fmu
     >>> gaps = [0.002, 0.005, 0.02]

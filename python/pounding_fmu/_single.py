@@ -32,12 +32,17 @@ class Result(Mapping[str, "NDArray[Any]"]):
     ``peak_force`` (N), ``peak_time_s``, ``peak_penetration`` (m), ``impulse`` (N s), ``dissipated_energy`` (J)."""
 
     def __init__(
-        self, columns: Mapping[str, NDArray[Any]], impacts: NDArray[Any], scene: _native.Scene, step: float
+        self,
+        columns: Mapping[str, NDArray[Any]],
+        impacts: NDArray[Any],
+        scene: _native.Scene,
+        step: float,
+        stop: float,
     ) -> None:
         self._columns = dict(columns)
         self.impacts = impacts
         self._own_scene: _native.Scene | None = scene
-        self._name, self._step = scene.name, step
+        self._name, self._step, self._stop = scene.name, step, stop
 
     def __getstate__(self) -> dict[str, Any]:
         return self.__dict__ | {"_own_scene": None}
@@ -57,7 +62,7 @@ class Result(Mapping[str, "NDArray[Any]"]):
     def summary(self) -> str:
         """What ``pounding-fmu SCENE.toml`` says of the scene's FMU: what went in, impacts, peaks of floors, contacts and
         storeys. The scene is run once more for it, since it needs more than the columns of this run."""
-        return _native.summary(self._scene, self._step, float(self["time"][-1]))
+        return _native.summary(self._scene, self._step, self._stop)
 
     def plot(self, start: float | None = None, stop: float | None = None, picture: str = "overview") -> Figure:
         """Draws the run, as ``pounding-fmu plot`` does, and returns the matplotlib figure.
@@ -139,7 +144,8 @@ def simulate(
 
     Returns:
         ``result["time"]`` and a column for each output, of shape (rows,), at the multiples of ``step`` and at ``stop``;
-        ``result.impacts``, a structured array of shape (impacts,).
+        ``result.impacts``, a structured array of shape (impacts,). Where a storey collapses the run ends: the last row is
+        then, and ``left.collapsed`` or ``right.collapsed`` is true in it.
 
     >>> import pounding_fmu
     >>> result = simulate(pounding_fmu.example_scene, parameters={"contact[1].gap": 0.01, "contact[2].gap": 0.01})
@@ -195,7 +201,7 @@ def run(
     impacts = np.empty(len(of_impacts[0]), dtype)
     for name, array in zip(_native.IMPACT_COLUMNS, of_impacts):
         impacts[name] = array
-    return Result(dict(zip(["time", *columns], arrays)), impacts, scene, step)
+    return Result(dict(zip(["time", *columns], arrays)), impacts, scene, step, stop)
 
 
 def _with_parameters(

@@ -1,7 +1,7 @@
 //! What a run has shown, whoever has made it: an importer of an FMU, or the engine.
 
 use crate::readings::Reading;
-use pounding::engine::Instant;
+use pounding::engine::{Instant, Output, Side};
 use pounding::variables::{Causality, Settings, Table};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
@@ -21,8 +21,13 @@ pub struct Experiment {
 impl Experiment {
     /// Number of communication steps; the last one may be shorter.
     pub fn steps(&self) -> u64 {
+        self.steps_to(self.stop)
+    }
+
+    /// The same of a run that ends at a time, s.
+    fn steps_to(&self, end: f64) -> u64 {
         // A remainder of rounding is no step of its own.
-        ((self.stop - self.start) / self.step - 1e-6).ceil().max(1.0) as u64
+        ((end - self.start) / self.step - 1e-6).ceil().max(1.0) as u64
     }
 
     /// s, a communication point.
@@ -65,7 +70,7 @@ pub struct Outcome {
     pub variables: Variables,
     /// What was run.
     pub experiment: Experiment,
-    /// Communication steps.
+    /// Communication steps, with the one in which a storey has collapsed.
     pub steps: u64,
     /// Time spent in `fmi2DoStep`.
     pub solving: Duration,
@@ -80,6 +85,8 @@ pub struct Follower {
     variables: Variables,
     experiment: Experiment,
     followed: Vec<(String, Reading, Seen)>,
+    /// s, where it ends: earlier than planned where a storey collapses.
+    end: f64,
 }
 
 impl Follower {
@@ -94,23 +101,28 @@ impl Follower {
             variables: Variables { inputs, outputs, parameters: table.rows.len() - inputs - outputs },
             experiment: Experiment { start: 0.0, stop, step },
             followed: followed.collect(),
+            end: stop,
         }
     }
 
-    /// Takes note of a row. Rows between the communication points do not count.
+    /// Takes note of a row. Rows between the communication points do not count, but for the one that a collapse makes the last.
     pub fn look(&mut self, now: &Instant<'_>) {
         let Experiment { stop, step, .. } = self.experiment;
         let time = now.time();
-        if time == stop || (time / step).round() * step == time {
+        let has_collapsed = [Side::Left, Side::Right].iter().any(|side| now.read(Output::Collapsed(*side)) != 0.0);
+        if has_collapsed {
+            self.end = time;
+        }
+        if has_collapsed || time == stop || (time / step).round() * step == time {
             self.followed.iter_mut().for_each(|(_, reading, seen)| seen.look(reading.at(now)));
         }
     }
 
     /// What the run has shown, and how long it took.
     pub fn outcome(self, solving: Duration) -> Outcome {
-        let Follower { variables, experiment, followed } = self;
+        let Follower { variables, experiment, followed, end } = self;
         let seen = followed.into_iter().map(|(name, _, seen)| (name, seen)).collect();
-        Outcome { variables, experiment, steps: experiment.steps(), solving, seen, warnings: Vec::new() }
+        Outcome { variables, experiment, steps: experiment.steps_to(end), solving, seen, warnings: Vec::new() }
     }
 }
 

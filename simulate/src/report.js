@@ -387,10 +387,11 @@ function happened() {
   // Rigid contacts have no force of an impact: there the impulse tells which was the hardest.
   const [by, unit] = run.contacts.some((pair) => pair.law === "stereomechanical") ? [IMPULSE, "N.s"] : [FORCE, "N"];
   const hardest = run.impacts.reduce((most, impact) => (most && most[by] >= impact[by] ? most : impact), null);
+  const end = run.collapse ? `; at ${digits(run.stop)} s ${run.collapse}` : "";
   const text = `0 s to ${digits(run.stop)} s: ${count} impact${count === 1 ? "" : "s"}`;
-  if (!hardest) return `${text}.`;
+  if (!hardest) return `${text}${end}.`;
   const { meeting } = run.contacts[hardest[CONTACT] - 1];
-  return `${text}, the hardest ${meeting} at ${hardest[START].toFixed(3)} s with ${digits(scaled(hardest[by], unit))} ${unitText(unit)}.`;
+  return `${text}, the hardest ${meeting} at ${hardest[START].toFixed(3)} s with ${digits(scaled(hardest[by], unit))} ${unitText(unit)}${end}.`;
 }
 
 document.title = run.name;

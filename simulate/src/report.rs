@@ -10,7 +10,7 @@ use crate::solve::{Events, Solved, solve};
 use crate::tables::{impact, outputs};
 use crate::thinning::Column;
 use pounding::description::Package;
-use pounding::engine::{Episode, Model};
+use pounding::engine::{Collapse, Episode, Model};
 use pounding::scene::Scene;
 use pounding::variables::Type;
 use serde::Serialize;
@@ -45,7 +45,10 @@ struct Run<'a> {
     layout: Layout<'a>,
     description: &'a str,
     scene: &'a str,
+    /// s, the time of the last row.
     stop: f64,
+    /// What has ended the run before its time.
+    collapse: Option<String>,
     /// s, of all rows.
     times: Vec<f64>,
     columns: Vec<Series>,
@@ -79,7 +82,10 @@ pub fn page(package: &Package, model: &Model, stop: f64, events: &Events) -> Res
         layout: Layout::of(scene),
         description: &scene.description,
         scene: scene_text,
-        stop,
+        stop: times.last().copied().unwrap_or(stop),
+        collapse: events.collapse.map(|Collapse { side, storey, .. }| {
+            format!("storey {} of the {side} building collapsed, and the run ends there", storey + 1)
+        }),
         times,
         columns,
         impacts: events.episodes.iter().map(row).collect(),

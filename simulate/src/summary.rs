@@ -4,7 +4,7 @@ use crate::outcome::{Outcome, Seen, Variables};
 use crate::went_in;
 use pounding::description::Package;
 use pounding::record::Record;
-use pounding::scene::{Heights, Scene, Side};
+use pounding::scene::{Building, Heights, Scene, Side};
 use pounding::variables::{Parameter, Settings};
 use pounding::warnings::six_decimals;
 use std::fmt::Write;
@@ -91,6 +91,9 @@ fn overview(run: &Run, problem: Option<Problem<'_>>, stop_reason: &str) -> Strin
             run.0.solving.as_secs_f64() * 1e3
         ),
     );
+    if let Some(collapse) = run.collapse() {
+        line("collapse", collapse);
+    }
     if let Some(impacts) = run.seen("impacts") {
         line("impacts", format!("{}", impacts.last));
     }
@@ -128,6 +131,32 @@ impl Run<'_> {
     /// Whether the FMU knows its peaks; otherwise what has been read has to do.
     fn has_peaks(&self) -> bool {
         SIDES.iter().any(|side| self.count(&format!("{side}.peak_displacement")) > 0)
+    }
+
+    /// What has ended the run before its time.
+    fn collapse(&self) -> Option<String> {
+        let last = |name: String| self.seen(&name).map(|seen| seen.last);
+        let side = SIDES.into_iter().find(|side| last(format!("{side}.collapsed")) == Some(1.0))?;
+        let time = six_decimals(last(format!("{side}.collapse_time"))?);
+        let storey = self.fallen(side).map_or("a storey".to_owned(), |storey| format!("storey {storey}"));
+        Some(format!("{storey} of the {side} building collapsed at {time} s; the run ends there"))
+    }
+
+    /// The storey of a building that has come nearest to the drift of its collapse, counted from 1.
+    fn fallen(&self, side: &str) -> Option<usize> {
+        let building = self.building(side)?;
+        let levels: Vec<f64> = self.array(&format!("{side}.displacement")).map(|seen| seen.last).collect();
+        let share = |storey: usize| {
+            let drift = levels.get(storey)? - storey.checked_sub(1).map_or(0.0, |below| levels[below]);
+            Some((storey + 1, drift.abs() / building.collapse_drift(storey)?))
+        };
+        let shares = (0..building.mass.len()).filter_map(share);
+        shares.max_by(|(_, one), (_, other)| one.total_cmp(other)).map(|(storey, _)| storey)
+    }
+
+    fn building(&self, side: &str) -> Option<&Building> {
+        let scene = self.1?;
+        Some(if side == Side::Left.name() { &scene.left } else { &scene.right })
     }
 
     fn floors(&self) -> Option<Table> {
@@ -174,9 +203,7 @@ impl Run<'_> {
 
     /// Where the floors of a building are, if that is known.
     fn levels(&self, side: &str) -> Option<&Heights> {
-        let scene = self.1?;
-        let building = if side == Side::Left.name() { &scene.left } else { &scene.right };
-        building.heights.as_ref()
+        self.building(side)?.heights.as_ref()
     }
 
     fn buildings(&self) -> Option<Table> {
@@ -282,13 +309,13 @@ impl Run<'_> {
 
     /// J that is at the end in motion and storeys or has been lost: all that has come in, where the FMU has the account.
     fn all_energy(&self) -> Option<f64> {
-        let kept = ["kinetic", "strain", "viscous", "hysteretic", "impact"];
+        let kept = ["kinetic", "strain", "gravity", "viscous", "hysteretic", "impact"];
         let all: f64 = kept.iter().filter_map(|name| self.seen(&format!("energy.{name}"))).map(|seen| seen.last).sum();
         (all > 0.0).then_some(all)
     }
 
     fn energy(&self) -> Option<Table> {
-        let names = ["input", "external", "kinetic", "strain", "viscous", "hysteretic", "impact"];
+        let names = ["input", "external", "kinetic", "strain", "gravity", "viscous", "hysteretic", "impact"];
         let energy = |name: &str| self.seen(&format!("energy.{name}")).map(|seen| seen.last);
         let scale = Scale::of("J", names.into_iter().filter_map(energy));
         let mut table = Table::new(&[("energy at the end", ""), ("", &scale.unit)]);

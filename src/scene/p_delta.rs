@@ -210,9 +210,9 @@ impl Checker {
             if collapse <= least {
                 let expected = format!(
                     "more than {}: storey {} would have collapsed at a drift of {} m, before it yields or at the start",
-                    number(least / heights.storeys[storey]),
+                    matrix::six_digits(least / heights.storeys[storey]),
                     storey + 1,
-                    number(collapse)
+                    matrix::six_digits(collapse)
                 );
                 self.refuse(format_args!("{path}.collapse_drift_ratio"), number(*collapse_drift_ratio), expected);
             }
@@ -221,7 +221,7 @@ impl Checker {
 
     /// A building that gravity does not push over while it is elastic.
     fn stands(&mut self, path: &str, building: &Building) {
-        let shown = |checker: &Checker, g: f64| number(checker.units.written(g));
+        let shown = |checker: &Checker, g: f64| matrix::six_digits(checker.units.written(g));
         let unit = self.units.unit("N/m");
         match &*building.net_stiffness() {
             Stiffness::Shear(net) => {

@@ -26,6 +26,7 @@
 //! |---|---|
 //! | `buildings.rs` | masses, stiffnesses, damping and initial motion of each building |
 //! | `yielding.rs` | storeys that yield: their forces, and the damping of isolators |
+//! | `gravity.rs` | gravity on storeys that lean: left out, in other units, or beyond what they stand |
 //! | `whole.rs` | scenes in which every mass and stiffness is in other units |
 //! | `ground.rs` | the record, its scaling, `stop_time` |
 //! | `contacts.rs` | gaps and numbers of the laws |
@@ -39,6 +40,7 @@ mod buildings;
 mod contacts;
 mod facts;
 mod found;
+mod gravity;
 mod ground;
 mod levels;
 mod order;
@@ -63,6 +65,7 @@ pub fn of(scene: &Scene, record: Option<&Record>) -> Vec<Warning> {
     buildings::look(&facts, &mut found);
     whole::look(&facts, &mut found);
     yielding::look(&facts, &mut found);
+    gravity::look(&facts, &mut found);
     order::look(&facts, &mut found);
     contacts::look(&facts, &mut found);
     levels::look(&facts, &mut found);

@@ -83,6 +83,8 @@ class Readings:
         self.outputs = ["impacts", *itertools.chain(*self.contacts.values())]
         self.outputs += [name for of_side in self.storeys.values() for name in of_side.values()]
         self.outputs += [f"{side}.peak_base_shear" for side in self.sides]
+        self.collapses = {side: f"{side}.collapsed" for side in SIDES if f"{side}.collapsed" in names}
+        self.outputs += self.collapses.values()
 
     def count(self, side: str) -> int:
         """Storeys of a building."""
@@ -105,7 +107,12 @@ class Readings:
             row |= {f"{side}_{column}[{i}]": peak for column, of in peaks.items() for i, peak in of.items()}
             peaks |= {column: of_side[what] for column, what in OF_YIELDING.items()}
             row |= {f"{side}_{column}": max(map(abs, of.values())) for column, of in peaks.items() if of}
-        return row
+        return row | {f"{side}_collapsed": int(value[name]) for side, name in self.collapses.items()}
+
+
+def collapsed(row: Row) -> bool:
+    """Whether the run has ended by a collapse."""
+    return any(row.get(f"{side}_collapsed") for side in SIDES)
 
 
 def _of_contacts(names: Sequence[str], what: str) -> list[str]:

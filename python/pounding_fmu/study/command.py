@@ -12,6 +12,7 @@ from pathlib import Path
 from .. import _terminal
 from .._data import DATA
 from . import GAPS, PGA, SYNTHETIC, Study, run_study
+from .cases import collapsed
 from .fragility import INTENSITIES, LIMITS, curves, demands, write
 
 MOST_SHOWN = 7  # lines that can be told apart
@@ -71,6 +72,9 @@ def run(options: argparse.Namespace) -> Study:
     progress.end()
     if study.failures:
         _terminal.say(f"{len(study.failures)} cases failed: see the last column of {study.path}")
+    fallen = sum(collapsed(row) for row in study.rows)
+    if fallen:
+        _terminal.say(f"{fallen} of {len(study.rows)} cases end by a collapse")
     print(study.path)
     return study
 

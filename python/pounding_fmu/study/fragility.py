@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from .cases import NEVER_CLOSES, SIDES, Row
+from .cases import NEVER_CLOSES, SIDES, Row, collapsed
 
 Numbers = NDArray[np.float64]
 Truths = NDArray[np.bool_]
@@ -30,6 +30,7 @@ INTENSITIES = {
 }
 LIMITS = {"force": "N", "drift": "m", "acceleration": "m/s2", "ductility": "1", "residual drift": "m"}
 MOST_POINTS = 8  # where all runs differ in intensity: shares of groups of neighbouring runs
+DEFORMATIONS = ("drift", "ductility", "residual drift")  # that a building which has collapsed exceeds, whatever the limit
 FALL = 1.5  # standard errors
 RISE = 3.84  # of twice the logarithm of a likelihood ratio: 95 % of chi-squared with one degree of freedom
 
@@ -88,9 +89,13 @@ DEMANDS: dict[str, Callable[[Row], float | None]] = {
 
 
 def demands(rows: Iterable[Row], limits: Mapping[str, float | None]) -> list[Demand]:
-    """What may be exceeded in the runs of a scene; a limit that is not given is a median, which shows the method."""
-    closing = [row for row in rows if row["gap_m"] != NEVER_CLOSES]
+    """What may be exceeded in the runs of a scene; a limit that is not given is a median, which shows the method. Runs that
+    collapse are no part of it."""
+    rows = list(rows)
+    closing = [row for row in rows if row["gap_m"] != NEVER_CLOSES and not collapsed(row)]
     found = [Demand("pounding", "impacts", lambda row: row["impacts"], 0.0, "pounding")]
+    if any(row.get(f"{side}_collapsed") is not None for row in rows for side in SIDES):
+        found.append(Demand("collapse", "collapses", lambda row: float(collapsed(row)), 0.0, "collapse"))
     for name, of in DEMANDS.items():
         # A force of 0 says that there was no contact; ductilities are those of all runs of a scene, or of none.
         values = [value for row in closing if (value := of(row)) is not None and (value > 0 or name != "force")]
@@ -129,10 +134,16 @@ def curves(rows: Sequence[Row], demands: Iterable[Demand], intensity: str) -> li
             if gap == NEVER_CLOSES and demand.name in ("pounding", "force"):
                 continue
             of_gap = [row for row in rows if row["gap_m"] == gap]
-            runs = sorted((row[column], (demand.of(row) or 0.0) > demand.limit) for row in of_gap)
-            levels, exceeds = (np.array(values) for values in zip(*runs))
-            found.append(Curve(rows[0]["scene"], demand, intensity, gap, levels, exceeds, fit_lognormal(levels, exceeds)))
+            runs = sorted((row[column], exceeds(demand, row)) for row in of_gap)
+            levels, above = (np.array(values) for values in zip(*runs))
+            found.append(Curve(rows[0]["scene"], demand, intensity, gap, levels, above, fit_lognormal(levels, above)))
     return found
+
+
+def exceeds(demand: Demand, row: Row) -> bool:
+    if demand.name in DEFORMATIONS and collapsed(row):
+        return True
+    return (demand.of(row) or 0.0) > demand.limit
 
 
 def write(curves: Iterable[Curve], path: Path) -> None:

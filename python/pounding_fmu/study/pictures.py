@@ -11,7 +11,7 @@ import numpy as np
 
 from .._extras import require
 from ..plots.style import ALONE, BLACK, CYCLE, LOOK, save
-from .cases import NEVER_CLOSES, SIDES, Row
+from .cases import NEVER_CLOSES, SIDES, Row, collapsed
 from .fragility import INTENSITIES, Curve, force_unit, lognormal, points
 
 Chosen = Sequence[float] | None  # gaps or intensities to draw; without any as many as can be told apart
@@ -23,10 +23,13 @@ LETTERS = 14  # that an inch of a title may have room for
 
 
 def gaps(rows: Sequence[Row], path: Path, shown: Chosen = None) -> None:
-    """Force, impacts, drifts and accelerations against the gap at some intensities: medians over the records."""
+    """Force, impacts, drifts and accelerations against the gap at some intensities: medians over the records, of runs that
+    do not collapse."""
     closing = [row for row in rows if row["gap_m"] != NEVER_CLOSES]
-    if closing:
-        _draw(path, lambda: _gaps(closing, shown))
+    standing = [row for row in closing if not collapsed(row)]
+    fallen = len(closing) - len(standing)
+    if standing:
+        _draw(path, lambda: _gaps(standing, shown, f"; without {fallen} runs that collapse" if fallen else ""))
 
 
 def fragility(curves: Sequence[Curve], records: int, path: Path, shown: Chosen = None) -> None:
@@ -78,7 +81,7 @@ def in_mm(gap: float) -> str:
     return "no contact" if gap == NEVER_CLOSES else f"{1e3 * gap:g} mm"
 
 
-def _gaps(closing: Sequence[Row], shown: Chosen) -> Any:
+def _gaps(closing: Sequence[Row], shown: Chosen, apart: str) -> Any:
     factor, unit = force_unit(max(row["peak_force_n"] for row in closing))
     sides = [side for side in SIDES if any(row.get(f"{side}_drift_m") is not None for row in closing)]
     panels: dict[str, Callable[[Row], Any]] = {f"largest contact force [{unit}]": lambda row: row["peak_force_n"] / factor}
@@ -101,7 +104,7 @@ def _gaps(closing: Sequence[Row], shown: Chosen) -> Any:
         panel.set_xlabel("gap [mm]")
     records = len({row["record_id"] for row in closing})
     said = f"{closing[0]['scene']}: medians of {records} records (shaded: the middle 68 %); of storeys and floors the largest"
-    said += left_out([row["pga_m_s2"] for row in closing], drawn, in_g, "peak ground accelerations")
+    said += apart + left_out([row["pga_m_s2"] for row in closing], drawn, in_g, "peak ground accelerations")
     _title(figure, said)
     lines = axes[0, 0].get_legend_handles_labels()
     figure.legend(*lines, loc="outside lower center", ncols=len(CYCLE), title="peak ground acceleration")

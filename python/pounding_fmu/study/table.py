@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from .cases import NEVER_CLOSES, OF_STOREYS, OF_YIELDING, SIDES, Row
+from .cases import NEVER_CLOSES, OF_STOREYS, OF_YIELDING, SIDES, Row, collapsed
 
 Kind = type  # of a column: str, int or float
 
@@ -28,10 +28,11 @@ RESULT: dict[str, Kind] = {
 }  # fmt: skip
 # Of each storey, or floor.
 EACH = [*OF_STOREYS, "storey_shear_n"]
-# Empty where a building has no storeys of the kind: whose columns slabs can hit, with a stiffness of its own, that yield.
+# Empty where a building has no storeys of the kind: whose columns slabs can hit, with a stiffness of its own, that yield,
+# that can collapse.
 SOME: dict[str, Kind] = {
     f"{side}_{what}": float for what in ("column_force_n", "storey_shear_n", *OF_YIELDING) for side in SIDES
-}
+} | {f"{side}_collapsed": int for side in SIDES}
 # The largest ratio of any storey, or floor, to the same one in the run without contact.
 RATIO_OF = {"drift_m": "drift_ratio", "acceleration_m_s2": "acceleration_ratio"}
 RATIOS: dict[str, Kind] = {f"{side}_{ratio}": float for ratio in RATIO_OF.values() for side in SIDES}
@@ -137,10 +138,11 @@ def key(row: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def add_ratios(rows: Sequence[Row]) -> None:
-    """Writes into each row what the largest storey ratios to its run without contact are, where that is there."""
-    free = {key(row): row for row in rows}
+    """Writes into each row what the largest storey ratios to its run without contact are, where that is there and neither has
+    collapsed."""
+    free = {key(row): row for row in rows if not collapsed(row)}
     for row in rows:
-        alone = free.get(key({**row, "gap_m": NEVER_CLOSES}))
+        alone = None if collapsed(row) else free.get(key({**row, "gap_m": NEVER_CLOSES}))
         for what, ratio in RATIO_OF.items():
             for side in SIDES:
                 row[f"{side}_{ratio}"] = largest_ratio(row, alone, f"{side}_{what}[") if alone else None

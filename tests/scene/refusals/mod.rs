@@ -2,6 +2,7 @@
 
 mod buildings;
 mod contacts;
+mod gravity;
 mod meant;
 mod meetings;
 

@@ -1,0 +1,170 @@
+//! Gravity on storeys that lean: left out where it matters, weights in other units, storeys that may fall.
+
+use super::facts::{Facts, Pace, how_many_times};
+use super::found::Found;
+use crate::figures::short;
+use crate::record::STANDARD_GRAVITY;
+use crate::scene::{Building, NetStorey, PDelta, Stiffness, Units};
+use crate::structure::Side;
+
+/// Stability coefficient up to which codes let gravity on leaning storeys be left out, and beyond which none allows a design.
+const NEGLIGIBLE: f64 = 0.1;
+const MOST_ALLOWED: f64 = 0.3;
+/// Critical drift over yield drift below which a storey falls as soon as it yields.
+const LEAST_RESERVE: f64 = 2.0;
+/// Shares of the weight of its mass that a floor's load has, with all that leans on the building.
+const USUAL_LOADS: std::ops::RangeInclusive<f64> = 0.2..=5.0;
+/// A first storey is an isolation level that has less of the height, or of the stiffness, of the storey above.
+const ISOLATION_HEIGHT: f64 = 0.5;
+const ISOLATION_STIFFNESS: f64 = 0.125;
+
+pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
+    for side in [Side::Left, Side::Right] {
+        let building = facts.building(side);
+        let is_known = ["mass", "stiffness", "stiffness_matrix"].iter().any(|key| found.has(&format!("{side}.{key}")));
+        match &building.p_delta {
+            Some(p_delta) => {
+                look_at_loads(facts, (side, p_delta), found);
+                look_at_coefficients((side, building), found);
+                look_at_falls((side, building), found);
+            }
+            None if is_known || facts.pace(side) != Pace::Usual => {}
+            None => look_at_neglect((side, building), found),
+        }
+    }
+}
+
+/// Stability coefficient of each storey on which gravity acts, with its number, the largest first.
+fn coefficients(building: &Building) -> Vec<(usize, f64)> {
+    let Stiffness::Shear(storeys) = &building.stiffness else { return Vec::new() };
+    let gravity = building.gravity_stiffness();
+    let mut all: Vec<_> = storeys.iter().zip(gravity).map(|(k, g)| g / k).enumerate().collect();
+    all.sort_by(|(_, one), (_, other)| other.total_cmp(one));
+    all.into_iter().map(|(storey, theta)| (storey + 1, theta)).collect()
+}
+
+/// The first of some storeys, and how many more there are.
+fn first_of(storeys: &[(usize, f64)]) -> Option<(usize, f64, String)> {
+    let (storey, value) = *storeys.first()?;
+    let more = storeys.len() - 1;
+    Some((storey, value, if more > 0 { format!(" (likewise {more} more)") } else { String::new() }))
+}
+
+/// Heights are there, and with them the weights would be a good part of the stiffness.
+fn look_at_neglect((side, building): (Side, &Building), found: &mut Found) {
+    let Some(heights) = &building.heights else { return };
+    let mut leaning = building.clone();
+    leaning.p_delta = Some(PDelta::new(vec![true; building.mass.len()]));
+    let has_bearings = match (&building.stiffness, &heights.storeys[..]) {
+        (Stiffness::Shear(k), [first, second, ..]) => {
+            *first < ISOLATION_HEIGHT * second || k[0] < ISOLATION_STIFFNESS * k[1]
+        }
+        _ => false,
+    };
+    let mut storeys = coefficients(&leaning);
+    storeys.retain(|(storey, theta)| *theta > NEGLIGIBLE && !(has_bearings && *storey == 1));
+    let Some((storey, theta, more)) = first_of(&storeys) else { return };
+    let text = format!(
+        "the weight above storey {storey} over its height is {} of its stiffness{more}, and codes neglect no more than 0.1: \
+         it matters, add p_delta = true",
+        short(theta)
+    );
+    found.add(format!("{side}.p_delta"), "false".to_owned(), text);
+}
+
+fn look_at_coefficients((side, building): (Side, &Building), found: &mut Found) {
+    let mut storeys = coefficients(building);
+    storeys.retain(|(_, theta)| *theta > MOST_ALLOWED);
+    let Some((storey, theta, more)) = first_of(&storeys) else { return };
+    let text = format!(
+        "storey {storey} has the stability coefficient {}{more}, and codes forbid more than 0.3; is the height right, and \
+         is it a storey? For a level of bearings say false",
+        short(theta)
+    );
+    found.add(format!("{side}.p_delta"), leaning(building), text);
+}
+
+/// `p_delta` as a scene has it.
+fn leaning(building: &Building) -> String {
+    let storeys = building.p_delta.as_ref().map_or(&[][..], |p_delta| &p_delta.leaning);
+    if storeys.contains(&false) { format!("{storeys:?}") } else { "true".to_owned() }
+}
+
+/// Storeys whose stiffness is negative once they yield, and those that start where they can only fall.
+fn look_at_falls((side, building): (Side, &Building), found: &mut Found) {
+    let storeys = (0..building.mass.len()).filter_map(|storey| {
+        let net = building.net_storey(storey)?;
+        Some((storey, net, net.critical_drift()?))
+    });
+    let mut storeys: Vec<(usize, NetStorey, f64)> = storeys.collect();
+    for (storey, _, critical) in &storeys {
+        look_at_start((side, building), *storey, *critical, found);
+    }
+    storeys.sort_by(|one, other| one.2.total_cmp(&other.2));
+    let Some((storey, net, critical)) = storeys.first() else { return };
+    let reserve = critical / net.yield_drift();
+    let near = if reserve < LEAST_RESERVE {
+        format!(", only {} times the drift at which it yields", short(reserve))
+    } else {
+        String::new()
+    };
+    let more = if storeys.len() > 1 { format!(" (likewise {} more)", storeys.len() - 1) } else { String::new() };
+    let text = format!(
+        "the stiffness after yield of storey {} is negative, {} of the initial one; it can collapse beyond a drift of {} m\
+         {near}{more}",
+        storey + 1,
+        short(net.ratio - net.theta()),
+        short(*critical)
+    );
+    found.add(format!("{side}.p_delta"), leaning(building), text);
+}
+
+fn look_at_start((side, building): (Side, &Building), storey: usize, critical: f64, found: &mut Found) {
+    let initial = &building.initial_displacement;
+    let drift = initial[storey] - storey.checked_sub(1).map_or(0.0, |below| initial[below]);
+    let path = format!("{side}.initial_displacement");
+    if drift.abs() > critical && !found.has(&path) {
+        let text = format!(
+            "storey {} starts at a drift of {} m, and beyond {} m it resists no push any more",
+            storey + 1,
+            short(drift),
+            short(critical)
+        );
+        found.numbers(path, initial, text);
+    }
+}
+
+/// Loads far from the weights of the masses. A floor may have none.
+fn look_at_loads(facts: &Facts<'_>, (side, p_delta): (Side, &PDelta), found: &mut Found) {
+    let Some(loads) = &p_delta.load else { return };
+    let has_any = loads.iter().any(|load| *load > 0.0);
+    let share = |floor: usize| loads[floor] / (STANDARD_GRAVITY * facts.building(side).mass[floor]);
+    let is_odd = |floor: &usize| !USUAL_LOADS.contains(&share(*floor)) && (loads[*floor] > 0.0 || !has_any);
+    let odd: Vec<usize> = (0..loads.len()).filter(is_odd).collect();
+    let text = |floor: usize| {
+        let share = share(floor);
+        let meant = meant_by_load(share, facts.scene.units);
+        match share > 0.0 {
+            true => format!("{} the weight of the mass of the floor{meant}", how_many_times(share)),
+            false => "no floor weighs anything, which p_delta = false would say as well".to_owned(),
+        }
+    };
+    match odd[..] {
+        [first, _, ..] if odd.len() == loads.len() => {
+            found.quantities(format!("{side}.gravity_load"), loads, text(first));
+        }
+        _ => odd.iter().for_each(|&floor| {
+            found.quantity(format!("{side}.gravity_load[{}]", floor + 1), loads[floor], text(floor));
+        }),
+    }
+}
+
+/// What else than weights in the units of the scene may have been given.
+fn meant_by_load(share: f64, units: Units) -> &'static str {
+    match (units, share) {
+        (_, 0.09..0.12) => "; a mass times 9.81 m/s2 is its weight, was the mass given?",
+        (Units::Si, 2e-4..5e-3) => "; loads are in N, were they given in kN?",
+        (Units::KilonewtonTonne, 200.0..5000.0) => "; loads are in kN, were they given in N?",
+        _ => "; is its power of ten right?",
+    }
+}
