@@ -2,7 +2,6 @@
 
 use super::contact_pair::ContactPair;
 use super::levels::Heights;
-use super::p_delta::PDelta;
 use super::problem::{Problem, number};
 use super::rule;
 use super::units::Units;
@@ -72,6 +71,21 @@ pub struct Yielding {
     pub ratio: Vec<f64>,
 }
 
+/// Share of its height by which a storey leans when it has collapsed, where a scene does not say otherwise.
+pub const COLLAPSE_DRIFT_RATIO: f64 = 0.5;
+
+/// Gravity on the storeys of a building.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PDelta {
+    /// Whether gravity pushes each storey on that leans.
+    pub leaning: Vec<bool>,
+    /// N, one per floor; `None`: that of its mass.
+    pub load: Option<Vec<f64>>,
+    /// A storey has collapsed where its drift is this share of its height.
+    pub collapse_drift_ratio: f64,
+}
+
 impl Building {
     /// A building at rest whose storeys stay elastic, without heights.
     pub fn new(mass: Vec<f64>, stiffness: Stiffness, damping: Damping) -> Building {
@@ -93,6 +107,13 @@ impl Yielding {
     /// Of one yield force, N, and one ratio per storey.
     pub fn new(force: Vec<f64>, ratio: Vec<f64>) -> Yielding {
         Yielding { force, ratio }
+    }
+}
+
+impl PDelta {
+    /// On these storeys, by the weights of the masses.
+    pub fn new(leaning: Vec<bool>) -> PDelta {
+        PDelta { leaning, load: None, collapse_drift_ratio: COLLAPSE_DRIFT_RATIO }
     }
 }
 

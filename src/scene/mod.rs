@@ -80,11 +80,11 @@ mod syntax;
 mod units;
 
 pub use contact_pair::{ColumnShape, ContactPair, Face, Share};
-pub use data::{Building, Damping, Ground, Scaling, Scene, Solver, Stiffness, Yielding};
+pub use data::{Building, COLLAPSE_DRIFT_RATIO, Damping, Ground, PDelta, Scaling, Scene, Solver, Stiffness, Yielding};
 pub use files::{Package, PackagedRecord, load};
 pub(crate) use files::{SCENE_RESOURCE, read_record_file, record_problems};
 pub use levels::{Heights, LEVEL_TOLERANCE, ROUNDING as LEVEL_ROUNDING};
-pub use p_delta::{COLLAPSE_DRIFT_RATIO, NetStorey, PDelta, STANDARD_GRAVITY};
+pub use p_delta::{NetStorey, STANDARD_GRAVITY};
 pub use problem::{Problem, SceneError};
 pub(crate) use problem::{excerpt, matrix_text, number, numbers, quoted};
 pub use side::Side;

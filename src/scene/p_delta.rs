@@ -12,7 +12,7 @@
 //! it. The engine moves net storeys; what a user reads of a storey is that of its columns.
 
 use super::checker::Checker;
-use super::data::{Building, Stiffness};
+use super::data::{Building, PDelta, Stiffness};
 use super::matrix;
 use super::problem::number;
 use super::rule;
@@ -20,28 +20,6 @@ use std::borrow::Cow;
 
 /// m/s2, by which a mass weighs where a scene does not say otherwise.
 pub const STANDARD_GRAVITY: f64 = 9.80665;
-
-/// Share of its height by which a storey leans when it has collapsed, where a scene does not say otherwise.
-pub const COLLAPSE_DRIFT_RATIO: f64 = 0.5;
-
-/// Gravity on the storeys of a building.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct PDelta {
-    /// Whether gravity pushes each storey on that leans.
-    pub leaning: Vec<bool>,
-    /// N, one per floor; `None`: that of its mass.
-    pub load: Option<Vec<f64>>,
-    /// A storey has collapsed where its drift is this share of its height.
-    pub collapse_drift_ratio: f64,
-}
-
-impl PDelta {
-    /// On these storeys, by the weights of the masses.
-    pub fn new(leaning: Vec<bool>) -> PDelta {
-        PDelta { leaning, load: None, collapse_drift_ratio: COLLAPSE_DRIFT_RATIO }
-    }
-}
 
 /// A bilinear storey under gravity: the forces that it resists drifts with in all.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,8 @@
 //! The keys of a scene file, one after the other.
 
-use super::data::{Building, Damping, Ground, Scaling, Scene, Solver, Stiffness, Yielding};
+use super::data::{Building, Damping, Ground, PDelta, Scaling, Scene, Solver, Stiffness, Yielding};
 use super::document::{self, Document, Item, KEY, Section, Span};
 use super::levels::Heights;
-use super::p_delta::PDelta;
 use super::problem::{Problem, SceneError, excerpt};
 use super::side::Side;
 use super::units::{self, Units};

@@ -130,7 +130,7 @@ fn check_run(scene: &Scene, stop: f64, is_pushed: bool) {
     }
     // Where a master pushes floors, the engine's steps end where the master's do.
     if !is_pushed {
-        check_often(&scene, &shaking, stop);
+        check_often(scene, &shaking, stop);
     }
 }
 

@@ -70,7 +70,7 @@ impl Model {
             YieldingOf::CumulativePlasticDrift => flow,
             // While the storey has not yielded they are shares of its peak drift.
             YieldingOf::Ductility | YieldingOf::PeakStabilityIndex => {
-                let drift = storey.drift_of_share(of).filter(|_| is_furthest(now));
+                let drift = drift_of_share(storey, of).filter(|_| is_furthest(now));
                 drift.map_or(0.0, |drift| flow / drift)
             }
         };
@@ -80,7 +80,7 @@ impl Model {
     /// The drift, m, of which a quantity of a storey that can yield and has not is the share that the peak drift has reached.
     pub(in crate::engine) fn unused_drift(&self, point: &Point, of: YieldingOf, place: (Side, usize)) -> Option<f64> {
         let (storey, now) = self.yielding_storey(point, place)?;
-        storey.drift_of_share(of).filter(|_| now.furthest == 0.0)
+        drift_of_share(storey, of).filter(|_| now.furthest == 0.0)
     }
 
     /// The largest shear so far of a storey that has yielded, N, and its rates.
@@ -109,6 +109,15 @@ impl Model {
     ) -> Option<(&'a YieldingStorey, &'a Storey)> {
         let i = self.system.number_of_storey(place)?;
         Some((&self.system.storeys[i], point.storeys.get(i)?))
+    }
+}
+
+/// The drift, m, of which a quantity is the share that the largest drift has reached.
+fn drift_of_share(storey: &YieldingStorey, of: YieldingOf) -> Option<f64> {
+    match of {
+        YieldingOf::Ductility => Some(storey.limit),
+        YieldingOf::PeakStabilityIndex => storey.critical,
+        _ => None,
     }
 }
 

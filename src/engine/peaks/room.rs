@@ -3,7 +3,6 @@
 
 use crate::engine::bounds::stretch::ModeBounds;
 use crate::engine::peaks::fold_room::FoldRoom;
-use crate::engine::peaks::search::LEAVES;
 use crate::engine::quantities::rows::{PeakOf, PeakRows};
 use crate::engine::quantities::truncated::TruncatedRows;
 use crate::engine::system::buffers::Buffers;
@@ -14,6 +13,9 @@ const MOST_READ: usize = 4;
 
 /// Number of parts of flights that are kept prepared.
 const MOST_PARTS: usize = 32;
+
+/// Largest number of leaves of a piece of a flight, whose ends are read together; a power of 2.
+pub const LEAVES: usize = 8;
 
 /// Number of motions within a flight that are kept.
 pub const MOST_FLOWN: usize = 16;

@@ -7,7 +7,7 @@ use crate::engine::bounds::cubic::slopes_of;
 use crate::engine::bounds::envelope::stay_below;
 use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::model::Model;
-use crate::engine::peaks::room::{MOST_FLOWN, PeakRoom, PeakWork, Suspect};
+use crate::engine::peaks::room::{LEAVES, MOST_FLOWN, PeakRoom, PeakWork, Suspect};
 use crate::engine::quantities::rows::{Block, BuildingRows, PeakOf, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS, larger};
@@ -22,9 +22,6 @@ const REACH: f64 = 1.5;
 
 /// Length of a piece, in the same units, from which on it is worth bounding the amplitudes at its start.
 const LONG: f64 = 64.0 * REACH;
-
-/// Largest number of leaves of a piece, whose ends are read together; a power of 2.
-pub const LEAVES: usize = 8;
 
 /// Marks the quantities that are cleared in one leaf of the search: no piece is halved so often.
 const OF_LEAF: u32 = u32::MAX;

@@ -162,9 +162,8 @@ fn compare<const N: usize>(case: &Case) -> f64 {
                 for k in (0..span.count).filter(|k| flights.load(from + k).length > 0.0) {
                     let length = flights.load(from + k).length;
                     let mut reached = [0.0_f64; LANES];
-                    for j in 0..=INSTANTS {
+                    for (j, (q, v)) in motions[from + k].iter().enumerate() {
                         let time = time_of(j, length);
-                        let (q, v) = &motions[from + k][j];
                         let values = values_of(block, &q[rows.modes.clone()], &v[rows.modes.clone()]);
                         for i in 0..LANES {
                             let push = case.push_on((rows.first + b) * LANES + i, from + k, time);

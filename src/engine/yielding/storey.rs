@@ -6,7 +6,6 @@
 use crate::engine::base::Coordinates;
 use crate::engine::base::storey::{Sense, Storey};
 use crate::engine::bounds::certificate::stays_below;
-use crate::engine::output::outputs::YieldingOf;
 use crate::engine::pairs::pair::apart;
 use crate::numerics::polynomial::Coefficients;
 use crate::scene::{NetStorey, Scene};
@@ -276,15 +275,6 @@ impl YieldingStorey {
     /// largest where the plastic drift was.
     pub(crate) fn largest_drift(&self, storey: &Storey, peak_drift: f64) -> f64 {
         if storey.furthest > 0.0 { self.limit + storey.furthest } else { peak_drift }
-    }
-
-    /// The drift, m, of which a quantity is the share that the largest drift has reached.
-    pub(crate) fn drift_of_share(&self, of: YieldingOf) -> Option<f64> {
-        match of {
-            YieldingOf::Ductility => Some(self.limit),
-            YieldingOf::PeakStabilityIndex => self.critical,
-            _ => None,
-        }
     }
 
     /// Energy dissipated by yielding so far, J: (1 - r) V_y times the sum of all plastic steps, exactly.

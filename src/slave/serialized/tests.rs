@@ -79,7 +79,7 @@ fn go_on(slave: &mut Slave, body: &[u8]) -> bool {
             let _ = slave.get(&all, "any", |_, _| Some(()));
         }
         if slave.check(Call::DoStep).is_ok() {
-            let result = slave.do_step(slave.last_successful_time(), 0.004).map(Status::from);
+            let result = slave.do_step(slave.last_successful_time(), 0.004);
             slave.report(Call::DoStep, result);
         }
     }
