@@ -9,6 +9,8 @@ mod flight_work;
 mod impacts;
 mod linear_inputs;
 mod many_storeys;
+mod p_delta;
+mod p_delta_collapse;
 mod peaks;
 mod peaks_whenever;
 mod piecewise;
