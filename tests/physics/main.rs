@@ -11,6 +11,7 @@ mod linear_inputs;
 mod many_storeys;
 mod p_delta;
 mod p_delta_collapse;
+mod p_delta_net;
 mod peaks;
 mod peaks_whenever;
 mod piecewise;
