@@ -194,7 +194,11 @@ fn assert_turns(one: &Leaning, share: f64, sign: f64, run: &mut Run) {
         let phase = w * (run.state.time() - turn);
         near(shown.plastic, sign * plastic, limit + plastic, "plastic drift");
         near(shown.residual, sign * residual, limit + plastic, "residual drift");
-        near(run.displacement(Side::Left, 0), sign * (residual + amplitude * phase.cos()), limit + plastic, "drift");
+        let drift = residual + amplitude * phase.cos();
+        near(run.displacement(Side::Left, 0), sign * drift, limit + plastic, "drift");
+        // The columns resist with r k drift + (1 - r) k (drift - p).
+        let shear = sign * one.stiffness * (drift - (1.0 - one.ratio) * plastic);
+        near(shown.shear, shear, one.stiffness * (limit + plastic), "shear");
         near(shown.hysteretic, (1.0 - one.ratio) * one.force * plastic, one.force * (limit + plastic), "hysteretic");
         assert!(run.energy().residual.abs() < 1e-12, "{what}: {:?}", run.energy());
     }
