@@ -11,6 +11,7 @@ typedef struct {
     double weight[MAX_CONTACTS][MAX_WEIGHTS], weight_over_m[MAX_CONTACTS][MAX_WEIGHTS];
     double held_inverse[MAX_CONTACTS][MAX_CONTACTS];
     double relief[MAX_FLOORS]; /* of the stiffness of storeys that yield */
+    double gravity[MAX_FLOORS]; /* N/m, of the storey below each floor */
 } Jacobian;
 
 static void round_rows(const Solver *solver, Jacobian *jacobian)
@@ -29,6 +30,8 @@ static void round_rows(const Solver *solver, Jacobian *jacobian)
     for (int s = 0; s < scene->storeys; s++)
         jacobian->relief[s] =
             phases->yielding[s] ? (double)((1 - scene->storey[s].ratio) * scene->storey[s].k) : 0;
+    for (int i = 0; i < scene->floors; i++)
+        jacobian->gravity[i] = (double)scene->gravity[i];
 }
 
 static void differentiate(const Solver *solver, const Step *step, Jacobian *jacobian)
@@ -102,6 +105,19 @@ static void relieve_storeys(const Solver *solver, const Jacobian *jacobian, cons
     }
 }
 
+/* So have storeys on whose lean gravity acts. */
+static void push_storeys_on(const Solver *solver, const Jacobian *jacobian, const double *u, double *a)
+{
+    const Scene *scene = solver->scene;
+    for (int i = 0; i < scene->floors; i++) {
+        bool lowest = stands_on_ground(scene, i);
+        double force = jacobian->gravity[i] * (u[i] - (lowest ? 0 : u[i - 1]));
+        a[i] += force / (double)scene->mass[i];
+        if (!lowest)
+            a[i - 1] -= force / (double)scene->mass[i - 1];
+    }
+}
+
 /* a = Jacobian at stage j times (u, v). */
 static void apply(const Solver *solver, const Jacobian *jacobian, int j, const double *u, const double *v, double *a)
 {
@@ -120,6 +136,8 @@ static void apply(const Solver *solver, const Jacobian *jacobian, int j, const d
                  by_d * row_times(solver, jacobian, c, u) + by_rate * row_times(solver, jacobian, c, v), a);
     }
     relieve_storeys(solver, jacobian, u, a);
+    if (scene->has_gravity)
+        push_storeys_on(solver, jacobian, u, a);
     push_held(solver, jacobian, a);
 }
 

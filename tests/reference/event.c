@@ -61,6 +61,8 @@ real guard_value(const Solver *solver, Guard guard, const Point *p)
         return guard.sign * p->z[c] - solver->scene->storey[c].limit;
     case TURN:
         return guard.sign * p->drift_rate[c];
+    case COLLAPSE:
+        return guard.sign * (p->z[c] + p->plastic[c]) - solver->scene->storey[c].collapse;
     }
     return 0;
 }
@@ -79,6 +81,7 @@ real guard_rate(const Solver *solver, Guard guard, const Point *p)
     case REACTION:
         return guard.sign * reaction_rate(solver, c, p);
     case YIELD:
+    case COLLAPSE:
         return guard.sign * p->drift_rate[c];
     case TURN:
         return guard.sign * p->drift_change[c];
@@ -88,8 +91,8 @@ real guard_rate(const Solver *solver, Guard guard, const Point *p)
 
 real guard_scale(const Solver *solver, Guard guard)
 {
-    if (guard.quantity == YIELD || guard.quantity == TURN)
-        return guard.quantity == YIELD ? solver->u_scale : solver->v_scale;
+    if (guard.quantity >= YIELD)
+        return guard.quantity == TURN ? solver->v_scale : solver->u_scale;
     const Contact *contact = &solver->scene->contact[guard.of];
     real largest = 0; /* stiffness over mass */
     for (int w = 0; w < contact->weights; w++)
@@ -105,6 +108,7 @@ real guard_scale(const Solver *solver, Guard guard)
         return contact->mass * largest * solver->u_scale;
     case YIELD:
     case TURN:
+    case COLLAPSE:
         break;
     }
     return 0;

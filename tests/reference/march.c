@@ -228,7 +228,8 @@ static void try_step(Run *run, real t_end)
 
 void advance(Run *run, real t_end)
 {
-    while (t_end - run->now.t > 1e-31Q)
+    while (!run->solver.phases.collapsed && t_end - run->now.t > 1e-31Q)
         try_step(run, t_end);
-    run->now.t = t_end;
+    if (!run->solver.phases.collapsed)
+        run->now.t = t_end;
 }

@@ -115,6 +115,7 @@ static void change_mode(Run *run, Guard guard)
         break;
     case YIELD:
     case TURN:
+    case COLLAPSE:
         switch_storey(run, guard);
         break;
     }

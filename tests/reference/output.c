@@ -63,8 +63,8 @@ static void write_displacements(FILE *file, const Scene *scene, const Solution *
     fprintf(file, "time");
     write_columns(file, scene, "displacement");
     write_columns(file, scene, "velocity");
-    fprintf(file, ",energy.input,energy.kinetic,energy.strain,energy.viscous,energy.impact%s%s\n",
-            scene->storeys ? ",energy.hysteretic" : "", proof ? ",sensitivity" : "");
+    fprintf(file, ",energy.input,energy.kinetic,energy.strain,energy.viscous,energy.impact%s%s%s\n",
+            scene->storeys ? ",energy.hysteretic" : "", scene->has_gravity ? ",energy.gravity" : "", proof ? ",sensitivity" : "");
     for (int r = 0; r < s->rows; r++) {
         const Row *row = &s->row[r];
         fprintf(file, "%.17g", (double)row->time);
@@ -79,6 +79,8 @@ static void write_displacements(FILE *file, const Scene *scene, const Solution *
         put(file, row->energy.impact);
         if (scene->storeys)
             put(file, row->energy.hysteretic);
+        if (scene->has_gravity)
+            put(file, row->energy.gravity);
         if (proof)
             fprintf(file, ",%.2e", proof->sensitivity[r]);
         fprintf(file, "\n");
@@ -136,13 +138,13 @@ static void write_storeys(FILE *file, const Scene *scene, const Solution *soluti
 
 static void write_yields(FILE *file, const Scene *scene, const Solution *solution)
 {
-    static const char *const kinds[] = {"yields -", "unloads", "yields +"};
+    static const char *const kinds[] = {"collapses -", "yields -", "unloads", "yields +", "collapses +"};
     fprintf(file, "building,storey,kind,time_s,drift_m,plastic_drift_m,drift_rate_m_s\n");
     for (const Switch *at = solution->switched; at < solution->switched + solution->switches; at++) {
         int floor = scene->storey[at->storey].above;
         bool left = floor < scene->left_floors;
         fprintf(file, "%s,%d,%s", left ? "left" : "right", 1 + (left ? floor : floor - scene->left_floors),
-                kinds[at->direction + 1]);
+                kinds[at->direction + 2]);
         put(file, at->time);
         put(file, at->drift);
         put(file, at->plastic);

@@ -12,6 +12,9 @@ static real largest_difference(const Scene *scene, const Row *a, const Row *b, b
     return largest;
 }
 
+/* A collapse ends a run: the last row of both may be at other output times. */
+static int fewer_rows(const Solution *a, const Solution *b) { return a->rows < b->rows ? a->rows : b->rows; }
+
 static real largest_value(const Scene *scene, const Solution *s, bool velocity)
 {
     static const Row zero;
@@ -25,7 +28,7 @@ static void compare(const Scene *scene, const Solution *best, Proof *proof)
 {
     const Solution *second = &proof->second;
     real du = 0, dv = 0, dt = 0;
-    for (int r = 0; r < best->rows; r++) {
+    for (int r = 0; r < fewer_rows(best, second); r++) {
         du = fmaxq(du, largest_difference(scene, &best->row[r], &second->row[r], false));
         dv = fmaxq(dv, largest_difference(scene, &best->row[r], &second->row[r], true));
     }
@@ -71,7 +74,7 @@ static void compare_storeys(const Scene *scene, const Solution *best, Proof *pro
 {
     const Solution *second = &proof->second;
     real difference = 0, largest = 0, dt = 0;
-    for (int r = 0; r < best->rows; r++) {
+    for (int r = 0; r < fewer_rows(best, second); r++) {
         difference = fmaxq(difference, largest_plastic(scene, &best->row[r], &second->row[r]));
         largest = fmaxq(largest, largest_plastic(scene, &best->row[r], NULL));
     }
@@ -98,7 +101,7 @@ static real shaken(real part)
     return state >> 63 ? 1 + part : 1 - part;
 }
 
-static void find_sensitivity(const Scene *scene, Proof *proof)
+static void find_sensitivity(const Scene *scene, const Solution *best, Proof *proof)
 {
     static Scene changed;
     static Solution solution;
@@ -113,9 +116,10 @@ static void find_sensitivity(const Scene *scene, Proof *proof)
     }
     solve(&changed, proof->second.stages, proof->second.tolerance, &solution);
     real largest = 0, scale = part * largest_value(scene, &proof->second, false);
-    proof->sensitivity = calloc(solution.rows, sizeof(double));
-    for (int r = 0; r < solution.rows; r++) {
-        largest = fmaxq(largest, largest_difference(scene, &solution.row[r], &proof->second.row[r], false) / scale);
+    proof->sensitivity = calloc(best->rows, sizeof(double));
+    for (int r = 0; r < best->rows; r++) {
+        if (r < fewer_rows(&solution, &proof->second))
+            largest = fmaxq(largest, largest_difference(scene, &solution.row[r], &proof->second.row[r], false) / scale);
         proof->sensitivity[r] = (double)largest;
     }
 }
@@ -131,6 +135,6 @@ void prove(const Scene *scene, const Solution *best, Proof *proof)
     if (scene->storeys)
         printf("agreement: plastic drifts %.1e, yields and turns %.1e s, %s\n", proof->plastic, proof->yield_time,
                proof->same_yields ? "the same" : "DIFFERENT");
-    find_sensitivity(scene, proof);
+    find_sensitivity(scene, best, proof);
     printf("sensitivity: %.1e\n", proof->sensitivity[best->rows - 1]);
 }

@@ -15,7 +15,8 @@
  *
  * Solved: M u'' + C u' + K u = -M 1 a(t) + contact forces, u relative to the ground, with dense K and C in physical
  * coordinates, by Gauss-Legendre collocation. Plastic drifts p of storeys that yield add forces (1 - ratio) k p that
- * drive their floors apart. See README.md for the method.
+ * drive their floors apart; so does gravity on storeys that lean, weight / height times their drifts. See README.md for the
+ * method.
  *
  * Input: one statement a line, words separated by blanks, # begins a comment. Numbers are decimal, each becomes the
  * nearest double and is exact from there on. SI units. Floors count from 1 at the bottom.
@@ -31,7 +32,12 @@
  *     stiffness_row 5820 -2910
  *     yield_force 40 inf           per storey, after stiffness; inf: stays elastic; optional. Then, optional:
  *     post_yield_ratio 0.05 0      stiffness after yield over that before, per storey; else 0
- *     damping ratio 0.01           the same in every mode; after mass and stiffness
+ *     gravity_load 36 36           N per floor, weights that lean on the storeys below; optional, else those of the masses
+ *     lean 3 inf                   m, heights of the storeys that gravity pushes on as they lean; inf: not this one;
+ *                                  optional; after mass and gravity_load
+ *     collapse_drift_ratio 0.5     share of its height by which a storey that leans and can yield has collapsed, which ends
+ *                                  the run; optional, else never; after lean and yield_force
+ *     damping ratio 0.01           the same in every mode of the building under gravity; after mass, stiffness and lean
  *     damping ratios 0.01 0.02     per mode, lowest first
  *     damping rayleigh 0.05 1 2    ratio and two modes
  *     damping dashpots 10 8        N s/m, per storey

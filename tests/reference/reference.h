@@ -40,6 +40,7 @@ typedef struct {
 typedef struct {
     int above, below; /* its floors in the vector of all floors; below is -1 on the ground */
     real k, ratio, force, limit; /* limit = force / k */
+    real collapse; /* |drift| at which it has collapsed, which ends the run; 0: never */
 } Storey;
 
 typedef struct {
@@ -50,7 +51,9 @@ typedef struct {
 typedef struct {
     int left_floors, right_floors, floors; /* left floors first in every vector */
     real mass[MAX_FLOORS], u0[MAX_FLOORS], v0[MAX_FLOORS];
-    real K[MAX_FLOORS][MAX_FLOORS], C[MAX_FLOORS][MAX_FLOORS];
+    real K[MAX_FLOORS][MAX_FLOORS], C[MAX_FLOORS][MAX_FLOORS]; /* K of the columns, without gravity */
+    real gravity[MAX_FLOORS]; /* weight over height of the storey below each floor, N/m; 0: none acts on its lean */
+    bool has_gravity;
     int contacts;
     Contact contact[MAX_CONTACTS];
     int storeys; /* only those that can yield */
@@ -83,7 +86,18 @@ void drive_storey(const Scene *scene, const Storey *storey, real force, real *fl
 /* Solves a x = b for a symmetric positive definite a of order n, which is overwritten; x replaces b. */
 void solve_linear(int n, real a[MAX_CONTACTS][MAX_CONTACTS], real *b);
 
-/* ---- structure.c: damping matrices from ratios ---- */
+/* ---- gravity.c: weights on storeys that lean ---- */
+
+/* Whether the storey below a floor is the lowest of its building. */
+bool stands_on_ground(const Scene *scene, int floor);
+/* What gravity does to the accelerations of all floors, from displacements; to their rates, from velocities. */
+void push_on(const Scene *scene, const real *lean, real *floors);
+/* What weights have given: minus the work of gravity from the upright position on. */
+real gravity_energy(const Scene *scene, const real *displacements);
+/* An entry of the stiffness matrix of the elastic buildings under gravity. */
+real stiffness_under_gravity(const Scene *scene, int i, int j);
+
+/* ---- structure.c: damping matrices from ratios, which are those of the buildings under gravity ---- */
 
 /* Writes the damping matrix of one building (floors first .. first+n-1) into scene->C. */
 void damping_from_ratios(Scene *scene, int first, int n, const real *ratios);
@@ -148,6 +162,7 @@ typedef struct {
     int held, held_contact[MAX_CONTACTS]; /* those that are STUCK */
     real held_inverse[MAX_CONTACTS][MAX_CONTACTS]; /* of their couplings: reactions from relative accelerations */
     int yielding[MAX_FLOORS]; /* of each storey: the direction of its drift (+1, -1) while it yields, 0 while elastic */
+    bool collapsed; /* a storey has: the run ends */
 } Phases;
 
 typedef struct {
@@ -196,8 +211,8 @@ bool correct_stages(const Solver *solver, const Step *step, real residual[MAX_ST
 
 /* ---- event.c: where a contact changes its mode, a storey its phase ---- */
 
-/* The last two are of a storey: sign z - limit, and its drift rate. */
-typedef enum { PENETRATION, RATE, PUSH, REACTION, YIELD, TURN } Quantity;
+/* The last three are of a storey: sign z - limit, its drift rate, sign drift - that of its collapse. */
+typedef enum { PENETRATION, RATE, PUSH, REACTION, YIELD, TURN, COLLAPSE } Quantity;
 
 /* Something changes when `sign` times the quantity becomes positive. */
 typedef struct {
@@ -252,7 +267,7 @@ void record_step(Solver *solver, Episodes *episodes, const Step *step, Step *scr
 /* ---- solve.c: one solution ---- */
 
 typedef struct {
-    real input, kinetic, strain, viscous, impact, hysteretic;
+    real input, kinetic, strain, viscous, impact, hysteretic, gravity;
 } Energy;
 
 /* What is written about a storey that can yield. */
@@ -267,7 +282,7 @@ typedef struct {
     StoreyRow storey[MAX_FLOORS];
 } Row;
 
-/* A storey begins to yield (direction +1, -1) or is elastic again (0). */
+/* A storey begins to yield (direction +1, -1), is elastic again (0) or has collapsed (+2, -2). */
 typedef struct {
     int storey, direction;
     real time, drift, plastic, rate;

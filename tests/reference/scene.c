@@ -121,11 +121,17 @@ static void scale_record(Record *record, real scale, real pga)
 
 /* ---- buildings ---- */
 
+/* m/s2; the nearest double, as in the engine. */
+#define STANDARD_GRAVITY 9.80665
+
 typedef struct {
     Scene *scene;
     int first, floors; /* the building that is being read */
     int stiffness_rows, damping_rows;
     real stiffness[MAX_FLOORS]; /* of its storeys, in a shear building */
+    real height[MAX_FLOORS];    /* of its storeys that gravity pushes on; infinite: not this one */
+    bool leans;                 /* whether heights have been read */
+    real load[MAX_FLOORS];      /* N, weights of its floors; below 0: those of their masses */
     int storeys;                /* of all buildings that can yield, those of this one left out */
 } Reader;
 
@@ -152,6 +158,9 @@ static void begin_building(Reader *reader, int floors)
     reader->floors = floors;
     reader->stiffness_rows = reader->damping_rows = 0;
     reader->stiffness[0] = 0;
+    reader->leans = false;
+    for (int i = 0; i < floors; i++)
+        reader->load[i] = -1;
     reader->storeys = scene->storeys;
     scene->floors += floors;
     if (reader->first == 0)
@@ -219,6 +228,39 @@ static void read_post_yield_ratios(Reader *reader, const Line *line)
     }
 }
 
+/* What gravity takes of the stiffness of each storey, from the weights that floors carry: without a line of these, those
+   of their masses. */
+static void read_lean(Reader *reader, const Line *line)
+{
+    Scene *scene = reader->scene;
+    real above = 0;
+    if (line->count != 1 + reader->floors)
+        fail("line %d: %d heights", line->number, reader->floors);
+    for (int i = reader->floors - 1; i >= 0; i--) {
+        int floor = reader->first + i;
+        bool leans = strcmp(word(line, 1 + i), "inf") != 0;
+        reader->height[i] = leans ? value(line, 1 + i) : HUGE_VALQ;
+        above += reader->load[i] >= 0 ? reader->load[i] : scene->mass[floor] * STANDARD_GRAVITY;
+        scene->gravity[floor] = leans ? above / reader->height[i] : 0;
+        scene->has_gravity = scene->has_gravity || leans;
+    }
+    reader->leans = true;
+}
+
+/* A storey that leans and can yield has collapsed where its drift is this share of its height. */
+static void read_collapse_drift_ratio(Reader *reader, const Line *line)
+{
+    Scene *scene = reader->scene;
+    real ratio;
+    values(line, 1, 1, &ratio);
+    if (!reader->leans || scene->storeys == reader->storeys || !(ratio > 0))
+        fail("line %d: a ratio > 0, after lean and yield_force", line->number);
+    for (int s = reader->storeys; s < scene->storeys; s++) {
+        real height = reader->height[scene->storey[s].above - reader->first];
+        scene->storey[s].collapse = isinfq(height) ? 0 : ratio * height;
+    }
+}
+
 /* true where the line is one of a building. */
 static bool read_building_line(Reader *reader, const Line *line)
 {
@@ -236,6 +278,12 @@ static bool read_building_line(Reader *reader, const Line *line)
         read_yield_forces(reader, line);
     } else if (strcmp(key, "post_yield_ratio") == 0) {
         read_post_yield_ratios(reader, line);
+    } else if (strcmp(key, "gravity_load") == 0) {
+        values(line, 1, n, reader->load);
+    } else if (strcmp(key, "lean") == 0) {
+        read_lean(reader, line);
+    } else if (strcmp(key, "collapse_drift_ratio") == 0) {
+        read_collapse_drift_ratio(reader, line);
     } else if (strcmp(key, "stiffness_row") == 0) {
         if (reader->stiffness_rows == n)
             fail("line %d: more rows than floors", line->number);

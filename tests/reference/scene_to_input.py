@@ -13,7 +13,7 @@ from decimal import Decimal
 from facing import contacts, position
 
 # What is in t or with kN where a scene says so.
-IN_KN_T = {"mass", "stiffness", "stiffness_matrix", "yield_force", "matrix", "dashpots"}
+IN_KN_T = {"mass", "stiffness", "stiffness_matrix", "yield_force", "matrix", "dashpots", "gravity_load"}
 
 
 def in_si_units(value, is_scaled=False):
@@ -42,6 +42,19 @@ def damping_lines(damping):
     raise SystemExit(f"damping: unknown kind {kind!r}")
 
 
+def gravity_lines(building):
+    leans = building.get("p_delta", False)
+    leans = leans if isinstance(leans, list) else [leans] * len(building["mass"])
+    if not any(leans):
+        return []
+    lines = [f"gravity_load {numbers(building['gravity_load'])}"] if "gravity_load" in building else []
+    heights = [height if is_pushed else "inf" for height, is_pushed in zip(building["height"], leans, strict=True)]
+    lines.append(f"lean {numbers(heights)}")
+    if "yield_force" in building:
+        lines.append(f"collapse_drift_ratio {numbers([building.get('collapse_drift_ratio', 0.5)])}")
+    return lines
+
+
 def building_lines(building):
     lines = [f"building {len(building['mass'])}", f"mass {numbers(building['mass'])}"]
     if "stiffness" in building:
@@ -52,6 +65,7 @@ def building_lines(building):
         ratios = building.get("post_yield_ratio", 0)
         ratios = ratios if isinstance(ratios, list) else [ratios] * len(building["mass"])
         lines += [f"yield_force {numbers(building['yield_force'])}", f"post_yield_ratio {numbers(ratios)}"]
+    lines += gravity_lines(building)
     lines += damping_lines(building["damping"])
     for key in ("displacement", "velocity"):
         if f"initial_{key}" in building:

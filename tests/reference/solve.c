@@ -93,6 +93,7 @@ static Energy energy_now(const Run *run)
     }
     energy.strain += recoverable_change(run);
     energy.hysteretic = hysteretic_energy(run);
+    energy.gravity = gravity_energy(scene, run->now.u);
     return energy;
 }
 
@@ -114,7 +115,7 @@ static void start(Run *run)
     close_at_start(run);
     complete_point(&run->solver, p);
     Energy energy = energy_now(run);
-    run->initial_energy = energy.kinetic + energy.strain;
+    run->initial_energy = energy.kinetic + energy.strain + energy.gravity;
 }
 
 static void write_row(Run *run)
@@ -127,9 +128,10 @@ static void write_row(Run *run)
     *e = energy_now(run);
     for (int s = 0; s < run->scene->storeys; s++)
         row->storey[s] = storey_row(run, s);
-    real error = run->initial_energy + e->input - e->kinetic - e->strain - e->viscous - e->impact - e->hysteretic;
+    real error = run->initial_energy + e->input - e->kinetic - e->strain - e->gravity - e->viscous - e->impact -
+                 e->hysteretic;
     real largest = fmaxq(fmaxq(fabsq(e->input), e->kinetic), fmaxq(fmaxq(e->strain, e->viscous), fabsq(e->impact)));
-    largest = fmaxq(largest, e->hysteretic);
+    largest = fmaxq(largest, fmaxq(e->hysteretic, -e->gravity));
     if (largest > 0)
         run->solution->energy_residual = fmax(run->solution->energy_residual, (double)fabsq(error / largest));
 }
@@ -149,11 +151,11 @@ void solve(const Scene *scene, int stages, real tolerance, Solution *solution)
     prepare_solver(&run->solver, scene, stages);
     start(run);
     write_row(run);
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count && !run->solver.phases.collapsed; i++) {
         set_segment(run, run->now.t);
         complete_point(&run->solver, &run->now);
         advance(run, stops[i].time);
-        if (stops[i].output)
+        if (stops[i].output || run->solver.phases.collapsed)
             write_row(run);
     }
     solution->steps = run->solver.steps;

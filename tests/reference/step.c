@@ -112,6 +112,7 @@ real reaction_rate(const Solver *solver, int contact, const Point *p)
     const Phases *phases = &solver->phases;
     real jerk[MAX_FLOORS], rate[MAX_CONTACTS] = {0}, force[MAX_CONTACTS];
     restore(solver, p->v, p->a, jerk);
+    push_on(scene, p->v, jerk);
     for (int i = 0; i < scene->floors; i++)
         jerk[i] -= solver->segment_slope;
     for (int s = 0; s < scene->storeys; s++)
@@ -139,6 +140,7 @@ void complete_point(const Solver *solver, Point *p)
     real rate[MAX_CONTACTS], force[MAX_CONTACTS];
     p->ground = solver->segment_ground + solver->segment_slope * (p->t - solver->segment_time);
     restore(solver, p->u, p->v, p->a);
+    push_on(scene, p->u, p->a);
     for (int i = 0; i < scene->floors; i++)
         p->a[i] -= p->ground;
     for (int s = 0; s < scene->storeys; s++) {

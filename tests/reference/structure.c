@@ -44,14 +44,14 @@ static void sort_modes(Modes *modes)
             }
 }
 
-/* Eigenvalues of M^-1/2 K M^-1/2 by cyclic Jacobi rotations. */
+/* Eigenvalues of M^-1/2 K M^-1/2 by cyclic Jacobi rotations, K being that under gravity. */
 static void find_modes(const Scene *scene, int first, int n, Modes *modes)
 {
     static real s[MAX_FLOORS][MAX_FLOORS];
     modes->n = n;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
-            s[i][j] = scene->K[first + i][first + j] / sqrtq(scene->mass[first + i] * scene->mass[first + j]);
+            s[i][j] = stiffness_under_gravity(scene, first + i, first + j) / sqrtq(scene->mass[first + i] * scene->mass[first + j]);
             modes->q[i][j] = i == j;
         }
     for (int sweep = 0; sweep < 40; sweep++)
@@ -88,5 +88,6 @@ void damping_rayleigh(Scene *scene, int first, int n, real ratio, int mode_1, in
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             scene->C[first + i][first + j] =
-                beta * scene->K[first + i][first + j] + (i == j ? alpha * scene->mass[first + i] : 0);
+                beta * stiffness_under_gravity(scene, first + i, first + j) +
+                (i == j ? alpha * scene->mass[first + i] : 0);
 }

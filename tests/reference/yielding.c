@@ -25,9 +25,10 @@ static real drift(const Point *p, int s) { return p->z[s] + p->plastic[s]; }
 int storey_guards(const Solver *solver, int s, Guard guards[2])
 {
     int direction = solver->phases.yielding[s];
-    if (direction) {
+    if (direction) { /* a drift larger than all before is reached only while the storey yields */
         guards[0] = (Guard){s, TURN, -direction};
-        return 1;
+        guards[1] = (Guard){s, COLLAPSE, direction};
+        return solver->scene->storey[s].collapse > 0 && !solver->phases.collapsed ? 2 : 1;
     }
     guards[0] = (Guard){s, YIELD, +1};
     guards[1] = (Guard){s, YIELD, -1};
@@ -46,11 +47,10 @@ void start_storeys(Run *run)
     }
 }
 
-static void set_phase(Run *run, int s, int direction)
+static void note_switch(Run *run, int s, int direction)
 {
     Solution *solution = run->solution;
     const Point *p = &run->now;
-    run->solver.phases.yielding[s] = direction;
     if (solution->switches == solution->switch_capacity) {
         solution->switch_capacity = 2 * solution->switch_capacity + 256;
         solution->switched = realloc(solution->switched, solution->switch_capacity * sizeof(Switch));
@@ -59,10 +59,19 @@ static void set_phase(Run *run, int s, int direction)
         (Switch){s, direction, p->t, drift(p, s), p->plastic[s], p->drift_rate[s]};
 }
 
+static void set_phase(Run *run, int s, int direction)
+{
+    run->solver.phases.yielding[s] = direction;
+    note_switch(run, s, direction);
+}
+
 void switch_storey(Run *run, Guard guard)
 {
     int s = guard.of;
-    if (guard.quantity == YIELD) {
+    if (guard.quantity == COLLAPSE) {
+        run->solver.phases.collapsed = true;
+        note_switch(run, s, 2 * guard.sign);
+    } else if (guard.quantity == YIELD) {
         run->now.z[s] = guard.sign * run->scene->storey[s].limit;
         set_phase(run, s, guard.sign);
     } else if (run->solver.phases.yielding[s]) { /* an elastic storey that turns stays elastic */

@@ -137,4 +137,39 @@ def held_while_yielding():
     )
 
 
-FAMILIES = (pushed_once, starts_beyond, step_loads, all_at_once, unloaded_by_impulse, held_while_yielding)
+
+def leaning():
+    """A weight takes theta = 1/4 of the stiffness and leaves -1/3 of the rest after yield. With less than the speed kappa D
+    when it yields it turns and swings about (1 + 1/3) p; with more it falls, by exponentials, to 1 m."""
+    theta, height, softening = 0.25, 2.0, 1 / 3
+    w, reach = W * math.sqrt(1 - theta), DY / softening
+    kappa, critical = w * math.sqrt(softening), DY + reach
+    for share in (0.6, 1.25):
+        v1 = share * kappa * reach
+        v0 = math.hypot(v1, w * DY)
+        t1 = math.asin(w * DY / v0) / w
+        scene = (
+            f"stop 3\nbuilding 1\nmass {MASS}\nstiffness {K}\nyield_force {FORCE}\ngravity_load {theta * K * height}\n"
+            f"lean {height}\ncollapse_drift_ratio {1 / height}\nvelocity {v0}\n"
+        )
+        if share < 1:
+            left = math.sqrt((1 - share) * (1 + share))
+            t2, p = t1 + math.atanh(share) / kappa, reach * (1 - left)
+            u = (1 + softening) * p + DY * left * math.cos(w * (3 - t2))
+            yield scene, (
+                ("yields", 0, "time_s", t1, 1e-16), ("yields", 1, "time_s", t2, 3e-16), ("yields", -1, "rows", 2, 0),
+                ("storeys", -1, "left.plastic_drift[1]", p, 1e-16), ("displacements", -1, "left.displacement[1]", u, 2e-16),
+                ("displacements", -1, "energy.gravity", -theta * K * u * u / 2, 1e-15),
+            )
+            continue
+        y, grows, fades = 1 - critical, (v1 / kappa - reach) / 2, -(v1 / kappa + reach) / 2
+        up = (y + math.sqrt(y * y - 4 * grows * fades)) / 2
+        t2 = t1 + math.log(up / grows) / kappa
+        yield scene, (
+            ("yields", 0, "time_s", t1, 1e-16), ("yields", 1, "time_s", t2, 1e-15), ("yields", -1, "rows", 2, 0),
+            ("yields", 1, "drift_m", 1, 1e-16), ("yields", 1, "drift_rate_m_s", kappa * (up - grows * fades / up), 2e-15),
+            ("displacements", -1, "energy.gravity", -theta * K / 2, 1e-15),
+        )
+
+
+FAMILIES = (pushed_once, starts_beyond, step_loads, all_at_once, unloaded_by_impulse, held_while_yielding, leaning)
