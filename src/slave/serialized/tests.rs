@@ -5,7 +5,7 @@ use super::*;
 use crate::description::Package;
 use crate::engine::{Input, Inputs, Side};
 use crate::scene::{PackagedRecord, Scene};
-use crate::slave::{Call, Log, Status};
+use crate::slave::{Call, Log};
 use proptest::prelude::*;
 
 const LAWS: [&str; 5] = [
