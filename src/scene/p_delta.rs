@@ -1,8 +1,8 @@
 //! Gravity on storeys that lean (P-delta), and its rules.
 //!
 //! A weight P above a storey of height h that leans by a drift d pushes it on with the force P d / h, as if a spring of
-//! the stiffness -g, with g = P / h, stood beside its columns (the linear P-delta model of frame programs; Chopra, Dynamics of
-//! Structures, sec. 19.4). So the columns and gravity together, the *net* storey, are again a bilinear storey:
+//! the stiffness -g, with g = P / h, stood beside its columns (the linear P-delta model of frame programs:
+//! \[WilsonHabibullah1987\]). So the columns and gravity together, the *net* storey, are again a bilinear storey:
 //!
 //! ```text
 //! k' = k (1 - theta)     V_y' = V_y (1 - theta)     r' = (r - theta) / (1 - theta)     theta = g / k
@@ -38,11 +38,6 @@ impl NetStorey {
     /// Stability coefficient theta.
     pub fn theta(&self) -> f64 {
         self.gravity / self.stiffness
-    }
-
-    /// Net stiffness k', N/m.
-    pub fn net_stiffness(&self) -> f64 {
-        self.stiffness - self.gravity
     }
 
     /// Net yield force V_y', N.

@@ -9,8 +9,9 @@
 //! series in time ([`reading`]).
 //!
 //! The peaks do not depend on the communication points: the base holds those of all steps but the logged ones, and
-//! these and the part of the planned step so far are added when a peak is read. Velocities jump in an impact of `stereomechanical`: the motion
-//! before and after counts, the impulse itself, in which accelerations are unbounded, does not.
+//! these and the part of the planned step so far are added when a peak is read; where peaks are read often, the next flights
+//! are bounded ahead of time ([`ahead`]). Velocities jump in an impact of `stereomechanical`: the motion before and after
+//! counts, the impulse itself, in which accelerations are unbounded, does not.
 
 pub mod ahead;
 pub mod contact;
