@@ -121,7 +121,7 @@ pub fn run(description: &ModelDescription, fmu: &dyn CoSimulation) -> Result<Out
 
     // That a step is discarded is the end of the run, which its outputs tell, and no warning.
     let mut warnings = fmu.end()?;
-    warnings.retain(|warning| !warning.starts_with("logStatusDiscard"));
+    warnings.retain(|warning| end.is_none() || !warning.starts_with("logStatusDiscard"));
     let seen = seen.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
     let variables = variables(description);
     Ok(Outcome { variables, experiment, steps, solving, seen, warnings })

@@ -45,11 +45,12 @@ impl System {
             Coordinates::Floors => self.structure.floors.energies(q, v),
         };
         let gravity = self.gravity_energy((coordinates, storeys), q);
-        // That of the net storeys is the sum of both.
-        [kinetic, strain + self.locked_energy(storeys) - gravity, gravity]
+        // That of the net storeys is the sum of both, and strain a sum of squares, but for its rounding.
+        let strain = strain + self.locked_energy(storeys) - gravity;
+        [kinetic, if strain < 0.0 { 0.0 } else { strain }, gravity]
     }
 
-    /// What the weights have given, J: -1/2 sum of g drift^2.
+    /// Potential energy of the weights, J: -1/2 sum of g drift^2.
     fn gravity_energy(&self, motion: (Coordinates, &[Storey]), q: &[f64]) -> f64 {
         let mut sum = 0.0;
         self.for_each_lean(motion, q, |_, g, drift| sum -= 0.5 * g * (drift * drift));

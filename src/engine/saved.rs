@@ -121,6 +121,7 @@ impl Model {
         self.check_contacts(base)?;
         let number = self.system.ground.as_ref().and_then(|ground| ground.number(&base.segment)).unwrap_or_default();
         self.check_storeys(base)?;
+        require(base.collapsed.is_none() || !saved.is_planned, "its run has ended, and goes on")?;
         require(base.peaks.fit(&self.start_peaks()), "the peaks in it are impossible")?;
         require(
             base.clearance.fits(self.system.cleared(), number, MOST_COUNTED),
@@ -186,9 +187,9 @@ impl Model {
         let fallen = base.collapsed.map(|i| (self.system.storeys.get(i), base.storeys.get(i)));
         let has_fallen = fallen.is_none_or(|fallen| {
             let (Some(of), Some(storey)) = fallen else { return false };
-            let drift = of.limit + storey.plastic.abs();
-            storey.yields.is_some()
-                && of.collapse.is_some_and(|collapse| (drift - collapse).abs() <= AT_LIMIT * collapse)
+            storey.yields.zip(of.collapse).is_some_and(|(sense, collapse)| {
+                (of.limit + sense.sign() * storey.plastic - collapse).abs() <= AT_LIMIT * collapse
+            })
         });
         require(has_fallen, "the storey in it that has collapsed stands")
     }

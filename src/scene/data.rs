@@ -198,6 +198,12 @@ impl Building {
         Some((*force.get(storey)?, *ratio.get(storey)?)).filter(|(force, _)| force.is_finite())
     }
 
+    /// The drift of a storey, counted from 0, at the start, m.
+    pub fn initial_drift(&self, storey: usize) -> f64 {
+        let of = |floor: usize| self.initial_displacement[floor];
+        of(storey) - storey.checked_sub(1).map_or(0.0, of)
+    }
+
     /// Whether there is no such building.
     pub const fn is_absent(&self) -> bool {
         self.mass.is_empty()

@@ -16,10 +16,8 @@ use super::data::{Building, PDelta, Stiffness};
 use super::matrix;
 use super::problem::number;
 use super::rule;
+use crate::record::STANDARD_GRAVITY;
 use std::borrow::Cow;
-
-/// m/s2, by which a mass weighs where a scene does not say otherwise.
-pub const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// A bilinear storey under gravity: the forces that it resists drifts with in all.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,8 +67,10 @@ impl Building {
         let (Some(PDelta { load, .. }), Some(heights)) = (&self.p_delta, &self.heights) else { return all };
         let mut weight = 0.0;
         for (storey, g) in all.iter_mut().enumerate().rev() {
-            weight += load.as_ref().map_or(STANDARD_GRAVITY * self.mass[storey], |load| load[storey]);
-            *g = if self.leans(storey) { weight / heights.storeys[storey] } else { 0.0 };
+            let given = load.as_ref().map(|load| load.get(storey).copied().unwrap_or_default());
+            weight += given.unwrap_or(STANDARD_GRAVITY * self.mass[storey]);
+            let height = heights.storeys.get(storey).filter(|_| self.leans(storey));
+            *g = height.map_or(0.0, |height| weight / height);
         }
         all
     }
@@ -116,7 +116,7 @@ impl Building {
             stiffness: self.stiffness.of_storey(storey)?,
             force,
             ratio,
-            gravity: if self.leans(storey) { self.gravity_stiffness()[storey] } else { 0.0 },
+            gravity: self.gravity_stiffness()[storey],
         })
     }
 
@@ -159,26 +159,35 @@ impl Checker {
             self.list(format_args!("{path}.gravity_load"), load, rule::GRAVITY_LOAD, floors, "floor");
         });
         self.number(format_args!("{path}.collapse_drift_ratio"), *collapse_drift_ratio, rule::COLLAPSE_DRIFT_RATIO);
-        let Some(heights) = building.heights.as_ref().filter(|heights| heights.are_of(floors)) else {
+        if !building.has_gravity() || floors > rule::MOST_FLOORS {
             return;
+        }
+        let Some(heights) = &building.heights else {
+            let all = leaning.iter().all(|leans| *leans);
+            let found = if all { "true".to_owned() } else { format!("{leaning:?}") };
+            let expected =
+                "height as well, the heights of the storeys: a weight pushes on with its share of drift over height";
+            return self.refuse(format_args!("{path}.p_delta"), found, expected);
         };
         let is_sound = match &building.stiffness {
             Stiffness::Shear(storeys) => {
                 storeys.len() == floors && storeys.iter().all(|k| rule::STOREY_STIFFNESS.holds(*k))
             }
-            Stiffness::Matrix(rows) => matrix::is_symmetric(rows, floors),
+            Stiffness::Matrix(rows) => {
+                let key = format!("{path}.stiffness_matrix");
+                matrix::is_symmetric(rows, floors) && !self.problems.iter().any(|problem| problem.path == key)
+            }
         };
-        if self.problems.len() > known || !is_sound || !building.mass.iter().all(|mass| rule::MASS.holds(*mass)) {
+        let has_numbers = heights.are_of(floors) && building.mass.iter().all(|mass| rule::MASS.holds(*mass));
+        if self.problems.len() > known || !is_sound || !has_numbers {
             return;
         }
         self.stands(path, building);
-        let initial = &building.initial_displacement;
-        for storey in 0..floors.min(initial.len()) {
+        for storey in 0..floors.min(building.initial_displacement.len()) {
             let (Some(collapse), Some(net)) = (building.collapse_drift(storey), building.net_storey(storey)) else {
                 continue;
             };
-            let drift = (initial[storey] - storey.checked_sub(1).map_or(0.0, |below| initial[below])).abs();
-            let least = net.yield_drift().max(drift);
+            let least = net.yield_drift().max(building.initial_drift(storey).abs());
             // A NaN has been refused as what it is.
             if collapse <= least {
                 let expected = format!(
@@ -203,7 +212,7 @@ impl Checker {
                     let stiffness = building.stiffness.of_storey(storey).unwrap_or_default();
                     let (g, k) = (shown(self, *g), shown(self, stiffness));
                     let expected = format!(
-                        "storeys that stand: gravity on storey {} (g = {g} {unit}) exceeds its stiffness, {k} {unit}",
+                        "storeys that stand: gravity on storey {} (g = {g} {unit}) is not below its stiffness, {k} {unit}",
                         storey + 1
                     );
                     self.refuse(format_args!("{path}.p_delta"), "", expected);

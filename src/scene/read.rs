@@ -162,17 +162,12 @@ fn building(mut section: Section<'_>, units: Units) -> Building {
     let initial_velocity = section.get("initial_velocity").map_or_else(at_rest, |item| item.numbers());
     let heights = heights(&mut section);
     let yielding = yielding(&mut section, &stiffness, units);
-    let p_delta = p_delta(&mut section, (heights.is_some(), yielding.is_some()), mass.len(), units);
+    let p_delta = p_delta(&mut section, yielding.is_some(), mass.len(), units);
     section.close(KEY);
     Building { stiffness, damping, initial_displacement, initial_velocity, heights, yielding, p_delta, mass }
 }
 
-fn p_delta(
-    section: &mut Section<'_>,
-    (has_heights, can_yield): (bool, bool),
-    storeys: usize,
-    units: Units,
-) -> Option<PDelta> {
+fn p_delta(section: &mut Section<'_>, can_yield: bool, storeys: usize, units: Units) -> Option<PDelta> {
     let (leaning, load) = (section.get("p_delta"), section.get("gravity_load"));
     let ratio = section.get("collapse_drift_ratio");
     let Some(leaning) = leaning else {
@@ -184,11 +179,6 @@ fn p_delta(
         true => leaning.list("true, false or a list of them").iter().flatten().map(|entry| entry.boolean()).collect(),
         false => vec![leaning.boolean(); storeys],
     });
-    if !has_heights && p_delta.leaning.contains(&true) {
-        leaning.refuse(
-            "height as well, the heights of the storeys: a weight pushes on with its share of drift over height",
-        );
-    }
     p_delta.load = load.map(|item| item.quantities(units));
     if let Some(item) = ratio {
         match can_yield {

@@ -116,7 +116,7 @@ impl Slave {
                 note(settings.write(parameter, value), problems);
             }
         }
-        note(changed.as_ref().map_or(Ok(()), Settings::check), problems);
+        note(changed.as_ref().map_or(Ok(()), Settings::check_one_by_one), problems);
         changed
     }
 }

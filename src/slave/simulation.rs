@@ -116,5 +116,6 @@ impl Simulation {
 
 /// The model of the scene with these parameters.
 pub(super) fn model(settings: &Settings) -> Result<Model, Refusal> {
+    settings.check()?;
     Ok(Model::new(&settings.scene, settings.record())?)
 }

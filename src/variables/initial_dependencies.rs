@@ -218,6 +218,10 @@ fn energy(scene: &Scene, term: EnergyOutput, known: Slot) -> bool {
             let storey = storey_of(parameter);
             storey.is_some_and(|(side, storey)| drifts(scene.building(side), storey))
         }
+        (EnergyOutput::Gravity, Slot::Parameter(Parameter::Mass(side, floor))) => {
+            let leans = |storey| is_of_weight(scene, (side, storey), known) && drifts(scene.building(side), storey);
+            (0..=floor).any(leans)
+        }
         _ => false,
     }
 }

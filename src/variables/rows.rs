@@ -342,7 +342,7 @@ impl Table {
             (E::Impact, "work done on the contacts so far, with what their springs will give back"),
             (E::External, "work of the external floor forces so far"),
             (E::Hysteretic, "energy dissipated so far by storeys that have yielded"),
-            (E::Gravity, "what the weights on storeys that lean have given"),
+            (E::Gravity, "potential energy of the weights on storeys that lean, 0 or less"),
         ] {
             if term == E::Hysteretic && !hysteretic || term == E::Gravity && !gravity {
                 continue;

@@ -1,7 +1,7 @@
 //! The units of the variables.
 
 use crate::contact::StiffnessUnit;
-use crate::scene::STANDARD_GRAVITY;
+use crate::record::STANDARD_GRAVITY;
 
 /// A unit, as the description declares it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

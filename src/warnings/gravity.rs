@@ -120,8 +120,7 @@ fn look_at_falls((side, building): (Side, &Building), found: &mut Found) {
 }
 
 fn look_at_start((side, building): (Side, &Building), storey: usize, critical: f64, found: &mut Found) {
-    let initial = &building.initial_displacement;
-    let drift = initial[storey] - storey.checked_sub(1).map_or(0.0, |below| initial[below]);
+    let drift = building.initial_drift(storey);
     let path = format!("{side}.initial_displacement");
     if drift.abs() > critical && !found.has(&path) {
         let text = format!(
@@ -130,7 +129,7 @@ fn look_at_start((side, building): (Side, &Building), storey: usize, critical: f
             short(drift),
             short(critical)
         );
-        found.numbers(path, initial, text);
+        found.numbers(path, &building.initial_displacement, text);
     }
 }
 

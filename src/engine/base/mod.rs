@@ -85,7 +85,8 @@ pub(super) struct Account {
     pub external: Sum,
     /// Energy dissipated by structural damping.
     pub viscous: Sum,
-    /// Largest magnitude of any term so far: the residual of the balance is relative to it.
+    /// Largest magnitude of any term so far: the residual of the balance is relative to it. Of flights over whole segments it
+    /// knows the sum of strain and gravity only.
     pub largest: f64,
 }
 

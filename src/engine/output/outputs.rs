@@ -169,7 +169,7 @@ quantities! {
     External external: f64,
     /// Energy dissipated by storeys that have yielded, J.
     Hysteretic hysteretic: f64,
-    /// What the weights on storeys that lean have given, J: 0 or below.
+    /// Potential energy of the weights on storeys that lean, J: 0 or less.
     Gravity gravity: f64,
     /// Imbalance of these terms divided by the largest magnitude that any of them has had.
     Residual residual: f64,

@@ -66,25 +66,32 @@ impl System {
         mut then: impl FnMut((Side, usize), f64, f64),
     ) {
         for side in [Side::Left, Side::Right] {
-            let leaning = self.gravity[side as usize].iter().enumerate().filter(|(_, g)| **g != 0.0);
-            for (storey, g) in leaning {
-                let place = (side, storey);
+            let mut below = 0.0;
+            for (storey, g) in self.gravity[side as usize].iter().enumerate() {
+                let (place, floor) = ((side, storey), self.displacement(coordinates, (side, storey), q));
                 let plastic = self.number_of_storey(place).map_or(0.0, |i| self.storeys[i].kept() * storeys[i].plastic);
-                then(place, *g, self.drift(coordinates, place, q) + plastic);
+                if *g != 0.0 {
+                    then(place, *g, floor - below + plastic);
+                }
+                below = floor;
             }
         }
     }
 
     /// Drift of a storey, or its rate, in a motion.
     pub fn drift(&self, coordinates: Coordinates, (side, storey): (Side, usize), motion: &[f64]) -> f64 {
-        let floor = |floor: usize| match coordinates {
+        let of = |floor: usize| self.displacement(coordinates, (side, floor), motion);
+        of(storey) - storey.checked_sub(1).map_or(0.0, of)
+    }
+
+    fn displacement(&self, coordinates: Coordinates, (side, floor): (Side, usize), motion: &[f64]) -> f64 {
+        match coordinates {
             Coordinates::Modes => {
                 let shape = self.structure.modes(side).shape.row(floor);
                 shape.iter().zip(&motion[self.structure.range(side)]).map(|(shape, q)| shape * q).sum::<f64>()
             }
             Coordinates::Floors => motion[self.structure.floors.lane(side as usize, floor)],
-        };
-        floor(storey) - storey.checked_sub(1).map_or(0.0, floor)
+        }
     }
 
     /// Energy dissipated by all storeys that have yielded, J.

@@ -85,8 +85,9 @@ impl YieldingStorey {
     /// The storey at the start of a run: beyond its yield drift it has been pushed there slowly.
     pub(crate) fn at_start(&self, scene: &Scene) -> Storey {
         let building = scene.building(self.side);
-        let of = |floors: &[f64]| floors[self.storey] - self.storey.checked_sub(1).map_or(0.0, |below| floors[below]);
-        let (drift, rate) = (of(&building.initial_displacement), of(&building.initial_velocity));
+        let velocity = &building.initial_velocity;
+        let rate = velocity[self.storey] - self.storey.checked_sub(1).map_or(0.0, |below| velocity[below]);
+        let drift = building.initial_drift(self.storey);
         if drift.abs() < self.limit {
             return Storey::default();
         }
