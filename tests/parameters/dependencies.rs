@@ -128,7 +128,9 @@ fn initial_unknowns_depend_on_what_they_are_said_to_depend_on() {
         lines.collect::<Vec<_>>().join("\n")
     };
     let leaning = leaning();
-    for scene in [RICH, SCENE, UNEVEN, YIELDING, &leaning, &at_rest, &only("initial_velocity"), &only("initial_displacement")] {
+    for scene in
+        [RICH, SCENE, UNEVEN, YIELDING, &leaning, &at_rest, &only("initial_velocity"), &only("initial_displacement")]
+    {
         let fmu = Fmu::new(scene);
         let record = fmu.directory.path().join("other.csv");
         fs::write(&record, "time_s,accel_m_s2\n0.0,0.5\n1.0,0.0\n").unwrap();

@@ -114,3 +114,24 @@ fn nothing_can_be_set_after_initialisation_but_the_inputs() {
         }
     }
 }
+
+/// A mass and a stiffness belong together where gravity acts on a storey that leans, and a master sets one after the other.
+#[test]
+fn what_several_parameters_are_wrong_about_is_told_at_the_end_of_initialisation() {
+    let fmu =
+        Fmu::new(&YIELDING.replace(
+            "stiffness = [2910.0, 2000.0]",
+            "stiffness = [2910.0, 2000.0]\nheight = [0.5, 0.4]\np_delta = true",
+        ));
+    for (stiffness, expected) in [(2e9, OK), (2910.0, ERROR)] {
+        let instance = fmu.instance();
+        assert_eq!(instance.set_real("left.mass[1]", 12e6), OK, "{:?}", instance.log());
+        assert_eq!(instance.set_real("left.stiffness[1]", stiffness), OK);
+        assert_eq!(instance.set_real("left.yield_force[1]", 1e6), OK);
+        assert_eq!(instance.setup(0.0, None), OK);
+        assert_eq!(instance.call("fmi2EnterInitializationMode"), OK);
+        assert_eq!(instance.call("fmi2ExitInitializationMode"), expected, "{:?}", instance.log());
+        let told = instance.log().iter().any(|line| line.message.contains("left.p_delta: expected storeys that stand"));
+        assert_eq!(told, expected == ERROR);
+    }
+}
