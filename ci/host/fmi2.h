@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-enum { FMI2_WARNING = 1, FMI2_CO_SIMULATION = 1 };
+enum { FMI2_WARNING = 1, FMI2_DISCARD = 2, FMI2_CO_SIMULATION = 1 };
 
 typedef struct {
     void (*logger)(void *environment, const char *name, int status, const char *category, const char *message, ...);

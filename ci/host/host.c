@@ -134,7 +134,7 @@ static void free_run(Run *run) {
 static void log_message(void *environment, const char *name, int status, const char *category, const char *message,
                         ...) {
     (void)environment, (void)name, (void)category;
-    if (status <= FMI2_WARNING) return;
+    if (status <= FMI2_DISCARD) return;
     va_list arguments;
     va_start(arguments, message);
     vfprintf(stderr, message, arguments);
@@ -244,6 +244,12 @@ static double *read_inputs(const Run *run) {
     return rows;
 }
 
+/* A step in which a storey collapses is discarded, and so are those after it: all further rows show the collapse. */
+static void advance(const Functions *fmi, void *fmu, const Run *run, long point) {
+    int status = fmi->DoStep(fmu, (double)point * run->step, run->step, 0);
+    if (status != FMI2_DISCARD) require(status, "fmi2DoStep", point);
+}
+
 static void drive(const Run *run) {
     Functions fmi = loaded(run->library);
     void *fmu = initialized(&fmi, run);
@@ -255,7 +261,7 @@ static void drive(const Run *run) {
         observe(&fmi, fmu, run, output, point);
         for (size_t i = 0; i < run->states; i++)
             if (run->state_points[i] == point) save(&fmi, fmu, run->state_files[i], point);
-        if (point < run->stop) require(fmi.DoStep(fmu, (double)point * run->step, run->step, 0), "fmi2DoStep", point);
+        if (point < run->stop) advance(&fmi, fmu, run, point);
     }
     if (fclose(output)) fail("cannot write %s", run->output_file);
     require(fmi.Terminate(fmu), "fmi2Terminate", run->stop);
