@@ -193,3 +193,17 @@ def test_mistakes_of_the_command():
     wrong = gap(OFFICES, "--records", "nowhere.csv", "--pga", "-1")
     assert wrong.returncode == 1 and "nowhere.csv" in wrong.stderr and "pga: -1.0" in wrong.stderr
     assert gap(OFFICES, "--force", "much").returncode == 2
+
+
+def test_what_falls_by_itself_is_said():
+    scene = fmus.EXAMPLES / "scenes/leaning.toml"
+    with pytest.warns(pounding_fmu.SceneWarning):
+        [row] = required_gap(scene)
+    gaps = {"contact[1].gap": 10.0}
+    with pytest.warns(pounding_fmu.SceneWarning):
+        free = pounding_fmu.simulate(scene, 0.01, parameters=gaps)
+    assert free["left.collapsed"][-1] and row.collapsed == "left"
+    assert row.gap < 1.5 < row.absolute_sum, "half of the height, where the run ends"
+    told = gap(str(scene))
+    assert "collapse  el_centro_1940_ns at -3.13 m/s2: apart, left falls; all here is until then" in told.stdout
+    assert required_gap(OFFICES)[0].collapsed is None

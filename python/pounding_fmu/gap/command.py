@@ -49,7 +49,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     widest = max(row.gap for row in rows)
     costs = search.costs(widest) if widest > 0 else []
     progress.end(quietly=True)
-    print(tell(rows, options.force), RULES, *(["", tell_costs(costs, len(rows))] * bool(costs)), sep="\n")
+    parts = [tell(rows, options.force), RULES, *tell_collapses(rows)]
+    print(*parts, *(["", tell_costs(costs, len(rows))] * bool(costs)), sep="\n")
     if options.output:
         write(rows, options.output)
     return 0
@@ -83,6 +84,15 @@ def tell(rows: Sequence[RequiredGap], force: float | None) -> str:
             each = [[value for row in together if (value := of(row)) is not None] for of in columns]
             lines.append(line([name, peak], "", [of_all(values) if values else None for values in each], ["", ""]))
     return table([head, *lines])
+
+
+def tell_collapses(rows: Sequence[RequiredGap]) -> list[str]:
+    """A line for each ground motion in which a building falls by itself."""
+    return [
+        f"collapse  {row.record} at {row.pga:.3g} m/s2: apart, {row.collapsed} falls; all here is until then"
+        for row in rows
+        if row.collapsed
+    ]
 
 
 def groups(rows: Sequence[RequiredGap]) -> dict[str, list[RequiredGap]]:

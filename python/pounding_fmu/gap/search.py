@@ -61,6 +61,8 @@ class RequiredGap:
     """N, the largest force of all gaps that were tried for that"""
     hardest_gap: float | None = None
     """the gap that has it"""
+    collapsed: str | None = None
+    """the building, or "left and right", that collapses without contact: all of the above is until then"""
 
 
 @dataclass(frozen=True)
@@ -112,6 +114,7 @@ class Search:
         self.names = list(variables_of(read))
         self.contacts = range(1, len(self.layout["contacts"]) + 1)
         self.peaks = [name for name in self.names if ".peak_displacement[" in name]
+        self.falls = [name for name in self.names if name.endswith(".collapsed")]
         self.drifts = {
             side: names
             for side in ("left", "right")
@@ -131,7 +134,9 @@ class Search:
         import numpy as np
 
         count = len(self.motions)
-        peaks = self._ends(np.full((count, 1), FAR), self.peaks)[:, 0]
+        apart = self._ends(np.full((count, 1), FAR), self.peaks + self.falls)[:, 0]
+        peaks, fallen = np.split(apart, [len(self.peaks)], axis=1)
+        collapsed = [[name.split(".")[0] for name, fell in zip(self.falls, of) if fell] for of in fallen]
         rules = [self._rules(dict(zip(self.peaks, of))) for of in peaks]
         # The buildings cannot come nearer than by what either of them moves.
         widest = np.array([rule["absolute_sum"] for rule in rules]) * (1 + 1e-9)
@@ -139,7 +144,11 @@ class Search:
         needed = self._enclose(np.zeros(count), widest, lambda gaps: self._ends(gaps, impacts).max(axis=2) > 0)
         first = self._ends(np.maximum(needed - 2 * TOLERANCE, 0.0)[:, None], impacts)[:, 0]
         closes = [int(np.argmax(of)) + 1 if of.any() else None for of in first]
-        forces = self._forces(needed, self.force) if self.force is not None else [{}] * count
+        forces: list[dict[str, Any]] = [{} for _ in range(count)]
+        if self.force is not None:
+            forces = [dict(of) for of in self._forces(needed, self.force)]
+        for more, sides in zip(forces, collapsed):
+            more["collapsed"] = " and ".join(sides) or None
         found: Any = zip(self.motions, needed.tolist(), closes, rules, forces)
         return [RequiredGap(of.name, of.pga, gap, contact, **rule, **more) for of, gap, contact, rule, more in found]
 
