@@ -317,3 +317,12 @@ def test_a_film_needs_ffmpeg(tmp_path, monkeypatch, capsys):
     coder.write_text(f"#!{sys.executable}\nimport sys\nsys.exit('no such coder')\n")
     assert plot(FEUP, *film, command="animate") == 1
     assert "ffmpeg could not write it: no such coder" in capsys.readouterr().err
+
+
+def test_a_picture_says_which_storey_fell_and_when():
+    runs = runs_of(FEUP.with_name("leaning.toml"), 25.0)
+    assert runs.collapse(runs.run) is None
+    side, storey, time = runs.collapse(runs.alone)
+    assert (side, storey) == ("left", 1) and abs(time - 19.661357) < 1e-6
+    titles = [axes.get_title(loc="left") for axes in draw(runs, "loops").axes]
+    assert titles[0].endswith("(50.0, fell at 19.7 s)") and "fell" not in titles[1], titles

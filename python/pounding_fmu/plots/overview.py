@@ -54,6 +54,9 @@ def overview(runs: Runs) -> Figure:
 def heading(runs: Runs) -> str:
     """What happened, in a sentence."""
     hardest, name = runs.run.hardest(), f"{runs.scene.name}, {runs.stop:g} s"
+    if collapse := runs.collapse(runs.run):
+        side, storey, time = collapse
+        name = f"{runs.scene.name}, storey {storey} of the {side} building collapsed at {time:.3f} s"
     if hardest is None:
         return f"{name}: {'no impact' if runs.scene.contacts else 'no contacts'}"
     p = hardest["contact"]

@@ -24,7 +24,7 @@ ROWS_PER_IMPACT = 32
 # Of these outputs pictures are made.
 DRAWN = (
     "displacement", "acceleration", "peak_acceleration", "storey_shear", "ductility", "residual_drift", "force",
-    "penetration",
+    "penetration", "collapsed", "collapse_time",
 )  # fmt: skip
 
 
@@ -105,6 +105,15 @@ class Runs:
     def _run(self, scene: _native.Scene, step: float, columns: list[str], rows_per_impact: int | None = None) -> Run:
         rigid = {p for p, pair in enumerate(self.scene.contacts, 1) if pair.is_rigid}
         return Run(run(scene, Names(scene), step, self.stop, columns, rows_per_impact), rigid)
+
+    def collapse(self, of: Run) -> tuple[str, int, float] | None:
+        """Building, storey and time, s, of the collapse that has ended a run: of the storey with the largest drift ratio then."""
+        for side, count in self.scene.floors.items():
+            if f"{side}.collapsed" in of and of[f"{side}.collapsed"][-1]:
+                ends = [0.0, *(float(of[f"{side}.displacement[{i}]"][-1]) for i in range(1, count + 1))]
+                ratios = np.abs(np.diff(ends)) / np.diff(self.scene.levels[side])
+                return side, int(np.argmax(ratios)) + 1, float(of[f"{side}.collapse_time"][-1])
+        return None
 
     def check_motion(self) -> None:
         """What stands still makes no picture."""

@@ -119,9 +119,16 @@ def draw_loops(axes: Axes, runs: Runs, side: str, storey: int, factor: float) ->
         axes.plot(drift_of(one, side, storey), shear, label=label, **{**line, "linewidth": 1.0})
     axes.axhline(0, color=GREY, linewidth=0.8)
     axes.axvline(0, color=GREY, linewidth=0.8)
-    pounding, *alone = (f"{one[f'{side}.ductility[{storey}]'][-1]:.1f}" for one, _, _ in lines)
+    pounding, *alone = (reached(runs, one, side, storey) for one, _, _ in lines)
     compared = f" ({alone[0]})" if alone else ""
     axes.set_title(f"{side.capitalize()} storey {storey}: ductility {pounding}{compared}")
+
+
+def reached(runs: Runs, run: Run, side: str, storey: int) -> str:
+    """The largest ductility of a storey, and when it has collapsed, if it has."""
+    collapse = runs.collapse(run)
+    fell = f", fell at {collapse[2]:.1f} s" if collapse and collapse[:2] == (side, storey) else ""
+    return f"{run[f'{side}.ductility[{storey}]'][-1]:.1f}{fell}"
 
 
 def residual(runs: Runs) -> Figure | None:
