@@ -50,13 +50,6 @@ impl System {
         [kinetic, if strain < 0.0 { 0.0 } else { strain }, gravity]
     }
 
-    /// Potential energy of the weights, J: -1/2 sum of g drift^2.
-    fn gravity_energy(&self, motion: (Coordinates, &[Storey]), q: &[f64]) -> f64 {
-        let mut sum = 0.0;
-        self.for_each_lean(motion, q, |_, g, drift| sum -= 0.5 * g * (drift * drift));
-        sum
-    }
-
     /// Opens the account with the energy at the start.
     pub(super) fn open_account(&self, base: &mut Base) {
         let [kinetic, strain, gravity] = self.energies((base.coordinates, &base.storeys), &base.q, &base.v);

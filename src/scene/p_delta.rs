@@ -60,6 +60,13 @@ impl NetStorey {
     }
 }
 
+impl PDelta {
+    /// The storeys that lean, as a scene has them.
+    pub(crate) fn written(&self) -> String {
+        if self.leaning.contains(&false) { format!("{:?}", self.leaning) } else { "true".to_owned() }
+    }
+}
+
 impl Building {
     /// g of each storey, N/m, from the lowest: the weight of all floors above it over its height; 0 where gravity has no lever.
     pub fn gravity_stiffness(&self) -> Vec<f64> {
@@ -149,7 +156,8 @@ fn less_gravity(mut rows: Vec<Vec<f64>>, gravity: &[f64]) -> Vec<Vec<f64>> {
 impl Checker {
     /// The rules of gravity; those about a storey that stands are looked at where all numbers are there.
     pub(super) fn p_delta(&mut self, path: &str, building: &Building) {
-        let Some(PDelta { leaning, load, collapse_drift_ratio }) = &building.p_delta else { return };
+        let Some(p_delta) = &building.p_delta else { return };
+        let PDelta { leaning, load, collapse_drift_ratio } = p_delta;
         let (floors, known) = (building.mass.len(), self.problems.len());
         if floors > 0 && leaning.len() != floors {
             let expected = format!("true, false or a list of {floors} of them, one per storey, not {}", leaning.len());
@@ -163,11 +171,9 @@ impl Checker {
             return;
         }
         let Some(heights) = &building.heights else {
-            let all = leaning.iter().all(|leans| *leans);
-            let found = if all { "true".to_owned() } else { format!("{leaning:?}") };
             let expected =
                 "height as well, the heights of the storeys: a weight pushes on with its share of drift over height";
-            return self.refuse(format_args!("{path}.p_delta"), found, expected);
+            return self.refuse(format_args!("{path}.p_delta"), p_delta.written(), expected);
         };
         let is_sound = match &building.stiffness {
             Stiffness::Shear(storeys) => {

@@ -25,8 +25,8 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
         match &building.p_delta {
             Some(p_delta) => {
                 look_at_loads(facts, (side, p_delta), found);
-                look_at_coefficients((side, building), found);
-                look_at_falls((side, building), found);
+                look_at_coefficients((side, building, p_delta), found);
+                look_at_falls((side, building, p_delta), found);
             }
             None if is_known || facts.pace(side) != Pace::Usual => {}
             None => look_at_neglect((side, building), found),
@@ -72,7 +72,7 @@ fn look_at_neglect((side, building): (Side, &Building), found: &mut Found) {
     found.add(format!("{side}.p_delta"), "false".to_owned(), text);
 }
 
-fn look_at_coefficients((side, building): (Side, &Building), found: &mut Found) {
+fn look_at_coefficients((side, building, p_delta): (Side, &Building, &PDelta), found: &mut Found) {
     let mut storeys = coefficients(building);
     storeys.retain(|(_, theta)| *theta > MOST_ALLOWED);
     let Some((storey, theta, more)) = first_of(&storeys) else { return };
@@ -81,17 +81,11 @@ fn look_at_coefficients((side, building): (Side, &Building), found: &mut Found) 
          is it a storey? For a level of bearings say false",
         short(theta)
     );
-    found.add(format!("{side}.p_delta"), leaning(building), text);
-}
-
-/// `p_delta` as a scene has it.
-fn leaning(building: &Building) -> String {
-    let storeys = building.p_delta.as_ref().map_or(&[][..], |p_delta| &p_delta.leaning);
-    if storeys.contains(&false) { format!("{storeys:?}") } else { "true".to_owned() }
+    found.add(format!("{side}.p_delta"), p_delta.written(), text);
 }
 
 /// Storeys whose stiffness is negative once they yield, and those that start where they can only fall.
-fn look_at_falls((side, building): (Side, &Building), found: &mut Found) {
+fn look_at_falls((side, building, p_delta): (Side, &Building, &PDelta), found: &mut Found) {
     let storeys = (0..building.mass.len()).filter_map(|storey| {
         let net = building.net_storey(storey)?;
         Some((storey, net, net.critical_drift()?))
@@ -116,7 +110,7 @@ fn look_at_falls((side, building): (Side, &Building), found: &mut Found) {
         short(net.ratio - net.theta()),
         short(*critical)
     );
-    found.add(format!("{side}.p_delta"), leaning(building), text);
+    found.add(format!("{side}.p_delta"), p_delta.written(), text);
 }
 
 fn look_at_start((side, building): (Side, &Building), storey: usize, critical: f64, found: &mut Found) {

@@ -18,7 +18,9 @@ fn shown(run: &mut Run, rates: &mut PointRates) -> Vec<(Output, f64, Rates)> {
     let of_contact = [C::Force, C::Penetration, C::Impulse, C::DissipatedEnergy];
     outputs.extend((0..run.model.contacts()).flat_map(|p| of_contact.map(|of| Output::Contact(p, of))));
     if now.energy().is_some() {
-        outputs.extend([E::Input, E::Kinetic, E::Strain, E::Viscous, E::Impact, E::External].map(Output::Energy));
+        outputs.extend(
+            [E::Input, E::Kinetic, E::Strain, E::Viscous, E::Impact, E::External, E::Gravity].map(Output::Energy),
+        );
     }
     outputs.into_iter().map(|output| (output, now.read(output), now.rates(rates, output))).collect()
 }
@@ -128,6 +130,19 @@ fn floors_that_are_held_together_share_their_derivatives() {
     let (first, second, closed) = errors(&mut run, 4.0, 2e-6);
     assert!(closed > 500, "closed at {closed} times");
     assert!(first < 1e-8 && second < 1e-6, "{first:.1e} and {second:.1e}");
+}
+
+/// Storeys that yield and lean, in contact: gravity's energy is one of what is differentiated.
+#[test]
+fn storeys_that_lean_say_what_their_weights_do() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/scenes/p_delta.toml");
+    let (mut scene, record) = scene::load(&path).unwrap();
+    scene.energy = true;
+    let mut run = Run::new(&scene, record.as_ref());
+    let (first, second, closed) = errors(&mut run, 6.0, 2e-6);
+    assert!(closed > 20, "closed at {closed} times");
+    assert!(run.energy().gravity < -1.0, "{:?}", run.energy());
+    assert!(first < 1e-9 && second < 1e-5, "{first:.1e} and {second:.1e}");
 }
 
 #[test]

@@ -107,11 +107,16 @@ class Runs:
         return Run(run(scene, Names(scene), step, self.stop, columns, rows_per_impact), rigid)
 
     def collapse(self, of: Run) -> tuple[str, int, float] | None:
-        """Building, storey and time, s, of the collapse that has ended a run: of the storey with the largest drift ratio then."""
+        """Building, storey and time, s, of the collapse that has ended a run: of those that lean and yield the storey with the
+        largest drift ratio then."""
         for side, count in self.scene.floors.items():
             if f"{side}.collapsed" in of and of[f"{side}.collapsed"][-1]:
                 ends = [0.0, *(float(of[f"{side}.displacement[{i}]"][-1]) for i in range(1, count + 1))]
                 ratios = np.abs(np.diff(ends)) / np.diff(self.scene.levels[side])
+                names = Names(self._scene).variables
+                for i in range(1, count + 1):
+                    if not {f"{side}.stability_coefficient[{i}]", f"{side}.ductility[{i}]"} <= names.keys():
+                        ratios[i - 1] = 0.0
                 return side, int(np.argmax(ratios)) + 1, float(of[f"{side}.collapse_time"][-1])
         return None
 

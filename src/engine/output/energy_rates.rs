@@ -41,7 +41,7 @@ impl Model {
         let yielding = self.system.storeys.iter().zip(&point.storeys).filter(|(_, storey)| storey.yields.is_some());
         let softened: f64 = yielding.map(|(of, _)| of.lost * libm::pow(of.drift(coordinates, v), 2.0)).sum();
         let strain = [strain[0] - hysteretic[0], strain[1] - softened - hysteretic[1]];
-        let gravity = self.gravity_rates(point, [v, a]);
+        let gravity = self.gravity_rates(point, rates);
         let strain = [strain[0] - gravity[0], strain[1] - gravity[1]];
         let viscous = [product(rest, v, v), 2.0 * product(rest, a, v)];
         load.fill(0.0);
@@ -63,15 +63,12 @@ impl Model {
         Some(all)
     }
 
-    /// -g drift (drift rate) of all storeys that lean, and its rate, from velocities and accelerations.
-    fn gravity_rates(&self, point: &Point, [v, a]: [&[f64]; 2]) -> Rates {
-        let mut sums = [0.0; 2];
-        self.system.for_each_lean((point.coordinates, &point.storeys), &point.q, |place, g, drift| {
-            let [rate, second] = [v, a].map(|motion| self.system.drift(point.coordinates, place, motion));
-            sums[0] -= g * drift * rate;
-            sums[1] -= g * (rate * rate + drift * second);
-        });
-        sums
+    /// -g drift (drift rate) of all storeys that lean, W, and its rate.
+    fn gravity_rates(&self, point: &Point, rates: &PointRates) -> Rates {
+        self.system.leaning().fold([0.0; 2], |sums, (place, g)| {
+            let (drift, [rate, second]) = (self.drift(point, place), self.drift_rates(point, rates, place));
+            [sums[0] - g * drift * rate, sums[1] - g * (rate * rate + drift * second)]
+        })
     }
 
     /// (1 - r) V_y |plastic drift rate| of the storeys that yield, and its rate, from velocities and accelerations.

@@ -20,6 +20,7 @@ pub mod floors;
 pub mod fold;
 mod fold_room;
 pub mod log;
+mod quantity;
 pub mod reading;
 pub mod rest;
 pub mod room;
@@ -108,8 +109,8 @@ impl Model {
         base.peaks = peaks;
     }
 
-    /// Makes the log ready for a step in contact or in which a storey yields: contact forces change the motion, and storeys that yield the
-    /// position of rest.
+    /// Makes the log ready for a step in contact or in which a storey yields: contact forces change the motion, and storeys
+    /// that yield the position of rest.
     pub(in crate::engine) fn leave_flight(&self, base: &mut Base, (log, mut work): (&mut PeakLog, PeakWork)) {
         if base.is_yielding() || log.count() > WORTH_FOLDING {
             self.fold_log(base, (log, &mut work));

@@ -1,5 +1,4 @@
-//! The largest magnitude of a quantity by power series of the motion: of a flight piece by piece, or of a step in
-//! contact.
+//! The largest magnitudes of quantities within a flight, searched for piece by piece, at last by power series of the motion.
 
 use crate::engine::base::Coordinates;
 use crate::engine::base::peaks::Peaks;
@@ -7,15 +6,12 @@ use crate::engine::bounds::cubic::slopes_of;
 use crate::engine::bounds::envelope::stay_below;
 use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::model::Model;
+use crate::engine::peaks::quantity::{Quantity, highest};
 use crate::engine::peaks::room::{LEAVES, MOST_FLOWN, PeakRoom, PeakWork, Suspect};
 use crate::engine::quantities::rows::{Block, BuildingRows, PeakOf, values_of};
 use crate::engine::system::buffers::Buffers;
-use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS, larger};
-use crate::numerics::powers::{Powers, Reading};
-use crate::numerics::roots;
-use crate::numerics::substitution::Substitution;
-use crate::structure::{EXACT, LANES, Lane, MotionSeries, Side, dot, flight_order};
-use std::ops::Range;
+use crate::numerics::polynomial::{MAX_ORDER, larger};
+use crate::structure::{EXACT, LANES, Lane, Side, flight_order};
 
 /// Length of a piece, in units of 1 / (fastest rate), that one series reaches.
 const REACH: f64 = 1.5;
@@ -61,21 +57,6 @@ impl Piece {
         }
         (count, times)
     }
-}
-
-/// A quantity as rows over the motion in some coordinates.
-pub struct Quantity<'a> {
-    pub of: PeakOf,
-    /// A row over the motion and one over its rate; of an acceleration, the rows of the floor's displacement.
-    pub rows: &'a [Vec<f64>; 2],
-    /// The lanes of the first row's 1 and, for a drift, -1, where it has no other entries.
-    pub lanes: Option<(usize, Option<usize>)>,
-    /// The first of the lanes outside of which both rows are 0, and the one after the last.
-    pub span: (usize, usize),
-    /// What is added to the product of its rows and the motion: its value at rest.
-    pub at_rest: f64,
-    /// Ground acceleration at the start of the series, m/s2, and its slope, m/s3.
-    pub ground: (f64, f64),
 }
 
 impl Model {
@@ -427,99 +408,4 @@ fn are_of_one_block(one: &Suspect, next: &Suspect) -> bool {
 /// Whether any quantity may exceed its peak in the piece that is searched.
 fn are_any_left(suspects: &[Suspect]) -> bool {
     suspects.iter().any(|suspect| suspect.cleared_in.is_none())
-}
-
-impl Quantity<'_> {
-    fn span(&self) -> Range<usize> {
-        self.span.0..self.span.1
-    }
-
-    /// Product of the first row with a vector of motion.
-    pub fn of_motion(&self, motion: &[f64]) -> f64 {
-        match self.lanes {
-            Some((lane, below)) => motion[lane] - below.map_or(0.0, |below| motion[below]),
-            None => dot(&self.rows[0], motion),
-        }
-    }
-
-    /// Product of the second row with a vector of the motion's rate.
-    pub fn of_rate(&self, rate: &[f64]) -> f64 {
-        match self.of {
-            PeakOf::BaseShear(_) => dot(&self.rows[1], rate),
-            PeakOf::Displacement(..) | PeakOf::Drift(..) | PeakOf::Acceleration(..) => 0.0,
-        }
-    }
-
-    /// The power series of the quantity and its highest power, in the x of the motion's series; `substitution` changes
-    /// the variable to that of a time map.
-    pub fn terms(&self, series: &MotionSeries, substitution: Option<&Substitution>) -> (Coefficients, usize) {
-        let (count, per_unit) = (series.order + 1, 1.0 / series.scale);
-        let (mut of_q, mut terms) = ([0.0; MAX_TERMS], [0.0; MAX_TERMS]);
-        match self.lanes {
-            Some((lane, below)) => {
-                let difference = |n: usize| series.term(n)[lane] - below.map_or(0.0, |below| series.term(n)[below]);
-                of_q.iter_mut().enumerate().take(count).for_each(|(n, term)| *term = difference(n));
-            }
-            None => series.dot_each_in(self.span(), &self.rows[0], 0, &mut of_q),
-        }
-        // Each derivative loses a power.
-        let order = match self.of {
-            PeakOf::Displacement(..) | PeakOf::Drift(..) => {
-                terms = of_q;
-                series.order
-            }
-            PeakOf::Acceleration(..) => {
-                for n in 2..count {
-                    terms[n - 2] = (n * (n - 1)) as f64 * (of_q[n] * per_unit * per_unit);
-                }
-                terms[0] += self.ground.0;
-                terms[1] += self.ground.1 * series.scale;
-                series.order - 2
-            }
-            PeakOf::BaseShear(_) => {
-                let mut of_v = [0.0; MAX_TERMS];
-                series.dot_each_in(self.span(), &self.rows[1], 0, &mut of_v);
-                for n in 0..series.order {
-                    terms[n] = of_q[n] + (n + 1) as f64 * of_v[n + 1] * per_unit;
-                }
-                series.order - 1
-            }
-        };
-        terms[0] += self.at_rest;
-        if series.time_map.is_curved()
-            && let Some(substitution) = substitution
-        {
-            substitution.apply_to_one(&mut terms[..=order]);
-        }
-        (terms, order)
-    }
-}
-
-/// The largest magnitude of a polynomial over 0..=x, or `known` if that is larger; `powers` is scratch.
-pub fn highest(terms: &Coefficients, end: (f64, usize), known: f64, powers: &mut Powers) -> f64 {
-    highest_by(terms, end, known, powers, |_, value| value)
-}
-
-/// The same of a quantity that the polynomial is not quite: `value` gives its magnitude where that of the polynomial is
-/// largest, from the x and the magnitude there.
-pub fn highest_by(
-    terms: &Coefficients,
-    (x, order): (f64, usize),
-    known: f64,
-    powers: &mut Powers,
-    mut value_at: impl FnMut(f64, f64) -> f64,
-) -> f64 {
-    powers.set(x, order);
-    let Reading { value, slope, fourth } = powers.read(terms);
-    let mut peak = known;
-    for sign in [1.0, -1.0] {
-        let copy = |out: &mut Coefficients| {
-            out.iter_mut().zip(terms).for_each(|(out, term)| *out = sign * term);
-            order + 1
-        };
-        let end = Reading { value: sign * value, slope: sign * slope, fourth };
-        let top = roots::maximum_above((sign * terms[0], sign * terms[1]), x, &end, peak, copy);
-        peak = top.map_or(peak, |(at, value)| larger(peak, value_at(at, value)));
-    }
-    peak
 }

@@ -57,29 +57,25 @@ impl System {
         self.storeys.iter().zip(storeys).map(|(of, storey)| of.locked_energy(storey)).sum()
     }
 
-    /// Calls a function with each storey on whose lean gravity acts, with g, N/m, and its drift, m, in a motion relative to the
-    /// position of rest.
-    pub fn for_each_lean(
-        &self,
-        (coordinates, storeys): (Coordinates, &[Storey]),
-        q: &[f64],
-        mut then: impl FnMut((Side, usize), f64, f64),
-    ) {
-        for side in [Side::Left, Side::Right] {
-            let mut below = 0.0;
-            for (storey, g) in self.gravity[side as usize].iter().enumerate() {
-                let (place, floor) = ((side, storey), self.displacement(coordinates, (side, storey), q));
-                let plastic = self.number_of_storey(place).map_or(0.0, |i| self.storeys[i].kept() * storeys[i].plastic);
-                if *g != 0.0 {
-                    then(place, *g, floor - below + plastic);
-                }
-                below = floor;
-            }
-        }
+    /// The storeys on whose lean gravity acts, with g, N/m.
+    pub fn leaning(&self) -> impl Iterator<Item = ((Side, usize), f64)> {
+        let of =
+            |side: Side| self.gravity[side as usize].iter().enumerate().map(move |(storey, g)| ((side, storey), *g));
+        [Side::Left, Side::Right].into_iter().flat_map(of).filter(|(_, g)| *g != 0.0)
     }
 
-    /// Drift of a storey, or its rate, in a motion.
-    pub fn drift(&self, coordinates: Coordinates, (side, storey): (Side, usize), motion: &[f64]) -> f64 {
+    /// Potential energy of the weights, J, in a motion relative to the position of rest: -1/2 sum of g drift^2.
+    pub fn gravity_energy(&self, (coordinates, storeys): (Coordinates, &[Storey]), q: &[f64]) -> f64 {
+        let of = |(place, g): ((Side, usize), f64)| {
+            let plastic = self.number_of_storey(place).map_or(0.0, |i| self.storeys[i].kept() * storeys[i].plastic);
+            let drift = self.drift(coordinates, place, q) + plastic;
+            -0.5 * g * (drift * drift)
+        };
+        self.leaning().map(of).sum()
+    }
+
+    /// Drift of a storey in a motion.
+    fn drift(&self, coordinates: Coordinates, (side, storey): (Side, usize), motion: &[f64]) -> f64 {
         let of = |floor: usize| self.displacement(coordinates, (side, floor), motion);
         of(storey) - storey.checked_sub(1).map_or(0.0, of)
     }
