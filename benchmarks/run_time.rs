@@ -149,7 +149,11 @@ fn memory(scene: &Path, instances: usize) -> Result<(), Box<dyn Error>> {
     let before = resident_bytes()?;
     let mut slaves = Vec::new();
     for _ in 0..instances {
-        let mut slave = Slave::new(Package::from_scene_file(scene)?, Log::new(false));
+        let mut slave = Slave::new(
+            Package::from_scene_file(scene)?,
+            pounding::slave::Interface::V2,
+            Log::new(pounding::FmiVersion::V2, false),
+        );
         slave.setup_experiment(None, 0.0, None).map_err(|refusal| refusal.problems.join("\n"))?;
         slave.enter_initialization();
         slave.exit_initialization().map_err(|refusal| refusal.problems.join("\n"))?;

@@ -1,4 +1,4 @@
-//! Two adjacent multi-storey buildings that collide in an earthquake, as an FMI 2.0 co-simulation unit.
+//! Two adjacent multi-storey buildings that collide in an earthquake, as a co-simulation unit of FMI 2.0 or 3.0.
 //!
 //! SI units everywhere: m, s, kg, N. "Left" and "right" are the two buildings and x points from left to right.
 //! Displacements and velocities of floors are relative to the ground, accelerations are absolute. A penetration is
@@ -53,4 +53,7 @@ pub mod slave;
 #[doc(hidden)]
 pub mod structure;
 pub mod variables;
+mod version;
 pub mod warnings;
+
+pub use version::FmiVersion;

@@ -62,7 +62,7 @@ fn parameters(law: &LawInfo) -> Vec<(String, String)> {
         law.name
     );
     let scene = Scene::from_toml(&scene_text).unwrap_or_else(|error| panic!("{scene_text}\n{error}"));
-    let text = Package { scene_text, scene, record: None }.model_description();
+    let text = Package { scene_text, scene, record: None }.model_description(pounding::FmiVersion::V2);
     let description = ModelDescription::from_string(&text).unwrap();
     assert!(description.validate().is_empty(), "{}", law.name);
     let of_contact = |name: &str| Some(name.strip_prefix("contact[1].")?.to_owned());

@@ -41,7 +41,8 @@ unsafe impl GlobalAlloc for Counting {
 static ALLOCATOR: Counting = Counting;
 
 fn in_motion() -> Slave {
-    let mut slave = Slave::new(package(RECORD_SCENE), Log::new(false));
+    let mut slave =
+        Slave::new(package(RECORD_SCENE), pounding::slave::Interface::V2, Log::new(pounding::FmiVersion::V2, false));
     let rows = Table::new(&package(RECORD_SCENE).scene).rows;
     let gap = rows.iter().position(|row| row.name == "contact[1].gap").unwrap();
     slave.set(&[u32::try_from(gap).unwrap()], |_| Value::Real(0.002)).unwrap();

@@ -27,7 +27,8 @@ pub fn build(face: &dyn Face, arguments: &BuildArguments) -> Result<String> {
     progress.say(&warnings_of(&package));
     let default_output = home.fmus.join(format!("{}.fmu", package.scene.name));
     let has_note = home.has_notes && arguments.output.is_none();
-    let provenance = has_note.then(|| Provenance::new(&default_output, scene_file, &package.guid()));
+    let provenance =
+        has_note.then(|| Provenance::new(&default_output, scene_file, &package.guid(pounding::FmiVersion::V2)));
     // Compiling may take minutes: what cannot be written shall fail before that.
     let destination = match &arguments.output {
         Some(output) => Destination::open(output.clone())?,
@@ -92,7 +93,7 @@ fn report(package: &Package, destination: &Destination, libraries: &[Library], o
     let folders: Vec<&str> = libraries.iter().map(|library| library.folder.as_str()).collect();
     let mut text = problem.heading();
     let _ = writeln!(text, "  file         {}", destination.describe());
-    let _ = writeln!(text, "  guid         {}", package.guid());
+    let _ = writeln!(text, "  guid         {}", package.guid(pounding::FmiVersion::V2));
     let _ = writeln!(text, "  libraries    {}", folders.join(", "));
     match outcome {
         Some(outcome) => text + &summary::text(outcome, Some(problem), problem.stop_reason()),

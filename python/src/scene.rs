@@ -185,7 +185,18 @@ impl Scene {
         };
         let (causality, variability) = (row.slot.causality().name(), row.variability.name());
         let (name, description) = (row.name.as_str(), row.description.as_str());
-        (name, causality, variability, row.ty.name(), unit, row.min, row.max, start, description).into_pyobject(py)
+        (
+            name,
+            causality,
+            variability,
+            row.ty.name(pounding::FmiVersion::V2),
+            unit,
+            row.min,
+            row.max,
+            start,
+            description,
+        )
+            .into_pyobject(py)
     }
 }
 

@@ -4,12 +4,13 @@
 //! writes the document, `model_structure.rs` its model structure.
 //!
 //! ```
+//! use pounding::FmiVersion;
 //! use pounding::description::Package;
 //!
 //! let text = "name = \"Mast\"\nleft = { mass = [1e3], stiffness = [1e5], damping = { ratio = 0.0 } }";
 //! let package = Package::from_scene_text(text.to_owned(), ".".as_ref())?;
-//! let description = package.model_description();
-//! assert!(description.contains("modelName=\"Mast\"") && description.contains(&package.guid()));
+//! let description = package.model_description(FmiVersion::V2);
+//! assert!(description.contains("modelName=\"Mast\"") && description.contains(&package.guid(FmiVersion::V2)));
 //! # Ok::<(), pounding::scene::SceneError>(())
 //! ```
 

@@ -1,6 +1,7 @@
 //! What a package says about itself in its FMU: description, fingerprint, default experiment.
 
 use super::xml;
+use crate::FmiVersion;
 use crate::scene::Package;
 use crate::variables::Table;
 use uuid::Uuid;
@@ -10,24 +11,24 @@ const NAMESPACE: Uuid = Uuid::from_u128(0x8f8a_0c6e_51b7_4d0a_9d35_6f0b_7c1e_42a
 
 impl Package {
     /// The text of `modelDescription.xml`; the same package gives the same bytes.
-    pub fn model_description(&self) -> String {
+    pub fn model_description(&self, version: FmiVersion) -> String {
         let table = Table::new(&self.scene);
-        xml::document(self, &table, &guid(self.fingerprint_with(&table)))
+        xml::document(self, &table, version, &guid(self.fingerprint_with(&table, version)))
     }
 
-    /// The GUID as the description writes it.
-    pub fn guid(&self) -> String {
-        guid(self.fingerprint())
+    /// The GUID, or `instantiationToken`, as the description writes it.
+    pub fn guid(&self, version: FmiVersion) -> String {
+        guid(self.fingerprint(version))
     }
 
     /// What the GUID is: a name-based UUID of the description without it, the scene and the record.
-    pub fn fingerprint(&self) -> Uuid {
-        self.fingerprint_with(&Table::new(&self.scene))
+    pub fn fingerprint(&self, version: FmiVersion) -> Uuid {
+        self.fingerprint_with(&Table::new(&self.scene), version)
     }
 
     /// The same where the variables of the scene are at hand.
-    pub(crate) fn fingerprint_with(&self, table: &Table) -> Uuid {
-        let description = xml::document(self, table, "");
+    pub(crate) fn fingerprint_with(&self, table: &Table, version: FmiVersion) -> Uuid {
+        let description = xml::document(self, table, version, "");
         let record = self.record.as_ref().map_or(&[][..], |record| &record.bytes);
         let mut name = Vec::with_capacity(description.len() + self.scene_text.len() + record.len() + 24);
         for part in [description.as_bytes(), self.scene_text.as_bytes(), record] {

@@ -3,6 +3,7 @@
 use super::log_category::Category;
 use super::model_structure;
 use super::writer::{Xml, number, text};
+use crate::FmiVersion;
 use crate::engine::Inputs;
 use crate::scene::Package;
 use crate::variables::{Causality, HIGHEST_OUTPUT_DERIVATIVE, Row, Settings, Slot, Table, Type, Unit, Value};
@@ -14,7 +15,7 @@ const STEP_SIZE: f64 = 0.01;
 
 /// The whole text, with the scene's variables and this GUID.
 #[expect(clippy::expect_used, reason = "writing to memory cannot fail, and the writer makes UTF-8 of UTF-8")]
-pub(super) fn document(package: &Package, table: &Table, guid: &str) -> String {
+pub(super) fn document(package: &Package, table: &Table, _version: FmiVersion, guid: &str) -> String {
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
     write_document(&mut xml, package, table, guid).expect("writing to memory");
     xml.get_mut().push(b'\n');
@@ -155,7 +156,7 @@ fn write_variable(xml: &mut Xml, value_reference: u32, row: &Row, start: Option<
 }
 
 fn write_type(xml: &mut Xml, row: &Row, start: Option<Value<'_>>) -> io::Result<()> {
-    let mut element = xml.create_element(row.ty.name());
+    let mut element = xml.create_element(row.ty.name(FmiVersion::V2));
     if let Type::Real(unit) = row.ty {
         element = element.with_attribute(("unit", unit.info().name));
         if let Some((display, _)) = unit.info().display {

@@ -7,6 +7,8 @@ use crate::contact::EpisodeForce;
 use crate::engine::base::Base;
 use crate::engine::base::contact::Phase;
 use crate::engine::base::counters::Counters;
+use crate::engine::base::planned::Event;
+use crate::engine::base::stop::Stop;
 use crate::engine::base::storey::Sense;
 use crate::engine::error::EngineError;
 use crate::engine::excitation::inputs::Inputs;
@@ -57,6 +59,7 @@ pub struct SavedState {
     is_planned: bool,
     inputs: Inputs,
     counters: Counters,
+    stop: Stop,
 }
 
 impl Model {
@@ -65,9 +68,16 @@ impl Model {
     pub fn save(&self, state: &mut State) -> SavedState {
         let (log, mut work) = state.work.for_log();
         self.fold_log(&mut state.base, (log, &mut work));
-        let State { time, base, step, inputs, counters, work: _ } = state;
+        let State { time, stop, base, step, inputs, counters, work: _ } = state;
         let is_planned = step.kind != StepKind::NotPlanned;
-        SavedState { time: *time, base: base.clone(), is_planned, inputs: inputs.clone(), counters: *counters }
+        SavedState {
+            time: *time,
+            base: base.clone(),
+            is_planned,
+            inputs: inputs.clone(),
+            counters: *counters,
+            stop: *stop,
+        }
     }
 }
 
@@ -87,8 +97,8 @@ impl Model {
     /// Brings a state of this model back to what it was, or another of its states was, when it was saved. The run from
     /// there on is the same to the last bit.
     pub fn restore(&self, saved: &SavedState, state: &mut State) {
-        let SavedState { time, base, is_planned, inputs, counters } = saved;
-        state.time = *time;
+        let SavedState { time, base, is_planned, inputs, counters, stop } = saved;
+        (state.time, state.stop) = (*time, *stop);
         state.base.clone_from(base);
         self.set_rest(&mut state.base);
         state.inputs.clone_from(inputs);
@@ -96,7 +106,7 @@ impl Model {
         state.work.log.clear();
         state.step.kind = StepKind::NotPlanned;
         if *is_planned {
-            let limit = self.limit(&state.base.segment, state.time);
+            let limit = self.limit(&state.base.segment, stop.goal().unwrap_or(state.time));
             self.plan(state, limit);
         }
         // Planning the step again is not counted again.
@@ -109,7 +119,7 @@ impl Model {
     /// # Errors
     /// The first thing that does not fit the model.
     pub fn check_saved(&self, saved: &SavedState) -> Result<(), EngineError> {
-        let SavedState { time, base, is_planned: _, inputs, counters } = saved;
+        let SavedState { time, base, is_planned, inputs, counters, stop: _ } = saved;
         require(time.is_finite(), "its time is not a finite number")?;
         let mut state = self.start(*time);
         self.check_sizes(saved, &state)?;
@@ -127,8 +137,9 @@ impl Model {
             base.clearance.fits(self.system.cleared(), number, MOST_COUNTED),
             "what it tells of pairs apart is impossible",
         )?;
+        self.check_goal(saved)?;
         self.restore(saved, &mut state);
-        self.check_time(saved.is_planned, &state)
+        self.check_time(*is_planned, &state)
     }
 
     fn check_sizes(&self, saved: &SavedState, fresh: &State) -> Result<(), EngineError> {
@@ -197,16 +208,30 @@ impl Model {
     /// A planned step contains the communication time. Without one the base is at that time already (after a failed
     /// step it may be later).
     fn check_time(&self, is_planned: bool, state: &State) -> Result<(), EngineError> {
-        let State { time, base, .. } = state;
+        let State { time, base, stop, .. } = state;
         let (since, rounding) = (time - base.segment.start, rounding(*time));
-        let fits = if is_planned {
-            let limit = self.limit(&base.segment, *time);
-            let end = state.step_end(limit);
-            base.elapsed <= since + rounding && since < end
-        } else {
-            base.elapsed >= since - rounding
+        let limit = self.limit(&base.segment, stop.goal().unwrap_or(*time));
+        let fits = match stop {
+            Stop::Waiting { end, .. } => {
+                let is_event = |event| !matches!(event, Event::Branch(_));
+                let waits = state.step.kind != StepKind::NotPlanned && state.step.planned.event.is_some_and(is_event);
+                waits && *end == state.step_end(limit) && (since - end).abs() <= rounding
+            }
+            _ if !is_planned => base.elapsed >= since - rounding,
+            Stop::Handled { .. } => base.elapsed <= since + rounding && since <= state.step_end(limit) + rounding,
+            Stop::No => base.elapsed <= since + rounding && since < state.step_end(limit),
         };
         require(fits, "its time is not that of its motion")
+    }
+
+    /// The time that a step was on its way to, when an event stopped it, lies ahead, within the segment where a master drives
+    /// the ground.
+    fn check_goal(&self, saved: &SavedState) -> Result<(), EngineError> {
+        let Some(goal) = saved.stop.goal() else { return Ok(()) };
+        let (segment, rounding) = (&saved.base.segment, rounding(saved.time));
+        let is_covered = self.system.ground.is_some() || (goal - (segment.start + segment.length)).abs() <= rounding;
+        let is_ahead = goal.is_finite() && goal >= saved.time - rounding;
+        require(is_ahead && is_covered, "an event in it has stopped another step")
     }
 }
 

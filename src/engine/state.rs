@@ -3,8 +3,9 @@
 use crate::collocation::Workspace as WindowWorkspace;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::Event;
+use crate::engine::base::stop::Stop;
 use crate::engine::base::{Account, Base};
-use crate::engine::excitation::inputs::{Input, Inputs};
+use crate::engine::excitation::inputs::{Input, Inputs, LinearInput};
 use crate::engine::flight::workspace::Look;
 use crate::engine::model::Model;
 use crate::engine::peaks::log::PeakLog;
@@ -42,6 +43,7 @@ use crate::structure::Side;
 pub struct State {
     /// The communication time, s.
     pub(in crate::engine) time: f64,
+    pub(in crate::engine) stop: Stop,
     pub(in crate::engine) base: Base,
     pub(in crate::engine) step: Step,
     pub(in crate::engine) inputs: Inputs,
@@ -59,8 +61,15 @@ impl State {
     pub(in crate::engine) fn since_base(&self) -> f64 {
         match self.step.kind {
             StepKind::NotPlanned => 0.0,
+            // Here the difference of two times would be less exact.
+            _ if self.has_event() => self.step.planned.length,
             _ => (self.time - (self.base.segment.start + self.base.elapsed)).max(0.0),
         }
+    }
+
+    /// Whether time has stopped at an event, which waits to be handled.
+    pub fn has_event(&self) -> bool {
+        matches!(self.stop, Stop::Waiting { .. })
     }
 
     /// The counts of work so far.
@@ -87,12 +96,25 @@ impl State {
     /// Sets an input at the present time, in its unit. It is constant from now on, unless a rate is set for the same
     /// time. One that the scene does not have is left alone.
     pub fn set_input(&mut self, input: Input, value: f64) {
+        let before = self.inputs.get(input);
         self.inputs.set(input, value, self.time);
+        self.look_at_change(before, input);
     }
 
     /// Sets the rate of an input, per second, from now on until the input or its rate is set again.
     pub fn set_input_rate(&mut self, input: Input, rate: f64) {
+        let before = self.inputs.get(input);
         self.inputs.set_rate(input, rate, self.time);
+        self.look_at_change(before, input);
+    }
+
+    /// Where an input goes on in another way than before, so does a step that an event has interrupted.
+    fn look_at_change(&mut self, before: LinearInput, input: Input) {
+        let now = self.inputs.get(input);
+        let is_same = (before.at(self.time), before.slope()) == (now.at(self.time), now.slope());
+        if !is_same && !self.has_event() {
+            self.stop = Stop::No;
+        }
     }
 
     /// Sets the ground acceleration, m/s2, at the present time; used only where the scene has no record. It is constant
@@ -181,6 +203,7 @@ impl Model {
     pub fn start_with(&self, time: f64, inputs: Inputs) -> State {
         let mut state = State {
             time,
+            stop: Stop::No,
             base: self.system.start(time, self.start_peaks(), self.energy.then(Account::default)),
             step: Step::new(&self.system),
             inputs,

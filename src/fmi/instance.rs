@@ -4,8 +4,9 @@ use super::arguments::{boolean, bytes_in, str_in};
 use super::logger::Logger;
 use super::panics::caught;
 use super::types::{Boolean, CO_SIMULATION, CallbackFunctions, Component, Text};
+use crate::FmiVersion;
 use crate::description::Category;
-use crate::slave::{Log, Message, Refusal, Slave, instantiate};
+use crate::slave::{Interface, Log, Message, Refusal, Slave, instantiate};
 use std::ffi::{CStr, CString, c_int};
 use std::ptr;
 
@@ -80,7 +81,7 @@ unsafe fn slave(request: &Request, name: Result<&CStr, Refusal>) -> Result<Slave
     match (name.map_err(&mut note), guid.map_err(&mut note), location.map_err(&mut note), logging_on.map_err(&mut note))
     {
         (Ok(_), Ok(guid), Ok(location), Ok(logging_on)) if problems.is_empty() => {
-            instantiate(guid, location.to_bytes(), Log::new(logging_on))
+            instantiate(Interface::V2, guid, location.to_bytes(), Log::new(FmiVersion::V2, logging_on))
         }
         _ => Err(Refusal { problems }),
     }

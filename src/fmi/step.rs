@@ -10,7 +10,7 @@ use std::ffi::c_int;
 #[cfg_attr(fmi_exports, unsafe(no_mangle))]
 pub unsafe extern "C" fn fmi2DoStep(c: Component, current: f64, step: f64, _no_set_state_before: Boolean) -> c_int {
     // SAFETY: as the module says.
-    unsafe { with_instance(c, Call::DoStep, |instance| instance.slave.do_step(current, step)) }
+    unsafe { with_instance(c, Call::DoStep, |instance| instance.slave.do_step(current, step).map(|step| step.status)) }
 }
 
 #[cfg_attr(fmi_exports, unsafe(no_mangle))]

@@ -4,9 +4,10 @@
 use super::instance::Instance;
 use super::logger::Logger;
 use super::types::{Component, ComponentEnvironment, LoggerFunction, Text};
+use crate::FmiVersion;
 use crate::description::Package;
 use crate::scene::Scene;
-use crate::slave::{Log, Slave};
+use crate::slave::{Interface, Log, Slave};
 use std::ffi::{CStr, c_int};
 use std::mem;
 
@@ -26,7 +27,7 @@ impl Logged {
         };
         // SAFETY: the messages live as long as the component.
         let logger = unsafe { Logger::new(Some(function), messages.cast(), c"test") };
-        let slave = Slave::new(package(), Log::new(true));
+        let slave = Slave::new(package(), Interface::V2, Log::new(FmiVersion::V2, true));
         let instance = Instance { slave, logger, is_poisoned: false, strings: Vec::new() };
         Logged { component: Box::into_raw(Box::new(instance)).cast(), messages }
     }

@@ -3,10 +3,11 @@
 use super::instance::Slave;
 use super::sequence::Phase;
 use super::status::Refusal;
+use crate::FmiVersion;
 use crate::description::Category;
 use crate::engine::Input;
 use crate::scene::SceneError;
-use crate::variables::{Calculated, Row, Settings, Slot, Table, Value};
+use crate::variables::{Calculated, Row, Settings, Slot, Type, Unit, Value};
 use crate::warnings;
 use std::sync::Arc;
 
@@ -23,24 +24,41 @@ impl Slave {
     ) -> Result<(), Refusal> {
         let mut problems = Vec::new();
         for (i, &reference) in references.iter().enumerate() {
-            let Some(&Row { slot, ty, .. }) = self.table.row(reference) else {
-                problems.push(unknown(&self.table, reference));
-                continue;
-            };
-            let value = match slot {
-                Slot::Output(output) => Value::of(ty, self.start()?.now().read(output)),
-                Slot::Input(input) => Value::Real(self.run.inputs().get(input).at(self.run.time())),
-                Slot::Parameter(parameter) => self.settings.read(parameter),
-                Slot::Calculated(Calculated::Frequency(side, mode)) => {
-                    Value::Real(self.start()?.model().natural_frequencies(side)[mode])
+            let value = match self.table.row(reference).map(|row| (row.slot, row.ty)) {
+                Some((slot, ty)) => self.read(reference, slot, ty)?,
+                None if self.is_time(reference) => Value::Real(self.run.time()),
+                None => {
+                    problems.push(self.unknown(reference));
+                    continue;
                 }
-                Slot::Calculated(calculated) => Value::Real(self.settings.calculate(calculated)),
             };
             if take(i, value).is_none() {
-                problems.push(wrong_type(&self.table, reference, wanted));
+                problems.push(self.wrong_type(reference, wanted));
             }
         }
         Refusal::unless_empty(problems)
+    }
+
+    /// The value of a variable.
+    #[inline]
+    fn read(&mut self, reference: u32, slot: Slot, ty: Type) -> Result<Value<'_>, Refusal> {
+        Ok(match slot {
+            Slot::Output(output) => match self.held.as_ref().and_then(|held| held.get(reference)) {
+                Some(held) => Value::of(ty, held),
+                None => Value::of(ty, self.start()?.now().read(output)),
+            },
+            Slot::Input(input) => Value::Real(self.run.inputs().get(input).at(self.run.time())),
+            Slot::Parameter(parameter) => self.settings.read(parameter),
+            Slot::Calculated(Calculated::Frequency(side, mode)) => {
+                Value::Real(self.start()?.model().natural_frequencies(side)[mode])
+            }
+            Slot::Calculated(calculated) => Value::Real(self.settings.calculate(calculated)),
+        })
+    }
+
+    /// Whether a value reference is that of the time.
+    fn is_time(&self, reference: u32) -> bool {
+        self.interface.version() == FmiVersion::V3 && reference == self.table.time_reference()
     }
 
     /// Sets each variable to the value of its place: all of them, or none where anything is wrong.
@@ -56,6 +74,10 @@ impl Slave {
         if let Some(changed) = changed {
             self.settings = Arc::new(changed);
             self.run.stop();
+        }
+        if pairs().any(|(reference, _)| self.table.row(reference).is_some_and(|row| matches!(row.slot, Slot::Input(_))))
+        {
+            self.handle_event()?;
         }
         for (reference, value) in pairs() {
             if let (Some(Slot::Input(input)), Value::Real(value)) = (self.table.row(reference).map(|r| r.slot), value) {
@@ -80,9 +102,13 @@ impl Slave {
 
     /// What is wrong with setting a variable now, but for the numbers of parameters, which the scene's rules judge.
     fn refuse(&self, reference: u32, value: Value<'_>) -> Option<String> {
-        let Some(row) = self.table.row(reference) else { return Some(unknown(&self.table, reference)) };
-        if row.ty.name() != value.type_name() {
-            return Some(wrong_type(&self.table, reference, value.type_name()));
+        let Some(row) = self.table.row(reference) else {
+            let of_time = || "time: computed by the FMU, it cannot be set".to_owned();
+            return Some(if self.is_time(reference) { of_time() } else { self.unknown(reference) });
+        };
+        let (version, found) = (self.interface.version(), value.type_name(self.interface.version()));
+        if row.ty.name(version) != found {
+            return Some(self.wrong_type(reference, found));
         }
         match (row.slot, self.phase) {
             (Slot::Input(_), _) | (Slot::Parameter(_), Phase::Instantiated | Phase::Initialization) => {}
@@ -121,16 +147,22 @@ impl Slave {
     }
 }
 
+impl Slave {
+    /// That there is no such variable.
+    pub(super) fn unknown(&self, reference: u32) -> String {
+        let count = self.table.time_reference() + u32::from(self.interface.version() == FmiVersion::V3);
+        format!("value reference {reference}: expected one below {count}")
+    }
+
+    /// That a variable is of another type.
+    pub(super) fn wrong_type(&self, reference: u32, wanted: &str) -> String {
+        let version = self.interface.version();
+        let row = self.table.row(reference).map(|row| (row.name.as_str(), row.ty));
+        let (name, ty) = row.unwrap_or(("time", Type::Real(Unit::Second)));
+        format!("{name} (value reference {reference}) is {}, not {wanted}", ty.name(version))
+    }
+}
+
 fn note(result: Result<(), SceneError>, problems: &mut Vec<String>) {
     problems.extend(result.err().into_iter().flat_map(|error| Refusal::from(error).problems));
-}
-
-pub(super) fn unknown(table: &Table, reference: u32) -> String {
-    format!("value reference {reference}: expected one below {}", table.rows.len())
-}
-
-pub(super) fn wrong_type(table: &Table, reference: u32, wanted: &str) -> String {
-    let row = table.row(reference).map(|row| (row.name.as_str(), row.ty.name()));
-    let (name, ty) = row.unwrap_or_default();
-    format!("{name} (value reference {reference}) is {ty}, not {wanted}")
 }

@@ -1,11 +1,10 @@
 //! Derivatives: of inputs with respect to time, which the master sets, of outputs with respect to time, and of outputs
 //! with respect to inputs.
 
-use super::access::{unknown, wrong_type};
 use super::instance::Slave;
 use super::sequence::{Call, Phase};
 use super::status::{Refusal, Status};
-use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, Slot, Type, by_parameter};
+use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, Slot, Type, Unit, by_parameter};
 
 impl Slave {
     /// Sets the first derivatives of inputs for the present communication point: all of them, or none where anything is
@@ -26,7 +25,7 @@ impl Slave {
 
     /// What is wrong with setting a derivative of a variable, by itself.
     fn refuse_derivative(&self, reference: u32, order: i32, value: f64) -> Option<String> {
-        let Some(row) = self.table.row(reference) else { return Some(unknown(&self.table, reference)) };
+        let Some(row) = self.table.row(reference) else { return Some(self.unknown(reference)) };
         let name = &row.name;
         match row.slot {
             Slot::Input(_) if order != 1 => Some(format!("{name}: derivative of order {order}: expected order 1")),
@@ -58,10 +57,10 @@ impl Slave {
     }
 
     fn output_derivative(&mut self, reference: u32, order: i32) -> Result<Result<f64, String>, Refusal> {
-        let Some(row) = self.table.row(reference) else { return Ok(Err(unknown(&self.table, reference))) };
+        let Some(row) = self.table.row(reference) else { return Ok(Err(self.unknown(reference))) };
         let Slot::Output(output) = row.slot else { return Ok(Err(format!("{}: expected an output", row.name))) };
         if !matches!(row.ty, Type::Real(_)) {
-            return Ok(Err(wrong_type(&self.table, reference, "Real")));
+            return Ok(Err(self.wrong_type(reference, self.real())));
         }
         if !(1..=i32::from(HIGHEST_OUTPUT_DERIVATIVE)).contains(&order) {
             let expected = format!("expected order 1 to {HIGHEST_OUTPUT_DERIVATIVE}");
@@ -87,24 +86,62 @@ impl Slave {
         seed: &[f64],
         mut take: impl FnMut(usize, f64),
     ) -> Result<Status, Refusal> {
-        let refused = unknowns.iter().filter_map(|&unknown| self.refuse_unknown(unknown));
-        let changes = || knowns.iter().copied().zip(seed.iter().copied());
-        let refused = refused.chain(changes().filter_map(|(known, change)| self.refuse_known(known, change)));
-        let mut problems: Vec<String> = refused.collect();
-        if !problems.is_empty() {
-            return Ok(self.discard_for(Call::GetDirectionalDerivative, problems));
+        let changes: Vec<(u32, f64)> = knowns.iter().copied().zip(seed.iter().copied()).collect();
+        let mut problems = self.refuse_derivatives(unknowns, &changes);
+        if problems.is_empty() {
+            self.respond(unknowns, &changes, &mut take, &mut problems)?;
         }
+        Ok(self.discard_for(Call::GetDirectionalDerivative, problems))
+    }
+
+    /// The seed, one number per unknown, times the derivatives of the unknowns with respect to each known. Hands over place and
+    /// value of each known, or of none, as [`Slave::directional_derivative`] does.
+    ///
+    /// # Errors
+    /// Settings of which no model can be made.
+    pub fn adjoint_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        mut take: impl FnMut(usize, f64),
+    ) -> Result<Status, Refusal> {
+        let changes: Vec<(u32, f64)> = knowns.iter().map(|&known| (known, 1.0)).collect();
+        let mut problems = self.refuse_derivatives(unknowns, &changes);
+        let is_finite = |(unknown, seed): (&u32, &f64)| {
+            let name = || self.table.row(*unknown).map_or("", |row| &row.name);
+            (!seed.is_finite()).then(|| format!("{}: seed {seed}: expected a finite number", name()))
+        };
+        problems.extend(unknowns.iter().zip(seed).filter_map(is_finite));
+        if problems.is_empty() {
+            for (k, change) in changes.iter().enumerate() {
+                let mut sum = 0.0;
+                let mut add = |i: usize, derivative: f64| sum += seed[i] * derivative;
+                self.respond(unknowns, std::slice::from_ref(change), &mut add, &mut problems)?;
+                take(k, sum);
+            }
+        }
+        Ok(self.discard_for(Call::GetAdjointDerivative, problems))
+    }
+
+    /// The change of each unknown with these changes of knowns, and where there is no derivative.
+    fn respond(
+        &mut self,
+        unknowns: &[u32],
+        changes: &[(u32, f64)],
+        take: &mut dyn FnMut(usize, f64),
+        problems: &mut Vec<String>,
+    ) -> Result<(), Refusal> {
         let Slave { table, settings, run, .. } = self;
         let simulation = run.start(settings)?;
-        let slot = |reference| table.row(reference).map(|row| row.slot);
-        simulation.respond(changes().filter_map(|(known, change)| match slot(known)? {
+        simulation.respond(changes.iter().filter_map(|&(known, change)| match table.row(known)?.slot {
             Slot::Input(input) => Some((input, change)),
             _ => None,
         }));
         for (i, &unknown) in unknowns.iter().enumerate() {
             let Some(unknown) = table.row(unknown) else { continue };
             let mut sum = simulation.response(unknown.slot);
-            for (known, change) in changes().filter_map(|(known, change)| Some((table.row(known)?, change))) {
+            for (known, change) in changes.iter().filter_map(|&(known, change)| Some((table.row(known)?, change))) {
                 let Slot::Parameter(parameter) = known.slot else { continue };
                 match by_parameter(&settings.scene, simulation.model(), unknown.slot, parameter) {
                     Some(derivative) => sum += derivative * change,
@@ -117,11 +154,21 @@ impl Slave {
             }
             take(i, sum);
         }
-        Ok(self.discard_for(Call::GetDirectionalDerivative, problems))
+        Ok(())
+    }
+
+    fn refuse_derivatives(&self, unknowns: &[u32], changes: &[(u32, f64)]) -> Vec<String> {
+        let refused = unknowns.iter().filter_map(|&unknown| self.refuse_unknown(unknown));
+        refused.chain(changes.iter().filter_map(|&(known, change)| self.refuse_known(known, change))).collect()
+    }
+
+    /// Name of the type of all that can be differentiated.
+    fn real(&self) -> &'static str {
+        Type::Real(Unit::One).name(self.interface.version())
     }
 
     fn refuse_unknown(&self, reference: u32) -> Option<String> {
-        let Some(row) = self.table.row(reference) else { return Some(unknown(&self.table, reference)) };
+        let Some(row) = self.table.row(reference) else { return Some(self.unknown(reference)) };
         let (is_unknown, expected) = match self.phase {
             Phase::Initialization => {
                 (matches!(row.slot, Slot::Output(_) | Slot::Calculated(_)), "an output or a calculated parameter")
@@ -130,12 +177,12 @@ impl Slave {
         };
         match row.ty {
             Type::Real(_) if is_unknown => None,
-            _ => Some(format!("unknown {}: expected {expected} of type Real", row.name)),
+            _ => Some(format!("unknown {}: expected {expected} of type {}", row.name, self.real())),
         }
     }
 
     fn refuse_known(&self, reference: u32, change: f64) -> Option<String> {
-        let Some(row) = self.table.row(reference) else { return Some(unknown(&self.table, reference)) };
+        let Some(row) = self.table.row(reference) else { return Some(self.unknown(reference)) };
         let (is_known, expected) = match self.phase {
             Phase::Initialization => {
                 (matches!(row.slot, Slot::Input(_) | Slot::Parameter(_)), "an input or a parameter")
@@ -145,7 +192,7 @@ impl Slave {
         match row.ty {
             Type::Real(_) if is_known && change.is_finite() => None,
             Type::Real(_) if is_known => Some(format!("{}: seed {change}: expected a finite number", row.name)),
-            _ => Some(format!("known {}: expected {expected} of type Real", row.name)),
+            _ => Some(format!("known {}: expected {expected} of type {}", row.name, self.real())),
         }
     }
 }

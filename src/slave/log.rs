@@ -1,5 +1,6 @@
 //! Messages for the master, kept until the call is over: the logger is called when nothing of the instance is borrowed.
 
+use crate::FmiVersion;
 use crate::description::Category;
 use std::mem;
 
@@ -20,10 +21,14 @@ pub struct Log {
 }
 
 impl Log {
-    /// Warnings, errors and why a call is discarded are always logged until the master chooses otherwise, all else only
-    /// where it asks for it.
-    pub fn new(logging_on: bool) -> Log {
-        let always = |category: &Category| *category != Category::Events;
+    /// Until the master chooses otherwise errors are always logged, and in FMI 2.0 warnings and why a call is discarded; all
+    /// else only where it asks for it. FMI 3.0 forbids more than errors.
+    pub fn new(version: FmiVersion, logging_on: bool) -> Log {
+        let always = |category: &Category| match category {
+            Category::StatusError | Category::StatusFatal => true,
+            Category::StatusWarning | Category::StatusDiscard => version == FmiVersion::V2,
+            Category::Events => false,
+        };
         let enabled = Category::ALL.into_iter().filter(|category| logging_on || always(category)).collect();
         Log { enabled, pending: Vec::new() }
     }
@@ -72,18 +77,25 @@ mod tests {
     use super::*;
 
     #[test]
+    fn only_errors_are_logged_without_being_asked_for_in_fmi_3() {
+        let log = Log::new(FmiVersion::V3, false);
+        let enabled = Category::ALL.into_iter().filter(|&category| log.is_enabled(category));
+        assert_eq!(enabled.collect::<Vec<_>>(), [Category::StatusError, Category::StatusFatal]);
+    }
+
+    #[test]
     fn warnings_and_errors_are_logged_without_being_asked_for_and_events_are_not() {
-        let log = Log::new(false);
+        let log = Log::new(FmiVersion::V2, false);
         assert!(log.is_enabled(Category::StatusWarning));
         assert!(log.is_enabled(Category::StatusError) && log.is_enabled(Category::StatusFatal));
         assert!(log.is_enabled(Category::StatusDiscard));
         assert!(!log.is_enabled(Category::Events));
-        assert!(Category::ALL.iter().all(|&category| Log::new(true).is_enabled(category)));
+        assert!(Category::ALL.iter().all(|&category| Log::new(FmiVersion::V2, true).is_enabled(category)));
     }
 
     #[test]
     fn only_the_chosen_categories_pass() {
-        let mut log = Log::new(true);
+        let mut log = Log::new(FmiVersion::V2, true);
         log.choose(true, &["logEvents"]).unwrap();
         log.add(Category::StatusError, "no");
         log.add(Category::Events, "yes");
@@ -97,7 +109,7 @@ mod tests {
 
     #[test]
     fn every_unknown_category_is_named_and_nothing_changes() {
-        let mut log = Log::new(false);
+        let mut log = Log::new(FmiVersion::V2, false);
         let problems = log.choose(true, &["logEvents", "logNonsense", "events"]).unwrap_err();
         assert_eq!(problems.len(), 2);
         assert!(problems[0].contains("logNonsense") && problems[0].contains("logStatusError"));

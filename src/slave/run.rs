@@ -53,6 +53,14 @@ impl Run {
         }
     }
 
+    /// Whether time has stopped at an event that has not been handled.
+    pub(super) fn has_event(&self) -> bool {
+        match self {
+            Run::NotStarted(_) => false,
+            Run::Started(simulation) => simulation.state().has_event(),
+        }
+    }
+
     /// Sets an input at the present time.
     pub(super) fn set_input(&mut self, input: Input, value: f64) {
         match self {

@@ -1,24 +1,46 @@
-//! Which call is allowed when: the table of FMI 2.0.4, section 4.2.4, as data.
+//! Which call is allowed when: the tables of FMI 2.0.4, section 4.2.4, and of FMI 3.0.2, section 4.2.1, as data.
 
-/// Where an instance is in its life. Steps are done when they return, so none is ever in progress: the standard's
-/// `stepInProgress` and `stepCanceled` are not reached. A step that is discarded, since a storey has collapsed, leaves the
+use crate::FmiVersion;
+
+/// Where an instance is in its life. Steps are done when they return, so none is ever in progress: what the standards call
+/// `stepInProgress` and `stepCanceled` is not reached. A step that is discarded, since a storey has collapsed, leaves the
 /// instance at the communication point of that time (`stepFailed`): it can be read, terminated and set back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Phase {
-    /// After `fmi2Instantiate` or `fmi2Reset`.
+    /// After instantiation or a reset.
     Instantiated,
-    /// Between `fmi2EnterInitializationMode` and `fmi2ExitInitializationMode`.
+    /// Between the two calls for initialisation mode.
     Initialization,
-    /// At a communication point.
+    /// At a communication point; `Step Mode` of FMI 3.0.
     StepComplete,
-    /// After `fmi2Terminate`.
+    /// After the call to terminate.
     Terminated,
-    /// After a call that returned `fmi2Error`: values can be read to find out why, `fmi2Reset` starts again,
-    /// `fmi2SetFMUstate` goes on from where all was well.
+    /// After a call that returned an error: values can be read to find out why, a reset starts again, a state that is set
+    /// goes on from where all was well.
     Error,
+    /// `Event Mode` of FMI 3.0: what jumps does so here.
+    Event,
 }
 
-/// A function that takes an instance, but for `fmi2FreeInstance`, which is always allowed.
+impl Phase {
+    /// In the words of a version; `None` where it has no such phase.
+    pub const fn name(self, version: FmiVersion) -> Option<&'static str> {
+        Some(match (self, version) {
+            (Instantiated, _) => "Instantiated",
+            (Initialization, FmiVersion::V2) => "Initialization",
+            (Initialization, FmiVersion::V3) => "Initialization Mode",
+            (StepComplete, FmiVersion::V2) => "StepComplete",
+            (StepComplete, FmiVersion::V3) => "Step Mode",
+            (Error, FmiVersion::V2) => "Error",
+            (Terminated, _) | (Error, FmiVersion::V3) => "Terminated",
+            (Event, FmiVersion::V2) => return None,
+            (Event, FmiVersion::V3) => "Event Mode",
+        })
+    }
+}
+
+/// A function that takes an instance, but for the one that frees it, which is always allowed: by its name in FMI 2.0, or the
+/// function of FMI 3.0 that took its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names of the standard")]
 pub enum Call {
@@ -26,6 +48,9 @@ pub enum Call {
     SetupExperiment,
     EnterInitializationMode,
     ExitInitializationMode,
+    EnterEventMode,
+    EnterStepMode,
+    UpdateDiscreteStates,
     Terminate,
     Reset,
     GetReal,
@@ -43,6 +68,7 @@ pub enum Call {
     SerializeFMUstate,
     DeSerializeFMUstate,
     GetDirectionalDerivative,
+    GetAdjointDerivative,
     SetRealInputDerivatives,
     GetRealOutputDerivatives,
     DoStep,
@@ -52,23 +78,37 @@ pub enum Call {
     GetIntegerStatus,
     GetBooleanStatus,
     GetStringStatus,
+    /// A function of FMI 3.0 for something that these FMUs do not have, by its name.
+    NotOffered(&'static str),
 }
 
-const ALWAYS: &[Phase] =
-    &[Phase::Instantiated, Phase::Initialization, Phase::StepComplete, Phase::Terminated, Phase::Error];
-const INSTANTIATED: &[Phase] = &[Phase::Instantiated];
-const INITIALIZATION: &[Phase] = &[Phase::Initialization];
-const STEP_COMPLETE: &[Phase] = &[Phase::StepComplete];
-const BEFORE_THE_END: &[Phase] = &[Phase::Instantiated, Phase::Initialization, Phase::StepComplete];
-const FROM_INITIALIZATION: &[Phase] = &[Phase::Initialization, Phase::StepComplete, Phase::Terminated, Phase::Error];
-const AFTER_INITIALIZATION: &[Phase] = &[Phase::StepComplete, Phase::Terminated, Phase::Error];
-const STEPPED: &[Phase] = &[Phase::StepComplete, Phase::Terminated];
+use Phase::{Error, Event, Initialization, Instantiated, StepComplete, Terminated};
+
+const ALWAYS: &[Phase] = &[Instantiated, Initialization, Event, StepComplete, Terminated, Error];
+const INSTANTIATED: &[Phase] = &[Instantiated];
+const INITIALIZATION: &[Phase] = &[Initialization];
+const EVENT: &[Phase] = &[Event];
+const STEP_COMPLETE: &[Phase] = &[StepComplete];
+const EVENT_OR_STEP: &[Phase] = &[Event, StepComplete];
+const BEFORE_THE_END: &[Phase] = &[Instantiated, Initialization, Event, StepComplete];
+const FROM_INITIALIZATION: &[Phase] = &[Initialization, Event, StepComplete, Terminated, Error];
+const AFTER_INITIALIZATION: &[Phase] = &[StepComplete, Terminated, Error];
+const STEPPED: &[Phase] = &[StepComplete, Terminated];
 const NEVER: &[Phase] = &[];
 
+/// A row of a table: name of the C function, and phases in which it may be called.
+type Rule = (&'static str, &'static [Phase]);
+
 impl Call {
-    /// The row of the table: name and phases in which the call is allowed. What may be set in a phase depends on the
-    /// variable too (`access.rs`).
-    pub const fn rule(self) -> (&'static str, &'static [Phase]) {
+    /// The row of the table of a version. What may be set in a phase depends on the variable too (`access.rs`).
+    pub const fn rule(self, version: FmiVersion) -> Rule {
+        match version {
+            FmiVersion::V2 => self.rule_2(),
+            FmiVersion::V3 => self.rule_3(),
+        }
+    }
+
+    const fn rule_2(self) -> Rule {
         match self {
             Call::SetDebugLogging => ("fmi2SetDebugLogging", ALWAYS),
             Call::SetupExperiment => ("fmi2SetupExperiment", INSTANTIATED),
@@ -100,16 +140,60 @@ impl Call {
             Call::GetIntegerStatus => ("fmi2GetIntegerStatus", STEPPED),
             Call::GetBooleanStatus => ("fmi2GetBooleanStatus", STEPPED),
             Call::GetStringStatus => ("fmi2GetStringStatus", STEPPED),
+            Call::EnterEventMode | Call::EnterStepMode | Call::UpdateDiscreteStates | Call::GetAdjointDerivative => {
+                ("", NEVER)
+            }
+            Call::NotOffered(name) => (name, NEVER),
+        }
+    }
+
+    const fn rule_3(self) -> Rule {
+        match self {
+            Call::SetDebugLogging => ("fmi3SetDebugLogging", ALWAYS),
+            Call::EnterInitializationMode => ("fmi3EnterInitializationMode", INSTANTIATED),
+            Call::ExitInitializationMode => ("fmi3ExitInitializationMode", INITIALIZATION),
+            Call::EnterEventMode => ("fmi3EnterEventMode", STEP_COMPLETE),
+            Call::EnterStepMode => ("fmi3EnterStepMode", EVENT),
+            Call::UpdateDiscreteStates => ("fmi3UpdateDiscreteStates", EVENT),
+            Call::Terminate => ("fmi3Terminate", EVENT_OR_STEP),
+            Call::Reset => ("fmi3Reset", ALWAYS),
+            Call::GetReal => ("fmi3GetFloat64", ALWAYS),
+            Call::GetInteger => ("fmi3GetInt32", ALWAYS),
+            Call::GetBoolean => ("fmi3GetBoolean", ALWAYS),
+            Call::GetString => ("fmi3GetString", ALWAYS),
+            Call::SetReal => ("fmi3SetFloat64", BEFORE_THE_END),
+            Call::SetInteger => ("fmi3SetInt32", NEVER),
+            Call::SetBoolean => ("fmi3SetBoolean", NEVER),
+            Call::SetString => ("fmi3SetString", BEFORE_THE_END),
+            Call::GetFMUstate => ("fmi3GetFMUState", ALWAYS),
+            Call::SetFMUstate => ("fmi3SetFMUState", ALWAYS),
+            Call::FreeFMUstate => ("fmi3FreeFMUState", ALWAYS),
+            Call::SerializedFMUstateSize => ("fmi3SerializedFMUStateSize", ALWAYS),
+            Call::SerializeFMUstate => ("fmi3SerializeFMUState", ALWAYS),
+            Call::DeSerializeFMUstate => ("fmi3DeserializeFMUState", ALWAYS),
+            Call::GetDirectionalDerivative => ("fmi3GetDirectionalDerivative", FROM_INITIALIZATION),
+            Call::GetAdjointDerivative => ("fmi3GetAdjointDerivative", FROM_INITIALIZATION),
+            Call::GetRealOutputDerivatives => ("fmi3GetOutputDerivatives", AFTER_INITIALIZATION),
+            Call::DoStep => ("fmi3DoStep", STEP_COMPLETE),
+            Call::SetupExperiment
+            | Call::SetRealInputDerivatives
+            | Call::CancelStep
+            | Call::GetStatus
+            | Call::GetRealStatus
+            | Call::GetIntegerStatus
+            | Call::GetBooleanStatus
+            | Call::GetStringStatus => ("", NEVER),
+            Call::NotOffered(name) => (name, NEVER),
         }
     }
 
     /// Name of the C function.
-    pub const fn name(self) -> &'static str {
-        self.rule().0
+    pub const fn name(self, version: FmiVersion) -> &'static str {
+        self.rule(version).0
     }
 
     /// Whether the standard allows the call in a phase.
-    pub fn is_allowed_in(self, phase: Phase) -> bool {
-        self.rule().1.contains(&phase)
+    pub fn is_allowed_in(self, phase: Phase, version: FmiVersion) -> bool {
+        self.rule(version).1.contains(&phase)
     }
 }

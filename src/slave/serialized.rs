@@ -12,6 +12,7 @@
 //! The checksum is against accidents. Who means to can forge it, so the body is not trusted either: what a model could
 //! trip over is refused before it meets the model.
 
+use super::held::Held;
 use super::instance::{Slave, is_time};
 use super::run::{Run, SavedRun};
 use super::sequence::Phase;
@@ -29,7 +30,7 @@ use uuid::Uuid;
 const MAGIC: &[u8; 8] = b"pounding";
 
 /// Of the body. It is counted up when what [`Body`] holds changes: a test notices.
-const FORMAT: u32 = 7;
+const FORMAT: u32 = 8;
 
 /// Bytes around the body.
 const ENVELOPE: usize = MAGIC.len() + size_of::<u32>() + size_of::<Uuid>() + size_of::<u64>() + size_of::<Uuid>();
@@ -41,6 +42,7 @@ struct Body<'a> {
     stop_time: Option<f64>,
     changes: Changes,
     run: BodyRun<'a>,
+    held: Option<Cow<'a, Held>>,
 }
 
 /// A run without its model.
@@ -54,13 +56,14 @@ enum BodyRun<'a> {
 impl Slave {
     /// The bytes of a snapshot.
     pub(super) fn serialize(&self, snapshot: &Snapshot) -> Result<Vec<u8>, Refusal> {
-        let Snapshot { settings, phase, stop_time, run } = snapshot;
+        let Snapshot { settings, phase, stop_time, run, held } = snapshot;
         let run = match run {
             SavedRun::NotStarted(start) => BodyRun::NotStarted(Cow::Borrowed(start)),
             SavedRun::Started(_, state) => BodyRun::Started(Cow::Borrowed(state)),
         };
         let changes = settings.changes(&self.defaults, &self.table);
-        let body = Body { phase: *phase, stop_time: *stop_time, changes, run };
+        let held = held.as_ref().map(Cow::Borrowed);
+        let body = Body { phase: *phase, stop_time: *stop_time, changes, run, held };
         let body = postcard::to_allocvec(&body).map_err(|error| Refusal::from(format!("FMUstate: {error}")))?;
         Ok(wrap(&self.fingerprint, &body))
     }
@@ -78,7 +81,7 @@ impl Slave {
 
     /// Makes a snapshot of a body in which every number can be anything.
     fn accept(&self, body: Body<'_>) -> Result<Snapshot, Refusal> {
-        let Body { phase, stop_time, changes, run } = body;
+        let Body { phase, stop_time, changes, run, held } = body;
         let (time, inputs, is_fit) = match &run {
             BodyRun::NotStarted(start) => (start.time, &start.inputs, start.inputs.fit(&self.defaults.scene)),
             BodyRun::Started(state) => (state.time(), state.inputs(), true), // looked at with the rest of the state
@@ -87,12 +90,15 @@ impl Slave {
         if !(are_possible && stop_time.is_none_or(f64::is_finite)) {
             return Err(refuse("times or inputs that this FMU cannot have"));
         }
+        if held.as_ref().is_some_and(|held| !held.fits(&self.table)) {
+            return Err(refuse("discrete values that this FMU cannot have"));
+        }
         let settings = self.settings_with(&changes)?;
         let run = match run {
             BodyRun::NotStarted(start) => SavedRun::NotStarted(start.into_owned()),
             BodyRun::Started(state) => self.accept_run(&settings, state.into_owned())?,
         };
-        Ok(Snapshot { settings, phase, stop_time, run })
+        Ok(Snapshot { settings, phase, stop_time, run, held: held.map(Cow::into_owned) })
     }
 
     /// The settings with these changes: the present ones if they are the same.

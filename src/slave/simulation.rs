@@ -63,13 +63,25 @@ impl Simulation {
         &mut self.state
     }
 
+    /// Goes on to a time, s, or to the next event before it where it `stops` at events; whether an event waits there.
     pub(super) fn advance(
         &mut self,
         until: f64,
+        stops: bool,
         on_episode: &mut dyn FnMut(&Episode),
-    ) -> Result<Option<Collapse>, Refusal> {
+    ) -> Result<bool, Refusal> {
         self.change();
-        Ok(self.model.advance(&mut self.state, until, on_episode)?)
+        if stops {
+            return Ok(self.model.advance_to_event(&mut self.state, until, on_episode)?);
+        }
+        self.model.advance(&mut self.state, until, on_episode)?;
+        Ok(false)
+    }
+
+    /// Handles the event that waits, if one does.
+    pub(super) fn handle_event(&mut self, on_episode: &mut dyn FnMut(&Episode)) -> Result<(), Refusal> {
+        self.change();
+        Ok(self.model.handle_event(&mut self.state, on_episode)?)
     }
 
     /// The collapse that has ended the run, if one has.

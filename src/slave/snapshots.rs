@@ -4,6 +4,7 @@
 //! the engine - but not the choice of log categories: that is the master's at any time, as over a reset. It stays until
 //! the master frees it, whatever it says about going back when it makes a step.
 
+use super::held::Held;
 use super::run::SavedRun;
 use super::sequence::Phase;
 use super::status::Refusal;
@@ -32,6 +33,7 @@ pub(super) struct Snapshot {
     pub phase: Phase,
     pub stop_time: Option<f64>,
     pub run: SavedRun,
+    pub held: Option<Held>,
 }
 
 impl Snapshots {

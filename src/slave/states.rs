@@ -1,6 +1,7 @@
-//! `fmi2GetFMUstate` and its kin: the state of an instance recorded, restored, freed, and as bytes.
+//! The state of an instance recorded, restored, freed, and as bytes.
 
 use super::instance::Slave;
+use super::sequence::Phase;
 use super::snapshots::{Handle, Snapshot};
 use super::status::Refusal;
 use std::sync::Arc;
@@ -16,19 +17,29 @@ impl Slave {
             phase: self.phase,
             stop_time: self.stop_time,
             run: self.run.save(),
+            held: self.held.clone(),
         };
         self.snapshots.keep(snapshot, earlier)
     }
 
-    /// Goes back to a snapshot, from any phase.
+    /// Goes back to a snapshot, from any phase. One of an instance with Event Mode goes on without, if this one has none: an event
+    /// that waits is handled.
     ///
     /// # Errors
-    /// A snapshot that this instance does not have.
+    /// A snapshot that this instance does not have, and an event that the engine gives up.
     pub fn restore_state(&mut self, handle: Option<Handle>) -> Result<(), Refusal> {
-        let Snapshot { settings, phase, stop_time, run } = self.snapshots.get(handle)?;
+        let Snapshot { settings, phase, stop_time, run, held } = self.snapshots.get(handle)?;
         self.settings = Arc::clone(settings);
         (self.phase, self.stop_time) = (*phase, *stop_time);
+        self.held.clone_from(held);
         self.run.restore(run);
+        if !self.interface.has_event_mode() {
+            self.held = None;
+            if self.phase == Phase::Event {
+                self.phase = Phase::StepComplete;
+            }
+            self.handle_event()?;
+        }
         Ok(())
     }
 

@@ -2,6 +2,7 @@
 
 use super::slot::Slot;
 use super::unit::Unit;
+use crate::FmiVersion;
 use crate::engine::Inputs;
 
 /// FMI variability.
@@ -69,13 +70,15 @@ impl Variability {
 }
 
 impl Type {
-    /// Name of the element of the description.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Type::Real(_) => "Real",
-            Type::Integer => "Integer",
-            Type::Boolean => "Boolean",
-            Type::String => "String",
+    /// Name of the type, and of its element in the description.
+    pub const fn name(self, version: FmiVersion) -> &'static str {
+        match (self, version) {
+            (Type::Real(_), FmiVersion::V2) => "Real",
+            (Type::Real(_), FmiVersion::V3) => "Float64",
+            (Type::Integer, FmiVersion::V2) => "Integer",
+            (Type::Integer, FmiVersion::V3) => "Int32",
+            (Type::Boolean, _) => "Boolean",
+            (Type::String, _) => "String",
         }
     }
 }
@@ -84,6 +87,11 @@ impl Table {
     /// The row of a value reference.
     pub fn row(&self, value_reference: u32) -> Option<&Row> {
         self.rows.get(usize::try_from(value_reference).ok()?)
+    }
+
+    /// The value reference of the time, which only FMI 3.0 has among its variables: that after the last row.
+    pub fn time_reference(&self) -> u32 {
+        u32::try_from(self.rows.len()).unwrap_or(u32::MAX)
     }
 
     /// What is wrong with inputs at a time, s: a problem for each that is out of its range.

@@ -2,6 +2,8 @@
 
 use super::slot::{Calculated, Parameter};
 use super::table::Type;
+use super::unit::Unit;
+use crate::FmiVersion;
 use crate::engine::Side;
 use crate::record::{KnownRecords, Record};
 use crate::scene::{
@@ -56,14 +58,15 @@ impl<'a> Value<'a> {
         if let Value::String(value) = self { Some(value) } else { None }
     }
 
-    /// Name of the FMI type.
-    pub const fn type_name(self) -> &'static str {
-        match self {
-            Value::Real(_) => "Real",
-            Value::Integer(_) => "Integer",
-            Value::Boolean(_) => "Boolean",
-            Value::String(_) => "String",
-        }
+    /// Name of its type.
+    pub const fn type_name(self, version: FmiVersion) -> &'static str {
+        let ty = match self {
+            Value::Real(_) => Type::Real(Unit::One),
+            Value::Integer(_) => Type::Integer,
+            Value::Boolean(_) => Type::Boolean,
+            Value::String(_) => Type::String,
+        };
+        ty.name(version)
     }
 }
 

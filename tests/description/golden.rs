@@ -11,7 +11,7 @@ fn the_example_scenes_have_the_committed_descriptions() {
     let update = std::env::var_os("UPDATE_MODEL_DESCRIPTION").is_some_and(|value| value == "1");
     for scene in scenes() {
         let package = Package::from_scene_file(&scene).unwrap();
-        let text = package.model_description();
+        let text = package.model_description(pounding::FmiVersion::V2);
         let golden = golden_file(&scene);
         if update {
             fs::create_dir_all(golden.parent().unwrap()).unwrap();

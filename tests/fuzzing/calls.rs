@@ -181,7 +181,7 @@ impl Session {
     /// One variable, or none, by the function of one of the types.
     fn get(&mut self, argument: u8) {
         let vr = u32::from(argument / 4);
-        let ty = shared().table.row(vr).map(|row| row.ty.name());
+        let ty = shared().table.row(vr).map(|row| row.ty.name(pounding::FmiVersion::V2));
         let name = ["Real", "Integer", "Boolean", "String"][usize::from(argument % 4)];
         let is_good = ty == Some(name);
         let allowed = self.is_in(&[Initialization, StepComplete, Terminated, Error]);

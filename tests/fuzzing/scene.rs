@@ -27,5 +27,5 @@ pub fn check(bytes: &[u8]) {
         return;
     }
     let package = Package { scene_text: text.to_owned(), scene, record: None };
-    assert!(package.model_description().contains(&package.guid()));
+    assert!(package.model_description(pounding::FmiVersion::V2).contains(&package.guid(pounding::FmiVersion::V2)));
 }

@@ -217,7 +217,7 @@ fn floors_that_are_held_by_the_ground_answer_to_it_at_once() {
 fn the_kind_of_a_dependence_is_fixed_where_no_contact_decides() {
     let rigid = SCENE.replace("law = \"hertz\"\nstiffness = 1.0e6", "law = \"stereomechanical\"\nrestitution = 0.0");
     for (scene, held) in [(SCENE, false), (&rigid, true)] {
-        let text = crate::support::Fmu::new(scene).package.model_description();
+        let text = crate::support::Fmu::new(scene).package.model_description(pounding::FmiVersion::V2);
         let document = roxmltree::Document::parse(&text).unwrap();
         let variables = document.descendants().filter(|n| n.has_tag_name("ScalarVariable")).collect::<Vec<_>>();
         let unknowns = |list: &str| {

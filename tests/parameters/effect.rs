@@ -177,7 +177,7 @@ fn another_record_works_as_if_the_scene_had_said_so() {
     let mut said = Fmu::new(RICH);
     fs::write(said.resources().join("record.csv"), text).unwrap();
     said.package = Package::from_resources(&said.resources()).unwrap();
-    said.guid = said.package.guid();
+    said.guid = said.package.guid(pounding::FmiVersion::V2);
     let expected = run_with(&said, &[], false);
 
     let fmu = Fmu::new(RICH);

@@ -165,7 +165,7 @@ fn the_description_is_the_same() {
         let record = PackagedRecord::parse("motion.csv", b"time_s,accel_m_s2\n0,1\n1,2\n".to_vec()).unwrap();
         let package =
             Package { scene_text: text.to_owned(), scene: Scene::from_toml(text).unwrap(), record: Some(record) };
-        package.model_description().replace(&package.guid(), "GUID")
+        package.model_description(pounding::FmiVersion::V2).replace(&package.guid(pounding::FmiVersion::V2), "GUID")
     });
     let other = si.lines().zip(kn_t.lines()).find(|(si, kn_t)| si != kn_t);
     assert_eq!((other, si.len()), (None, kn_t.len()));

@@ -29,7 +29,7 @@ impl Resources {
         let package = Package::from_resources(directory.path()).unwrap();
         let text = |path: &Path| CString::new(path.to_str().unwrap()).unwrap();
         Resources {
-            guid: CString::new(package.guid()).unwrap(),
+            guid: CString::new(package.guid(pounding::FmiVersion::V2)).unwrap(),
             location: text(directory.path()),
             package,
             _directory: directory,

@@ -74,10 +74,10 @@ impl Fmu {
             std::fs::write(resources.join("record.csv"), record).unwrap();
         }
         let package = Package::from_resources(&resources).unwrap();
-        let description = ModelDescription::from_string(&package.model_description()).unwrap();
+        let description = ModelDescription::from_string(&package.model_description(pounding::FmiVersion::V2)).unwrap();
         // SAFETY: the library has no initialisers of its own.
         let library = unsafe { Library::new(library_path()) }.unwrap();
-        Fmu { library, directory, guid: package.guid(), package, description }
+        Fmu { library, directory, guid: package.guid(pounding::FmiVersion::V2), package, description }
     }
 
     pub fn resources(&self) -> PathBuf {

@@ -100,7 +100,7 @@ fn kind(variable: &Row) -> &'static str {
 fn unit(variable: &Row) -> &'static str {
     match variable.ty {
         Type::Real(unit) => unit.info().name,
-        Type::Integer | Type::Boolean | Type::String => variable.ty.name(),
+        Type::Integer | Type::Boolean | Type::String => variable.ty.name(pounding::FmiVersion::V2),
     }
 }
 

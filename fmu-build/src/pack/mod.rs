@@ -19,7 +19,8 @@ pub fn pack(package: &Package, libraries: &[Library]) -> Result<Vec<u8>> {
 fn entries(package: &Package, libraries: &[Library]) -> Vec<Entry> {
     let mut binaries: Vec<Entry> = libraries.iter().map(|library| library.entry(&package.scene.name)).collect();
     binaries.sort_by(|one, other| one.path.cmp(&other.path));
-    let mut entries = vec![Entry::file("modelDescription.xml", package.model_description().into_bytes())];
+    let mut entries =
+        vec![Entry::file("modelDescription.xml", package.model_description(pounding::FmiVersion::V2).into_bytes())];
     entries.extend(binaries);
     entries.extend(package.resources().map(|(name, bytes)| Entry::file(&format!("resources/{name}"), bytes.to_vec())));
     entries.extend(documentation::entries(package));

@@ -3,10 +3,12 @@
 pub mod events;
 pub mod fast_flight;
 pub mod plan;
+pub mod stops;
 
 use crate::engine::base::Base;
 use crate::engine::base::contact::Episode;
 use crate::engine::base::planned::{At, Planned};
+use crate::engine::budget::Progress;
 use crate::engine::error::EngineError;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::excitation::segment::Segment;
@@ -46,9 +48,40 @@ impl Model {
         until: f64,
         on_episode: &mut dyn FnMut(&Episode),
     ) -> Result<Option<Collapse>, EngineError> {
+        self.advance_up_to(state, until, false, on_episode)?;
+        Ok(self.collapse(state))
+    }
+
+    /// The same, but where it `stops` no further than to the next event that changes a discrete output.
+    fn advance_up_to(
+        &self,
+        state: &mut State,
+        until: f64,
+        stops: bool,
+        on_episode: &mut dyn FnMut(&Episode),
+    ) -> Result<(), EngineError> {
+        self.handle_event(state, on_episode)?;
         if state.base.collapsed.is_some() {
-            return Ok(self.collapse(state));
+            return Ok(());
         }
+        let resumed = std::mem::take(&mut state.stop).resumed(until);
+        let until = resumed.unwrap_or(until);
+        if resumed.is_none() {
+            self.begin_step(state, until);
+        }
+        self.check_segments(state, until)?;
+        let fast = self.run_fast(state, until, self.most_flights as u64);
+        if !fast.has_arrived {
+            self.go_on(state, until, (fast.flown, stops), on_episode)?;
+        }
+        if !state.has_event() {
+            state.time = if state.base.collapsed.is_some() { state.base.time().min(until) } else { until };
+        }
+        Ok(())
+    }
+
+    /// Begins a communication step up to a time, s: where a master drives, its inputs are those of now.
+    fn begin_step(&self, state: &mut State, until: f64) {
         if self.system.ground.is_none() {
             // The ground as it is from here to `until`: no second copy of the input, which may be set anew at `until`
             // while the base still stands at the end of this segment.
@@ -59,13 +92,6 @@ impl Model {
         if self.system.is_driven() {
             state.step.kind = StepKind::NotPlanned;
         }
-        self.check_segments(state, until)?;
-        let fast = self.run_fast(state, until, self.most_flights as u64);
-        if !fast.has_arrived {
-            self.go_on(state, until, fast.flown, on_episode)?;
-        }
-        state.time = if state.base.collapsed.is_some() { state.base.time().min(until) } else { until };
-        Ok(self.collapse(state))
     }
 
     /// The collapse that has ended the run of a state, if one has.
@@ -74,13 +100,13 @@ impl Model {
         Some(Collapse { side: of.side, storey: of.storey, time: state.time })
     }
 
-    /// Advances step by step from the end of a fast flight over `flown` segments.
+    /// Advances step by step from the end of a fast flight over `flown` segments, up to the next event if it `stops` there.
     #[inline(never)]
     fn go_on(
         &self,
         state: &mut State,
         until: f64,
-        flown: u64,
+        (flown, stops): (u64, bool),
         on_episode: &mut dyn FnMut(&Episode),
     ) -> Result<(), EngineError> {
         let mut progress = self.progress(state, flown);
@@ -91,22 +117,18 @@ impl Model {
                 self.plan(state, limit);
                 let segment = &state.base.segment;
                 let end = state.step_end(limit);
-                if self.ends_after(segment, end, until) {
+                if self.ends_after(segment, end, until) || stops && self.stop_at_event(state, end, until) {
                     break;
                 }
-                progress.note(end > state.base.elapsed);
-                self.take(state, end, on_episode);
-                self.check_numbers(state)?;
-                self.check_progress(state, &progress)?;
+                self.take_planned(state, end, &mut progress, on_episode)?;
                 if state.base.collapsed.is_some() {
                     break;
                 }
             }
-            if state.base.elapsed >= state.base.segment.length {
-                let Some(ground) = &self.system.ground else { break };
-                state.base.segment = ground.following(&state.base.segment);
-                state.base.elapsed = 0.0;
-            } else if self.system.is_driven() && state.base.elapsed >= limit {
+            if !self.begin_next_segment(state) {
+                break;
+            }
+            if self.system.is_driven() && state.base.elapsed >= limit {
                 break;
             }
             let fast = self.run_fast(state, until, progress.flights_left(&state.counters));
@@ -118,6 +140,30 @@ impl Model {
             }
         }
         Ok(())
+    }
+
+    /// Takes the planned step, which ends at `end` (s since the segment's start), and looks at what has come of it.
+    fn take_planned(
+        &self,
+        state: &mut State,
+        end: f64,
+        progress: &mut Progress,
+        on_episode: &mut dyn FnMut(&Episode),
+    ) -> Result<(), EngineError> {
+        progress.note(end > state.base.elapsed);
+        self.take(state, end, on_episode);
+        self.check_numbers(state)?;
+        self.check_progress(state, progress)
+    }
+
+    /// Goes on to the next segment where the base is at the end of its own; `false` where there is none.
+    fn begin_next_segment(&self, state: &mut State) -> bool {
+        if state.base.elapsed >= state.base.segment.length {
+            let Some(ground) = &self.system.ground else { return false };
+            state.base.segment = ground.following(&state.base.segment);
+            state.base.elapsed = 0.0;
+        }
+        true
     }
 
     /// The latest end of a step, s since the start of the segment.

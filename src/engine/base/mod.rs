@@ -6,6 +6,7 @@ pub(super) mod counters;
 pub(super) mod numbers;
 pub(super) mod peaks;
 pub(super) mod planned;
+pub(super) mod stop;
 pub(super) mod storey;
 
 use crate::contact::Force;

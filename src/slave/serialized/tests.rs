@@ -2,10 +2,11 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use super::*;
+use crate::FmiVersion;
 use crate::description::Package;
 use crate::engine::{Input, Inputs, Side};
 use crate::scene::{PackagedRecord, Scene};
-use crate::slave::{Call, Log};
+use crate::slave::{Call, Interface, Log};
 use proptest::prelude::*;
 
 const LAWS: [&str; 5] = [
@@ -39,7 +40,7 @@ fn slave_with(keys: &str, law: &str, has_record: bool, steps: u32) -> Slave {
     let record = has_record.then(|| {
         PackagedRecord::parse("r.csv", b"time_s,accel_m_s2\n0,0\n0.1,-6\n0.2,5\n0.3,-5\n1,0\n".to_vec()).unwrap()
     });
-    let mut slave = Slave::new(Package { scene_text, scene, record }, Log::new(true));
+    let mut slave = Slave::new(Package { scene_text, scene, record }, Interface::V2, Log::new(FmiVersion::V2, true));
     slave.enter_initialization();
     slave.exit_initialization().unwrap();
     for k in 0..steps {
@@ -80,7 +81,7 @@ fn go_on(slave: &mut Slave, body: &[u8]) -> bool {
         }
         if slave.check(Call::DoStep).is_ok() {
             let result = slave.do_step(slave.last_successful_time(), 0.004);
-            slave.report(Call::DoStep, result);
+            slave.report(Call::DoStep, result.map(|step| step.status));
         }
     }
     slave.free_state(Some(handle)).unwrap();
@@ -315,7 +316,8 @@ fn a_state_of_a_scene_with_other_floors_is_refused_by_its_sizes() {
     let of = |floors: &str| {
         let scene_text = OTHER.replace("FLOORS", floors);
         let scene = Scene::from_toml(&scene_text).unwrap();
-        let mut slave = Slave::new(Package { scene_text, scene, record: None }, Log::new(true));
+        let mut slave =
+            Slave::new(Package { scene_text, scene, record: None }, Interface::V2, Log::new(FmiVersion::V2, true));
         slave.enter_initialization();
         slave.exit_initialization().unwrap();
         slave

@@ -38,14 +38,14 @@ fn nothing_is_wrong_with_the_descriptions_of_the_example_scenes() {
 #[test]
 fn nothing_is_wrong_with_any_kind_of_variable() {
     for scene in [SCENE, RECORD_SCENE, NO_CONTACT] {
-        assert_eq!(findings(&package(scene).model_description()), [""; 0], "{scene}");
+        assert_eq!(findings(&package(scene).model_description(pounding::FmiVersion::V2)), [""; 0], "{scene}");
     }
 }
 
 /// A lint that finds nothing anywhere finds nothing in our descriptions either.
 #[test]
 fn every_kind_of_damage_is_found() {
-    let text = package(SCENE).model_description();
+    let text = package(SCENE).model_description(pounding::FmiVersion::V2);
     for (from, to, finding) in [
         ("start=\"0.65\"", "start=\"1.65\"", "contact[1].restitution: start 1.65; expected 0 to 1"),
         ("min=\"1\" max=\"3\"", "min=\"3\" max=\"1\"", "contact[2].exponent: min 3 is greater than max 1"),
@@ -123,7 +123,7 @@ fn every_kind_of_damage_is_found() {
 
 #[test]
 fn missing_initial_unknowns_are_found() {
-    let text = package(SCENE).model_description();
+    let text = package(SCENE).model_description(pounding::FmiVersion::V2);
     let (start, end) = (text.find("<InitialUnknowns>").unwrap(), text.find("</ModelStructure>").unwrap());
     let found = findings(&(text[..start].to_owned() + &text[end..]));
     assert!(found.iter().any(|f| f.contains("initial unknowns")), "{found:?}");
@@ -131,7 +131,7 @@ fn missing_initial_unknowns_are_found() {
 
 #[test]
 fn every_finding_comes_at_once() {
-    let text = package(SCENE).model_description();
+    let text = package(SCENE).model_description(pounding::FmiVersion::V2);
     let changes = [
         ("start=\"0.65\"", "start=\"1.65\"", "contact[1].restitution: start 1.65"),
         ("stopTime=\"4\"", "stopTime=\"0\"", "DefaultExperiment stopTime 0"),
@@ -148,7 +148,7 @@ fn every_finding_comes_at_once() {
 
 #[test]
 fn files_that_are_not_ours_and_libraries_under_other_names_are_found() {
-    let text = package(SCENE).model_description();
+    let text = package(SCENE).model_description(pounding::FmiVersion::V2);
     let description = ModelDescription::from_string(&text).unwrap();
     let findings = |name: &str| super::files(&[name.to_owned()], &description);
     for good in [
@@ -195,7 +195,7 @@ fn files_that_are_not_ours_and_libraries_under_other_names_are_found() {
 
 #[test]
 fn only_our_fmus_are_ours() {
-    let text = package(SCENE).model_description();
+    let text = package(SCENE).model_description(pounding::FmiVersion::V2);
     assert!(super::origin(&text).is_ok());
     let made_by = |tool: &str| super::origin(&text.replace(concat!("pounding-fmu ", env!("CARGO_PKG_VERSION")), tool));
     assert!(made_by("pounding-fmu 99.0.0").is_ok());

@@ -1,0 +1,215 @@
+//! Communication steps, and the events at which they may end.
+//!
+//! The engine handles events at their own instants, whatever a master takes of them. One that takes early returns sees each
+//! of them: the step ends there. With Event Mode the event waits until the master enters it, and what is read before that are
+//! the values just before the event; without, it is handled at once. A master with Event Mode that takes no early returns
+//! has them handled within the step; discrete outputs are held until it enters Event Mode.
+
+use super::held::Held;
+use super::instance::{Slave, is_time};
+use super::interface::Interface;
+use super::sequence::{Call, Phase};
+use super::simulation::Simulation;
+use super::status::{Refusal, Status};
+use crate::FmiVersion;
+use crate::description::Category;
+use crate::engine::{Collapse, Episode};
+use crate::figures::plain;
+use crate::scene::rule::MOST_TIME;
+
+/// Communication points may differ by the rounding of the master: s, relative to their magnitude above 1 s.
+const TIME_TOLERANCE: f64 = 1e-9;
+
+/// What a communication step has come to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Stepped {
+    /// Discarded where the run was over before (in FMI 2.0 also where it has ended within the step).
+    pub status: Status,
+    /// s, the time that has been reached.
+    pub time: f64,
+    /// It has ended at an event, before the time that was asked for.
+    pub is_early: bool,
+    /// Event Mode is to be entered: discrete outputs get new values there.
+    pub needs_event_mode: bool,
+    /// A storey has collapsed, which ends the run.
+    pub is_over: bool,
+}
+
+impl Slave {
+    /// One communication step, s: from the last communication point, give or take the rounding of the master. Where a storey
+    /// collapses the run ends: outputs are those of that time, and every further step is discarded.
+    ///
+    /// # Errors
+    /// A step that does not begin at the present communication point or leads beyond the end, inputs that leave their
+    /// range in it, and a step that the engine gives up ([`EngineError`](crate::engine::EngineError)).
+    pub fn do_step(&mut self, current: f64, step: f64) -> Result<Stepped, Refusal> {
+        if let Some(collapse) = self.run.collapse() {
+            let status = self.discard_for(Call::DoStep, vec![describe_collapse(&collapse)]);
+            return Ok(self.stepped(status, current, false));
+        }
+        let target = self.target(current, step)?;
+        self.handle_event()?;
+        let held = self.hold()?;
+        let waits = self.with_episodes(|simulation, stops, note| simulation.advance(target, stops, note))?;
+        let is_changed = match held {
+            Some(held) => self.keep(held)?,
+            None => false,
+        };
+        if waits && !self.interface.has_event_mode() {
+            self.handle_event()?;
+        }
+        let status = self.tell_collapse();
+        Ok(self.stepped(status, target, is_changed || waits && self.interface.has_event_mode()))
+    }
+
+    fn stepped(&self, status: Status, target: f64, needs_event_mode: bool) -> Stepped {
+        let time = self.run.time();
+        let is_early = self.interface.returns_early() && status == Status::Ok && time < target;
+        Stepped { status, time, is_early, needs_event_mode, is_over: self.is_over() }
+    }
+
+    /// The status of a step: discarded in FMI 2.0, which has no other way to say that the run has ended in it.
+    fn tell_collapse(&mut self) -> Status {
+        let Some(collapse) = self.run.collapse() else { return Status::Ok };
+        let text = describe_collapse(&collapse);
+        match self.interface.version() {
+            FmiVersion::V2 => self.discard_for(Call::DoStep, vec![text]),
+            FmiVersion::V3 => {
+                self.log.add(Category::Events, text);
+                Status::Ok
+            }
+        }
+    }
+
+    /// `fmi3EnterEventMode`: handles the event that waits, if there is one.
+    ///
+    /// # Errors
+    /// An instance that has been made without Event Mode, and an event that the engine gives up.
+    pub fn enter_event_mode(&mut self) -> Result<(), Refusal> {
+        if !self.interface.has_event_mode() {
+            return Err(Refusal::from("eventModeUsed was false at instantiation: expected true".to_owned()));
+        }
+        self.handle_event()?;
+        self.held = None;
+        self.phase = Phase::Event;
+        Ok(())
+    }
+
+    /// `fmi3EnterStepMode`
+    pub fn enter_step_mode(&mut self) -> Status {
+        self.phase = Phase::StepComplete;
+        Status::Ok
+    }
+
+    /// Whether a storey has collapsed, which ends the run.
+    pub fn is_over(&self) -> bool {
+        self.run.collapse().is_some()
+    }
+
+    /// Handles the event that waits at the present time, if one does: with the inputs that have led to it, so before any other
+    /// is set.
+    pub(super) fn handle_event(&mut self) -> Result<(), Refusal> {
+        if self.run.has_event() {
+            self.with_episodes(|simulation, _, note| simulation.handle_event(note))?;
+            if self.run.collapse().is_some() && self.interface.has_event_mode() {
+                self.tell_collapse();
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets the engine work, and logs the contact episodes that end in it. It is told whether to stop at events.
+    fn with_episodes<T>(
+        &mut self,
+        work: impl FnOnce(&mut Simulation, bool, &mut dyn FnMut(&Episode)) -> Result<T, Refusal>,
+    ) -> Result<T, Refusal> {
+        let (log_events, stops) = (self.log.is_enabled(Category::Events), self.interface.returns_early());
+        let mut events = Vec::new();
+        let result = work(self.start()?, stops, &mut |episode| {
+            if log_events {
+                events.push(describe(episode));
+            }
+        });
+        for event in events {
+            self.log.add(Category::Events, event);
+        }
+        result
+    }
+
+    /// The discrete outputs as they are, where the master sees them change in Event Mode only although events are handled
+    /// within steps.
+    fn hold(&mut self) -> Result<Option<Held>, Refusal> {
+        match self.interface {
+            Interface::V3 { event_mode_used: true, early_return_allowed: false } => {
+                self.held = None;
+                let Slave { table, run, settings, .. } = self;
+                Ok(Some(Held::read(table, &run.start(settings)?.now())))
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// Keeps them until Event Mode is entered, if any has another value by now.
+    fn keep(&mut self, held: Held) -> Result<bool, Refusal> {
+        let Slave { table, run, settings, .. } = self;
+        let is_changed = Held::read(table, &run.start(settings)?.now()) != held;
+        self.held = is_changed.then_some(held);
+        Ok(is_changed)
+    }
+
+    /// The communication point that a step leads to, or everything that is wrong with the step.
+    fn target(&self, current: f64, step: f64) -> Result<f64, Refusal> {
+        let (mut problems, now) = (Vec::new(), self.run.time());
+        let tolerance = |time: f64| TIME_TOLERANCE * time.abs().max(1.0);
+        if !(current.is_finite() && (current - now).abs() <= tolerance(now)) {
+            let expected = format!("expected {now} within {:e}", tolerance(now));
+            problems.push(format!("currentCommunicationPoint = {}: {expected}", plain(current)));
+        }
+        if !(step.is_finite() && step > 0.0) {
+            problems.push(format!("communicationStepSize = {}: expected a finite number > 0", plain(step)));
+        }
+        let target = current + step;
+        if let Some(stop) = self.stop_time.filter(|stop| target > stop + tolerance(*stop)) {
+            let expected = format!("expected at most stopTime = {}", plain(stop));
+            problems.push(format!("currentCommunicationPoint + communicationStepSize = {}: {expected}", plain(target)));
+        }
+        Refusal::unless_empty(problems)?;
+        if !is_time(target) {
+            return Err(Refusal::from(format!(
+                "the step leads to {} s: expected a time up to {MOST_TIME:e} s",
+                plain(target)
+            )));
+        }
+        // Only here it is known how far a line goes on.
+        if self.run.inputs().are_moving() {
+            let beyond = self.table.problems(self.run.inputs(), target);
+            let at_end = |problem| format!("at the end of the step, {target} s, {problem}");
+            Refusal::unless_empty(beyond.into_iter().map(at_end).collect())?;
+        }
+        // A tiny step may fall short of the rounding of `current`: time stands still then, it never runs back. So it
+        // does for steps whose inverse is no number.
+        let stands_still = target - now < f64::MIN_POSITIVE;
+        Ok(if stands_still { now } else { target })
+    }
+
+    /// s, time up to which the solution is known.
+    pub fn last_successful_time(&self) -> f64 {
+        self.run.time()
+    }
+}
+
+fn describe_collapse(Collapse { side, storey, time, .. }: &Collapse) -> String {
+    format!("storey {} of the {side} building has collapsed at {time:.9} s, and the run ends there", storey + 1)
+}
+
+/// An episode in one line, as the contacts are counted in the scene.
+fn describe(episode: &Episode) -> String {
+    let Episode { contact, start, end, approach_velocity, separation_velocity, peak_force, impulse, .. } = episode;
+    let end = end.map_or("now".to_owned(), |end| format!("{end:.9} s"));
+    format!(
+        "contact[{}] from {start:.9} s to {end}: approach {approach_velocity:.6} m/s, separation \
+         {separation_velocity:.6} m/s, peak force {peak_force:.6e} N, impulse {impulse:.6e} N s",
+        contact + 1
+    )
+}
