@@ -116,7 +116,7 @@ unsafe fn go_on(c: Component) {
 fn enveloped(body: &[u8]) -> Vec<u8> {
     let guid = resources().package.guid(pounding::FmiVersion::V2);
     let fingerprint = Uuid::parse_str(&guid).unwrap_or_default();
-    let mut bytes = b"pounding\x07\0\0\0".to_vec();
+    let mut bytes = b"pounding\x08\0\0\0".to_vec();
     bytes.extend_from_slice(fingerprint.as_bytes());
     bytes.extend_from_slice(&(body.len() as u64).to_le_bytes());
     bytes.extend_from_slice(body);

@@ -65,8 +65,7 @@ impl Model {
             return false;
         }
         let segment = &state.base.segment;
-        let is_at_goal = end == until - segment.start;
-        state.time = if is_at_goal { until } else { self.time_of(segment, end).min(until).max(state.time) };
+        state.time = self.time_of(segment, end).min(until).max(state.time);
         state.stop = Stop::Waiting { end, goal: until };
         true
     }
