@@ -1,7 +1,8 @@
 //! Events with both flags: where steps stop, what is read before and after, and masters that do not follow.
 
 use crate::linked_3::*;
-use crate::support::SCENE;
+use crate::support::{RECORD_SCENE, RICH, SCENE, UNEVEN, YIELDING};
+use pounding::variables::Slot;
 
 /// Steps to the next event, which must come before a time.
 fn to_event(instance: &Instance<'_>, from: f64, end: f64) -> f64 {
@@ -71,32 +72,60 @@ fn motion_does_not_jump_where_a_soft_contact_begins() {
     assert_eq!(instance.real("time"), time);
 }
 
+/// Steps to a communication point as a master does that follows what it is told, and sets its inputs at every stop.
+/// Number of early returns and events.
+fn follow(instance: &Instance<'_>, inputs: &[(u32, f64)], from: f64, end: f64) -> usize {
+    let (vr, values): (Vec<u32>, Vec<f64>) = inputs.iter().copied().unzip();
+    let (mut now, mut count) = (from, 0);
+    loop {
+        // SAFETY: as many references as values.
+        let set = unsafe { fmi3SetFloat64(instance.component, vr.as_ptr(), vr.len(), values.as_ptr(), values.len()) };
+        assert_eq!(set, OK, "{:?}", instance.log());
+        let (status, stepped) = instance.step(now, step_to(now, end));
+        assert_eq!((status, stepped.terminate), (OK, 0), "{:?}", instance.log());
+        now = stepped.last;
+        if stepped.event == 1 {
+            instance.handle();
+        }
+        count += usize::from(stepped.event.max(stepped.early));
+        if stepped.early == 0 {
+            assert_eq!(now, end);
+            return count;
+        }
+    }
+}
+
 #[test]
-fn both_flags_lead_to_the_bits_of_none() {
-    let fmu = Fmu::new(SCENE);
-    let (plain, events) = (fmu.instance(false, false), started(&fmu));
-    plain.initialize();
-    for k in 0..40 {
-        let (time, end) = (f64::from(k) / 16.0, f64::from(k + 1) / 16.0);
-        for instance in [&plain, &events] {
-            // The ground is held for ten steps: most of them set what is set already.
-            assert_eq!(instance.set_real("ground.acceleration", f64::from(k / 10)), OK);
-        }
-        assert_eq!(plain.step(time, step_to(time, end)).0, OK);
-        let mut now = time;
-        loop {
-            let (status, stepped) = events.step(now, step_to(now, end));
-            assert_eq!(status, OK);
-            now = stepped.last;
-            if stepped.event == 1 {
-                events.handle();
+fn whatever_the_flags_the_bits_are_the_same() {
+    for (scene, text) in [SCENE, RECORD_SCENE, RICH, UNEVEN, YIELDING].into_iter().enumerate() {
+        let fmu = Fmu::new(text);
+        let inputs = fmu.table.iter().filter(|(_, row)| matches!(row.slot, Slot::Input(_)));
+        let inputs = inputs.map(|(reference, _)| reference).collect::<Vec<_>>();
+        let plain = fmu.instance(false, false);
+        plain.initialize();
+        let others = [(false, true), (true, false), (true, true)].map(|(event_mode_used, early_return_allowed)| {
+            let instance = fmu.instance(event_mode_used, early_return_allowed);
+            instance.initialize();
+            if event_mode_used {
+                instance.calls(&[fmi3EnterStepMode]);
             }
-            if stepped.early == 0 {
-                break;
+            instance
+        });
+        let mut counts = [0; 3];
+        let mut time = 0.0;
+        for k in 0..60 {
+            // Steps of changing length; inputs that are held for seven of them.
+            let end = time + [1.0 / 64.0, 1.0 / 32.0, 1.0 / 128.0][k % 3];
+            let value = |i: usize| f64::from(u8::try_from((k / 7 * 5 + i * 3) % 11).unwrap()) * 0.2 - 1.0;
+            let inputs = inputs.iter().enumerate().map(|(i, &input)| (input, value(i))).collect::<Vec<_>>();
+            assert_eq!(follow(&plain, &inputs, time, end), 0);
+            for (count, instance) in counts.iter_mut().zip(&others) {
+                *count += follow(instance, &inputs, time, end);
+                assert_eq!(instance.outputs(), plain.outputs(), "scene {scene} at {end} s");
             }
-            assert_eq!(events.set_real("ground.acceleration", f64::from(k / 10)), OK);
+            time = end;
         }
-        assert_eq!(events.outputs(), plain.outputs(), "at {end} s");
+        assert!(counts.iter().all(|&count| count > 4), "scene {scene}: {counts:?}");
     }
 }
 
