@@ -8,6 +8,7 @@ use super::sequence::{Call, Phase};
 use super::simulation::Simulation;
 use super::snapshots::Snapshots;
 use super::status::{Refusal, Status, StatusKind};
+use crate::FmiVersion;
 use crate::description::{Category, Package, guid};
 use crate::figures::plain;
 use crate::scene::rule::MOST_TIME;
@@ -60,6 +61,11 @@ impl Slave {
     /// The GUID (FMI 3.0: the token) of the FMU, as its description writes it.
     pub fn guid(&self) -> String {
         guid(self.fingerprint)
+    }
+
+    /// The version of the standard whose functions it is used by.
+    pub const fn version(&self) -> FmiVersion {
+        self.interface.version()
     }
 
     /// Name of the C function of a call.

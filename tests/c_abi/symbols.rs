@@ -15,7 +15,9 @@ fn exactly_the_functions_of_co_simulation_are_exported() {
     let file = object::File::parse(&*bytes).unwrap();
     // On macOS C symbols begin with an underscore.
     let name = |name: Option<&[u8]>| String::from_utf8_lossy(name.unwrap()).trim_start_matches('_').to_owned();
-    let exported = file.exports().unwrap().map(|export| name(export.unwrap().name().name())).collect::<BTreeSet<_>>();
+    let exported = file.exports().unwrap().map(|export| name(export.unwrap().name().name()));
+    // `c_abi_3/symbols.rs` has those of FMI 3.0.
+    let exported = exported.filter(|name| !name.starts_with("fmi3")).collect::<BTreeSet<_>>();
     assert_eq!(exported, FUNCTIONS.map(str::to_owned).into());
 }
 

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use super::instance::Instance;
-use super::logger::Logger;
-use super::types::{Component, ComponentEnvironment, LoggerFunction, Text};
+use super::logger::{Logger, LoggerFunction};
+use super::types::{Component, ComponentEnvironment, Text};
 use crate::FmiVersion;
 use crate::description::Package;
 use crate::scene::Scene;
@@ -19,15 +19,19 @@ pub(super) struct Logged {
 
 impl Logged {
     /// Two buildings of one floor without a contact.
-    pub(super) fn new() -> Logged {
+    pub(super) fn new(interface: Interface) -> Logged {
         let messages = Box::into_raw(Box::new(Vec::new()));
-        // SAFETY: the logger has no variable arguments in any call, and a function without them takes such a call.
-        let function = unsafe {
-            mem::transmute::<unsafe extern "C" fn(ComponentEnvironment, Text, c_int, Text, Text), LoggerFunction>(note)
+        // SAFETY: the messages live as long as the component. The logger of FMI 2.0 has no variable arguments in any call,
+        // and a function without them takes such a call.
+        let logger = unsafe {
+            match interface.version() {
+                FmiVersion::V2 => {
+                    Logger::v2(Some(mem::transmute::<Note, LoggerFunction>(note)), messages.cast(), c"test")
+                }
+                FmiVersion::V3 => Logger::v3(Some(note_text), messages.cast()),
+            }
         };
-        // SAFETY: the messages live as long as the component.
-        let logger = unsafe { Logger::new(Some(function), messages.cast(), c"test") };
-        let slave = Slave::new(package(), Interface::V2, Log::new(FmiVersion::V2, true));
+        let slave = Slave::new(package(), interface, Log::new(interface.version(), true));
         let instance = Instance { slave, logger, is_poisoned: false, strings: Vec::new() };
         Logged { component: Box::into_raw(Box::new(instance)).cast(), messages }
     }
@@ -49,7 +53,14 @@ impl Drop for Logged {
     }
 }
 
-unsafe extern "C" fn note(messages: ComponentEnvironment, _name: Text, _status: c_int, _category: Text, text: Text) {
+type Note = unsafe extern "C" fn(ComponentEnvironment, Text, c_int, Text, Text);
+
+unsafe extern "C" fn note(messages: ComponentEnvironment, _name: Text, status: c_int, category: Text, text: Text) {
+    // SAFETY: the caller's promise.
+    unsafe { note_text(messages, status, category, text) }
+}
+
+unsafe extern "C" fn note_text(messages: ComponentEnvironment, _status: c_int, _category: Text, text: Text) {
     // SAFETY: the environment of `Logged::new`, and a string that ends with a zero.
     let (messages, text) = unsafe { (&mut *messages.cast::<Vec<String>>(), CStr::from_ptr(text)) };
     messages.push(text.to_string_lossy().into_owned());

@@ -1,7 +1,8 @@
 //! Pointers into slices, strings, flags.
 
-use super::types::{Boolean, Text};
-use crate::slave::{Refusal, StatusKind};
+use super::types::Text;
+use crate::FmiVersion;
+use crate::slave::Refusal;
 use std::ffi::{CStr, c_int};
 use std::mem::MaybeUninit;
 use std::slice;
@@ -10,7 +11,7 @@ use std::slice;
 ///
 /// # Safety
 /// Where `array` is not null it points to `n` elements that nobody changes during `'a`.
-pub(super) unsafe fn slice_in<'a, T>(name: &str, array: *const T, n: usize) -> Result<&'a [T], Refusal> {
+pub(in crate::fmi) unsafe fn slice_in<'a, T>(name: &str, array: *const T, n: usize) -> Result<&'a [T], Refusal> {
     if n == 0 {
         return Ok(&[]);
     }
@@ -23,7 +24,7 @@ pub(super) unsafe fn slice_in<'a, T>(name: &str, array: *const T, n: usize) -> R
 ///
 /// # Safety
 /// Where `array` is not null it points to room for `n` elements that nobody else uses during `'a`.
-pub(super) unsafe fn slice_out<'a, T>(
+pub(in crate::fmi) unsafe fn slice_out<'a, T>(
     name: &str,
     array: *mut T,
     n: usize,
@@ -40,10 +41,9 @@ pub(super) unsafe fn slice_out<'a, T>(
 ///
 /// # Safety
 /// As for [`slice_out`] with one element.
-pub(super) unsafe fn store<T>(name: &str, place: *mut T, value: T) -> Result<(), Refusal> {
-    check_array(name, place, 1)?;
-    // SAFETY: not null, aligned, and the rest is the caller's promise.
-    unsafe { place.write(value) };
+pub(in crate::fmi) unsafe fn store<T>(name: &str, place: *mut T, value: T) -> Result<(), Refusal> {
+    // SAFETY: the caller's promise.
+    unsafe { Place::new(name, place)?.write(value) };
     Ok(())
 }
 
@@ -51,7 +51,7 @@ pub(super) unsafe fn store<T>(name: &str, place: *mut T, value: T) -> Result<(),
 ///
 /// # Safety
 /// As for [`slice_in`] with one element.
-pub(super) unsafe fn load<T: Copy>(name: &str, place: *const T) -> Result<T, Refusal> {
+pub(in crate::fmi) unsafe fn load<T: Copy>(name: &str, place: *const T) -> Result<T, Refusal> {
     check_array(name, place, 1)?;
     // SAFETY: not null, aligned, and the rest is the caller's promise.
     Ok(unsafe { place.read() })
@@ -75,7 +75,7 @@ fn check_array<T>(name: &str, array: *const T, n: usize) -> Result<(), Refusal> 
 ///
 /// # Safety
 /// `text` is null or ends with a zero, and nobody changes it during `'a`.
-pub(super) unsafe fn bytes_in<'a>(name: &str, text: Text) -> Result<&'a CStr, Refusal> {
+pub(in crate::fmi) unsafe fn bytes_in<'a>(name: &str, text: Text) -> Result<&'a CStr, Refusal> {
     if text.is_null() {
         return Err(Refusal::from(format!("{name} is null: expected a string")));
     }
@@ -87,7 +87,7 @@ pub(super) unsafe fn bytes_in<'a>(name: &str, text: Text) -> Result<&'a CStr, Re
 ///
 /// # Safety
 /// As for [`bytes_in`].
-pub(super) unsafe fn str_in<'a>(name: &str, text: Text) -> Result<&'a str, Refusal> {
+pub(in crate::fmi) unsafe fn str_in<'a>(name: &str, text: Text) -> Result<&'a str, Refusal> {
     // SAFETY: the caller's promise.
     let bytes = unsafe { bytes_in(name, text) }?;
     bytes.to_str().map_err(|error| Refusal::from(format!("{name} = {:?}: expected UTF-8 ({error})", bytes)))
@@ -97,7 +97,7 @@ pub(super) unsafe fn str_in<'a>(name: &str, text: Text) -> Result<&'a str, Refus
 ///
 /// # Safety
 /// As for [`slice_in`] and [`bytes_in`].
-pub(super) unsafe fn strs_in<'a>(name: &str, array: *const Text, n: usize) -> Result<Vec<&'a str>, Refusal> {
+pub(in crate::fmi) unsafe fn strs_in<'a>(name: &str, array: *const Text, n: usize) -> Result<Vec<&'a str>, Refusal> {
     // SAFETY: the caller's promise.
     let texts = unsafe { slice_in(name, array, n) }?;
     let (mut strings, mut problems) = (Vec::new(), Vec::new());
@@ -112,22 +112,39 @@ pub(super) unsafe fn strs_in<'a>(name: &str, array: *const Text, n: usize) -> Re
     Ok(strings)
 }
 
-/// `fmi2Boolean`
-pub(super) fn boolean(name: &str, value: Boolean) -> Result<bool, Refusal> {
-    match value {
+/// `fmi2Boolean`, which is an `int`, or `fmi3Boolean`, which is one byte.
+pub(in crate::fmi) fn boolean(version: FmiVersion, name: &str, value: impl Into<c_int>) -> Result<bool, Refusal> {
+    let prefix = match version {
+        FmiVersion::V2 => "fmi2",
+        FmiVersion::V3 => "fmi3",
+    };
+    match value.into() {
         0 => Ok(false),
         1 => Ok(true),
-        _ => Err(Refusal::from(format!("{name} = {value}: expected fmi2False (0) or fmi2True (1)"))),
+        value => Err(Refusal::from(format!("{name} = {value}: expected {prefix}False (0) or {prefix}True (1)"))),
     }
 }
 
-/// `fmi2StatusKind`
-pub(super) fn status_kind(value: c_int) -> Result<StatusKind, Refusal> {
-    match value {
-        0 => Ok(StatusKind::DoStepStatus),
-        1 => Ok(StatusKind::PendingStatus),
-        2 => Ok(StatusKind::LastSuccessfulTime),
-        3 => Ok(StatusKind::Terminated),
-        _ => Err(Refusal::from(format!("fmi2StatusKind {value}: expected 0 to 3"))),
+/// Whether an array has as many elements as the call has things to fill or to take them.
+pub(in crate::fmi) fn check_length(name: &str, n: usize, expected: usize) -> Result<(), Refusal> {
+    if n == expected { Ok(()) } else { Err(Refusal::from(format!("{name} = {n}: expected {expected}"))) }
+}
+
+/// A place for one value that has been looked at before anything happens.
+#[derive(Debug)]
+pub(in crate::fmi) struct Place<T>(*mut T);
+
+impl<T> Place<T> {
+    /// Nothing is written yet.
+    pub(in crate::fmi) fn new(name: &str, place: *mut T) -> Result<Place<T>, Refusal> {
+        check_array(name, place, 1)?;
+        Ok(Place(place))
+    }
+
+    /// # Safety
+    /// The place has room for a value, which nobody else uses now.
+    pub(in crate::fmi) unsafe fn write(&self, value: T) {
+        // SAFETY: not null, aligned, and the rest is the caller's promise.
+        unsafe { self.0.write(value) };
     }
 }

@@ -1,8 +1,10 @@
 //! Functions for derivatives: of inputs and outputs with respect to time, of outputs with respect to inputs.
 
-use super::arguments::{slice_in, slice_out};
-use super::fence::with_instance;
-use super::types::{Component, ValueReference};
+use crate::fmi::common::arguments::{slice_in, slice_out};
+use crate::fmi::common::derivatives::output_derivatives;
+use crate::fmi::common::fence::{v2, with_instance};
+use crate::fmi::common::types::{Component, ValueReference};
+use crate::fmi::common::values::Pairs;
 use crate::slave::Call;
 use std::ffi::c_int;
 
@@ -16,7 +18,7 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
 ) -> c_int {
     // SAFETY: as the module says.
     unsafe {
-        with_instance(c, Call::SetRealInputDerivatives, |instance| {
+        with_instance(c, v2(Call::SetRealInputDerivatives), |instance| {
             let (vr, orders) = (slice_in("vr", vr, n)?, slice_in("order", orders, n)?);
             instance.slave.set_input_derivatives(vr, orders, slice_in("value", values, n)?)
         })
@@ -32,15 +34,7 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
     values: *mut f64,
 ) -> c_int {
     // SAFETY: as the module says.
-    unsafe {
-        with_instance(c, Call::GetRealOutputDerivatives, |instance| {
-            let (vr, orders) = (slice_in("vr", vr, n)?, slice_in("order", orders, n)?);
-            let values = slice_out("value", values, n)?;
-            instance.slave.output_derivatives(vr, orders, |i, value| {
-                values[i].write(value);
-            })
-        })
-    }
+    unsafe { output_derivatives(c, v2(Call::GetRealOutputDerivatives), Pairs::new(vr, n, values), orders) }
 }
 
 #[cfg_attr(fmi_exports, unsafe(no_mangle))]
@@ -55,7 +49,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
 ) -> c_int {
     // SAFETY: as the module says.
     unsafe {
-        with_instance(c, Call::GetDirectionalDerivative, |instance| {
+        with_instance(c, v2(Call::GetDirectionalDerivative), |instance| {
             let unknowns = slice_in("vUnknown_ref", unknowns, n_unknowns)?;
             let (knowns, seed) = (slice_in("vKnown_ref", knowns, n_knowns)?, slice_in("dvKnown", seed, n_knowns)?);
             let sensitivity = slice_out("dvUnknown", sensitivity, n_unknowns)?;

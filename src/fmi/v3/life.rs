@@ -1,0 +1,112 @@
+//! Version, logging, the life of an instance.
+
+use super::types::{Boolean, IntermediateUpdate};
+use crate::FmiVersion::V3;
+use crate::fmi::common::arguments::{boolean, strs_in};
+use crate::fmi::common::fence::{v3, with_instance};
+use crate::fmi::common::instance::{Request, create, free};
+use crate::fmi::common::logger::{LogMessage, Logger};
+use crate::fmi::common::types::{Component, ComponentEnvironment, Text, ValueReference};
+use crate::slave::{Call, Interface};
+use std::ffi::c_int;
+
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub extern "C" fn fmi3GetVersion() -> Text {
+    c"3.0".as_ptr()
+}
+
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi3SetDebugLogging(c: Component, on: Boolean, n: usize, categories: *const Text) -> c_int {
+    // SAFETY: as the module says.
+    unsafe {
+        with_instance(c, v3(Call::SetDebugLogging), |instance| {
+            let categories = strs_in("categories", categories, n)?;
+            instance.slave.set_debug_logging(boolean(V3, "loggingOn", on)?, &categories)
+        })
+    }
+}
+
+/// Intermediate update is not offered, so what a master would get of it is not looked at: some name variables without a
+/// callback.
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
+    instance_name: Text,
+    token: Text,
+    resource_path: Text,
+    _visible: Boolean,
+    logging_on: Boolean,
+    event_mode_used: Boolean,
+    early_return_allowed: Boolean,
+    _required: *const ValueReference,
+    _n_required: usize,
+    environment: ComponentEnvironment,
+    log_message: Option<LogMessage>,
+    _intermediate_update: Option<IntermediateUpdate>,
+) -> Component {
+    // SAFETY: as the module says.
+    let is_empty = !resource_path.is_null() && unsafe { resource_path.read() } == 0;
+    let request = Request {
+        version: V3,
+        function: "fmi3InstantiateCoSimulation",
+        instance_name,
+        guid: ("instantiationToken", token),
+        resources: ("resourcePath", resource_path),
+        problem: is_empty.then(|| "resourcePath is empty: expected that of the resources".to_owned()),
+        flags: [
+            ("loggingOn", logging_on.into()),
+            ("eventModeUsed", event_mode_used.into()),
+            ("earlyReturnAllowed", early_return_allowed.into()),
+        ],
+    };
+    // SAFETY: as the module says.
+    unsafe {
+        create(&request, Logger::v3(log_message, environment), |[logging_on, event_mode_used, early_return_allowed]| {
+            (Interface::V3 { event_mode_used, early_return_allowed }, logging_on)
+        })
+    }
+}
+
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi3FreeInstance(c: Component) {
+    // SAFETY: as the module says.
+    unsafe { free(c) }
+}
+
+/// What `fmi2SetupExperiment` is in FMI 2.0 belongs to it.
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi3EnterInitializationMode(
+    c: Component,
+    tolerance_defined: Boolean,
+    tolerance: f64,
+    start_time: f64,
+    stop_time_defined: Boolean,
+    stop_time: f64,
+) -> c_int {
+    // SAFETY: as the module says.
+    unsafe {
+        with_instance(c, v3(Call::EnterInitializationMode), |instance| {
+            let tolerance = boolean(V3, "toleranceDefined", tolerance_defined)?.then_some(tolerance);
+            let stop_time = boolean(V3, "stopTimeDefined", stop_time_defined)?.then_some(stop_time);
+            instance.slave.setup_experiment(tolerance, start_time, stop_time)?;
+            Ok(instance.slave.enter_initialization())
+        })
+    }
+}
+
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi3ExitInitializationMode(c: Component) -> c_int {
+    // SAFETY: as the module says.
+    unsafe { with_instance(c, v3(Call::ExitInitializationMode), |instance| instance.slave.exit_initialization()) }
+}
+
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi3Terminate(c: Component) -> c_int {
+    // SAFETY: as the module says.
+    unsafe { with_instance(c, v3(Call::Terminate), |instance| Ok(instance.slave.terminate())) }
+}
+
+#[cfg_attr(fmi_exports, unsafe(no_mangle))]
+pub unsafe extern "C" fn fmi3Reset(c: Component) -> c_int {
+    // SAFETY: as the module says.
+    unsafe { with_instance(c, v3(Call::Reset), |instance| Ok(instance.slave.reset())) }
+}

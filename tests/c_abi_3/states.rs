@@ -1,0 +1,96 @@
+//! States of FMI 3.0: at events, in Event Mode, as bytes, and in instances with other flags.
+
+use crate::linked_3::*;
+use crate::support::SCENE;
+
+/// Time and outputs at the next events and after each.
+fn go_on(instance: &Instance<'_>) -> Vec<(f64, Vec<u64>)> {
+    let mut rows = Vec::new();
+    for _ in 0..6 {
+        let (status, stepped) = instance.step(instance.real("time"), 1.0);
+        assert_eq!(status, OK, "{:?}", instance.log());
+        rows.push((stepped.last, instance.outputs()));
+        if stepped.event == 1 {
+            instance.handle();
+            rows.push((stepped.last, instance.outputs()));
+        }
+    }
+    rows
+}
+
+#[test]
+fn a_state_at_an_event_goes_on_to_the_same_bits() {
+    let fmu = Fmu::new(SCENE);
+    let instance = fmu.instance(true, true);
+    instance.start_with_events();
+    assert_eq!(instance.step(0.0, 1.0).1.event, 1);
+    let (state, left) = (instance.recorded(), instance.outputs());
+    let bytes = instance.serialized(state);
+    let finish = |instance: &Instance<'_>| {
+        instance.handle();
+        go_on(instance)
+    };
+    let expected = finish(&instance);
+    assert_eq!(instance.set_state(state), OK);
+    assert_eq!(instance.outputs(), left);
+    assert_eq!(finish(&instance), expected);
+    let other = fmu.instance(true, true);
+    assert_eq!(other.set_state(other.deserialized(&bytes)), OK);
+    assert_eq!(other.outputs(), left);
+    assert_eq!(finish(&other), expected);
+}
+
+#[test]
+fn a_state_in_event_mode_is_in_event_mode() {
+    let fmu = Fmu::new(SCENE);
+    let instance = fmu.instance(true, true);
+    instance.start_with_events();
+    assert_eq!(instance.step(0.0, 1.0).1.event, 1);
+    instance.calls(&[fmi3EnterEventMode]);
+    let bytes = instance.serialized(instance.recorded());
+    instance.calls(&[fmi3EnterStepMode]);
+    let expected = go_on(&instance);
+    let other = fmu.instance(true, true);
+    let state = other.deserialized(&bytes);
+    assert_eq!(other.set_state(state), OK);
+    assert_eq!(other.step(other.real("time"), 0.1).0, ERROR, "in Event Mode");
+    assert_eq!(other.set_state(state), OK);
+    assert_eq!(other.update(), (OK, [0; 5], 0.0));
+    other.calls(&[fmi3EnterStepMode]);
+    assert_eq!(go_on(&other), expected);
+}
+
+#[test]
+fn without_event_mode_a_state_goes_on_in_step_mode() {
+    let fmu = Fmu::new(SCENE);
+    let instance = fmu.instance(true, true);
+    instance.start_with_events();
+    assert_eq!(instance.step(0.0, 1.0).1.event, 1);
+    let waiting = instance.serialized(instance.recorded());
+    instance.calls(&[fmi3EnterEventMode]);
+    let (handled, right) = (instance.serialized(instance.recorded()), instance.outputs());
+    for bytes in [waiting, handled] {
+        let plain = fmu.instance(false, false);
+        assert_eq!(plain.set_state(plain.deserialized(&bytes)), OK);
+        assert_eq!(plain.outputs(), right);
+        let (status, stepped) = plain.step(plain.real("time"), 0.5);
+        assert_eq!((status, stepped.event, stepped.early), (OK, 0, 0));
+    }
+}
+
+#[test]
+fn held_values_belong_to_the_state() {
+    let fmu = Fmu::new(SCENE);
+    let instance = fmu.instance(true, false);
+    instance.start_with_events();
+    assert_eq!(instance.step(0.0, 0.5).1.event, 1);
+    let (bytes, held) = (instance.serialized(instance.recorded()), instance.outputs());
+    instance.calls(&[fmi3EnterEventMode]);
+    let right = instance.outputs();
+    assert_ne!(held, right);
+    let other = fmu.instance(true, false);
+    assert_eq!(other.set_state(other.deserialized(&bytes)), OK);
+    assert_eq!(other.outputs(), held);
+    other.calls(&[fmi3EnterEventMode]);
+    assert_eq!(other.outputs(), right);
+}
