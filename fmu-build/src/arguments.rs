@@ -2,6 +2,7 @@
 
 use crate::trial::Trial;
 use clap::{Args, Subcommand};
+use pounding::FmiVersion;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -23,17 +24,21 @@ pub struct BuildArguments {
     /// The scene; without it, the two laboratory frames of the default scene.
     #[arg(value_name = "SCENE.toml")]
     pub(crate) scene: Option<PathBuf>,
-    /// Where the FMU goes, in a directory that is made if need be; without it, NAME.fmu (NAME: the scene's) in the
-    /// current directory, or in target/fmu of a checkout.
+    /// Where the FMU goes, in a directory that is made if need be; without it, NAME.fmu (NAME: the scene's), or
+    /// NAME.fmi3.fmu with --fmi 3, in the current directory, or in target/fmu of a checkout.
     #[arg(short, long, value_name = "FILE.fmu")]
     pub(crate) output: Option<PathBuf>,
-    /// Platforms whose library goes into the FMU, such as linux64, win64, aarch64-linux; without it, all there are.
+    /// The version of FMI, 2 or 3: importers of today know 2.0, some of them 3.0 with its events.
+    #[arg(long, value_name = "VERSION", default_value = "2", value_parser = version)]
+    pub(crate) fmi: FmiVersion,
+    /// Platforms whose library goes into the FMU, such as linux64 (or x86_64-linux), win64, aarch64-linux; without it, all
+    /// there are.
     #[arg(long = "platform", value_name = "PLATFORM", num_args = 1.., value_delimiter = ',', value_parser = platform)]
     pub(crate) platforms: Vec<String>,
     /// Takes libraries that have been compiled before: PLATFORM/pounding.so, .dll or .dylib in this directory.
     #[arg(long, value_name = "DIRECTORY")]
     pub(crate) libraries: Option<PathBuf>,
-    /// For FMPy on Arm Linux, which looks for linux64: the library for Arm, which is the only one then, goes there.
+    /// For FMPy on Arm Linux, which looks for linux64 in FMI 2.0: the library for Arm, which is the only one then, goes there.
     #[arg(long)]
     pub(crate) arm_in_linux64: bool,
     #[command(flatten)]
@@ -80,6 +85,14 @@ pub(crate) struct Limit {
     /// How long the FMU may take to be tried, its run included; then it is stopped, and that is a failure.
     #[arg(long, value_name = "SECONDS", default_value = "300", value_parser = seconds)]
     pub(crate) time_limit: Duration,
+}
+
+fn version(text: &str) -> Result<FmiVersion, String> {
+    match text {
+        "2" => Ok(FmiVersion::V2),
+        "3" => Ok(FmiVersion::V3),
+        _ => Err("expected 2 or 3".to_owned()),
+    }
 }
 
 fn platform(text: &str) -> Result<String, String> {

@@ -1,7 +1,8 @@
 //! One run of an FMU over its default experiment.
 
+use crate::description::{Description, Kind, Variable};
 use anyhow::{Context, Result, bail};
-use fmi::model_description::fmi2::{Causality, ModelDescription, ScalarVariable, VariableType};
+use fmi::model_description::fmi3::Causality;
 use pounding_simulate::outcome::{Experiment, Outcome, Seen, Variables};
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
@@ -27,11 +28,11 @@ pub trait CoSimulation {
 }
 
 /// Reads `DefaultExperiment`; what it leaves out is 0 s to 10 s in steps of 0.01 s.
-pub fn experiment(description: &ModelDescription) -> Result<Experiment> {
+pub fn experiment(description: &Description) -> Result<Experiment> {
     let number = |text: Option<&String>, default: f64| {
         text.map_or(Ok(default), |text| text.parse().with_context(|| format!("DefaultExperiment: {text:?}")))
     };
-    let given = description.defaultExperiment.as_ref();
+    let given = description.experiment.as_ref();
     let start = number(given.and_then(|e| e.startTime.as_ref()), 0.0)?;
     let stop = number(given.and_then(|e| e.stopTime.as_ref()), start + 10.0)?;
     let step = number(given.and_then(|e| e.stepSize.as_ref()), 0.01)?;
@@ -42,10 +43,13 @@ pub fn experiment(description: &ModelDescription) -> Result<Experiment> {
 }
 
 /// How many variables a description has.
-fn variables(description: &ModelDescription) -> Variables {
-    let with = |causality| description.modelVariables.iter().filter(|v| v.causality == causality).count();
-    let (inputs, outputs) = (with(Causality::Input), with(Causality::Output));
-    Variables { inputs, outputs, parameters: description.modelVariables.len() - inputs - outputs }
+fn variables(description: &Description) -> Variables {
+    let with = |causality| description.variables.iter().filter(|v| v.causality == causality).count();
+    Variables {
+        inputs: with(Causality::Input),
+        outputs: with(Causality::Output),
+        parameters: with(Causality::Parameter) + with(Causality::CalculatedParameter),
+    }
 }
 
 /// Variables of one type, to be read in one call.
@@ -57,30 +61,31 @@ struct Group {
 
 /// Variables to read, by type.
 #[derive(Default)]
-struct Groups {
+pub struct Groups {
     reals: Group,
     integers: Group,
     booleans: Group,
 }
 
 impl Groups {
-    fn of<'a>(variables: impl Iterator<Item = &'a ScalarVariable>) -> Groups {
+    /// Those of some variables; texts are not read.
+    pub fn of<'a>(variables: impl Iterator<Item = &'a Variable>) -> Groups {
         let mut groups = Groups::default();
         for variable in variables {
-            let group = match variable.variableType {
-                VariableType::Real { .. } => &mut groups.reals,
-                VariableType::Integer { .. } | VariableType::Enumeration { .. } => &mut groups.integers,
-                VariableType::Boolean { .. } => &mut groups.booleans,
-                VariableType::String { .. } => continue,
+            let group = match variable.kind {
+                Kind::Real => &mut groups.reals,
+                Kind::Integer => &mut groups.integers,
+                Kind::Boolean => &mut groups.booleans,
+                Kind::String | Kind::Other(_) => continue,
             };
             group.names.push(variable.name.clone());
-            group.references.push(variable.valueReference);
+            group.references.push(variable.reference);
         }
         groups
     }
 
     /// Reads every variable and hands over its name and value.
-    fn read<'a>(&'a self, fmu: &dyn CoSimulation, mut each: impl FnMut(&'a str, f64)) -> Result<()> {
+    pub fn read<'a>(&'a self, fmu: &dyn CoSimulation, mut each: impl FnMut(&'a str, f64)) -> Result<()> {
         let reals = fmu.reals(&self.reals.references)?;
         let integers = fmu.integers(&self.integers.references)?.into_iter().map(f64::from).collect();
         let booleans = fmu.booleans(&self.booleans.references)?.into_iter().map(|b| f64::from(u8::from(b))).collect();
@@ -95,13 +100,13 @@ impl Groups {
 
 /// Runs a fresh instance over the default experiment, or as far as the FMU goes, reads every output at every communication
 /// point and everything else at the end. An output that is not finite is an error, and so is an end out of the last step.
-pub fn run(description: &ModelDescription, fmu: &dyn CoSimulation) -> Result<Outcome> {
+pub fn run(description: &Description, fmu: &dyn CoSimulation) -> Result<Outcome> {
     let experiment = experiment(description)?;
     fmu.set_up(experiment.start, experiment.stop)?;
     fmu.begin()?;
 
     let (outputs, others): (Vec<_>, Vec<_>) =
-        description.modelVariables.iter().partition(|variable| variable.causality == Causality::Output);
+        description.variables.iter().partition(|variable| variable.causality == Causality::Output);
     let (outputs, others) = (Groups::of(outputs.into_iter()), Groups::of(others.into_iter()));
     let mut seen = HashMap::new();
     let (mut solving, mut steps, mut end) = (Duration::ZERO, 0, None);

@@ -1,7 +1,9 @@
-//! The names in the C interface of FMI 2.0.
+//! The names in the C interfaces of FMI 2.0 and 3.0.
+
+use pounding::FmiVersion;
 
 /// Every function that an FMI 2.0 co-simulation library exports: 25 common ones and 9 for co-simulation.
-pub const FUNCTIONS: [&str; 34] = [
+const FMI2: [&str; 34] = [
     "fmi2GetTypesPlatform",
     "fmi2GetVersion",
     "fmi2SetDebugLogging",
@@ -37,3 +39,90 @@ pub const FUNCTIONS: [&str; 34] = [
     "fmi2GetBooleanStatus",
     "fmi2GetStringStatus",
 ];
+
+/// Every function that an FMI 3.0 library exports, whichever interfaces the FMU has: masters look for all of them.
+const FMI3: [&str; 75] = [
+    "fmi3ActivateModelPartition",
+    "fmi3CompletedIntegratorStep",
+    "fmi3DeserializeFMUState",
+    "fmi3DoStep",
+    "fmi3EnterConfigurationMode",
+    "fmi3EnterContinuousTimeMode",
+    "fmi3EnterEventMode",
+    "fmi3EnterInitializationMode",
+    "fmi3EnterStepMode",
+    "fmi3EvaluateDiscreteStates",
+    "fmi3ExitConfigurationMode",
+    "fmi3ExitInitializationMode",
+    "fmi3FreeFMUState",
+    "fmi3FreeInstance",
+    "fmi3GetAdjointDerivative",
+    "fmi3GetBinary",
+    "fmi3GetBoolean",
+    "fmi3GetClock",
+    "fmi3GetContinuousStateDerivatives",
+    "fmi3GetContinuousStates",
+    "fmi3GetDirectionalDerivative",
+    "fmi3GetEventIndicators",
+    "fmi3GetFMUState",
+    "fmi3GetFloat32",
+    "fmi3GetFloat64",
+    "fmi3GetInt16",
+    "fmi3GetInt32",
+    "fmi3GetInt64",
+    "fmi3GetInt8",
+    "fmi3GetIntervalDecimal",
+    "fmi3GetIntervalFraction",
+    "fmi3GetNominalsOfContinuousStates",
+    "fmi3GetNumberOfContinuousStates",
+    "fmi3GetNumberOfEventIndicators",
+    "fmi3GetNumberOfVariableDependencies",
+    "fmi3GetOutputDerivatives",
+    "fmi3GetShiftDecimal",
+    "fmi3GetShiftFraction",
+    "fmi3GetString",
+    "fmi3GetUInt16",
+    "fmi3GetUInt32",
+    "fmi3GetUInt64",
+    "fmi3GetUInt8",
+    "fmi3GetVariableDependencies",
+    "fmi3GetVersion",
+    "fmi3InstantiateCoSimulation",
+    "fmi3InstantiateModelExchange",
+    "fmi3InstantiateScheduledExecution",
+    "fmi3Reset",
+    "fmi3SerializeFMUState",
+    "fmi3SerializedFMUStateSize",
+    "fmi3SetBinary",
+    "fmi3SetBoolean",
+    "fmi3SetClock",
+    "fmi3SetContinuousStates",
+    "fmi3SetDebugLogging",
+    "fmi3SetFMUState",
+    "fmi3SetFloat32",
+    "fmi3SetFloat64",
+    "fmi3SetInt16",
+    "fmi3SetInt32",
+    "fmi3SetInt64",
+    "fmi3SetInt8",
+    "fmi3SetIntervalDecimal",
+    "fmi3SetIntervalFraction",
+    "fmi3SetShiftDecimal",
+    "fmi3SetShiftFraction",
+    "fmi3SetString",
+    "fmi3SetTime",
+    "fmi3SetUInt16",
+    "fmi3SetUInt32",
+    "fmi3SetUInt64",
+    "fmi3SetUInt8",
+    "fmi3Terminate",
+    "fmi3UpdateDiscreteStates",
+];
+
+/// Those that an FMU of a version needs; our libraries export those of both.
+pub const fn functions(version: FmiVersion) -> &'static [&'static str] {
+    match version {
+        FmiVersion::V2 => &FMI2,
+        FmiVersion::V3 => &FMI3,
+    }
+}

@@ -1,10 +1,11 @@
 //! Libraries as files: whether one is what its folder and its name in an FMU say, for whatever machine it is. Nothing of
 //! it is run.
 
-use crate::functions::FUNCTIONS;
-use crate::pack::platform::Platform;
+use crate::functions::functions;
+use crate::pack::platform::{self, Platform};
 use object::read::macho::{FatArch, MachOFatFile32, MachOFatFile64};
 use object::{Architecture, BinaryFormat, ExportTarget, FileKind, NameOrOrdinal, Object, ObjectKind, ObjectSegment};
+use pounding::FmiVersion;
 use std::collections::HashSet;
 
 /// What a library is, and what is wrong with it.
@@ -26,8 +27,8 @@ impl Findings {
 }
 
 /// Looks at the library at a path of an FMU, which ought to be `binaries/<platform>/<identifier>.<extension>`; whether
-/// there is no other library in the FMU.
-pub fn inspect(path: &str, bytes: &[u8], identifier: &str, is_alone: bool) -> Findings {
+/// there is no other library in the FMU, which is of that version.
+pub fn inspect(path: &str, bytes: &[u8], identifier: &str, version: FmiVersion, is_alone: bool) -> Findings {
     let mut findings = Findings::default();
     let parts: Vec<&str> = path.split('/').collect();
     let ["binaries", folder, file] = parts.as_slice() else {
@@ -35,11 +36,17 @@ pub fn inspect(path: &str, bytes: &[u8], identifier: &str, is_alone: bool) -> Fi
         return findings;
     };
     let Some(platform) = Platform::of(folder) else {
-        let known = "linux64, win64, darwin64, aarch64-linux, ...";
+        let known = ["linux64", "win64", "darwin64", "aarch64-linux"].map(|name| platform::named(name, version));
+        let known = format!("{}, ...", known.join(", "));
         findings.library.push(format!("{path}: {folder:?} is no platform that is known here; expected {known}"));
         return findings;
     };
-    let other = Platform::of_lone_library(folder).filter(|other| is_alone && is_of(bytes, *other));
+    let name_in_3 = platform::named(folder, FmiVersion::V3);
+    if version == FmiVersion::V3 && name_in_3 != *folder {
+        findings.library.push(format!("{path}: expected the folder {name_in_3}, its name in FMI 3.0"));
+    }
+    let may_be_elsewhere = is_alone && version == FmiVersion::V2;
+    let other = Platform::of_lone_library(folder).filter(|other| may_be_elsewhere && is_of(bytes, *other));
     let platform = other.unwrap_or(platform);
     let name = format!("{identifier}.{}", platform.extension);
     if *file != name {
@@ -49,7 +56,8 @@ pub fn inspect(path: &str, bytes: &[u8], identifier: &str, is_alone: bool) -> Fi
         Err(problem) => findings.library.push(format!("{path}: {problem}")),
         Ok(exports) => {
             findings.platform = Some(platform);
-            let missing: Vec<&str> = FUNCTIONS.into_iter().filter(|name| !exports.contains(name.as_bytes())).collect();
+            let is_missing = |name: &&str| !exports.contains(name.as_bytes());
+            let missing: Vec<&str> = functions(version).iter().copied().filter(is_missing).collect();
             let verb = if missing.len() == 1 { "is" } else { "are" };
             let finding = || format!("{path}: {} {verb} not exported", missing.join(", "));
             findings.functions.extend((!missing.is_empty()).then(finding));

@@ -12,14 +12,16 @@
 //! | `pack/mod.rs` | what an FMU holds |
 //! | `pack/documentation.rs`, `pack/licenses.rs` | the page about the model and the icon; the licence texts |
 //! | `pack/archive.rs` | the zip: writing it reproducibly, unpacking it safely |
-//! | `pack/platform.rs` | where FMI 2.0 wants the library of each platform, and what it is |
+//! | `pack/platform.rs` | where each version of FMI wants the library of each platform, and what it is |
 //! | `destination.rs` | where an FMU goes: at once and whole, or not at all |
 //! | `provenance.rs` | which scene the FMU at the default place is of |
 //! | `inspection.rs` | whether a library is what its folder and name say, without running it |
 //! | `functions.rs` | the names of the library's C functions |
-//! | `c_interface.rs` | the library's C functions, called by hand (the only unsafe code here) |
-//! | `importer.rs` | the same through an importer that is not ours |
+//! | `c_interface/` | the library's C functions, called by hand, a file for each version (the only unsafe code here) |
+//! | `importer/` | the same through an importer that is not ours |
+//! | `description.rs` | a description as that importer has read it, with one form for both versions |
 //! | `log.rs` | what an FMU says through its logger |
+//! | `steps.rs` | what a step of FMI 3.0 says, and whether that may be |
 //! | `experiment.rs` | one run of an FMU over its default experiment, through either |
 //! | `trial/mod.rs` | an FMU tried in a process of its own, for as long as it may take |
 //! | `trial/channel.rs` | what that process reports, which the FMU's library cannot |
@@ -35,6 +37,7 @@ mod bounded;
 mod c_interface;
 mod check;
 pub mod command;
+mod description;
 pub mod destination;
 mod experiment;
 pub mod face;
@@ -48,7 +51,8 @@ mod pack;
 mod progress;
 mod provenance;
 mod recipe;
+mod steps;
 mod trial;
 
-pub use pack::pack;
 pub use pack::platform::folder as host_folder;
+pub use pack::{file_name, pack};

@@ -4,6 +4,7 @@ use crate::inspection::inspect;
 use crate::pack::archive::Entry;
 use crate::pack::platform::{self, Platform};
 use anyhow::{Context, Result, bail};
+use pounding::FmiVersion;
 use std::path::PathBuf;
 
 /// What the file is called before it belongs to a scene, without its extension.
@@ -13,26 +14,31 @@ const STEM: &str = "pounding";
 pub struct Library {
     /// Whose it is, by the name of the folder that importers expect it in, such as `linux64`.
     pub(crate) platform: String,
-    /// The folder below `binaries/` that it goes into.
-    pub(crate) folder: String,
+    /// The folder below `binaries/` that it goes into in place of its own.
+    elsewhere: Option<&'static str>,
     bytes: Vec<u8>,
 }
 
 impl Library {
     /// Of these bytes, for a platform such as `linux64`.
     pub fn new(platform: String, bytes: Vec<u8>) -> Library {
-        Library { folder: platform.clone(), platform, bytes }
+        Library { platform, elsewhere: None, bytes }
     }
 
     /// Whether it can be loaded here.
     pub(crate) fn is_for_this_machine(&self) -> bool {
-        self.platform == platform::folder()
+        platform::named(&self.platform, FmiVersion::V2) == platform::folder()
+    }
+
+    /// The folder below `binaries/` that it goes into.
+    pub(crate) fn folder(&self, version: FmiVersion) -> String {
+        self.elsewhere.map_or_else(|| platform::named(&self.platform, version), str::to_owned)
     }
 
     /// As it stands in the FMU of a scene of that name.
-    pub(crate) fn entry(&self, name: &str) -> Entry {
+    pub(crate) fn entry(&self, name: &str, version: FmiVersion) -> Entry {
         let extension = Platform::of(&self.platform).map_or("so", |platform| platform.extension);
-        Entry::library(&format!("binaries/{}/{name}.{extension}", self.folder), self.bytes.clone())
+        Entry::library(&format!("binaries/{}/{name}.{extension}", self.folder(version)), self.bytes.clone())
     }
 }
 
@@ -41,11 +47,12 @@ pub trait Libraries {
     /// What is done to get them, for a person who waits.
     fn work(&self) -> &'static str;
 
-    /// Those for these platforms, or all that there are where none is named; `show` gets how far it is.
+    /// Those for these platforms, or all that there are where none is named, with the functions of that version; `show`
+    /// gets how far it is.
     ///
     /// # Errors
     /// A platform that there is no library for, and what else keeps one from being had.
-    fn get(&self, platforms: &[String], show: &mut dyn FnMut(&str)) -> Result<Vec<Library>>;
+    fn get(&self, version: FmiVersion, platforms: &[String], show: &mut dyn FnMut(&str)) -> Result<Vec<Library>>;
 }
 
 /// A folder of libraries that have been compiled before: `<platform>/pounding.so`, `.dll` or `.dylib`.
@@ -68,12 +75,13 @@ impl Shipped {
         Ok(folders)
     }
 
-    fn read(&self, folder: &str) -> Result<Library> {
+    fn read(&self, folder: &str, version: FmiVersion) -> Result<Library> {
         let extension = Platform::of(folder).map(|platform| platform.extension).unwrap_or_default();
         let file = format!("{STEM}.{extension}");
         let path = self.0.join(folder).join(&file);
         let bytes = std::fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
-        let findings = inspect(&format!("binaries/{folder}/{file}"), &bytes, STEM, false);
+        let findings =
+            inspect(&format!("binaries/{}/{file}", platform::named(folder, version)), &bytes, STEM, version, false);
         let problems = [findings.library, findings.functions].concat();
         if !problems.is_empty() {
             bail!("{}: {}", path.display(), problems.join("; "));
@@ -87,14 +95,14 @@ impl Libraries for Shipped {
         "reading the libraries"
     }
 
-    fn get(&self, platforms: &[String], _show: &mut dyn FnMut(&str)) -> Result<Vec<Library>> {
+    fn get(&self, version: FmiVersion, platforms: &[String], _show: &mut dyn FnMut(&str)) -> Result<Vec<Library>> {
         let there = self.platforms()?;
         if there.is_empty() {
             bail!("{}: no library in it; expected such as linux64/{STEM}.so", self.0.display());
         }
         let (mut libraries, mut problems) = (Vec::new(), Vec::new());
         for folder in chosen(platforms, &there)? {
-            match self.read(&folder) {
+            match self.read(&folder, version) {
                 Ok(library) => libraries.push(library),
                 Err(problem) => problems.push(format!("{problem:#}")),
             }
@@ -106,16 +114,19 @@ impl Libraries for Shipped {
     }
 }
 
-/// The platforms that are asked for, each once, of those that there are; all of them where none is asked for.
+/// The platforms that are asked for, by either of their names, each once, of those that there are; all of them where none
+/// is asked for.
 ///
 /// # Errors
 /// Every platform that there is not.
 pub fn chosen(platforms: &[String], there: &[String]) -> Result<Vec<String>> {
-    let missing: Vec<&str> = platforms.iter().filter(|name| !there.contains(name)).map(String::as_str).collect();
+    let plain = |name: &String| platform::named(name, FmiVersion::V2);
+    let among = |name: &String, names: &[String]| names.iter().any(|other| plain(other) == plain(name));
+    let missing: Vec<&str> = platforms.iter().filter(|name| !among(name, there)).map(String::as_str).collect();
     if !missing.is_empty() {
         bail!("platform {}: expected one of {}", missing.join(", "), there.join(", "));
     }
-    let is_wanted = |name: &&String| platforms.is_empty() || platforms.contains(name);
+    let is_wanted = |name: &&String| platforms.is_empty() || among(name, platforms);
     Ok(there.iter().filter(is_wanted).cloned().collect())
 }
 
@@ -126,7 +137,7 @@ pub fn chosen(platforms: &[String], there: &[String]) -> Result<Vec<String>> {
 pub fn move_arm_for_fmpy(libraries: &mut [Library]) -> Result<()> {
     match libraries {
         [alone] if alone.platform == platform::ARM_LINUX => {
-            alone.folder = platform::INTEL_LINUX.to_owned();
+            alone.elsewhere = Some(platform::INTEL_LINUX);
             Ok(())
         }
         _ => bail!(

@@ -9,7 +9,7 @@ use fmu_build::face::{Face, Home};
 use std::process::ExitCode;
 use workspace::Workspace;
 
-/// Compiles a scene into an FMU (FMI 2.0, co-simulation), runs it once and says what happened.
+/// Compiles a scene into an FMU (FMI 2.0 or 3.0, co-simulation), runs it once and says what happened.
 #[derive(Parser)]
 #[command(name = "cargo fmu", bin_name = "cargo fmu", version, args_conflicts_with_subcommands = true)]
 struct Arguments {

@@ -6,6 +6,7 @@ use crate::destination::Destination;
 use crate::inspection;
 use crate::pack::archive::{self, Entry};
 use anyhow::{Context, Result, bail};
+use pounding::FmiVersion;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -26,6 +27,11 @@ pub fn merge(fmus: [&Path; 2], output: &Path) -> Result<String> {
         (Err(one), Err(other)) => bail!("{one:#}\n{other:#}"),
         (Err(error), _) | (_, Err(error)) => return Err(error),
     };
+    if one.version != other.version {
+        let [of_one, of_other] =
+            [&one, &other].map(|source| format!("{} is FMI {}", source.name, source.version.name()));
+        bail!("{of_one} and {of_other}: expected two FMUs of one version");
+    }
     let problems = [different_files(&one, &other), same_platforms(&one, &other)].concat();
     if !problems.is_empty() {
         bail!("{} and {} cannot be merged:\n{}", one.name, other.name, problems.join("\n"));
@@ -44,6 +50,7 @@ pub fn merge(fmus: [&Path; 2], output: &Path) -> Result<String> {
 struct Source {
     /// As it was named on the command line.
     name: String,
+    version: FmiVersion,
     /// In the order of the archive.
     common: Vec<Entry>,
     /// By path.
@@ -58,10 +65,11 @@ impl Source {
         let names: Vec<String> = entries.iter().map(|entry| entry.path.clone()).collect();
         let (libraries, common): (Vec<Entry>, Vec<Entry>) = entries.into_iter().partition(is_library);
         let mut problems = check::file_names(&names);
-        match common.iter().find(|entry| entry.path == DESCRIPTION) {
-            Some(description) => {
-                problems.extend(wrong_libraries(&String::from_utf8_lossy(&description.bytes), &libraries))
-            }
+        let description = common.iter().find(|entry| entry.path == DESCRIPTION);
+        let description = description.map(|entry| String::from_utf8_lossy(&entry.bytes));
+        let version = description.as_ref().map_or_else(FmiVersion::default, |text| check::version(text));
+        match &description {
+            Some(description) => problems.extend(wrong_libraries(description, &libraries)),
             None => problems.push(format!("this is not an FMU: it has no {DESCRIPTION} at its root")),
         }
         if libraries.is_empty() {
@@ -71,7 +79,7 @@ impl Source {
             bail!("{name}: {}", Bounded::from(problems).listed().join("; "));
         }
         let libraries = libraries.into_iter().map(|library| (library.path, library.bytes)).collect();
-        Ok(Source { name, common, libraries })
+        Ok(Source { name, version, common, libraries })
     }
 
     fn file(&self, path: &str) -> Option<&Entry> {
@@ -93,7 +101,9 @@ fn wrong_libraries(description: &str, libraries: &[Entry]) -> Vec<String> {
         return vec![format!("{DESCRIPTION} has no co-simulation interface with a modelIdentifier")];
     };
     // It has company in the merged FMU.
-    let inspect = |library: &Entry| inspection::inspect(&library.path, &library.bytes, &identifier, false);
+    let inspect = |library: &Entry| {
+        inspection::inspect(&library.path, &library.bytes, &identifier, check::version(description), false)
+    };
     let findings = libraries.iter().map(inspect);
     findings.flat_map(|findings| [findings.library, findings.functions].concat()).collect()
 }

@@ -4,11 +4,12 @@ use crate::arguments::BuildArguments;
 use crate::destination::Destination;
 use crate::face::{Face, Home};
 use crate::libraries::{Library, Shipped, move_arm_for_fmpy};
-use crate::pack::pack;
+use crate::pack::{file_name, pack};
 use crate::progress::Progress;
 use crate::provenance::Provenance;
 use crate::trial::Trial;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
+use pounding::FmiVersion;
 use pounding::description::{Category, Package};
 use pounding_simulate::outcome::Outcome;
 use pounding_simulate::summary::{self, Problem};
@@ -19,16 +20,22 @@ use std::path::Path;
 /// Builds the FMU of a scene and returns what there is to say about it. The FMU takes its place only when it has been
 /// loaded and has run, for no longer than the limit: what fails leaves no FMU behind, and an older one where it was.
 pub fn build(face: &dyn Face, arguments: &BuildArguments) -> Result<String> {
+    let version = arguments.fmi;
+    if arguments.arm_in_linux64 && version == FmiVersion::V3 {
+        bail!(
+            "--arm-in-linux64 is for FMI 2.0: in FMI 3.0 the library for Arm has a folder of its own, aarch64-linux, \
+             and FMPy looks there"
+        );
+    }
     let progress = Progress::start();
     progress.step("reading the scene");
     let home = face.home()?;
     let scene_file = arguments.scene.as_ref().unwrap_or(&home.default_scene);
     let package = read(scene_file)?;
     progress.say(&warnings_of(&package));
-    let default_output = home.fmus.join(format!("{}.fmu", package.scene.name));
+    let default_output = home.fmus.join(file_name(&package, version));
     let has_note = home.has_notes && arguments.output.is_none();
-    let provenance =
-        has_note.then(|| Provenance::new(&default_output, scene_file, &package.guid(pounding::FmiVersion::V2)));
+    let provenance = has_note.then(|| Provenance::new(&default_output, scene_file, &package.guid(version)));
     // Compiling may take minutes: what cannot be written shall fail before that.
     let destination = match &arguments.output {
         Some(output) => Destination::open(output.clone())?,
@@ -38,7 +45,7 @@ pub fn build(face: &dyn Face, arguments: &BuildArguments) -> Result<String> {
 
     let libraries = libraries(home, arguments, &progress)?;
     progress.step("packing the FMU");
-    let draft = destination.draft(&pack(&package, &libraries)?)?;
+    let draft = destination.draft(&pack(&package, &libraries, version)?)?;
 
     progress.step("running the FMU");
     let outcome = match libraries.iter().any(Library::is_for_this_machine) {
@@ -55,7 +62,7 @@ pub fn build(face: &dyn Face, arguments: &BuildArguments) -> Result<String> {
     if let Some(warning) = provenance.and_then(|provenance| provenance.note()) {
         let _ = writeln!(std::io::stderr(), "warning: {warning}");
     }
-    Ok(report(&package, &destination, &libraries, outcome.as_ref()))
+    Ok(report(&package, version, &destination, &libraries, outcome.as_ref()))
 }
 
 /// The libraries that the arguments ask for.
@@ -65,7 +72,8 @@ fn libraries(home: Home, arguments: &BuildArguments, progress: &Progress) -> Res
         None => home.libraries,
     };
     progress.step(source.work());
-    let mut libraries = source.get(&arguments.platforms, &mut |state| progress.state(source.work(), state))?;
+    let mut libraries =
+        source.get(arguments.fmi, &arguments.platforms, &mut |state| progress.state(source.work(), state))?;
     if arguments.arm_in_linux64 {
         move_arm_for_fmpy(&mut libraries)?;
     }
@@ -88,12 +96,22 @@ fn besides_slips(logged: &[String]) -> Vec<String> {
     logged.iter().filter(|line| !line.starts_with(Category::StatusWarning.name())).cloned().collect()
 }
 
-fn report(package: &Package, destination: &Destination, libraries: &[Library], outcome: Option<&Outcome>) -> String {
+fn report(
+    package: &Package,
+    version: FmiVersion,
+    destination: &Destination,
+    libraries: &[Library],
+    outcome: Option<&Outcome>,
+) -> String {
     let problem = Problem::from(package);
-    let folders: Vec<&str> = libraries.iter().map(|library| library.folder.as_str()).collect();
+    let folders: Vec<String> = libraries.iter().map(|library| library.folder(version)).collect();
+    let guid = match version {
+        FmiVersion::V2 => "guid",
+        FmiVersion::V3 => "token",
+    };
     let mut text = problem.heading();
     let _ = writeln!(text, "  file         {}", destination.describe());
-    let _ = writeln!(text, "  guid         {}", package.guid(pounding::FmiVersion::V2));
+    let _ = writeln!(text, "  {guid:<12} {}", package.guid(version));
     let _ = writeln!(text, "  libraries    {}", folders.join(", "));
     match outcome {
         Some(outcome) => text + &summary::text(outcome, Some(problem), problem.stop_reason()),

@@ -3,6 +3,7 @@
 use anyhow::{Context, Result, bail};
 use fmu_build::host_folder;
 use fmu_build::libraries::{Libraries, Library, chosen};
+use pounding::FmiVersion;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -74,7 +75,7 @@ impl Libraries for Workspace {
         "compiling the library"
     }
 
-    fn get(&self, platforms: &[String], show: &mut dyn FnMut(&str)) -> Result<Vec<Library>> {
+    fn get(&self, _version: FmiVersion, platforms: &[String], show: &mut dyn FnMut(&str)) -> Result<Vec<Library>> {
         let folder = host_folder();
         chosen(platforms, std::slice::from_ref(&folder)).context(
             "without --libraries there is the library that is compiled here, for this machine's own platform",

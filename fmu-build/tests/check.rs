@@ -3,8 +3,9 @@
 
 mod common;
 
-use common::libraries::{FUNCTIONS, exporting, library};
+use common::libraries::{exporting, functions, library};
 use common::{Files, cargo_fmu, feup_fmu, files, replace_once, stderr, stdout, write_fmu};
+use pounding::FmiVersion;
 use serde_json::Value;
 use std::path::Path;
 use tempfile::TempDir;
@@ -199,8 +200,12 @@ fn libraries_for_other_machines_are_looked_at_too() {
         cut.truncate(cut.len() / 2);
         let file = format!("{folder}/FeupFrames.{}", extension(folder));
         plant(with(&file, cut), "library", "no library that can be read");
-        let rest = exporting(folder, &FUNCTIONS[1..]);
-        plant(with(&file, rest), "exported functions", &format!("{file}: {} is not exported", FUNCTIONS[0]));
+        let rest = exporting(folder, &functions(FmiVersion::V2)[1..]);
+        plant(
+            with(&file, rest),
+            "exported functions",
+            &format!("{file}: {} is not exported", functions(FmiVersion::V2)[0]),
+        );
     }
 }
 

@@ -3,8 +3,9 @@
 
 mod common;
 
-use common::libraries::{FUNCTIONS, library, universal};
+use common::libraries::{functions, library, universal};
 use common::{Files, cargo_fmu, changed_description, feup_fmu, files, replace_once, stderr, stdout, write_fmu};
+use pounding::FmiVersion;
 use serde_json::Value;
 use std::path::PathBuf;
 use std::process::Command;
@@ -33,8 +34,8 @@ fn finding(report: &Value, check: &str) -> String {
 fn with_library(on_load: &str, on_instantiate: &str) -> Files {
     let directory = TempDir::new().unwrap();
     let (source, library) = (directory.path().join("evil.rs"), directory.path().join("evil.so"));
-    let functions = FUNCTIONS.map(|name| {
-        let body = if name == "fmi2Instantiate" { on_instantiate } else { "" };
+    let functions = functions(FmiVersion::V2).iter().map(|name| {
+        let body = if *name == "fmi2Instantiate" { on_instantiate } else { "" };
         format!("#[no_mangle] pub extern \"C\" fn {name}() -> usize {{ unsafe {{ {body}; }} 0 }}\n")
     });
     let code = format!(
@@ -44,7 +45,7 @@ fn with_library(on_load: &str, on_instantiate: &str) -> Files {
          fn chdir(path: *const u8) -> i32; }}\n\
          #[used] #[link_section = \".init_array\"] static ON_LOAD: extern \"C\" fn() = on_load;\n\
          extern \"C\" fn on_load() {{ unsafe {{ {on_load}; }} }}\n{}",
-        functions.concat()
+        functions.collect::<String>()
     );
     std::fs::write(&source, code).unwrap();
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());

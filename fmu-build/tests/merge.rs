@@ -3,8 +3,9 @@
 
 mod common;
 
-use common::libraries::{FUNCTIONS, exporting, library};
+use common::libraries::{exporting, functions, library};
 use common::{Files, cargo_fmu, cargo_fmu_in, feup_fmu, files, replace_once, stderr, stdout, write_fmu};
+use pounding::FmiVersion;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -129,7 +130,11 @@ fn what_is_no_library_for_its_folder_is_refused() {
     refused("win64/Other.dll", &library("win64"), "expected the name FeupFrames.dll in win64");
     let arm = "a library in the format Pe for Aarch64; expected a library in the format Pe for X86_64";
     refused("win64/FeupFrames.dll", &library("aarch64-windows"), arm);
-    refused("win64/FeupFrames.dll", &exporting("win64", &FUNCTIONS[1..]), "fmi2GetTypesPlatform is not exported");
+    refused(
+        "win64/FeupFrames.dll",
+        &exporting("win64", &functions(FmiVersion::V2)[1..]),
+        "fmi2GetTypesPlatform is not exported",
+    );
 }
 
 #[test]

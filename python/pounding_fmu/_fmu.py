@@ -16,16 +16,20 @@ if TYPE_CHECKING:
 
 
 def build_fmu(
-    scene: Scene, output: str | os.PathLike[str] | None = None, platforms: Iterable[str] | None = None
+    scene: Scene,
+    output: str | os.PathLike[str] | None = None,
+    platforms: Iterable[str] | None = None,
+    fmi: int = 2,
 ) -> Path:
-    """Makes an FMU (FMI 2.0, co-simulation) of a scene and returns its path. The FMU is not run.
+    """Makes an FMU (co-simulation) of a scene and returns its path. The FMU is not run.
 
     Args:
         scene: a path, a text or a dict.
-        output: where the FMU goes, in a directory that is made if need be; ``NAME.fmu`` in the current directory
-            (NAME: the scene's) where nothing is said. An older file there is replaced at once, or stays.
+        output: where the FMU goes, in a directory that is made if need be; ``NAME.fmu`` (NAME: the scene's), or
+            ``NAME.fmi3.fmu`` with ``fmi=3``, in the current directory where nothing is said. An older file there is replaced at once, or stays.
         platforms: those that the FMU can be run on, such as ``["win64", "linux64"]``; all whose library has come with
             this package where nothing is said.
+        fmi: the version of FMI, 2 or 3.
 
     >>> import pounding_fmu, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -35,13 +39,15 @@ def build_fmu(
 
     Raises:
         ValueError: everything that is wrong with the scene; a platform that there is no library for; a name that does
-            not end in ``.fmu``.
+            not end in ``.fmu``; a version of FMI that is neither 2 nor 3.
         OSError: the scene file cannot be read, or the FMU cannot be written.
         TypeError: the scene is none of the forms that a scene may have.
 
     Warns:
         SceneWarning: for each thing that looks like a slip.
     """
+    if isinstance(fmi, bool) or fmi not in (2, 3):
+        raise ValueError(f"fmi = {fmi!r}: expected 2 or 3")
     if platforms is not None:
         platforms = [platforms] if isinstance(platforms, str) else list(platforms)
         if not platforms:
@@ -49,4 +55,4 @@ def build_fmu(
     read = read_scene(scene)
     warn(read.warnings())
     path = None if output is None else os.fsdecode(output)
-    return _native.build(read, path, os.fspath(DATA / "libraries"), platforms or [])
+    return _native.build(read, path, os.fspath(DATA / "libraries"), platforms or [], fmi == 3)

@@ -13,7 +13,7 @@ use std::io;
 use std::path::PathBuf;
 use std::process::Command;
 
-/// Makes an FMU of a scene (FMI 2.0, co-simulation), runs it once and says what happened.
+/// Makes an FMU of a scene (FMI 2.0 or 3.0, co-simulation), runs it once and says what happened.
 #[derive(Parser)]
 #[command(name = "pounding-fmu", bin_name = "pounding-fmu", version, args_conflicts_with_subcommands = true)]
 struct Arguments {

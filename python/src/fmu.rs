@@ -4,14 +4,15 @@ use crate::scene::Scene;
 use anyhow::Result;
 use fmu_build::destination::Destination;
 use fmu_build::libraries::{Libraries, Shipped};
-use fmu_build::pack;
+use fmu_build::{file_name, pack};
+use pounding::FmiVersion;
 use pounding::description::Package;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Writes the FMU of a scene, by default NAME.fmu in the current directory, with the libraries of a folder for these
+/// Writes the FMU of a scene, by default NAME.fmu or NAME.fmi3.fmu in the current directory, with the libraries of a folder for these
 /// platforms or all; returns where it is.
 #[pyfunction]
 pub fn build(
@@ -20,17 +21,25 @@ pub fn build(
     output: Option<PathBuf>,
     libraries: PathBuf,
     platforms: Vec<String>,
+    is_fmi3: bool,
 ) -> PyResult<PathBuf> {
     let package = &scene.get().package;
-    let output = output.unwrap_or_else(|| format!("{}.fmu", package.scene.name).into());
-    py.detach(|| write(package, &output, libraries, &platforms)).map_err(|error| exception(&error))?;
+    let version = if is_fmi3 { FmiVersion::V3 } else { FmiVersion::V2 };
+    let output = output.unwrap_or_else(|| file_name(package, version).into());
+    py.detach(|| write(package, &output, libraries, &platforms, version)).map_err(|error| exception(&error))?;
     Ok(output)
 }
 
-fn write(package: &Package, output: &Path, libraries: PathBuf, platforms: &[String]) -> Result<()> {
+fn write(
+    package: &Package,
+    output: &Path,
+    libraries: PathBuf,
+    platforms: &[String],
+    version: FmiVersion,
+) -> Result<()> {
     let destination = Destination::open(output.to_path_buf())?;
-    let libraries = Shipped(libraries).get(platforms, &mut |_| {})?;
-    destination.take(destination.draft(&pack(package, &libraries)?)?)
+    let libraries = Shipped(libraries).get(version, platforms, &mut |_| {})?;
+    destination.take(destination.draft(&pack(package, &libraries, version)?)?)
 }
 
 /// `OSError` where the system has said no, else `ValueError`.

@@ -1,7 +1,8 @@
 //! From a scene to `modelDescription.xml` and its GUID.
 //!
 //! `package.rs` says what a scene and its record give an FMU: description, fingerprint, default experiment; `xml.rs`
-//! writes the document, `model_structure.rs` its model structure.
+//! writes the document, with what only one version has from `xml2.rs` and `xml3.rs`, `variable.rs` says what is the same
+//! of a variable in both, `model_structure.rs` writes the model structure.
 //!
 //! ```
 //! use pounding::FmiVersion;
@@ -17,8 +18,11 @@
 mod log_category;
 mod model_structure;
 mod package;
+mod variable;
 mod writer;
 mod xml;
+mod xml2;
+mod xml3;
 
 pub use crate::scene::{Package, PackagedRecord};
 pub use log_category::Category;

@@ -1,12 +1,13 @@
-//! The document `modelDescription.xml`, element by element in the order of the FMI 2.0 schema.
+//! The document `modelDescription.xml`, element by element in the order of the schemas of FMI 2.0 and 3.0, and what is
+//! the same in both.
 
 use super::log_category::Category;
-use super::model_structure;
 use super::writer::{Xml, number, text};
+use super::{model_structure, xml2, xml3};
 use crate::FmiVersion;
 use crate::engine::Inputs;
 use crate::scene::Package;
-use crate::variables::{Causality, HIGHEST_OUTPUT_DERIVATIVE, Row, Settings, Slot, Table, Type, Unit, Value};
+use crate::variables::{Settings, Slot, Table, Type, Unit, Value};
 use quick_xml::Writer;
 use std::io;
 
@@ -15,58 +16,53 @@ const STEP_SIZE: f64 = 0.01;
 
 /// The whole text, with the scene's variables and this GUID.
 #[expect(clippy::expect_used, reason = "writing to memory cannot fail, and the writer makes UTF-8 of UTF-8")]
-pub(super) fn document(package: &Package, table: &Table, _version: FmiVersion, guid: &str) -> String {
+pub(super) fn document(package: &Package, table: &Table, version: FmiVersion, guid: &str) -> String {
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
-    write_document(&mut xml, package, table, guid).expect("writing to memory");
+    write_document(&mut xml, package, table, version, guid).expect("writing to memory");
     xml.get_mut().push(b'\n');
     String::from_utf8(xml.into_inner()).expect("UTF-8")
 }
 
-fn write_document(xml: &mut Xml, package: &Package, table: &Table, guid: &str) -> io::Result<()> {
+fn write_document(xml: &mut Xml, package: &Package, table: &Table, version: FmiVersion, guid: &str) -> io::Result<()> {
     let scene = &package.scene;
+    let name_of_guid = match version {
+        FmiVersion::V2 => "guid",
+        FmiVersion::V3 => "instantiationToken",
+    };
     xml.write_event(quick_xml::events::Event::Decl(quick_xml::events::BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     xml.create_element("fmiModelDescription")
         .with_attributes([
-            ("fmiVersion", "2.0"),
+            ("fmiVersion", version.name()),
             ("modelName", &scene.name),
-            ("guid", guid),
+            (name_of_guid, guid),
             ("description", &text(&scene.description)),
             ("generationTool", concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"))),
             ("variableNamingConvention", "structured"),
         ])
         .write_inner_content(|xml| {
-            write_co_simulation(xml, package)?;
-            write_units(xml, table)?;
+            let units = used_units(table, version);
+            match version {
+                FmiVersion::V2 => xml2::write_co_simulation(xml, &scene.name)?,
+                FmiVersion::V3 => xml3::write_co_simulation(xml, &scene.name)?,
+            }
+            xml.create_element("UnitDefinitions")
+                .write_inner_content(|xml| units.iter().try_for_each(|unit| write_unit(xml, *unit)))?;
+            if version == FmiVersion::V3 {
+                xml3::write_types(xml, &units)?;
+            }
             write_log_categories(xml)?;
             write_default_experiment(xml, package)?;
-            write_variables(xml, package, table)?;
-            model_structure::write(xml, scene, table)
+            write_variables(xml, package, table, version)?;
+            model_structure::write(xml, scene, table, version)
         })?;
     Ok(())
 }
 
-fn write_co_simulation(xml: &mut Xml, package: &Package) -> io::Result<()> {
-    xml.create_element("CoSimulation")
-        .with_attributes([
-            ("modelIdentifier", package.scene.name.as_str()),
-            ("canHandleVariableCommunicationStepSize", "true"),
-            ("canInterpolateInputs", "true"),
-            ("maxOutputDerivativeOrder", &HIGHEST_OUTPUT_DERIVATIVE.to_string()),
-            ("canNotUseMemoryManagementFunctions", "true"),
-            ("canGetAndSetFMUstate", "true"),
-            ("canSerializeFMUstate", "true"),
-            ("providesDirectionalDerivative", "true"),
-        ])
-        .write_empty()?;
-    Ok(())
-}
-
-fn write_units(xml: &mut Xml, table: &Table) -> io::Result<()> {
-    let used = |unit: &Unit| table.rows.iter().any(|row| row.ty == Type::Real(*unit));
-    xml.create_element("UnitDefinitions").write_inner_content(|xml| {
-        Unit::ALL.iter().filter(|unit| used(unit)).try_for_each(|unit| write_unit(xml, *unit))
-    })?;
-    Ok(())
+/// The units of the numbers, in FMI 3.0 that of the time, too.
+fn used_units(table: &Table, version: FmiVersion) -> Vec<Unit> {
+    let is_of_time = |unit: Unit| version == FmiVersion::V3 && unit == xml3::TIME;
+    let is_of_row = |unit| table.rows.iter().any(|row| row.ty == Type::Real(unit));
+    Unit::ALL.into_iter().filter(|unit| is_of_time(*unit) || is_of_row(*unit)).collect()
 }
 
 fn write_unit(xml: &mut Xml, unit: Unit) -> io::Result<()> {
@@ -119,64 +115,25 @@ fn write_default_experiment(xml: &mut Xml, package: &Package) -> io::Result<()> 
 }
 
 /// The start values are read from fresh settings and inputs, as a new instance has them.
-fn write_variables(xml: &mut Xml, package: &Package, table: &Table) -> io::Result<()> {
+fn write_variables(xml: &mut Xml, package: &Package, table: &Table, version: FmiVersion) -> io::Result<()> {
     let record = package.record.as_ref().map(|record| record.record.clone());
     let (settings, inputs) = (Settings::new(package.scene.clone(), record), Inputs::new(&package.scene));
     xml.create_element("ModelVariables").write_inner_content(|xml| {
-        for (value_reference, row) in table.iter() {
+        if version == FmiVersion::V3 {
+            xml3::write_time(xml, table.time_reference())?;
+        }
+        for (reference, row) in table.iter() {
             let start = match row.slot {
                 Slot::Input(input) => Some(Value::Real(inputs.get(input).at(0.0))),
                 Slot::Parameter(parameter) => Some(settings.read(parameter)),
                 Slot::Calculated(_) | Slot::Output(_) => None,
             };
-            write_variable(xml, value_reference, row, start)?;
+            match version {
+                FmiVersion::V2 => xml2::write_variable(xml, reference, row, start)?,
+                FmiVersion::V3 => xml3::write_variable(xml, reference, row, start)?,
+            }
         }
         Ok(())
     })?;
-    Ok(())
-}
-
-fn write_variable(xml: &mut Xml, value_reference: u32, row: &Row, start: Option<Value<'_>>) -> io::Result<()> {
-    let mut element = xml.create_element("ScalarVariable").with_attributes([
-        ("name", row.name.as_str()),
-        ("valueReference", &value_reference.to_string()),
-        ("description", &row.description),
-        ("causality", row.slot.causality().name()),
-        ("variability", row.variability.name()),
-    ]);
-    match row.slot.causality() {
-        Causality::Parameter => element = element.with_attribute(("initial", "exact")),
-        Causality::CalculatedParameter | Causality::Output => {
-            element = element.with_attribute(("initial", "calculated"));
-        }
-        Causality::Input => {} // the standard forbids it
-    }
-    element.write_inner_content(|xml| write_type(xml, row, start))?;
-    Ok(())
-}
-
-fn write_type(xml: &mut Xml, row: &Row, start: Option<Value<'_>>) -> io::Result<()> {
-    let mut element = xml.create_element(row.ty.name(FmiVersion::V2));
-    if let Type::Real(unit) = row.ty {
-        element = element.with_attribute(("unit", unit.info().name));
-        if let Some((display, _)) = unit.info().display {
-            element = element.with_attribute(("displayUnit", display));
-        }
-    }
-    for (name, value) in [("min", row.min), ("max", row.max), ("nominal", row.nominal)] {
-        if let Some(value) = value {
-            element = element.with_attribute((name, number(value).as_str()));
-        }
-    }
-    if let Some(start) = start {
-        let start = match start {
-            Value::Real(value) => number(value),
-            Value::Integer(value) => value.to_string(),
-            Value::Boolean(value) => value.to_string(),
-            Value::String(value) => text(value).into_owned(),
-        };
-        element = element.with_attribute(("start", start.as_str()));
-    }
-    element.write_empty()?;
     Ok(())
 }

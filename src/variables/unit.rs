@@ -44,6 +44,8 @@ pub enum Unit {
 pub struct UnitInfo {
     /// Name in the description.
     pub name: &'static str,
+    /// What is measured in it, and the name of the type that FMI 3.0 declares for it.
+    pub quantity: &'static str,
     /// Powers of the SI base units; `None` where they are not whole numbers.
     pub base: Option<&'static [(&'static str, i32)]>,
     /// Name and factor of the unit to show to a person: shown value = factor * value.
@@ -81,32 +83,37 @@ impl Unit {
     /// What the description says of this unit.
     pub const fn info(self) -> UnitInfo {
         match self {
-            Unit::One => unit("1", Some(&[]), None),
-            Unit::Metre => unit("m", Some(&[("m", 1)]), Some(("mm", 1e3))),
-            Unit::MetrePerSecond => unit("m/s", Some(&[("m", 1), ("s", -1)]), Some(("mm/s", 1e3))),
+            Unit::One => unit("1", "Dimensionless", Some(&[]), None),
+            Unit::Metre => unit("m", "Length", Some(&[("m", 1)]), Some(("mm", 1e3))),
+            Unit::MetrePerSecond => unit("m/s", "Velocity", Some(&[("m", 1), ("s", -1)]), Some(("mm/s", 1e3))),
             Unit::MetrePerSecondSquared => {
-                unit("m/s2", Some(&[("m", 1), ("s", -2)]), Some(("g", 1.0 / STANDARD_GRAVITY)))
+                unit("m/s2", "Acceleration", Some(&[("m", 1), ("s", -2)]), Some(("g", 1.0 / STANDARD_GRAVITY)))
             }
-            Unit::Hertz => unit("Hz", Some(&[("s", -1)]), None),
-            Unit::Kilogram => unit("kg", Some(&[("kg", 1)]), Some(("t", 1e-3))),
-            Unit::Newton => unit("N", Some(&[("kg", 1), ("m", 1), ("s", -2)]), Some(("kN", 1e-3))),
-            Unit::NewtonSecond => unit("N.s", Some(&[("kg", 1), ("m", 1), ("s", -1)]), Some(("kN.s", 1e-3))),
-            Unit::NewtonSecondPerMetre => unit("N.s/m", Some(&[("kg", 1), ("s", -1)]), Some(("kN.s/m", 1e-3))),
-            Unit::NewtonPerMetre => unit("N/m", Some(&[("kg", 1), ("s", -2)]), Some(("kN/m", 1e-3))),
+            Unit::Hertz => unit("Hz", "Frequency", Some(&[("s", -1)]), None),
+            Unit::Kilogram => unit("kg", "Mass", Some(&[("kg", 1)]), Some(("t", 1e-3))),
+            Unit::Newton => unit("N", "Force", Some(&[("kg", 1), ("m", 1), ("s", -2)]), Some(("kN", 1e-3))),
+            Unit::NewtonSecond => unit("N.s", "Impulse", Some(&[("kg", 1), ("m", 1), ("s", -1)]), Some(("kN.s", 1e-3))),
+            Unit::NewtonSecondPerMetre => {
+                unit("N.s/m", "DampingCoefficient", Some(&[("kg", 1), ("s", -1)]), Some(("kN.s/m", 1e-3)))
+            }
+            Unit::NewtonPerMetre => unit("N/m", "Stiffness", Some(&[("kg", 1), ("s", -2)]), Some(("kN/m", 1e-3))),
             Unit::NewtonPerMetreToTheThreeHalves => {
-                unit(StiffnessUnit::NewtonPerMetreToTheThreeHalves.name(), None, None)
+                unit(StiffnessUnit::NewtonPerMetreToTheThreeHalves.name(), "HertzStiffness", None, None)
             }
-            Unit::NewtonPerMetreToTheExponent => unit(StiffnessUnit::NewtonPerMetreToTheExponent.name(), None, None),
-            Unit::Second => unit("s", Some(&[("s", 1)]), None),
-            Unit::Joule => unit("J", Some(&[("kg", 1), ("m", 2), ("s", -2)]), Some(("kJ", 1e-3))),
+            Unit::NewtonPerMetreToTheExponent => {
+                unit(StiffnessUnit::NewtonPerMetreToTheExponent.name(), "ContactStiffness", None, None)
+            }
+            Unit::Second => unit("s", "Time", Some(&[("s", 1)]), None),
+            Unit::Joule => unit("J", "Energy", Some(&[("kg", 1), ("m", 2), ("s", -2)]), Some(("kJ", 1e-3))),
         }
     }
 }
 
 const fn unit(
     name: &'static str,
+    quantity: &'static str,
     base: Option<&'static [(&'static str, i32)]>,
     display: Option<(&'static str, f64)>,
 ) -> UnitInfo {
-    UnitInfo { name, base, display }
+    UnitInfo { name, quantity, base, display }
 }

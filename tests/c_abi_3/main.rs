@@ -16,6 +16,5 @@ mod refused;
 mod sequence;
 mod states;
 mod stepping;
-mod symbols;
 mod values;
 mod versions;

@@ -1,32 +1,39 @@
 //! `modelDescription.xml`: valid for an importer that is not ours, what it says, and stable.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod fmi3;
 mod golden;
 #[path = "../support/scenes.rs"]
 mod scenes;
 
 use fmi::model_description::fmi2::{Causality, ModelDescription, ScalarVariable, Variability, VariableType};
+use pounding::FmiVersion;
 use pounding::description::Package;
 use scenes::{NO_CONTACT, RECORD_SCENE, SCENE, package};
 use std::sync::Mutex;
 
 fn describe(scene_text: &str) -> ModelDescription {
-    ModelDescription::from_string(&package(scene_text).model_description(pounding::FmiVersion::V2)).unwrap()
+    ModelDescription::from_string(&package(scene_text).model_description(FmiVersion::V2)).unwrap()
 }
 
 #[test]
 fn another_importer_finds_it_valid() {
     for scene in [SCENE, RECORD_SCENE, NO_CONTACT] {
-        assert_eq!(problems(&package(scene).model_description(pounding::FmiVersion::V2)), [""; 0]);
+        for version in FmiVersion::ALL {
+            assert_eq!(problems(&package(scene).model_description(version), version), [""; 0]);
+        }
     }
 }
 
 /// What the importer finds wrong; its parser of names is one for all threads.
-fn problems(text: &str) -> Vec<String> {
+fn problems(text: &str, version: FmiVersion) -> Vec<String> {
     static TURN: Mutex<()> = Mutex::new(());
     let _turn = TURN.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-    let description = ModelDescription::from_string(text).unwrap();
-    description.validate().into_iter().map(|problem| problem.message).collect()
+    let problems = match version {
+        FmiVersion::V2 => ModelDescription::from_string(text).unwrap().validate(),
+        FmiVersion::V3 => fmi3::describe(text).validate(),
+    };
+    problems.into_iter().map(|problem| problem.message).collect()
 }
 
 /// Name, causality and type of every variable, in the words of the contract with the users.
@@ -134,7 +141,7 @@ fn what_a_scene_does_not_have_is_no_variable() {
 #[test]
 fn what_the_fmu_can_do_is_declared() {
     for scene in [SCENE, RECORD_SCENE, NO_CONTACT] {
-        let text = package(scene).model_description(pounding::FmiVersion::V2);
+        let text = package(scene).model_description(FmiVersion::V2);
         let document = roxmltree::Document::parse(&text).unwrap();
         let capabilities = document.descendants().find(|node| node.has_tag_name("CoSimulation")).unwrap();
         for (name, value) in [
@@ -198,7 +205,7 @@ fn initial_unknowns_name_what_they_are_made_of() {
 
 #[test]
 fn units_have_their_dimensions_and_what_people_read() {
-    let text = package(SCENE).model_description(pounding::FmiVersion::V2);
+    let text = package(SCENE).model_description(FmiVersion::V2);
     let document = roxmltree::Document::parse(&text).unwrap();
     let unit = |name| document.descendants().find(|n| n.has_tag_name("Unit") && n.attribute("name") == Some(name));
     for (name, dimensions, display) in [
@@ -245,9 +252,9 @@ fn the_default_experiment_ends_with_the_scene_or_with_the_record() {
 
 #[test]
 fn the_guid_is_a_fingerprint() {
-    let (package, guid) = (package(RECORD_SCENE), |package: &Package| package.guid(pounding::FmiVersion::V2));
+    let (package, guid) = (package(RECORD_SCENE), |package: &Package| package.guid(FmiVersion::V2));
     assert_eq!(guid(&package), guid(&package.clone()));
-    assert!(package.model_description(pounding::FmiVersion::V2).contains(&guid(&package)));
+    assert!(package.model_description(FmiVersion::V2).contains(&guid(&package)));
     let mut commented = package.clone();
     commented.scene_text.push_str("# a remark");
     let mut other_record = package.clone();
@@ -267,6 +274,6 @@ fn text_that_xml_cannot_hold_does_not_break_it() {
     let mut package = package(NO_CONTACT);
     assert_eq!(describe(NO_CONTACT).description.as_deref(), Some("a < b & \"c\""));
     package.scene.description = "bell \u{7} and\nline <\u{fffe}>".to_owned();
-    let description = ModelDescription::from_string(&package.model_description(pounding::FmiVersion::V2)).unwrap();
+    let description = ModelDescription::from_string(&package.model_description(FmiVersion::V2)).unwrap();
     assert_eq!(description.description.as_deref(), Some("bell   and line < >"));
 }

@@ -1,41 +1,45 @@
 //! What the library of an FMU does, compared with what its description says.
 
-use crate::c_interface::{Binary, Instance};
+use crate::c_interface::{self, Binary};
+use crate::description::{Description, Kind, Variable};
 use crate::experiment::{CoSimulation, experiment};
-use crate::pack::archive::{self, Unpacked};
+use crate::pack::archive::Unpacked;
 use crate::pack::platform;
 use anyhow::{Context, Result, bail};
-use fmi::model_description::fmi2::{ModelDescription, ScalarVariable, VariableType};
+use pounding::FmiVersion;
 use std::path::Path;
 
 /// The library for this machine.
-pub fn library(fmu: &Unpacked, description: &ModelDescription) -> Result<Binary> {
-    let Some(interface) = &description.coSimulation else { bail!("the FMU has no co-simulation interface") };
-    let path = platform::host_library(&fmu.names, &interface.modelIdentifier);
+pub fn library(fmu: &Unpacked, description: &Description) -> Result<Binary> {
+    let path = platform::host_library(&fmu.names, &description.identifier, description.version);
     Binary::load(&fmu.path(path.context("the FMU has no library for this machine")?))
 }
 
 /// A finding for each function that the library does not export.
-pub fn missing_functions(binary: &Binary) -> Vec<String> {
-    binary.missing_functions().into_iter().map(|name| format!("{name} is not exported")).collect()
+pub fn missing_functions(description: &Description, binary: &Binary) -> Vec<String> {
+    binary.missing_functions(description.version).into_iter().map(|name| format!("{name} is not exported")).collect()
 }
 
 /// The library must refuse a GUID that is not its own, else it cannot notice a description that is not its own.
-pub fn wrong_guid_accepted(root: &Path, description: &ModelDescription, binary: &Binary) -> Vec<String> {
+pub fn wrong_guid_accepted(root: &Path, description: &Description, binary: &Binary) -> Vec<String> {
     let other = "{00000000-0000-0000-0000-000000000000}";
-    match Instance::new(binary, &description.modelName, other, &archive::resource_uri(root)) {
-        Ok(_) => vec![format!("fmi2Instantiate accepts the GUID {other} beside {}", description.guid)],
+    let what = match description.version {
+        FmiVersion::V2 => "fmi2Instantiate accepts the GUID",
+        FmiVersion::V3 => "fmi3InstantiateCoSimulation accepts the token",
+    };
+    match c_interface::instantiate(binary, description, other, root) {
+        Ok(_) => vec![format!("{what} {other} beside {}", description.token)],
         Err(_) => Vec::new(),
     }
 }
 
 /// No importer writes the start values of the description into the FMU: the library must have the same ones.
-pub fn start_values(description: &ModelDescription, fmu: &dyn CoSimulation) -> Result<Vec<String>> {
+pub fn start_values(description: &Description, fmu: &dyn CoSimulation) -> Result<Vec<String>> {
     let experiment = experiment(description)?;
     fmu.set_up(experiment.start, experiment.stop)?;
     let mut findings = Vec::new();
-    for variable in &description.modelVariables {
-        let Some(start) = variable.variableType.start() else { continue };
+    for variable in &description.variables {
+        let Some(start) = &variable.start else { continue };
         let actual = value(variable, fmu).with_context(|| format!("{} cannot be read", variable.name))?;
         if !actual.is(start) {
             findings.push(format!("{}: start is {start:?}, the library has {actual:?}", variable.name));
@@ -64,15 +68,14 @@ impl Value {
     }
 }
 
-fn value(variable: &ScalarVariable, fmu: &dyn CoSimulation) -> Result<Value> {
-    let reference = [variable.valueReference];
-    let value = match variable.variableType {
-        VariableType::Real { .. } => fmu.reals(&reference)?.pop().map(Value::Real),
-        VariableType::Integer { .. } | VariableType::Enumeration { .. } => {
-            fmu.integers(&reference)?.pop().map(Value::Integer)
-        }
-        VariableType::Boolean { .. } => fmu.booleans(&reference)?.pop().map(Value::Boolean),
-        VariableType::String { .. } => fmu.strings(&reference)?.pop().map(Value::String),
+fn value(variable: &Variable, fmu: &dyn CoSimulation) -> Result<Value> {
+    let reference = [variable.reference];
+    let value = match variable.kind {
+        Kind::Real => fmu.reals(&reference)?.pop().map(Value::Real),
+        Kind::Integer => fmu.integers(&reference)?.pop().map(Value::Integer),
+        Kind::Boolean => fmu.booleans(&reference)?.pop().map(Value::Boolean),
+        Kind::Other(name) => bail!("a variable of type {name}"),
+        Kind::String => fmu.strings(&reference)?.pop().map(Value::String),
     };
     value.context("the library returns no value")
 }

@@ -1,6 +1,7 @@
 //! What a person finds in an importing tool: the page `documentation/index.html` and the icon.
 
 use super::archive::Entry;
+use pounding::FmiVersion;
 use pounding::description::Package;
 use pounding::scene::ContactPair;
 use pounding::variables::{Causality, Row, Table, Type};
@@ -18,35 +19,51 @@ const USE: &str = "<ul>\n\
     <li>SI units everywhere; <em>x</em> points from the left building to the right one. Displacements and velocities are \
     relative to the ground, accelerations absolute.</li>\n\
     <li>Floors are counted from 1 at the bottom; storey <em>i</em> is below floor <em>i</em>.</li>\n\
-    <li>Any communication step will do: impacts are found and followed inside. Inputs are held from one communication \
-    point to the next, or follow the line whose slope is set as their derivative.</li>\n\
+    <li>Any communication step will do: impacts are found and followed inside.</li>\n\
     <li>An impact may be over between two communication points: read <code>impulse</code>, \
     <code>peak_force</code> and <code>impacts</code> instead of sampling <code>force</code>. The mean force over a step \
     is the difference of the impulse divided by the step.</li>\n\
     <li>Parameters can be set until the end of the initialisation.</li>\n</ul>\n";
 
 /// The icon, and the page of this FMU.
-pub fn entries(package: &Package) -> [Entry; 2] {
-    [Entry::file("model.png", ICON.to_vec()), Entry::file("documentation/index.html", page(package).into_bytes())]
+pub fn entries(package: &Package, version: FmiVersion) -> [Entry; 2] {
+    let page = page(package, version).into_bytes();
+    [Entry::file("model.png", ICON.to_vec()), Entry::file("documentation/index.html", page)]
 }
 
-fn page(package: &Package) -> String {
+/// How inputs and events go in a version.
+fn use_of(version: FmiVersion) -> &'static str {
+    match version {
+        FmiVersion::V2 => {
+            "Inputs are held from one communication point to the next, or follow the line whose slope is set as their \
+             derivative."
+        }
+        FmiVersion::V3 => {
+            "Inputs are held from one communication point to the next. A master that allows early return gets each \
+             entry, release and yield at its own time; in Event Mode it sees the values on both sides."
+        }
+    }
+}
+
+fn page(package: &Package, version: FmiVersion) -> String {
     let scene = &package.scene;
     let name = escape(&scene.name);
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}</title>\n\
          <style>{STYLE}</style>\n</head>\n<body>\n<h1>{name}</h1>\n<p>{}</p>\n<p>Two adjacent buildings of {} and {} \
-         storeys under a ground motion, with {} between facing floors.</p>\n<h2>Use</h2>\n{USE}",
+         storeys under a ground motion, with {} between facing floors.</p>\n<p>FMI {}, co-simulation. {}</p>\n<h2>Use</h2>\n{USE}",
         escape(&scene.description),
         scene.left.mass.len(),
         scene.right.mass.len(),
         match scene.contacts.len() {
             1 => "1 contact".to_owned(),
             n => format!("{n} contacts"),
-        }
+        },
+        version.name(),
+        use_of(version),
     );
     html += &laws(&scene.contacts);
-    html += &variables(&Table::new(scene));
+    html += &variables(&Table::new(scene), version);
     let _ = write!(
         html,
         "<h2>Scene</h2>\n<pre>{}</pre>\n<p><a href=\"licenses/license.txt\">Licences</a></p>\n</body>\n</html>\n",
@@ -75,11 +92,14 @@ fn laws(contacts: &[ContactPair]) -> String {
     html + "</table>\n"
 }
 
-fn variables(table: &Table) -> String {
+fn variables(table: &Table, version: FmiVersion) -> String {
     let mut html =
         String::from("<h2>Variables</h2>\n<table>\n<tr><th>name</th><th>kind</th><th>unit</th><th>meaning</th></tr>\n");
+    if version == FmiVersion::V3 {
+        html += &row(["time", "independent", "s", "time"]);
+    }
     for variable in &table.rows {
-        html += &row([&variable.name, kind(variable), unit(variable), &variable.description]);
+        html += &row([&variable.name, kind(variable), unit(variable, version), &variable.description]);
     }
     html + "</table>\n"
 }
@@ -97,10 +117,10 @@ fn kind(variable: &Row) -> &'static str {
     }
 }
 
-fn unit(variable: &Row) -> &'static str {
+fn unit(variable: &Row, version: FmiVersion) -> &'static str {
     match variable.ty {
         Type::Real(unit) => unit.info().name,
-        Type::Integer | Type::Boolean | Type::String => variable.ty.name(pounding::FmiVersion::V2),
+        Type::Integer | Type::Boolean | Type::String => variable.ty.name(version),
     }
 }
 

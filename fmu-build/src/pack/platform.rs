@@ -1,6 +1,7 @@
-//! Where FMI 2.0 wants the library of each platform, and what such a library is.
+//! Where each version of FMI wants the library of each platform, and what such a library is.
 
 use object::{Architecture, BinaryFormat};
+use pounding::FmiVersion;
 use std::env::consts::{ARCH, DLL_EXTENSION, OS};
 
 /// Linux on Intel processors.
@@ -72,17 +73,28 @@ impl Platform {
     }
 }
 
+/// The folder that a version has for a platform, which may be named as in either.
+pub fn named(platform: &str, version: FmiVersion) -> String {
+    let in_fmi3 = |system: &str, arch: &str| format!("{arch}-{system}");
+    let names = FMI2.iter().find(|(name, system, arch)| *name == platform || in_fmi3(system, arch) == platform);
+    match (names, version) {
+        (Some((name, ..)), FmiVersion::V2) => (*name).to_owned(),
+        (Some((_, system, arch)), FmiVersion::V3) => in_fmi3(system, arch),
+        (None, _) => platform.to_owned(),
+    }
+}
+
 /// The folder of the host's library below `binaries/`, such as `linux64`.
 pub fn folder() -> String {
     let system = if OS == "macos" { "darwin" } else { OS };
-    let named = FMI2.iter().find(|(_, its_system, arch)| (*its_system, *arch) == (system, ARCH));
-    named.map_or_else(|| format!("{ARCH}-{system}"), |(name, ..)| (*name).to_owned())
+    named(&format!("{ARCH}-{system}"), FmiVersion::V2)
 }
 
 /// Path inside an FMU with these files of the library that this machine loads.
-pub fn host_library<'a>(names: &'a [String], model_identifier: &str) -> Option<&'a str> {
-    let own = folder();
-    let folders = [own.as_str(), if own == ARM_LINUX { INTEL_LINUX } else { &own }];
+pub fn host_library<'a>(names: &'a [String], model_identifier: &str, version: FmiVersion) -> Option<&'a str> {
+    let own = named(&folder(), version);
+    let is_for_fmpy = version == FmiVersion::V2 && own == ARM_LINUX;
+    let folders = [own.as_str(), if is_for_fmpy { INTEL_LINUX } else { &own }];
     let paths = folders.map(|folder| format!("binaries/{folder}/{model_identifier}.{DLL_EXTENSION}"));
     paths.iter().find_map(|path| names.iter().find(|name| *name == path)).map(String::as_str)
 }
@@ -94,6 +106,22 @@ mod tests {
     #[test]
     fn the_host_is_among_the_platforms() {
         assert_eq!(Platform::host().map(|platform| platform.extension), Some(DLL_EXTENSION));
+    }
+
+    #[test]
+    fn names_in_both_standards() {
+        for (old, new) in [
+            ("linux64", "x86_64-linux"),
+            ("win64", "x86_64-windows"),
+            ("darwin64", "x86_64-darwin"),
+            ("win32", "x86-windows"),
+            ("aarch64-linux", "aarch64-linux"),
+            ("vax", "vax"),
+        ] {
+            for name in [old, new] {
+                assert_eq!(FmiVersion::ALL.map(|version| named(name, version)), [old, new]);
+            }
+        }
     }
 
     #[test]

@@ -3,21 +3,22 @@
 #[path = "../../src/functions.rs"]
 mod functions;
 
-pub use functions::FUNCTIONS;
+pub use functions::functions;
+use pounding::FmiVersion;
 
-/// A library for the folder below `binaries/` that exports the functions of FMI.
+/// A library for the folder below `binaries/` that exports the functions of both versions of FMI.
 pub fn library(folder: &str) -> Vec<u8> {
-    exporting(folder, &FUNCTIONS)
+    exporting(folder, &FmiVersion::ALL.map(functions).concat())
 }
 
 /// One that exports these functions.
 pub fn exporting(folder: &str, functions: &[&str]) -> Vec<u8> {
     match folder {
-        "linux64" => elf(62, functions),
+        "linux64" | "x86_64-linux" => elf(62, functions),
         "aarch64-linux" => elf(183, functions),
-        "win64" => pe(0x8664, functions),
+        "win64" | "x86_64-windows" => pe(0x8664, functions),
         "aarch64-windows" => pe(0xaa64, functions),
-        "darwin64" => macho(0x0100_0007, functions),
+        "darwin64" | "x86_64-darwin" => macho(0x0100_0007, functions),
         "aarch64-darwin" => macho(0x0100_000c, functions),
         _ => panic!("{folder}"),
     }

@@ -1,13 +1,13 @@
 //! What the importer does not read: the order of the elements, units, the date.
 
 use super::attributes;
-use super::names::repeated;
+use super::units;
 use anyhow::{Result, bail};
+use pounding::FmiVersion;
 use roxmltree::{Document, Node};
-use std::collections::HashSet;
 
 /// Children of the root in the order that the schema demands, and whether every FMU of ours has them.
-const ELEMENTS: [(&str, bool); 9] = [
+const ELEMENTS2: [(&str, bool); 9] = [
     ("ModelExchange", false),
     ("CoSimulation", true),
     ("UnitDefinitions", true),
@@ -18,6 +18,25 @@ const ELEMENTS: [(&str, bool); 9] = [
     ("ModelVariables", true),
     ("ModelStructure", true),
 ];
+const ELEMENTS3: [(&str, bool); 10] = [
+    ("ModelExchange", false),
+    ("CoSimulation", true),
+    ("ScheduledExecution", false),
+    ("UnitDefinitions", true),
+    ("TypeDefinitions", true),
+    ("LogCategories", true),
+    ("DefaultExperiment", true),
+    ("ModelVariables", true),
+    ("ModelStructure", true),
+    ("Annotations", false),
+];
+
+const fn elements(version: FmiVersion) -> &'static [(&'static str, bool)] {
+    match version {
+        FmiVersion::V2 => &ELEMENTS2,
+        FmiVersion::V3 => &ELEMENTS3,
+    }
+}
 
 /// Elements that the schema does not allow to be empty.
 const LISTS: [&str; 9] = [
@@ -47,6 +66,13 @@ pub fn origin(text: &str) -> Result<()> {
     }
 }
 
+/// The version that a description says it is of; what it does not say, or not well, is for the lint to tell.
+pub fn version(text: &str) -> FmiVersion {
+    let document = Document::parse(text).ok();
+    let version = document.as_ref().and_then(|document| document.root_element().attribute("fmiVersion"));
+    if version.is_some_and(|version| version.starts_with('3')) { FmiVersion::V3 } else { FmiVersion::V2 }
+}
+
 /// What the libraries are called, for co-simulation.
 pub fn model_identifier(text: &str) -> Option<String> {
     let document = Document::parse(text).ok()?;
@@ -60,37 +86,39 @@ pub fn findings(text: &str) -> Vec<String> {
         Ok(document) => document,
         Err(error) => return vec![format!("no XML: {error}")],
     };
-    let mut findings = order(document.root_element());
-    let version = document.root_element().attribute("fmiVersion").unwrap_or_default();
-    if version != "2.0" {
-        findings.push(format!("fmiVersion {version:?}: expected exactly \"2.0\", whatever the revision"));
+    let version = version(text);
+    let mut findings = order(document.root_element(), version);
+    let (said, expected) = (document.root_element().attribute("fmiVersion").unwrap_or_default(), version.name());
+    if said != expected {
+        findings.push(format!("fmiVersion {said:?}: expected exactly {expected:?}, whatever the revision"));
     }
-    findings.extend(attributes::findings(&document));
+    findings.extend(attributes::findings(&document, version));
     findings.extend(empty_lists(&document));
-    findings.extend(units(&document));
+    findings.extend(units::findings(&document, version));
     if document.root_element().has_attribute("generationDateAndTime") {
         findings.push("generationDateAndTime: expected none, so that the same scene gives the same bytes".into());
     }
     findings
 }
 
-fn order(root: Node) -> Vec<String> {
+fn order(root: Node, version: FmiVersion) -> Vec<String> {
+    let elements = elements(version);
     let mut findings = Vec::new();
     let mut found = Vec::new();
     for name in root.children().filter(Node::is_element).map(|child| child.tag_name().name()) {
-        match ELEMENTS.iter().position(|(known, _)| *known == name) {
-            None => findings.push(format!("<{name}>: not an element of FMI 2.0")),
+        match elements.iter().position(|(known, _)| *known == name) {
+            None => findings.push(format!("<{name}>: not an element of FMI {}", version.name())),
             Some(place) if found.contains(&place) => findings.push(format!("<{name}>: more than once")),
             Some(place) => {
                 if found.last().is_some_and(|last| place < *last) {
-                    let expected = ELEMENTS.map(|(name, _)| name).join(", ");
+                    let expected = elements.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
                     findings.push(format!("<{name}>: out of order; expected {expected}"));
                 }
                 found.push(place);
             }
         }
     }
-    let missing = ELEMENTS.iter().enumerate().filter(|(place, (_, ours))| *ours && !found.contains(place));
+    let missing = elements.iter().enumerate().filter(|(place, (_, ours))| *ours && !found.contains(place));
     findings.extend(missing.map(|(_, (name, _))| format!("<{name}>: missing")));
     findings
 }
@@ -99,37 +127,4 @@ fn empty_lists(document: &Document) -> Vec<String> {
     let lists = document.descendants().filter(|node| LISTS.contains(&node.tag_name().name()));
     let empty = lists.filter(|list| !list.children().any(|child| child.is_element()));
     empty.map(|list| format!("<{}>: empty", list.tag_name().name())).collect()
-}
-
-/// Every number has a unit that is defined, and every unit is that of a number.
-fn units(document: &Document) -> Vec<String> {
-    let units: Vec<Node> = document.descendants().filter(|node| node.has_tag_name("Unit")).collect();
-    let mut findings = repeated("unit", units.iter().map(name));
-    let mut used = HashSet::new();
-    for real in document.descendants().filter(|node| node.has_tag_name("Real")) {
-        let Some(variable) = real.parent().filter(|parent| parent.has_tag_name("ScalarVariable")) else { continue };
-        let variable = name(&variable);
-        let Some(unit) = real.attribute("unit") else {
-            let shown =
-                real.attribute("displayUnit").map_or(String::new(), |unit| format!(", but display unit {unit:?}"));
-            findings.push(format!("{variable}: no unit{shown}"));
-            continue;
-        };
-        used.insert(unit);
-        let Some(definition) = units.iter().find(|definition| name(definition) == unit) else {
-            findings.push(format!("{variable}: unit {unit:?} is not in <UnitDefinitions>"));
-            continue;
-        };
-        let is_shown = |shown| definition.children().any(|d| d.has_tag_name("DisplayUnit") && name(&d) == shown);
-        if let Some(shown) = real.attribute("displayUnit").filter(|shown| !is_shown(*shown)) {
-            findings.push(format!("{variable}: display unit {shown:?} is not defined for unit {unit:?}"));
-        }
-    }
-    let unused = units.iter().map(name).filter(|unit| !used.contains(unit));
-    findings.extend(unused.map(|unit| format!("unit {unit:?} is not used")));
-    findings
-}
-
-fn name<'a>(node: &Node<'a, '_>) -> &'a str {
-    node.attribute("name").unwrap_or_default()
 }

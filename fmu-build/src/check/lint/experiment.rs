@@ -1,9 +1,9 @@
 //! The default experiment: it can be run.
 
-use fmi::model_description::fmi2::ModelDescription;
+use crate::description::Description;
 
-pub(super) fn findings(description: &ModelDescription) -> Vec<String> {
-    let Some(experiment) = &description.defaultExperiment else { return Vec::new() };
+pub(super) fn findings(description: &Description) -> Vec<String> {
+    let Some(experiment) = &description.experiment else { return Vec::new() };
     let mut findings = Vec::new();
     let mut number = |name: &str, text: &Option<String>, default: Option<f64>| {
         let Some(text) = text else { return default };

@@ -1,6 +1,6 @@
 //! The names of the files in the archive.
 
-use fmi::model_description::fmi2::ModelDescription;
+use crate::description::Description;
 
 /// Beside the libraries.
 const FILES: [&str; 10] = [
@@ -35,8 +35,8 @@ pub fn file_names(names: &[String]) -> Vec<String> {
 }
 
 /// No file that is not an FMU's of ours, and each library under the name that importers look for.
-pub fn files(names: &[String], description: &ModelDescription) -> Vec<String> {
-    let identifier = description.coSimulation.as_ref().map_or("", |interface| interface.modelIdentifier.as_str());
+pub fn files(names: &[String], description: &Description) -> Vec<String> {
+    let identifier = description.identifier.as_str();
     let is_ours =
         |name: &str| FILES.contains(&name) || is_channel(name) || is_folder(name) || is_library(name, identifier);
     let strange = names.iter().filter(|name| !is_ours(name));

@@ -1,11 +1,11 @@
 //! What names must be.
 
-use fmi::model_description::fmi2::ModelDescription;
+use crate::description::Description;
 use std::collections::HashSet;
 
 /// The library carries the identifier in its file name and, in C, in its function names.
-pub fn identifier(description: &ModelDescription) -> Option<String> {
-    let identifier = &description.coSimulation.as_ref()?.modelIdentifier;
+pub fn identifier(description: &Description) -> Option<String> {
+    let identifier = &description.identifier;
     let mut letters = identifier.chars();
     let starts = letters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');
     let goes_on = letters.all(|letter| letter.is_ascii_alphanumeric() || letter == '_');

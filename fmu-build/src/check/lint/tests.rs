@@ -3,7 +3,8 @@
 #[path = "../../../../tests/support/scenes.rs"]
 mod scenes;
 
-use fmi::model_description::fmi2::ModelDescription;
+use crate::description::Description;
+use pounding::FmiVersion;
 use scenes::{NO_CONTACT, RECORD_SCENE, SCENE, package};
 use std::fs;
 use std::path::Path;
@@ -12,17 +13,21 @@ use std::sync::Mutex;
 /// Everything that is wrong with a description, in our eyes and in those of the importer.
 fn findings(text: &str) -> Vec<String> {
     let mut findings = super::document(text);
-    match ModelDescription::from_string(text) {
+    match read(text) {
         Ok(description) => {
             findings.extend(super::description(&description));
-            // Its parser of names is one for all threads.
-            static TURN: Mutex<()> = Mutex::new(());
-            let _turn = TURN.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-            findings.extend(description.validate().into_iter().map(|problem| problem.message));
+            findings.extend(description.problems);
         }
         Err(error) => findings.push(error.to_string()),
     }
     findings
+}
+
+/// The importer's parser of names is one for all threads.
+fn read(text: &str) -> anyhow::Result<Description> {
+    static TURN: Mutex<()> = Mutex::new(());
+    let _turn = TURN.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    Description::read(text, super::version(text))
 }
 
 #[test]
@@ -38,14 +43,16 @@ fn nothing_is_wrong_with_the_descriptions_of_the_example_scenes() {
 #[test]
 fn nothing_is_wrong_with_any_kind_of_variable() {
     for scene in [SCENE, RECORD_SCENE, NO_CONTACT] {
-        assert_eq!(findings(&package(scene).model_description(pounding::FmiVersion::V2)), [""; 0], "{scene}");
+        for version in FmiVersion::ALL {
+            assert_eq!(findings(&package(scene).model_description(version)), [""; 0], "{scene}");
+        }
     }
 }
 
 /// A lint that finds nothing anywhere finds nothing in our descriptions either.
 #[test]
 fn every_kind_of_damage_is_found() {
-    let text = package(SCENE).model_description(pounding::FmiVersion::V2);
+    let text = package(SCENE).model_description(FmiVersion::V2);
     for (from, to, finding) in [
         ("start=\"0.65\"", "start=\"1.65\"", "contact[1].restitution: start 1.65; expected 0 to 1"),
         ("min=\"1\" max=\"3\"", "min=\"3\" max=\"1\"", "contact[2].exponent: min 3 is greater than max 1"),
@@ -121,9 +128,54 @@ fn every_kind_of_damage_is_found() {
     }
 }
 
+/// The same for FMI 3.0.
+#[test]
+fn every_kind_of_damage_in_fmi3_is_found() {
+    let text = package(RECORD_SCENE).model_description(FmiVersion::V3);
+    let of = "in FMUs of ours in FMI 3.0";
+    let alias = "><Alias name=\"a\"/></Float64>";
+    for (from, to, finding) in [
+        ("fmiVersion=\"3.0\"", "fmiVersion=\"3.0.2\"", "fmiVersion \"3.0.2\": expected exactly \"3.0\""),
+        ("hasEventMode=\"true\"", "hasEvents=\"true\"", &format!("no attribute \"hasEvents\" {of}")),
+        ("hasEventMode", "providesIntermediateUpdate", "no attribute \"providesIntermediateUpdate\""),
+        ("declaredType=\"Mass\"", "", "left.mass[1]: no declaredType, and so no unit"),
+        ("declaredType=\"Mass\"", "declaredType=\"Weight\"", "left.mass[1]: declaredType \"Weight\" is not in"),
+        ("declaredType=\"Mass\"", "declaredType=\"Mass\" unit=\"kg\"", "left.mass[1]: no attribute \"unit\""),
+        ("Type name=\"Mass\"", "Type name=\"Weight\"", "type \"Weight\" is not used"),
+        ("Type name=\"Mass\"", "Type name=\"Force\"", "type \"Force\": more than once"),
+        ("unit=\"kg\" displayUnit=\"t\"", "", "left.mass[1]: no unit"),
+        ("displayUnit=\"t\"", "displayUnit=\"lb\"", "left.mass[1]: display unit \"lb\" is not defined"),
+        ("<Unit name=\"kg\"", "<Unit name=\"slug\"", "left.mass[1]: unit \"kg\" is not in <UnitDefinitions>"),
+        ("causality=\"independent\"", "causality=\"local\"", "independent variables: []; expected \"time\" alone"),
+        ("name=\"time\"", "name=\"t\"", "independent variables: [\"t\"]"),
+        ("name=\"left.mass[1]\"", "clocks=\"1\" name=\"left.mass[1]\"", "left.mass[1]: no attribute \"clocks\""),
+        ("name=\"time\"", "intermediateUpdate=\"true\" name=\"time\"", "time: no attribute \"intermediateUpdate\""),
+        ("declaredType=\"Time\"/>", &format!("declaredType=\"Time\"{alias}"), &format!("<Alias> a: no element {of}")),
+        ("declaredType=\"Time\"/>", "><Dimension start=\"2\"/></Float64>", "<Dimension> time: no element"),
+        (
+            "<ModelVariables>",
+            "<ModelVariables><Clock name=\"c\" valueReference=\"999\" intervalVariability=\"triggered\"/>",
+            "<Clock> c: no element",
+        ),
+        ("<Int32 ", "<Int64 ", "of type Int64; expected a type that FMUs of ours have"),
+        ("<InitialUnknown ", "<EventIndicator ", "<EventIndicator> : no element"),
+        ("<ModelStructure>", "<Annotations/><ModelStructure>", "out of order"),
+        ("<TypeDefinitions>", "<TypeDefinitions/><TypeDefinitions>", "<TypeDefinitions>: more than once"),
+        ("<Output valueReference=\"1\"", "<Output valueReference=\"0\"", "expected set"),
+        ("initial=\"calculated\"", "initial=\"exact\"", "no start value"),
+        ("modelName=", "generationDateAndTime=\"2020-01-01T00:00:00Z\" modelName=", "generationDateAndTime"),
+        ("<Start value=\"\"/>", "", "ground.record"),
+        ("instantiationToken", "guid", "no attribute \"guid\""),
+    ] {
+        assert!(text.contains(from), "{from}");
+        let found = findings(&text.replacen(from, to, 1));
+        assert!(found.iter().any(|f| f.contains(finding)), "{from} -> {to}: {found:#?}");
+    }
+}
+
 #[test]
 fn missing_initial_unknowns_are_found() {
-    let text = package(SCENE).model_description(pounding::FmiVersion::V2);
+    let text = package(SCENE).model_description(FmiVersion::V2);
     let (start, end) = (text.find("<InitialUnknowns>").unwrap(), text.find("</ModelStructure>").unwrap());
     let found = findings(&(text[..start].to_owned() + &text[end..]));
     assert!(found.iter().any(|f| f.contains("initial unknowns")), "{found:?}");
@@ -131,7 +183,7 @@ fn missing_initial_unknowns_are_found() {
 
 #[test]
 fn every_finding_comes_at_once() {
-    let text = package(SCENE).model_description(pounding::FmiVersion::V2);
+    let text = package(SCENE).model_description(FmiVersion::V2);
     let changes = [
         ("start=\"0.65\"", "start=\"1.65\"", "contact[1].restitution: start 1.65"),
         ("stopTime=\"4\"", "stopTime=\"0\"", "DefaultExperiment stopTime 0"),
@@ -148,8 +200,8 @@ fn every_finding_comes_at_once() {
 
 #[test]
 fn files_that_are_not_ours_and_libraries_under_other_names_are_found() {
-    let text = package(SCENE).model_description(pounding::FmiVersion::V2);
-    let description = ModelDescription::from_string(&text).unwrap();
+    let text = package(SCENE).model_description(FmiVersion::V2);
+    let description = read(&text).unwrap();
     let findings = |name: &str| super::files(&[name.to_owned()], &description);
     for good in [
         "modelDescription.xml",
@@ -195,7 +247,7 @@ fn files_that_are_not_ours_and_libraries_under_other_names_are_found() {
 
 #[test]
 fn only_our_fmus_are_ours() {
-    let text = package(SCENE).model_description(pounding::FmiVersion::V2);
+    let text = package(SCENE).model_description(FmiVersion::V2);
     assert!(super::origin(&text).is_ok());
     let made_by = |tool: &str| super::origin(&text.replace(concat!("pounding-fmu ", env!("CARGO_PKG_VERSION")), tool));
     assert!(made_by("pounding-fmu 99.0.0").is_ok());

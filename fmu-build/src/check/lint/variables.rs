@@ -1,11 +1,14 @@
 //! The attributes of each variable.
 
-use fmi::model_description::fmi2::{Causality, Initial, ModelDescription, ScalarVariable, VariableType};
+use crate::description::{Description, Kind, Variable};
+use fmi::model_description::fmi3::{Causality, Initial};
+use pounding::FmiVersion;
 use std::collections::HashMap;
 
-pub(super) fn findings(description: &ModelDescription) -> Vec<String> {
-    let variables = &description.modelVariables;
+pub(super) fn findings(description: &Description) -> Vec<String> {
+    let variables = &description.variables;
     let mut findings = aliases(variables);
+    findings.extend(times(description));
     for variable in variables {
         findings.extend(attributes(variable));
         findings.extend(limits(variable));
@@ -13,14 +16,17 @@ pub(super) fn findings(description: &ModelDescription) -> Vec<String> {
     findings
 }
 
-/// What a variable has to have by its causality. Some importers report an independent variable as an error.
-fn attributes(variable: &ScalarVariable) -> Vec<String> {
+/// What a variable has to have by its causality.
+fn attributes(variable: &Variable) -> Vec<String> {
     let name = &variable.name;
     let mut findings = Vec::new();
     if variable.description.as_ref().is_none_or(String::is_empty) {
         findings.push(format!("{name}: no description"));
     }
-    let (has_start, causality) = (variable.variableType.has_start(), &variable.causality);
+    if let Kind::Other(kind) = variable.kind {
+        findings.push(format!("{name}: of type {kind}; expected a type that FMUs of ours have"));
+    }
+    let (has_start, causality) = (variable.start.is_some(), &variable.causality);
     match causality {
         Causality::Input | Causality::Parameter if !has_start => findings.push(format!("{name}: no start value")),
         Causality::Input | Causality::Parameter => {}
@@ -31,20 +37,28 @@ fn attributes(variable: &ScalarVariable) -> Vec<String> {
     if matches!(causality, Causality::Output | Causality::CalculatedParameter) && !is_calculated {
         findings.push(format!("{name}: initial {:?}; expected calculated", variable.initial));
     }
-    if matches!(causality, Causality::Independent) {
-        findings.push(format!("{name}: an independent variable; expected none"));
-    }
     findings
 }
 
+/// In FMI 3.0 there is one independent variable, the time; in FMI 2.0 some importers report one as an error.
+fn times(description: &Description) -> Vec<String> {
+    let times = description.variables.iter().filter(|variable| variable.causality == Causality::Independent);
+    let names: Vec<&str> = times.map(|variable| variable.name.as_str()).collect();
+    match description.version {
+        FmiVersion::V2 => {
+            names.into_iter().map(|name| format!("{name}: an independent variable; expected none")).collect()
+        }
+        FmiVersion::V3 if names == ["time"] => Vec::new(),
+        FmiVersion::V3 => vec![format!("independent variables: {names:?}; expected \"time\" alone")],
+    }
+}
+
 /// min <= start <= max, and a nominal value that can be divided by.
-fn limits(variable: &ScalarVariable) -> Vec<String> {
-    let (min, max, nominal) = match &variable.variableType {
-        VariableType::Real { min, max, nominal, .. } => (min, max, nominal),
-        VariableType::Integer { min, max, .. } | VariableType::Enumeration { min, max, .. } => (min, max, &None),
-        VariableType::Boolean { .. } | VariableType::String { .. } => return Vec::new(),
-    };
-    let name = &variable.name;
+fn limits(variable: &Variable) -> Vec<String> {
+    if matches!(variable.kind, Kind::Boolean | Kind::String) {
+        return Vec::new();
+    }
+    let Variable { name, min, max, nominal, start, .. } = variable;
     let mut findings = Vec::new();
     let mut number = |attribute: &str, text: &Option<String>| {
         let text = text.as_ref()?;
@@ -55,7 +69,7 @@ fn limits(variable: &ScalarVariable) -> Vec<String> {
         number
     };
     let (low, high) = (number("min", min), number("max", max));
-    let (start, nominal) = (number("start", variable.variableType.start()), number("nominal", nominal));
+    let (start, nominal) = (number("start", start), number("nominal", nominal));
     let (low, high) = (low.unwrap_or(f64::NEG_INFINITY), high.unwrap_or(f64::INFINITY));
     if low > high {
         findings.push(format!("{name}: min {low} is greater than max {high}"));
@@ -70,10 +84,10 @@ fn limits(variable: &ScalarVariable) -> Vec<String> {
 }
 
 /// Each variable has a value reference of its own, whatever its type.
-fn aliases(variables: &[ScalarVariable]) -> Vec<String> {
+fn aliases(variables: &[Variable]) -> Vec<String> {
     let mut names: HashMap<u32, &str> = HashMap::new();
     let mut findings = Vec::new();
-    for ScalarVariable { name, valueReference: reference, .. } in variables {
+    for Variable { name, reference, .. } in variables {
         if let Some(other) = names.insert(*reference, name) {
             findings.push(format!("{name} and {other}: both have the value reference {reference}"));
         }

@@ -1,12 +1,12 @@
-//! FMUs through fmi-rs, an importer that shares no code with the exporter.
+//! FMI 2.0.
 
+use crate::description::Description;
 use crate::experiment::CoSimulation;
 use crate::log::Log;
 use anyhow::{Result, anyhow, bail};
 use fmi::fmi2::log::Logger;
 use fmi::fmi2::types::{fmi2Status, fmi2StatusKind};
 use fmi::fmi2::{CS, FMU2};
-use fmi::model_description::fmi2::ModelDescription;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -21,19 +21,17 @@ impl Logger for Log {
 }
 
 /// An instance held by fmi-rs; freed when dropped.
-pub struct Imported {
+pub(super) struct Imported {
     fmu: Arc<FMU2<CS>>,
     log: Arc<Log>,
 }
 
 impl Imported {
     /// Instantiates the co-simulation of an unpacked FMU.
-    pub fn new(root: &Path, description: &ModelDescription) -> Result<Imported> {
-        let Some(interface) = &description.coSimulation else { bail!("the FMU has no co-simulation interface") };
+    pub fn new(root: &Path, description: &Description) -> Result<Imported> {
         let log = Arc::<Log>::default();
-        let memory = !interface.canNotUseMemoryManagementFunctions;
-        let (identifier, guid) = (&interface.modelIdentifier, &description.guid);
-        let fmu = FMU2::<CS>::new(root, identifier, "check", guid, false, true, false, log.clone(), memory)
+        let Description { identifier, token, needs_memory: memory, .. } = description;
+        let fmu = FMU2::<CS>::new(root, identifier, "check", token, false, true, false, log.clone(), *memory)
             .map_err(|error| anyhow!("{error}{}", log.explanation()))?;
         Ok(Imported { fmu, log })
     }
