@@ -34,6 +34,8 @@ pub struct Slave {
     pub(super) held: Option<Held>,
     pub(super) snapshots: Snapshots,
     pub(super) has_warned_of_ground: bool,
+    /// A step has said that the run is over.
+    pub(super) has_told_end: bool,
 }
 
 impl Slave {
@@ -55,6 +57,7 @@ impl Slave {
             stop_time: None,
             snapshots: Snapshots::default(),
             has_warned_of_ground: false,
+            has_told_end: false,
         }
     }
 
@@ -185,7 +188,7 @@ impl Slave {
     pub fn reset(&mut self) -> Status {
         self.settings = Arc::clone(&self.defaults);
         (self.run, self.held, self.stop_time) = (Run::new(&self.settings.scene), None, None);
-        self.has_warned_of_ground = false;
+        (self.has_warned_of_ground, self.has_told_end) = (false, false);
         self.phase = Phase::Instantiated;
         Status::Ok
     }

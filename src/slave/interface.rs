@@ -34,6 +34,11 @@ impl Interface {
         matches!(self, Interface::V3 { event_mode_used: true, .. })
     }
 
+    /// Whether events are handled within steps, and discrete outputs held until the master enters Event Mode.
+    pub const fn holds_discrete_outputs(self) -> bool {
+        self.has_event_mode() && !self.returns_early()
+    }
+
     /// Whether steps may end at events.
     pub const fn returns_early(self) -> bool {
         matches!(self, Interface::V3 { early_return_allowed: true, .. })

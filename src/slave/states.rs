@@ -32,9 +32,12 @@ impl Slave {
         self.settings = Arc::clone(settings);
         (self.phase, self.stop_time) = (*phase, *stop_time);
         self.held.clone_from(held);
+        self.has_told_end = false;
         self.run.restore(run);
-        if !self.interface.has_event_mode() {
+        if !self.interface.holds_discrete_outputs() {
             self.held = None;
+        }
+        if !self.interface.has_event_mode() {
             if self.phase == Phase::Event {
                 self.phase = Phase::StepComplete;
             }

@@ -7,7 +7,6 @@
 
 use super::held::Held;
 use super::instance::{Slave, is_time};
-use super::interface::Interface;
 use super::sequence::{Call, Phase};
 use super::simulation::Simulation;
 use super::status::{Refusal, Status};
@@ -24,7 +23,7 @@ const TIME_TOLERANCE: f64 = 1e-9;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Stepped {
-    /// Discarded where the run was over before (in FMI 2.0 also where it has ended within the step).
+    /// Discarded where the run is over, in FMI 3.0 from the second time on that a step says so.
     pub status: Status,
     /// s, the time that has been reached.
     pub time: f64,
@@ -38,18 +37,18 @@ pub struct Stepped {
 
 impl Slave {
     /// One communication step, s: from the last communication point, give or take the rounding of the master. Where a storey
-    /// collapses the run ends: outputs are those of that time, and every further step is discarded.
+    /// collapses the run ends: outputs are those of that time, and every further step is discarded, so that a master which
+    /// does not care that the run is over does not go on with a motion that stands still.
     ///
     /// # Errors
     /// A step that does not begin at the present communication point or leads beyond the end, inputs that leave their
     /// range in it, and a step that the engine gives up ([`EngineError`](crate::engine::EngineError)).
     pub fn do_step(&mut self, current: f64, step: f64) -> Result<Stepped, Refusal> {
-        if let Some(collapse) = self.run.collapse() {
-            let status = self.discard_for(Call::DoStep, vec![describe_collapse(&collapse)]);
-            return Ok(self.stepped(status, current, false));
+        if self.is_over() {
+            let status = self.tell_collapse();
+            return Ok(self.stepped(status, current + step, false));
         }
         let target = self.target(current, step)?;
-        self.handle_event()?;
         let held = self.hold()?;
         let waits = self.with_episodes(|simulation, stops, note| simulation.advance(target, stops, note))?;
         let is_changed = match held {
@@ -69,17 +68,16 @@ impl Slave {
         Stepped { status, time, is_early, needs_event_mode, is_over: self.is_over() }
     }
 
-    /// The status of a step: discarded in FMI 2.0, which has no other way to say that the run has ended in it.
+    /// The status of a step: FMI 2.0 has no other way to say that the run has ended than to discard it. FMI 3.0 has, and a
+    /// master makes one more step to hear it that has been told in Event Mode.
     fn tell_collapse(&mut self) -> Status {
         let Some(collapse) = self.run.collapse() else { return Status::Ok };
         let text = describe_collapse(&collapse);
-        match self.interface.version() {
-            FmiVersion::V2 => self.discard_for(Call::DoStep, vec![text]),
-            FmiVersion::V3 => {
-                self.log.add(Category::Events, text);
-                Status::Ok
-            }
+        if self.interface.version() == FmiVersion::V2 || std::mem::replace(&mut self.has_told_end, true) {
+            return self.discard_for(Call::DoStep, vec![text]);
         }
+        self.log.add(Category::Events, text);
+        Status::Ok
     }
 
     /// `fmi3EnterEventMode`: handles the event that waits, if there is one.
@@ -110,13 +108,10 @@ impl Slave {
     /// Handles the event that waits at the present time, if one does: with the inputs that have led to it, so before any other
     /// is set.
     pub(super) fn handle_event(&mut self) -> Result<(), Refusal> {
-        if self.run.has_event() {
-            self.with_episodes(|simulation, _, note| simulation.handle_event(note))?;
-            if self.run.collapse().is_some() && self.interface.has_event_mode() {
-                self.tell_collapse();
-            }
+        if !self.run.has_event() {
+            return Ok(());
         }
-        Ok(())
+        self.with_episodes(|simulation, _, note| simulation.handle_event(note))
     }
 
     /// Lets the engine work, and logs the contact episodes that end in it. It is told whether to stop at events.
@@ -140,14 +135,12 @@ impl Slave {
     /// The discrete outputs as they are, where the master sees them change in Event Mode only although events are handled
     /// within steps.
     fn hold(&mut self) -> Result<Option<Held>, Refusal> {
-        match self.interface {
-            Interface::V3 { event_mode_used: true, early_return_allowed: false } => {
-                self.held = None;
-                let Slave { table, run, settings, .. } = self;
-                Ok(Some(Held::read(table, &run.start(settings)?.now())))
-            }
-            _ => Ok(None),
+        if !self.interface.holds_discrete_outputs() {
+            return Ok(None);
         }
+        self.held = None;
+        let Slave { table, run, settings, .. } = self;
+        Ok(Some(Held::read(table, &run.start(settings)?.now())))
     }
 
     /// Keeps them until Event Mode is entered, if any has another value by now.

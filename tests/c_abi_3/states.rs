@@ -94,3 +94,19 @@ fn held_values_belong_to_the_state() {
     other.calls(&[fmi3EnterEventMode]);
     assert_eq!(other.outputs(), right);
 }
+
+/// Discrete outputs that one instance holds until Event Mode are no longer held in one that returns at events.
+#[test]
+fn held_values_do_not_stay_in_an_instance_with_early_return() {
+    let fmu = Fmu::new(SCENE);
+    let instance = fmu.instance(true, false);
+    instance.start_with_events();
+    assert_eq!(instance.step(0.0, 0.5).1.event, 1);
+    let bytes = instance.serialized(instance.recorded());
+    instance.handle();
+    assert_eq!(instance.step(0.5, 1e-4).1.event, 0);
+    let other = fmu.instance(true, true);
+    assert_eq!(other.set_state(other.deserialized(&bytes)), OK);
+    assert_eq!(other.step(0.5, 1e-4).1.event, 0);
+    assert_eq!(other.outputs(), instance.outputs());
+}
