@@ -8,6 +8,8 @@ import fmus
 import numpy as np
 import pounding_fmu
 import pytest
+from fmpy import read_model_description
+from fmpy.validation import validate_fmu
 
 OTHER = {"left.mass[1]": 4.0, "left.stiffness[2]": 3000.0, "right.damping_ratio": 0.02, "contact[2].gap": 0.01}
 
@@ -139,4 +141,22 @@ def test_where_an_fmu_goes(tmp_path, monkeypatch):
         pounding_fmu.build_fmu(fmus.FEUP, "y.fmu", platforms=["win95", "beos", fmus.HOST])
     with pytest.raises(ValueError, match="at least one"):
         pounding_fmu.build_fmu(fmus.FEUP, "y.fmu", platforms=[])
+    assert not Path("y.fmu").exists()
+
+
+def test_fmi3(tmp_path, monkeypatch):
+    """Found valid by FMPy with the schema of the standard, beside the FMU of FMI 2.0 and not in its place."""
+    monkeypatch.chdir(tmp_path)
+    made = pounding_fmu.build_fmu(fmus.FEUP, platforms=[fmus.HOST], fmi=3)
+    assert made == Path("FeupFrames.fmi3.fmu") and validate_fmu(str(made)) == []
+    description = read_model_description(str(made), validate=True)
+    assert description.fmiVersion == "3.0"
+    assert set(fmus.libraries(made)).isdisjoint({"linux64", "win64", "darwin64"})
+    pounding_fmu.build_fmu(fmus.FEUP, fmi=2)
+    older = read_model_description("FeupFrames.fmu")
+    names = [variable.name for variable in description.modelVariables]
+    assert sorted(names) == sorted(["time", *(variable.name for variable in older.modelVariables)])
+    for wrong in (1, 4, "3", None, True, 2.5):
+        with pytest.raises(ValueError, match=r"fmi = .*: expected 2 or 3"):
+            pounding_fmu.build_fmu(fmus.FEUP, "y.fmu", fmi=wrong)
     assert not Path("y.fmu").exists()

@@ -22,18 +22,18 @@ pub fn compare(root: &Path, description: &Description, outcome: &Outcome) -> Res
     }
     let is_result = |variable: &&Variable| matches!(variable.causality, Causality::Output | Causality::Independent);
     let results = Groups::of(description.variables.iter().filter(is_result));
-    let mut saved = 0;
+    let mut count = 0;
     for step in 0..outcome.steps {
         let (time, next) = (experiment.point(step), experiment.point(step + 1));
         let expected = plain.do_step(time, length(time, next))?;
-        let (end, at_event) = advance(&watching, time, next, saved < MOST_SAVED)?;
+        let Advance { end, saved: at_event } = advance(&watching, time, next, count < MOST_SAVED)?;
         if end != expected {
             bail!("with events the run ends at {end:?} s, without them at {expected:?} s");
         }
         let seen = values(&results, &watching)?;
         same(&seen, &values(&results, &plain)?, next, "with events and without them")?;
         if let Some((event, state)) = at_event {
-            saved += 1;
+            count += 1;
             watching.restore(state).with_context(|| format!("the state saved at the event at {event} s"))?;
             watching.handle_event()?;
             advance(&watching, event, next, false)?;
@@ -43,9 +43,16 @@ pub fn compare(root: &Path, description: &Description, outcome: &Outcome) -> Res
     plain.end().and_then(|_| watching.end()).map(drop)
 }
 
-/// Goes to a point of the grid through the events before it. The time of the end of the run, where it has ended, and the
-/// first event with the state at it, where one is wanted.
-fn advance(fmu: &Imported, mut time: f64, next: f64, save: bool) -> Result<(Option<f64>, Option<(f64, State)>)> {
+/// How it went to a point of the grid.
+struct Advance {
+    /// s: the end of the run, where it has ended.
+    end: Option<f64>,
+    /// The first event, s, and the state at it, where one is wanted.
+    saved: Option<(f64, State)>,
+}
+
+/// Goes to a point of the grid through the events before it.
+fn advance(fmu: &Imported, mut time: f64, next: f64, save: bool) -> Result<Advance> {
     let mut saved = None;
     while time < next {
         let stepped = fmu.step(time, length(time, next))?;
@@ -56,11 +63,11 @@ fn advance(fmu: &Imported, mut time: f64, next: f64, save: bool) -> Result<(Opti
             fmu.handle_event().with_context(|| format!("the event at {} s", stepped.last))?;
         }
         if stepped.terminate {
-            return Ok((Some(stepped.last), saved));
+            return Ok(Advance { end: Some(stepped.last), saved });
         }
         time = stepped.last;
     }
-    Ok((None, saved))
+    Ok(Advance { end: None, saved })
 }
 
 /// The step that leads to a time exactly, where rounding lets one.

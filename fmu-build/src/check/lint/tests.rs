@@ -161,7 +161,7 @@ fn every_kind_of_damage_in_fmi3_is_found() {
         ("<InitialUnknown ", "<EventIndicator ", "<EventIndicator> : no element"),
         ("<ModelStructure>", "<Annotations/><ModelStructure>", "out of order"),
         ("<TypeDefinitions>", "<TypeDefinitions/><TypeDefinitions>", "<TypeDefinitions>: more than once"),
-        ("<Output valueReference=\"1\"", "<Output valueReference=\"0\"", "expected set"),
+        ("<Output valueReference=\"", "<Output valueReference=\"99", "expected set"),
         ("initial=\"calculated\"", "initial=\"exact\"", "no start value"),
         ("modelName=", "generationDateAndTime=\"2020-01-01T00:00:00Z\" modelName=", "generationDateAndTime"),
         ("<Start value=\"\"/>", "", "ground.record"),
