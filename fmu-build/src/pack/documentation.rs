@@ -19,7 +19,7 @@ const USE: &str = "<ul>\n\
     <li>SI units everywhere; <em>x</em> points from the left building to the right one. Displacements and velocities are \
     relative to the ground, accelerations absolute.</li>\n\
     <li>Floors are counted from 1 at the bottom; storey <em>i</em> is below floor <em>i</em>.</li>\n\
-    <li>Any communication step will do: impacts are found and followed inside.</li>\n\
+    <li>Any communication step will do: impacts are found and followed inside. EVENTS</li>\n\
     <li>An impact may be over between two communication points: read <code>impulse</code>, \
     <code>peak_force</code> and <code>impacts</code> instead of sampling <code>force</code>. The mean force over a step \
     is the difference of the impulse divided by the step.</li>\n\
@@ -31,16 +31,16 @@ pub fn entries(package: &Package, version: FmiVersion) -> [Entry; 2] {
     [Entry::file("model.png", ICON.to_vec()), Entry::file("documentation/index.html", page)]
 }
 
-/// How inputs and events go in a version.
-fn use_of(version: FmiVersion) -> &'static str {
+/// What becomes of inputs and events within a step.
+fn events(version: FmiVersion) -> &'static str {
     match version {
         FmiVersion::V2 => {
             "Inputs are held from one communication point to the next, or follow the line whose slope is set as their \
              derivative."
         }
         FmiVersion::V3 => {
-            "Inputs are held from one communication point to the next. A master that allows early return gets each \
-             entry, release and yield at its own time; in Event Mode it sees the values on both sides."
+            "Inputs are held from one communication point to the next. With early return (FMI 3.0) a step ends at each \
+             impact, release and yield, at its own time; in Event Mode the values on both sides are seen."
         }
     }
 }
@@ -51,7 +51,7 @@ fn page(package: &Package, version: FmiVersion) -> String {
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}</title>\n\
          <style>{STYLE}</style>\n</head>\n<body>\n<h1>{name}</h1>\n<p>{}</p>\n<p>Two adjacent buildings of {} and {} \
-         storeys under a ground motion, with {} between facing floors.</p>\n<p>FMI {}, co-simulation. {}</p>\n<h2>Use</h2>\n{USE}",
+         storeys under a ground motion, with {} between facing floors.</p>\n<h2>Use</h2>\n{}",
         escape(&scene.description),
         scene.left.mass.len(),
         scene.right.mass.len(),
@@ -59,8 +59,7 @@ fn page(package: &Package, version: FmiVersion) -> String {
             1 => "1 contact".to_owned(),
             n => format!("{n} contacts"),
         },
-        version.name(),
-        use_of(version),
+        USE.replace("EVENTS", events(version)),
     );
     html += &laws(&scene.contacts);
     html += &variables(&Table::new(scene), version);
