@@ -73,11 +73,11 @@ class Frames:
                 self.go_on()
 
 
-def run(path, step, has_events):
+def run(path, step, stop, has_events):
     """The roof at every 10 ms, and the impacts."""
     frames = Frames(path, has_events)
     roof, every = [], round(0.01 / step)
-    for k in range(round(STOP / step)):
+    for k in range(round(stop / step)):
         if not has_events:
             frames.react()
         frames.step(k * step, (k + 1) * step)
@@ -89,17 +89,17 @@ def run(path, step, has_events):
     return np.array(roof), impacts
 
 
-def compare(steps):
+def compare(steps, stop):
     """By step: errors relative to the largest displacement, and impacts, of both masters."""
     with tempfile.TemporaryDirectory() as folder:
         path = pounding_fmu.build_fmu(scene(), Path(folder, "braked.fmu"), fmi=3)
-        truth, _ = run(path, min(steps) / 10, True)
+        truth, _ = run(path, min(steps) / 10, stop, True)
         for step in steps:
-            runs = [run(path, step, has_events) for has_events in (False, True)]
+            runs = [run(path, step, stop, has_events) for has_events in (False, True)]
             yield step, *(np.abs(roof - truth).max() / np.abs(truth).max() for roof, _ in runs), *(n for _, n in runs)
 
 
 if __name__ == "__main__":
     print("step [ms]   error, looking at communication points   error, with events   impacts")
-    for step, looking, events, *impacts in compare(STEPS):
+    for step, looking, events, *impacts in compare(STEPS, STOP):
         print(f"{1e3 * step:9.3f}   {looking:38.1e}   {events:18.1e}   {impacts[0]}, {impacts[1]}")

@@ -18,6 +18,17 @@ from pounding_fmu.plots.style import BLACK, GREY, VERMILION, pyplot, save
 STEP, STOP, CONTACT = 0.01, 20.0, 2
 
 
+def simulate_both(stop):
+    """Rows of a master that takes no early returns, and of one that does."""
+    outputs = [f"contact[{CONTACT}].{name}" for name in ("force", "impacts", "approach_velocity")]
+    with tempfile.TemporaryDirectory() as folder:
+        fmu = pounding_fmu.build_fmu(pounding_fmu.example_scene, Path(folder, "frames.fmu"), fmi=3)
+        return [
+            simulate_fmu(fmu, stop_time=stop, output_interval=STEP, output=outputs, early_return_allowed=allowed)
+            for allowed in (False, True)
+        ]
+
+
 def impacts(rows):
     """Onsets, s, and approach velocities, m/s, of a contact, from the rows in which its number of impacts has grown."""
     onset = 1 + np.flatnonzero(np.diff(rows[f"contact[{CONTACT}].impacts"]))
@@ -25,14 +36,15 @@ def impacts(rows):
 
 
 def draw(grid, stops, around):
-    """The contact force about a time, s: a line through the communication points, and one through the rows with stops."""
+    """The contact force about a time, s: a line through the communication points, and the rows that stops have added."""
     figure, axes = pyplot().subplots(figsize=(7.0, 3.2), layout="constrained")
     fine = pounding_fmu.simulate(pounding_fmu.example_scene, 1e-5, STOP, [f"contact[{CONTACT}].force"])
-    name, begin, end = f"contact[{CONTACT}].force", around - 0.12, around + 0.12
+    name, begin, end = f"contact[{CONTACT}].force", around - 0.04, around + 0.1
+    added = stops[~np.isin(stops["time"], grid["time"])]
     for rows, style in [
         (fine, {"color": GREY, "linewidth": 1.0, "label": "the force"}),
         (grid, {"color": VERMILION, "marker": "o", "linestyle": "--", "label": "rows every 0.01 s"}),
-        (stops, {"color": BLACK, "marker": "|", "markersize": 12, "linestyle": "none", "label": "rows with early return"}),
+        (added, {"color": BLACK, "marker": "x", "linestyle": "none", "zorder": 3, "label": "added by early return"}),
     ]:
         seen = (rows["time"] >= begin) & (rows["time"] <= end)
         axes.plot(rows["time"][seen], rows[name][seen], **style)
@@ -45,13 +57,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--picture", type=Path, help="file of the picture")
     picture = parser.parse_args().picture
-    with tempfile.TemporaryDirectory() as folder:
-        fmu = pounding_fmu.build_fmu(pounding_fmu.example_scene, Path(folder, "frames.fmu"), fmi=3)
-        outputs = [f"contact[{CONTACT}].{name}" for name in ("force", "impacts", "approach_velocity")]
-        grid, stops = (
-            simulate_fmu(fmu, stop_time=STOP, output_interval=STEP, output=outputs, early_return_allowed=allowed)
-            for allowed in (False, True)
-        )
+    grid, stops = simulate_both(STOP)
     times, speeds = impacts(stops)
     print("impact   time [s]              approach velocity [m/s]")
     for i, (time, speed) in enumerate(zip(times[:5], speeds[:5]), 1):

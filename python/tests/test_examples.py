@@ -50,6 +50,24 @@ def test_without_going_back_the_iteration_is_wrong(monkeypatch):
         list(example.compare([0.004]))
 
 
+def test_a_master_that_reacts_at_each_impact_is_exact_whatever_its_step():
+    rows = list(module("react_to_impacts").compare([0.01, 0.0025], 4.0))
+    for _, looking, events, *impacts in rows:
+        assert impacts[1] > 10
+        assert events < 1e-12 and looking > 1e-3, rows
+
+
+def test_rows_with_early_return_have_every_impact_at_its_time():
+    example = module("stop_at_impacts")
+    _, stops = example.simulate_both(example.STOP)
+    run = example.pounding_fmu.simulate(example.pounding_fmu.example_scene, stop=example.STOP)
+    expected = run.impacts[run.impacts["contact"] == example.CONTACT]
+    times, speeds = example.impacts(stops)
+    assert len(times) > 60
+    np.testing.assert_array_equal(times, expected["start_s"])
+    np.testing.assert_array_equal(speeds, expected["approach_velocity"])
+
+
 @pytest.mark.parametrize("program", ["one_run", "many_runs"])
 def test_short_programs(program):
     done = subprocess.run([sys.executable, fmus.EXAMPLES / f"{program}.py"], capture_output=True, text=True)

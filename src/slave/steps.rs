@@ -50,7 +50,8 @@ impl Slave {
         }
         let target = self.target(current, step)?;
         let held = self.hold()?;
-        let waits = self.with_episodes(|simulation, stops, note| simulation.advance(target, stops, note))?;
+        let stops = self.interface.returns_early();
+        let waits = self.with_episodes(|simulation, note| simulation.advance(target, stops, note))?;
         let is_changed = match held {
             Some(held) => self.keep(held)?,
             None => false,
@@ -111,17 +112,17 @@ impl Slave {
         if !self.run.has_event() {
             return Ok(());
         }
-        self.with_episodes(|simulation, _, note| simulation.handle_event(note))
+        self.with_episodes(|simulation, note| simulation.handle_event(note))
     }
 
-    /// Lets the engine work, and logs the contact episodes that end in it. It is told whether to stop at events.
+    /// Lets the engine work, and logs the contact episodes that end in it.
     fn with_episodes<T>(
         &mut self,
-        work: impl FnOnce(&mut Simulation, bool, &mut dyn FnMut(&Episode)) -> Result<T, Refusal>,
+        work: impl FnOnce(&mut Simulation, &mut dyn FnMut(&Episode)) -> Result<T, Refusal>,
     ) -> Result<T, Refusal> {
-        let (log_events, stops) = (self.log.is_enabled(Category::Events), self.interface.returns_early());
+        let log_events = self.log.is_enabled(Category::Events);
         let mut events = Vec::new();
-        let result = work(self.start()?, stops, &mut |episode| {
+        let result = work(self.start()?, &mut |episode| {
             if log_events {
                 events.push(describe(episode));
             }
