@@ -53,7 +53,7 @@ def test_without_going_back_the_iteration_is_wrong(monkeypatch):
 def test_a_master_that_reacts_at_each_impact_is_exact_whatever_its_step():
     rows = list(module("react_to_impacts").compare([0.01, 0.0025], 4.0))
     for _, looking, events, *impacts in rows:
-        assert impacts[1] > 10
+        assert impacts[1] >= 8
         assert events < 1e-12 and looking > 1e-3, rows
 
 
