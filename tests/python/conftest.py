@@ -5,18 +5,18 @@ import harness
 
 @pytest.fixture(scope="session")
 def build(tmp_path_factory):
-    """Turns the text of a scene into an FMU; the same text is built once."""
+    """Turns the text of a scene into an FMU of either version; the same text is built once for each."""
     built = {}
 
-    def build(text):
-        if text not in built:
+    def build(text, fmi=2):
+        if (text, fmi) not in built:
             folder = tmp_path_factory.mktemp("fmu")
             scene, fmu = folder / "scene.toml", folder / "a name with blanks.fmu"
             scene.write_text(text)
-            harness.run(harness.CARGO_FMU, scene, "-o", fmu)
-            built[text] = harness.Fmu(fmu, folder / "unpacked")
-            built[text].scene = scene
-        return built[text]
+            harness.run(harness.CARGO_FMU, scene, "--fmi", fmi, "-o", fmu)
+            built[text, fmi] = harness.Fmu(fmu, folder / "unpacked")
+            built[text, fmi].scene = scene
+        return built[text, fmi]
 
     return build
 

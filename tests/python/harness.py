@@ -1,6 +1,7 @@
 """The two programs under test, scenes made from the default one, and FMUs held by their C interface."""
 
 import os
+import re
 import shlex
 import subprocess
 from ctypes import byref
@@ -9,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from fmpy import extract, read_model_description, simulate_fmu
 from fmpy.fmi2 import FMU2Slave, fmi2CallbackLoggerTYPE, fmi2CallbackFunctions
+from fmpy.fmi3 import FMU3Slave
 
 ROOT = Path(__file__).resolve().parents[2]
 RECORD = ROOT / "examples/records/el_centro_1940_ns.csv"
@@ -38,6 +40,12 @@ def scene_with_record(record=RECORD):
 def scene_without_record():
     """The default scene with the ground acceleration as an input."""
     return replaced(FEUP, '[ground]\nrecord = "../records/el_centro_1940_ns.csv"\n', "")
+
+
+def scene_at(path):
+    """A scene of the checkout, its record by absolute path."""
+    path = ROOT / path
+    return re.sub('(?<=record = ")[^"]+', lambda found: str((path.parent / found[0]).resolve()), path.read_text())
 
 
 def replaced(text, old, new):
@@ -78,6 +86,10 @@ class Fmu:
     def instance(self, name="test", guid=None, resources=None):
         """A new instance; what it logs is in its `.messages`."""
         return FMU2Instance(self, name, guid, resources)
+
+    def instance_of_3(self, event_mode, early_return):
+        """A new instance of FMI 3.0 with these flags."""
+        return FMU3Instance(self, event_mode, early_return)
 
 
 class FMU2Instance(FMU2Slave):
@@ -124,6 +136,52 @@ class FMU2Instance(FMU2Slave):
             self.doStep(k * step, (k + 1) * step - k * step)
             rows.append(self.get(*names))
         return np.array(rows)
+
+
+class FMU3Instance(FMU3Slave):
+    """An instance of FMI 3.0, which can go from event to event."""
+
+    def __init__(self, fmu, event_mode, early_return):
+        super().__init__(
+            guid=fmu.description.guid,
+            unzipDirectory=fmu.directory,
+            modelIdentifier=fmu.description.coSimulation.modelIdentifier,
+            instanceName="test",
+        )
+        self.fmu = fmu
+        self.instantiate(eventModeUsed=event_mode, earlyReturnAllowed=early_return)
+        outputs = [v for v in fmu.description.modelVariables if v.causality == "output"]
+        self.outputs = {
+            kind: [v.valueReference for v in outputs if v.type == kind] for kind in ("Float64", "Int32", "Boolean")
+        }
+
+    def start(self):
+        """Instantiated -> first step, for an instance with Event Mode."""
+        self.enterInitializationMode()
+        self.exitInitializationMode()
+        self.leave_event_mode()
+        return self
+
+    def leave_event_mode(self):
+        assert not any(self.updateDiscreteStates()[:5])
+        self.enterStepMode()
+
+    def bits(self):
+        """All outputs, bit for bit."""
+        return b"".join(np.array(getattr(self, f"get{kind}")(which)).tobytes() for kind, which in self.outputs.items())
+
+    def go_on(self, step, time=0.0, waits=False):
+        """Steps along a grid from an event, if one waits, to the next: where each step has ended, and whether an event waits."""
+        while True:
+            if waits:
+                self.enterEventMode()
+                self.leave_event_mode()
+                yield time, False
+            point = next(k * step for k in range(int(time / step), int(time / step) + 3) if k * step > time)
+            waits, is_over, is_early, last = self.doStep(time, point - time)
+            assert not is_over and (waits or not is_early)
+            time = last if is_early else point
+            yield time, waits
 
 
 def engine(scene, folder, step, stop=20.0, record=None):

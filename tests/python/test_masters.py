@@ -13,6 +13,8 @@ import numpy as np
 import pytest
 from fmpy import simulate_fmu
 
+import harness
+
 STEP, COUNT, EVERY = 0.01, 2000, 50
 NAMES = ["left.displacement[2]", "right.velocity[3]", "contact[1].peak_force", "contact[2].impulse", "energy.viscous"]
 
@@ -29,22 +31,22 @@ def sums():
     return [(time, STEP) for time, _ in zip(times, range(COUNT))]
 
 
-def fmpy(fmu, steps):
+def fmpy(fmu, steps, every=EVERY):
     instance = fmu.instance().start()
     rows = []
     for k, (time, step) in enumerate(steps, start=1):
         instance.doStep(time, step)
-        if k % EVERY == 0:
+        if k % every == 0:
             rows.append(instance.get(*NAMES))
     return np.array(rows)
 
 
-def other(master, fmu):
+def other(master, fmu, step=STEP, count=COUNT, every=EVERY):
     """What a master prints, in a process of its own: its libraries are not those of the tests."""
     script = Path(__file__).parent / "masters" / f"{master}.py"
     # Where a wheel puts shared libraries that others need.
     libraries = {"LD_LIBRARY_PATH": str(Path(sys.prefix) / "lib")}
-    arguments = [fmu.path, repr(STEP), COUNT, EVERY, *NAMES]
+    arguments = [fmu.path, repr(step), count, every, *NAMES]
     result = subprocess.run(
         [sys.executable, script, *map(str, arguments)],
         env=os.environ | libraries,
@@ -69,6 +71,15 @@ def test_another_master_gets_the_same_bits(feup, master, steps):
     found = other(master, feup)
     assert found.shape == (COUNT // EVERY, len(NAMES))
     assert np.array_equal(found, fmpy(feup, steps()))
+
+
+@on_intel
+def test_ecos_runs_fmi3(build, feup):
+    """It asks for neither Event Mode nor early returns."""
+    step, count, every = 1 / 128, 2560, 64
+    found = other("ecos", build(harness.scene_with_record(), fmi=3), step, count, every)
+    assert found.shape == (count // every, len(NAMES)) and np.all(np.any(found, axis=0))
+    assert np.array_equal(found, fmpy(feup, [(k * step, step) for k in range(count)], every))
 
 
 @on_intel
