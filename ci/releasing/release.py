@@ -111,6 +111,8 @@ def check_behaviour(platforms, toolchain, is_rehearsal):
     stop_at(comparison.expect(reference, all_hosts[0]))
     progress.step("the same bits on the others")
     stop_at(comparison.same_outputs(reference, all_hosts[1:]))
+    progress.step("the same bits in FMI 3.0")
+    stop_at(comparison.versions(reference, all_hosts))
     progress.step("saved states from each to each")
     stop_at(comparison.crosswise(reference, all_hosts))
     for windows in (host for host in all_hosts if host.platform is WINDOWS):
