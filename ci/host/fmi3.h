@@ -8,11 +8,13 @@
 #include "host.h"
 
 typedef void LogMessage(void *environment, int status, const char *category, const char *message);
+typedef void IntermediateUpdate(void *environment, double time, bool set_requested, bool get_allowed,
+                                bool step_finished, bool can_return_early, bool *early_return, double *early_time);
 
 typedef void *InstantiateCoSimulation(const char *name, const char *token, const char *resources, bool visible,
                                       bool logging, bool event_mode_used, bool early_return_allowed,
                                       const uint32_t *required, size_t required_count, void *environment,
-                                      LogMessage *logger, void (*intermediate_update)(void));
+                                      LogMessage *logger, IntermediateUpdate *update);
 typedef int EnterInitializationMode(void *fmu, bool has_tolerance, double tolerance, double start, bool has_stop,
                                     double stop);
 typedef int GetFloat64(void *fmu, const uint32_t *references, size_t count, double *values, size_t value_count);
