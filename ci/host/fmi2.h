@@ -3,9 +3,9 @@
 #ifndef FMI2_H
 #define FMI2_H
 
-#include <stddef.h>
+#include "host.h"
 
-enum { FMI2_WARNING = 1, FMI2_DISCARD = 2, FMI2_CO_SIMULATION = 1 };
+enum { FMI2_CO_SIMULATION = 1 };
 
 typedef struct {
     void (*logger)(void *environment, const char *name, int status, const char *category, const char *message, ...);
@@ -17,9 +17,7 @@ typedef struct {
 
 typedef void *Instantiate(const char *name, int type, const char *guid, const char *resources,
                           const Callbacks *callbacks, int visible, int logging);
-typedef void FreeInstance(void *fmu);
 typedef int SetupExperiment(void *fmu, int has_tolerance, double tolerance, double start, int has_stop, double stop);
-typedef int Simple(void *fmu);
 typedef int GetReal(void *fmu, const unsigned *references, size_t count, double *values);
 typedef int SetReal(void *fmu, const unsigned *references, size_t count, const double *values);
 typedef int GetInteger(void *fmu, const unsigned *references, size_t count, int *values);
@@ -30,20 +28,13 @@ typedef int GetRealOutputDerivatives(void *fmu, const unsigned *references, size
 typedef int GetDirectionalDerivative(void *fmu, const unsigned *unknowns, size_t unknown_count, const unsigned *knowns,
                                      size_t known_count, const double *seed, double *values);
 typedef int DoStep(void *fmu, double time, double step, int no_return);
-typedef int OfStatePlace(void *fmu, void **state);
-typedef int SetState(void *fmu, void *state);
-typedef int StateSize(void *fmu, void *state, size_t *size);
-typedef int SerializeState(void *fmu, void *state, unsigned char *bytes, size_t size);
-typedef int DeserializeState(void *fmu, const unsigned char *bytes, size_t size, void **state);
 
 /* Type and name, without its fmi2, of each. */
 #define FOR_EACH_FUNCTION(X)                              \
     X(Instantiate, Instantiate)                           \
-    X(FreeInstance, FreeInstance)                         \
     X(SetupExperiment, SetupExperiment)                   \
-    X(Simple, EnterInitializationMode)                    \
-    X(Simple, ExitInitializationMode)                     \
-    X(Simple, Terminate)                                  \
+    X(Plain, EnterInitializationMode)                     \
+    X(Plain, ExitInitializationMode)                      \
     X(GetReal, GetReal)                                   \
     X(SetReal, SetReal)                                   \
     X(GetInteger, GetInteger)                             \
@@ -51,13 +42,7 @@ typedef int DeserializeState(void *fmu, const unsigned char *bytes, size_t size,
     X(SetRealInputDerivatives, SetRealInputDerivatives)   \
     X(GetRealOutputDerivatives, GetRealOutputDerivatives) \
     X(GetDirectionalDerivative, GetDirectionalDerivative) \
-    X(DoStep, DoStep)                                     \
-    X(OfStatePlace, GetFMUstate)                          \
-    X(SetState, SetFMUstate)                              \
-    X(OfStatePlace, FreeFMUstate)                         \
-    X(StateSize, SerializedFMUstateSize)                  \
-    X(SerializeState, SerializeFMUstate)                  \
-    X(DeserializeState, DeSerializeFMUstate)
+    X(DoStep, DoStep)
 
 typedef struct {
 #define FIELD(type, name) type *name;

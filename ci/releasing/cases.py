@@ -19,6 +19,14 @@ from releasing.platforms import LINUX
 
 FOLDER = WORK / "runs/cases"
 SCENES = ("examples", "tests/reference/scenes", "tests/stress", "ci/scenes")
+# Those of which an FMU of FMI 3.0 runs too: linear, yielding, falling, driven, with impulses.
+FMI3 = (
+    "examples-scenes-feup",
+    "examples-scenes-yielding",
+    "tests-reference-scenes-p_delta_fall",
+    "ci-scenes-two_blocks_with_inputs",
+    "tests-reference-scenes-yielding_impulses",
+)
 STEP = 0.01  # s
 STEPS = 2000
 
@@ -35,13 +43,20 @@ def prepare(libraries):
     shutil.rmtree(FOLDER, ignore_errors=True)
     FOLDER.mkdir(parents=True)
     for name, scene in scenes().items():
-        fmu = FOLDER / "scene.fmu"
-        run("cargo", "fmu", scene, "--libraries", libraries, "--platform", LINUX.name, "-o", fmu)
-        with zipfile.ZipFile(fmu) as archive:
-            wanted = [name for name in archive.namelist() if name.startswith(("modelDescription.xml", "resources/"))]
-            archive.extractall(FOLDER / name, wanted)
-        fmu.unlink()
+        unpack(scene, libraries, FOLDER / name)
+        if name in FMI3:
+            unpack(scene, libraries, FOLDER / name / "fmi3", "--fmi", "3")
     return found()
+
+
+def unpack(scene, libraries, folder, *options):
+    """Makes an FMU, of which the description and the resources stay."""
+    fmu = FOLDER / "scene.fmu"
+    run("cargo", "fmu", scene, "--libraries", libraries, "--platform", LINUX.name, *options, "-o", fmu)
+    with zipfile.ZipFile(fmu) as archive:
+        wanted = [name for name in archive.namelist() if name.startswith(("modelDescription.xml", "resources/"))]
+        archive.extractall(folder, wanted)
+    fmu.unlink()
 
 
 def found(folder=FOLDER):
@@ -63,6 +78,17 @@ class Case:
     @cached_property
     def description(self):
         return ElementTree.parse(self.folder / "modelDescription.xml").getroot()
+
+    @cached_property
+    def fmi3(self):
+        """The description in FMI 3.0, where there is one."""
+        file = self.folder / "fmi3/modelDescription.xml"
+        return ElementTree.parse(file).getroot() if file.exists() else None
+
+    @cached_property
+    def references_of_fmi3(self):
+        """Value references by name."""
+        return {variable.get("name"): variable.get("valueReference") for variable in self.fmi3.find("ModelVariables")}
 
     @cached_property
     def variables(self):
@@ -103,8 +129,10 @@ class Case:
     def row_size(self):
         return sum(size for _, size in self.columns)
 
-    def input_rows(self):
+    def input_rows(self, is_held=False):
         """Values and slopes of all inputs at every point, as the host reads them: a sawtooth, near resonance.
+
+        Without slopes, as FMI 3.0 has none, if inputs are held.
 
         The limits of an input are those of a million m/s2 (docs/coupling.md): 3e-6 of them is an earthquake.
         """
@@ -117,7 +145,8 @@ class Case:
         for point in range(STEPS + 1):
             now = [value(index, point) for index in range(len(peaks))]
             then = [value(index, point + 1) for index in range(len(peaks))]
-            rows += now + [(later - earlier) / STEP for earlier, later in zip(now, then)]
+            slopes = [0.0 if is_held else (later - earlier) / STEP for earlier, later in zip(now, then)]
+            rows += now + slopes
         return struct.pack(f"<{len(rows)}d", *rows)
 
     def middle(self, outputs):

@@ -19,6 +19,12 @@ def expect(cases, host):
         return problems
     for run in runs:
         (run.case.folder / "expected.outputs").write_bytes(run.outputs())
+    held = [Run(case, host, "held", is_held=True) for case in in_both_versions(cases)]
+    problems = carry_out(host, held)
+    if problems:
+        return problems
+    for run in held:
+        (run.case.folder / "held.outputs").write_bytes(run.outputs())
     saving = started(cases, host)
     problems = carry_out(host, saving) or [line for run in saving for line in run.differences(expected(run.case))]
     for run in saving:
@@ -30,6 +36,27 @@ def expect(cases, host):
 def started(cases, host):
     """Runs from the start that save a state on the way and at the end."""
     return [Run(case, host, "start", saves=(case.middle(expected(case)), STEPS)) for case in cases]
+
+
+def in_both_versions(cases):
+    return [case for case in cases if case.fmi3 is not None]
+
+
+def versions(cases, hosts):
+    """FMI 3.0 on every host, with steps that go through and with stops at events, has the outputs of FMI 2.0."""
+    return together(hosts, lambda host: check_versions(in_both_versions(cases), host))
+
+
+def check_versions(cases, host):
+    runs = [
+        Run(case, host, f"fmi3-{name}", fmi=3, stops=stops, is_held=True)
+        for case in cases
+        for name, stops in (("plain", False), ("stops", True))
+    ]
+    problems = carry_out(host, runs)
+    return problems or [
+        line for run in runs for line in run.differences((run.case.folder / "held.outputs").read_bytes())
+    ]
 
 
 def same_outputs(cases, hosts):

@@ -1,4 +1,4 @@
-"""The C host (ci/host/host.c), compiled for a platform and started where that platform runs here."""
+"""The C host (ci/host/), compiled for a platform and started where that platform runs here."""
 
 import shutil
 import subprocess
@@ -47,9 +47,10 @@ class Host:
             stub = self.folder / "bcryptprimitives.dll"
             run(*self.platform.host_compiler, "-shared", CI / "host/bcryptprimitives.c", "-o", stub, "-ladvapi32")
             WINE["WINEPREFIX"].mkdir(exist_ok=True)
+        sources = [CI / f"host/{name}.c" for name in ("host", "host2", "host3")]
         libraries = ["-ldl"] if self.platform.file.endswith(".so") else []
         compiler = [sys.executable if word == "python" else word for word in self.platform.host_compiler]
-        run(*compiler, *FLAGS, CI / "host/host.c", "-o", self.program, *libraries, variables=VARIABLES)
+        run(*compiler, *FLAGS, *sources, "-o", self.program, "-lm", *libraries, variables=VARIABLES)
 
     def start(self, program, arguments):
         """Runs a program of the platform; returns its exit code and what it has said."""
@@ -74,6 +75,10 @@ class Host:
         """A folder of this machine as a program of the platform sees it."""
         uri = folder.resolve().as_uri()
         return uri.replace("file:///", "file:///Z:/") if self.is_wine else uri
+
+    def path(self, folder):
+        """The same as a path."""
+        return f"Z:{folder.resolve().as_posix()}" if self.is_wine else folder.resolve().as_posix()
 
 
 def stop_wine():

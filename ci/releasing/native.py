@@ -55,6 +55,7 @@ def compare(libraries, cases_folder):
     host.prepare(library)
     reference = cases.found()
     stop_at(comparison.same_outputs(reference, [host]))
+    stop_at(comparison.versions(reference, [host]))
     stop_at(comparison.from_kept_states(reference, host))
     print(f"{platform.name}: the same bits in {len(reference)} scenes")
 

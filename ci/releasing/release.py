@@ -57,7 +57,7 @@ def release(arguments):
     make_wheel({f"CARGO_PROFILE_RELEASE_{key}": value for key, value in QUICKLY.items()} if arguments.here else {})
     progress.step("the FMUs of the examples")
     make_fmus()
-    stop_at(check_archives())
+    stop_at(check_archives() + check_wheel())
     lines = needs.write(DRAFT)
     if arguments.here:
         return [*lines, "a release can be made of " + ", ".join(platform.name for platform in platforms)]
@@ -111,6 +111,8 @@ def check_behaviour(platforms, toolchain, is_rehearsal):
     stop_at(comparison.expect(reference, all_hosts[0]))
     progress.step("the same bits on the others")
     stop_at(comparison.same_outputs(reference, all_hosts[1:]))
+    progress.step("the same bits in FMI 3.0")
+    stop_at(comparison.versions(reference, all_hosts))
     progress.step("saved states from each to each")
     stop_at(comparison.crosswise(reference, all_hosts))
     for windows in (host for host in all_hosts if host.platform is WINDOWS):
@@ -140,6 +142,23 @@ def make_fmus():
     for scene in sorted((ROOT / "examples/scenes").glob("*.toml")):
         name = tomllib.loads(scene.read_text())["name"]
         run("cargo", "fmu", scene, "--libraries", LIBRARIES, "-o", DRAFT / f"fmus/{name}.fmu")
+        run("cargo", "fmu", scene, "--fmi", "3", "--libraries", LIBRARIES, "-o", DRAFT / f"fmus/{name}.fmi3.fmu")
+
+
+def check_wheel():
+    """The wheel packs the bytes that `cargo fmu` packs, in both versions."""
+    folder, made = WORK / "wheel", WORK / "by-wheel.fmu"
+    shutil.rmtree(folder, ignore_errors=True)
+    (wheel,) = DRAFT.glob("wheels/*.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(folder)
+    problems = []
+    for version, file in (("2", "FeupFrames.fmu"), ("3", "FeupFrames.fmi3.fmu")):
+        command = [sys.executable, "-m", "pounding_fmu", ROOT / "examples/scenes/feup.toml"]
+        run(*command, "--fmi", version, "-o", made, variables={"PYTHONPATH": folder})
+        if made.read_bytes() != (DRAFT / "fmus" / file).read_bytes():
+            problems.append(f"{file}: the wheel makes other bytes than cargo fmu")
+    return problems
 
 
 def check_archives():

@@ -19,6 +19,11 @@ DESCRIPTION = """<fmiModelDescription modelName="Two" guid="{1}"><ModelVariables
 <Unknown index="2" dependencies="1"/><Unknown index="3" dependencies=""/><Unknown index="4" dependencies=""/>
 </Outputs></ModelStructure></fmiModelDescription>"""
 
+DESCRIPTION_3 = """<fmiModelDescription modelName="Two" instantiationToken="{3}"><ModelVariables>
+<Float64 name="left.force[1]" valueReference="10"/><Float64 name="left.acceleration[1]" valueReference="11"/>
+<Boolean name="contact[1].active" valueReference="12"/><Int32 name="impacts" valueReference="13"/>
+</ModelVariables></fmiModelDescription>"""
+
 
 class PretendedHost:
     """Writes what it is given instead of running an FMU."""
@@ -31,6 +36,9 @@ class PretendedHost:
 
     def uri(self, folder):
         return folder.as_uri()
+
+    def path(self, folder):
+        return folder.as_posix()
 
     def start(self, program, orders):
         for order in orders:
@@ -127,6 +135,25 @@ class Bytes(unittest.TestCase):
         self.assertEqual(seen, ["aarch64-linux/two.from-aarch64-linux.run"])
         order = (self.folder / seen[0]).read_text()
         self.assertIn("start_state aarch64-linux/two.start.900.state", order)
+
+    def test_versions_are_compared_where_there_are_two(self):
+        host = PretendedHost(self.outputs, b"a state")
+        self.assertEqual(comparison.in_both_versions([self.case]), [])
+        (self.case.folder / "fmi3").mkdir()
+        (self.case.folder / "fmi3/modelDescription.xml").write_text(DESCRIPTION_3)
+        (self.case.folder / "held.outputs").write_bytes(self.outputs)
+        case = Case(self.case.folder)
+        self.assertEqual(comparison.versions([case], [host]), [])
+        order = (self.folder / "aarch64-linux/two.fmi3-stops.run").read_text()
+        for line in ("fmi 3", "stops 1", "guid {3}", "reals 1 11", "booleans 1 12", "partials 2 11 10"):
+            self.assertIn(f"\n{line}\n", order)
+        self.assertIn("\nstops 0\n", (self.folder / "aarch64-linux/two.fmi3-plain.run").read_text())
+        changed = bytearray(self.outputs)
+        changed[32 * 70 + 20] ^= 1
+        problems = comparison.versions([case], [PretendedHost(bytes(changed), b"a state")])
+        self.assertEqual(len(problems), 2)
+        self.assertIn("in FMI 3.0: contact[1].active at point 70 is ", problems[0])
+        self.assertIn("in FMI 3.0 with stops: contact[1].active at point 70 is ", problems[1])
 
     def test_a_host_that_fails(self):
         host = PretendedHost(self.outputs, b"a state")

@@ -79,9 +79,9 @@ fn the_archive_has_the_folders_of_fmi3_and_all_else_alike() {
         let differs = name == "modelDescription.xml" || name == "documentation/index.html";
         assert_eq!(old != new, differs, "{name}");
     }
-    for (files, version) in [(&old, "FMI 2.0"), (&new, "FMI 3.0")] {
+    for (files, says_so) in [(&old, false), (&new, true)] {
         let page = &files.iter().find(|(name, _)| name == "documentation/index.html").unwrap().1;
-        assert!(String::from_utf8_lossy(page).contains(version));
+        assert_eq!(String::from_utf8_lossy(page).contains("FMI 3.0"), says_so);
     }
 }
 
