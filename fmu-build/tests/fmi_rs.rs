@@ -10,7 +10,7 @@ use fmi::sim;
 use pounding::description::Package;
 use pounding::engine::Model;
 use pounding_simulate::solve::{self, Events};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use tempfile::TempDir;
 
