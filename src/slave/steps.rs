@@ -144,11 +144,12 @@ impl Slave {
         Ok(Some(Held::read(table, &run.start(settings)?.now())))
     }
 
-    /// Keeps them until Event Mode is entered, if any has another value by now.
+    /// Keeps them until Event Mode is entered, if any has another value by now. A run that is over has no Event Mode to come:
+    /// what has ended it is shown.
     fn keep(&mut self, held: Held) -> Result<bool, Refusal> {
         let Slave { table, run, settings, .. } = self;
         let is_changed = Held::read(table, &run.start(settings)?.now()) != held;
-        self.held = is_changed.then_some(held);
+        self.held = (is_changed && !self.is_over()).then_some(held);
         Ok(is_changed)
     }
 
