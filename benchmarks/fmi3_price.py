@@ -1,9 +1,9 @@
 """What FMI 3.0 costs beside FMI 2.0: the default scene through both C interfaces, in turn, in one process.
 
-target/tmp/python/bin/python benchmarks/fmi3_price.py            # a minute; "cargo test --test python" makes that Python
+target/tmp/python/bin/python benchmarks/fmi3_price.py            # a minute; that Python is of "cargo test --test python"
 target/tmp/python/bin/python benchmarks/fmi3_price.py --quick    # seconds: shows that the command works
 
-CARGO_FMU names a `cargo fmu` that has been built before. Asked of FMI 3.0 without its flags is at most 1.2 times FMI 2.0.
+CARGO_FMU names a `cargo fmu` that has been built before. Without its flags FMI 3.0 may take 1.2 times FMI 2.0.
 """
 
 import argparse
@@ -42,7 +42,7 @@ def main():
         raw = {"FMI 2.0": older.run_of_2} | {
             name: lambda flags=flags: newer.run_of_3(*flags) for name, flags in WAYS.items()
         }
-        print(f"{COUNT} steps of {STEP} s, each with all outputs read; medians of the time of the processor and of its ratios")
+        print(f"{COUNT} steps of {STEP} s, each with all outputs read; medians of processor time and of its ratios")
         print("by the C functions alone, called from Python, which passes more arguments to those of FMI 3.0")
         measure(raw, 3 if options.quick else 31)
         fmpy = {"FMI 2.0": older.simulate} | {
@@ -50,7 +50,8 @@ def main():
         }
         print("by FMPy's simulate_fmu")
         ratio = measure(fmpy, 1 if options.quick else 15)["FMI 3.0"]
-        print(f"FMI 3.0 without its flags in FMPy: {ratio:.3f}, {'as asked' if ratio <= MOST else 'too much'}: at most {MOST}")
+        verdict = "as asked" if ratio <= MOST else "too much"
+        print(f"FMI 3.0 without its flags in FMPy: {ratio:.3f}, {verdict}: at most {MOST}")
 
 
 def measure(runs, repetitions):

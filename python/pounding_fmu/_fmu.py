@@ -26,7 +26,8 @@ def build_fmu(
     Args:
         scene: a path, a text or a dict.
         output: where the FMU goes, in a directory that is made if need be; ``NAME.fmu`` (NAME: the scene's), or
-            ``NAME.fmi3.fmu`` with ``fmi=3``, in the current directory where nothing is said. An older file there is replaced at once, or stays.
+            ``NAME.fmi3.fmu`` with ``fmi=3``, in the current directory where nothing is said. An older file there is
+            replaced at once, or stays.
         platforms: those that the FMU can be run on, such as ``["win64", "linux64"]``; all whose library has come with
             this package where nothing is said.
         fmi: the version of FMI, 2 or 3.

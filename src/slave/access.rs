@@ -75,10 +75,7 @@ impl Slave {
             self.settings = Arc::new(changed);
             self.run.stop();
         }
-        if pairs().any(|(reference, _)| self.table.row(reference).is_some_and(|row| matches!(row.slot, Slot::Input(_))))
-        {
-            self.handle_event()?;
-        }
+        self.handle_event()?;
         for (reference, value) in pairs() {
             if let (Some(Slot::Input(input)), Value::Real(value)) = (self.table.row(reference).map(|r| r.slot), value) {
                 self.run.set_input(input, value);

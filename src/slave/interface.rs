@@ -3,10 +3,9 @@
 use crate::FmiVersion;
 
 /// The interface through which a master uses an instance.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interface {
     /// FMI 2.0: events are handled within steps.
-    #[default]
     V2,
     /// FMI 3.0, with the two flags of `fmi3InstantiateCoSimulation`.
     V3 {
@@ -19,7 +18,8 @@ pub enum Interface {
 
 impl Interface {
     /// That of FMI 3.0 in which steps are as in FMI 2.0.
-    pub const PLAIN_V3: Interface = Interface::V3 { event_mode_used: false, early_return_allowed: false };
+    #[cfg(test)]
+    pub(crate) const PLAIN_V3: Interface = Interface::V3 { event_mode_used: false, early_return_allowed: false };
 
     /// Of the standard.
     pub const fn version(self) -> FmiVersion {

@@ -1,4 +1,4 @@
-"""FMI 3.0 in FMPy: with and without Event Mode and early returns the bits of FMI 2.0, and every event at its own time."""
+"""FMI 3.0 in FMPy: whatever the flags the bits of FMI 2.0, and every event at its own time."""
 
 import json
 import subprocess
@@ -230,7 +230,7 @@ def test_a_run_ends_at_a_collapse(build):
     assert collapse % STEP > 0.0 and last["left.collapsed"][0]
     for event_mode, early_return in FLAGS:
         run = Run(newer, event_mode, early_return, stop=20.0)
-        # FMPy does not enter Event Mode, in which discrete outputs change, where a step says that the run is over: it sees them.
+        # Where a step says that the run is over, FMPy does not enter Event Mode: it sees discrete outputs all the same.
         assert different(run.rows[-1:], last, newer.outputs()) == []
         # FMPy names the end of the step that was asked for, where it has not allowed an early return.
         end = collapse if early_return else np.ceil(collapse / STEP) * STEP
