@@ -37,6 +37,8 @@ pub struct Variable {
     pub max: Option<String>,
     pub nominal: Option<String>,
     pub start: Option<String>,
+    /// Of FMI 3.0: it is exchanged within steps.
+    pub has_updates: bool,
 }
 
 /// The type of a variable: those that FMUs of ours have.
@@ -150,6 +152,7 @@ fn variable_of_fmi2(read: fmi2::ScalarVariable) -> Variable {
         max,
         nominal,
         start,
+        has_updates: false,
     }
 }
 
@@ -177,5 +180,6 @@ fn variable_of_fmi3(read: fmi3::ModelVariable) -> Variable {
         max,
         nominal,
         start,
+        has_updates: read.intermediateUpdate,
     }
 }

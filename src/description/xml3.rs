@@ -1,10 +1,10 @@
-//! The elements that only FMI 3.0 has. Scalars without clocks, arrays and aliases, which importers have trouble with;
-//! units by the declared type, as some do not know them on a variable.
+//! The elements that only FMI 3.0 has. Scalars without clocks, arrays and aliases, which importers have trouble
+//! with; units by the declared type, as some do not know them on a variable.
 
 use super::variable::{borrowed, identity, limits, start};
 use super::writer::Xml;
 use crate::FmiVersion;
-use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, Row, Type, Unit, Value};
+use crate::variables::{HIGHEST_OUTPUT_DERIVATIVE, Row, Slot, Type, Unit, Value, Variability};
 use std::io;
 
 /// The unit of the time.
@@ -20,6 +20,7 @@ pub(super) fn write_co_simulation(xml: &mut Xml, identifier: &str) -> io::Result
             ("providesAdjointDerivatives", "true"),
             ("canHandleVariableCommunicationStepSize", "true"),
             ("maxOutputDerivativeOrder", &HIGHEST_OUTPUT_DERIVATIVE.to_string()),
+            ("providesIntermediateUpdate", "true"),
             ("mightReturnEarlyFromDoStep", "true"),
             ("hasEventMode", "true"),
         ])
@@ -61,6 +62,10 @@ pub(super) fn write_variable(xml: &mut Xml, reference: u32, row: &Row, value: Op
         attributes.push(("declaredType", unit.info().quantity.to_owned()));
     }
     attributes.extend(limits(row));
+    let is_exchanged = matches!(row.slot, Slot::Input(_) | Slot::Output(_));
+    if is_exchanged && row.variability == Variability::Continuous {
+        attributes.push(("intermediateUpdate", "true".to_owned()));
+    }
     let value = value.map(start);
     let element = xml.create_element(row.ty.name(FmiVersion::V3));
     match (row.ty, value) {

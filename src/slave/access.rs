@@ -57,7 +57,7 @@ impl Slave {
     }
 
     /// Whether a value reference is that of the time.
-    fn is_time(&self, reference: u32) -> bool {
+    pub(super) fn is_time(&self, reference: u32) -> bool {
         self.interface.version() == FmiVersion::V3 && reference == self.table.time_reference()
     }
 
@@ -75,10 +75,15 @@ impl Slave {
             self.settings = Arc::new(changed);
             self.run.stop();
         }
-        self.handle_event()?;
+        if self.under_way.is_none() {
+            self.handle_event()?;
+        }
         for (reference, value) in pairs() {
             if let (Some(Slot::Input(input)), Value::Real(value)) = (self.table.row(reference).map(|r| r.slot), value) {
-                self.run.set_input(input, value);
+                match self.ends_of_inputs() {
+                    Some(ends) => ends.push((input, value)),
+                    None => self.run.set_input(input, value),
+                }
                 self.look_at_input(input, value);
             }
         }
@@ -108,6 +113,9 @@ impl Slave {
             return Some(self.wrong_type(reference, found));
         }
         match (row.slot, self.phase) {
+            (Slot::Input(_), _) if !self.takes_inputs() => {
+                return Some(format!("{}: the step asks for no inputs now", row.name));
+            }
             (Slot::Input(_), _) | (Slot::Parameter(_), Phase::Instantiated | Phase::Initialization) => {}
             (Slot::Parameter(_), _) => {
                 return Some(format!(

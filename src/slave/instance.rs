@@ -8,6 +8,7 @@ use super::sequence::{Call, Phase};
 use super::simulation::Simulation;
 use super::snapshots::Snapshots;
 use super::status::{Refusal, Status, StatusKind};
+use super::updates::{UnderWay, Updates};
 use crate::FmiVersion;
 use crate::description::{Category, Package, guid};
 use crate::figures::plain;
@@ -32,6 +33,9 @@ pub struct Slave {
     pub(super) stop_time: Option<f64>,
     pub(super) run: Run,
     pub(super) held: Option<Held>,
+    pub(super) updates: Updates,
+    /// A step in which the master has its turn.
+    pub(super) under_way: Option<UnderWay>,
     pub(super) snapshots: Snapshots,
     pub(super) has_warned_of_ground: bool,
     /// A step has said that the run is over.
@@ -50,6 +54,8 @@ impl Slave {
             table,
             run: Run::new(&settings.scene),
             held: None,
+            updates: Updates::default(),
+            under_way: None,
             defaults: Arc::clone(&settings),
             settings,
             phase: Phase::Instantiated,
@@ -184,7 +190,7 @@ impl Slave {
         Status::Ok
     }
 
-    /// As after instantiation, with the same interface. The logging stays as the master has chosen it, and so do the snapshots.
+    /// As after instantiation, with the same interface and the same updates. The logging stays as the master has chosen it, and so do the snapshots.
     pub fn reset(&mut self) -> Status {
         self.settings = Arc::clone(&self.defaults);
         (self.run, self.held, self.stop_time) = (Run::new(&self.settings.scene), None, None);

@@ -2,7 +2,8 @@
 //!
 //! The caller asks [`Slave::check`] before each call (`sequence.rs` has the table), reports what comes back with
 //! [`Slave::report`] and hands the messages of [`Slave::take_messages`] to the master. `instance.rs` has its life, `steps.rs`
-//! its steps and events, `interface.rs` what the master has chosen of them. Values go through `access.rs`, which walks the table of variables, derivatives through `derivatives.rs`;
+//! its steps and events, `updates.rs` the turns of the master within a step, `interface.rs` what the master has chosen of
+//! steps. Values go through `access.rs`, which walks the table of variables, derivatives through `derivatives.rs`;
 //! `states.rs` records what the master wants to come back to, `snapshots.rs` keeps it, `serialized.rs` turns it into bytes
 //! and back; `run.rs` holds time and inputs until a simulation starts, and that from then on.
 //!
@@ -42,6 +43,7 @@ mod snapshots;
 mod states;
 mod status;
 mod steps;
+mod updates;
 
 pub use instance::Slave;
 pub use instantiate::instantiate;
@@ -51,3 +53,4 @@ pub use sequence::{Call, Phase};
 pub use snapshots::Handle;
 pub use status::{Refusal, Status, StatusKind};
 pub use steps::Stepped;
+pub use updates::{Part, Update};

@@ -20,6 +20,9 @@ pub enum Phase {
     Error,
     /// `Event Mode` of FMI 3.0: what jumps does so here.
     Event,
+    /// `Intermediate Update Mode` of FMI 3.0: the master has its turn within a step (`updates.rs`). No state is saved here.
+    #[serde(skip)]
+    Update,
 }
 
 impl Phase {
@@ -33,8 +36,9 @@ impl Phase {
             (StepComplete, FmiVersion::V3) => "Step Mode",
             (Error, FmiVersion::V2) => "Error",
             (Terminated, _) | (Error, FmiVersion::V3) => "Terminated",
-            (Event, FmiVersion::V2) => return None,
+            (Event | Update, FmiVersion::V2) => return None,
             (Event, FmiVersion::V3) => "Event Mode",
+            (Update, FmiVersion::V3) => "Intermediate Update Mode",
         })
     }
 }
@@ -82,11 +86,14 @@ pub enum Call {
     NotOffered(&'static str),
 }
 
-use Phase::{Error, Event, Initialization, Instantiated, StepComplete, Terminated};
+use Phase::{Error, Event, Initialization, Instantiated, StepComplete, Terminated, Update};
 
 const ALWAYS: &[Phase] = &[Instantiated, Initialization, Event, StepComplete, Terminated, Error];
 const INSTANTIATED: &[Phase] = &[Instantiated];
 const INITIALIZATION: &[Phase] = &[Initialization];
+const ALWAYS_TO_READ: &[Phase] = &[Instantiated, Initialization, Event, StepComplete, Update, Terminated, Error];
+const TO_SET: &[Phase] = &[Instantiated, Initialization, Event, StepComplete, Update];
+const FROM_STEPS_ON: &[Phase] = &[StepComplete, Update, Terminated, Error];
 const EVENT: &[Phase] = &[Event];
 const STEP_COMPLETE: &[Phase] = &[StepComplete];
 const EVENT_OR_STEP: &[Phase] = &[Event, StepComplete];
@@ -157,11 +164,11 @@ impl Call {
             Call::UpdateDiscreteStates => ("fmi3UpdateDiscreteStates", EVENT),
             Call::Terminate => ("fmi3Terminate", EVENT_OR_STEP),
             Call::Reset => ("fmi3Reset", ALWAYS),
-            Call::GetReal => ("fmi3GetFloat64", ALWAYS),
-            Call::GetInteger => ("fmi3GetInt32", ALWAYS),
-            Call::GetBoolean => ("fmi3GetBoolean", ALWAYS),
-            Call::GetString => ("fmi3GetString", ALWAYS),
-            Call::SetReal => ("fmi3SetFloat64", BEFORE_THE_END),
+            Call::GetReal => ("fmi3GetFloat64", ALWAYS_TO_READ),
+            Call::GetInteger => ("fmi3GetInt32", ALWAYS_TO_READ),
+            Call::GetBoolean => ("fmi3GetBoolean", ALWAYS_TO_READ),
+            Call::GetString => ("fmi3GetString", ALWAYS_TO_READ),
+            Call::SetReal => ("fmi3SetFloat64", TO_SET),
             Call::SetInteger => ("fmi3SetInt32", NEVER),
             Call::SetBoolean => ("fmi3SetBoolean", NEVER),
             Call::SetString => ("fmi3SetString", BEFORE_THE_END),
@@ -173,7 +180,7 @@ impl Call {
             Call::DeSerializeFMUstate => ("fmi3DeserializeFMUState", ALWAYS),
             Call::GetDirectionalDerivative => ("fmi3GetDirectionalDerivative", FROM_INITIALIZATION),
             Call::GetAdjointDerivative => ("fmi3GetAdjointDerivative", FROM_INITIALIZATION),
-            Call::GetRealOutputDerivatives => ("fmi3GetOutputDerivatives", AFTER_INITIALIZATION),
+            Call::GetRealOutputDerivatives => ("fmi3GetOutputDerivatives", FROM_STEPS_ON),
             Call::DoStep => ("fmi3DoStep", STEP_COMPLETE),
             Call::SetupExperiment
             | Call::SetRealInputDerivatives

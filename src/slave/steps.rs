@@ -10,6 +10,7 @@ use super::instance::{Slave, is_time};
 use super::sequence::{Call, Phase};
 use super::simulation::Simulation;
 use super::status::{Refusal, Status};
+use super::updates::Part;
 use crate::FmiVersion;
 use crate::description::Category;
 use crate::engine::{Collapse, Episode};
@@ -44,23 +45,53 @@ impl Slave {
     /// A step that does not begin at the present communication point or leads beyond the end, inputs that leave their
     /// range in it, and a step that the engine gives up ([`EngineError`](crate::engine::EngineError)).
     pub fn do_step(&mut self, current: f64, step: f64) -> Result<Stepped, Refusal> {
+        let mut part = self.begin_step(current, step)?;
+        loop {
+            match part {
+                Part::Done(stepped) => return Ok(stepped),
+                Part::Update(_) => part = self.go_on()?,
+            }
+        }
+    }
+
+    /// The first part of such a step, up to the first turn of a master that wants updates, or all of it.
+    ///
+    /// # Errors
+    /// Those of [`Slave::do_step`].
+    pub fn begin_step(&mut self, current: f64, step: f64) -> Result<Part, Refusal> {
         if self.is_over() {
             let status = self.tell_collapse();
-            return Ok(self.stepped(status, current + step, false));
+            return Ok(Part::Done(self.stepped(status, current + step, false)));
         }
         let target = self.target(current, step)?;
+        if self.updates.inputs {
+            return Ok(self.wait(target, true));
+        }
+        self.check_lines(target)?;
         let held = self.hold()?;
-        let stops = self.interface.returns_early();
-        let waits = self.with_episodes(|simulation, note| simulation.advance(target, stops, note))?;
+        self.advance(target, held)
+    }
+
+    /// Goes on to the end of a step, or to an event in it. `held` are the discrete outputs as the master sees them until it
+    /// enters Event Mode.
+    pub(super) fn advance(&mut self, target: f64, held: Option<Held>) -> Result<Part, Refusal> {
+        let (returns_early, updates) = (self.interface.returns_early(), self.updates.outputs);
+        let waits =
+            self.with_episodes(|simulation, note| simulation.advance(target, returns_early || updates, note))?;
+        if waits && !(returns_early && self.interface.has_event_mode()) {
+            self.handle_event()?;
+        }
+        if waits && !returns_early && !self.is_over() {
+            self.held = held;
+            return Ok(self.wait(target, false));
+        }
         let is_changed = match held {
             Some(held) => self.keep(held)?,
             None => false,
         };
-        if waits && !self.interface.has_event_mode() {
-            self.handle_event()?;
-        }
         let status = self.tell_collapse();
-        Ok(self.stepped(status, target, is_changed || waits && self.interface.has_event_mode()))
+        let needs_event_mode = is_changed || self.run.has_event();
+        Ok(Part::Done(self.stepped(status, target, needs_event_mode)))
     }
 
     fn stepped(&self, status: Status, target: f64, needs_event_mode: bool) -> Stepped {
@@ -135,7 +166,7 @@ impl Slave {
 
     /// The discrete outputs as they are, where the master sees them change in Event Mode only although events are handled
     /// within steps.
-    fn hold(&mut self) -> Result<Option<Held>, Refusal> {
+    pub(super) fn hold(&mut self) -> Result<Option<Held>, Refusal> {
         if !self.interface.holds_discrete_outputs() {
             return Ok(None);
         }
@@ -176,16 +207,20 @@ impl Slave {
                 plain(target)
             )));
         }
-        // Only here it is known how far a line goes on.
-        if self.run.inputs().are_moving() {
-            let beyond = self.table.problems(self.run.inputs(), target);
-            let at_end = |problem| format!("at the end of the step, {target} s, {problem}");
-            Refusal::unless_empty(beyond.into_iter().map(at_end).collect())?;
-        }
         // A tiny step may fall short of the rounding of `current`: time stands still then, it never runs back. So it
         // does for steps whose inverse is no number.
         let stands_still = target - now < f64::MIN_POSITIVE;
         Ok(if stands_still { now } else { target })
+    }
+
+    /// Whether inputs that are lines stay in their range up to a time, s: how far a line goes on is known only here.
+    fn check_lines(&self, target: f64) -> Result<(), Refusal> {
+        if !self.run.inputs().are_moving() {
+            return Ok(());
+        }
+        let beyond = self.table.problems(self.run.inputs(), target);
+        let at_end = |problem| format!("at the end of the step, {target} s, {problem}");
+        Refusal::unless_empty(beyond.into_iter().map(at_end).collect())
     }
 
     /// s, time up to which the solution is known.

@@ -16,5 +16,6 @@ mod refused;
 mod sequence;
 mod states;
 mod stepping;
+mod updates;
 mod values;
 mod versions;

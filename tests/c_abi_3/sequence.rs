@@ -10,7 +10,7 @@ const PHASES: [&str; 6] =
     ["Instantiated", "Initialization Mode", "Event Mode", "Step Mode", "Terminated", "Terminated"];
 
 /// Function, and the phases above in which it is allowed.
-const TABLE: [(&str, &str); 25] = [
+pub const TABLE: [(&str, &str); 25] = [
     ("fmi3SetDebugLogging", "xxxxxx"),
     ("fmi3EnterInitializationMode", "x-----"),
     ("fmi3ExitInitializationMode", "-x----"),
@@ -133,7 +133,7 @@ fn in_phase(fmu: &Fmu, place: usize) -> Instance<'_> {
 }
 
 /// A call with arguments that are never a reason to refuse it.
-fn call(instance: &Instance<'_>, function: &str, mut state: FmuState, bytes: &[u8]) -> c_int {
+pub fn call(instance: &Instance<'_>, function: &str, mut state: FmuState, bytes: &[u8]) -> c_int {
     let (c, n, mut size) = (instance.component, bytes.len(), 0);
     // SAFETY: a live instance or null, no elements, and places for what is written.
     unsafe {

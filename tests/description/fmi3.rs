@@ -173,7 +173,7 @@ fn what_the_fmu_can_do_is_declared() {
         assert!(can.providesDirectionalDerivatives && can.providesAdjointDerivatives);
         assert!(can.canHandleVariableCommunicationStepSize && can.maxOutputDerivativeOrder == 2);
         assert!(can.mightReturnEarlyFromDoStep && can.hasEventMode);
-        assert!(!can.providesIntermediateUpdate && !can.canReturnEarlyAfterIntermediateUpdate);
+        assert!(can.providesIntermediateUpdate && !can.canReturnEarlyAfterIntermediateUpdate);
         assert!(!can.providesEvaluateDiscreteStates && !can.providesPerElementDependencies);
         assert_eq!(new.fmiVersion, "3.0");
         assert!(new.modelExchange.is_none() && new.scheduledExecution.is_none());

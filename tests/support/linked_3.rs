@@ -82,7 +82,7 @@ impl Fmu {
                 arguments.n_required,
                 environment(&log),
                 arguments.with_logger.then_some(note),
-                None,
+                arguments.with_updates.then_some(update),
             )
         };
         if component.is_null() {
@@ -103,6 +103,8 @@ pub struct Arguments {
     pub required: Option<Vec<u32>>,
     pub n_required: usize,
     pub with_logger: bool,
+    /// With a function for intermediate updates.
+    pub with_updates: bool,
 }
 
 impl Arguments {
@@ -117,6 +119,7 @@ impl Arguments {
             required: None,
             n_required: 0,
             with_logger: true,
+            with_updates: false,
         }
     }
 }
@@ -134,6 +137,19 @@ pub struct Line {
 pub struct Log {
     pub lines: RefCell<Vec<Line>>,
     call_back: RefCell<Option<Box<dyn FnMut()>>>,
+    on_update: RefCell<Option<Box<dyn FnMut(Turn)>>>,
+}
+
+/// What a turn of the master in a step says about itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn {
+    pub time: f64,
+    /// Inputs are asked for.
+    pub sets: u8,
+    /// Outputs can be read.
+    pub gets: u8,
+    pub is_finished: u8,
+    pub can_return: u8,
 }
 
 pub fn environment(log: &Log) -> *mut c_void {
@@ -155,6 +171,27 @@ pub unsafe extern "C" fn note(
     log.lines.borrow_mut().push(Line { status, category, message });
     if let Some(mut call_back) = log.call_back.take() {
         call_back();
+    }
+}
+
+/// `fmi3IntermediateUpdateCallback`; it asks to return early at once, which nothing may come of.
+unsafe extern "C" fn update(
+    environment: *mut c_void,
+    time: f64,
+    sets: u8,
+    gets: u8,
+    is_finished: u8,
+    can_return: u8,
+    requested: *mut u8,
+    early_return_time: *mut f64,
+) {
+    // SAFETY: the environment that was given at instantiation, and places for two values.
+    let log = unsafe {
+        (*requested, *early_return_time) = (1, time);
+        &*environment.cast::<Log>()
+    };
+    if let Some(turn) = log.on_update.borrow_mut().as_mut() {
+        turn(Turn { time, sets, gets, is_finished, can_return });
     }
 }
 
@@ -218,6 +255,11 @@ impl Instance<'_> {
     /// Does something in the middle of the next message.
     pub fn in_next_message(&self, call_back: impl FnMut() + 'static) {
         *self.log.call_back.borrow_mut() = Some(Box::new(call_back));
+    }
+
+    /// Does something in each turn that a step gives, from now on.
+    pub fn in_turns(&self, turn: impl FnMut(Turn) + 'static) {
+        *self.log.on_update.borrow_mut() = Some(Box::new(turn));
     }
 
     pub fn call(&self, function: Plain) -> c_int {

@@ -133,6 +133,12 @@ impl LinearInput {
         self.value + self.slope * ((time - self.since) + elapsed)
     }
 
+    /// Whether it has a value at a time, s, but for the rounding of its own line.
+    pub fn leads_to(&self, value: f64, time: f64) -> bool {
+        let rounding = 4.0 * f64::EPSILON * self.value.abs().max(value.abs());
+        (self.at(time) - value).abs() <= rounding
+    }
+
     /// Its rate of change, per second.
     pub fn slope(&self) -> f64 {
         self.slope

@@ -46,6 +46,19 @@ pub(in crate::fmi) unsafe fn with_instance<T: Into<Status>>(
     }
 }
 
+/// Goes on with a call in which the master has had a turn: the call sequence has been checked when it began.
+///
+/// # Safety
+/// As for [`with_instance`].
+pub(in crate::fmi) unsafe fn go_on<T: Into<Status>>(
+    component: Component,
+    function: Function,
+    body: impl FnOnce(&mut Instance) -> Result<T, Refusal>,
+) -> c_int {
+    // SAFETY: the caller's promise.
+    unsafe { fenced(component, function, body) }
+}
+
 /// Refuses a function of FMI 3.0 that these FMUs do not offer, in every phase.
 ///
 /// # Safety

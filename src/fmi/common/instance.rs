@@ -1,9 +1,10 @@
 //! The life of an instance, from its making to `fmi2FreeInstance` or `fmi3FreeInstance`.
 
-use super::arguments::{boolean, bytes_in, str_in};
+use super::arguments::{boolean, bytes_in, slice_in, str_in};
 use super::logger::Logger;
 use super::panics::caught;
-use super::types::{Component, Text};
+use super::types::{Component, Text, ValueReference};
+use super::updater::Updater;
 use crate::FmiVersion;
 use crate::description::Category;
 use crate::slave::{Interface, Log, Message, Refusal, Slave, instantiate};
@@ -21,6 +22,20 @@ pub(in crate::fmi) struct Instance {
     pub is_poisoned: bool,
     /// The strings that the last `fmi2GetString` or `fmi3GetString` has handed out.
     pub strings: Vec<CString>,
+    /// Whom steps give a turn.
+    pub updater: Option<Updater>,
+    /// The master has its turn within a call.
+    is_lent: bool,
+    /// It has freed the component in it.
+    is_given_up: bool,
+}
+
+impl Instance {
+    /// A fresh one.
+    pub(in crate::fmi) fn new(slave: Slave, logger: Logger, updater: Option<Updater>) -> Instance {
+        let strings = Vec::new();
+        Instance { slave, logger, is_poisoned: false, strings, updater, is_lent: false, is_given_up: false }
+    }
 }
 
 /// What every instantiation takes, with the names of its version.
@@ -35,13 +50,16 @@ pub(in crate::fmi) struct Request<const N: usize> {
     pub problem: Option<String>,
     /// Booleans.
     pub flags: [(&'static str, c_int); N],
+    /// Whom steps give a turn, and for the sake of which variables.
+    pub updates: Option<(Updater, *const ValueReference, usize)>,
 }
 
 /// A new component, or null with messages to the logger. The flags say which interface the instance has, and whether it
 /// logs.
 ///
 /// # Safety
-/// The strings are null or end with a zero; the logger can be called for as long as the component lives.
+/// The strings are null or end with a zero, references are as many as is said; logger and updater can be called for as long
+/// as the component lives.
 pub(in crate::fmi) unsafe fn create<const N: usize>(
     request: &Request<N>,
     logger: Logger,
@@ -51,8 +69,8 @@ pub(in crate::fmi) unsafe fn create<const N: usize>(
     let outcome = caught(|| unsafe { slave(request, interface) });
     let (category, problems) = match outcome {
         Ok(Ok(slave)) => {
-            let instance = Instance { slave, logger, is_poisoned: false, strings: Vec::new() };
-            return Box::into_raw(Box::new(instance)).cast();
+            let updater = request.updates.map(|(updater, ..)| updater);
+            return Box::into_raw(Box::new(Instance::new(slave, logger, updater))).cast();
         }
         Ok(Err(refusal)) => (Category::StatusError, refusal.problems),
         Err(panic) => (Category::StatusFatal, vec![format!("internal failure: {panic}")]),
@@ -87,10 +105,38 @@ unsafe fn slave<const N: usize>(
     match strings {
         (Ok(_), Ok(guid), Ok(location)) if problems.is_empty() => {
             let (interface, logging_on) = interface(flags.map(|flag| flag == Ok(true)));
-            instantiate(interface, guid, location.to_bytes(), Log::new(request.version, logging_on))
+            let log = Log::new(request.version, logging_on);
+            let mut slave = instantiate(interface, guid, location.to_bytes(), log)?;
+            if let Some((_, references, n)) = request.updates {
+                // SAFETY: the caller's promise.
+                slave.want_updates(unsafe { slice_in("requiredIntermediateVariables", references, n) }?)?;
+            }
+            Ok(slave)
         }
         _ => Err(Refusal { problems }),
     }
+}
+
+/// Gives the master a turn within a call; whether the component is still there afterwards. One that is freed meanwhile ends
+/// here, where the call under way has no more use for it.
+///
+/// # Safety
+/// `component` is a live one of which nothing is borrowed; it is not used afterwards if it is not there any more.
+pub(in crate::fmi) unsafe fn lend(component: Component, turn: impl FnOnce()) -> bool {
+    let instance = component.cast::<Instance>();
+    // SAFETY: the caller's promise; each borrow ends with its statement.
+    unsafe { (*instance).is_lent = true };
+    turn();
+    // SAFETY: as above; `free` has only noted that the master gives it up.
+    let is_given_up = unsafe {
+        (*instance).is_lent = false;
+        (*instance).is_given_up
+    };
+    if is_given_up {
+        // SAFETY: the master does not use it any more, and neither does the call under way.
+        unsafe { free(component) };
+    }
+    !is_given_up
 }
 
 /// Ends the life of a component.
@@ -101,8 +147,15 @@ pub(in crate::fmi) unsafe fn free(component: Component) {
     if component.is_null() {
         return;
     }
+    let instance = component.cast::<Instance>();
+    // SAFETY: alive, and borrowed by nobody.
+    if unsafe { (*instance).is_lent } {
+        // SAFETY: as above.
+        unsafe { (*instance).is_given_up = true };
+        return;
+    }
     // SAFETY: the pointer comes from `Box::into_raw` in `create`, and the caller gives it up.
-    let instance = unsafe { Box::from_raw(component.cast::<Instance>()) };
+    let instance = unsafe { Box::from_raw(instance) };
     // A panic has nobody to be reported to any more, but it may not leave this library either.
     let _ = caught(|| drop(instance));
 }

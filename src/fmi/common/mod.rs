@@ -10,4 +10,5 @@ pub(super) mod state;
 #[cfg(test)]
 mod test_support;
 pub(super) mod types;
+pub(super) mod updater;
 pub(super) mod values;

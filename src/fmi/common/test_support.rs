@@ -32,7 +32,7 @@ impl Logged {
             }
         };
         let slave = Slave::new(package(), interface, Log::new(interface.version(), true));
-        let instance = Instance { slave, logger, is_poisoned: false, strings: Vec::new() };
+        let instance = Instance::new(slave, logger, None);
         Logged { component: Box::into_raw(Box::new(instance)).cast(), messages }
     }
 

@@ -58,6 +58,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
         resources: ("fmuResourceLocation", resource_location),
         problem: (fmu_type != CO_SIMULATION).then_some(expected),
         flags: [("loggingOn", logging_on)],
+        updates: None,
     };
     // SAFETY: as the module says.
     unsafe { create(&request, logger, |[logging_on]| (Interface::V2, logging_on)) }

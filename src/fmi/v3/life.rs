@@ -1,12 +1,13 @@
 //! Version, logging, the life of an instance.
 
-use super::types::{Boolean, IntermediateUpdate};
+use super::types::Boolean;
 use crate::FmiVersion::V3;
 use crate::fmi::common::arguments::{boolean, strs_in};
 use crate::fmi::common::fence::{v3, with_instance};
 use crate::fmi::common::instance::{Request, create, free};
 use crate::fmi::common::logger::{LogMessage, Logger};
 use crate::fmi::common::types::{Component, ComponentEnvironment, Text, ValueReference};
+use crate::fmi::common::updater::{IntermediateUpdate, Updater};
 use crate::slave::{Call, Interface};
 use std::ffi::c_int;
 
@@ -26,8 +27,7 @@ pub unsafe extern "C" fn fmi3SetDebugLogging(c: Component, on: Boolean, n: usize
     }
 }
 
-/// Intermediate update is not offered, so what a master would get of it is not looked at: some name variables without a
-/// callback.
+/// Variables of intermediate updates without a function for them are not looked at: some masters name them all the same.
 #[cfg_attr(fmi_exports, unsafe(no_mangle))]
 pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     instance_name: Text,
@@ -37,11 +37,11 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     logging_on: Boolean,
     event_mode_used: Boolean,
     early_return_allowed: Boolean,
-    _required: *const ValueReference,
-    _n_required: usize,
+    required: *const ValueReference,
+    n_required: usize,
     environment: ComponentEnvironment,
     log_message: Option<LogMessage>,
-    _intermediate_update: Option<IntermediateUpdate>,
+    intermediate_update: Option<IntermediateUpdate>,
 ) -> Component {
     // SAFETY: as the module says.
     let is_empty = !resource_path.is_null() && unsafe { resource_path.read() } == 0;
@@ -57,6 +57,7 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
             ("eventModeUsed", event_mode_used.into()),
             ("earlyReturnAllowed", early_return_allowed.into()),
         ],
+        updates: intermediate_update.map(|function| (Updater { function, environment }, required, n_required)),
     };
     // SAFETY: as the module says.
     unsafe {

@@ -1,15 +1,18 @@
-//! The communication step.
+//! The communication step, and the turns that it gives the master.
 
 use super::types::Boolean;
 use crate::FmiVersion::V3;
 use crate::fmi::common::arguments::{Place, boolean};
-use crate::fmi::common::fence::{v3, with_instance};
+use crate::fmi::common::fence::{Function, go_on, v3, with_instance};
+use crate::fmi::common::instance::{Instance, lend};
 use crate::fmi::common::types::Component;
-use crate::slave::Call;
+use crate::fmi::common::updater::Updater;
+use crate::slave::{Call, Part, Refusal, Status, Update};
 use std::ffi::c_int;
 
-/// What the master says about its plans for earlier states is not used. The results are written after a step that the
-/// engine has given up too: the time that it has reached is among them.
+const STEP: Function = v3(Call::DoStep);
+
+/// What the master says about its plans for earlier states is not used.
 #[cfg_attr(fmi_exports, unsafe(no_mangle))]
 pub unsafe extern "C" fn fmi3DoStep(
     c: Component,
@@ -21,21 +24,74 @@ pub unsafe extern "C" fn fmi3DoStep(
     early_return: *mut Boolean,
     last_successful_time: *mut f64,
 ) -> c_int {
+    let (mut results, mut turn) = (None, None);
     // SAFETY: as the module says.
-    unsafe {
-        with_instance(c, v3(Call::DoStep), |instance| {
+    let mut status = unsafe {
+        with_instance(c, STEP, |instance| {
             boolean(V3, "noSetFMUStatePriorToCurrentPoint", no_set_state_before)?;
-            let event = Place::new("eventHandlingNeeded", event_handling_needed)?;
-            let terminate = Place::new("terminateSimulation", terminate_simulation)?;
-            let early = Place::new("earlyReturn", early_return)?;
-            let last = Place::new("lastSuccessfulTime", last_successful_time)?;
-            let result = instance.slave.do_step(current, step);
-            let stepped = result.as_ref();
-            event.write(stepped.is_ok_and(|step| step.needs_event_mode).into());
-            early.write(stepped.is_ok_and(|step| step.is_early).into());
-            terminate.write(instance.slave.is_over().into());
-            last.write(instance.slave.last_successful_time());
-            result.map(|step| step.status)
+            let results = results.insert(Results {
+                event: Place::new("eventHandlingNeeded", event_handling_needed)?,
+                terminate: Place::new("terminateSimulation", terminate_simulation)?,
+                early: Place::new("earlyReturn", early_return)?,
+                last: Place::new("lastSuccessfulTime", last_successful_time)?,
+            });
+            let part = instance.slave.begin_step(current, step);
+            results.settle(instance, part, &mut turn)
         })
+    };
+    while let (Some((updater, update)), Some(results)) = (turn.take(), &results) {
+        // SAFETY: as the module says; nothing of the instance is borrowed.
+        if !unsafe { lend(c, || updater.call(update)) } {
+            return Status::Error as c_int;
+        }
+        // SAFETY: as the module says.
+        status = unsafe {
+            go_on(c, STEP, |instance| {
+                let part = instance.slave.go_on();
+                results.settle(instance, part, &mut turn)
+            })
+        };
+    }
+    status
+}
+
+/// The places for what a step has come to.
+struct Results {
+    event: Place<Boolean>,
+    terminate: Place<Boolean>,
+    early: Place<Boolean>,
+    last: Place<f64>,
+}
+
+impl Results {
+    /// Notes the turn that a part of a step has come to, or else writes the results: after a step that the engine has given
+    /// up too, since the time that it has reached is among them.
+    ///
+    /// # Safety
+    /// As for [`Place::write`].
+    unsafe fn settle(
+        &self,
+        instance: &Instance,
+        part: Result<Part, Refusal>,
+        turn: &mut Option<(Updater, Update)>,
+    ) -> Result<Status, Refusal> {
+        let stepped = match part {
+            Ok(Part::Update(update)) => {
+                *turn = instance.updater.map(|updater| (updater, update));
+                return Ok(Status::Ok);
+            }
+            Ok(Part::Done(stepped)) => Ok(stepped),
+            Err(refusal) => Err(refusal),
+        };
+        let (needs_event_mode, is_early) =
+            stepped.as_ref().map_or((false, false), |step| (step.needs_event_mode, step.is_early));
+        // SAFETY: the caller's promise.
+        unsafe {
+            self.event.write(needs_event_mode.into());
+            self.early.write(is_early.into());
+            self.terminate.write(instance.slave.is_over().into());
+            self.last.write(instance.slave.last_successful_time());
+        }
+        stepped.map(|step| step.status)
     }
 }

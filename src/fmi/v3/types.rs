@@ -17,17 +17,6 @@ pub(super) type DependencyKind = c_int;
 /// `fmi3IntervalQualifier`
 pub(super) type IntervalQualifier = c_int;
 
-/// `fmi3IntermediateUpdateCallback`, which is never called.
-pub(super) type IntermediateUpdate = unsafe extern "C" fn(
-    ComponentEnvironment,
-    f64,
-    Boolean,
-    Boolean,
-    Boolean,
-    Boolean,
-    early_return_requested: *mut Boolean,
-    early_return_time: *mut f64,
-);
 /// `fmi3ClockUpdateCallback`, which is never called.
 pub(super) type ClockUpdate = unsafe extern "C" fn(ComponentEnvironment);
 /// `fmi3LockPreemptionCallback` and `fmi3UnlockPreemptionCallback`, which are never called.

@@ -79,7 +79,7 @@ const FMI2: [(&str, &[&str]); 13] = [
 ];
 
 /// The elements and attributes of FMUs of ours in FMI 3.0, and of them all attributes that say nothing about arrays,
-/// clocks, aliases, intermediate update and units of a variable of its own.
+/// clocks, aliases and units of a variable of its own.
 const FMI3: [(&str, &[&str]); 20] = [
     (
         "fmiModelDescription",
@@ -109,6 +109,7 @@ const FMI3: [(&str, &[&str]); 20] = [
             "providesAdjointDerivatives",
             "canHandleVariableCommunicationStepSize",
             "maxOutputDerivativeOrder",
+            "providesIntermediateUpdate",
             "mightReturnEarlyFromDoStep",
             "hasEventMode",
         ],
@@ -137,6 +138,7 @@ const FMI3: [(&str, &[&str]); 20] = [
             "max",
             "nominal",
             "start",
+            "intermediateUpdate",
         ],
     ),
     ("Int32", &["name", "valueReference", "description", "causality", "variability", "initial", "min", "max", "start"]),

@@ -137,7 +137,7 @@ fn every_kind_of_damage_in_fmi3_is_found() {
     for (from, to, finding) in [
         ("fmiVersion=\"3.0\"", "fmiVersion=\"3.0.2\"", "fmiVersion \"3.0.2\": expected exactly \"3.0\""),
         ("hasEventMode=\"true\"", "hasEvents=\"true\"", &format!("no attribute \"hasEvents\" {of}")),
-        ("hasEventMode", "providesIntermediateUpdate", "no attribute \"providesIntermediateUpdate\""),
+        ("hasEventMode", "needsCompletedIntegratorStep", "no attribute \"needsCompletedIntegratorStep\""),
         ("declaredType=\"Mass\"", "", "left.mass[1]: no declaredType, and so no unit"),
         ("declaredType=\"Mass\"", "declaredType=\"Weight\"", "left.mass[1]: declaredType \"Weight\" is not in"),
         ("declaredType=\"Mass\"", "declaredType=\"Mass\" unit=\"kg\"", "left.mass[1]: no attribute \"unit\""),
@@ -149,7 +149,8 @@ fn every_kind_of_damage_in_fmi3_is_found() {
         ("causality=\"independent\"", "causality=\"local\"", "independent variables: []; expected \"time\" alone"),
         ("name=\"time\"", "name=\"t\"", "independent variables: [\"t\"]"),
         ("name=\"left.mass[1]\"", "clocks=\"1\" name=\"left.mass[1]\"", "left.mass[1]: no attribute \"clocks\""),
-        ("name=\"time\"", "intermediateUpdate=\"true\" name=\"time\"", "time: no attribute \"intermediateUpdate\""),
+        ("name=\"time\"", "intermediateUpdate=\"true\" name=\"time\"", "time: intermediateUpdate true; expected false"),
+        (" intermediateUpdate=\"true\"", "", "intermediateUpdate false; expected true"),
         ("declaredType=\"Time\"/>", &format!("declaredType=\"Time\"{alias}"), &format!("<Alias> a: no element {of}")),
         ("declaredType=\"Time\"/>", "><Dimension start=\"2\"/></Float64>", "<Dimension> time: no element"),
         (

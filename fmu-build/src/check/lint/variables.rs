@@ -12,8 +12,19 @@ pub(super) fn findings(description: &Description) -> Vec<String> {
     for variable in variables {
         findings.extend(attributes(variable));
         findings.extend(limits(variable));
+        if description.version == FmiVersion::V3 {
+            findings.extend(updates(variable));
+        }
     }
     findings
+}
+
+/// Continuous inputs and outputs are exchanged within steps, and nothing else is.
+fn updates(variable: &Variable) -> Option<String> {
+    let is_exchanged = matches!(variable.causality, Causality::Input | Causality::Output);
+    let expected = is_exchanged && variable.kind == Kind::Real;
+    let found = variable.has_updates;
+    (found != expected).then(|| format!("{}: intermediateUpdate {found}; expected {expected}", variable.name))
 }
 
 /// What a variable has to have by its causality.
