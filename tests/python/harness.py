@@ -87,9 +87,9 @@ class Fmu:
         """A new instance; what it logs is in its `.messages`."""
         return FMU2Instance(self, name, guid, resources)
 
-    def instance_of_3(self, event_mode, early_return):
-        """A new instance of FMI 3.0 with these flags."""
-        return FMU3Instance(self, event_mode, early_return)
+    def instance_of_3(self, event_mode, early_return, **updates):
+        """A new instance of FMI 3.0 with these flags, and a function for intermediate updates if one is given."""
+        return FMU3Instance(self, event_mode, early_return, **updates)
 
 
 class FMU2Instance(FMU2Slave):
@@ -141,7 +141,7 @@ class FMU2Instance(FMU2Slave):
 class FMU3Instance(FMU3Slave):
     """An instance of FMI 3.0, which can go from event to event."""
 
-    def __init__(self, fmu, event_mode, early_return):
+    def __init__(self, fmu, event_mode, early_return, **updates):
         super().__init__(
             guid=fmu.description.guid,
             unzipDirectory=fmu.directory,
@@ -149,7 +149,7 @@ class FMU3Instance(FMU3Slave):
             instanceName="test",
         )
         self.fmu = fmu
-        self.instantiate(eventModeUsed=event_mode, earlyReturnAllowed=early_return)
+        self.instantiate(eventModeUsed=event_mode, earlyReturnAllowed=early_return, **updates)
         outputs = [v for v in fmu.description.modelVariables if v.causality == "output"]
         self.outputs = {
             kind: [v.valueReference for v in outputs if v.type == kind] for kind in ("Float64", "Int32", "Boolean")

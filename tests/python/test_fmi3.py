@@ -203,6 +203,34 @@ def all_go_on(folder, fmu=None):
     return good
 
 
+@pytest.mark.parametrize("name", ["feup", "yielding", "columns"])
+def test_events_are_read_within_steps_that_go_on(both, name):
+    """The turns of an intermediate update are where steps with early returns end, and show the same there."""
+    _, fmu = both(name)
+    stopping, stops = fmu.instance_of_3(False, True), []
+    turns = []
+    wanted = [fmu.reference["left.displacement[1]"]]
+
+    def turn(_, time, asks_for_inputs, shows_outputs, is_finished, can_return, *__):
+        assert (asks_for_inputs, shows_outputs, is_finished, can_return) == (False, True, True, False)
+        turns.append((time, going_on.bits()))
+
+    going_on = fmu.instance_of_3(False, False, intermediateUpdate=turn, requiredIntermediateVariables=wanted)
+    for instance in (stopping, going_on):
+        instance.enterInitializationMode()
+        instance.exitInitializationMode()
+    for k in range(round(STOP / STEP)):
+        time, end = k * STEP, (k + 1) * STEP
+        assert going_on.doStep(time, end - time)[:3] == (False, False, False)
+        while time < end:
+            _, _, is_early, last = stopping.doStep(time, end - time)
+            time = last if is_early else end
+            if is_early:
+                stops.append((time, stopping.bits()))
+        assert going_on.bits() == stopping.bits(), time
+    assert turns == stops and len(turns) > 3
+
+
 def test_adjoint_derivatives_are_those_of_the_directional_ones(both):
     _, fmu = both("driven")
     knowns = [v.valueReference for v in fmu.description.modelVariables if v.causality == "input"]
