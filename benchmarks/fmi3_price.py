@@ -1,7 +1,7 @@
 """What FMI 3.0 costs beside FMI 2.0: the default scene through both C interfaces, in turn, in one process.
 
-target/tmp/python/bin/python benchmarks/fmi3_price.py            # a minute; that Python is of "cargo test --test python"
-target/tmp/python/bin/python benchmarks/fmi3_price.py --quick    # seconds: shows that the command works
+"$(ci/environment tests/python)" benchmarks/fmi3_price.py            # a minute
+"$(ci/environment tests/python)" benchmarks/fmi3_price.py --quick    # seconds: shows that the command works
 
 CARGO_FMU names a `cargo fmu` that has been built before. Without its flags FMI 3.0 may take 1.2 times FMI 2.0.
 """

@@ -1,7 +1,7 @@
 //! Runs the tests in `tests/python/`: the FMUs as FMPy, an importer that is not ours, sees them.
 //!
 //! They need Python 3.11 or later and nothing else: an environment with the packages of `requirements.txt` is made below
-//! cargo's target directory and kept until that file changes.
+//! `target/` and kept until that file changes.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 #[path = "support/python_environment.rs"]
@@ -16,8 +16,7 @@ fn python() {
     let cargo_fmu = built(&["--package", "fmu-build", "--bin", "cargo-fmu"]);
     let simulate = built(&["--example", "simulate"]);
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let home = Path::new(env!("CARGO_TARGET_TMPDIR")).join("python");
-    let mut pytest = Command::new(environment(&home, &[root.join("tests/python/requirements.txt")]));
+    let mut pytest = Command::new(environment(root, "tests/python"));
     pytest
         .args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "tests/python"])
         .current_dir(root)

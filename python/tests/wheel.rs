@@ -1,13 +1,13 @@
-//! Builds the wheel, installs it into an environment of its own and runs the tests in this folder there, where neither
-//! cargo nor a compiler is on the path.
+//! Builds the wheel, installs it into an environment and runs the tests in this folder there, where neither cargo nor a
+//! compiler is on the path.
 //!
-//! They need Python 3.11 or later and nothing else: what they run with comes below cargo's target directory.
+//! They need Python 3.11 or later and nothing else: what they run with comes below `target/`.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 #[path = "../../tests/support/python_environment.rs"]
 mod python_environment;
 
-use python_environment::{base, environment, require};
+use python_environment::{environment, require};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -17,15 +17,7 @@ fn root() -> &'static Path {
 
 #[test]
 fn wheel() {
-    let built = require(base().arg(root().join("ci/wheel")).arg("--dev"), "ci/wheel");
-    let wheel = built.lines().next().expect("the path of the wheel");
-    // The first list includes the second, and that the third.
-    let lists = ["python/tests/requirements.txt", "examples/requirements.txt", "tests/python/requirements.txt"];
-    let requirements = lists.map(|list| root().join(list));
-    let environment = environment(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("wheel"), &requirements);
-    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--force-reinstall"];
-    require(Command::new(&environment).args(install).arg(wheel), "pip install");
-
+    let environment = environment(root(), "examples");
     let tests = root().join("python/tests");
     let mut pytest = Command::new(&environment);
     pytest.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "--doctest-modules"]);
