@@ -110,3 +110,14 @@ fn held_values_do_not_stay_in_an_instance_with_early_return() {
     assert_eq!(other.step(0.5, 1e-4).1.event, 0);
     assert_eq!(other.outputs(), instance.outputs());
 }
+
+#[test]
+fn messages_call_a_state_as_the_standard_does() {
+    let fmu = Fmu::new(SCENE);
+    let instance = fmu.instance(true, true);
+    let stale = std::ptr::without_provenance_mut(4711);
+    for (state, expected) in [(std::ptr::null_mut(), "FMUState is null"), (stale, "FMUState = 0x1267: expected one")] {
+        assert_eq!(instance.set_state(state), ERROR);
+        assert!(instance.only_error().starts_with(&format!("fmi3SetFMUState: {expected}")));
+    }
+}
