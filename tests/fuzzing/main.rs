@@ -84,6 +84,11 @@ fn states() {
     try_out("state", &seeds, 3000, state::check);
 }
 
+#[test]
+fn sequences_that_have_found_something() {
+    seeds("calls").iter().for_each(|seed| calls::check(seed));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 
@@ -95,5 +100,15 @@ proptest! {
     #[test]
     fn sequences_of_legal_calls(calls in proptest::collection::vec(any::<u8>(), 1..200)) {
         calls::check(&[&[1], &calls[..]].concat());
+    }
+
+    #[test]
+    fn sequences_of_any_calls_of_fmi3(first: u8, calls in proptest::collection::vec(any::<u8>(), 1..120)) {
+        calls::check(&[&[first & !1 | 2], &calls[..]].concat());
+    }
+
+    #[test]
+    fn sequences_of_legal_calls_of_fmi3(first: u8, calls in proptest::collection::vec(any::<u8>(), 1..200)) {
+        calls::check(&[&[first | 3], &calls[..]].concat());
     }
 }
