@@ -97,14 +97,14 @@ impl Instance {
         if self.flags.is_none() { COMMON_2 } else { COMMON_3 }
     }
 
-    /// A step of 4 ms: its status, and the time that it has come to where that is known.
-    fn step(&self, time: f64) -> (c_int, f64) {
+    /// A step of 4 ms.
+    fn step(&self, time: f64) -> (c_int, Stepped) {
         if self.flags.is_none() {
             // SAFETY: a live component.
-            return (unsafe { fmi2DoStep(self.c, time, 0.004, 1) }, time + 0.004);
+            let status = unsafe { fmi2DoStep(self.c, time, 0.004, 1) };
+            return (status, Stepped { event: 0, terminate: 0, early: 0, last: time + 0.004 });
         }
-        let (status, stepped) = step(self.c, time, 0.004);
-        (status, stepped.last)
+        step(self.c, time, 0.004)
     }
 
     fn time(&self) -> Option<f64> {
@@ -221,19 +221,24 @@ fn enveloped(version: FmiVersion, body: &[u8]) -> Vec<u8> {
 }
 
 /// Inputs of [`check`]: the state of a run in flight, in contact, after it, and at its start, of all kinds of instances; in
-/// FMI 3.0 at events that wait, in Event Mode and with discrete outputs that are held too.
+/// FMI 3.0 where a step has ended at an event, which may wait, where discrete outputs are held, and in Event Mode.
 pub fn seeds() -> Vec<Vec<u8>> {
     (0..5).flat_map(|which| [0, 1, 5, 40, 60].into_iter().flat_map(move |steps| seeds_of(which, steps))).collect()
 }
 
 fn seeds_of(which: u8, steps: u32) -> Vec<Vec<u8>> {
     let instance = Instance::started(which);
-    let mut time = 0.0;
-    for _ in 0..steps {
-        let (status, reached) = instance.step(time);
+    let (mut time, mut has_event) = (0.0, false);
+    let shows_events = instance.flags.is_some_and(|flags| flags != [false; 2]);
+    for k in 0..1000 {
+        if k >= steps && (has_event || steps == 0 || !shows_events) {
+            break;
+        }
+        let (status, stepped) = instance.step(time);
         assert_eq!(status, OK);
-        time = reached;
+        (time, has_event) = (stepped.last, stepped.event == 1 || stepped.early == 1);
     }
+    assert_eq!(has_event, steps > 0 && shows_events, "{:?} after {steps} steps", instance.flags);
     let mut seeds = vec![instance.seed(which)];
     if instance.has_event_mode() {
         // SAFETY: a live component.
