@@ -169,6 +169,7 @@ fn variable_of_fmi3(read: fmi3::ModelVariable) -> Variable {
         VariableType::String { .. } => (Kind::String, None, None, None),
         other => (Kind::Other(other.name()), None, None, None),
     };
+    let has_updates = matches!(read.variableType, VariableType::Float64 { intermediateUpdate: true, .. });
     Variable {
         name: read.name,
         reference: read.valueReference,
@@ -180,6 +181,6 @@ fn variable_of_fmi3(read: fmi3::ModelVariable) -> Variable {
         max,
         nominal,
         start,
-        has_updates: read.intermediateUpdate,
+        has_updates,
     }
 }

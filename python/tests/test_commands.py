@@ -66,6 +66,8 @@ def test_a_reader_that_has_seen_enough(arguments):
 @pytest.mark.skipif(os.name == "nt", reason="no SIGINT for another process")
 def test_ctrl_c_in_a_command_in_python(tmp_path):
     code = "import time\ndef main(arguments):\n    print('on', flush=True)\n    time.sleep(60)\n"
+    # Also where this runs in the background, where shells have processes ignore it.
+    code += "import signal\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
     start = f"import sys, types; m = types.ModuleType('m'); exec({code!r}, m.__dict__); import pounding_fmu.__main__ as c"
     start += "; sys.modules['pounding_fmu.record'] = m; sys.argv[1:] = ['record', 'x']; sys.exit(c.main())"
     process = subprocess.Popen([sys.executable, "-c", start], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)

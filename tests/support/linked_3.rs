@@ -141,8 +141,10 @@ pub struct Line {
 pub struct Log {
     pub lines: RefCell<Vec<Line>>,
     call_back: RefCell<Option<Box<dyn FnMut()>>>,
-    on_update: RefCell<Option<Box<dyn FnMut(Turn)>>>,
+    on_update: RefCell<Option<OnUpdate>>,
 }
+
+type OnUpdate = Box<dyn FnMut(Turn)>;
 
 /// What a turn of the master in a step says about itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
