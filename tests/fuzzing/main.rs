@@ -81,6 +81,7 @@ fn states() {
     if let Some(folder) = std::env::var_os("WRITE_STATE_SEEDS") {
         (0..).zip(&seeds).for_each(|(k, seed)| fs::write(Path::new(&folder).join(format!("state-{k}")), seed).unwrap());
     }
+    seeds.iter().for_each(|seed| state::check_seed(seed));
     try_out("state", &seeds, 3000, state::check);
 }
 

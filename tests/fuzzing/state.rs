@@ -207,6 +207,16 @@ pub fn check(bytes: &[u8]) {
     instance.start();
 }
 
+/// Panics where a seed does not come back as it is.
+pub fn check_seed(seed: &[u8]) {
+    let instance = Instance::started(seed[0]);
+    let (bytes, mut state) = (enveloped(instance.common().version, &seed[1..]), null_mut());
+    // SAFETY: a live component, as many bytes as it says, a place without a state.
+    let status = unsafe { (instance.common().deserialize)(instance.c, bytes.as_ptr(), bytes.len(), &raw mut state) };
+    assert_eq!(status, OK);
+    assert!(instance.bytes(state) == bytes, "{:?}", instance.flags);
+}
+
 /// A whole state with this body.
 fn enveloped(version: FmiVersion, body: &[u8]) -> Vec<u8> {
     let guid = resources().package.guid(version);

@@ -357,9 +357,11 @@ impl Master {
         }
     }
 
-    /// Through bytes into an instance with other flags and turns, and on with that.
+    /// Through bytes into an instance with other flags and turns, and on with that: where it sees as much of events, to the
+    /// same bits.
     fn move_to(&mut self, which: u8) {
         let shared = self.session.shared;
+        let before = (which & 3 == self.which & 3).then(|| bits(self.session.c, &FUNCTIONS, &shared.table));
         let to = move |c: Component, choices: &Choices| {
             let new = shared.resources.instantiate_3(choices);
             FUNCTIONS.common.hand_over(c, new);
@@ -368,6 +370,8 @@ impl Master {
             new
         };
         self.session.c = to(self.session.c, &choices(shared, which, &self.turns));
+        let after = before.is_some().then(|| bits(self.session.c, &FUNCTIONS, &shared.table));
+        assert!(before == after, "{:?}: other bits after a move", self.session.known.model);
         self.session.snapshots = [(null_mut(), None), (null_mut(), None)];
         self.which = which;
         let model = &mut self.session.known.model;
