@@ -181,6 +181,7 @@ mod tests {
     fn what_is_freed_in_a_call_within_a_call_lives_to_the_end_of_both() {
         let logged = Logged::new(Interface::PLAIN_V3);
         let c = logged.component;
+        // SAFETY: a live component of this thread, of which nothing is borrowed.
         let is_lent = || unsafe { (*c.cast::<Instance>()).is_lent };
         // SAFETY: a live component of this thread, which ends with the outer call.
         unsafe {

@@ -221,9 +221,9 @@ impl Master {
             unsafe { function(c) }
         }) {
             self.session.known.model.phase = to;
-            // SAFETY: a live component.
             self.session.note(move |again| {
                 if again.has_same_flags {
+                    // SAFETY: a live component.
                     assert_eq!(unsafe { function(again.c) }, OK);
                 }
             });
