@@ -21,4 +21,12 @@ impl FmiVersion {
             FmiVersion::V3 => "3.0",
         }
     }
+
+    /// The type of a recorded state, without the prefix of the version.
+    pub(crate) const fn state_name(self) -> &'static str {
+        match self {
+            FmiVersion::V2 => "FMUstate",
+            FmiVersion::V3 => "FMUState",
+        }
+    }
 }

@@ -4,6 +4,7 @@ Each function returns what is wrong, a line each.
 """
 
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from itertools import chain
 
 from releasing.cases import STEPS
@@ -26,16 +27,18 @@ def expect(cases, host):
     for run in held:
         (run.case.folder / "held.outputs").write_bytes(run.outputs())
     saving = started(cases, host)
-    problems = carry_out(host, saving) or [line for run in saving for line in run.differences(expected(run.case))]
+    problems = carry_out(host, saving) or [line for run in saving for line in run.differences(run.expected())]
     for run in saving:
-        for kind, point in zip(("middle", "end"), run.saves):
-            (run.case.folder / f"{kind}.state").write_bytes((FOLDER / run.state(point)).read_bytes())
+        for kept, point in zip(run.kept_states(), run.saves):
+            kept.write_bytes((FOLDER / run.state(point)).read_bytes())
     return problems
 
 
 def started(cases, host):
-    """Runs from the start that save a state on the way and at the end."""
-    return [Run(case, host, "start", saves=(case.middle(expected(case)), STEPS)) for case in cases]
+    """Runs from the start that save a state on the way and at the end: of FMI 2.0, and of FMI 3.0 with stops at events."""
+    runs = [Run(case, host, "start") for case in cases]
+    runs += [Run(case, host, "fmi3-start", fmi=3, stops=True, is_held=True) for case in in_both_versions(cases)]
+    return [replace(run, saves=(run.case.middle(run.expected()), STEPS)) for run in runs]
 
 
 def in_both_versions(cases):
@@ -54,9 +57,7 @@ def check_versions(cases, host):
         for name, stops in (("plain", False), ("stops", True))
     ]
     problems = carry_out(host, runs)
-    return problems or [
-        line for run in runs for line in run.differences((run.case.folder / "held.outputs").read_bytes())
-    ]
+    return problems or [line for run in runs for line in run.differences(run.expected())]
 
 
 def same_outputs(cases, hosts):
@@ -73,33 +74,33 @@ def crosswise(cases, hosts):
 
 def continued(run, host):
     """From the state that this run has saved on its way."""
-    middle = run.saves[0]
-    return Run(run.case, host, f"from-{run.host.platform.name}", middle, run.state(middle), run.saves)
+    return gone_on(run, host, run.host.platform.name, run.state(run.saves[0]))
+
+
+def gone_on(run, host, source, state):
+    name = run.name.replace("start", f"from-{source}")
+    return replace(run, host=host, name=name, start=run.saves[0], start_state=state)
 
 
 def from_kept_states(cases, host):
     """Goes on from the states that are kept beside the cases, on a machine that has no other platform."""
-    kept = [(run, f"cases/{run.case.name}/middle.state") for run in started(cases, host)]
-    return check(host, [Run(run.case, host, "from-kept", run.saves[0], state, run.saves) for run, state in kept])
+    kept = [(run, f"cases/{run.case.name}/{run.kept_states()[0].name}") for run in started(cases, host)]
+    return check(host, [gone_on(run, host, "kept", state) for run, state in kept])
 
 
 def check(host, runs):
     problems = carry_out(host, runs)
     if problems:
         return problems
-    return [line for run in runs for line in (*run.differences(expected(run.case)), *state_differences(run))]
+    return [line for run in runs for line in (*run.differences(run.expected()), *state_differences(run))]
 
 
 def state_differences(run):
     problems = []
-    for kind, point in zip(("middle", "end"), run.saves):
-        if (FOLDER / run.state(point)).read_bytes() != (run.case.folder / f"{kind}.state").read_bytes():
+    for kept, point in zip(run.kept_states(), run.saves):
+        if (FOLDER / run.state(point)).read_bytes() != kept.read_bytes():
             problems.append(f"{run.state(point)}: the saved state has other bytes than on the first platform")
     return problems
-
-
-def expected(case):
-    return (case.folder / "expected.outputs").read_bytes()
 
 
 def together(hosts, work):

@@ -29,6 +29,15 @@ class Run:
     def outputs(self):
         return (FOLDER / self.file("outputs")).read_bytes()
 
+    def expected(self):
+        """The outputs that all others must have, kept beside the case."""
+        return (self.case.folder / ("held.outputs" if self.is_held else "expected.outputs")).read_bytes()
+
+    def kept_states(self):
+        """The files beside the case with the states of its saves on the first platform."""
+        version = "fmi3-" if self.fmi == 3 else ""
+        return [self.case.folder / f"{version}{kind}.state" for kind in ("middle", "end")]
+
     def order(self):
         """Writes the file that the host reads and returns its name."""
         case = self.case

@@ -136,13 +136,42 @@ class Bytes(unittest.TestCase):
         order = (self.folder / seen[0]).read_text()
         self.assertIn("start_state aarch64-linux/two.start.900.state", order)
 
-    def test_versions_are_compared_where_there_are_two(self):
-        host = PretendedHost(self.outputs, b"a state")
-        self.assertEqual(comparison.in_both_versions([self.case]), [])
+    def in_both_versions(self):
         (self.case.folder / "fmi3").mkdir()
         (self.case.folder / "fmi3/modelDescription.xml").write_text(DESCRIPTION_3)
         (self.case.folder / "held.outputs").write_bytes(self.outputs)
-        case = Case(self.case.folder)
+        return Case(self.case.folder)
+
+    def test_states_of_both_versions_where_there_are_two(self):
+        case = self.in_both_versions()
+        for name in ("fmi3-middle.state", "fmi3-end.state"):
+            (case.folder / name).write_bytes(b"a state")
+        host = PretendedHost(self.outputs, b"a state")
+        self.assertEqual(comparison.same_outputs([case], [host]), [])
+        host = PretendedHost(self.outputs[900 * 32 :], b"a state")
+        self.assertEqual(comparison.crosswise([case], [host]), [])
+        self.assertEqual(comparison.from_kept_states([case], host), [])
+        for name, state in (
+            ("from-aarch64-linux", "aarch64-linux/two.fmi3-start.900.state"),
+            ("from-kept", "cases/two/fmi3-middle.state"),
+        ):
+            order = (self.folder / f"aarch64-linux/two.fmi3-{name}.run").read_text()
+            for line in ("fmi 3", "stops 1", "start 900", f"start_state {state}"):
+                self.assertIn(f"\n{line}\n", order)
+        (case.folder / "fmi3-end.state").write_bytes(b"a stale")
+        problems = comparison.from_kept_states([case], host)
+        self.assertEqual(len(problems), 1)
+        self.assertIn("two.fmi3-from-kept.2000.state: the saved state has other bytes", problems[0])
+        changed = bytearray(self.outputs)
+        changed[32 * 950 + 16] ^= 1
+        (case.folder / "held.outputs").write_bytes(changed)
+        problems = comparison.crosswise([case], [host])
+        self.assertIn("in FMI 3.0 with stops: impacts at point 950", problems[0])
+
+    def test_versions_are_compared_where_there_are_two(self):
+        host = PretendedHost(self.outputs, b"a state")
+        self.assertEqual(comparison.in_both_versions([self.case]), [])
+        case = self.in_both_versions()
         self.assertEqual(comparison.versions([case], [host]), [])
         order = (self.folder / "aarch64-linux/two.fmi3-stops.run").read_text()
         for line in ("fmi 3", "stops 1", "guid {3}", "reals 1 11", "booleans 1 12", "partials 2 11 10"):

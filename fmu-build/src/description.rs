@@ -39,6 +39,8 @@ pub struct Variable {
     pub start: Option<String>,
     /// Of FMI 3.0: it is exchanged within steps.
     pub has_updates: bool,
+    /// It changes between events.
+    pub is_continuous: bool,
 }
 
 /// The type of a variable: those that FMUs of ours have.
@@ -131,6 +133,7 @@ fn variable_of_fmi2(read: fmi2::ScalarVariable) -> Variable {
         VariableType::String { .. } => (Kind::String, None, None, None),
     };
     Variable {
+        is_continuous: read.variability == fmi2::Variability::Continuous,
         name: read.name,
         reference: read.valueReference,
         description: read.description,
@@ -171,6 +174,7 @@ fn variable_of_fmi3(read: fmi3::ModelVariable) -> Variable {
     };
     let has_updates = matches!(read.variableType, VariableType::Float64 { intermediateUpdate: true, .. });
     Variable {
+        is_continuous: read.variability == fmi3::Variability::Continuous,
         name: read.name,
         reference: read.valueReference,
         description: read.description,

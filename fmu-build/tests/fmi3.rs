@@ -4,27 +4,19 @@
 mod common;
 
 use common::libraries::{exporting, functions, library};
-use common::{Files, cargo_fmu, cargo_fmu_in, feup, feup_fmu, files, replace_once, root, stderr, stdout, write_fmu};
+use common::{
+    Files, cargo_fmu, cargo_fmu_in, feup, feup_fmu, feup_fmu_of, files, replace_once, root, stderr, stdout, write_fmu,
+};
 use pounding::FmiVersion;
 use serde_json::Value;
-use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::path::Path;
 use tempfile::TempDir;
 
 const HOST: [&str; 2] = if cfg!(windows) { ["win64", "x86_64-windows"] } else { ["linux64", "x86_64-linux"] };
 
 /// The default scene as an FMU of FMI 3.0.
 fn fmi3_fmu() -> &'static Path {
-    static FMU: OnceLock<(TempDir, PathBuf)> = OnceLock::new();
-    let (_, path) = FMU.get_or_init(|| {
-        let directory = TempDir::new().unwrap();
-        let path = directory.path().join("feup.fmi3.fmu");
-        let said = cargo_fmu(&[feup().to_str().unwrap(), "--fmi", "3", "-o", path.to_str().unwrap()]);
-        assert!(said.status.success(), "{}", stderr(&said));
-        assert!(stdout(&said).contains("  token        {") && stdout(&said).contains(HOST[1]), "{}", stdout(&said));
-        (directory, path)
-    });
-    path
+    feup_fmu_of(FmiVersion::V3)
 }
 
 fn check(fmu: &Path) -> (Option<i32>, Value) {
@@ -92,6 +84,7 @@ fn neither_version_takes_the_place_of_the_other() {
     let _ = std::fs::remove_file(&places[1]);
     let said = cargo_fmu(&[scene.to_str().unwrap(), "--fmi", "3"]);
     assert!(said.status.success() && stderr(&said).is_empty(), "{}", stderr(&said));
+    assert!(stdout(&said).contains("  token        {") && stdout(&said).contains(HOST[1]), "{}", stdout(&said));
     assert!(std::fs::read(&places[1]).unwrap() == std::fs::read(fmi3_fmu()).unwrap());
     for wrong in ["1", "3.0", "", "two"] {
         let said = cargo_fmu(&[scene.to_str().unwrap(), &format!("--fmi={wrong}")]);

@@ -1,18 +1,20 @@
 //! Archives that readers may understand in different ways, or that pretend: refused by `cargo fmu check` and
-//! `cargo fmu merge` alike.
+//! `cargo fmu merge` alike, whatever the version of FMI.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod common;
 
 use common::libraries::library;
 use common::{
-    Files, cargo_fmu, changed_description, feup_fmu, files, patched, renamed, replace_once, stdout, write_fmu,
+    Files, cargo_fmu, changed_description, feup_fmu, feup_fmu_of, files, option_of, patched, renamed, replace_once,
+    stdout, write_fmu,
 };
+use pounding::FmiVersion;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// An archive that both commands must refuse, and what both must say.
-fn refused(bytes: &[u8], expected: &str) {
+/// An archive that both commands must refuse, and what both must say: in place of an FMU of a version.
+fn refused(version: FmiVersion, bytes: &[u8], expected: &str) {
     let directory = TempDir::new().unwrap();
     let path = |name: &str| directory.path().join(name).to_str().unwrap().to_owned();
     std::fs::write(path("bad.fmu"), bytes).unwrap();
@@ -21,8 +23,9 @@ fn refused(bytes: &[u8], expected: &str) {
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.contains("archive              WRONG") && said.contains(expected), "no {expected:?} in {said}");
 
-    let mut there = files(feup_fmu());
-    there[1] = ("binaries/win64/FeupFrames.dll".into(), library("win64"));
+    let mut there = files(feup_fmu_of(version));
+    let folder = ["win64", "x86_64-windows"][option_of(version).0];
+    there[1] = (format!("binaries/{folder}/FeupFrames.dll"), library(folder));
     write_fmu(Path::new(&path("there.fmu")), &there);
     let output = cargo_fmu(&["merge", &path("bad.fmu"), &path("there.fmu"), "-o", &path("both.fmu")]);
     let said = common::stderr(&output);
@@ -31,9 +34,9 @@ fn refused(bytes: &[u8], expected: &str) {
 }
 
 /// The default FMU with further files before its own.
-fn with(first: &[(&str, &[u8])]) -> Vec<u8> {
+fn with(version: FmiVersion, first: &[(&str, &[u8])]) -> Vec<u8> {
     let mut all: Files = first.iter().map(|(name, bytes)| ((*name).to_owned(), bytes.to_vec())).collect();
-    all.extend(files(feup_fmu()));
+    all.extend(files(feup_fmu_of(version)));
     bytes_of(&all)
 }
 
@@ -46,6 +49,12 @@ fn bytes_of(files: &Files) -> Vec<u8> {
 
 #[test]
 fn two_files_of_one_name() {
+    FmiVersion::ALL.into_iter().for_each(two_files_of_one_name_in);
+}
+
+fn two_files_of_one_name_in(version: FmiVersion) {
+    let with = |first: &[(&str, &[u8])]| with(version, first);
+    let refused = |bytes: &[u8], expected: &str| refused(version, bytes, expected);
     let description = with(&[("modelDescription.xmX", b"<x/>")]);
     let twice = renamed(&description, "modelDescription.xmX", "modelDescription.xml");
     refused(&twice, "\"modelDescription.xml\": more than once in the archive");
@@ -58,7 +67,12 @@ fn two_files_of_one_name() {
 
 #[test]
 fn a_directory_that_does_not_say_what_the_files_say() {
-    let good = std::fs::read(feup_fmu()).unwrap();
+    FmiVersion::ALL.into_iter().for_each(a_directory_that_does_not_say_it_in);
+}
+
+fn a_directory_that_does_not_say_it_in(version: FmiVersion) {
+    let refused = |bytes: &[u8], expected: &str| refused(version, bytes, expected);
+    let good = std::fs::read(feup_fmu_of(version)).unwrap();
     let scene = "resources/scene.toml";
     // Places of the header: sum, compressed size, size; name length is left alone.
     for (central, local) in [(16, 14), (20, 18), (24, 22)] {
@@ -79,12 +93,35 @@ fn a_directory_that_does_not_say_what_the_files_say() {
     refused(&[b"#!/bin/sh\n", &good[..]].concat(), "10 bytes stand before the archive");
 }
 
+/// The description of the one version in the FMU of the other.
+#[test]
+fn a_description_of_the_other_version() {
+    for (version, other, folder) in
+        [(FmiVersion::V2, FmiVersion::V3, "x86_64-"), (FmiVersion::V3, FmiVersion::V2, "binaries/x86_64-")]
+    {
+        let mut all = files(feup_fmu_of(version));
+        all[0] = files(feup_fmu_of(other)).swap_remove(0);
+        let directory = TempDir::new().unwrap();
+        let path = directory.path().join("mixed.fmu").to_str().unwrap().to_owned();
+        write_fmu(Path::new(&path), &all);
+        let output = cargo_fmu(&["check", &path]);
+        let said = stdout(&output);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains("library              WRONG") && said.contains(folder), "{said}");
+        let output =
+            cargo_fmu(&["merge", &path, feup_fmu_of(other).to_str().unwrap(), "-o", &format!("{path}.both.fmu")]);
+        let said = common::stderr(&output);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains("mixed.fmu and ") && said.contains("cannot be merged"), "{said}");
+    }
+}
+
 #[test]
 fn what_unpacks_to_much_is_refused_and_the_report_stays_short() {
     let zeros = vec![0; 100 << 20];
     let mut files = files(feup_fmu());
     (0..11).for_each(|k| files.push((format!("resources/{k}"), zeros.clone())));
-    refused(&deflated(&files), "more than 1073741824 bytes in the archive up to here");
+    refused(FmiVersion::V2, &deflated(&files), "more than 1073741824 bytes in the archive up to here");
 
     // Each finding with a long name, and many of them.
     let unit = |k: usize| format!("<Unit name=\"{k}{}\"/>", "u".repeat(5000));

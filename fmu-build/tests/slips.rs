@@ -3,18 +3,23 @@
 
 mod common;
 
-use common::{build, cargo_fmu, changed_feup, feup_fmu, replace_once, root, stderr, stdout};
+use common::{build, cargo_fmu, changed_feup, feup_fmu_of, option_of, replace_once, root, stderr, stdout};
+use pounding::FmiVersion;
 use tempfile::TempDir;
 
 #[test]
 fn slips_go_to_standard_error_and_the_fmu_is_built() {
+    FmiVersion::ALL.into_iter().for_each(slips_go_to_standard_error_in);
+}
+
+fn slips_go_to_standard_error_in(version: FmiVersion) {
     let directory = TempDir::new().unwrap();
     let scene = changed_feup(directory.path(), |text| {
         let text = replace_once(text, "gap = 0.005", "gap = 40");
         replace_once(&text, "damping = { ratio = 0.01 }", "damping = { ratio = 5.0 }")
     });
     let fmu = directory.path().join("slips.fmu");
-    let output = cargo_fmu(&[scene.to_str().unwrap(), "-o", fmu.to_str().unwrap()]);
+    let output = cargo_fmu(&[scene.to_str().unwrap(), option_of(version).1, "-o", fmu.to_str().unwrap()]);
     assert!(output.status.success() && fmu.is_file());
     let said = stderr(&output);
     let lines: Vec<&str> = said.lines().collect();
@@ -27,7 +32,7 @@ fn slips_go_to_standard_error_and_the_fmu_is_built() {
     for path in ["logStatusWarning: left.damping_ratio = 5.0: ", "logStatusWarning: contact[1].gap = 40.0: "] {
         assert!(said.contains(path), "no {path:?} in\n{said}");
     }
-    let said = stdout(&cargo_fmu(&["check", feup_fmu().to_str().unwrap()]));
+    let said = stdout(&cargo_fmu(&["check", feup_fmu_of(version).to_str().unwrap()]));
     assert!(!said.contains("logStatusWarning"), "{said}");
 }
 
@@ -96,9 +101,10 @@ fn units_of<'t>(summary: &'t str, table: &str) -> Vec<&'t str> {
 fn an_fmu_is_called_one() {
     let directory = TempDir::new().unwrap();
     let scene = changed_feup(directory.path(), str::to_owned);
-    for (name, right) in [("x.zip", "x.fmu"), ("x", "x.fmu"), ("new/x.fmu.zip", "such as ")] {
+    let names = [("x.zip", "x.fmu"), ("x", "x.fmu"), ("new/x.fmu.zip", "such as ")];
+    for ((name, right), version) in names.into_iter().flat_map(|name| FmiVersion::ALL.map(|version| (name, version))) {
         let path = directory.path().join(name);
-        let output = cargo_fmu(&[scene.to_str().unwrap(), "-o", path.to_str().unwrap()]);
+        let output = cargo_fmu(&[scene.to_str().unwrap(), option_of(version).1, "-o", path.to_str().unwrap()]);
         assert_eq!((output.status.code(), stdout(&output).as_str()), (Some(1), ""));
         let expected = format!("{}: expected a name that ends in .fmu", path.display());
         assert!(stderr(&output).contains(&expected) && stderr(&output).contains(right), "{}", stderr(&output));

@@ -1,6 +1,6 @@
 #![no_main]
 
-#[path = "../../tests/fuzzing/calls.rs"]
+#[path = "../../tests/fuzzing/calls/mod.rs"]
 mod calls;
 #[path = "../../tests/support/linked.rs"]
 mod linked;

@@ -219,6 +219,8 @@ impl Model {
             }
             _ if !is_planned => base.elapsed >= since - rounding,
             Stop::Handled { .. } => base.elapsed <= since + rounding && since <= state.step_end(limit) + rounding,
+            // An input that has been set at an event is the end of a step that a master drives: the next begins there.
+            Stop::No if self.system.is_driven() => (base.elapsed - since).abs() <= rounding,
             Stop::No => base.elapsed <= since + rounding && since < state.step_end(limit),
         };
         require(fits, "its time is not that of its motion")

@@ -75,7 +75,7 @@ impl Slave {
             self.settings = Arc::new(changed);
             self.run.stop();
         }
-        if self.under_way.is_none() {
+        if self.under_way.is_none() && !references.is_empty() {
             self.handle_event()?;
         }
         for (reference, value) in pairs() {

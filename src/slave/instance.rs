@@ -61,7 +61,7 @@ impl Slave {
             phase: Phase::Instantiated,
             log,
             stop_time: None,
-            snapshots: Snapshots::default(),
+            snapshots: Snapshots::new(interface.version()),
             has_warned_of_ground: false,
             has_told_end: false,
         }

@@ -64,7 +64,8 @@ impl Slave {
         let changes = settings.changes(&self.defaults, &self.table);
         let held = held.as_ref().map(Cow::Borrowed);
         let body = Body { phase: *phase, stop_time: *stop_time, changes, run, held };
-        let body = postcard::to_allocvec(&body).map_err(|error| Refusal::from(format!("FMUstate: {error}")))?;
+        let name = self.version().state_name();
+        let body = postcard::to_allocvec(&body).map_err(|error| Refusal::from(format!("{name}: {error}")))?;
         Ok(wrap(&self.fingerprint, &body))
     }
 

@@ -8,6 +8,7 @@ use super::held::Held;
 use super::run::SavedRun;
 use super::sequence::Phase;
 use super::status::Refusal;
+use crate::FmiVersion;
 use crate::variables::Settings;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -21,8 +22,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub struct Handle(pub NonZeroUsize);
 
 /// The live snapshots of an instance.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Snapshots {
+    /// In whose words messages are.
+    version: FmiVersion,
     live: BTreeMap<Handle, Snapshot>,
 }
 
@@ -37,11 +40,16 @@ pub(super) struct Snapshot {
 }
 
 impl Snapshots {
+    /// None yet.
+    pub(super) const fn new(version: FmiVersion) -> Snapshots {
+        Snapshots { version, live: BTreeMap::new() }
+    }
+
     /// Keeps a snapshot in place of an earlier one, or as a new one.
     pub(super) fn keep(&mut self, snapshot: Snapshot, earlier: Option<Handle>) -> Result<Handle, Refusal> {
         let handle = match earlier {
             Some(handle) if self.live.contains_key(&handle) => handle,
-            Some(handle) => return Err(unknown(handle)),
+            Some(handle) => return Err(self.unknown(handle)),
             None => Handle::new(),
         };
         self.live.insert(handle, snapshot);
@@ -50,13 +58,21 @@ impl Snapshots {
 
     /// The snapshot of that handle.
     pub(super) fn get(&self, handle: Option<Handle>) -> Result<&Snapshot, Refusal> {
-        let handle = handle.ok_or_else(|| Refusal::from("FMUstate is null: expected a recorded state".to_owned()))?;
-        self.live.get(&handle).ok_or_else(|| unknown(handle))
+        let name = self.version.state_name();
+        let handle = handle.ok_or_else(|| Refusal::from(format!("{name} is null: expected a recorded state")))?;
+        self.live.get(&handle).ok_or_else(|| self.unknown(handle))
     }
 
     /// Forgets the snapshot of that handle.
     pub(super) fn free(&mut self, handle: Handle) -> Result<(), Refusal> {
-        self.live.remove(&handle).map(drop).ok_or_else(|| unknown(handle))
+        self.live.remove(&handle).map(drop).ok_or_else(|| self.unknown(handle))
+    }
+
+    fn unknown(&self, handle: Handle) -> Refusal {
+        let name = self.version.state_name();
+        let expected =
+            "expected one that this instance has recorded and not freed; other instances take a serialized one";
+        Refusal::from(format!("{name} = {handle}: {expected}"))
     }
 }
 
@@ -78,9 +94,4 @@ impl fmt::Display for Handle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:#x}", self.0)
     }
-}
-
-fn unknown(handle: Handle) -> Refusal {
-    let expected = "expected one that this instance has recorded and not freed; other instances take a serialized one";
-    Refusal::from(format!("FMUstate = {handle}: {expected}"))
 }

@@ -110,3 +110,52 @@ fn held_values_do_not_stay_in_an_instance_with_early_return() {
     assert_eq!(other.step(0.5, 1e-4).1.event, 0);
     assert_eq!(other.outputs(), instance.outputs());
 }
+
+#[test]
+fn messages_call_a_state_as_the_standard_does() {
+    let fmu = Fmu::new(SCENE);
+    let instance = fmu.instance(true, true);
+    let stale = std::ptr::without_provenance_mut(4711);
+    for (state, expected) in [(std::ptr::null_mut(), "FMUState is null"), (stale, "FMUState = 0x1267: expected one")] {
+        assert_eq!(instance.set_state(state), ERROR);
+        assert!(instance.only_error().starts_with(&format!("fmi3SetFMUState: {expected}")));
+    }
+}
+
+#[test]
+fn an_input_that_is_set_at_an_event_is_in_the_state() {
+    let fmu = Fmu::new(SCENE);
+    for event_mode_used in [false, true] {
+        let [one, other] = [(); 2].map(|()| fmu.instance(event_mode_used, true));
+        if event_mode_used {
+            one.start_with_events()
+        } else {
+            one.initialize()
+        }
+        assert_eq!(one.step(0.0, 1.0).1.early, 1);
+        if event_mode_used {
+            one.handle();
+        }
+        assert_eq!(one.set_real("ground.acceleration", 2.0), OK);
+        assert_eq!(other.set_state(other.deserialized(&one.serialized(one.recorded()))), OK);
+        assert_eq!(other.outputs(), one.outputs());
+        assert_eq!(go_on(&other), go_on(&one));
+    }
+}
+
+#[test]
+fn an_event_still_waits_when_nothing_has_been_set() {
+    let fmu = Fmu::new(SCENE);
+    let instance = fmu.instance(true, true);
+    instance.start_with_events();
+    assert_eq!(instance.step(0.0, 1.0).1.event, 1);
+    let waiting = instance.outputs();
+    // SAFETY: a live instance, no elements.
+    unsafe {
+        assert_eq!(fmi3SetFloat64(instance.component, std::ptr::null(), 0, std::ptr::null(), 0), OK);
+        assert_eq!(fmi3SetString(instance.component, std::ptr::null(), 0, std::ptr::null(), 0), OK);
+    }
+    assert_eq!(instance.outputs(), waiting);
+    assert_eq!(instance.set_real("ground.acceleration", 2.0), OK);
+    assert_ne!(instance.outputs(), waiting);
+}

@@ -266,6 +266,44 @@ fn an_instance_that_is_freed_in_a_turn_ends_with_its_step() {
 }
 
 #[test]
+fn an_instance_that_is_freed_in_a_message_before_a_turn_gets_none() {
+    let fmu = Fmu::new(SCENE);
+    let mut instance = started(&fmu, &["left.displacement[1]"], false, false);
+    let component = instance.component;
+    let is_freed = Rc::new(RefCell::new(false));
+    let seen = Rc::clone(&is_freed);
+    in_turns(&instance, move |_, turn| assert!(!*seen.borrow(), "{turn:?}"));
+    // The end of a contact is said before the turn that it gives.
+    let freed = Rc::clone(&is_freed);
+    instance.in_next_message(move || {
+        freed.replace(true);
+        // SAFETY: freed once: the component is forgotten below.
+        unsafe { fmi3FreeInstance(component) }
+    });
+    let (status, stepped) = instance.step(0.0, 1.0);
+    instance.component = null_mut();
+    assert_eq!((status, stepped), (ERROR, UNTOUCHED));
+    assert!(*is_freed.borrow());
+}
+
+/// After an error a state can be set, and after that another step be made: within the one that the turn belongs to.
+#[test]
+fn an_instance_that_is_freed_after_a_step_in_a_turn_ends_with_the_outer_step() {
+    let fmu = Fmu::new(SCENE);
+    let mut instance = started(&fmu, &["left.displacement[1]"], false, false);
+    let state = instance.recorded();
+    in_turns(&instance, move |instance, _| {
+        assert_eq!((instance.call(fmi3Terminate), instance.set_state(state)), (ERROR, OK));
+        assert_eq!(instance.step(0.0, 0.3).0, OK);
+        // SAFETY: freed once: the component is forgotten below.
+        unsafe { fmi3FreeInstance(instance.component) }
+    });
+    let (status, stepped) = instance.step(0.0, 1.0);
+    instance.component = null_mut();
+    assert_eq!((status, stepped), (ERROR, UNTOUCHED));
+}
+
+#[test]
 fn variables_that_there_are_not_are_refused_where_there_is_a_function() {
     let fmu = Fmu::new(SCENE);
     let broken = [

@@ -81,7 +81,13 @@ fn states() {
     if let Some(folder) = std::env::var_os("WRITE_STATE_SEEDS") {
         (0..).zip(&seeds).for_each(|(k, seed)| fs::write(Path::new(&folder).join(format!("state-{k}")), seed).unwrap());
     }
+    seeds.iter().for_each(|seed| state::check_seed(seed));
     try_out("state", &seeds, 3000, state::check);
+}
+
+#[test]
+fn sequences_that_have_found_something() {
+    seeds("calls").iter().for_each(|seed| calls::check(seed));
 }
 
 proptest! {
@@ -95,5 +101,15 @@ proptest! {
     #[test]
     fn sequences_of_legal_calls(calls in proptest::collection::vec(any::<u8>(), 1..200)) {
         calls::check(&[&[1], &calls[..]].concat());
+    }
+
+    #[test]
+    fn sequences_of_any_calls_of_fmi3(first: u8, calls in proptest::collection::vec(any::<u8>(), 1..120)) {
+        calls::check(&[&[first & !1 | 2], &calls[..]].concat());
+    }
+
+    #[test]
+    fn sequences_of_legal_calls_of_fmi3(first: u8, calls in proptest::collection::vec(any::<u8>(), 1..200)) {
+        calls::check(&[&[first | 3], &calls[..]].concat());
     }
 }

@@ -1,6 +1,9 @@
 //! Instances of FMI 3.0 through the exported functions, linked rather than loaded, with what they log.
 #![allow(dead_code, clippy::unwrap_used, clippy::panic)] // each test uses its share
 
+#[path = "steps_3.rs"]
+mod steps;
+
 use pounding::FmiVersion;
 use pounding::description::Package;
 pub use pounding::fmi::*;
@@ -9,6 +12,7 @@ use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::path::PathBuf;
 use std::ptr::{null, null_mut};
+pub use steps::*;
 use tempfile::TempDir;
 
 pub const OK: c_int = 0;
@@ -192,33 +196,11 @@ unsafe extern "C" fn update(
         (*requested, *early_return_time) = (1, time);
         &*environment.cast::<Log>()
     };
-    if let Some(turn) = log.on_update.borrow_mut().as_mut() {
+    let mut on_update = log.on_update.take();
+    if let Some(turn) = &mut on_update {
         turn(Turn { time, sets, gets, is_finished, can_return });
     }
-}
-
-/// What `fmi3DoStep` has written.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stepped {
-    pub event: u8,
-    pub terminate: u8,
-    pub early: u8,
-    pub last: f64,
-}
-
-/// What is written nowhere by itself.
-pub const UNTOUCHED: Stepped = Stepped { event: 77, terminate: 77, early: 77, last: -77.0 };
-
-/// The step from one time to another, to the last bit.
-pub fn step_to(now: f64, end: f64) -> f64 {
-    let mut step = end - now;
-    while now + step < end {
-        step = step.next_up();
-    }
-    while now + step > end {
-        step = step.next_down();
-    }
-    step
+    log.on_update.replace(on_update);
 }
 
 /// A live instance; its methods are the functions of the standard.
@@ -259,7 +241,7 @@ impl Instance<'_> {
         *self.log.call_back.borrow_mut() = Some(Box::new(call_back));
     }
 
-    /// Does something in each turn that a step gives, from now on.
+    /// Does something in each turn that a step gives, from now on; not in turns within turns.
     pub fn in_turns(&self, turn: impl FnMut(Turn) + 'static) {
         *self.log.on_update.borrow_mut() = Some(Box::new(turn));
     }
@@ -296,11 +278,7 @@ impl Instance<'_> {
     }
 
     pub fn step(&self, current: f64, step: f64) -> (c_int, Stepped) {
-        let mut all = UNTOUCHED;
-        let Stepped { event, terminate, early, last } = &mut all;
-        // SAFETY: a live instance and places for the results.
-        let status = unsafe { fmi3DoStep(self.component, current, step, 1, event, terminate, early, last) };
-        (status, all)
+        steps::step(self.component, current, step)
     }
 
     /// `fmi3UpdateDiscreteStates`: status, Booleans in the order of the arguments, time.

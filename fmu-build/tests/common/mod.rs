@@ -3,6 +3,7 @@
 
 pub mod libraries;
 
+use pounding::FmiVersion;
 use std::fs::File;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -57,14 +58,29 @@ pub fn changed_feup(directory: &Path, change: impl Fn(&str) -> String) -> PathBu
 
 /// The FMU of the default scene.
 pub fn feup_fmu() -> &'static Path {
-    static FMU: OnceLock<(TempDir, PathBuf)> = OnceLock::new();
-    let (_, path) = FMU.get_or_init(|| {
+    feup_fmu_of(FmiVersion::V2)
+}
+
+/// The same of a version.
+pub fn feup_fmu_of(version: FmiVersion) -> &'static Path {
+    static FMUS: [OnceLock<(TempDir, PathBuf)>; 2] = [const { OnceLock::new() }; 2];
+    let (place, option) = option_of(version);
+    let (_, path) = FMUS[place].get_or_init(|| {
         let directory = TempDir::new().unwrap();
         let path = directory.path().join("feup.fmu");
-        build(&feup(), &path);
+        let said = cargo_fmu(&[feup().to_str().unwrap(), option, "-o", path.to_str().unwrap()]);
+        assert!(said.status.success(), "{}", stderr(&said));
         (directory, path)
     });
     path
+}
+
+/// The place of a version among both, and the option that asks for its FMU.
+pub fn option_of(version: FmiVersion) -> (usize, &'static str) {
+    match version {
+        FmiVersion::V2 => (0, "--fmi=2"),
+        FmiVersion::V3 => (1, "--fmi=3"),
+    }
 }
 
 /// Names and contents of the files of an FMU, in their order.

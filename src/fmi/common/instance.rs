@@ -9,6 +9,7 @@ use crate::FmiVersion;
 use crate::description::Category;
 use crate::slave::{Interface, Log, Message, Refusal, Slave, instantiate};
 use std::ffi::{CString, c_int};
+use std::mem;
 use std::ptr;
 
 /// What a component points to.
@@ -117,26 +118,37 @@ unsafe fn slave<const N: usize>(
     }
 }
 
-/// Gives the master a turn within a call; whether the component is still there afterwards. One that is freed meanwhile ends
-/// here, where the call under way has no more use for it.
+/// Does the work of a call in which the master has turns, or messages that it may answer. A component that it frees
+/// meanwhile ends with the outermost such call, which has no more use for it.
 ///
 /// # Safety
-/// `component` is a live one of which nothing is borrowed; it is not used afterwards if it is not there any more.
-pub(in crate::fmi) unsafe fn lend(component: Component, turn: impl FnOnce()) -> bool {
+/// `component` is null or a live one of which nothing is borrowed.
+pub(in crate::fmi) unsafe fn lend<T>(component: Component, work: impl FnOnce() -> T) -> T {
     let instance = component.cast::<Instance>();
-    // SAFETY: the caller's promise; each borrow ends with its statement.
-    unsafe { (*instance).is_lent = true };
-    turn();
-    // SAFETY: as above; `free` has only noted that the master gives it up.
-    let is_given_up = unsafe {
-        (*instance).is_lent = false;
-        (*instance).is_given_up
-    };
-    if is_given_up {
-        // SAFETY: the master does not use it any more, and neither does the call under way.
-        unsafe { free(component) };
+    if instance.is_null() {
+        return work();
     }
-    !is_given_up
+    // SAFETY: the caller's promise; each borrow ends with its statement.
+    let is_within_another = unsafe { mem::replace(&mut (*instance).is_lent, true) };
+    let done = work();
+    // SAFETY: as above; `free` has only noted that the master gives it up. It does not use it any more then, and neither
+    // does the call that ends here.
+    unsafe {
+        (*instance).is_lent = is_within_another;
+        if (*instance).is_given_up {
+            free(component);
+        }
+    }
+    done
+}
+
+/// Whether the master has freed a component that is lent.
+///
+/// # Safety
+/// `component` is a live one of which nothing is borrowed.
+pub(in crate::fmi) unsafe fn is_given_up(component: Component) -> bool {
+    // SAFETY: the caller's promise; the borrow ends here.
+    unsafe { (*component.cast::<Instance>()).is_given_up }
 }
 
 /// Ends the life of a component.
@@ -158,4 +170,28 @@ pub(in crate::fmi) unsafe fn free(component: Component) {
     let instance = unsafe { Box::from_raw(instance) };
     // A panic has nobody to be reported to any more, but it may not leave this library either.
     let _ = caught(|| drop(instance));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fmi::common::test_support::Logged;
+
+    #[test]
+    fn what_is_freed_in_a_call_within_a_call_lives_to_the_end_of_both() {
+        let logged = Logged::new(Interface::PLAIN_V3);
+        let c = logged.component;
+        // SAFETY: a live component of this thread, of which nothing is borrowed.
+        let is_lent = || unsafe { (*c.cast::<Instance>()).is_lent };
+        // SAFETY: a live component of this thread, which ends with the outer call.
+        unsafe {
+            lend(c, || {
+                lend(c, || assert!(is_lent()));
+                assert!(is_lent(), "by the outer call");
+                lend(c, || free(c));
+                assert!(is_lent() && is_given_up(c));
+            });
+        }
+        logged.is_freed();
+    }
 }

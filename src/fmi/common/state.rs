@@ -3,24 +3,15 @@
 use super::arguments::{check_length, load, slice_in, slice_out, store};
 use super::fence::{Function, with_instance};
 use super::types::{Component, FmuState};
-use crate::FmiVersion;
 use crate::slave::Handle;
 use std::ffi::c_int;
 use std::num::NonZeroUsize;
 use std::ptr::{null_mut, without_provenance_mut};
 
-/// What a state is called in a version.
-const fn name(version: FmiVersion) -> &'static str {
-    match version {
-        FmiVersion::V2 => "FMUstate",
-        FmiVersion::V3 => "FMUState",
-    }
-}
-
 /// # Safety
 /// As `fmi/mod.rs` says.
 pub(in crate::fmi) unsafe fn get_state(c: Component, function: Function, state: *mut FmuState) -> c_int {
-    let name = name(function.version);
+    let name = function.version.state_name();
     // SAFETY: the caller's promise.
     unsafe {
         with_instance(c, function, |instance| {
@@ -42,7 +33,7 @@ pub(in crate::fmi) unsafe fn set_state(c: Component, function: Function, state: 
 /// # Safety
 /// As `fmi/mod.rs` says.
 pub(in crate::fmi) unsafe fn free_state(c: Component, function: Function, state: *mut FmuState) -> c_int {
-    let name = name(function.version);
+    let name = function.version.state_name();
     // SAFETY: the caller's promise.
     unsafe {
         with_instance(c, function, |instance| {
@@ -98,7 +89,7 @@ pub(in crate::fmi) unsafe fn deserialize_state(
     (bytes, size): (*const u8, usize),
     state: *mut FmuState,
 ) -> c_int {
-    let name = name(function.version);
+    let name = function.version.state_name();
     // SAFETY: the caller's promise.
     unsafe {
         with_instance(c, function, |instance| {

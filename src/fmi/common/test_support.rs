@@ -10,6 +10,7 @@ use crate::scene::Scene;
 use crate::slave::{Interface, Log, Slave};
 use std::ffi::{CStr, c_int};
 use std::mem;
+use std::ptr;
 
 /// A component with its own logger.
 pub(super) struct Logged {
@@ -34,6 +35,11 @@ impl Logged {
         let slave = Slave::new(package(), interface, Log::new(interface.version(), true));
         let instance = Instance::new(slave, logger, None);
         Logged { component: Box::into_raw(Box::new(instance)).cast(), messages }
+    }
+
+    /// Leaves what remains without the component, which has been freed.
+    pub(super) fn is_freed(mut self) {
+        self.component = ptr::null_mut();
     }
 
     /// What has been logged.

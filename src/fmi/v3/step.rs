@@ -4,7 +4,7 @@ use super::types::Boolean;
 use crate::FmiVersion::V3;
 use crate::fmi::common::arguments::{Place, boolean};
 use crate::fmi::common::fence::{Function, go_on, v3, with_instance};
-use crate::fmi::common::instance::{Instance, lend};
+use crate::fmi::common::instance::{Instance, is_given_up, lend};
 use crate::fmi::common::types::Component;
 use crate::fmi::common::updater::Updater;
 use crate::slave::{Call, Part, Refusal, Status, Update};
@@ -24,35 +24,36 @@ pub unsafe extern "C" fn fmi3DoStep(
     early_return: *mut Boolean,
     last_successful_time: *mut f64,
 ) -> c_int {
-    let (mut results, mut turn) = (None, None);
-    // SAFETY: as the module says.
-    let mut status = unsafe {
-        with_instance(c, STEP, |instance| {
-            boolean(V3, "noSetFMUStatePriorToCurrentPoint", no_set_state_before)?;
-            let results = results.insert(Results {
-                event: Place::new("eventHandlingNeeded", event_handling_needed)?,
-                terminate: Place::new("terminateSimulation", terminate_simulation)?,
-                early: Place::new("earlyReturn", early_return)?,
-                last: Place::new("lastSuccessfulTime", last_successful_time)?,
-            });
-            let part = instance.slave.begin_step(current, step);
-            results.settle(instance, part, &mut turn)
-        })
-    };
-    while let (Some((updater, update)), Some(results)) = (turn.take(), &results) {
-        // SAFETY: as the module says; nothing of the instance is borrowed.
-        if !unsafe { lend(c, || updater.call(update)) } {
-            return Status::Error as c_int;
-        }
-        // SAFETY: as the module says.
-        status = unsafe {
-            go_on(c, STEP, |instance| {
-                let part = instance.slave.go_on();
+    // SAFETY: as the module says; nothing of the instance is borrowed where the master has its turn.
+    unsafe {
+        lend(c, || {
+            let (mut results, mut turn) = (None, None);
+            let mut status = with_instance(c, STEP, |instance| {
+                boolean(V3, "noSetFMUStatePriorToCurrentPoint", no_set_state_before)?;
+                let results = results.insert(Results {
+                    event: Place::new("eventHandlingNeeded", event_handling_needed)?,
+                    terminate: Place::new("terminateSimulation", terminate_simulation)?,
+                    early: Place::new("earlyReturn", early_return)?,
+                    last: Place::new("lastSuccessfulTime", last_successful_time)?,
+                });
+                let part = instance.slave.begin_step(current, step);
                 results.settle(instance, part, &mut turn)
-            })
-        };
+            });
+            while let (Some((updater, update)), Some(results)) = (turn.take(), &results) {
+                if !is_given_up(c) {
+                    updater.call(update);
+                }
+                if is_given_up(c) {
+                    return Status::Error as c_int;
+                }
+                status = go_on(c, STEP, |instance| {
+                    let part = instance.slave.go_on();
+                    results.settle(instance, part, &mut turn)
+                });
+            }
+            status
+        })
     }
-    status
 }
 
 /// The places for what a step has come to.

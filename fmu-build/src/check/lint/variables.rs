@@ -22,7 +22,7 @@ pub(super) fn findings(description: &Description) -> Vec<String> {
 /// Continuous inputs and outputs are exchanged within steps, and nothing else is.
 fn updates(variable: &Variable) -> Option<String> {
     let is_exchanged = matches!(variable.causality, Causality::Input | Causality::Output);
-    let expected = is_exchanged && variable.kind == Kind::Real;
+    let expected = is_exchanged && variable.kind == Kind::Real && variable.is_continuous;
     let found = variable.has_updates;
     (found != expected).then(|| format!("{}: intermediateUpdate {found}; expected {expected}", variable.name))
 }
