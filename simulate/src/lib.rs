@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `lib.rs` | the arguments, and what is done with them |
 //! | `instants.rs` | the instants at which a run is looked at |
+//! | `scenario.rs` | a scene with its record and its parameters |
 //! | `solve.rs` | the run over these instants |
 //! | `readings.rs` | what is read of a run, by value reference |
 //! | `tables.rs` | the tables of a run |
@@ -20,6 +21,7 @@ pub mod layout;
 pub mod outcome;
 pub mod readings;
 mod report;
+pub mod scenario;
 pub mod solve;
 pub mod summary;
 pub mod tables;

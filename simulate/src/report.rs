@@ -6,7 +6,7 @@
 
 use crate::instants;
 use crate::layout::Layout;
-use crate::solve::{Events, Solved, solve};
+use crate::solve::{Events, Solved, follow};
 use crate::tables::{impact, outputs};
 use crate::thinning::Column;
 use pounding::description::Package;
@@ -117,7 +117,7 @@ fn columns(
         }
         Ok::<(), Box<dyn Error>>(())
     };
-    solve(model, instants.into_iter(), Some(show))?;
+    follow(model, instants.into_iter(), Some(show))?;
     let series = outputs.into_iter().zip(columns).map(|((row, _), column)| {
         let info = match row.ty {
             Type::Real(unit) => Some(unit.info()),
