@@ -1,0 +1,249 @@
+// Charts over time: one below the other, all over the same stretch, with the moment of the picture as a line.
+
+import { digits, handyUnit, largestOf, seconds, withUnit } from "./format.js";
+import { element, make, onceAFrame } from "./make.js";
+import { colour } from "./palette.js";
+import { chartsOf, usualFloors } from "./series.js";
+
+const HEIGHT = 150;
+const CHOICE = 24;
+
+export class Charts {
+  constructor(state, player) {
+    Object.assign(this, { state, player, plots: [], floors: new Set(), known: "" });
+    this.update = onceAFrame(() => this.#update());
+    state.on("run", () => this.#newRun());
+    state.on("colours", () => this.draw());
+    state.on("time", () => this.#moment());
+    state.on("stretch", () => this.#stretch());
+    new ResizeObserver(() => this.#resize()).observe(element("chart-list"));
+    this.#buttons();
+  }
+
+  #newRun() {
+    const { run } = this.state;
+    const key = JSON.stringify([run.look.name, run.look.left?.floors, run.look.right?.floors]);
+    const longer = this.stop !== run.stop;
+    if (key !== this.known) this.#listFloors(run.look);
+    if (key !== this.known || longer) this.state.show(0, run.stop);
+    [this.known, this.stop] = [key, run.stop];
+    this.draw();
+  }
+
+  // Same charts: new numbers only, which is what a slider in motion needs.
+  draw() {
+    const { run } = this.state;
+    if (!run) return;
+    const wanted = chartsOf(run, this.floors);
+    const names = JSON.stringify(wanted.map(({ id, lines }) => [id, lines.map(({ name }) => name)])) + colour("ink");
+    if (names !== this.names) this.#build(wanted);
+    this.names = names;
+    this.wanted = wanted;
+    this.update();
+  }
+
+  #update() {
+    const { run } = this.state;
+    this.wanted.forEach((chart, at) => {
+      const { plot, title, shown } = this.plots[at];
+      const columns = chart.lines.map(({ name }) => run.columns[name]);
+      const force = chart.impacts ? largestForce(run) : 0;
+      const unit = handyUnit(columns.reduce((most, column) => Math.max(most, largestOf(column)), force), chart.unit);
+      title.textContent = withUnit(chart.title, unit);
+      const factor = unit.factor * (chart.factor ?? 1);
+      Object.assign(shown, { chart, unit, force: force * unit.factor });
+      plot.setData([run.time, ...columns.map((column) => column.map((value) => value * factor))], false);
+      plot.setScale("x", { min: this.state.stretch[0], max: this.state.stretch[1] });
+    });
+    queueMicrotask(() => this.#moment());
+  }
+
+  #build(wanted) {
+    for (const { box, plot } of this.plots) {
+      plot.destroy();
+      box.remove();
+    }
+    this.plots = wanted.map((chart) => this.#buildOne(chart));
+  }
+
+  #buildOne(chart) {
+    const box = make(element("chart-list"), "div", "", { class: "chart", "data-chart": chart.id });
+    const head = make(box, "div", "", { class: "chart-head" });
+    const title = make(head, "h3", chart.title);
+    // What the plot shows now, for what is drawn over it.
+    const shown = { force: 0 };
+    const series = chart.lines.map(({ label, look }) => ({
+      label, width: 1.4, pxAlign: 0, points: { show: false }, value: (_, value) => digits(value), ...look(),
+    }));
+    const axis = { stroke: colour("quiet"), grid: { stroke: colour("grid"), width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
+    const plot = new uPlot({
+      width: this.#width(), height: HEIGHT, padding: [8, 10, 0, 0],
+      cursor: { sync: { key: "run" }, drag: { x: true, y: false }, points: { size: 5 } },
+      scales: { x: { time: false }, y: { range: (_, low, high) => rangeWith(shown.force, low, high) } },
+      axes: [{ ...axis, size: 24 }, { ...axis, size: 56, values: (_, ticks) => ticks.map((tick) => digits(tick)) }],
+      series: [{ label: "t", value: (_, time) => (time === null ? "" : `${seconds(time, 4)} s`) }, ...series],
+      hooks: { setScale: [(one, key) => key === "x" && this.#zoomed(one)], draw: chart.impacts ? [(one) => this.#dots(one, shown)] : [], drawClear: chart.zero ? [drawZero] : [] },
+    }, [[0], ...series.map(() => [0])], box);
+    const legend = plot.root.querySelector(".u-legend");
+    head.append(legend);
+    drawKeys(legend, series);
+    const now = make(plot.over, "div", "", { class: "moment" });
+    this.#clicks(plot);
+    plot.over.setAttribute("aria-hidden", "true");
+    return { box, plot, title, now, shown };
+  }
+
+  // A press that does not drag goes to its time.
+  #clicks(plot) {
+    let from = 0;
+    plot.over.addEventListener("mousedown", (event) => (from = event.clientX));
+    plot.over.addEventListener("mouseup", (event) => {
+      if (event.button !== 0 || Math.abs(event.clientX - from) > 3) return;
+      this.player.pause();
+      this.state.seek(plot.posToVal(event.clientX - plot.over.getBoundingClientRect().left, "x"));
+    });
+    plot.over.addEventListener("dblclick", () => this.state.show(0, this.state.run.stop));
+  }
+
+  // What one chart shows, all show.
+  #zoomed(plot) {
+    const { min, max } = plot.scales.x;
+    const [from, to] = this.state.stretch;
+    const stop = this.state.run?.stop;
+    if (this.following || min === null || !stop || (min === from && max === to)) return;
+    // Its own way back to all of its rows.
+    if (min <= 0 && max >= stop && plot.cursor.event?.type === "dblclick") return;
+    this.state.show(min, max);
+  }
+
+  #stretch() {
+    const [min, max] = this.state.stretch;
+    element("shown").textContent = `${seconds(min, 3)} s to ${seconds(max, 3)} s`;
+    this.following = true;
+    for (const { plot } of this.plots) plot.setScale("x", { min, max });
+    queueMicrotask(() => {
+      this.following = false;
+      this.#moment();
+    });
+  }
+
+  #moment() {
+    for (const { plot, now } of this.plots) {
+      const { min, max } = plot.scales.x;
+      const { time } = this.state;
+      now.hidden = !(time >= min && time <= max);
+      if (!now.hidden) now.style.transform = `translateX(${plot.valToPos(time, "x")}px)`;
+    }
+  }
+
+  // The largest force of each impact, which the rows may miss.
+  #dots(plot, { unit, chart }) {
+    const { run } = this.state;
+    if (!run || !chart) return;
+    const { ctx: context } = plot;
+    const ratio = devicePixelRatio || 1;
+    const [min, max] = [plot.scales.x.min, plot.scales.x.max];
+    const places = new Map(chart.lines.map(({ name }, at) => [Number(name.match(/\d+/)[0]), at + 1]));
+    const zero = plot.valToPos(0, "y", true);
+    context.save();
+    for (const { contact, peak_time_s, peak_force } of run.impacts) {
+      if (!(peak_time_s >= min && peak_time_s <= max) || !places.has(contact)) continue;
+      context.strokeStyle = context.fillStyle = chart.lines[places.get(contact) - 1].look().stroke;
+      const [x, y] = [plot.valToPos(peak_time_s, "x", true), plot.valToPos(peak_force * unit.factor, "y", true)];
+      context.lineWidth = ratio;
+      context.beginPath();
+      context.moveTo(x, zero);
+      context.lineTo(x, y);
+      context.stroke();
+      context.beginPath();
+      context.arc(x, y, 2.2 * ratio, 0, 2 * Math.PI);
+      context.fill();
+    }
+    context.restore();
+  }
+
+  #width() {
+    return Math.max(200, element("chart-list").clientWidth);
+  }
+
+  #resize() {
+    for (const { plot } of this.plots) plot.setSize({ width: this.#width(), height: HEIGHT });
+    this.#moment();
+  }
+
+  #buttons() {
+    const { state } = this;
+    const scale = (factor) => {
+      const [from, to] = state.stretch;
+      const middle = state.time > from && state.time < to ? state.time : (from + to) / 2;
+      state.show(middle - factor * (middle - from), middle + factor * (to - middle));
+    };
+    const move = (share) => {
+      const [from, to] = state.stretch;
+      state.show(from + share * (to - from), to + share * (to - from));
+    };
+    const buttons = { earlier: () => move(-0.5), later: () => move(0.5), nearer: () => scale(0.5), farther: () => scale(2), whole: () => state.show(0, state.run?.stop ?? 1) };
+    for (const [id, act] of Object.entries(buttons)) element(id).addEventListener("click", act);
+  }
+
+  #listFloors(look) {
+    this.floors = new Set(usualFloors(look));
+    const list = element("floor-choice");
+    list.replaceChildren();
+    for (const side of ["left", "right"]) {
+      const count = look[side]?.floors ?? 0;
+      const every = Math.ceil(count / CHOICE) || 1;
+      for (let floor = count; floor > 0; floor -= every) this.#floorBox(list, `${side} ${floor}`);
+    }
+  }
+
+  #floorBox(list, name) {
+    const label = make(list, "label", "", { class: "check" });
+    const box = make(label, "input", "", { type: "checkbox" });
+    label.append(` ${name}`);
+    box.checked = this.floors.has(name);
+    box.addEventListener("change", () => {
+      if (box.checked) this.floors.add(name);
+      else this.floors.delete(name);
+      this.draw();
+    });
+  }
+}
+
+const largestForce = (run) => run.impacts.reduce((most, impact) => Math.max(most, impact.peak_force || 0), 0);
+
+// With 0, with the dots of impacts, and a little room.
+function rangeWith(force, low, high) {
+  const [from, to] = [Math.min(low ?? 0, 0), Math.max(high ?? 0, force)];
+  const room = 0.06 * (to - from || 1);
+  return [from < 0 ? from - room : 0, to > 0 ? to + room : room];
+}
+
+// Where a gap is closed.
+function drawZero(plot) {
+  const { ctx: context, bbox } = plot;
+  const y = plot.valToPos(0, "y", true);
+  if (!Number.isFinite(y)) return;
+  context.save();
+  context.strokeStyle = colour("quiet");
+  context.lineWidth = devicePixelRatio || 1;
+  context.beginPath();
+  context.moveTo(bbox.left, y);
+  context.lineTo(bbox.left + bbox.width, y);
+  context.stroke();
+  context.restore();
+}
+
+// In the legend each line as it is drawn, where the library has a square.
+export function drawKeys(legend, series) {
+  const marks = [...legend.querySelectorAll(".u-marker")].slice(-series.length);
+  marks.forEach((mark, at) => {
+    const key = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
+    const look = { x1: 0, x2: 26, y1: 5, y2: 5, stroke: series[at].stroke, "stroke-width": 2, "stroke-dasharray": series[at].dash.join(" ") || "none" };
+    Object.entries({ class: "key", width: 26, height: 10 }).forEach(([name, value]) => key.setAttribute(name, value));
+    Object.entries(look).forEach(([name, value]) => line.setAttribute(name, value));
+    key.append(line);
+    mark.replaceWith(key);
+  });
+}

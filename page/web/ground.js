@@ -1,0 +1,184 @@
+// Records of ground motions: dropped or chosen, kept by name, looked at beside the periods of the buildings.
+
+import { drawKeys } from "./charts.js";
+import { GRAVITY, digits, plural, seconds } from "./format.js";
+import { element, make } from "./make.js";
+import { SIDES } from "./motion.js";
+import { colour, lineLook } from "./palette.js";
+import { sentence } from "./runner.js";
+
+const MOST_BYTES_READ = 6e7;
+const POINTS = 90;
+const [SHORTEST, LONGEST] = [0.04, 5];
+const RECORD_HEIGHT = 150;
+const NO_RECORD = "no record: the ground is at rest";
+
+export class Ground {
+  // `setRecord` writes the name of a record into the scene, and says whether it could.
+  constructor(state, engine, setRecord) {
+    Object.assign(this, { state, engine, setRecord, known: new Map(), plots: [] });
+    element("record").addEventListener("change", () => this.take([...element("record").files]));
+    element("ground-record").addEventListener("change", () => this.setRecord(element("ground-record").value));
+    state.on("look", () => this.show());
+    state.on("records", () => this.#list());
+    state.on("colours", () => this.draw());
+    new ResizeObserver(() => this.#resize()).observe(element("record-charts"));
+  }
+
+  // Files that may be records: the last that is one becomes the ground motion.
+  async take(files) {
+    let name = null;
+    for (const file of files) name = (await this.#read(file)) ?? name;
+    element("record").value = "";
+    if (name === null) return;
+    this.#list();
+    if (!this.setRecord(name)) this.#say(`${name} is kept; the scene has to be corrected before it can name it.`);
+  }
+
+  async #read(file) {
+    if (file.size > MOST_BYTES_READ) return void this.#say(`${file.name} has ${digits(file.size / 1e6, 3)} MB: expected a record of at most ${MOST_BYTES_READ / 1e6} MB.`);
+    this.#say(`${file.name} is being read.`);
+    try {
+      const bytes = new Uint8Array(await file.arrayBuffer());
+      const about = await this.engine.record(bytes, file.name);
+      this.state.records[file.name] = bytes;
+      this.known.set(file.name, about);
+      this.state.tell("records");
+      return file.name;
+    } catch (error) {
+      return void this.#say(sentence(error));
+    }
+  }
+
+  #list() {
+    const list = element("ground-record");
+    const named = this.state.look?.ground?.record ?? "";
+    list.replaceChildren();
+    if (!named) make(list, "option", NO_RECORD, { value: "" });
+    for (const name of new Set([...(named ? [named] : []), ...Object.keys(this.state.records)])) {
+      make(list, "option", name.split("/").at(-1), { value: name, title: name });
+    }
+    list.value = named;
+    list.disabled = list.options.length < 2;
+  }
+
+  // What the scene names now.
+  async show() {
+    this.#list();
+    const { ground } = this.state.look ?? {};
+    if (!ground) {
+      this.name = null;
+      this.#say("The scene names no record. Drop one anywhere.");
+      return this.draw();
+    }
+    const isOther = ground.record !== this.name || this.content !== this.state.records[ground.record];
+    [this.name, this.content] = [ground.record, this.state.records[ground.record]];
+    if (isOther) await this.#about();
+    this.#facts(ground);
+    if (isOther) this.draw();
+    else for (const { plot } of this.plots) plot.redraw(false);
+  }
+
+  // A name may have the channel behind it.
+  async #about() {
+    const { name } = this;
+    const content = this.content ?? this.state.records[name.replace(/#[^#]*$/, "")];
+    this.about = content === undefined ? null : await this.engine.record(content, name).catch(() => null);
+    this.spectrum = null;
+    if (!this.about) return;
+    const periods = Array.from({ length: POINTS }, (_, at) => SHORTEST * (LONGEST / SHORTEST) ** (at / (POINTS - 1)));
+    const wanted = this.about;
+    this.engine.spectrum(content, name, periods).then((values) => {
+      if (this.about !== wanted) return;
+      this.spectrum = { periods, values };
+      this.draw();
+    }, (error) => error.name !== "Stopped" && this.#say(sentence(error)));
+  }
+
+  #facts({ samples, duration, recordPeak, factor, peakInG }) {
+    const own = `${samples} samples, ${digits(duration)} s, peak ${digits(recordPeak / GRAVITY, 3)} g (${digits(recordPeak, 3)} m/s\u00B2)`;
+    this.#say(Math.abs(factor - 1) < 1e-9 ? own : `${own}; in this run times ${digits(factor, 3)}: ${digits(peakInG, 3)} g`);
+  }
+
+  draw() {
+    if (element("panel-spectrum").hidden) return;
+    for (const { plot } of this.plots) plot.destroy();
+    this.plots = [];
+    element("record-charts").replaceChildren();
+    const facts = element("record-facts");
+    if (!this.name || !this.about) return void (facts.textContent = "No record to look at: drop one anywhere.");
+    const { format, samples, duration, peakInG, peakTime, ariasIntensity, mean } = this.about;
+    facts.textContent = `${this.name.split("/").at(-1)}: ${format}. ${plural(samples, "sample")} in ${digits(duration)} s; as recorded peak ${digits(peakInG, 3)} g at ${seconds(peakTime, 2)} s, mean ${digits(mean / GRAVITY, 2)} g, Arias intensity ${digits(ariasIntensity, 3)} m/s.`;
+    this.#acceleration();
+    this.#response();
+  }
+
+  #acceleration() {
+    const { times, accelerations } = this.about;
+    const factor = (this.state.look?.ground?.factor ?? 1) / GRAVITY;
+    this.#plot("acceleration [g]", { unit: "s", data: [times, accelerations.map((value) => value * factor)], lines: [{ label: "ground", ...lineLook("others", 0) }] });
+  }
+
+  #response() {
+    if (!this.spectrum) return;
+    const factor = Math.abs(this.state.look?.ground?.factor ?? 1) / GRAVITY;
+    const values = Array.from(this.spectrum.values, (value) => value * factor);
+    this.#plot("response spectrum, 5 % damping [g]", { unit: "s", logarithmic: true, data: [this.spectrum.periods, values], lines: [{ label: "pseudo-acceleration", ...lineLook("others", 0) }] });
+    for (const side of SIDES) {
+      const period = this.state.look?.[side]?.periods?.[0];
+      if (period) make(element("record-charts"), "p", `first period, ${side}: ${digits(period, 3)} s`, { class: `hint of-${side}` });
+    }
+  }
+
+  #plot(title, { data, lines, logarithmic }) {
+    const box = make(element("record-charts"), "div", "", { class: "chart" });
+    const head = make(box, "div", "", { class: "chart-head" });
+    make(head, "h3", title);
+    const axis = { stroke: colour("quiet"), grid: { stroke: colour("grid"), width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
+    const series = lines.map(({ label, stroke, dash }) => ({ label, stroke, dash, width: 1.4, points: { show: false }, value: (_, value) => digits(value, 3) }));
+    const plot = new uPlot({
+      width: Math.max(220, element("record-charts").clientWidth), height: RECORD_HEIGHT, padding: [8, 12, 0, 0],
+      cursor: { drag: { x: !logarithmic, y: false } },
+      scales: { x: { time: false, distr: logarithmic ? 3 : 1 } },
+      axes: [{ ...axis, size: 24, values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : `${digits(tick)} s`)) }, { ...axis, size: 50, values: (_, ticks) => ticks.map((tick) => digits(tick)) }],
+      series: [{ label: logarithmic ? "period" : "t", value: (_, at) => (at === null ? "" : `${digits(at, 3)} s`) }, ...series],
+      hooks: { draw: logarithmic ? [(one) => this.#periods(one)] : [] },
+    }, data, box);
+    const legend = plot.root.querySelector(".u-legend");
+    head.append(legend);
+    drawKeys(legend, series);
+    this.plots.push({ plot });
+  }
+
+  // Where the first periods of the buildings are in the spectrum.
+  #periods(plot) {
+    const { ctx: context, bbox } = plot;
+    const ratio = devicePixelRatio || 1;
+    SIDES.forEach((side, at) => {
+      const period = this.state.look?.[side]?.periods?.[0];
+      if (!(period >= plot.scales.x.min && period <= plot.scales.x.max)) return;
+      const x = plot.valToPos(period, "x", true);
+      context.save();
+      context.strokeStyle = context.fillStyle = colour(side);
+      context.lineWidth = 2 * ratio;
+      context.setLineDash(side === "right" ? [7 * ratio, 4 * ratio] : []);
+      context.beginPath();
+      context.moveTo(x, bbox.top);
+      context.lineTo(x, bbox.top + bbox.height);
+      context.stroke();
+      context.font = `${11 * ratio}px system-ui, sans-serif`;
+      context.fillText(` ${side} T1`, x, bbox.top + (10 + 14 * at) * ratio);
+      context.restore();
+    });
+  }
+
+  #resize() {
+    const width = Math.max(220, element("record-charts").clientWidth);
+    for (const { plot } of this.plots) plot.setSize({ width, height: RECORD_HEIGHT });
+    if (this.plots.length === 0) this.draw();
+  }
+
+  #say(text) {
+    element("record-says").textContent = text;
+  }
+}
