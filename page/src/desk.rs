@@ -4,7 +4,7 @@ use crate::job::Job;
 use crate::message::{Answer, Refusal, parts};
 use crate::run::Wishes;
 use crate::scene::Given;
-use crate::{look, motion, run, scene, spectrum, study};
+use crate::{edit, laws, look, motion, run, scene, spectrum, study};
 use serde::Deserialize;
 
 /// Where questions come in, one after the other.
@@ -34,6 +34,10 @@ enum Call {
     Findings,
     /// What can be drawn of it.
     Look,
+    /// The laws of contact.
+    Laws,
+    /// The scene's text with values set by path.
+    Edit { changes: Vec<(String, serde_json::Value)> },
     /// Begins a run.
     Run(Wishes),
     /// Begins a study of gaps, m.
@@ -80,6 +84,10 @@ impl Desk {
             Call::Warnings => Answer::json(&scene::warnings(&given), Vec::new()),
             Call::Findings => Answer::json(&scene::findings(&given), Vec::new()),
             Call::Look => look::look(&given),
+            Call::Laws => laws::all(),
+            Call::Edit { changes } => {
+                edit::edited(parts.first().copied().unwrap_or_default(), &changes).map(|text| Answer::file(text.into()))
+            }
             Call::Run(wishes) => self.begin(run::begin(&given, wishes)?),
             Call::Study { gaps } => self.begin(study::begin(&given, gaps)?),
             Call::Record { name } => motion::about(&name, parts.first().copied().unwrap_or_default()),

@@ -10,12 +10,16 @@
 //! | `job.rs` | what takes long, in slices: after each the page can show how far it is |
 //! | `run.rs`, `study.rs`, `spectrum.rs` | the jobs: a run, the same scene with many gaps, the spectrum of a record |
 //! | `motion.rs` | what is in a record |
+//! | `edit/` | values of a scene's text, set by path |
+//! | `laws.rs` | the laws of contact, to choose from |
 #![deny(unsafe_code)]
 
 pub mod desk;
+mod edit;
 #[allow(unsafe_code)]
 mod exports;
 mod job;
+mod laws;
 mod look;
 pub mod message;
 mod motion;

@@ -52,7 +52,19 @@ export class Engine {
     return this.#now(scene, records, { call: "look" });
   }
 
-  // The same two, beside the page: for scenes and records that are large.
+  // The laws of contact: name, force, restitution, known defect.
+  get laws() {
+    return this.#asked({ call: "laws" }).json;
+  }
+
+  // The text of a scene with values set by path (page/src/edit/mod.rs): edit(scene, { "contact[*].gap": 0.01 }),
+  // "left.storeys": 4, "contact[1].law": "hertz"; null takes a key away.
+  edit(scene, changes) {
+    const { bytes } = this.#asked({ call: "edit", changes: Object.entries(changes) }, [scene], true);
+    return new TextDecoder().decode(bytes);
+  }
+
+  // Findings and look, beside the page: for scenes and records that are large.
   async findingsBeside(scene, records = {}) {
     return (await this.#lane("checks").ask(question(scene, records, { call: "findings" }))).json;
   }
@@ -129,9 +141,13 @@ export class Engine {
   }
 
   #now(scene, records, header) {
-    if (!this.#asking) throw new Refusal({ kind: "RuntimeError", problems: ["the engine is not ready yet"] });
     const { header: whole, parts } = question(scene, records, header);
-    return this.#asking.ask(whole, parts).json;
+    return this.#asked(whole, parts).json;
+  }
+
+  #asked(header, parts = [], isFile = false) {
+    if (!this.#asking) throw new Refusal({ kind: "RuntimeError", problems: ["the engine is not ready yet"] });
+    return this.#asking.ask(header, parts, isFile);
   }
 }
 

@@ -3,6 +3,8 @@
 import { Asking } from "./asking.js";
 
 const SLICE = 40;
+// Pieces of a job's first slice.
+const FIRST = 8;
 
 let asking = null;
 
@@ -22,14 +24,14 @@ onmessage = ({ data: { module, id, header, parts, isFile, isJob } }) => {
 
 // The slices of a job, each told as soon as it is there.
 function goOn(id) {
-  let pieces = 1;
+  let pieces = FIRST;
   for (let isLast = false; !isLast; ) {
     const start = performance.now();
     const answer = asking.ask({ call: "goOn", pieces });
     isLast = answer.json.done;
     tell(id, { answer, isLast });
     const took = performance.now() - start;
-    if (took < SLICE / 2) pieces *= 2;
+    if (took < SLICE / 2) pieces *= 4;
     else if (took > 2 * SLICE) pieces = Math.max(1, Math.floor(pieces / 2));
   }
 }
