@@ -4,7 +4,7 @@ use crate::job::Job;
 use crate::message::{Answer, Refusal, parts};
 use crate::run::Wishes;
 use crate::scene::Given;
-use crate::{edit, laws, look, motion, run, scene, spectrum, study};
+use crate::{edit, files, laws, look, motion, run, scene, spectrum, study};
 use serde::Deserialize;
 
 /// Where questions come in, one after the other.
@@ -46,6 +46,14 @@ enum Call {
     Record { name: String },
     /// Begins the spectrum of the record of this name at these periods, s.
     Spectrum { name: String, periods: Vec<f64> },
+    /// The FMU for a version of FMI; the libraries of these platforms are the parts behind the records.
+    Fmu { fmi: serde_json::Value, libraries: Vec<String> },
+    /// The table of the motion.
+    Csv(Wishes),
+    /// The table of the impacts.
+    ImpactsCsv(Wishes),
+    /// The report of a run.
+    Report(Wishes),
     /// Goes on with what has begun.
     GoOn { pieces: usize },
 }
@@ -94,6 +102,13 @@ impl Desk {
             Call::Spectrum { name, periods } => {
                 self.begin(spectrum::begin(&name, parts.first().copied().unwrap_or_default(), periods)?)
             }
+            Call::Fmu { fmi, libraries } => {
+                let contents = parts.iter().skip(1 + records.len()).copied();
+                files::fmu(&given, libraries.iter().map(String::as_str).zip(contents).collect(), &fmi)
+            }
+            Call::Csv(wishes) => files::motion_table(&given, &wishes),
+            Call::ImpactsCsv(wishes) => files::impacts_table(&given, &wishes),
+            Call::Report(wishes) => files::report_page(&given, &wishes),
             Call::GoOn { pieces } => match &mut self.job {
                 Some(job) => job.go_on(pieces),
                 None => Err(Refusal::value("nothing has begun that could go on")),

@@ -10,6 +10,7 @@
 //! | `job.rs` | what takes long, in slices: after each the page can show how far it is |
 //! | `run.rs`, `study.rs`, `spectrum.rs` | the jobs: a run, the same scene with many gaps, the spectrum of a record |
 //! | `motion.rs` | what is in a record |
+//! | `files.rs` | FMU, tables and report of a scene, as the commands write them |
 //! | `edit/` | values of a scene's text, set by path |
 //! | `laws.rs` | the laws of contact, to choose from |
 #![deny(unsafe_code)]
@@ -18,6 +19,7 @@ pub mod desk;
 mod edit;
 #[allow(unsafe_code)]
 mod exports;
+mod files;
 mod job;
 mod laws;
 mod look;

@@ -32,6 +32,18 @@ pub struct Wishes {
     without_contacts: bool,
 }
 
+impl Wishes {
+    /// s, from row to row.
+    pub fn step(&self) -> Result<f64, Refusal> {
+        self.step.as_ref().map_or(Ok(STEP), |wished| positive("step", wished))
+    }
+
+    /// s, time of the last row.
+    pub fn stop(&self, scenario: &Scenario) -> Result<f64, Refusal> {
+        self.stop.as_ref().map_or(Ok(scenario.stop()), |wished| positive("stop", wished))
+    }
+}
+
 /// A value from JavaScript.
 #[derive(Deserialize)]
 #[serde(untagged)]
@@ -70,8 +82,7 @@ pub fn begin(given: &Given<'_>, wishes: Wishes) -> Result<(impl Job + use<>, Ans
         scenario = scenario.without_contacts();
     }
     let rows = chosen(&scenario, wishes.outputs.as_deref())?;
-    let step = wishes.step.map_or(Ok(STEP), |wished| positive("step", &wished))?;
-    let stop = wishes.stop.map_or(Ok(scenario.stop()), |wished| positive("stop", &wished))?;
+    let (step, stop) = (wishes.step()?, wishes.stop(&scenario)?);
     let readings: Vec<Reading> = rows
         .iter()
         .filter_map(|(reference, _)| Reading::new(&scenario.table, &scenario.settings, *reference))
@@ -237,7 +248,8 @@ fn positive(name: &str, wished: &Wished) -> Result<f64, Refusal> {
     wished.number().filter(|number| *number > 0.0 && number.is_finite()).ok_or_else(expected)
 }
 
-fn has_room(rows: f64, columns: usize) -> Result<(), Refusal> {
+/// Whether there is memory for so many rows and columns.
+pub fn has_room(rows: f64, columns: usize) -> Result<(), Refusal> {
     if rows * columns as f64 * 8.0 <= MOST_BYTES {
         return Ok(());
     }

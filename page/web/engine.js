@@ -129,6 +129,42 @@ export class Engine {
     return Float64Array.from(values);
   }
 
+  // The FMU for FMI 2 or 3, with the libraries of all platforms that the page holds.
+  async buildFmu(scene, { records = {}, fmi = 2 } = {}, lane = "files") {
+    if (this.platforms.length === 0) throw new Refusal({ kind: "ValueError", problems: [NO_LIBRARIES] });
+    this.#libraries ??= Promise.all(Object.entries(JSON.parse(held("libraries"))).map(
+      async ([platform, content]) => [platform, await unpacked(content)]));
+    const libraries = await this.#libraries;
+    const { header, parts } = question(scene, records, { call: "fmu", fmi, libraries: libraries.map(([platform]) => platform) });
+    return this.#file(header, [...parts, ...libraries.map(([, content]) => content)], lane);
+  }
+
+  // Files as the commands write them: the tables of simulate --csv and --impacts, the page of simulate --html.
+  csv(scene, { records = {}, step, stop } = {}, lane = "files") {
+    const { header, parts } = question(scene, records, { call: "csv", step: spoken(step), stop: spoken(stop) });
+    return this.#file(header, parts, lane);
+  }
+
+  impactsCsv(scene, { records = {}, stop } = {}, lane = "files") {
+    const { header, parts } = question(scene, records, { call: "impactsCsv", stop: spoken(stop) });
+    return this.#file(header, parts, lane);
+  }
+
+  report(scene, { records = {}, stop } = {}, lane = "files") {
+    const { header, parts } = question(scene, records, { call: "report", stop: spoken(stop) });
+    return this.#file(header, parts, lane);
+  }
+
+  async #file(header, parts, lane) {
+    return (await this.#lane(lane).ask({ header, parts, isFile: true })).bytes;
+  }
+
+  // A record as CSV, whose numbers read back as the same ones.
+  toCsv({ times, accelerations }, name) {
+    const rows = Array.from(times, (time, place) => `${time},${accelerations[place]}`);
+    return [`# ${name.split(/\s+/).join(" ")}`, "time_s,accel_m_s2", ...rows, ""].join("\n");
+  }
+
   // Stops what goes on in a lane: "runs" (simulate), "study", "spectra", "files".
   stop(lane = "runs") {
     this.#lane(lane).stop();

@@ -70,11 +70,17 @@ struct Series {
 }
 
 /// The file, before the work that it is for.
+///
+/// # Errors
+/// A file that cannot be written.
 pub fn create(file: &Path) -> Result<File, Box<dyn Error>> {
     File::create(file).map_err(|error| format!("cannot write {}: {error}", file.display()).into())
 }
 
 /// The page.
+///
+/// # Errors
+/// What keeps the run from its end.
 pub fn page(package: &Package, model: &Model, stop: f64, events: &Events) -> Result<String, Box<dyn Error>> {
     let Package { scene, scene_text, .. } = package;
     let (times, columns) = columns(scene, model, stop, events)?;
