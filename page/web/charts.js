@@ -2,11 +2,13 @@
 
 import { digits, handyUnit, largestOf, seconds, withUnit } from "./format.js";
 import { element, make, onceAFrame } from "./make.js";
+import { rowBefore } from "./motion.js";
 import { colour } from "./palette.js";
 import { chartsOf, usualFloors } from "./series.js";
 
-const HEIGHT = 150;
+const HEIGHT = 132;
 const CHOICE = 24;
+const MOST_DOTS = 2000;
 
 export class Charts {
   constructor(state, player) {
@@ -127,39 +129,32 @@ export class Charts {
     });
   }
 
+  // A line where the picture is; the legends say the values there, as long as no cursor asks for others.
   #moment() {
+    const { time, run } = this.state;
+    if (!run) return;
+    const row = rowBefore(run.time, time);
     for (const { plot, now } of this.plots) {
       const { min, max } = plot.scales.x;
-      const { time } = this.state;
       now.hidden = !(time >= min && time <= max);
       if (!now.hidden) now.style.transform = `translateX(${plot.valToPos(time, "x")}px)`;
+      if (plot.cursor.left < 0 && plot.data[0].length === run.time.length) plot.setLegend({ idx: row }, false);
     }
   }
 
-  // The largest force of each impact, which the rows may miss.
+  // The largest force of each impact, which the rows may miss: a stem each, and as long as they can be told apart a dot.
   #dots(plot, { unit, chart }) {
     const { run } = this.state;
     if (!run || !chart) return;
-    const { ctx: context } = plot;
-    const ratio = devicePixelRatio || 1;
     const [min, max] = [plot.scales.x.min, plot.scales.x.max];
-    const places = new Map(chart.lines.map(({ name }, at) => [Number(name.match(/\d+/)[0]), at + 1]));
-    const zero = plot.valToPos(0, "y", true);
-    context.save();
-    for (const { contact, peak_time_s, peak_force } of run.impacts) {
-      if (!(peak_time_s >= min && peak_time_s <= max) || !places.has(contact)) continue;
-      context.strokeStyle = context.fillStyle = chart.lines[places.get(contact) - 1].look().stroke;
-      const [x, y] = [plot.valToPos(peak_time_s, "x", true), plot.valToPos(peak_force * unit.factor, "y", true)];
-      context.lineWidth = ratio;
-      context.beginPath();
-      context.moveTo(x, zero);
-      context.lineTo(x, y);
-      context.stroke();
-      context.beginPath();
-      context.arc(x, y, 2.2 * ratio, 0, 2 * Math.PI);
-      context.fill();
+    const shown = run.impacts.filter(({ peak_time_s: time }) => time >= min && time <= max);
+    plot.ctx.save();
+    for (const { name, look } of chart.lines) {
+      const contact = Number(name.match(/\d+/)[0]);
+      const own = shown.filter((impact) => impact.contact === contact);
+      drawStems(plot, own.map(({ peak_time_s: time, peak_force: force }) => [time, force * unit.factor]), look().stroke, shown.length < MOST_DOTS);
     }
-    context.restore();
+    plot.ctx.restore();
   }
 
   #width() {
@@ -210,6 +205,28 @@ export class Charts {
   }
 }
 
+function drawStems(plot, points, stroke, withDots) {
+  const { ctx: context } = plot;
+  const ratio = devicePixelRatio || 1;
+  const zero = plot.valToPos(0, "y", true);
+  context.strokeStyle = context.fillStyle = stroke;
+  context.lineWidth = ratio;
+  context.beginPath();
+  const places = points.map(([time, force]) => [plot.valToPos(time, "x", true), plot.valToPos(force, "y", true)]);
+  for (const [x, y] of places) {
+    context.moveTo(x, zero);
+    context.lineTo(x, y);
+  }
+  context.stroke();
+  if (!withDots) return;
+  context.beginPath();
+  for (const [x, y] of places) {
+    context.moveTo(x, y);
+    context.arc(x, y, 2.2 * ratio, 0, 2 * Math.PI);
+  }
+  context.fill();
+}
+
 const largestForce = (run) => run.impacts.reduce((most, impact) => Math.max(most, impact.peak_force || 0), 0);
 
 // With 0, with the dots of impacts, and a little room.
@@ -241,7 +258,7 @@ export function drawKeys(legend, series) {
     const key = document.createElementNS("http://www.w3.org/2000/svg", "svg");
     const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
     const look = { x1: 0, x2: 26, y1: 5, y2: 5, stroke: series[at].stroke, "stroke-width": 2, "stroke-dasharray": series[at].dash.join(" ") || "none" };
-    Object.entries({ class: "key", width: 26, height: 10 }).forEach(([name, value]) => key.setAttribute(name, value));
+    Object.entries({ class: "line-key", width: 26, height: 10 }).forEach(([name, value]) => key.setAttribute(name, value));
     Object.entries(look).forEach(([name, value]) => line.setAttribute(name, value));
     key.append(line);
     mark.replaceWith(key);

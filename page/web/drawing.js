@@ -9,7 +9,7 @@ const MOST_NUMBERS = 12;
 // How a picture is laid out in a rectangle of the canvas: pixels per m across and per level upwards.
 export function layOut(geometry, box, reach, size) {
   const two = geometry.sides.length === 2;
-  const height = box.height - 64;
+  const height = box.height - 82;
   const up = height / (geometry.top - geometry.bottom);
   const width = Math.max(44, Math.min(0.3 * box.width, 0.62 * height, 210));
   const room = Math.max(16, Math.min(0.15 * box.width, (0.92 * box.width - (two ? 2 : 1) * width) / 2.6));
@@ -25,13 +25,14 @@ export class Drawing {
     Object.assign(this, { context, geometry, place, colours });
     const storeys = Math.max(geometry.floors.left, geometry.floors.right);
     const storey = ((geometry.top - geometry.bottom) * place.up) / Math.max(1, storeys);
-    this.slab = Math.max(2, Math.min(11, 0.16 * storey));
+    this.largestFlash = Math.max(14, 0.5 * storey + 4);
+    this.slab = Math.max(1, Math.min(11, 0.16 * storey));
     this.column = Math.max(1.5, Math.min(6, 0.035 * place.width));
     this.hatch = makeHatch(context, colours);
   }
 
   // The moment: displacements, which storeys yield, and the flashes.
-  draw({ moved, yielding, flashes, ground, caption }) {
+  draw({ moved, yielding, flashes, ground, caption, numbered }) {
     const { context, place } = this;
     context.save();
     context.beginPath();
@@ -40,8 +41,8 @@ export class Drawing {
     this.#ground(ground);
     for (const wall of this.geometry.walls) this.#wall(wall);
     for (const side of this.geometry.sides) this.#building(side, moved[side], yielding);
-    this.#numbers(moved);
     for (const flash of flashes) this.#flash(flash, moved);
+    if (numbered) this.#numbers(moved);
     if (caption) this.#text(caption, place.box.x + place.box.width / 2, place.box.y + 14, "quiet", "center");
     context.restore();
   }
@@ -73,13 +74,13 @@ export class Drawing {
   #arrow(x, y, { share }) {
     const { context, colours } = this;
     const length = 40 * share;
+    if (Math.abs(length) < 3) return;
     context.strokeStyle = context.fillStyle = colours.ink;
     context.lineWidth = 2;
     context.beginPath();
     context.moveTo(x, y);
     context.lineTo(x + length, y);
     context.stroke();
-    if (Math.abs(length) < 3) return;
     const head = Math.sign(length) * 6;
     context.beginPath();
     context.moveTo(x + length + head, y);
@@ -118,7 +119,7 @@ export class Drawing {
     const offsets = [inset + this.column / 2, place.width - inset - this.column / 2];
     for (let storey = 1; storey < edges.length; storey++) {
       const yields = yielding?.[side]?.[storey];
-      context.strokeStyle = yields ? colours.ink : colours[side];
+      context.strokeStyle = colours[side];
       context.lineWidth = yields ? this.column + 2 : this.column;
       context.setLineDash(yields ? [5, 3] : []);
       offsets.forEach((offset) => this.#columnLine(edges, levels, storey, offset));
@@ -154,7 +155,7 @@ export class Drawing {
     if (geometry.contacts.length > MOST_NUMBERS) return;
     geometry.contacts.forEach((contact, at) => {
       const [left, right] = geometry.faces(contact, moved, place.width / place.across);
-      const [x, y] = [place.x((left + right) / 2), place.y(contact.height) - this.slab / 2 - 11];
+      const [x, y] = [place.x((left + right) / 2), place.y(contact.height) - this.slab / 2 - 13];
       context.beginPath();
       context.arc(x, y, 8, 0, 2 * Math.PI);
       context.fillStyle = colours.card;
@@ -173,7 +174,7 @@ export class Drawing {
     if (!pair) return;
     const [left, right] = geometry.faces(pair, moved, place.width / place.across);
     const [x, y] = [place.x(pair.wall === "right" ? right : pair.wall === "left" ? left : (left + right) / 2), place.y(pair.height)];
-    const radius = (7 + 24 * size) * (1 - 0.35 * age);
+    const radius = Math.min(7 + 24 * size, this.largestFlash) * (1 - 0.35 * age);
     context.globalAlpha = 1 - age * age;
     context.beginPath();
     for (let point = 0; point < 20; point++) {
@@ -192,12 +193,13 @@ export class Drawing {
 
 // Stripes, for slabs of the right building and for walls.
 function makeHatch(context, colours) {
-  const stripes = (stroke) => {
+  const stripes = (stroke, opacity = 1) => {
     const tile = document.createElement("canvas");
     tile.width = tile.height = 8;
     const pen = tile.getContext("2d");
     pen.strokeStyle = stroke;
-    pen.lineWidth = 1.6;
+    pen.globalAlpha = opacity;
+    pen.lineWidth = 1.3;
     for (const from of [-8, 0, 8]) {
       pen.moveTo(from, 8);
       pen.lineTo(from + 8, 0);
@@ -205,5 +207,5 @@ function makeHatch(context, colours) {
     pen.stroke();
     return context.createPattern(tile, "repeat");
   };
-  return { right: stripes(colours.card), quiet: stripes(colours.quiet) };
+  return { right: stripes(colours.card, 0.6), quiet: stripes(colours.quiet) };
 }

@@ -4,10 +4,14 @@
 import { History } from "./history.js";
 import { element, make, onceAFrame } from "./make.js";
 import { partsOf } from "./highlight.js";
+import { said } from "./notice.js";
 
 const LINE = 20;
 const LONGEST_LINE = 2000;
 const MOST_FINDINGS = 100;
+// Letters and lines: more of them no browser edits at a bearable pace.
+export const MOST_LETTERS = 4e6;
+const MOST_LINES_OF_TEXT = 50_000;
 
 export class Editor {
   constructor(state) {
@@ -25,6 +29,12 @@ export class Editor {
     state.on("findings", () => this.#findings());
   }
 
+  // Why a text cannot be edited here; nothing where it can.
+  tooLong(text) {
+    if (text.length > MOST_LETTERS) return `${(text.length / 1e6).toFixed(1)} million letters: expected a scene of at most ${MOST_LETTERS / 1e6} million.`;
+    return hasManyLines(text) ? `more than ${MOST_LINES_OF_TEXT} lines, which are too many for a scene.` : "";
+  }
+
   // A text that takes the place of the one that is there; undo brings that back.
   write(text, kind) {
     const { area } = this;
@@ -39,6 +49,8 @@ export class Editor {
 
   // Another scene, from its beginning.
   open(text) {
+    const problem = this.tooLong(text);
+    if (problem) return said(`The text has ${problem} The scene before it stays.`);
     this.write(text, "open");
     this.area.setSelectionRange(0, 0);
     this.area.scrollTop = this.area.scrollLeft = 0;
@@ -68,6 +80,11 @@ export class Editor {
   }
 
   #typed() {
+    const problem = this.tooLong(this.area.value);
+    if (problem) {
+      this.area.value = this.state.scene;
+      return said(`The text would have ${problem} The scene before it stays.`);
+    }
     this.history.add(this.area.value, this.area.selectionStart, "typing");
     this.#changed("typing");
   }
@@ -113,9 +130,10 @@ export class Editor {
 
   #finding(list, { text, line }, kind) {
     const item = make(list, "li", "", { class: kind });
-    const place = line ? `line ${line}: ` : "";
-    if (!line) make(item, "span", `${kind}: ${text}`);
-    else make(item, "button", `${kind === "warning" ? "warning, " : ""}${place}${text}`).addEventListener("click", () => this.goTo(line));
+    const place = line && !text.startsWith("line ") ? `line ${line}: ` : "";
+    const said = `${kind === "warning" ? "warning: " : ""}${place}${text}`;
+    if (!line) make(item, "span", said);
+    else make(item, "button", said).addEventListener("click", () => this.goTo(line));
   }
 
   #draw() {
@@ -144,4 +162,10 @@ export class Editor {
     }
     if (!line) row.append("\u200B");
   }
+}
+
+function hasManyLines(text) {
+  let count = 1;
+  for (let at = text.indexOf("\n"); at >= 0 && count <= MOST_LINES_OF_TEXT; at = text.indexOf("\n", at + 1)) count++;
+  return count > MOST_LINES_OF_TEXT;
 }

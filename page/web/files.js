@@ -1,9 +1,9 @@
 // Files that are dropped onto the page: a scene by its name, everything else is taken for a record.
 
+import { MOST_LETTERS } from "./editor.js";
 import { element } from "./make.js";
-import { said } from "./save.js";
+import { said } from "./notice.js";
 
-const MOST_SCENE = 5e7;
 
 export function startFiles(editor, ground) {
   const take = async (files) => {
@@ -34,7 +34,7 @@ export function startFiles(editor, ground) {
 }
 
 async function openScene(editor, file) {
-  if (file.size > MOST_SCENE) return said(`${file.name} has ${Math.round(file.size / 1e6)} MB: expected a scene of at most ${MOST_SCENE / 1e6} MB.`);
+  if (file.size > 4 * MOST_LETTERS) return said(`${file.name} has ${Math.round(file.size / 1e6)} MB: expected a scene of at most ${MOST_LETTERS / 1e6} MB.`);
   const bytes = new Uint8Array(await file.arrayBuffer());
   try {
     editor.open(new TextDecoder("utf-8", { fatal: true }).decode(bytes));

@@ -6,7 +6,7 @@ export function digits(value, count = 4) {
   if (value === null || value === undefined || Number.isNaN(value)) return NOTHING;
   if (!Number.isFinite(value)) return value > 0 ? "\u221E" : "-\u221E";
   const size = Math.abs(value);
-  if (size !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(count - 1);
+  if (size !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(count - 1).replace(/\.?0*e\+?/, "e");
   return String(Number(value.toPrecision(count)));
 }
 
@@ -52,3 +52,6 @@ export function largestOf(values) {
 }
 
 export const GRAVITY = 9.80665;
+
+// Along a logarithmic axis 1, 2 and 5 times powers of ten have room for their names.
+export const isRound = (value) => [1, 2, 5].includes(Number((value / 10 ** Math.floor(Math.log10(value) + 1e-9)).toPrecision(6)));

@@ -1,7 +1,7 @@
 // Records of ground motions: dropped or chosen, kept by name, looked at beside the periods of the buildings.
 
 import { drawKeys } from "./charts.js";
-import { GRAVITY, digits, plural, seconds } from "./format.js";
+import { GRAVITY, digits, isRound, plural, seconds } from "./format.js";
 import { element, make } from "./make.js";
 import { SIDES } from "./motion.js";
 import { colour, lineLook } from "./palette.js";
@@ -59,7 +59,6 @@ export class Ground {
       make(list, "option", name.split("/").at(-1), { value: name, title: name });
     }
     list.value = named;
-    list.disabled = list.options.length < 2;
   }
 
   // What the scene names now.
@@ -79,20 +78,25 @@ export class Ground {
     else for (const { plot } of this.plots) plot.redraw(false);
   }
 
-  // A name may have the channel behind it.
   async #about() {
-    const { name } = this;
-    const content = this.content ?? this.state.records[name.replace(/#[^#]*$/, "")];
-    this.about = content === undefined ? null : await this.engine.record(content, name).catch(() => null);
+    const content = this.#content();
+    this.about = content === undefined ? null : await this.engine.record(content, this.name).catch(() => null);
+    if (this.spectrum?.isUnderWay) this.engine.stop("spectra");
     this.spectrum = null;
-    if (!this.about) return;
+  }
+
+  // Begins when it is looked at first.
+  async #findSpectrum() {
     const periods = Array.from({ length: POINTS }, (_, at) => SHORTEST * (LONGEST / SHORTEST) ** (at / (POINTS - 1)));
-    const wanted = this.about;
-    this.engine.spectrum(content, name, periods).then((values) => {
-      if (this.about !== wanted) return;
-      this.spectrum = { periods, values };
-      this.draw();
-    }, (error) => error.name !== "Stopped" && this.#say(sentence(error)));
+    const spectrum = (this.spectrum = { periods, isUnderWay: true });
+    const values = await this.engine.spectrum(this.#content(), this.name, periods).catch(() => null);
+    Object.assign(spectrum, { values, isUnderWay: false });
+    if (this.spectrum === spectrum) this.draw();
+  }
+
+  // A name may have the channel behind it.
+  #content() {
+    return this.content ?? this.state.records[this.name.replace(/#[^#]*$/, "")];
   }
 
   #facts({ samples, duration, recordPeak, factor, peakInG }) {
@@ -120,10 +124,12 @@ export class Ground {
   }
 
   #response() {
-    if (!this.spectrum) return;
+    if (!this.spectrum) this.#findSpectrum();
+    if (this.spectrum.isUnderWay) make(element("record-charts"), "p", "The response spectrum is being computed.", { class: "hint" });
+    if (!this.spectrum.values) return;
     const factor = Math.abs(this.state.look?.ground?.factor ?? 1) / GRAVITY;
     const values = Array.from(this.spectrum.values, (value) => value * factor);
-    this.#plot("response spectrum, 5 % damping [g]", { unit: "s", logarithmic: true, data: [this.spectrum.periods, values], lines: [{ label: "pseudo-acceleration", ...lineLook("others", 0) }] });
+    this.#plot("response spectrum, 5 % [g]", { unit: "s", logarithmic: true, data: [this.spectrum.periods, values], lines: [{ label: "Sa", ...lineLook("others", 0) }] });
     for (const side of SIDES) {
       const period = this.state.look?.[side]?.periods?.[0];
       if (period) make(element("record-charts"), "p", `first period, ${side}: ${digits(period, 3)} s`, { class: `hint of-${side}` });
@@ -139,8 +145,8 @@ export class Ground {
     const plot = new uPlot({
       width: Math.max(220, element("record-charts").clientWidth), height: RECORD_HEIGHT, padding: [8, 12, 0, 0],
       cursor: { drag: { x: !logarithmic, y: false } },
-      scales: { x: { time: false, distr: logarithmic ? 3 : 1 } },
-      axes: [{ ...axis, size: 24, values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : `${digits(tick)} s`)) }, { ...axis, size: 50, values: (_, ticks) => ticks.map((tick) => digits(tick)) }],
+      scales: { x: { time: false, distr: logarithmic ? 3 : 1, ...(logarithmic && { range: () => [SHORTEST, LONGEST] }) } },
+      axes: [{ ...axis, size: 24, values: (_, ticks) => ticks.map((tick) => (tick === null || (logarithmic && !isRound(tick)) ? "" : `${digits(tick)} s`)) }, { ...axis, size: 50, values: (_, ticks) => ticks.map((tick) => digits(tick)) }],
       series: [{ label: logarithmic ? "period" : "t", value: (_, at) => (at === null ? "" : `${digits(at, 3)} s`) }, ...series],
       hooks: { draw: logarithmic ? [(one) => this.#periods(one)] : [] },
     }, data, box);
@@ -167,6 +173,7 @@ export class Ground {
       context.lineTo(x, bbox.top + bbox.height);
       context.stroke();
       context.font = `${11 * ratio}px system-ui, sans-serif`;
+      context.textAlign = "left";
       context.fillText(` ${side} T1`, x, bbox.top + (10 + 14 * at) * ratio);
       context.restore();
     });

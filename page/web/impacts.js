@@ -7,17 +7,18 @@ import { element, make } from "./make.js";
 const COLUMNS = [
   { key: "contact", title: "contact" },
   { key: "start_s", title: "start", unit: "s", time: true },
-  { key: "end_s", title: "end", unit: "s", time: true },
   { key: "peak_force", title: "peak force", unit: "N" },
   { key: "approach_velocity", title: "approach", unit: "m/s" },
-  { key: "separation_velocity", title: "separation", unit: "m/s" },
   { key: "peak_penetration", title: "penetration", unit: "m" },
   { key: "impulse", title: "impulse", unit: "N.s" },
   { key: "dissipated_energy", title: "dissipated", unit: "J" },
+  { key: "separation_velocity", title: "separation", unit: "m/s" },
   { key: "peak_time_s", title: "time of peak", unit: "s", time: true },
+  { key: "end_s", title: "end", unit: "s", time: true },
 ];
 const AT_ONCE = 60;
 const BATCH = 300;
+const MOST_ROWS = 3000;
 const idle = globalThis.requestIdleCallback ?? ((act) => setTimeout(act, 30));
 
 export class Impacts {
@@ -33,12 +34,12 @@ export class Impacts {
   draw() {
     const { run } = this.state;
     this.units = Object.fromEntries(COLUMNS.map(({ key, unit }) => [key, handyUnit(largestBy(run.impacts, key), unit)]));
-    this.rows = this.#sorted();
+    const sorted = this.#sorted();
+    this.rows = sorted.slice(0, MOST_ROWS);
     this.#head();
     this.body.replaceChildren();
     this.table.setAttribute("aria-rowcount", this.rows.length + 1);
-    element("no-impacts").hidden = this.rows.length > 0;
-    element("no-impacts").textContent = run.look.contacts.length ? "The buildings do not touch in this run." : "The scene has no contacts.";
+    this.#say(sorted.length);
     this.table.hidden = this.rows.length === 0;
     this.#append(AT_ONCE);
     const generation = (this.generation = {});
@@ -48,6 +49,13 @@ export class Impacts {
       idle(more);
     };
     idle(more);
+  }
+
+  #say(count) {
+    const line = element("no-impacts");
+    line.hidden = count > 0 && count <= MOST_ROWS;
+    const none = this.state.run.look.contacts.length ? "The buildings do not touch in this run." : "The scene has no contacts.";
+    line.textContent = count > 0 ? `The first ${MOST_ROWS} of ${count} in this order; another heading brings others.` : none;
   }
 
   #head() {

@@ -1,18 +1,18 @@
 // A scene in a link: its text, packed, behind the hash, which no server ever sees. A small record of one's own goes along.
 
+import { MOST_LETTERS } from "./editor.js";
 import { element } from "./make.js";
 import { packText, unpackText } from "./packed.js";
-import { said } from "./save.js";
+import { said } from "./notice.js";
 
 const MARK = "#scene=";
 const MOST_RECORD = 3e4;
-const MOST_TEXT_IN_LINK = 5e6;
 
 // What the link that has been opened brings: scene and records; nothing where it brings none.
 export async function fromLink() {
   if (!location.hash.startsWith(MARK)) return null;
   try {
-    const brought = JSON.parse(await unpackText(location.hash.slice(MARK.length), MOST_TEXT_IN_LINK));
+    const brought = JSON.parse(await unpackText(location.hash.slice(MARK.length), MOST_LETTERS));
     if (typeof brought.scene !== "string") throw new Error("no scene");
     const records = Object.entries(brought.records ?? {}).filter(([, content]) => typeof content === "string");
     return { scene: brought.scene, records: Object.fromEntries(records) };

@@ -35,14 +35,14 @@ export function lineLook(kind, place) {
   return { stroke: colour(names[place % names.length]), dash: dashes[Math.floor(place / names.length) % dashes.length] };
 }
 
-// Light, dark or as the system has it: one button goes round; the choice is kept where the browser keeps anything.
+// As the system has it until somebody presses the button, then light or dark in turn; the choice is kept where the browser keeps anything.
 export function startTheme(button, keep, changed) {
   const system = matchMedia("(prefers-color-scheme: dark)");
   let choice = keep.get("theme") ?? "auto";
   const apply = () => {
     document.documentElement.dataset.theme = choice;
-    button.textContent = { auto: "Auto", light: "Light", dark: "Dark" }[choice];
-    button.setAttribute("aria-label", `Colours: ${choice === "auto" ? "as the system has them" : choice}`);
+    button.title = `Colours: ${choice === "auto" ? "as the system has them" : choice}`;
+    button.setAttribute("aria-label", button.title);
     forgetColours();
     changed();
   };

@@ -29,6 +29,7 @@ export class Player {
     document.addEventListener("keydown", (event) => this.#key(event));
     state.on("time", () => this.#shown());
     state.on("run", () => this.#newRun());
+    state.on("chosen", () => this.pause());
     state.on("colours", this.drawMarks);
     new ResizeObserver(this.drawMarks).observe(element("marks").parentElement);
   }

@@ -9,12 +9,23 @@ import { strengthOf } from "./stage.js";
 const TYPING = 250;
 // s: a run that takes no longer follows every change.
 const QUICK = 0.5;
+// s that the first run may take longer: in it the browser compiles the engine.
+const WARMING_UP = 1.5;
 const BAR_AFTER = 250;
-// Rows that a picture needs, rows in each impact, and numbers of all columns together.
+// Rows that a picture needs, s between them that are too long for one, rows in each impact, and numbers of all columns together.
 const ROWS = 4000;
+const FEWEST_ROWS = 1000;
+const LONGEST_STEP = 0.01;
 const IN_IMPACTS = 16;
+// s: of longer runs no impact is looked at from near. More impacts than so many are more than a page has room for.
+const LONG_RUN = 600;
+const MOST_IMPACTS = 200_000;
+// ms without a word: rows in impacts want a run beforehand, which says nothing; a long one does without them at first.
+const SILENCE = 1200;
 const MOST_NUMBERS_KEPT = 4e6;
 const MOST_CONTACTS_SHOWN = 40;
+const FEW = 2;
+const LONG = 400;
 
 export class Runner {
   constructor(state, engine) {
@@ -28,8 +39,8 @@ export class Runner {
   }
 
   // Only what the text names goes along: another record may be large.
-  records() {
-    const { scene, records } = this.state;
+  records(scene = this.state.scene) {
+    const { records } = this.state;
     const named = Object.entries(records).filter(([name]) => scene.includes(name) || scene.includes(JSON.stringify(name).slice(1, -1)));
     return Object.fromEntries(named);
   }
@@ -65,7 +76,8 @@ export class Runner {
     try {
       await this.#run();
     } catch (error) {
-      say(error.name === "Stopped" ? "Stopped. What you see is the run before." : sentence(error));
+      if (error.name !== "Stopped") say(sentence(error));
+      else if (!this.again) setTimeout(() => this.#stopped());
     }
     this.running = null;
     this.#busy(false);
@@ -77,22 +89,63 @@ export class Runner {
 
   stop() {
     this.again = false;
+    element("stop").disabled = true;
+    say("Stopped.");
     this.engine.stop("runs");
     this.engine.stop("alone");
   }
 
   async #run() {
-    const { state, engine } = this;
+    const { state } = this;
     const { scene, look } = state;
     const started = performance.now();
-    const run = await engine.simulate(scene, { ...wishes(look), records: this.records() }, (progress) => this.#progress(progress), "runs");
-    this.took = (performance.now() - started) / 1e3;
-    state.run = { ...run, look: { ...look, contacts: look.layout.contacts }, scene, stop: run.time.at(-1) || run.stop, took: this.took };
+    const run = await this.#compute(scene, look);
+    const passed = (performance.now() - started) / 1e3;
+    this.took = state.run === null ? Math.max(0, passed - WARMING_UP) : passed;
+    this.#take(run, scene, look, state.run === null ? null : passed);
+    await this.runAlone();
+  }
+
+  async #compute(scene, look) {
+    const options = { ...wishes(look), records: this.records(scene) };
+    this.soFar = null;
+    let silent = true;
+    const heard = (progress) => {
+      silent = false;
+      this.soFar = { ...progress, scene, look };
+      this.#progress(progress);
+    };
+    let restarts = false;
+    const watch = setTimeout(() => {
+      restarts = silent && this.running !== null;
+      if (restarts) this.engine.stop("runs");
+    }, SILENCE);
+    try {
+      return await this.engine.simulate(scene, options, heard, "runs");
+    } catch (error) {
+      if (!restarts || error.name !== "Stopped") throw error;
+      return await this.engine.simulate(scene, { ...options, rowsPerImpact: undefined }, heard, "runs");
+    } finally {
+      clearTimeout(watch);
+    }
+  }
+
+  #take(run, scene, look, took) {
+    const { state } = this;
+    state.run = { ...run, look: { ...look, contacts: look.layout.contacts }, scene, stop: run.time.at(-1) || run.stop, took };
     state.chosen = null;
     state.alone = null;
     state.tell("run");
     this.#sayRun();
-    await this.runAlone();
+  }
+
+  // What there is of a run that has been stopped is worth a look.
+  #stopped() {
+    const { soFar } = this;
+    if (!soFar || soFar.rows < 10) return say("Stopped. What you see is the run before.");
+    this.#take(soFar.partial(), soFar.scene, soFar.look, null);
+    const why = soFar.impacts > MOST_IMPACTS ? ` by ${soFar.impacts} impacts, more than the page has room for,` : "";
+    say(`Stopped${why} at ${seconds(soFar.time, 2)} s of ${digits(soFar.look.stop)} s: what you see goes up to there.`);
   }
 
   // The same without contacts, for those who want to see both.
@@ -100,7 +153,7 @@ export class Runner {
     const { state, engine } = this;
     const { run } = state;
     if (run && element("alone").checked && !state.alone) {
-      const options = { ...wishes(run.look), records: this.records(), withoutContacts: true, rowsPerImpact: undefined };
+      const options = { ...wishes(run.look), records: this.records(run.scene), withoutContacts: true, rowsPerImpact: undefined };
       const alone = await engine.simulate(run.scene, options, undefined, "alone").catch(() => null);
       if (state.run === run) state.alone = alone && { ...alone, look: run.look };
     }
@@ -118,6 +171,7 @@ export class Runner {
 
   #progress({ share, time, impacts }) {
     element("progress").value = share;
+    if (impacts > MOST_IMPACTS) return this.engine.stop("runs");
     if (performance.now() - this.running > 1e3 * QUICK) say(`${seconds(time, 2)} s of ${digits(this.state.look.stop)} s, ${plural(impacts, "impact")} so far`);
   }
 
@@ -129,11 +183,13 @@ export class Runner {
   #sayRun() {
     const { run } = this.state;
     const hardest = run.impacts.reduce((most, impact) => (most && strengthOf(most) >= strengthOf(impact) ? most : impact), null);
-    const took = run.took < 1 ? `${digits(1e3 * run.took, 2)} ms` : `${digits(run.took, 3)} s`;
+    const time = run.took < 1 ? `${digits(1e3 * run.took, 2)} ms` : `${digits(run.took, 3)} s`;
+    const took = run.took === null ? "" : ` Computed in ${time}.`;
+    const coarse = run.step > 5 * LONGEST_STEP ? ` Of so long a run the picture has a row every ${digits(run.step, 2)} s only; impacts and peaks are complete.` : "";
     const collapsed = ["left", "right"].filter((side) => run.columns[`${side}.collapsed`]?.at(-1));
     const fell = collapsed.map((side) => ` The ${side} building has collapsed at ${seconds(run.columns[`${side}.collapse_time`].at(-1))} s.`).join("");
     const how = hardest && `The hardest: ${hardest.peak_force ? quantity(hardest.peak_force, "N") : quantity(hardest.impulse, "N.s")} at ${seconds(hardest.peak_time_s || hardest.start_s)} s, ${meeting(run, hardest)}.`;
-    say(`${plural(run.impacts.length, "impact")} in ${digits(run.stop)} s${hardest ? `. ${how}` : "."}${fell} Computed in ${took}.`);
+    say(`${plural(run.impacts.length, "impact")} in ${digits(run.stop)} s${hardest ? `. ${how}` : "."}${fell}${took}${coarse}`);
   }
 
   #key(event) {
@@ -150,7 +206,12 @@ function say(text) {
   if (element("happened").textContent !== text) element("happened").textContent = text;
 }
 
-export const sentence = (error) => (error.problems ?? [error.message]).join(" ");
+// What has gone wrong, in few words even where much has.
+export function sentence(error) {
+  const problems = error.problems ?? [error.message];
+  const short = problems.slice(0, FEW).map((problem) => (problem.length > LONG ? `${problem.slice(0, LONG)}...` : problem));
+  return `${short.join(" ")}${problems.length > FEW ? ` And ${problems.length - FEW} more.` : ""}`;
+}
 
 const problemsOf = (error) => (error.problems ?? [error.message]).map((text) => ({ kind: "problem", text, line: null }));
 
@@ -159,9 +220,10 @@ function wishes(look) {
   const floors = (look.left?.floors ?? 0) + (look.right?.floors ?? 0);
   const contacts = look.layout.contacts.length;
   const columns = 11 * floors + 10 * contacts + 12;
-  const rows = Math.min(ROWS, MOST_NUMBERS_KEPT / columns);
-  const step = look.stop / Math.max(rows, 1000);
-  return { step: Math.min(step, 0.01), rowsPerImpact: IN_IMPACTS, outputs: rows < 1000 ? drawn(look, floors, contacts) : undefined };
+  const most = MOST_NUMBERS_KEPT / columns;
+  const isTall = most < FEWEST_ROWS;
+  const step = Math.max(look.stop / Math.max(most, FEWEST_ROWS), Math.min(look.stop / ROWS, LONGEST_STEP));
+  return { step, rowsPerImpact: look.stop > LONG_RUN ? undefined : IN_IMPACTS, outputs: isTall ? drawn(look, floors, contacts) : undefined };
 }
 
 function drawn(look, floors, contacts) {

@@ -2,6 +2,7 @@
 
 import { digits } from "./format.js";
 import { element } from "./make.js";
+import { said } from "./notice.js";
 import { colour } from "./palette.js";
 import { sentence } from "./runner.js";
 
@@ -76,12 +77,4 @@ export class Save {
     }
     return new Promise((done) => whole.toBlob(done, "image/png"));
   }
-}
-
-export function said(text) {
-  const line = element("saved");
-  line.textContent = text;
-  line.classList.add("shown");
-  clearTimeout(said.timer);
-  said.timer = setTimeout(() => line.classList.remove("shown"), 6000);
 }

@@ -1,5 +1,6 @@
 // Which columns of a run are drawn together, and as what: one entry for each chart.
 
+import { largestOf } from "./format.js";
 import { lineLook } from "./palette.js";
 import { SIDES } from "./motion.js";
 
@@ -44,7 +45,7 @@ const ENERGIES = ["input", "external", "kinetic", "strain", "viscous", "hysteret
 
 // All charts of a run; those without lines are left out.
 export function chartsOf(run, floors) {
-  const energies = ENERGIES.map((name) => [`energy.${name}`, name]).filter(([name]) => run.columns[name]);
+  const energies = ENERGIES.map((name) => [`energy.${name}`, name]).filter(([name]) => largestOf(run.columns[name]) > 0);
   const opening = others(telling(run, contactColumns(run, "penetration")), (number) => `contact ${number}`);
   const charts = [
     { id: "displacement", title: "Displacement of floors", unit: "m", lines: floorLines(run, "displacement", floors) },

@@ -25,7 +25,7 @@ export class Stage {
   take() {
     const { run, alone } = this.state;
     this.shown = run && { motion: new Motion(run), geometry: new Geometry(run.look), impacts: run.impacts };
-    this.other = alone && { motion: new Motion(alone), geometry: new Geometry(run.look), impacts: [] };
+    this.other = alone && { motion: new Motion(alone), geometry: new Geometry(run.look), impacts: null };
     const reach = Math.max(reachOf(run), element("alone").checked ? reachOf(alone) : 0);
     if (this.named !== run?.look.name || reach > this.reach || reach < ENOUGH * this.reach) this.reach = reach;
     this.named = run?.look.name;
@@ -78,6 +78,7 @@ export class Stage {
       flashes: this.#flashes(impacts),
       ground: this.groundPeak > 0 ? { share } : null,
       caption,
+      numbered: impacts !== null,
     });
   }
 
@@ -90,7 +91,7 @@ export class Stage {
   #flashes(impacts) {
     const { time } = this.state;
     const glow = AFTERGLOW * this.player.speed;
-    const recent = impacts.filter((impact) => impact.start_s <= time && time <= Math.max(impact.end_s ?? Infinity, impact.start_s + glow));
+    const recent = (impacts ?? []).filter((impact) => impact.start_s <= time && time <= Math.max(impact.end_s ?? Infinity, impact.start_s + glow));
     return recent.map((impact) => {
       const past = Math.max(0, time - (impact.end_s ?? time));
       const size = this.strongest > 0 ? Math.sqrt(strengthOf(impact) / this.strongest) : 0;
@@ -107,7 +108,8 @@ export class Stage {
     const drawn = !this.shown.geometry.hasLevels
       ? "storeys drawn equally high: the scene has no heights"
       : Math.abs(factor - 1) < 0.01 ? "motion and gaps to the scale of the heights" : `motion and gaps drawn ${digits(factor, 2)} times larger than heights`;
-    const text = `${digits(1e3 * bar)} mm; ${drawn}`;
+    const yields = SIDES.some((side) => this.state.run.look[side]?.yields.some(Boolean)) ? "; dashed: yields at this moment" : "";
+    const text = `${bar < 1 ? `${digits(1e3 * bar)} mm` : `${digits(bar)} m`}; ${drawn}${yields}`;
     if (scale.textContent !== text) scale.textContent = text;
     this.canvas.setAttribute("aria-label", this.#inWords());
   }

@@ -1,7 +1,7 @@
 // Which gap? The run repeated with many gaps: how hard the hardest impact is and how far storeys drift, over the gap. A click on
 // the curve sets the gap of the scene.
 
-import { digits, handyUnit, largestOf, quantity, withUnit } from "./format.js";
+import { digits, handyUnit, isRound, largestOf, quantity, withUnit } from "./format.js";
 import { drawKeys } from "./charts.js";
 import { element, make } from "./make.js";
 import { SIDES } from "./motion.js";
@@ -9,7 +9,7 @@ import { colour, lineLook } from "./palette.js";
 import { sentence } from "./runner.js";
 
 const GAPS = 100;
-const CHART_HEIGHT = 150;
+const CHART_HEIGHT = 118;
 
 export class Study {
   // `setGap` writes a gap, m, into the scene; `gapNow` is that of its handle.
@@ -99,7 +99,7 @@ export class Study {
     const plot = new uPlot({
       width: Math.max(220, element("study-charts").clientWidth), height: CHART_HEIGHT, padding: [8, 12, 0, 0],
       cursor: { sync: { key: "study" }, drag: { x: false, y: false } },
-      scales: { x: { time: false, distr: 3 }, y: { range: (_, low, high) => [0, 1.08 * (high || 1)] } },
+      scales: { x: { time: false, distr: 3, range: () => [x[0], x.at(-1)] }, y: { range: (_, low, high) => [0, 1.08 * (high || 1)] } },
       axes: [{ ...axis, size: 24, values: (_, ticks) => ticks.map((tick) => (tick === null || !isRound(tick) ? "" : `${digits(tick)} mm`)) }, { ...axis, size: 56, values: (_, ticks) => ticks.map((tick) => digits(tick)) }],
       series: [{ label: "gap", value: (_, gap) => (gap === null ? "" : `${digits(gap, 3)} mm`) }, ...series],
       hooks: { draw: [(one) => this.#present(one)] },
@@ -166,6 +166,3 @@ export class Study {
 }
 
 const spaced = (from, to, count) => Array.from({ length: count }, (_, at) => from * (to / from) ** (at / (count - 1)));
-
-// 1, 2 and 5 times powers of ten have room for their names.
-const isRound = (value) => [1, 2, 5].includes(Number((value / 10 ** Math.floor(Math.log10(value) + 1e-9)).toPrecision(6)));
