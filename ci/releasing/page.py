@@ -1,12 +1,9 @@
 """The page: the engine as WebAssembly, and everything of page/web in one HTML file without libraries, the template."""
 
-import base64
-import gzip
 import html
-import json
+import importlib.util
 import re
 import tomllib
-from pathlib import Path
 from types import SimpleNamespace
 
 from releasing import gates, remapping
@@ -153,20 +150,31 @@ def data(module):
         scene = tomllib.loads(text)
         examples.append({key: scene.get(key, "") for key in ("name", "description")} | {"file": file.name, "text": text})
         if record := scene.get("ground", {}).get("record"):
-            records[record] = packed((file.parent / record).read_bytes())
+            records[record] = assembly.packed((file.parent / record).read_bytes())
     elements = [
-        ("engine", "text/plain", packed(module.read_bytes())),
+        ("engine", "text/plain", assembly.packed(module.read_bytes())),
         ("worker", "text/plain", closed(modules(WEB / "worker.js"))),
-        *((name, "application/json", spoken(value)) for name, value in [("examples", examples), ("records", records)]),
-        *((name, "application/json", value) for name, value in [("libraries", "{}"), ("given", "null")]),
+        *(
+            (name, "application/json", assembly.spoken(value))
+            for name, value in [("examples", examples), ("records", records), ("libraries", {}), ("given", None)]
+        ),
     ]
     return "\n".join(f'<script type="{kind}" id="{html.escape(name)}">{text}</script>' for name, kind, text in elements)
 
 
-def packed(content):
-    return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode()
+def write(place, template, folder):
+    """Writes the page with the libraries in a folder, and returns for which platforms these are."""
+    libraries = assembly.libraries_in(folder)
+    place.write_text(assembly.assembled(template, libraries))
+    return list(libraries)
 
 
-def spoken(value):
-    """JSON that no text of a scene can end."""
-    return json.dumps(value).replace("<", "\\u003c")
+def load(file):
+    """A module of the Python package, without the package, which is compiled."""
+    spec = importlib.util.spec_from_file_location(file.stem, file)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+assembly = load(ROOT / "python/pounding_fmu/_page.py")

@@ -19,6 +19,8 @@ export class Engine {
   platforms = Object.keys(JSON.parse(held("libraries")));
   #asking = null;
   #lanes = new Map();
+  // By platform, unpacked when they are first wanted.
+  #libraries = null;
   // Fulfilled when the engine can be asked. Begins last: it fills what stands above.
   ready = this.#start();
 
@@ -259,6 +261,7 @@ export async function unpacked(text) {
 export function forScripts(engine, recordsOfPage = () => engine.records) {
   const all = (records) => ({ ...recordsOfPage(), ...records });
   return {
+    engine,
     ready: engine.ready,
     problems: (scene, records) => engine.problems(scene, all(records)),
     warnings: (scene, records) => engine.warnings(scene, all(records)),
