@@ -51,8 +51,8 @@ pub fn pack(entries: &[Entry]) -> io::Result<Vec<u8>> {
         let deflated = deflated(&entry.bytes)?;
         let header = header(entry, &deflated)?;
         archive.extend([FILE, &header, name, &deflated].concat());
-        // No further fields, no comment, the first disk, no attributes of the file system that was.
-        let rest = [0_u8; 8];
+        // No comment, the first disk, no internal attributes.
+        let rest = [0_u8; 6];
         let attributes = [(REGULAR_FILE | entry.permissions) << 16, start].map(u32::to_le_bytes).concat();
         directory.extend([IN_DIRECTORY, &MADE_BY, &header, &rest, &attributes, name].concat());
     }
@@ -101,7 +101,7 @@ mod tests {
         let common = [20, 0, 0, 0, 8, 0, 0, 0, 33, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0];
         let file = [b"PK\x03\x04", &common[..], b"a", &[3, 0]].concat();
         let attributes = [0, 0, 0xed, 0x81];
-        let entry = [b"PK\x01\x02\x14\x03", &common[..], &[0; 8], &attributes, &[0; 4], b"a"].concat();
+        let entry = [b"PK\x01\x02\x14\x03", &common[..], &[0; 6], &attributes, &[0; 4], b"a"].concat();
         let end = [b"PK\x05\x06", &[0; 4][..], &[1, 0, 1, 0], &[47, 0, 0, 0, 33, 0, 0, 0, 0, 0]].concat();
         assert_eq!(bytes, [file, entry, end].concat());
     }

@@ -191,7 +191,7 @@ def refuses(page):
         "step: 0": "step = 0: expected a number of seconds > 0",
         "stop: NaN": "stop = NaN: expected a number of seconds > 0",
         "outputs: ['left.displacement[7]']": "left.displacement[7]: the scene has no such variable",
-        "parameters: { 'contact[1].gap': NaN }": "contact[1].gap = nan: expected a finite gap in m",
+        "parameters: { 'contact[1].gap': NaN }": "contact[1].gap = nan: expected a finite distance in m",
         "parameters: { 'contact[1].gap': '5' }": 'contact[1].gap = "5": expected a number',
         "parameters: { impacts: 1 }": "impacts is computed and cannot be set: expected names of parameters",
         "step: 1e-12": "2.0e13 rows of 60 columns: expected fewer, by a larger step",
