@@ -81,8 +81,8 @@ export class Charts {
     const plot = new uPlot({
       width: this.#width(), height: HEIGHT, padding: [8, 10, 0, 0],
       cursor: { sync: { key: "run" }, drag: { x: true, y: false }, points: { size: 5 } },
-      scales: { x: { time: false }, y: { range: (_, low, high) => rangeWith(shown.force, low, high) } },
-      axes: [{ ...axis, size: 24 }, { ...axis, size: 56, values: (_, ticks) => ticks.map((tick) => digits(tick)) }],
+      scales: { x: { time: false }, y: { range: (_, low, high) => rangeWith(chart.floats ? [low, high] : [0, shown.force], low, high) } },
+      axes: [{ ...axis, size: 24 }, { ...axis, size: 56, space: 26, values: (_, ticks) => ticks.map((tick) => digits(tick)) }],
       series: [{ label: "t", value: (_, time) => (time === null ? "" : `${seconds(time, 4)} s`) }, ...series],
       hooks: { setScale: [(one, key) => key === "x" && this.#zoomed(one)], draw: chart.impacts ? [(one) => this.#dots(one, shown)] : [], drawClear: chart.zero ? [drawZero] : [] },
     }, [[0], ...series.map(() => [0])], box);
@@ -229,11 +229,12 @@ function drawStems(plot, points, stroke, withDots) {
 
 const largestForce = (run) => run.impacts.reduce((most, impact) => Math.max(most, impact.peak_force || 0), 0);
 
-// With 0, with the dots of impacts, and a little room.
-function rangeWith(force, low, high) {
-  const [from, to] = [Math.min(low ?? 0, 0), Math.max(high ?? 0, force)];
-  const room = 0.06 * (to - from || 1);
-  return [from < 0 ? from - room : 0, to > 0 ? to + room : room];
+// From the lowest to the highest, with what has to be in sight (0, the dots of impacts) and a little room.
+function rangeWith(seen, low, high) {
+  const known = [...seen, low, high].filter((value) => value !== null);
+  const [from, to] = [Math.min(...known), Math.max(...known)];
+  const room = 0.06 * (to - from || Math.abs(to) || 1);
+  return [from === 0 ? 0 : from - room, to === 0 ? 0 : to + room];
 }
 
 // Where a gap is closed.

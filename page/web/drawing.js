@@ -9,7 +9,7 @@ const MOST_NUMBERS = 12;
 // How a picture is laid out in a rectangle of the canvas: pixels per m across and per level upwards.
 export function layOut(geometry, box, reach, size) {
   const two = geometry.sides.length === 2;
-  const height = box.height - 82;
+  const height = box.height - 74;
   const up = height / (geometry.top - geometry.bottom);
   const width = Math.max(44, Math.min(0.3 * box.width, 0.62 * height, 210));
   const room = Math.max(16, Math.min(0.15 * box.width, (0.92 * box.width - (two ? 2 : 1) * width) / 2.6));
@@ -66,7 +66,7 @@ export class Drawing {
       context.fillRect(from, level, to - from, 5);
     });
     const bottom = place.box.y + place.box.height;
-    for (const side of geometry.sides) this.#text(side, this.#centre(side), bottom - 12, side, "center");
+    for (const side of geometry.sides) this.#text(side, this.#centre(side), bottom - 12, side === "right" ? "right-text" : side, "center");
     if (ground) this.#arrow(place.x(geometry.gap / 2), bottom - 22, ground);
   }
 

@@ -146,7 +146,7 @@ export class Ground {
       width: Math.max(220, element("record-charts").clientWidth), height: RECORD_HEIGHT, padding: [8, 12, 0, 0],
       cursor: { drag: { x: !logarithmic, y: false } },
       scales: { x: { time: false, distr: logarithmic ? 3 : 1, ...(logarithmic && { range: () => [SHORTEST, LONGEST] }) } },
-      axes: [{ ...axis, size: 24, values: (_, ticks) => ticks.map((tick) => (tick === null || (logarithmic && !isRound(tick)) ? "" : `${digits(tick)} s`)) }, { ...axis, size: 50, values: (_, ticks) => ticks.map((tick) => digits(tick)) }],
+      axes: [{ ...axis, size: 24, values: (_, ticks) => ticks.map((tick) => (tick === null || (logarithmic && !isRound(tick)) ? "" : `${digits(tick)} s`)) }, { ...axis, size: 50, space: 26, values: (_, ticks) => ticks.map((tick) => digits(tick)) }],
       series: [{ label: logarithmic ? "period" : "t", value: (_, at) => (at === null ? "" : `${digits(at, 3)} s`) }, ...series],
       hooks: { draw: logarithmic ? [(one) => this.#periods(one)] : [] },
     }, data, box);
@@ -156,27 +156,11 @@ export class Ground {
     this.plots.push({ plot });
   }
 
-  // Where the first periods of the buildings are in the spectrum.
+  // Where the first periods of the buildings are in the spectrum; names stand away from the other one.
   #periods(plot) {
-    const { ctx: context, bbox } = plot;
-    const ratio = devicePixelRatio || 1;
-    SIDES.forEach((side, at) => {
-      const period = this.state.look?.[side]?.periods?.[0];
-      if (!(period >= plot.scales.x.min && period <= plot.scales.x.max)) return;
-      const x = plot.valToPos(period, "x", true);
-      context.save();
-      context.strokeStyle = context.fillStyle = colour(side);
-      context.lineWidth = 2 * ratio;
-      context.setLineDash(side === "right" ? [7 * ratio, 4 * ratio] : []);
-      context.beginPath();
-      context.moveTo(x, bbox.top);
-      context.lineTo(x, bbox.top + bbox.height);
-      context.stroke();
-      context.font = `${11 * ratio}px system-ui, sans-serif`;
-      context.textAlign = "left";
-      context.fillText(` ${side} T1`, x, bbox.top + (10 + 14 * at) * ratio);
-      context.restore();
-    });
+    const known = SIDES.map((side) => ({ side, period: this.state.look?.[side]?.periods?.[0] })).filter(({ period }) => period >= plot.scales.x.min && period <= plot.scales.x.max);
+    const shortest = Math.min(...known.map(({ period }) => period));
+    for (const { side, period } of known) markPeriod(plot, side, period, known.length > 1 && period === shortest);
   }
 
   #resize() {
@@ -188,4 +172,22 @@ export class Ground {
   #say(text) {
     element("record-says").textContent = text;
   }
+}
+
+function markPeriod(plot, side, period, isLeftmost) {
+  const { ctx: context, bbox } = plot;
+  const ratio = devicePixelRatio || 1;
+  const x = plot.valToPos(period, "x", true);
+  context.save();
+  context.strokeStyle = context.fillStyle = colour(side);
+  context.lineWidth = 2 * ratio;
+  context.setLineDash(side === "right" ? [7 * ratio, 4 * ratio] : []);
+  context.beginPath();
+  context.moveTo(x, bbox.top);
+  context.lineTo(x, bbox.top + bbox.height);
+  context.stroke();
+  context.font = `${11 * ratio}px system-ui, sans-serif`;
+  context.textAlign = isLeftmost ? "right" : "left";
+  context.fillText(` ${side} T1 `, x, bbox.top + 10 * ratio);
+  context.restore();
 }

@@ -2,6 +2,7 @@
 // step: letters of a word, positions of a slider.
 
 const TOGETHER = 900;
+const JOINING = ["typing", "gap", "strength"];
 const MOST = 300;
 const MOST_TEXT = 2e7;
 
@@ -15,7 +16,7 @@ export class History {
   add(text, caret, kind) {
     if (text === this.steps[this.at].text) return;
     const now = performance.now();
-    const joins = kind === this.last.kind && now - this.last.when < TOGETHER && this.at > 0;
+    const joins = JOINING.includes(kind) && kind === this.last.kind && now - this.last.when < TOGETHER && this.at > 0;
     this.steps.length = joins ? this.at : this.at + 1;
     this.steps.push({ text, caret });
     while (this.steps.length > MOST || (this.steps.length > 2 && this.#size() > MOST_TEXT)) this.steps.shift();

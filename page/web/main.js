@@ -89,11 +89,14 @@ async function begin() {
 
 function listExamples() {
   const list = element("example");
-  make(list, "option", "choose one", { value: "" });
+  make(list, "option", "a scene of your own", { value: "" });
   engine.examples.forEach(({ name, description }, at) => make(list, "option", description || name, { value: at }));
   list.addEventListener("change", () => {
     if (list.value !== "") editor.open(engine.examples[list.value].text);
-    list.value = "";
+  });
+  state.on("scene", () => {
+    const at = engine.examples.findIndex(({ text }) => text === state.scene);
+    list.value = at < 0 ? "" : at;
   });
 }
 

@@ -1,7 +1,7 @@
 // Colours and dashes: Okabe and Ito's, which colour-blind eyes tell apart. Left is cold and solid, right warm and dashed or
 // hatched. The style sheet has the values, light and dark; what is drawn on a canvas asks here.
 
-const NAMES = ["page", "card", "line", "ink", "quiet", "left", "right", "slab-left", "slab-right", "flash", "flash-edge", "free", "grid"];
+const NAMES = ["page", "card", "line", "ink", "quiet", "left", "right", "right-text", "flash", "flash-edge"];
 const LINES = {
   left: ["--left", "--left-2", "--left-3", "--left-4"],
   right: ["--right", "--right-2", "--right-3", "--right-4"],

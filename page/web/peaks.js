@@ -65,6 +65,7 @@ export class Peaks {
 
   #time(cell, column) {
     const time = this.state.run.time[firstAtEnd(column)];
+    cell.append(" ");
     make(cell, "button", `${seconds(time, 2)} s`, { class: "goes", "aria-label": `go to ${seconds(time, 2)} s` }).addEventListener("click", () => this.state.seek(time));
   }
 

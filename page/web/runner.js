@@ -7,8 +7,10 @@ import { strengthOf } from "./stage.js";
 
 // ms
 const TYPING = 250;
-// s: a run that takes no longer follows every change.
+// s: a run that takes no longer follows every change; one that takes no longer than the second number waits, ms, for the last change.
 const QUICK = 0.5;
+const BEARABLE = 4;
+const UNTIL_SETTLED = 700;
 // s that the first run may take longer: in it the browser compiles the engine.
 const WARMING_UP = 1.5;
 const BAR_AFTER = 250;
@@ -31,6 +33,7 @@ export class Runner {
   constructor(state, engine) {
     Object.assign(this, { state, engine, checked: 0, running: null, again: false, took: 0 });
     this.checkSoon = settled(() => this.check(), TYPING);
+    this.startSoon = settled(() => this.isRight && this.start(), UNTIL_SETTLED);
     state.on("scene", (kind) => (kind === "typing" ? this.checkSoon() : this.check()));
     element("run").addEventListener("click", () => this.start());
     element("stop").addEventListener("click", () => this.stop());
@@ -59,6 +62,7 @@ export class Runner {
     this.state.tell("findings");
     this.state.tell("look");
     if (look && this.took < QUICK) this.start();
+    else if (look && this.took < BEARABLE) this.startSoon();
     else if (look) say("The scene has changed: Run computes it.");
     else say(`${plural(this.state.problems.length, "mistake")} in the scene; what you see is the last run that was right.`);
   }

@@ -63,18 +63,21 @@ export class Save {
     const line = 20 * ratio;
     const whole = document.createElement("canvas");
     whole.width = Math.max(...parts.map(({ canvas }) => canvas.width)) + 2 * MARGIN;
-    whole.height = parts.reduce((sum, { canvas }) => sum + canvas.height + line, 2 * MARGIN);
+    whole.height = parts.reduce((sum, { canvas }) => sum + canvas.height + line, 2 * MARGIN + 2 * line);
     const pen = whole.getContext("2d");
     pen.fillStyle = colour("card");
     pen.fillRect(0, 0, whole.width, whole.height);
     pen.fillStyle = colour("ink");
     pen.font = `600 ${13 * ratio}px system-ui, sans-serif`;
+    const words = `${element("happened").textContent.split(" Computed")[0]} ${element("scale").textContent}.`;
     let y = MARGIN;
     for (const { canvas, title } of parts) {
       pen.fillText(title, MARGIN, y + 14 * ratio);
       pen.drawImage(canvas, MARGIN, y + line);
       y += canvas.height + line;
     }
+    pen.font = `${12 * ratio}px system-ui, sans-serif`;
+    pen.fillText(words, MARGIN, y + line, whole.width - 2 * MARGIN);
     return new Promise((done) => whole.toBlob(done, "image/png"));
   }
 }

@@ -48,7 +48,7 @@ export function chartsOf(run, floors) {
   const energies = ENERGIES.map((name) => [`energy.${name}`, name]).filter(([name]) => largestOf(run.columns[name]) > 0);
   const opening = others(telling(run, contactColumns(run, "penetration")), (number) => `contact ${number}`);
   const charts = [
-    { id: "displacement", title: "Displacement of floors", unit: "m", lines: floorLines(run, "displacement", floors) },
+    { id: "displacement", title: "Displacement of floors", unit: "m", floats: true, lines: floorLines(run, "displacement", floors) },
     { id: "opening", title: "Gap opening", unit: "m", factor: -1, zero: "closed", lines: opening },
     { id: "force", title: "Contact force", unit: "N", impacts: true, lines: others(telling(run, contactColumns(run, "force")), (number) => `contact ${number}`) },
     { id: "ground", title: "Ground acceleration", unit: "m/s2", lines: others(run.columns["ground.acceleration"] ? [["ground.acceleration", 0]] : [], () => "ground") },

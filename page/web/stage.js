@@ -107,7 +107,7 @@ export class Stage {
     const factor = across / up;
     const drawn = !this.shown.geometry.hasLevels
       ? "storeys drawn equally high: the scene has no heights"
-      : Math.abs(factor - 1) < 0.01 ? "motion and gaps to the scale of the heights" : `motion and gaps drawn ${digits(factor, 2)} times larger than heights`;
+      : `motion and gaps drawn ${digits(factor, 2)} times as large as heights`;
     const yields = SIDES.some((side) => this.state.run.look[side]?.yields.some(Boolean)) ? "; dashed: yields at this moment" : "";
     const text = `${bar < 1 ? `${digits(1e3 * bar)} mm` : `${digits(bar)} m`}; ${drawn}${yields}`;
     if (scale.textContent !== text) scale.textContent = text;

@@ -85,7 +85,7 @@ export class Study {
     const of = (values, { factor }) => values.map((value) => value * factor);
     this.plots = [
       this.#plot("hardest impact", forces, x, [{ label: "peak force", values: of(force, forces), ...lineLook("others", 0) }]),
-      this.#plot("largest storey drift", drift, x, drifts.map(({ side, values }) => ({ label: side, values: of(values, drift), ...lineLook(side, 0) }))),
+      this.#plot("largest drift", drift, x, drifts.map(({ side, values }) => ({ label: side, values: of(values, drift), ...lineLook(side, 0) }))),
       this.#plot("impacts", { name: "" }, x, [{ label: "count", values: impacts, ...lineLook("others", 0) }]),
     ];
   }
@@ -100,7 +100,7 @@ export class Study {
       width: Math.max(220, element("study-charts").clientWidth), height: CHART_HEIGHT, padding: [8, 12, 0, 0],
       cursor: { sync: { key: "study" }, drag: { x: false, y: false } },
       scales: { x: { time: false, distr: 3, range: () => [x[0], x.at(-1)] }, y: { range: (_, low, high) => [0, 1.08 * (high || 1)] } },
-      axes: [{ ...axis, size: 24, values: (_, ticks) => ticks.map((tick) => (tick === null || !isRound(tick) ? "" : `${digits(tick)} mm`)) }, { ...axis, size: 56, values: (_, ticks) => ticks.map((tick) => digits(tick)) }],
+      axes: [{ ...axis, size: 24, values: (_, ticks) => ticks.map((tick) => (tick === null || !isRound(tick) ? "" : `${digits(tick)} mm`)) }, { ...axis, size: 56, space: 24, values: (_, ticks) => ticks.map((tick) => digits(tick)) }],
       series: [{ label: "gap", value: (_, gap) => (gap === null ? "" : `${digits(gap, 3)} mm`) }, ...series],
       hooks: { draw: [(one) => this.#present(one)] },
     }, [x, ...lines.map(({ values }) => values)], box);

@@ -1,0 +1,1 @@
+"""What tests/browser/page.py looks at, by what it is about."""
