@@ -1,6 +1,6 @@
 //! Another law of contact: numbers that it does not have go, and those that it needs come.
 
-use super::{NOT_THERE, Step, shortest};
+use super::path::{NOT_THERE, Step, in_table, shortest};
 use pounding::contact::{LawInfo, LawKind, StiffnessUnit};
 use pounding::scene::law_key::number;
 use toml_edit::{DocumentMut, Item, TableLike, Value};
@@ -41,7 +41,7 @@ fn give(table: &mut dyn TableLike, law: &LawInfo, usual_stiffness: f64) -> Resul
     let old = table.get("law").and_then(Item::as_str).and_then(LawKind::from_name);
     let old_exponent = old.map(|old| exponent(table, old.info()));
     let stiffness = table.get("stiffness").and_then(real);
-    super::in_table(table, &[Step::Key("law")], &law.name.into())?;
+    in_table(table, &[Step::Key("law")], &law.name.into())?;
     let keys: Vec<&str> = law.keys.iter().map(|key| number(*key).name).collect();
     for key in KEYS {
         let is_formula = key == "damping_formula" && law.has_damping_formula;
@@ -60,7 +60,7 @@ fn give(table: &mut dyn TableLike, law: &LawInfo, usual_stiffness: f64) -> Resul
         set_number(table, "restitution", RESTITUTION)?;
     }
     if law.has_damping_formula && table.get("damping_formula").is_none() {
-        super::in_table(table, &[Step::Key("damping_formula")], &"exact".into())?;
+        in_table(table, &[Step::Key("damping_formula")], &"exact".into())?;
     }
     Ok(())
 }

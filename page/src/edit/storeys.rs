@@ -1,7 +1,7 @@
 //! More or fewer storeys of a building: its lists become longer, with copies of what is uppermost, or shorter; contacts of
 //! floors that are gone go with them, and floors that now face each other get one.
 
-use super::NOT_THERE;
+use super::path::NOT_THERE;
 use serde_json::Value as Json;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, TableLike, Value, value};
 
