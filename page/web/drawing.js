@@ -5,6 +5,8 @@ import { SIDES } from "./motion.js";
 
 const COLUMN_POINTS = 12;
 const MOST_NUMBERS = 12;
+// Pixels, the radius of a number's circle.
+const NUMBER = 8;
 
 // How a picture is laid out in a rectangle of the canvas: pixels per m across and per level upwards.
 export function layOut(geometry, box, reach, size) {
@@ -149,22 +151,30 @@ export class Drawing {
     }
   }
 
-  // The numbers of the contacts, as in the table, above what meets there.
+  // The numbers of the contacts, as in the table, above what meets there; those that would cover others stand beside them.
   #numbers(moved) {
-    const { context, place, geometry, colours } = this;
+    const { place, geometry } = this;
     if (geometry.contacts.length > MOST_NUMBERS) return;
+    const placed = [];
     geometry.contacts.forEach((contact, at) => {
       const [left, right] = geometry.faces(contact, moved, place.width / place.across);
-      const [x, y] = [place.x((left + right) / 2), place.y(contact.height) - this.slab / 2 - 13];
-      context.beginPath();
-      context.arc(x, y, 8, 0, 2 * Math.PI);
-      context.fillStyle = colours.card;
-      context.fill();
-      context.strokeStyle = colours.quiet;
-      context.lineWidth = 1;
-      context.stroke();
-      this.#text(String(at + 1), x, y + 4, "ink", "center", 11);
+      const number = { x: place.x((left + right) / 2), y: place.y(contact.height) - this.slab / 2 - 13, text: String(at + 1) };
+      while (placed.some((other) => Math.hypot(number.x - other.x, number.y - other.y) < 2 * NUMBER)) number.x += 2 * NUMBER + 1;
+      placed.push(number);
     });
+    placed.forEach((number) => this.#number(number));
+  }
+
+  #number({ x, y, text }) {
+    const { context, colours } = this;
+    context.beginPath();
+    context.arc(x, y, NUMBER, 0, 2 * Math.PI);
+    context.fillStyle = colours.card;
+    context.fill();
+    context.strokeStyle = colours.quiet;
+    context.lineWidth = 1;
+    context.stroke();
+    this.#text(text, x, y + 4, "ink", "center", 11);
   }
 
   // A star where two faces have met: as large as its force, fading.

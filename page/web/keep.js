@@ -3,9 +3,14 @@
 const PREFIX = "pounding.";
 
 export class Keep {
+  // `place` keeps apart what belongs to different pages: browsers may take all files for one.
+  constructor(place = "") {
+    this.prefix = PREFIX + place;
+  }
+
   get(name) {
     try {
-      return localStorage.getItem(PREFIX + name);
+      return localStorage.getItem(this.prefix + name);
     } catch {
       return null;
     }
@@ -14,7 +19,7 @@ export class Keep {
   // Whether it is kept.
   set(name, text) {
     try {
-      localStorage.setItem(PREFIX + name, text);
+      localStorage.setItem(this.prefix + name, text);
       return true;
     } catch {
       this.drop(name);
@@ -24,9 +29,16 @@ export class Keep {
 
   drop(name) {
     try {
-      localStorage.removeItem(PREFIX + name);
+      localStorage.removeItem(this.prefix + name);
     } catch {
       // Nothing is kept, so nothing has to go.
     }
   }
+}
+
+// A short name for a text.
+export function nameOf(text) {
+  let name = 5381;
+  for (let at = 0; at < text.length; at++) name = (Math.imul(name, 33) + text.charCodeAt(at)) | 0;
+  return (name >>> 0).toString(36);
 }

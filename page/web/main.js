@@ -7,7 +7,7 @@ import { startFiles } from "./files.js";
 import { Ground } from "./ground.js";
 import { Handles } from "./handles.js";
 import { Impacts } from "./impacts.js";
-import { Keep } from "./keep.js";
+import { Keep, nameOf } from "./keep.js";
 import { fromLink, startLinks, textOf } from "./link.js";
 import { Loops } from "./loops.js";
 import { element, make, settled } from "./make.js";
@@ -30,6 +30,8 @@ const BEFORE_IMPACT = 0.6;
 const state = new State();
 const keep = new Keep();
 const engine = new Engine();
+// A page that has been made for a scene has a memory of its own.
+const memory = engine.given ? new Keep(`${nameOf(engine.given.text)}.`) : keep;
 window.pounding = forScripts(engine, () => state.records);
 
 const editor = new Editor(state);
@@ -84,34 +86,36 @@ async function begin() {
   if (link?.broken) said("The link holds no scene that can be read; here is the last one.");
   Object.assign(state.records, link?.records);
   state.tell("records");
-  editor.begin(link?.scene ?? keep.get("scene") ?? engine.given?.text ?? engine.examples.find(({ file }) => file === FIRST).text);
+  editor.begin(link?.scene ?? memory.get("scene") ?? engine.given?.text ?? engine.examples.find(({ file }) => file === FIRST).text);
 }
 
+// The scene that the page has been made for comes first.
 function listExamples() {
   const list = element("example");
+  const scenes = [...(engine.given ? [{ ...engine.given, description: engine.given.file }] : []), ...engine.examples];
   make(list, "option", "a scene of your own", { value: "" });
-  engine.examples.forEach(({ name, description }, at) => make(list, "option", description || name, { value: at }));
+  scenes.forEach(({ name, description }, at) => make(list, "option", description || name, { value: at }));
   list.addEventListener("change", () => {
-    if (list.value !== "") editor.open(engine.examples[list.value].text);
+    if (list.value !== "") editor.open(scenes[list.value].text);
   });
   state.on("scene", () => {
-    const at = engine.examples.findIndex(({ text }) => text === state.scene);
+    const at = scenes.findIndex(({ text }) => text === state.scene);
     list.value = at < 0 ? "" : at;
   });
 }
 
 // The scene, and records of one's own as long as there is room.
 function keepScene() {
-  keep.set("scene", state.scene);
+  memory.set("scene", state.scene);
   const own = Object.entries(state.records).filter(([name, content]) => content !== engine.records[name]).map(([name, content]) => [name, textOf(content)]);
   const texts = JSON.stringify(Object.fromEntries(own.filter(([, text]) => text !== null)));
-  if (texts.length <= MOST_KEPT) keep.set("records", texts);
-  else keep.drop("records");
+  if (texts.length <= MOST_KEPT) memory.set("records", texts);
+  else memory.drop("records");
 }
 
 function keptRecords() {
   try {
-    return JSON.parse(keep.get("records") ?? "{}");
+    return JSON.parse(memory.get("records") ?? "{}");
   } catch {
     return {};
   }
