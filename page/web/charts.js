@@ -4,6 +4,7 @@ import { digits, handyUnit, largestOf, seconds, withUnit } from "./format.js";
 import { element, make, onceAFrame } from "./make.js";
 import { rowBefore } from "./motion.js";
 import { colour } from "./palette.js";
+import { makePlot, widthOf } from "./plots.js";
 import { chartsOf, usualFloors } from "./series.js";
 
 const HEIGHT = 132;
@@ -47,11 +48,11 @@ export class Charts {
   #update() {
     const { run } = this.state;
     this.wanted.forEach((chart, at) => {
-      const { plot, title, shown } = this.plots[at];
+      const { plot, heading, shown } = this.plots[at];
       const columns = chart.lines.map(({ name }) => run.columns[name]);
       const force = chart.impacts ? largestForce(run) : 0;
       const unit = handyUnit(columns.reduce((most, column) => Math.max(most, largestOf(column)), force), chart.unit);
-      title.textContent = withUnit(chart.title, unit);
+      heading.textContent = withUnit(chart.title, unit);
       const factor = unit.factor * (chart.factor ?? 1);
       Object.assign(shown, { chart, unit, force: force * unit.factor });
       plot.setData([run.time, ...columns.map((column) => column.map((value) => value * factor))], false);
@@ -69,30 +70,21 @@ export class Charts {
   }
 
   #buildOne(chart) {
-    const box = make(element("chart-list"), "div", "", { class: "chart", "data-chart": chart.id });
-    const head = make(box, "div", "", { class: "chart-head" });
-    const title = make(head, "h3", chart.title);
     // What the plot shows now, for what is drawn over it.
     const shown = { force: 0 };
-    const series = chart.lines.map(({ label, look }) => ({
-      label, width: 1.4, pxAlign: 0, points: { show: false }, value: (_, value) => digits(value), ...look(),
-    }));
-    const axis = { stroke: colour("quiet"), grid: { stroke: colour("grid"), width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
-    const plot = new uPlot({
-      width: this.#width(), height: HEIGHT, padding: [8, 10, 0, 0],
-      cursor: { sync: { key: "run" }, drag: { x: true, y: false }, points: { size: 5 } },
-      scales: { x: { time: false }, y: { range: (_, low, high) => rangeWith(chart.floats ? [low, high] : [0, shown.force], low, high) } },
-      axes: [{ ...axis, size: 24 }, { ...axis, size: 56, space: 26, values: (_, ticks) => ticks.map((tick) => digits(tick)) }],
-      series: [{ label: "t", value: (_, time) => (time === null ? "" : `${seconds(time, 4)} s`) }, ...series],
-      hooks: { setScale: [(one, key) => key === "x" && this.#zoomed(one)], draw: chart.impacts ? [(one) => this.#dots(one, shown)] : [], drawClear: chart.zero ? [drawZero] : [] },
-    }, [[0], ...series.map(() => [0])], box);
-    const legend = plot.root.querySelector(".u-legend");
-    head.append(legend);
-    drawKeys(legend, series);
+    const lines = chart.lines.map(({ label, look }) => ({ label, ...look() }));
+    const { box, heading, plot } = makePlot(element("chart-list"), {
+      title: chart.title, height: HEIGHT, lines, data: [[0], ...lines.map(() => [0])], attributes: { "data-chart": chart.id },
+      x: { label: "t", text: (time) => `${seconds(time, 4)} s`, tick: (tick) => digits(tick, 9) },
+      options: {
+        cursor: { sync: { key: "run" }, drag: { x: true, y: false }, points: { size: 5 } },
+        scales: { x: { time: false }, y: { range: (_, low, high) => rangeWith(chart.floats ? [low, high] : [0, shown.force], low, high) } },
+        hooks: { setScale: [(one, key) => key === "x" && this.#zoomed(one)], draw: chart.impacts ? [(one) => this.#dots(one, shown)] : [], drawClear: chart.zero ? [drawZero] : [] },
+      },
+    });
     const now = make(plot.over, "div", "", { class: "moment" });
     this.#clicks(plot);
-    plot.over.setAttribute("aria-hidden", "true");
-    return { box, plot, title, now, shown };
+    return { box, plot, heading, now, shown };
   }
 
   // A press that does not drag goes to its time.
@@ -157,12 +149,8 @@ export class Charts {
     plot.ctx.restore();
   }
 
-  #width() {
-    return Math.max(200, element("chart-list").clientWidth);
-  }
-
   #resize() {
-    for (const { plot } of this.plots) plot.setSize({ width: this.#width(), height: HEIGHT });
+    for (const { plot } of this.plots) plot.setSize({ width: widthOf(element("chart-list")), height: HEIGHT });
     this.#moment();
   }
 
@@ -250,18 +238,4 @@ function drawZero(plot) {
   context.lineTo(bbox.left + bbox.width, y);
   context.stroke();
   context.restore();
-}
-
-// In the legend each line as it is drawn, where the library has a square.
-export function drawKeys(legend, series) {
-  const marks = [...legend.querySelectorAll(".u-marker")].slice(-series.length);
-  marks.forEach((mark, at) => {
-    const key = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-    const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
-    const look = { x1: 0, x2: 26, y1: 5, y2: 5, stroke: series[at].stroke, "stroke-width": 2, "stroke-dasharray": series[at].dash.join(" ") || "none" };
-    Object.entries({ class: "line-key", width: 26, height: 10 }).forEach(([name, value]) => key.setAttribute(name, value));
-    Object.entries(look).forEach(([name, value]) => line.setAttribute(name, value));
-    key.append(line);
-    mark.replaceWith(key);
-  });
 }

@@ -1,10 +1,10 @@
 // Records of ground motions: dropped or chosen, kept by name, looked at beside the periods of the buildings.
 
-import { drawKeys } from "./charts.js";
 import { GRAVITY, digits, isRound, plural, seconds } from "./format.js";
 import { element, make } from "./make.js";
 import { SIDES } from "./motion.js";
 import { colour, lineLook } from "./palette.js";
+import { drawUpright, makePlot, widthOf } from "./plots.js";
 import { sentence } from "./runner.js";
 
 const MOST_BYTES_READ = 6e7;
@@ -75,7 +75,7 @@ export class Ground {
     if (isOther) await this.#about();
     this.#facts(ground);
     if (isOther) this.draw();
-    else for (const { plot } of this.plots) plot.redraw(false);
+    else for (const plot of this.plots) plot.redraw(false);
   }
 
   async #about() {
@@ -106,7 +106,7 @@ export class Ground {
 
   draw() {
     if (element("panel-spectrum").hidden) return;
-    for (const { plot } of this.plots) plot.destroy();
+    for (const plot of this.plots) plot.destroy();
     this.plots = [];
     element("record-charts").replaceChildren();
     const facts = element("record-facts");
@@ -120,7 +120,8 @@ export class Ground {
   #acceleration() {
     const { times, accelerations } = this.about;
     const factor = (this.state.look?.ground?.factor ?? 1) / GRAVITY;
-    this.#plot("acceleration [g]", { unit: "s", data: [times, accelerations.map((value) => value * factor)], lines: [{ label: "ground", ...lineLook("others", 0) }] });
+    const x = { label: "t", text: (time) => `${seconds(time)} s`, tick: (tick) => `${digits(tick, 9)} s` };
+    this.#plot("acceleration [g]", [times, accelerations.map((value) => value * factor)], { label: "ground" }, x, { scales: { x: { time: false } } });
   }
 
   #response() {
@@ -129,31 +130,21 @@ export class Ground {
     if (!this.spectrum.values) return;
     const factor = Math.abs(this.state.look?.ground?.factor ?? 1) / GRAVITY;
     const values = Array.from(this.spectrum.values, (value) => value * factor);
-    this.#plot("response spectrum, 5 % [g]", { unit: "s", logarithmic: true, data: [this.spectrum.periods, values], lines: [{ label: "Sa", ...lineLook("others", 0) }] });
+    const x = { label: "period", text: (period) => `${digits(period, 3)} s`, tick: (tick) => (tick === null || !isRound(tick) ? "" : `${digits(tick)} s`) };
+    this.#plot("response spectrum, 5 % [g]", [this.spectrum.periods, values], { label: "Sa" }, x, {
+      cursor: { drag: { x: false, y: false } },
+      scales: { x: { time: false, distr: 3, range: () => [SHORTEST, LONGEST] } },
+      hooks: { draw: [(plot) => this.#periods(plot)] },
+    });
     for (const side of SIDES) {
       const period = this.state.look?.[side]?.periods?.[0];
       if (period) make(element("record-charts"), "p", `first period, ${side}: ${digits(period, 3)} s`, { class: `hint of-${side}` });
     }
   }
 
-  #plot(title, { data, lines, logarithmic }) {
-    const box = make(element("record-charts"), "div", "", { class: "chart" });
-    const head = make(box, "div", "", { class: "chart-head" });
-    make(head, "h3", title);
-    const axis = { stroke: colour("quiet"), grid: { stroke: colour("grid"), width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
-    const series = lines.map(({ label, stroke, dash }) => ({ label, stroke, dash, width: 1.4, points: { show: false }, value: (_, value) => digits(value, 3) }));
-    const plot = new uPlot({
-      width: Math.max(220, element("record-charts").clientWidth), height: RECORD_HEIGHT, padding: [8, 12, 0, 0],
-      cursor: { drag: { x: !logarithmic, y: false } },
-      scales: { x: { time: false, distr: logarithmic ? 3 : 1, ...(logarithmic && { range: () => [SHORTEST, LONGEST] }) } },
-      axes: [{ ...axis, size: 24, values: (_, ticks) => ticks.map((tick) => (tick === null || (logarithmic && !isRound(tick)) ? "" : `${digits(tick)} s`)) }, { ...axis, size: 50, space: 26, values: (_, ticks) => ticks.map((tick) => digits(tick)) }],
-      series: [{ label: logarithmic ? "period" : "t", value: (_, at) => (at === null ? "" : `${digits(at, 3)} s`) }, ...series],
-      hooks: { draw: logarithmic ? [(one) => this.#periods(one)] : [] },
-    }, data, box);
-    const legend = plot.root.querySelector(".u-legend");
-    head.append(legend);
-    drawKeys(legend, series);
-    this.plots.push({ plot });
+  #plot(title, data, line, x, options) {
+    const { plot } = makePlot(element("record-charts"), { title, height: RECORD_HEIGHT, data, lines: [{ ...line, ...lineLook("others", 0) }], x, options });
+    this.plots.push(plot);
   }
 
   // Where the first periods of the buildings are in the spectrum; names stand away from the other one.
@@ -164,8 +155,8 @@ export class Ground {
   }
 
   #resize() {
-    const width = Math.max(220, element("record-charts").clientWidth);
-    for (const { plot } of this.plots) plot.setSize({ width, height: RECORD_HEIGHT });
+    const width = widthOf(element("record-charts"));
+    for (const plot of this.plots) plot.setSize({ width, height: RECORD_HEIGHT });
     if (this.plots.length === 0) this.draw();
   }
 
@@ -177,15 +168,9 @@ export class Ground {
 function markPeriod(plot, side, period, isLeftmost) {
   const { ctx: context, bbox } = plot;
   const ratio = devicePixelRatio || 1;
-  const x = plot.valToPos(period, "x", true);
   context.save();
-  context.strokeStyle = context.fillStyle = colour(side);
-  context.lineWidth = 2 * ratio;
-  context.setLineDash(side === "right" ? [7 * ratio, 4 * ratio] : []);
-  context.beginPath();
-  context.moveTo(x, bbox.top);
-  context.lineTo(x, bbox.top + bbox.height);
-  context.stroke();
+  const x = drawUpright(plot, period, colour(side), side === "right" ? [7, 4] : []);
+  context.fillStyle = colour(side);
   context.font = `${11 * ratio}px system-ui, sans-serif`;
   context.textAlign = isLeftmost ? "right" : "left";
   context.fillText(` ${side} T1 `, x, bbox.top + 10 * ratio);

@@ -4,7 +4,7 @@ import { digits, handyUnit, largestOf, quantity, seconds, withUnit } from "./for
 import { element, make, onceAFrame } from "./make.js";
 import { SIDES, rowBefore } from "./motion.js";
 import { colour } from "./palette.js";
-import { strengthOf } from "./stage.js";
+import { hardestOf } from "./strength.js";
 import { drawAxes } from "./xy.js";
 
 const MOST_STOREYS = 12;
@@ -35,8 +35,7 @@ export class Loops {
   // That which was chosen, else the hardest.
   #impact() {
     const { run, chosen } = this.state;
-    const hardest = run.impacts.reduce((most, impact) => (most && strengthOf(most) >= strengthOf(impact) ? most : impact), null);
-    const impact = run.impacts.includes(chosen) ? chosen : hardest;
+    const impact = run.impacts.includes(chosen) ? chosen : hardestOf(run.impacts);
     const [force, depth] = impact ? ["force", "penetration"].map((part) => run.columns[`contact[${impact.contact}].${part}`]) : [];
     if (!force || !depth || !impact.peak_force) return null;
     const [from, to] = [rowBefore(run.time, impact.start_s), rowBefore(run.time, impact.end_s ?? run.stop) + 2];

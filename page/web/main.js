@@ -19,6 +19,7 @@ import { said } from "./notice.js";
 import { Save } from "./save.js";
 import { Stage } from "./stage.js";
 import { State } from "./state.js";
+import { hardestOf } from "./strength.js";
 import { Study } from "./study.js";
 import { startTabs } from "./tabs.js";
 
@@ -128,8 +129,8 @@ function startMotion() {
   hasMoved = true;
   const { impacts } = state.run;
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) {
-    const hardest = impacts.reduce((most, impact) => (most && most.peak_force >= impact.peak_force ? most : impact), null);
-    state.seek(hardest?.peak_time_s ?? 0);
+    const hardest = hardestOf(impacts);
+    state.seek(hardest?.peak_time_s || hardest?.start_s || 0);
     return;
   }
   state.seek(Math.max(0, (impacts[0]?.start_s ?? 0) - BEFORE_IMPACT));

@@ -3,7 +3,7 @@
 import { digits, seconds } from "./format.js";
 import { element, make, onceAFrame } from "./make.js";
 import { colours } from "./palette.js";
-import { strengthOf } from "./stage.js";
+import { mostOf, strengthOf } from "./strength.js";
 
 const SPEEDS = [0.05, 0.1, 0.2, 0.5, 1, 2, 4];
 const PLAY = "M3 1.5 14 8 3 14.5z";
@@ -128,7 +128,7 @@ export class Player {
     if (!run) return;
     const context = canvas.getContext("2d");
     context.scale(ratio, ratio);
-    const most = run.impacts.reduce((largest, impact) => Math.max(largest, strengthOf(impact)), 0) || 1;
+    const most = mostOf(run.impacts) || 1;
     context.strokeStyle = colours().quiet;
     context.beginPath();
     // The ends of the bar are half a handle away from its edges.

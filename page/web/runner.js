@@ -3,7 +3,7 @@
 
 import { digits, plural, quantity, seconds } from "./format.js";
 import { element, settled } from "./make.js";
-import { strengthOf } from "./stage.js";
+import { hardestOf } from "./strength.js";
 
 // ms
 const TYPING = 250;
@@ -186,7 +186,7 @@ export class Runner {
 
   #sayRun() {
     const { run } = this.state;
-    const hardest = run.impacts.reduce((most, impact) => (most && strengthOf(most) >= strengthOf(impact) ? most : impact), null);
+    const hardest = hardestOf(run.impacts);
     const time = run.took < 1 ? `${digits(1e3 * run.took, 2)} ms` : `${digits(run.took, 3)} s`;
     const took = run.took === null ? "" : ` Computed in ${time}.`;
     const coarse = run.step > 5 * LONGEST_STEP ? ` Of so long a run the picture has a row every ${digits(run.step, 2)} s only; impacts and peaks are complete.` : "";

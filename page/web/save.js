@@ -21,7 +21,7 @@ export class Save {
     Object.assign(this, { state, engine, runner });
     this.#on("save-fmu", () => this.#fmu());
     this.#on("save-report", async (name) => download(`${name}.html`, await engine.report(state.scene, { records: runner.records() }), "text/html"));
-    this.#on("save-csv", async (name) => download(`${name}.csv`, await engine.csv(state.scene, { records: runner.records() }), "text/csv"));
+    this.#on("save-csv", (name) => this.#csv(name));
     this.#on("save-picture", async (name) => download(`${name}.png`, await this.#picture(), "image/png"));
     element("save-scene").addEventListener("click", () => {
       download(`${state.look?.name ?? "scene"}.toml`, state.scene, "application/toml");
@@ -51,6 +51,14 @@ export class Save {
     const fmi = Number(element("fmi").value);
     const bytes = await this.engine.buildFmu(this.state.scene, { records: this.runner.records(), fmi });
     download(`${this.state.look.name}${fmi === 3 ? ".fmi3" : ""}.fmu`, bytes, "application/octet-stream");
+  }
+
+  async #csv(name) {
+    const { engine, state, runner } = this;
+    const options = { records: runner.records() };
+    const isImpacts = element("csv-of").value === "impacts";
+    const table = await (isImpacts ? engine.impactsCsv(state.scene, options) : engine.csv(state.scene, options));
+    download(`${name}${isImpacts ? ".impacts" : ""}.csv`, table, "text/csv");
   }
 
   // The buildings, and below them all charts, as they are now.

@@ -6,6 +6,7 @@ import { Geometry } from "./geometry.js";
 import { element, onceAFrame } from "./make.js";
 import { Motion, SIDES } from "./motion.js";
 import { colours } from "./palette.js";
+import { mostOf, strengthOf } from "./strength.js";
 
 // s on the clock of the reader that an impact is seen.
 const AFTERGLOW = 0.35;
@@ -29,7 +30,7 @@ export class Stage {
     const reach = Math.max(reachOf(run), element("alone").checked ? reachOf(alone) : 0);
     if (this.named !== run?.look.name || reach > this.reach || reach < ENOUGH * this.reach) this.reach = reach;
     this.named = run?.look.name;
-    this.strongest = (run?.impacts ?? []).reduce((most, impact) => Math.max(most, strengthOf(impact)), 0);
+    this.strongest = mostOf(run?.impacts ?? []);
     this.groundPeak = largestOf(run?.columns["ground.acceleration"]);
     this.draw();
   }
@@ -123,9 +124,6 @@ export class Stage {
     return `The buildings at ${seconds(time)} s: ${roofs.join(", ")}${ground}${touching}`;
   }
 }
-
-// Rigid contacts have an impulse and no force.
-export const strengthOf = (impact) => impact.peak_force || impact.impulse || 0;
 
 // m, the farthest that a floor goes.
 function reachOf(run) {

@@ -2,10 +2,10 @@
 // the curve sets the gap of the scene.
 
 import { digits, handyUnit, isRound, largestOf, quantity, withUnit } from "./format.js";
-import { drawKeys } from "./charts.js";
 import { element, make } from "./make.js";
 import { SIDES } from "./motion.js";
 import { colour, lineLook } from "./palette.js";
+import { drawUpright, makePlot, widthOf } from "./plots.js";
 import { sentence } from "./runner.js";
 
 const GAPS = 100;
@@ -90,23 +90,16 @@ export class Study {
     ];
   }
 
-  #plot(title, unit, x, lines) {
-    const box = make(element("study-charts"), "div", "", { class: "chart" });
-    const head = make(box, "div", "", { class: "chart-head" });
-    make(head, "h3", withUnit(title, unit));
-    const axis = { stroke: colour("quiet"), grid: { stroke: colour("grid"), width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
-    const series = lines.map(({ label, stroke, dash }) => ({ label, stroke, dash, width: 1.6, points: { show: false }, value: (_, value) => digits(value) }));
-    const plot = new uPlot({
-      width: Math.max(220, element("study-charts").clientWidth), height: CHART_HEIGHT, padding: [8, 12, 0, 0],
-      cursor: { sync: { key: "study" }, drag: { x: false, y: false } },
-      scales: { x: { time: false, distr: 3, range: () => [x[0], x.at(-1)] }, y: { range: (_, low, high) => [0, 1.08 * (high || 1)] } },
-      axes: [{ ...axis, size: 24, values: (_, ticks) => ticks.map((tick) => (tick === null || !isRound(tick) ? "" : `${digits(tick)} mm`)) }, { ...axis, size: 56, space: 24, values: (_, ticks) => ticks.map((tick) => digits(tick)) }],
-      series: [{ label: "gap", value: (_, gap) => (gap === null ? "" : `${digits(gap, 3)} mm`) }, ...series],
-      hooks: { draw: [(one) => this.#present(one)] },
-    }, [x, ...lines.map(({ values }) => values)], box);
-    const legend = plot.root.querySelector(".u-legend");
-    head.append(legend);
-    drawKeys(legend, series);
+  #plot(title, unit, gaps, lines) {
+    const { plot } = makePlot(element("study-charts"), {
+      title: withUnit(title, unit), height: CHART_HEIGHT, lines, data: [gaps, ...lines.map(({ values }) => values)],
+      x: { label: "gap", text: (gap) => `${digits(gap, 3)} mm`, tick: (tick) => (tick === null || !isRound(tick) ? "" : `${digits(tick)} mm`) },
+      options: {
+        cursor: { sync: { key: "study" }, drag: { x: false, y: false } },
+        scales: { x: { time: false, distr: 3, range: () => [gaps[0], gaps.at(-1)] }, y: { range: (_, low, high) => [0, 1.08 * (high || 1)] } },
+        hooks: { draw: [(one) => this.#present(one)] },
+      },
+    });
     plot.over.addEventListener("click", (event) => this.#clicked(plot, event));
     return plot;
   }
@@ -121,17 +114,9 @@ export class Study {
     const gap = 1e3 * this.gapNow();
     const { min, max } = plot.scales.x;
     if (!(gap >= min && gap <= max)) return;
-    const { ctx: context, bbox } = plot;
-    const x = plot.valToPos(gap, "x", true);
-    context.save();
-    context.strokeStyle = colour("ink");
-    context.lineWidth = 1.5 * (devicePixelRatio || 1);
-    context.setLineDash([6, 4]);
-    context.beginPath();
-    context.moveTo(x, bbox.top);
-    context.lineTo(x, bbox.top + bbox.height);
-    context.stroke();
-    context.restore();
+    plot.ctx.save();
+    drawUpright(plot, gap, colour("ink"), [6, 4]);
+    plot.ctx.restore();
   }
 
   #moved() {
@@ -139,7 +124,7 @@ export class Study {
   }
 
   #resize() {
-    const width = Math.max(220, element("study-charts").clientWidth);
+    const width = widthOf(element("study-charts"));
     for (const plot of this.plots) plot.setSize({ width, height: CHART_HEIGHT });
     if (this.plots.length === 0) this.draw();
   }
