@@ -55,10 +55,20 @@ export class Ground {
     const named = this.state.look?.ground?.record ?? "";
     list.replaceChildren();
     if (!named) make(list, "option", NO_RECORD, { value: "" });
-    for (const name of new Set([...(named ? [named] : []), ...Object.keys(this.state.records)])) {
-      make(list, "option", name.split("/").at(-1), { value: name, title: name });
-    }
+    const names = Object.keys(this.state.records).flatMap((name) => this.#channelsOf(name));
+    if (named && !names.some(({ value }) => value === named)) names.unshift({ value: named, text: named });
+    for (const { value, text } of names) make(list, "option", text.split("/").at(-1), { value, title: value });
     list.value = named;
+  }
+
+  // A file may have several, of which a scene names one behind the name of the file: by the number that it has in the file, if any.
+  #channelsOf(name) {
+    const channels = this.known.get(name)?.channels ?? [];
+    if (channels.length < 2) return [{ value: name, text: name }];
+    return channels.map((channel, at) => {
+      const number = channel.match(/\d+/)?.[0] ?? at + 1;
+      return { value: `${name}#${number}`, text: `${name} #${number}${channel && `, ${channel}`}` };
+    });
   }
 
   // What the scene names now.
@@ -81,6 +91,8 @@ export class Ground {
   async #about() {
     const content = this.#content();
     this.about = content === undefined ? null : await this.engine.record(content, this.name).catch(() => null);
+    if (this.about) this.known.set(this.name.replace(/#[^#]*$/, ""), this.about);
+    this.#list();
     if (this.spectrum?.isUnderWay) this.engine.stop("spectra");
     this.spectrum = null;
   }

@@ -14,6 +14,9 @@ def saves_the_scene_and_tables(browser):
         assert saved(page, "#save-scene", "FeupFrames.toml") == text.encode()
         rows = list(csv.DictReader(io.StringIO(saved(page, "#save-csv", "FeupFrames.csv").decode())))
         assert len(rows) == 2001 and rows[-1]["impacts"] == "108"
+        page.locator("#csv-of").select_option("impacts")
+        rows = list(csv.DictReader(io.StringIO(saved(page, "#save-csv", "FeupFrames.impacts.csv").decode())))
+        assert len(rows) == 108 and rows[0]["contact"] == "2"
         report = saved(page, "#save-report", "FeupFrames.html").decode()
         assert report.startswith("<!DOCTYPE html>") and "108 impacts" not in report[:500] and "FeupFrames" in report
         picture = saved(page, "#save-picture", "FeupFrames.png")

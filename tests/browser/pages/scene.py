@@ -4,7 +4,7 @@ import json
 import math
 import re
 
-from .visit import FOLDER, KNOWN, impacts_of, line_at, lines, now, pixels, says, visit
+from .visit import FOLDER, KNOWN, ROOT, impacts_of, line_at, lines, make_page, now, pixels, says, visit
 
 # A mass in t where kg are expected.
 TOO_LIGHT = """name = "Light"
@@ -52,7 +52,7 @@ def says_what_is_wrong_at_its_line(browser):
         says(page, "^[12] mistakes? in the scene")
         problem = page.locator("#problems li.problem").first.inner_text()
         assert f"line {place + 1}" in problem, problem
-        assert page.locator(".gutter .problem").count() == 1
+        assert page.locator(".gutter .problem").all_inner_texts() == ["\u2715"]
         assert page.locator("#impacts tbody tr").count() == KNOWN[5][0], "the last good run is gone"
         assert page.locator("#scene").get_attribute("aria-invalid") == "true"
         page.locator("#problems button").first.click()
@@ -165,12 +165,37 @@ def takes_records(browser):
         page.screenshot(path=FOLDER / "page_record.png")
         drop(page, "dropped.csv", "time_s,accel_m_s2\n0,0\n1,3\n2,-4\n3,0\n")
         says(page, r"4 samples, 3 s, peak 0\.408 g", at="#record-says")
-        assert page.locator("#ground-record option").all_inner_texts()[:1] == ["dropped.csv"]
+        assert page.locator("#ground-record option:checked").inner_text() == "dropped.csv"
         page.locator("#ground-record").select_option(label="SINE.AT2")
         says(page, "2000 samples", at="#record-says")
         drop(page, "none.txt", "this is no record")
         says(page, "none.txt.*expected a record file", at="#record-says")
         assert line_at(page, "record") == ['record = "SINE.AT2"']
+
+
+def takes_one_channel_of_several(browser):
+    block = "2 points of accel data equally spaced at .5 sec, in g. (8f10.3)\n{:10.3f}{:10.3f}\n"
+    with visit(browser) as page:
+        drop(page, "CHAN.v2", block.format(0.1, 0.2) + "/&  ----------  End of data for channel  1  ----------\n" + block.format(0.3, 0.4))
+        says(page, r"2 samples, 0\.5 s, peak 0\.2 g", at="#record-says")
+        page.locator("#ground-record").select_option("CHAN.v2#2")
+        says(page, r"peak 0\.4 g", at="#record-says")
+        assert line_at(page, "record") == ['record = "CHAN.v2#2"']
+
+
+def opens_the_scene_that_it_was_made_for(browser):
+    record = "time_s,accel_m_s2\n0,0\n1,2\n2,-1\n3,0\n"
+    scene = (ROOT / "examples/scenes/two_blocks.toml").read_text().replace("../records/el_centro_1940_ns.csv", "mine/own.csv")
+    file = make_page("page_given.html", scene={"file": "own.toml", "text": scene}, records={"mine/own.csv": record.encode()})
+    with visit(browser, file=file, waits=False) as page:
+        says(page, r"impacts? in 20 s")
+        assert page.locator("#scene").input_value() == scene
+        says(page, "4 samples, 3 s", at="#record-says")
+        assert page.locator("#example option:checked").inner_text() == "own.toml"
+        page.locator("#example").select_option(label="FEUP laboratory frames, 2 and 3 storeys, 5 mm apart, El Centro 1940 NS")
+        says(page, "^108 impacts")
+        page.locator("#example").select_option(label="own.toml")
+        assert page.locator("#scene").input_value() == scene
 
 
 def drop(page, name, text):
@@ -236,5 +261,6 @@ def answers_scripts(browser):
 LOOKS = [
     shows_a_collision_before_anything_is_done, says_what_is_wrong_at_its_line, warns_of_slips, has_handles_that_write_the_text,
     changes_strength_law_and_storeys, opens_every_example, takes_records, survives_a_reload_and_travels_in_a_link,
-    says_when_a_record_is_too_large_for_a_link, answers_scripts,
+    says_when_a_record_is_too_large_for_a_link, takes_one_channel_of_several, opens_the_scene_that_it_was_made_for,
+    answers_scripts,
 ]  # fmt: skip

@@ -10,37 +10,34 @@ from browser import listen
 ROOT = Path(__file__).resolve().parents[3]
 FOLDER = ROOT / "target/browser"
 TEMPLATE = ROOT / "target/page/template.html"
-PAGE = FOLDER / "page.html"
 WIDE = {"width": 1440, "height": 900}
 PHONE = {"width": 390, "height": 844}
 # What the default scene does, as the README prints it: impacts by gap in mm, and the largest force in N.
 KNOWN = {5: (108, 990), 20: (37, 1089), 50: (9, 1312), 110: (0, 0)}
 # Not a library, but bytes that an FMU can be made with.
-LIBRARIES = {"linux64/pounding.so": b"\x7fELF a library" * 99, "win64/pounding.dll": b"MZ another" * 99}
+LIBRARIES = {"linux64": b"\x7fELF a library" * 99, "win64": b"MZ another" * 99}
 
 
-def make_page():
-    """The page with libraries, whatever ci/page has found."""
+def make_page(name="page.html", **given):
+    """The page with libraries, and with a scene and records that are given; returns its file."""
     sys.path.insert(0, str(ROOT / "ci"))
-    from releasing import page
+    from releasing.page import assembly
 
     if not TEMPLATE.exists():
         sys.exit(f"{TEMPLATE} is not there: ci/page makes it")
-    for name, content in LIBRARIES.items():
-        file = FOLDER / "libraries" / name
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_bytes(content)
-    page.write(PAGE, TEMPLATE.read_text(), FOLDER / "libraries")
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    (FOLDER / name).write_text(assembly.assembled(TEMPLATE.read_text(), LIBRARIES, **given))
+    return FOLDER / name
 
 
 @contextmanager
-def visit(browser, hash="", waits=True, **context):
+def visit(browser, hash="", waits=True, file=FOLDER / "page.html", **context):
     """The page after its first run, in a context of its own."""
     options = {"viewport": WIDE, "offline": True, "accept_downloads": True} | context
     profile = browser.new_context(**options)
     page = profile.new_page()
     troubles = listen(page, "blob:", "data:")
-    page.goto(PAGE.as_uri() + hash)
+    page.goto(file.as_uri() + hash)
     if waits:
         says(page, r"^\d+ impacts? in ")
     yield page

@@ -1,1 +1,0 @@
-"""What tests/browser/page.py looks at, by what it is about."""
