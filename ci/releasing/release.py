@@ -8,7 +8,7 @@ import zipfile
 from dataclasses import replace
 
 from releasing import archives, cases, comparison, debian, gates, hosts, needs, options, progress, reading, remapping
-from releasing import standard_library, unit_tests
+from releasing import page, standard_library, unit_tests
 from releasing.cargo import VARIABLES, compile_library
 from releasing.commands import Failure, run, stop_at
 from releasing.places import CI, FILES, ROOT, WORK
@@ -17,6 +17,9 @@ from releasing.platforms import CROSS, LINUX, WINDOWS
 # What is not known to be good stays here.
 DRAFT = WORK / "files"
 LIBRARIES = DRAFT / "libraries"
+PAGE = DRAFT / "pounding.html"
+# The page without libraries: the wheel has them beside it.
+TEMPLATE = WORK / "page.html"
 
 # The library that `cargo fmu` compiles on this machine: another build of the same platform.
 SECOND = replace(LINUX, name="linux64-cargo-fmu", glibc=None)
@@ -47,12 +50,14 @@ def release(arguments):
     test_gates()
     shutil.rmtree(DRAFT, ignore_errors=True)
     progress.step("the standard libraries of other platforms")
-    toolchain = standard_library.toolchain(platforms, arguments.std)
+    toolchain = standard_library.toolchain((*platforms, page.PLATFORM), arguments.std)
     for platform in platforms:
         progress.step(f"compiling the library for {platform.name}")
         compile_library(platform, toolchain, LIBRARIES)
     stop_at(check_libraries(platforms))
     check_behaviour(platforms, toolchain, arguments.here)
+    progress.step("the page")
+    make_page(toolchain)
     progress.step("the wheel")
     make_wheel({f"CARGO_PROFILE_RELEASE_{key}": value for key, value in QUICKLY.items()} if arguments.here else {})
     progress.step("the FMUs of the examples")
@@ -131,9 +136,14 @@ def second_library():
     return file
 
 
+def make_page(toolchain):
+    TEMPLATE.write_text(page.template(page.compile_engine(toolchain)))
+    page.write(PAGE, TEMPLATE.read_text(), LIBRARIES)
+
+
 def make_wheel(profile):
     (DRAFT / "wheels").mkdir()
-    options = ["--libraries", LIBRARIES, "--output", DRAFT / "wheels", "--zig"]
+    options = ["--libraries", LIBRARIES, "--page", TEMPLATE, "--output", DRAFT / "wheels", "--zig"]
     run(CI / "wheel", *options, variables={**VARIABLES, **profile}, aloud=True)
 
 
@@ -146,8 +156,8 @@ def make_fmus():
 
 
 def check_wheel():
-    """The wheel packs the bytes that `cargo fmu` packs, in both versions."""
-    folder, made = WORK / "wheel", WORK / "by-wheel.fmu"
+    """The wheel packs the bytes that `cargo fmu` packs, in both versions, and makes the page that is published."""
+    folder, made, made_page = WORK / "wheel", WORK / "by-wheel.fmu", WORK / "by-wheel.html"
     shutil.rmtree(folder, ignore_errors=True)
     (wheel,) = DRAFT.glob("wheels/*.whl")
     with zipfile.ZipFile(wheel) as archive:
@@ -158,6 +168,9 @@ def check_wheel():
         run(*command, "--fmi", version, "-o", made, variables={"PYTHONPATH": folder})
         if made.read_bytes() != (DRAFT / "fmus" / file).read_bytes():
             problems.append(f"{file}: the wheel makes other bytes than cargo fmu")
+    run(sys.executable, "-m", "pounding_fmu", "page", "-o", made_page, variables={"PYTHONPATH": folder})
+    if made_page.read_bytes() != PAGE.read_bytes():
+        problems.append(f"{PAGE.name}: the wheel makes another page")
     return problems
 
 

@@ -2,10 +2,10 @@
 //! it is run.
 
 use crate::functions::functions;
-use crate::pack::platform::{self, Platform};
 use object::read::macho::{FatArch, MachOFatFile32, MachOFatFile64};
 use object::{Architecture, BinaryFormat, ExportTarget, FileKind, NameOrOrdinal, Object, ObjectKind, ObjectSegment};
 use pounding::FmiVersion;
+use pounding_pack::platform::{self, Platform};
 use std::collections::HashSet;
 
 /// What a library is, and what is wrong with it.

@@ -9,10 +9,7 @@
 //! | `libraries.rs` | the libraries that go into an FMU, and a folder of them |
 //! | `recipe.rs` | from a scene file to an FMU that has been seen to run, step by step |
 //! | `merge.rs` | one FMU with the libraries of two |
-//! | `pack/mod.rs` | what an FMU holds |
-//! | `pack/documentation.rs`, `pack/licenses.rs` | the page about the model and the icon; the licence texts |
-//! | `pack/archive.rs` | the zip: writing it reproducibly, unpacking it safely |
-//! | `pack/platform.rs` | where each version of FMI wants the library of each platform, and what it is |
+//! | `archive.rs` | the zip, unpacked safely; what an FMU holds and its zip are written in `pack/`, a crate of its own |
 //! | `destination.rs` | where an FMU goes: at once and whole, or not at all |
 //! | `provenance.rs` | which scene the FMU at the default place is of |
 //! | `inspection.rs` | whether a library is what its folder and name say, without running it |
@@ -31,6 +28,7 @@
 //! | `check/` | the command `check`: what is wrong with an FMU |
 #![deny(unsafe_code)]
 
+mod archive;
 pub mod arguments;
 mod bounded;
 #[allow(unsafe_code)]
@@ -47,12 +45,11 @@ mod inspection;
 pub mod libraries;
 mod log;
 mod merge;
-mod pack;
 mod progress;
 mod provenance;
 mod recipe;
 mod steps;
 mod trial;
 
-pub use pack::platform::folder as host_folder;
-pub use pack::{file_name, pack};
+pub use pounding_pack::platform::folder as host_folder;
+pub use pounding_pack::{file_name, pack};

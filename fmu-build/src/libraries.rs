@@ -1,46 +1,14 @@
 //! The libraries that go into an FMU: one for each platform, the same for every scene.
 
 use crate::inspection::inspect;
-use crate::pack::archive::Entry;
-use crate::pack::platform::{self, Platform};
 use anyhow::{Context, Result, bail};
 use pounding::FmiVersion;
+pub use pounding_pack::library::Library;
+use pounding_pack::platform::{self, Platform};
 use std::path::PathBuf;
 
 /// What the file is called before it belongs to a scene, without its extension.
 const STEM: &str = "pounding";
-
-/// The library for one platform.
-pub struct Library {
-    /// Whose it is, by the name of the folder that importers expect it in, such as `linux64`.
-    pub(crate) platform: String,
-    /// The folder below `binaries/` that it goes into in place of its own.
-    elsewhere: Option<&'static str>,
-    bytes: Vec<u8>,
-}
-
-impl Library {
-    /// Of these bytes, for a platform such as `linux64`.
-    pub fn new(platform: String, bytes: Vec<u8>) -> Library {
-        Library { platform, elsewhere: None, bytes }
-    }
-
-    /// Whether it can be loaded here.
-    pub(crate) fn is_for_this_machine(&self) -> bool {
-        platform::named(&self.platform, FmiVersion::V2) == platform::folder()
-    }
-
-    /// The folder below `binaries/` that it goes into.
-    pub(crate) fn folder(&self, version: FmiVersion) -> String {
-        self.elsewhere.map_or_else(|| platform::named(&self.platform, version), str::to_owned)
-    }
-
-    /// As it stands in the FMU of a scene of that name.
-    pub(crate) fn entry(&self, name: &str, version: FmiVersion) -> Entry {
-        let extension = Platform::of(&self.platform).map_or("so", |platform| platform.extension);
-        Entry::library(&format!("binaries/{}/{name}.{extension}", self.folder(version)), self.bytes.clone())
-    }
-}
 
 /// Where libraries come from.
 pub trait Libraries {
@@ -136,8 +104,8 @@ pub fn chosen(platforms: &[String], there: &[String]) -> Result<Vec<String>> {
 /// Other libraries beside it: in `linux64` there can be one only, and other importers would take it for Intel's.
 pub fn move_arm_for_fmpy(libraries: &mut [Library]) -> Result<()> {
     match libraries {
-        [alone] if alone.platform == platform::ARM_LINUX => {
-            alone.elsewhere = Some(platform::INTEL_LINUX);
+        [alone] if alone.platform() == platform::ARM_LINUX => {
+            alone.put_into(platform::INTEL_LINUX);
             Ok(())
         }
         _ => bail!(

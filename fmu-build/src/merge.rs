@@ -1,12 +1,13 @@
 //! `cargo fmu merge`: one FMU with the libraries of two that are the same otherwise.
 
+use crate::archive;
 use crate::bounded::Bounded;
 use crate::check;
 use crate::destination::Destination;
 use crate::inspection;
-use crate::pack::archive::{self, Entry};
 use anyhow::{Context, Result, bail};
 use pounding::FmiVersion;
+use pounding_pack::archive::{Entry, pack};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -41,7 +42,7 @@ pub fn merge(fmus: [&Path; 2], output: &Path) -> Result<String> {
     }
     let entries = merged(one, other);
     let destination = Destination::open(output.to_path_buf())?;
-    let draft = destination.draft(&archive::pack(&entries)?)?;
+    let draft = destination.draft(&pack(&entries)?)?;
     destination.take(draft)?;
     Ok(report(&destination, &entries))
 }

@@ -32,6 +32,7 @@ COMMANDS = (
     Command("example", "lists the scenes that come with this package, or writes one of them", "example offices", "example"),
     Command("simulate", "runs a scene without an FMU; tables as CSV", "simulate offices.toml --csv motion.csv"),
     Command("report", "makes a page of a run, for any browser", "report offices.toml"),
+    Command("page", "makes a page that runs, studies and packs scenes in a browser", "page offices.toml", "page"),
     Command("plot", "draws a run: buildings, gaps, forces, the hardest impact", "plot offices.toml", "plots.command"),
     Command("gap", "says how wide a gap keeps the buildings apart", "gap offices.toml", "gap.command"),
     Command("study", "runs many gaps, records and intensities", "study offices.toml --pga 1 2 3", "study.command"),

@@ -43,9 +43,9 @@ impl Batch {
             Ok((first.parameter(reference)?, values.as_array().to_vec()))
         };
         let parameters = parameters.into_iter().map(parameter).collect::<PyResult<_>>()?;
-        let settings = scenes.iter().map(|scene| scene.get().settings.clone()).collect();
+        let settings = scenes.iter().map(|scene| scene.get().0.settings.clone()).collect();
         let stops = scenes.iter().map(|scene| scene.get().stop()).collect();
-        Ok(Batch { cases: Cases { count, table: first.table.clone(), settings, which, parameters }, stops })
+        Ok(Batch { cases: Cases { count, table: first.0.table.clone(), settings, which, parameters }, stops })
     }
 
     /// Looks at all cases: what seems odd in them.

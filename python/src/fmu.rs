@@ -23,7 +23,7 @@ pub fn build(
     platforms: Vec<String>,
     is_fmi3: bool,
 ) -> PyResult<PathBuf> {
-    let package = &scene.get().package;
+    let package = &scene.get().0.package;
     let version = if is_fmi3 { FmiVersion::V3 } else { FmiVersion::V2 };
     let output = output.unwrap_or_else(|| file_name(package, version).into());
     py.detach(|| write(package, &output, libraries, &platforms, version)).map_err(|error| exception(&error))?;

@@ -5,10 +5,9 @@ use crate::records::Record;
 use pounding::description::Package;
 use pounding::scene::{Building, SceneError};
 use pounding::structure::{ModalDamping, Modes};
-use pounding::variables::{Parameter, Row, Settings, Slot, Table, Type, Value};
-use pounding::warnings;
-use pounding_simulate::STOP;
+use pounding::variables::{Parameter, Row, Slot, Type, Value};
 use pounding_simulate::layout::Layout;
+use pounding_simulate::scenario::Scenario;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -19,14 +18,7 @@ use std::sync::Arc;
 
 /// A scene that never changes: what gives it a record or parameters returns another one.
 #[pyclass(frozen, module = "pounding_fmu._native")]
-pub struct Scene {
-    /// As it goes into an FMU.
-    pub package: Arc<Package>,
-    pub settings: Settings,
-    pub table: Table,
-    /// Whether anything is not as the scene says.
-    is_changed: bool,
-}
+pub struct Scene(pub Scenario);
 
 /// A scene, or everything that is wrong with it.
 type Read = (Option<Scene>, Vec<String>);
@@ -53,92 +45,70 @@ impl Scene {
 
     /// The variables of its FMU in their order: name, causality, variability, type, unit, min, max, start, description.
     fn variables<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyTuple>>> {
-        self.table.rows.iter().map(|row| self.variable(py, row)).collect()
+        self.0.table.rows.iter().map(|row| self.variable(py, row)).collect()
     }
 
     /// What looks like a slip in it.
     fn warnings(&self) -> Vec<String> {
-        let found = if self.is_changed {
-            self.settings.warnings()
-        } else {
-            warnings::of_file(&self.package.scene, self.settings.record())
-        };
-        found.iter().map(ToString::to_string).collect()
+        self.0.warnings().iter().map(ToString::to_string).collect()
     }
 
     /// The same under another record.
     fn with_record(&self, record: &Record) -> PyResult<Scene> {
-        let Record { name, record } = record;
-        let mut settings = self.settings.clone();
-        if settings.scene.ground.record.is_some() {
-            settings.set_record(name, Arc::clone(record)).map_err(|error| refusal(&error))?;
-        } else {
-            let mut scene = settings.scene;
-            scene.ground.record = Some(name.clone());
-            settings = Settings::new(scene, Some(record.as_ref().clone()));
-            settings.check().map_err(|error| refusal(&error))?;
-        }
-        let table = Table::new(&settings.scene);
-        Ok(Scene { package: Arc::clone(&self.package), settings, table, is_changed: true })
+        self.0.with_record(&record.name, &record.record).map(Scene).map_err(|error| refusal(&error))
     }
 
     /// The same with other parameters: value references and numbers.
     fn with_parameters(&self, parameters: Vec<(u32, f64)>) -> PyResult<Scene> {
-        let mut settings = self.settings.clone();
-        for (reference, value) in parameters {
-            settings.write(self.parameter(reference)?, Value::Real(value)).map_err(|error| refusal(&error))?;
-        }
-        settings.check().map_err(|error| refusal(&error))?;
-        Ok(Scene { package: Arc::clone(&self.package), settings, table: self.table.clone(), is_changed: true })
+        let known = |(reference, value)| Ok((self.parameter(reference)?, value));
+        let parameters = parameters.into_iter().map(known).collect::<PyResult<Vec<_>>>()?;
+        self.0.with_parameters(&parameters).map(Scene).map_err(|error| refusal(&error))
     }
 
     /// The same without any contact: how each building moves by itself.
     fn without_contacts(&self) -> Scene {
-        let mut settings = self.settings.clone();
-        settings.scene.contacts.clear();
-        let table = Table::new(&settings.scene);
-        Scene { package: Arc::clone(&self.package), settings, table, is_changed: true }
+        Scene(self.0.without_contacts())
     }
 
     #[getter]
     fn name(&self) -> &str {
-        &self.settings.scene.name
+        &self.0.settings.scene.name
     }
 
     #[getter]
     fn description(&self) -> &str {
-        &self.settings.scene.description
+        &self.0.settings.scene.description
     }
 
     /// What stands where, as JSON.
     fn layout(&self) -> PyResult<String> {
-        serde_json::to_string(&Layout::of(&self.settings.scene))
+        serde_json::to_string(&Layout::of(&self.0.settings.scene))
             .map_err(|error| PyRuntimeError::new_err(error.to_string()))
     }
 
     /// s, when a run ends where nothing else is said.
     pub fn stop(&self) -> f64 {
-        let end = || self.settings.record()?.times.last().copied().filter(|&end| end > 0.0);
-        self.settings.scene.stop_time.or_else(end).unwrap_or(STOP)
+        self.0.stop()
     }
 
     /// The record that it has.
     fn record(&self) -> Option<Record> {
-        let (name, record) = self.settings.scene.ground.record.as_ref().zip(self.settings.record())?;
+        let (name, record) = self.0.settings.scene.ground.record.as_ref().zip(self.0.settings.record())?;
         Some(Record { name: name.clone(), record: Arc::new(record.clone()) })
     }
 
     /// The text of the scene without `[ground]`: what another machine needs that has the records.
     fn without_ground(&self) -> PyResult<String> {
         let unreadable = |error: String| PyValueError::new_err(error);
-        let mut scene: toml::Table = self.package.scene_text.parse().map_err(|error| unreadable(format!("{error}")))?;
+        let mut scene: toml::Table =
+            self.0.package.scene_text.parse().map_err(|error| unreadable(format!("{error}")))?;
         scene.remove("ground");
         toml::to_string(&scene).map_err(|error| unreadable(error.to_string()))
     }
 
     /// Of the first mode of each building alone the period, s, and the ratio of critical damping.
     fn first_modes(&self) -> PyResult<[Option<(f64, f64)>; 2]> {
-        let scene = &self.settings.scene;
+        let scene = &self.0.settings.scene;
         Ok([first_mode(&scene.left)?, first_mode(&scene.right)?])
     }
 }
@@ -155,28 +125,21 @@ fn first_mode(building: &Building) -> PyResult<Option<(f64, f64)>> {
 impl Scene {
     fn of(package: Result<Package, SceneError>) -> Read {
         match package {
-            Ok(package) => {
-                let record = package.record.as_ref().map(|packaged| packaged.record.clone());
-                let settings = Settings::new(package.scene.clone(), record);
-                let table = Table::new(&settings.scene);
-                (Some(Scene { package: Arc::new(package), settings, table, is_changed: false }), Vec::new())
-            }
+            Ok(package) => (Some(Scene(Scenario::new(package))), Vec::new()),
             Err(error) => (None, error.problems.iter().map(ToString::to_string).collect()),
         }
     }
 
     /// The parameter of a value reference.
     pub fn parameter(&self, reference: u32) -> PyResult<Parameter> {
-        match self.table.row(reference).map(|row| row.slot) {
-            Some(Slot::Parameter(parameter)) => Ok(parameter),
-            _ => Err(PyValueError::new_err(format!("value reference {reference}: expected that of a parameter"))),
-        }
+        let unknown = || PyValueError::new_err(format!("value reference {reference}: expected that of a parameter"));
+        self.0.parameter(reference).ok_or_else(unknown)
     }
 
     fn variable<'py>(&self, py: Python<'py>, row: &Row) -> PyResult<Bound<'py, PyTuple>> {
         let unit = if let Type::Real(unit) = row.ty { Some(unit.info().name) } else { None };
         let start = match row.slot {
-            Slot::Parameter(parameter) => match self.settings.read(parameter) {
+            Slot::Parameter(parameter) => match self.0.settings.read(parameter) {
                 Value::String(text) => text.into_bound_py_any(py)?,
                 value => value.real().into_bound_py_any(py)?,
             },

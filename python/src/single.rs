@@ -7,6 +7,7 @@ use pounding::engine::Model;
 use pounding_simulate::instants;
 use pounding_simulate::outcome::Follower;
 use pounding_simulate::readings::{Kind, Reading};
+use pounding_simulate::scenario::Scenario;
 use pounding_simulate::solve::{Solved, solve};
 use pounding_simulate::summary::{Problem, text};
 use pounding_simulate::tables::impact;
@@ -39,11 +40,11 @@ pub fn simulate<'py>(
     references: Vec<u32>,
     rows_per_impact: Option<u16>,
 ) -> PyResult<Arrays<'py>> {
-    let Scene { settings, table, .. } = scene.get();
+    let Scenario { settings, table, .. } = &scene.get().0;
     let reading = |&reference| Reading::new(table, settings, reference);
     let readings: Vec<Reading> = references.iter().filter_map(reading).collect();
     has_room(stop / step, readings.len() + 1)?;
-    let kept = solved(py, scene.get(), |model, told_to_stop| {
+    let kept = solved(py, &scene.get().0, |model, told_to_stop| {
         run(model, &readings, (step, stop, rows_per_impact), told_to_stop)
     })?;
     Ok(kept.into_arrays(py, &readings))
@@ -52,7 +53,7 @@ pub fn simulate<'py>(
 /// What a run of a scene has shown, for a person: as the command says it of the scene's FMU.
 #[pyfunction]
 pub fn summary(py: Python<'_>, scene: &Bound<'_, Scene>, step: f64, stop: f64) -> PyResult<String> {
-    let scene = scene.get();
+    let scene = &scene.get().0;
     let problem = Problem::from(&scene.settings);
     let stop_reason = if stop == scene.stop() { problem.stop_reason() } else { "as asked" };
     solved(py, scene, |model, told_to_stop| {
@@ -69,10 +70,10 @@ pub fn summary(py: Python<'_>, scene: &Bound<'_, Scene>, step: f64, stop: f64) -
 /// What comes of work with the model of a scene, beside Python.
 fn solved<T: Send>(
     py: Python<'_>,
-    Scene { settings, .. }: &Scene,
+    scene: &Scenario,
     work: impl Fn(&Model, &AtomicBool) -> Result<T, String> + Sync + Send,
 ) -> PyResult<T> {
-    let model = py.detach(|| Model::new(&settings.scene, settings.record())).map_err(|error| refusal(&error))?;
+    let model = py.detach(|| scene.model()).map_err(|error| refusal(&error))?;
     let done = Mutex::new(Err("interrupted".to_owned()));
     let body = |told_to_stop: &AtomicBool| {
         let result = work(&model, told_to_stop);

@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `lib.rs` | the arguments, and what is done with them |
 //! | `instants.rs` | the instants at which a run is looked at |
+//! | `scenario.rs` | a scene with its record and its parameters |
 //! | `solve.rs` | the run over these instants |
 //! | `readings.rs` | what is read of a run, by value reference |
 //! | `tables.rs` | the tables of a run |
@@ -19,7 +20,8 @@ pub mod instants;
 pub mod layout;
 pub mod outcome;
 pub mod readings;
-mod report;
+pub mod report;
+pub mod scenario;
 pub mod solve;
 pub mod summary;
 pub mod tables;
@@ -113,8 +115,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     }
     let (step, stop) = (arguments.step, arguments.stop.or_else(|| package.stop_time()).unwrap_or(STOP));
     let model = model(&package)?;
-    let mut motion = arguments.csv.as_deref().map(|file| tables::Motion::create(file, &package.scene)).transpose()?;
-    let impacts = arguments.impacts.as_deref().map(tables::create).transpose()?;
+    let table = arguments.csv.as_deref().map(report::create).transpose()?;
+    let mut motion = table.map(|file| tables::Motion::new(file, &package.scene)).transpose()?;
+    let impacts = arguments.impacts.as_deref().map(report::create).transpose()?;
     let mut page = arguments.html.as_deref().map(report::create).transpose()?;
     if let Some(file) = &arguments.layout {
         report::create(file)?.write_all(serde_json::to_string(&layout::Layout::of(&package.scene))?.as_bytes())?;
@@ -130,7 +133,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     };
     let Solution { events, time, .. } =
         solve(&model, instants::merge(instants::regular(step, stop), within), Some(show))?;
-    motion.map_or(Ok(()), tables::Motion::finish)?;
+    motion.map(tables::Motion::finish).transpose()?;
     if let Some(table) = impacts {
         tables::write_impacts(table, &events.episodes)?;
     }

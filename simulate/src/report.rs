@@ -6,7 +6,7 @@
 
 use crate::instants;
 use crate::layout::Layout;
-use crate::solve::{Events, Solved, solve};
+use crate::solve::{Events, Solved, follow};
 use crate::tables::{impact, outputs};
 use crate::thinning::Column;
 use pounding::description::Package;
@@ -70,11 +70,17 @@ struct Series {
 }
 
 /// The file, before the work that it is for.
+///
+/// # Errors
+/// A file that cannot be written.
 pub fn create(file: &Path) -> Result<File, Box<dyn Error>> {
     File::create(file).map_err(|error| format!("cannot write {}: {error}", file.display()).into())
 }
 
 /// The page.
+///
+/// # Errors
+/// What keeps the run from its end.
 pub fn page(package: &Package, model: &Model, stop: f64, events: &Events) -> Result<String, Box<dyn Error>> {
     let Package { scene, scene_text, .. } = package;
     let (times, columns) = columns(scene, model, stop, events)?;
@@ -117,7 +123,7 @@ fn columns(
         }
         Ok::<(), Box<dyn Error>>(())
     };
-    solve(model, instants.into_iter(), Some(show))?;
+    follow(model, instants.into_iter(), Some(show))?;
     let series = outputs.into_iter().zip(columns).map(|((row, _), column)| {
         let info = match row.ty {
             Type::Real(unit) => Some(unit.info()),

@@ -20,12 +20,50 @@ pub struct Events {
 
 /// What a run has left.
 pub struct Solution {
-    /// How many instants have been shown.
-    pub rows: u64,
     /// What has happened.
     pub events: Events,
     /// Of the solve alone: reading and writing files is not in it.
     pub time: Duration,
+}
+
+/// A run under way, from the start of a scene to instant after instant.
+pub struct Run {
+    state: State,
+    point: Point,
+    events: Events,
+}
+
+impl Run {
+    /// At the start.
+    pub fn new(model: &Model) -> Run {
+        let mut state = model.start(0.0);
+        state.note_switches();
+        Run { state, point: Point::default(), events: Events::default() }
+    }
+
+    /// Goes on to an instant, s, no earlier than the last one; where a storey collapses the run ends before it.
+    ///
+    /// # Errors
+    /// What keeps the run from going on.
+    pub fn advance<'a>(&'a mut self, model: &'a Model, time: f64) -> Result<Solved<'a>, EngineError> {
+        // The first row is the start as an FMU shows it: what happens at that very instant belongs to the first step.
+        if time > 0.0 {
+            let Events { episodes, collapse, .. } = &mut self.events;
+            *collapse = model.advance(&mut self.state, time, &mut |episode| episodes.push(*episode))?;
+        }
+        Ok(model.observe(&self.state, &mut self.point))
+    }
+
+    /// What has happened so far; contacts that last are not in it.
+    pub fn so_far(&self) -> &Events {
+        &self.events
+    }
+
+    /// What has happened.
+    pub fn finish(mut self, model: &Model) -> Events {
+        add_last(model, &self.state, &mut self.events);
+        self.events
+    }
 }
 
 /// Solves from 0 to the last of ascending instants, s, and shows the solution at each, if it is to be shown. Where a storey
@@ -33,41 +71,46 @@ pub struct Solution {
 pub fn solve<E: Into<Box<dyn Error>>>(
     model: &Model,
     instants: impl Iterator<Item = f64>,
-    mut show: Option<impl FnMut(Solved) -> Result<(), E>>,
+    show: Option<impl FnMut(Solved) -> Result<(), E>>,
 ) -> Result<Solution, Box<dyn Error>> {
-    let (mut state, mut point) = (model.start(0.0), Point::default());
-    state.note_switches();
-    let mut solution = Solution { rows: 0, events: Events::default(), time: Duration::ZERO };
     let (clock, mut shown) = (Clock::now(), Duration::ZERO);
-    for time in instants {
-        // The first row is the start as an FMU shows it: what happens at that very instant belongs to the first step.
-        if time > 0.0 {
-            let Events { episodes, collapse, .. } = &mut solution.events;
-            *collapse = model.advance(&mut state, time, &mut |episode| episodes.push(*episode))?;
-        }
-        let now = model.observe(&state, &mut point);
-        solution.rows += 1;
-        if let Some(show) = &mut show {
+    let sum = &mut shown;
+    let timed = show.map(|mut show| {
+        move |now: Solved<'_>| {
             let clock = Clock::now();
-            show(now).map_err(Into::into)?;
-            shown += clock.elapsed();
+            let result = show(now);
+            *sum += clock.elapsed();
+            result
         }
-        if solution.events.collapse.is_some() {
+    });
+    let events = follow(model, instants, timed)?;
+    Ok(Solution { events, time: clock.elapsed() - shown })
+}
+
+/// The same without a clock, which not every machine has.
+pub fn follow<E: Into<Box<dyn Error>>>(
+    model: &Model,
+    instants: impl Iterator<Item = f64>,
+    mut show: Option<impl FnMut(Solved) -> Result<(), E>>,
+) -> Result<Events, Box<dyn Error>> {
+    let mut run = Run::new(model);
+    for time in instants {
+        let now = run.advance(model, time)?;
+        if let Some(show) = &mut show {
+            show(now).map_err(Into::into)?;
+        }
+        if run.events.collapse.is_some() {
             break;
         }
     }
-    solution.time = clock.elapsed() - shown;
-    add_last(model, &state, &mut solution.events);
-    Ok(solution)
+    Ok(run.finish(model))
 }
 
 /// What happens until `stop`, s.
 pub fn events(model: &Model, stop: f64) -> Result<Events, EngineError> {
-    let (mut state, mut events) = (model.start(0.0), Events::default());
-    state.note_switches();
-    events.collapse = model.advance(&mut state, stop, &mut |episode| events.episodes.push(*episode))?;
-    add_last(model, &state, &mut events);
-    Ok(events)
+    let mut run = Run::new(model);
+    run.advance(model, stop)?;
+    Ok(run.finish(model))
 }
 
 /// Adds the episodes that are still open, and what the state has noted.

@@ -4,17 +4,7 @@ use crate::solve::Solved;
 use pounding::engine::{Episode, Output};
 use pounding::scene::Scene;
 use pounding::variables::{Row, Slot, Table, Type};
-use std::error::Error;
-use std::fs::File;
-use std::path::Path;
-
-type CsvFile = csv::Writer<File>;
-
-/// The file, before the work that it is for.
-pub(crate) fn create(file: &Path) -> Result<CsvFile, Box<dyn Error>> {
-    let created = File::create(file).map_err(|error| format!("cannot write {}: {error}", file.display()))?;
-    Ok(csv::Writer::from_writer(created))
-}
+use std::io::{self, Write};
 
 /// The outputs of a scene's FMU, in its order.
 pub fn outputs(scene: &Scene) -> impl Iterator<Item = (Row, Output)> {
@@ -25,21 +15,29 @@ pub fn outputs(scene: &Scene) -> impl Iterator<Item = (Row, Output)> {
 }
 
 /// The table of the motion: `time`, then every output of the FMU in its order.
-pub(crate) struct Motion {
-    table: CsvFile,
+pub struct Motion<W: Write> {
+    table: csv::Writer<W>,
     outputs: Vec<(Output, Type)>,
     cells: Vec<String>,
 }
 
-impl Motion {
-    pub fn create(file: &Path, scene: &Scene) -> Result<Motion, Box<dyn Error>> {
-        let mut table = create(file)?;
+impl<W: Write> Motion<W> {
+    /// Writes the headings.
+    ///
+    /// # Errors
+    /// What keeps them from being written.
+    pub fn new(file: W, scene: &Scene) -> csv::Result<Motion<W>> {
+        let mut table = csv::Writer::from_writer(file);
         let (names, outputs): (Vec<_>, Vec<_>) =
             outputs(scene).map(|(row, output)| (row.name, (output, row.ty))).unzip();
         table.write_record(std::iter::once("time".to_owned()).chain(names))?;
         Ok(Motion { table, outputs, cells: Vec::new() })
     }
 
+    /// Writes a row.
+    ///
+    /// # Errors
+    /// What keeps it from being written.
     pub fn write(&mut self, solved: Solved) -> csv::Result<()> {
         self.cells.clear();
         self.cells.push(number(solved.time()));
@@ -50,8 +48,12 @@ impl Motion {
         self.table.write_record(&self.cells)
     }
 
-    pub fn finish(mut self) -> std::io::Result<()> {
-        self.table.flush()
+    /// Writes what is left, and gives the file back.
+    ///
+    /// # Errors
+    /// What keeps it from being written.
+    pub fn finish(self) -> io::Result<W> {
+        self.table.into_inner().map_err(csv::IntoInnerError::into_error)
     }
 }
 
@@ -90,14 +92,17 @@ pub fn impact(episode: &Episode) -> (usize, [Option<f64>; 9]) {
     (episode.contact + 1, row)
 }
 
-/// Writes the table of impacts.
-pub(crate) fn write_impacts(mut table: CsvFile, episodes: &[Episode]) -> csv::Result<()> {
+/// Writes the table of impacts, and gives its file back.
+///
+/// # Errors
+/// What keeps it from being written.
+pub fn write_impacts<W: Write>(file: W, episodes: &[Episode]) -> io::Result<W> {
+    let mut table = csv::Writer::from_writer(file);
     table.write_record(IMPACT_COLUMNS)?;
     for episode in episodes {
         let (contact, row) = impact(episode);
         let cells = row.map(|value| value.map(number).unwrap_or_default());
         table.write_record(std::iter::once(contact.to_string()).chain(cells))?;
     }
-    table.flush()?;
-    Ok(())
+    table.into_inner().map_err(csv::IntoInnerError::into_error)
 }

@@ -31,6 +31,16 @@ impl RecordFile {
         Ok(RecordFile { bytes: read(path)?, name, channel: None })
     }
 
+    /// The file that a name asks for among files in memory, told by `bytes_of`, as `read` finds it in a folder.
+    pub fn find(name: &str, bytes_of: impl Fn(&str) -> Option<Vec<u8>>) -> Option<RecordFile> {
+        if let Some(bytes) = bytes_of(name) {
+            return Some(RecordFile { name: name.to_owned(), channel: None, bytes });
+        }
+        let (shorter, channel) = without_channel(name);
+        channel?;
+        Some(RecordFile { name: shorter.to_owned(), channel, bytes: bytes_of(shorter)? })
+    }
+
     /// A file that has been read already; its name may end with a channel.
     pub fn named(name: &str, bytes: Vec<u8>) -> RecordFile {
         let (name, channel) = without_channel(name);

@@ -85,6 +85,13 @@ pub(super) fn spans(table: &DeTable<'_>) -> HashMap<String, Span> {
     spans
 }
 
+/// Where a path begins in the text, or the nearest table above it that there is.
+pub(super) fn place(path: &str, spans: &HashMap<String, Span>) -> Option<usize> {
+    let ends = path.char_indices().rev().filter(|&(_, c)| matches!(c, '.' | '[')).map(|(end, _)| end);
+    let mut from_whole_to_root = std::iter::once(path.len()).chain(ends).filter_map(|end| path.get(..end));
+    from_whole_to_root.find_map(|part| Some(spans.get(part)?.start))
+}
+
 impl<'t> Document<'t> {
     pub(super) fn new(text: &'t str) -> Document<'t> {
         Document { text, problems: RefCell::default() }

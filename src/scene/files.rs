@@ -92,6 +92,18 @@ impl Package {
         Package::read(scene_text, |record| read_record_file(record, &folder.join(record)))
     }
 
+    /// Reads the text of a scene file whose record is one of some files in memory, where there is no folder: `bytes_of` is
+    /// asked for the name that the scene has for it.
+    ///
+    /// # Errors
+    /// As [`Package::from_scene_file`].
+    pub fn from_memory(scene_text: String, bytes_of: impl Fn(&str) -> Option<Vec<u8>>) -> Result<Package, SceneError> {
+        Package::read(scene_text, |name| {
+            RecordFile::find(name, &bytes_of)
+                .ok_or_else(|| record_problem(name, "it has not been given".to_owned()).into())
+        })
+    }
+
     /// Reads a package back from the `resources` folder of an unpacked FMU.
     ///
     /// # Errors

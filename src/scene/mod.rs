@@ -56,7 +56,8 @@
 //! Where things are: `data` is the scene, `contact_pair` what meets in it, [`rule`] says which numbers are allowed, `check`
 //! which shapes and combinations, `read` and `read_contacts` go through the keys of the file, `levels` adds up heights,
 //! `p_delta` is gravity on storeys that lean, `facing` makes contacts of them, `meeting` says in words what meets, `document` is the file as a tree, `syntax` knows what
-//! is often written instead of TOML, `units` converts masses and forces, `files` loads scenes with their records.
+//! is often written instead of TOML, `units` converts masses and forces, `files` loads scenes with their records,
+//! `lines` says on which lines its paths stand.
 
 mod check;
 mod checker;
@@ -68,6 +69,7 @@ mod files;
 mod identifier;
 pub mod law_key;
 mod levels;
+mod lines;
 mod matrix;
 mod meeting;
 mod p_delta;
@@ -84,6 +86,7 @@ pub use data::{Building, COLLAPSE_DRIFT_RATIO, Damping, Ground, PDelta, Scaling,
 pub use files::{Package, PackagedRecord, load};
 pub(crate) use files::{SCENE_RESOURCE, read_record_file, record_problems};
 pub use levels::{Heights, LEVEL_TOLERANCE, ROUNDING as LEVEL_ROUNDING};
+pub use lines::lines;
 pub use p_delta::NetStorey;
 pub use problem::{Problem, SceneError};
 pub(crate) use problem::{excerpt, matrix_text, number, numbers, quoted};

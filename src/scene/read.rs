@@ -75,9 +75,7 @@ fn tell_of_facing(problems: &mut Vec<Problem>) {
 
 /// Position of a path in the text; a missing key has the position of the table that lacks it.
 fn position(path: &str, spans: &HashMap<String, Span>) -> usize {
-    let ends = path.char_indices().rev().filter(|&(_, c)| matches!(c, '.' | '[')).map(|(end, _)| end);
-    let mut from_whole_to_root = std::iter::once(path.len()).chain(ends).filter_map(|end| path.get(..end));
-    from_whole_to_root.find_map(|part| Some(spans.get(part)?.start)).unwrap_or_default()
+    document::place(path, spans).unwrap_or_default()
 }
 
 /// Values that reading has changed as the file has them: an entry that is no number has been read as NaN, one of hundreds

@@ -12,30 +12,22 @@ import io
 import os
 import re
 import shlex
-import shutil
 import subprocess
 import sys
 from pathlib import Path
+
+from browser import listen, started
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENES = ROOT / "examples/scenes"
 FOLDER = ROOT / "target/browser"
 SIMULATE = shlex.split(os.environ.get("SIMULATE", "cargo run --release --quiet --example simulate --"))
-BROWSERS = ["chromium", "chromium-headless-shell", "chromium-browser", "google-chrome", "google-chrome-stable"]
 HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)> & <b>bold</b>"
 
 
 def main():
-    browser = os.environ.get("BROWSER") or next(filter(None, map(shutil.which, BROWSERS)), None)
-    if browser is None:
-        sys.exit(f"no browser here: apt-get install chromium (looked for {', '.join(BROWSERS)}; BROWSER names another)")
-    from playwright.sync_api import sync_playwright
-
     html, scene, impacts = make_report("feup")
-    arguments = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=browser, args=arguments)
-        context = chromium.new_context(viewport={"width": 1300, "height": 900}, offline=True)
+    with started(viewport={"width": 1300, "height": 900}) as context:
         page = context.new_page()
         troubles = listen(page)
         page.goto(html.as_uri())
@@ -49,8 +41,7 @@ def main():
             look(page, impacts)
             print(f"{look.__name__.replace('_', ' ')}: well")
         assert not troubles, troubles
-        print(f"nothing loaded, no error, in {browser} {chromium.version}")
-        chromium.close()
+        print("nothing loaded, no error")
 
 
 def make_report(name):
@@ -62,16 +53,6 @@ def make_report(name):
     scene.write_text(text)
     subprocess.run([*SIMULATE, scene, "--html", html, "--impacts", impacts], cwd=ROOT, check=True, stdout=sys.stderr)
     return html, text, list(csv.DictReader(impacts.open()))
-
-
-def listen(page):
-    """What a page must not do: report errors, open dialogs, load anything but itself."""
-    troubles = []
-    page.on("pageerror", lambda error: troubles.append(f"error: {error}"))
-    page.on("console", lambda message: message.type == "error" and troubles.append(f"console: {message.text}"))
-    page.on("dialog", lambda dialog: (troubles.append(f"dialog: {dialog.message}"), dialog.dismiss()))
-    page.on("request", lambda request: request.url.startswith("file:") or troubles.append(f"request: {request.url}"))
-    return troubles
 
 
 def stretch(page):

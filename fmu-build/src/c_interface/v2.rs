@@ -1,9 +1,9 @@
 //! FMI 2.0.
 
 use super::library::{Binary, Component, DISCARD, Handle, OK, text};
+use crate::archive;
 use crate::experiment::CoSimulation;
 use crate::log::Log;
-use crate::pack::archive;
 use anyhow::{Result, bail};
 use std::ffi::{CString, c_char, c_int, c_void};
 use std::path::Path;

@@ -1,12 +1,12 @@
 //! What the library of an FMU does, compared with what its description says.
 
+use crate::archive::Unpacked;
 use crate::c_interface::{self, Binary};
 use crate::description::{Description, Kind, Variable};
 use crate::experiment::{CoSimulation, experiment};
-use crate::pack::archive::Unpacked;
-use crate::pack::platform;
 use anyhow::{Context, Result, bail};
 use pounding::FmiVersion;
+use pounding_pack::platform;
 use std::path::Path;
 
 /// The library for this machine.

@@ -8,16 +8,16 @@ mod behaviour;
 mod events;
 mod lint;
 
+use crate::archive::Unpacked;
 use crate::description::Description;
 use crate::experiment;
 use crate::importer;
 use crate::inspection;
-use crate::pack::archive::Unpacked;
-use crate::pack::platform::{self, Platform};
 use crate::trial::channel::Channel;
 use anyhow::{Context, Result};
 pub use lint::{file_names, model_identifier, origin, version};
 use pounding::FmiVersion;
+use pounding_pack::platform::{self, Platform};
 use std::path::Path;
 
 /// What is looked at, in this order.

@@ -3,13 +3,13 @@
 use crate::description::Description;
 use crate::experiment::CoSimulation;
 use crate::log::Log;
-use crate::pack::platform;
 use crate::steps::Stepped;
 use anyhow::{Context, Result, anyhow, bail};
 use fmi::fmi3::FMU3;
 use fmi::fmi3::log::Logger;
 use fmi::fmi3::native::NativeLibrary;
 use fmi::fmi3::types::{fmi3FMUState, fmi3Status};
+use pounding_pack::platform;
 use std::path::Path;
 use std::ptr;
 use std::sync::Arc;

@@ -1,13 +1,13 @@
 //! The run after building.
 
 use super::channel::Channel;
+use crate::archive::Unpacked;
 use crate::c_interface::{self, Binary};
 use crate::check;
 use crate::description::Description;
 use crate::experiment;
-use crate::pack::archive::Unpacked;
-use crate::pack::platform;
 use anyhow::{Context, Result};
+use pounding_pack::platform;
 use std::path::Path;
 
 /// In a process of its own: loads the FMU as an importer would and runs it.

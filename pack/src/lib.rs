@@ -1,18 +1,30 @@
-//! What an FMU holds, and the zip that it is.
+//! What an FMU holds, and the archive that it is: for the commands on every machine and for the browser page.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `lib.rs` | from a scene and libraries to the bytes of an FMU |
+//! | `library.rs` | the library for one platform |
+//! | `platform.rs` | where each version of FMI wants the library of each platform, and what it is |
+//! | `documentation.rs`, `licenses.rs` | the page about the model and the icon; the licence texts |
+//! | `archive.rs` | the zip, written reproducibly |
 
 pub mod archive;
 mod documentation;
+pub mod library;
 mod licenses;
 pub mod platform;
 
-use crate::libraries::Library;
-use anyhow::Result;
 use archive::Entry;
+use library::Library;
 use pounding::FmiVersion;
 use pounding::description::Package;
+use std::io;
 
 /// The bytes of the FMU of a scene with these libraries, one for each platform. They depend on nothing else.
-pub fn pack(package: &Package, libraries: &[Library], version: FmiVersion) -> Result<Vec<u8>> {
+///
+/// # Errors
+/// More bytes than an archive can have.
+pub fn pack(package: &Package, libraries: &[Library], version: FmiVersion) -> io::Result<Vec<u8>> {
     archive::pack(&entries(package, libraries, version))
 }
 

@@ -1,49 +1,13 @@
-//! The zip that an FMU is: written reproducibly, unpacked safely.
+//! The zip that an FMU is, unpacked safely. It is written in `pounding-pack`.
 
 use anyhow::{Context, Result, bail};
+use pounding_pack::archive::Entry;
 use std::collections::HashMap;
 use std::fs::File;
-use std::io::{self, Cursor, Read, Seek, SeekFrom, Write};
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
+use zip::ZipArchive;
 use zip::read::ZipFile;
-use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
-
-/// A file inside an FMU.
-#[derive(Clone, PartialEq, Eq)]
-pub struct Entry {
-    /// With forward slashes, relative to the FMU's root.
-    pub path: String,
-    /// The contents.
-    pub bytes: Vec<u8>,
-    permissions: u32,
-}
-
-impl Entry {
-    /// A file to read.
-    pub fn file(path: &str, bytes: Vec<u8>) -> Entry {
-        Entry { path: path.into(), bytes, permissions: 0o644 }
-    }
-
-    /// A shared library.
-    pub fn library(path: &str, bytes: Vec<u8>) -> Entry {
-        Entry { path: path.into(), bytes, permissions: 0o755 }
-    }
-}
-
-/// The bytes of a zip of these entries in this order. They depend on nothing else: no clock, no owner, no umask.
-pub fn pack(entries: &[Entry]) -> Result<Vec<u8>> {
-    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
-    let options = SimpleFileOptions::default()
-        .compression_method(CompressionMethod::Deflated)
-        .compression_level(Some(6))
-        .last_modified_time(DateTime::default());
-    for entry in entries {
-        zip.start_file(entry.path.as_str(), options.unix_permissions(entry.permissions))?;
-        zip.write_all(&entry.bytes)?;
-    }
-    Ok(zip.finish()?.into_inner())
-}
 
 /// Bytes, unpacked: no FMU of ours comes near it, and a small archive can be made to unpack to anything.
 const MOST_UNPACKED: u64 = 1 << 30;
@@ -208,6 +172,7 @@ fn extract(from: &mut impl Read, to: &Path) -> io::Result<u64> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use pounding_pack::archive::pack;
 
     #[test]
     fn what_unpacks_to_too_much_is_refused() {

@@ -1,6 +1,6 @@
 //! What a person finds in an importing tool: the page `documentation/index.html` and the icon.
 
-use super::archive::Entry;
+use crate::archive::Entry;
 use pounding::FmiVersion;
 use pounding::description::Package;
 use pounding::scene::ContactPair;
@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// Two buildings that touch.
-const ICON: &[u8] = include_bytes!("../../icon/model.png");
+const ICON: &[u8] = include_bytes!("../icon/model.png");
 
 const STYLE: &str = "body{font:15px/1.45 sans-serif;max-width:60em;margin:2em auto;padding:0 1em;color:#222}\
     table{border-collapse:collapse}td,th{border:1px solid #ccc;padding:.2em .6em;text-align:left;vertical-align:top}\

@@ -1,0 +1,221 @@
+// One picture of the buildings on a canvas: ground, slabs, columns, walls, contacts, and the impacts that have just been.
+
+import { bend } from "./geometry.js";
+import { SIDES } from "./motion.js";
+
+const COLUMN_POINTS = 12;
+const MOST_NUMBERS = 12;
+// Pixels, the radius of a number's circle.
+const NUMBER = 8;
+
+// How a picture is laid out in a rectangle of the canvas: pixels per m across and per level upwards.
+export function layOut(geometry, box, reach, size) {
+  const two = geometry.sides.length === 2;
+  const height = box.height - 74;
+  const up = height / (geometry.top - geometry.bottom);
+  const width = Math.max(44, Math.min(0.3 * box.width, 0.62 * height, 210));
+  const room = Math.max(16, Math.min(0.15 * box.width, (0.92 * box.width - (two ? 2 : 1) * width) / 2.6));
+  const across = (room / Math.max(reach, geometry.gap, 1e-6)) * 2 ** size;
+  const middle = geometry.sides.includes("left") ? (two ? geometry.gap / 2 : -width / across / 2) : width / across / 2;
+  const x = (metres) => box.x + box.width / 2 + (metres - middle) * across;
+  const y = (level) => box.y + box.height - 36 - (level - geometry.bottom) * up;
+  return { box, up, across, x, y, width };
+}
+
+export class Drawing {
+  constructor(context, geometry, place, colours) {
+    Object.assign(this, { context, geometry, place, colours });
+    const storeys = Math.max(geometry.floors.left, geometry.floors.right);
+    const storey = ((geometry.top - geometry.bottom) * place.up) / Math.max(1, storeys);
+    this.largestFlash = Math.max(14, 0.5 * storey + 4);
+    this.slab = Math.max(1, Math.min(11, 0.16 * storey));
+    this.column = Math.max(1.5, Math.min(6, 0.035 * place.width));
+    this.hatch = makeHatch(context, colours);
+  }
+
+  // The moment: displacements, which storeys yield, and the flashes.
+  draw({ moved, yielding, flashes, ground, caption, numbered }) {
+    const { context, place } = this;
+    context.save();
+    context.beginPath();
+    context.rect(place.box.x, place.box.y, place.box.width, place.box.height);
+    context.clip();
+    this.#ground(ground);
+    for (const wall of this.geometry.walls) this.#wall(wall);
+    for (const side of this.geometry.sides) this.#building(side, moved[side], yielding);
+    for (const flash of flashes) this.#flash(flash, moved);
+    if (numbered) this.#numbers(moved);
+    if (caption) this.#text(caption, place.box.x + place.box.width / 2, place.box.y + 14, "quiet", "center");
+    context.restore();
+  }
+
+  #text(text, x, y, name, align = "left", size = 12) {
+    const { context, colours } = this;
+    context.font = `${size}px system-ui, sans-serif`;
+    context.textAlign = align;
+    context.fillStyle = colours[name];
+    context.fillText(text, x, y);
+  }
+
+  #ground(ground) {
+    const { context, place, colours, geometry } = this;
+    const { x, width } = place.box;
+    context.fillStyle = colours.line;
+    const levels = geometry.sides.map((side) => place.y(geometry.levels[side][0]));
+    const middle = place.x(geometry.gap / 2);
+    levels.forEach((level, at) => {
+      const [from, to] = levels.length === 1 ? [x, x + width] : at === 0 ? [x, middle] : [middle, x + width];
+      context.fillRect(from, level, to - from, 5);
+    });
+    const bottom = place.box.y + place.box.height;
+    for (const side of geometry.sides) this.#text(side, this.#centre(side), bottom - 12, side === "right" ? "right-text" : side, "center");
+    if (ground) this.#arrow(place.x(geometry.gap / 2), bottom - 22, ground);
+  }
+
+  // The acceleration of the ground, as long as its share of the peak.
+  #arrow(x, y, { share }) {
+    const { context, colours } = this;
+    const length = 40 * share;
+    if (Math.abs(length) < 3) return;
+    context.strokeStyle = context.fillStyle = colours.ink;
+    context.lineWidth = 2;
+    context.beginPath();
+    context.moveTo(x, y);
+    context.lineTo(x + length, y);
+    context.stroke();
+    const head = Math.sign(length) * 6;
+    context.beginPath();
+    context.moveTo(x + length + head, y);
+    context.lineTo(x + length, y - 4);
+    context.lineTo(x + length, y + 4);
+    context.fill();
+  }
+
+  #centre(side) {
+    const { place, geometry } = this;
+    return place.x(geometry.inner[side][0]) + (side === "left" ? -place.width / 2 : place.width / 2);
+  }
+
+  #wall(contact) {
+    const { context, place, geometry, colours } = this;
+    const rest = Object.fromEntries(SIDES.map((side) => [side, geometry.levels[side].map(() => 0)]));
+    const faces = geometry.faces(contact, rest, place.width / place.across);
+    const onLeft = contact.wall === "left";
+    const face = place.x(faces[onLeft ? 0 : 1]);
+    const top = place.y(contact.height) - 14;
+    context.fillStyle = this.hatch.quiet;
+    context.strokeStyle = colours.quiet;
+    context.lineWidth = 1.5;
+    const far = onLeft ? Math.max(place.box.x, face - 46) : Math.min(place.box.x + place.box.width, face + 46);
+    const [from, to] = onLeft ? [far, face] : [face, far];
+    const bottom = place.y(geometry.bottom) + 5;
+    context.fillRect(from, top, to - from, bottom - top);
+    context.strokeRect(from, top, to - from, bottom - top);
+  }
+
+  #building(side, moved, yielding) {
+    const { context, place, geometry, colours } = this;
+    const edges = moved.map((u, floor) => place.x(geometry.inner[side][floor] + u) + (side === "left" ? -place.width : 0));
+    const levels = geometry.levels[side].map(place.y);
+    const inset = geometry.hit[side] ? 0 : Math.min(10, 0.07 * place.width);
+    const offsets = [inset + this.column / 2, place.width - inset - this.column / 2];
+    for (let storey = 1; storey < edges.length; storey++) {
+      const yields = yielding?.[side]?.[storey];
+      context.strokeStyle = colours[side];
+      context.lineWidth = yields ? this.column + 2 : this.column;
+      context.setLineDash(yields ? [5, 3] : []);
+      offsets.forEach((offset) => this.#columnLine(edges, levels, storey, offset));
+    }
+    context.setLineDash([]);
+    for (let floor = 1; floor < edges.length; floor++) this.#slab(side, edges[floor], levels[floor]);
+  }
+
+  #columnLine(edges, levels, storey, offset) {
+    const { context } = this;
+    const [low, high] = [edges[storey - 1] + offset, edges[storey] + offset];
+    context.beginPath();
+    for (let point = 0; point <= COLUMN_POINTS; point++) {
+      const s = point / COLUMN_POINTS;
+      context.lineTo(low + (high - low) * bend(s), levels[storey - 1] + (levels[storey] - levels[storey - 1]) * s);
+    }
+    context.stroke();
+  }
+
+  #slab(side, x, y) {
+    const { context, place, colours, slab } = this;
+    context.fillStyle = colours[side];
+    context.fillRect(x, y - slab / 2, place.width, slab);
+    if (side === "right" && slab >= 4) {
+      context.fillStyle = this.hatch.right;
+      context.fillRect(x, y - slab / 2, place.width, slab);
+    }
+  }
+
+  // The numbers of the contacts, as in the table, above what meets there; those that would cover others stand beside them.
+  #numbers(moved) {
+    const { place, geometry } = this;
+    if (geometry.contacts.length > MOST_NUMBERS) return;
+    const placed = [];
+    geometry.contacts.forEach((contact, at) => {
+      const [left, right] = geometry.faces(contact, moved, place.width / place.across);
+      const number = { x: place.x((left + right) / 2), y: place.y(contact.height) - this.slab / 2 - 13, text: String(at + 1) };
+      while (placed.some((other) => Math.hypot(number.x - other.x, number.y - other.y) < 2 * NUMBER)) number.x += 2 * NUMBER + 1;
+      placed.push(number);
+    });
+    placed.forEach((number) => this.#number(number));
+  }
+
+  #number({ x, y, text }) {
+    const { context, colours } = this;
+    context.beginPath();
+    context.arc(x, y, NUMBER, 0, 2 * Math.PI);
+    context.fillStyle = colours.card;
+    context.fill();
+    context.strokeStyle = colours.quiet;
+    context.lineWidth = 1;
+    context.stroke();
+    this.#text(text, x, y + 4, "ink", "center", 11);
+  }
+
+  // A star where two faces have met: as large as its force, fading.
+  #flash({ contact, size, age }, moved) {
+    const { context, place, geometry, colours } = this;
+    const pair = geometry.contacts[contact - 1];
+    if (!pair) return;
+    const [left, right] = geometry.faces(pair, moved, place.width / place.across);
+    const [x, y] = [place.x(pair.wall === "right" ? right : pair.wall === "left" ? left : (left + right) / 2), place.y(pair.height)];
+    const radius = Math.min(7 + 24 * size, this.largestFlash) * (1 - 0.35 * age);
+    context.globalAlpha = 1 - age * age;
+    context.beginPath();
+    for (let point = 0; point < 20; point++) {
+      const [far, angle] = [point % 2 ? 0.48 * radius : radius, (Math.PI * point) / 10];
+      context.lineTo(x + far * Math.sin(angle), y - far * Math.cos(angle));
+    }
+    context.closePath();
+    context.fillStyle = colours.flash;
+    context.fill();
+    context.strokeStyle = colours["flash-edge"];
+    context.lineWidth = 1.5;
+    context.stroke();
+    context.globalAlpha = 1;
+  }
+}
+
+// Stripes, for slabs of the right building and for walls.
+function makeHatch(context, colours) {
+  const stripes = (stroke, opacity = 1) => {
+    const tile = document.createElement("canvas");
+    tile.width = tile.height = 8;
+    const pen = tile.getContext("2d");
+    pen.strokeStyle = stroke;
+    pen.globalAlpha = opacity;
+    pen.lineWidth = 1.3;
+    for (const from of [-8, 0, 8]) {
+      pen.moveTo(from, 8);
+      pen.lineTo(from + 8, 0);
+    }
+    pen.stroke();
+    return context.createPattern(tile, "repeat");
+  };
+  return { right: stripes(colours.card, 0.6), quiet: stripes(colours.quiet) };
+}

@@ -1,0 +1,86 @@
+// Where buildings, contacts and walls stand at rest: across in m from the left building's edge at the gap, upwards by the
+// levels of the scene, or, without them, with all storeys equally high.
+
+import { SIDES } from "./motion.js";
+
+// m between buildings of which no contact says how far apart they are.
+const USUAL_GAP = 0.05;
+
+export class Geometry {
+  constructor({ layout }) {
+    this.sides = SIDES.filter((side) => layout[side]?.floors > 0);
+    this.hasLevels = this.sides.every((side) => layout[side].levels);
+    this.floors = Object.fromEntries(SIDES.map((side) => [side, layout[side]?.floors ?? 0]));
+    this.levels = Object.fromEntries(SIDES.map((side) => [side, this.#levelsOf(layout[side])]));
+    const all = SIDES.flatMap((side) => this.levels[side]);
+    [this.bottom, this.top] = [Math.min(0, ...ends(all)), Math.max(...ends(all), 1e-9)];
+    this.contacts = layout.contacts.map((contact) => this.#contactOf(contact));
+    this.inner = { left: this.levels.left.map(() => 0), right: this.#innerRight() };
+    this.hit = Object.fromEntries(SIDES.map((side) => [side, this.contacts.some((contact) => contact.columns === side)]));
+    this.gap = this.contacts.reduce((most, { gap }) => Math.max(most, Math.abs(gap)), 0);
+    this.walls = this.contacts.filter((contact) => contact.wall);
+  }
+
+  #levelsOf(building) {
+    if (!building?.floors) return [];
+    return this.hasLevels ? building.levels : Array.from({ length: building.floors + 1 }, (_, floor) => floor);
+  }
+
+  // What the picture needs of a contact: its gap, its height, and what is on each side of it.
+  #contactOf({ left, right, gap, meeting, law }) {
+    const surfaces = { left, right };
+    const heights = Object.values(surfaces).map((surface) => this.#heightOf(surface)).filter((height) => height !== null);
+    const height = heights.reduce((sum, one) => sum + one, 0) / heights.length;
+    const columns = Object.values(surfaces).find((surface) => surface.kind === "columns")?.side ?? null;
+    const wall = SIDES.find((side) => surfaces[side].kind === "wall") ?? null;
+    return { surfaces, gap, meeting, law, height, columns, wall };
+  }
+
+  #heightOf({ kind, side, floor, storey, position }) {
+    if (kind === "floor") return this.levels[side][floor];
+    if (kind === "wall") return null;
+    const [below, above] = [this.levels[side][storey - 1], this.levels[side][storey]];
+    return below + position * (above - below);
+  }
+
+  // Between contacts the gap goes on as a line, beyond them as it is.
+  #innerRight() {
+    const between = this.contacts.filter(({ wall }) => !wall);
+    const known = between.map(({ height, gap }) => [height, gap]).sort(([a], [b]) => a - b);
+    if (known.length === 0) known.push([0, USUAL_GAP]);
+    return this.levels.right.map((level) => interpolate(known, level));
+  }
+
+  // Left and right side of the gap of a contact, m across, for floors that are displaced; `width` is that of a building.
+  faces({ surfaces, gap }, moved, width) {
+    const [left, right] = SIDES.map((on) => this.#face(surfaces[on], on, moved, width));
+    const still = (on) => this.#face(surfaces[on], on, { left: this.levels.left.map(() => 0), right: this.levels.right.map(() => 0) }, width);
+    return [left ?? still("right") - gap, right ?? still("left") + gap];
+  }
+
+  // That of a building which is on the given side of the gap; null for a wall.
+  #face(surface, on, moved, width) {
+    if (surface.kind === "wall") return null;
+    const { side } = surface;
+    const edge = (floor) => this.inner[side][floor] + moved[side][floor];
+    const x = surface.kind === "floor" ? edge(surface.floor) : this.#bent(surface, edge);
+    return side === on ? x : x + (side === "left" ? -width : width);
+  }
+
+  #bent({ storey, position }, edge) {
+    const share = bend(position);
+    return (1 - share) * edge(storey - 1) + share * edge(storey);
+  }
+}
+
+// Shape of a column between its floors, clamped at both ends.
+export const bend = (s) => s * s * (3 - 2 * s);
+
+const ends = (values) => values.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [0, 0]);
+
+function interpolate(points, at) {
+  const next = points.findIndex(([x]) => x >= at);
+  if (next <= 0) return next === 0 ? points[0][1] : points.at(-1)[1];
+  const [[x0, y0], [x1, y1]] = [points[next - 1], points[next]];
+  return x1 > x0 ? y0 + ((at - x0) / (x1 - x0)) * (y1 - y0) : y1;
+}

@@ -1,0 +1,190 @@
+// Records of ground motions: dropped or chosen, kept by name, looked at beside the periods of the buildings.
+
+import { GRAVITY, digits, isRound, plural, seconds } from "./format.js";
+import { element, make } from "./make.js";
+import { SIDES } from "./motion.js";
+import { colour, lineLook } from "./palette.js";
+import { drawUpright, makePlot, widthOf } from "./plots.js";
+import { sentence } from "./runner.js";
+
+const MOST_BYTES_READ = 6e7;
+const POINTS = 90;
+const [SHORTEST, LONGEST] = [0.04, 5];
+const RECORD_HEIGHT = 150;
+const NO_RECORD = "no record: the ground is at rest";
+
+export class Ground {
+  // `setRecord` writes the name of a record into the scene, and says whether it could.
+  constructor(state, engine, setRecord) {
+    Object.assign(this, { state, engine, setRecord, known: new Map(), plots: [] });
+    element("record").addEventListener("change", () => this.take([...element("record").files]));
+    element("ground-record").addEventListener("change", () => this.setRecord(element("ground-record").value));
+    state.on("look", () => this.show());
+    state.on("records", () => this.#list());
+    state.on("colours", () => this.draw());
+    new ResizeObserver(() => this.#resize()).observe(element("record-charts"));
+  }
+
+  // Files that may be records: the last that is one becomes the ground motion.
+  async take(files) {
+    let name = null;
+    for (const file of files) name = (await this.#read(file)) ?? name;
+    element("record").value = "";
+    if (name === null) return;
+    this.#list();
+    if (!this.setRecord(name)) this.#say(`${name} is kept; the scene has to be corrected before it can name it.`);
+  }
+
+  async #read(file) {
+    if (file.size > MOST_BYTES_READ) return void this.#say(`${file.name} has ${digits(file.size / 1e6, 3)} MB: expected a record of at most ${MOST_BYTES_READ / 1e6} MB.`);
+    this.#say(`${file.name} is being read.`);
+    try {
+      const bytes = new Uint8Array(await file.arrayBuffer());
+      const about = await this.engine.record(bytes, file.name);
+      this.state.records[file.name] = bytes;
+      this.known.set(file.name, about);
+      this.state.tell("records");
+      return file.name;
+    } catch (error) {
+      return void this.#say(sentence(error));
+    }
+  }
+
+  #list() {
+    const list = element("ground-record");
+    const named = this.state.look?.ground?.record ?? "";
+    list.replaceChildren();
+    if (!named) make(list, "option", NO_RECORD, { value: "" });
+    const names = Object.keys(this.state.records).flatMap((name) => this.#channelsOf(name));
+    if (named && !names.some(({ value }) => value === named)) names.unshift({ value: named, text: named });
+    for (const { value, text } of names) make(list, "option", text.split("/").at(-1), { value, title: value });
+    list.value = named;
+  }
+
+  // A file may have several, of which a scene names one behind the name of the file: by the number that it has in the file, if any.
+  #channelsOf(name) {
+    const channels = this.known.get(name)?.channels ?? [];
+    if (channels.length < 2) return [{ value: name, text: name }];
+    return channels.map((channel, at) => {
+      const number = channel.match(/\d+/)?.[0] ?? at + 1;
+      return { value: `${name}#${number}`, text: `${name} #${number}${channel && `, ${channel}`}` };
+    });
+  }
+
+  // What the scene names now.
+  async show() {
+    this.#list();
+    const { ground } = this.state.look ?? {};
+    if (!ground) {
+      this.name = null;
+      this.#say("The scene names no record. Drop one anywhere.");
+      return this.draw();
+    }
+    const isOther = ground.record !== this.name || this.content !== this.state.records[ground.record];
+    [this.name, this.content] = [ground.record, this.state.records[ground.record]];
+    if (isOther) await this.#about();
+    this.#facts(ground);
+    if (isOther) this.draw();
+    else for (const plot of this.plots) plot.redraw(false);
+  }
+
+  async #about() {
+    const content = this.#content();
+    this.about = content === undefined ? null : await this.engine.record(content, this.name).catch(() => null);
+    if (this.about) this.known.set(this.name.replace(/#[^#]*$/, ""), this.about);
+    this.#list();
+    if (this.spectrum?.isUnderWay) this.engine.stop("spectra");
+    this.spectrum = null;
+  }
+
+  // Begins when it is looked at first.
+  async #findSpectrum() {
+    const periods = Array.from({ length: POINTS }, (_, at) => SHORTEST * (LONGEST / SHORTEST) ** (at / (POINTS - 1)));
+    const spectrum = (this.spectrum = { periods, isUnderWay: true });
+    const values = await this.engine.spectrum(this.#content(), this.name, periods).catch(() => null);
+    Object.assign(spectrum, { values, isUnderWay: false });
+    if (this.spectrum === spectrum) this.draw();
+  }
+
+  // A name may have the channel behind it.
+  #content() {
+    return this.content ?? this.state.records[this.name.replace(/#[^#]*$/, "")];
+  }
+
+  #facts({ samples, duration, recordPeak, factor, peakInG }) {
+    const own = `${samples} samples, ${digits(duration)} s, peak ${digits(recordPeak / GRAVITY, 3)} g (${digits(recordPeak, 3)} m/s\u00B2)`;
+    this.#say(Math.abs(factor - 1) < 1e-9 ? own : `${own}; in this run times ${digits(factor, 3)}: ${digits(peakInG, 3)} g`);
+  }
+
+  draw() {
+    if (element("panel-spectrum").hidden) return;
+    for (const plot of this.plots) plot.destroy();
+    this.plots = [];
+    element("record-charts").replaceChildren();
+    const facts = element("record-facts");
+    if (!this.name || !this.about) return void (facts.textContent = "No record to look at: drop one anywhere.");
+    const { format, samples, duration, peakInG, peakTime, ariasIntensity, mean } = this.about;
+    facts.textContent = `${this.name.split("/").at(-1)}: ${format}. ${plural(samples, "sample")} in ${digits(duration)} s; as recorded peak ${digits(peakInG, 3)} g at ${seconds(peakTime, 2)} s, mean ${digits(mean / GRAVITY, 2)} g, Arias intensity ${digits(ariasIntensity, 3)} m/s.`;
+    this.#acceleration();
+    this.#response();
+  }
+
+  #acceleration() {
+    const { times, accelerations } = this.about;
+    const factor = (this.state.look?.ground?.factor ?? 1) / GRAVITY;
+    const x = { label: "t", text: (time) => `${seconds(time)} s`, tick: (tick) => `${digits(tick, 9)} s` };
+    this.#plot("acceleration [g]", [times, accelerations.map((value) => value * factor)], { label: "ground" }, x, { scales: { x: { time: false } } });
+  }
+
+  #response() {
+    if (!this.spectrum) this.#findSpectrum();
+    if (this.spectrum.isUnderWay) make(element("record-charts"), "p", "The response spectrum is being computed.", { class: "hint" });
+    if (!this.spectrum.values) return;
+    const factor = Math.abs(this.state.look?.ground?.factor ?? 1) / GRAVITY;
+    const values = Array.from(this.spectrum.values, (value) => value * factor);
+    const x = { label: "period", text: (period) => `${digits(period, 3)} s`, tick: (tick) => (tick === null || !isRound(tick) ? "" : `${digits(tick)} s`) };
+    this.#plot("response spectrum, 5 % [g]", [this.spectrum.periods, values], { label: "Sa" }, x, {
+      cursor: { drag: { x: false, y: false } },
+      scales: { x: { time: false, distr: 3, range: () => [SHORTEST, LONGEST] } },
+      hooks: { draw: [(plot) => this.#periods(plot)] },
+    });
+    for (const side of SIDES) {
+      const period = this.state.look?.[side]?.periods?.[0];
+      if (period) make(element("record-charts"), "p", `first period, ${side}: ${digits(period, 3)} s`, { class: `hint of-${side}` });
+    }
+  }
+
+  #plot(title, data, line, x, options) {
+    const { plot } = makePlot(element("record-charts"), { title, height: RECORD_HEIGHT, data, lines: [{ ...line, ...lineLook("others", 0) }], x, options });
+    this.plots.push(plot);
+  }
+
+  // Where the first periods of the buildings are in the spectrum; names stand away from the other one.
+  #periods(plot) {
+    const known = SIDES.map((side) => ({ side, period: this.state.look?.[side]?.periods?.[0] })).filter(({ period }) => period >= plot.scales.x.min && period <= plot.scales.x.max);
+    const shortest = Math.min(...known.map(({ period }) => period));
+    for (const { side, period } of known) markPeriod(plot, side, period, known.length > 1 && period === shortest);
+  }
+
+  #resize() {
+    const width = widthOf(element("record-charts"));
+    for (const plot of this.plots) plot.setSize({ width, height: RECORD_HEIGHT });
+    if (this.plots.length === 0) this.draw();
+  }
+
+  #say(text) {
+    element("record-says").textContent = text;
+  }
+}
+
+function markPeriod(plot, side, period, isLeftmost) {
+  const { ctx: context, bbox } = plot;
+  const ratio = devicePixelRatio || 1;
+  context.save();
+  const x = drawUpright(plot, period, colour(side), side === "right" ? [7, 4] : []);
+  context.fillStyle = colour(side);
+  context.font = `${11 * ratio}px system-ui, sans-serif`;
+  context.textAlign = isLeftmost ? "right" : "left";
+  context.fillText(` ${side} T1 `, x, bbox.top + 10 * ratio);
+  context.restore();
+}

@@ -1,0 +1,42 @@
+// Undo and redo of the scene's text, for what is typed and what handles write alike. What follows quickly upon its like is one
+// step: letters of a word, positions of a slider.
+
+const TOGETHER = 900;
+const JOINING = ["typing", "gap", "strength"];
+const MOST = 300;
+const MOST_TEXT = 2e7;
+
+export class History {
+  constructor(text) {
+    this.steps = [{ text, caret: 0 }];
+    this.at = 0;
+    this.last = { kind: "", when: 0 };
+  }
+
+  add(text, caret, kind) {
+    if (text === this.steps[this.at].text) return;
+    const now = performance.now();
+    const joins = JOINING.includes(kind) && kind === this.last.kind && now - this.last.when < TOGETHER && this.at > 0;
+    this.steps.length = joins ? this.at : this.at + 1;
+    this.steps.push({ text, caret });
+    while (this.steps.length > MOST || (this.steps.length > 2 && this.#size() > MOST_TEXT)) this.steps.shift();
+    this.at = this.steps.length - 1;
+    this.last = { kind, when: now };
+  }
+
+  #size() {
+    return this.steps.length * this.steps.at(-1).text.length;
+  }
+
+  // The step before or after; nothing where there is none.
+  go(by) {
+    if (!this.can(by)) return null;
+    this.at += by;
+    this.last = { kind: "", when: 0 };
+    return this.steps[this.at];
+  }
+
+  can(by) {
+    return this.steps[this.at + by] !== undefined;
+  }
+}

@@ -1,0 +1,104 @@
+// Loops: force over penetration of an impact, storey shear over drift of storeys that can yield. What one encloses is lost.
+
+import { digits, handyUnit, largestOf, quantity, seconds, withUnit } from "./format.js";
+import { element, make, onceAFrame } from "./make.js";
+import { SIDES, rowBefore } from "./motion.js";
+import { colour } from "./palette.js";
+import { hardestOf } from "./strength.js";
+import { drawAxes } from "./xy.js";
+
+const MOST_STOREYS = 12;
+
+export class Loops {
+  constructor(state) {
+    Object.assign(this, { state, figures: [] });
+    this.redraw = onceAFrame(() => this.#redraw());
+    state.on(["run", "chosen"], () => this.draw());
+    state.on(["time", "colours"], this.redraw);
+    new ResizeObserver(this.redraw).observe(element("panel-loops"));
+  }
+
+  draw() {
+    const { run } = this.state;
+    const panel = element("panel-loops");
+    panel.replaceChildren();
+    this.figures = [this.#impact(), ...this.#storeys()].filter(Boolean);
+    if (this.figures.length === 0) make(panel, "p", `No impact${run ? " in this run" : ""}, and no storey that can yield.`, { class: "hint" });
+    for (const figure of this.figures) {
+      const box = make(panel, "figure");
+      make(box, "figcaption", figure.caption);
+      figure.canvas = make(box, "canvas", "", { role: "img", "aria-label": figure.caption });
+    }
+    this.redraw();
+  }
+
+  // That which was chosen, else the hardest.
+  #impact() {
+    const { run, chosen } = this.state;
+    const impact = run.impacts.includes(chosen) ? chosen : hardestOf(run.impacts);
+    const [force, depth] = impact ? ["force", "penetration"].map((part) => run.columns[`contact[${impact.contact}].${part}`]) : [];
+    if (!force || !depth || !impact.peak_force) return null;
+    const [from, to] = [rowBefore(run.time, impact.start_s), rowBefore(run.time, impact.end_s ?? run.stop) + 2];
+    const inside = Array.from(run.time.subarray(from, to), (time, at) => [time, from + at]).filter(([time]) => time >= impact.start_s && time <= (impact.end_s || run.stop));
+    const rows = inside.map(([, row]) => row);
+    const which = impact === chosen ? "Impact" : "Hardest impact";
+    return {
+      caption: `${which}, contact ${impact.contact} at ${seconds(impact.start_s)} s: ${quantity(impact.peak_force, "N")}, ${quantity(impact.dissipated_energy, "J", 3)} lost`,
+      x: rows.map((row) => depth[row]), y: rows.map((row) => force[row]), times: rows.map((row) => run.time[row]),
+      titles: ["penetration", "force"], units: ["m", "N"], ink: "ink",
+    };
+  }
+
+  // Of many those with the largest ductility.
+  #storeys() {
+    const { run } = this.state;
+    const storeys = SIDES.flatMap((side) => (run.look[side]?.yields ?? []).map((yields, at) => yields && { side, storey: at + 1 })).filter(Boolean);
+    for (const one of storeys) one.ductility = run.columns[`${one.side}.ductility[${one.storey}]`]?.at(-1) ?? 0;
+    storeys.sort((a, b) => b.ductility - a.ductility);
+    return storeys.slice(0, MOST_STOREYS).map((one) => this.#storey(one));
+  }
+
+  #storey({ side, storey, ductility }) {
+    const { columns, time } = this.state.run;
+    const shear = columns[`${side}.storey_shear[${storey}]`];
+    const [above, below] = [storey, storey - 1].map((floor) => columns[`${side}.displacement[${floor}]`]);
+    if (!shear || !above) return null;
+    const drift = below ? above.map((value, row) => value - below[row]) : above;
+    return {
+      caption: `${side} storey ${storey}: ductility ${digits(ductility, 3)}`,
+      x: drift, y: shear, times: time, titles: ["drift", "shear"], units: ["m", "N"], ink: side,
+    };
+  }
+
+  #redraw() {
+    if (element("panel-loops").hidden) return;
+    for (const figure of this.figures) this.#drawOne(figure);
+  }
+
+  // A dot where the run is.
+  #drawOne({ canvas, x, y, times, titles, units, ink }) {
+    const [across, up] = [handyUnit(largestOf(x), units[0]), handyUnit(largestOf(y), units[1])];
+    const at = (row) => [x[row] * across.factor, y[row] * up.factor];
+    const { context, place } = drawAxes(canvas, { x: extent(x, across.factor), y: extent(y, up.factor), xTitle: withUnit(titles[0], across), yTitle: withUnit(titles[1], up) });
+    context.strokeStyle = colour(ink);
+    context.lineWidth = 1.3;
+    context.beginPath();
+    for (let row = 0; row < x.length; row++) context.lineTo(...place(...at(row)));
+    context.stroke();
+    const { time } = this.state;
+    if (time < times[0] || time > times[times.length - 1]) return;
+    context.fillStyle = colour("ink");
+    context.beginPath();
+    context.arc(...place(...at(rowBefore(times, time))), 4, 0, 2 * Math.PI);
+    context.fill();
+  }
+}
+
+function extent(values, factor) {
+  let [low, high] = [0, 0];
+  for (const value of values) {
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  return [low * factor, high * factor];
+}

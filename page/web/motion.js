@@ -1,0 +1,58 @@
+// Where the floors are at any time of a run: between two rows a cubic through displacements and velocities.
+
+export const SIDES = ["left", "right"];
+
+// The row before a time, of rows that are equally far apart but for the last one.
+export function rowBefore(times, time) {
+  let [low, high] = [0, times.length - 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= time) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
+export class Motion {
+  constructor(run) {
+    this.run = run;
+    const of = (side, name) => {
+      const columns = [];
+      for (let i = 1; run.columns[`${side}.${name}[${i}]`]; i++) columns.push(run.columns[`${side}.${name}[${i}]`]);
+      return columns;
+    };
+    this.displacements = Object.fromEntries(SIDES.map((side) => [side, of(side, "displacement")]));
+    this.velocities = Object.fromEntries(SIDES.map((side) => [side, of(side, "velocity")]));
+  }
+
+  // Displacement of each floor, m, the lowest first; 0 before it for the ground.
+  at(time) {
+    const { time: times } = this.run;
+    const row = rowBefore(times, time);
+    const next = Math.min(row + 1, times.length - 1);
+    const step = times[next] - times[row] || 1;
+    const share = Math.min(1, Math.max(0, (time - times[row]) / step));
+    const place = (side) => (column, floor) => {
+      const velocity = this.velocities[side][floor];
+      if (!velocity) return column[row] + share * (column[next] - column[row]);
+      return cubic(share, column[row], column[next], step * velocity[row], step * velocity[next]);
+    };
+    return Object.fromEntries(SIDES.map((side) => [side, [0, ...this.displacements[side].map(place(side))]]));
+  }
+
+  // A column of the run at a time, by the line between two rows.
+  value(name, time) {
+    const column = this.run.columns[name];
+    if (!column) return 0;
+    const row = rowBefore(this.run.time, time);
+    const next = Math.min(row + 1, column.length - 1);
+    const share = (time - this.run.time[row]) / (this.run.time[next] - this.run.time[row] || 1);
+    return column[row] + Math.min(1, Math.max(0, share)) * (column[next] - column[row]);
+  }
+}
+
+// Hermite's cubic; slopes are those over the whole step.
+function cubic(s, from, to, slopeFrom, slopeTo) {
+  const t = 1 - s;
+  return from * t * t * (1 + 2 * s) + to * s * s * (1 + 2 * t) + slopeFrom * s * t * t - slopeTo * s * s * t;
+}

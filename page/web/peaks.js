@@ -1,0 +1,110 @@
+// The largest values of a run, as long as the scene keeps them: of each floor and storey, the top first, with the times at which
+// they were reached; a time goes there.
+
+import { GRAVITY, digits, handyUnit, largestOf, plural, seconds, withUnit } from "./format.js";
+import { element, make } from "./make.js";
+import { SIDES } from "./motion.js";
+
+const QUANTITIES = [
+  { part: "peak_drift", title: "drift", unit: "m" },
+  { part: "peak_displacement", title: "displacement", unit: "m" },
+  { part: "peak_acceleration", title: "acceleration", unit: "m/s2", inG: true },
+  { part: "peak_drift_ratio", title: "drift / height", unit: "1", percent: true },
+];
+
+export class Peaks {
+  constructor(state) {
+    this.state = state;
+    state.on("run", () => this.draw());
+  }
+
+  draw() {
+    const { run } = this.state;
+    const panel = element("panel-peaks");
+    panel.replaceChildren();
+    const sides = SIDES.filter((side) => run.columns[`${side}.peak_drift[1]`]);
+    if (sides.length === 0) make(panel, "p", "The scene says outputs.peaks = false: no peaks are kept.", { class: "hint" });
+    else make(panel, "p", "Of either sign, in continuous time, with the time at which it was reached. Displacements are relative to the ground.", { class: "hint" });
+    for (const side of sides) this.#building(panel, side);
+    this.#yielding(panel);
+  }
+
+  #building(panel, side) {
+    const { run } = this.state;
+    const present = QUANTITIES.filter(({ part }) => run.columns[`${side}.${part}[1]`]);
+    const floors = run.look.left && side === "left" ? run.look.left.floors : run.look.right.floors;
+    const table = make(panel, "table", "", { class: "numbers" });
+    make(table, "caption", `${side}, ${plural(floors, "storey", "storeys")}`, { class: `of-${side}` });
+    const head = make(make(table, "thead"), "tr");
+    make(head, "th", "floor", { scope: "col" });
+    const looks = present.map((quantity) => this.#unitOf(side, floors, quantity));
+    present.forEach(({ title }, at) => make(head, "th", withUnit(title, looks[at]), { scope: "col" }));
+    const body = make(table, "tbody");
+    for (let floor = floors; floor > 0; floor--) {
+      const row = make(body, "tr");
+      make(row, "th", String(floor), { scope: "row" });
+      present.forEach(({ part }, at) => this.#cell(row, run.columns[`${side}.${part}[${floor}]`], looks[at]));
+    }
+    const shear = run.columns[`${side}.peak_base_shear`];
+    if (shear) this.#shear(panel, shear);
+  }
+
+  #unitOf(side, floors, { part, unit, inG, percent }) {
+    if (inG) return { name: "g", factor: 1 / GRAVITY };
+    if (percent) return { name: "%", factor: 100 };
+    let most = 0;
+    for (let floor = 1; floor <= floors; floor++) most = Math.max(most, largestOf(this.state.run.columns[`${side}.${part}[${floor}]`]?.subarray(-1)));
+    return handyUnit(most, unit);
+  }
+
+  #cell(row, column, { factor }) {
+    const cell = make(row, "td");
+    make(cell, "span", digits(column.at(-1) * factor));
+    this.#time(cell, column);
+  }
+
+  #time(cell, column) {
+    const time = this.state.run.time[firstAtEnd(column)];
+    cell.append(" ");
+    make(cell, "button", `${seconds(time, 2)} s`, { class: "goes", "aria-label": `go to ${seconds(time, 2)} s` }).addEventListener("click", () => this.state.seek(time));
+  }
+
+  #shear(panel, column) {
+    const line = make(panel, "p", "base shear ", { class: "line" });
+    const { name, factor } = handyUnit(column.at(-1), "N");
+    make(line, "span", `${digits(column.at(-1) * factor)} ${name} `);
+    this.#time(line, column);
+  }
+
+  // Storeys that can yield, at the end of the run.
+  #yielding(panel) {
+    const { run } = this.state;
+    const storeys = SIDES.flatMap((side) => (run.look[side]?.yields ?? []).map((yields, at) => yields && [side, at + 1])).filter(Boolean);
+    if (storeys.length === 0) return;
+    const table = make(panel, "table", "", { class: "numbers" });
+    make(table, "caption", "Storeys that can yield, at the end");
+    const head = make(make(table, "thead"), "tr");
+    for (const title of ["storey", "ductility", "residual drift [mm]", "dissipated"]) make(head, "th", title, { scope: "col" });
+    const body = make(table, "tbody");
+    for (const [side, storey] of storeys.reverse()) {
+      const last = (part) => run.columns[`${side}.${part}[${storey}]`]?.at(-1);
+      const row = make(body, "tr");
+      make(row, "th", `${side} ${storey}`, { scope: "row" });
+      const energy = handyUnit(last("hysteretic_energy") ?? 0, "J");
+      const cells = [digits(last("ductility"), 3), digits(1e3 * last("residual_drift"), 3), `${digits(last("hysteretic_energy") * energy.factor, 3)} ${energy.name}`];
+      cells.forEach((text) => make(row, "td", text));
+    }
+  }
+}
+
+// Peaks only grow: the first row that has the last value.
+function firstAtEnd(column) {
+  const last = column.at(-1);
+  let [low, high] = [0, column.length - 1];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (column[middle] >= last) high = middle;
+    else low = middle + 1;
+  }
+  return low;
+}

@@ -1,0 +1,240 @@
+// From text to picture: what is changed is checked, what is right is looked at and run, what has gone wrong is said in words while
+// the last good picture stays.
+
+import { digits, plural, quantity, seconds } from "./format.js";
+import { element, settled } from "./make.js";
+import { hardestOf } from "./strength.js";
+
+// ms
+const TYPING = 250;
+// s: a run that takes no longer follows every change; one that takes no longer than the second number waits, ms, for the last change.
+const QUICK = 0.5;
+const BEARABLE = 4;
+const UNTIL_SETTLED = 700;
+// s that the first run may take longer: in it the browser compiles the engine.
+const WARMING_UP = 1.5;
+const BAR_AFTER = 250;
+// Rows that a picture needs, s between them that are too long for one, rows in each impact, and numbers of all columns together.
+const ROWS = 4000;
+const FEWEST_ROWS = 1000;
+const LONGEST_STEP = 0.01;
+const IN_IMPACTS = 16;
+// s: of longer runs no impact is looked at from near. More impacts than so many are more than a page has room for.
+const LONG_RUN = 600;
+const MOST_IMPACTS = 200_000;
+// ms without a word: rows in impacts want a run beforehand, which says nothing; a long one does without them at first.
+const SILENCE = 1200;
+const MOST_NUMBERS_KEPT = 4e6;
+const MOST_CONTACTS_SHOWN = 40;
+const FEW = 2;
+const LONG = 400;
+
+export class Runner {
+  constructor(state, engine) {
+    Object.assign(this, { state, engine, checked: 0, running: null, again: false, took: 0 });
+    this.checkSoon = settled(() => this.check(), TYPING);
+    this.startSoon = settled(() => this.isRight && this.start(), UNTIL_SETTLED);
+    state.on("scene", (kind) => (kind === "typing" ? this.checkSoon() : this.check()));
+    element("run").addEventListener("click", () => this.start());
+    element("stop").addEventListener("click", () => this.stop());
+    element("alone").addEventListener("change", () => this.runAlone());
+    document.addEventListener("keydown", (event) => this.#key(event));
+  }
+
+  // Only what the text names goes along: another record may be large.
+  records(scene = this.state.scene) {
+    const { records } = this.state;
+    const named = Object.entries(records).filter(([name]) => scene.includes(name) || scene.includes(JSON.stringify(name).slice(1, -1)));
+    return Object.fromEntries(named);
+  }
+
+  async check() {
+    const turn = ++this.checked;
+    const { scene } = this.state;
+    const records = this.records();
+    const look = await this.engine.lookBeside(scene, records).catch(() => null);
+    const findings = look?.warnings ?? (await this.engine.findingsBeside(scene, records).catch((error) => problemsOf(error)));
+    if (turn !== this.checked) return;
+    this.state.problems = findings.filter(({ kind }) => kind !== "warning");
+    this.state.warnings = findings.filter(({ kind }) => kind === "warning");
+    if (look) this.state.look = look;
+    this.isRight = look !== null;
+    this.state.tell("findings");
+    this.state.tell("look");
+    if (look && this.took < QUICK) this.start();
+    else if (look && this.took < BEARABLE) this.startSoon();
+    else if (look) say("The scene has changed: Run computes it.");
+    else say(`${plural(this.state.problems.length, "mistake")} in the scene; what you see is the last run that was right.`);
+  }
+
+  // A run that goes on is finished first if it is quick, else left for the new one.
+  async start() {
+    if (this.running) {
+      this.again = true;
+      if (performance.now() - this.running > 1e3 * QUICK) this.engine.stop("runs");
+      return;
+    }
+    if (!this.isRight) return this.#refused();
+    this.running = performance.now();
+    this.#busy(true);
+    try {
+      await this.#run();
+    } catch (error) {
+      if (error.name !== "Stopped") say(sentence(error));
+      else if (!this.again) setTimeout(() => this.#stopped());
+    }
+    this.running = null;
+    this.#busy(false);
+    if (this.again) {
+      this.again = false;
+      this.start();
+    }
+  }
+
+  stop() {
+    this.again = false;
+    element("stop").disabled = true;
+    say("Stopped.");
+    this.engine.stop("runs");
+    this.engine.stop("alone");
+  }
+
+  async #run() {
+    const { state } = this;
+    const { scene, look } = state;
+    const started = performance.now();
+    const run = await this.#compute(scene, look);
+    const passed = (performance.now() - started) / 1e3;
+    this.took = state.run === null ? Math.max(0, passed - WARMING_UP) : passed;
+    this.#take(run, scene, look, state.run === null ? null : passed);
+    await this.runAlone();
+  }
+
+  async #compute(scene, look) {
+    const options = { ...wishes(look), records: this.records(scene) };
+    this.soFar = null;
+    let silent = true;
+    const heard = (progress) => {
+      silent = false;
+      this.soFar = { ...progress, scene, look };
+      this.#progress(progress);
+    };
+    let restarts = false;
+    const watch = setTimeout(() => {
+      restarts = silent && this.running !== null;
+      if (restarts) this.engine.stop("runs");
+    }, SILENCE);
+    try {
+      return await this.engine.simulate(scene, options, heard, "runs");
+    } catch (error) {
+      if (!restarts || error.name !== "Stopped") throw error;
+      return await this.engine.simulate(scene, { ...options, rowsPerImpact: undefined }, heard, "runs");
+    } finally {
+      clearTimeout(watch);
+    }
+  }
+
+  #take(run, scene, look, took) {
+    const { state } = this;
+    state.run = { ...run, look: { ...look, contacts: look.layout.contacts }, scene, stop: run.time.at(-1) || run.stop, took };
+    state.chosen = null;
+    state.alone = null;
+    state.tell("run");
+    this.#sayRun();
+  }
+
+  // What there is of a run that has been stopped is worth a look.
+  #stopped() {
+    const { soFar } = this;
+    if (!soFar || soFar.rows < 10) return say("Stopped. What you see is the run before.");
+    this.#take(soFar.partial(), soFar.scene, soFar.look, null);
+    const why = soFar.impacts > MOST_IMPACTS ? ` by ${soFar.impacts} impacts, more than the page has room for,` : "";
+    say(`Stopped${why} at ${seconds(soFar.time, 2)} s of ${digits(soFar.look.stop)} s: what you see goes up to there.`);
+  }
+
+  // The same without contacts, for those who want to see both.
+  async runAlone() {
+    const { state, engine } = this;
+    const { run } = state;
+    if (run && element("alone").checked && !state.alone) {
+      const options = { ...wishes(run.look), records: this.records(run.scene), withoutContacts: true, rowsPerImpact: undefined };
+      const alone = await engine.simulate(run.scene, options, undefined, "alone").catch(() => null);
+      if (state.run === run) state.alone = alone && { ...alone, look: run.look };
+    }
+    state.tell("alone");
+  }
+
+  #busy(is) {
+    element("stop").disabled = !is;
+    document.body.classList.toggle("busy", is);
+    clearTimeout(this.bar);
+    element("progress").hidden = true;
+    element("progress").value = 0;
+    if (is) this.bar = setTimeout(() => (element("progress").hidden = false), BAR_AFTER);
+  }
+
+  #progress({ share, time, impacts }) {
+    element("progress").value = share;
+    if (impacts > MOST_IMPACTS) return this.engine.stop("runs");
+    if (performance.now() - this.running > 1e3 * QUICK) say(`${seconds(time, 2)} s of ${digits(this.state.look.stop)} s, ${plural(impacts, "impact")} so far`);
+  }
+
+  #refused() {
+    say("The scene has mistakes: the list under it says which.");
+    element("problems").querySelector("button")?.focus();
+  }
+
+  #sayRun() {
+    const { run } = this.state;
+    const hardest = hardestOf(run.impacts);
+    const time = run.took < 1 ? `${digits(1e3 * run.took, 2)} ms` : `${digits(run.took, 3)} s`;
+    const took = run.took === null ? "" : ` Computed in ${time}.`;
+    const coarse = run.step > 5 * LONGEST_STEP ? ` Of so long a run the picture has a row every ${digits(run.step, 2)} s only; impacts and peaks are complete.` : "";
+    const collapsed = ["left", "right"].filter((side) => run.columns[`${side}.collapsed`]?.at(-1));
+    const fell = collapsed.map((side) => ` The ${side} building has collapsed at ${seconds(run.columns[`${side}.collapse_time`].at(-1))} s.`).join("");
+    const how = hardest && `The hardest: ${hardest.peak_force ? quantity(hardest.peak_force, "N") : quantity(hardest.impulse, "N.s")} at ${seconds(hardest.peak_time_s || hardest.start_s)} s, ${meeting(run, hardest)}.`;
+    say(`${plural(run.impacts.length, "impact")} in ${digits(run.stop)} s${hardest ? `. ${how}` : "."}${fell}${took}${coarse}`);
+  }
+
+  #key(event) {
+    if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) this.start();
+    else if (event.key === "Escape" && this.running) this.stop();
+    else return;
+    event.preventDefault();
+  }
+}
+
+const meeting = (run, { contact }) => run.look.contacts[contact - 1]?.meeting ?? `contact ${contact}`;
+
+function say(text) {
+  if (element("happened").textContent !== text) element("happened").textContent = text;
+}
+
+// What has gone wrong, in few words even where much has.
+export function sentence(error) {
+  const problems = error.problems ?? [error.message];
+  const short = problems.slice(0, FEW).map((problem) => (problem.length > LONG ? `${problem.slice(0, LONG)}...` : problem));
+  return `${short.join(" ")}${problems.length > FEW ? ` And ${problems.length - FEW} more.` : ""}`;
+}
+
+const problemsOf = (error) => (error.problems ?? [error.message]).map((text) => ({ kind: "problem", text, line: null }));
+
+// Rows and columns that a picture needs: all outputs, of tall buildings fewer rows, of the tallest what is drawn.
+function wishes(look) {
+  const floors = (look.left?.floors ?? 0) + (look.right?.floors ?? 0);
+  const contacts = look.layout.contacts.length;
+  const columns = 11 * floors + 10 * contacts + 12;
+  const most = MOST_NUMBERS_KEPT / columns;
+  const isTall = most < FEWEST_ROWS;
+  const step = Math.max(look.stop / Math.max(most, FEWEST_ROWS), Math.min(look.stop / ROWS, LONGEST_STEP));
+  return { step, rowsPerImpact: look.stop > LONG_RUN ? undefined : IN_IMPACTS, outputs: isTall ? drawn(look, floors, contacts) : undefined };
+}
+
+function drawn(look, floors, contacts) {
+  const names = look.ground ? ["ground.acceleration"] : [];
+  for (const side of ["left", "right"]) {
+    for (let floor = 1; floor <= (look[side]?.floors ?? 0); floor++) names.push(`${side}.displacement[${floor}]`);
+  }
+  for (let contact = 1; contact <= Math.min(contacts, MOST_CONTACTS_SHOWN); contact++) names.push(`contact[${contact}].force`, `contact[${contact}].penetration`);
+  return names;
+}

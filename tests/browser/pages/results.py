@@ -1,0 +1,225 @@
+"""What a run shows: motion, charts, impacts, peaks, loops, the study of the gap; and a long run that is stopped."""
+
+import re
+
+from .visit import FOLDER, KNOWN, impacts_of, line_at, lines, now, pixels, says, stretch, visit
+
+# Two undamped frames that hit each other for ever, and hours of it.
+LONG = [("stop_time = 20.0", "stop_time = 2e5"), ("ratio = 0.01", "ratio = 0.0"), ('"kelvin_voigt"', '"linear"'), ("restitution = 0.65", "")]
+
+
+def plays_and_stands_still(browser):
+    with visit(browser) as page:
+        page.locator("body").click(position={"x": 3, "y": 300})
+        playing = page.locator("#play")
+        assert playing.get_attribute("aria-label") == "Pause"
+        page.keyboard.press("Space")
+        assert playing.get_attribute("aria-label") == "Play"
+        stands = now(page)
+        page.wait_for_timeout(300)
+        assert now(page) == stands
+        page.locator("#speed").select_option("4")
+        page.locator("body").click(position={"x": 3, "y": 300})
+        page.keyboard.press("Space")
+        page.wait_for_timeout(1000)
+        page.keyboard.press("Space")
+        assert 1.5 < now(page) - stands < 8.0, (stands, now(page))
+        page.locator("#time").focus()
+        page.keyboard.press("Home")
+        assert now(page) == 0.0
+        page.keyboard.press("n")
+        assert abs(now(page) - 1.72) < 0.02, "the first impact"
+        page.keyboard.press("n")
+        page.keyboard.press("p")
+        assert abs(now(page) - 1.72) < 0.02
+        # Larger motion is drawn wider, and the bar of the scale says so.
+        before = page.locator("#scale").inner_text()
+        page.locator("#size").focus()
+        for _ in range(8):
+            page.keyboard.press("ArrowRight")
+        page.wait_for_timeout(100)
+        assert page.locator("#scale").inner_text() != before
+        assert "roof" in page.locator("#buildings").get_attribute("aria-label")
+
+
+def shows_both_with_and_without_contact(browser):
+    with visit(browser) as page:
+        page.locator("#alone").check()
+        page.locator("#example").select_option(label="A frame that would fall without the neighbour that it leans on, 20 mm apart")
+        says(page, "^32 impacts")
+        page.locator("#time").focus()
+        page.keyboard.press("End")
+        page.wait_for_timeout(800)
+        page.screenshot(path=FOLDER / "page_alone.png")
+        # Fallen on the right half, held up on the left one: the pictures differ.
+        halves = page.locator("#buildings").evaluate("""canvas => {
+            const pen = canvas.getContext("2d"), half = Math.floor(canvas.width / 2) - 2;
+            const of = (x) => [...new Uint32Array(pen.getImageData(x, 40, half, canvas.height - 110).data.buffer)];
+            const [one, other] = [of(0), of(canvas.width - half)];
+            return one.filter((pixel, at) => pixel !== other[at]).length / one.length;
+        }""")
+        assert halves > 0.01, halves
+
+
+def zooms_all_charts_together(browser):
+    with visit(browser) as page:
+        overs = page.locator("#chart-list .u-over")
+        assert overs.count() == 6, overs.count()
+        overs.nth(1).scroll_into_view_if_needed()
+        box = overs.nth(1).bounding_box()
+        across = lambda share: (box["x"] + share * box["width"], box["y"] + 50)  # noqa: E731
+        page.mouse.move(*across(0.1))
+        page.mouse.down()
+        page.mouse.move(*across(0.2), steps=5)
+        page.mouse.up()
+        page.wait_for_timeout(100)
+        assert all(abs(at - wanted) < 0.1 for at, wanted in zip(stretch(page), [2.0, 4.0])), stretch(page)
+        # The times along all of them begin alike: their pictures of the axis are those of one stretch.
+        page.mouse.click(*across(0.5))
+        assert abs(now(page) - 3.0) < 0.06, now(page)
+        page.mouse.move(*across(0.25))
+        values = page.locator("#chart-list .u-legend .u-series:first-child .u-value").all_inner_texts()
+        assert len(set(values)) == 1 and abs(float(values[0].split()[0]) - 2.5) < 0.06, values
+        page.locator("#later").click()
+        assert abs(stretch(page)[0] - 3.0) < 0.1
+        page.mouse.dblclick(*across(0.5))
+        page.wait_for_timeout(100)
+        assert stretch(page) == [0.0, 20.0], stretch(page)
+        page.locator("#nearer").click()
+        assert abs(stretch(page)[1] - stretch(page)[0] - 10.0) < 0.1
+        page.locator("#whole").click()
+        assert stretch(page) == [0.0, 20.0]
+        page.locator("#floors summary").click()
+        page.locator("#floor-choice label", has_text="left 1").click()
+        page.wait_for_timeout(100)
+        assert "left 1" in " ".join(page.locator("[data-chart=displacement] .u-legend").inner_text().split())
+
+
+def sorts_impacts_and_goes_to_them(browser):
+    with visit(browser) as page:
+        page.wait_for_timeout(300)
+        rows = page.locator("#impacts tbody tr")
+        assert rows.count() == 108
+        page.locator("#impacts th button", has_text="peak force").click()
+        column = page.locator("#impacts thead th", has_text="peak force").evaluate("cell => cell.cellIndex")
+        page.wait_for_timeout(300)
+        forces = [float(text) for text in page.locator(f"#impacts tbody td:nth-child({column + 1})").all_inner_texts()]
+        assert forces == sorted(forces, reverse=True) and abs(forces[0] - KNOWN[5][1]) < 1
+        rows.first.click()
+        start, end = stretch(page)
+        assert start < 2.7119 < 2.7162 < end < start + 0.05, (start, end)
+        assert abs(now(page) - 2.7135) < 1e-3 and page.locator("#impacts tr.chosen").count() == 1
+        page.wait_for_timeout(200)
+        page.screenshot(path=FOLDER / "page_impact.png")
+        page.keyboard.press("ArrowDown") if rows.first.evaluate("row => row === document.activeElement") else rows.first.focus()
+        page.keyboard.press("ArrowDown")
+        page.keyboard.press("Enter")
+        assert page.locator("#impacts tr.chosen").get_attribute("data-row") in ("1", "2")
+        page.locator("#tab-loops").click()
+        says(page, r"^Impact, contact", at="#panel-loops figcaption")
+
+
+def says_the_peaks(browser):
+    with visit(browser) as page:
+        page.locator("#tab-impacts").focus()
+        page.keyboard.press("ArrowRight")
+        panel = page.locator("#panel-peaks")
+        assert panel.is_visible() and page.locator("#panel-impacts").is_hidden()
+        headings = panel.locator("th[scope=col]").all_inner_texts()
+        assert "drift [mm]" in headings and "acceleration [g]" in headings
+        # The README's largest drift of the right frame's first storey, for this gap.
+        cells = panel.locator("table").nth(1).locator("tr").last.locator("td").first.inner_text()
+        assert cells.split()[0] == "31.3", cells
+        panel.locator(".goes").first.click()
+        assert now(page) > 1.0
+
+
+def draws_loops_where_storeys_yield(browser):
+    with visit(browser) as page:
+        page.locator("#example").select_option(label="Frames of four and three storeys that yield, 20 mm apart")
+        says(page, "^4 impacts in 31.18 s")
+        page.locator("#tab-loops").click()
+        page.wait_for_timeout(300)
+        captions = page.locator("#panel-loops figcaption").all_inner_texts()
+        assert len(captions) == 8 and sum("ductility" in caption for caption in captions) == 7
+        seen = pixels(page, "#panel-loops figure:nth-of-type(2) canvas")
+        assert max(seen.get("213,94,0", 0), seen.get("0,114,178", 0)) > 100, seen
+        page.screenshot(path=FOLDER / "page_loops.png")
+
+
+def studies_the_gap(browser):
+    with visit(browser) as page:
+        page.locator("#tab-study").click()
+        page.locator("#study").click()
+        text = says(page, "From .* on they never touch", at="#study-says")
+        # As the scene's own comment has it.
+        assert "From 102\xa0mm on" in text and "100 runs in" in text, text
+        page.wait_for_timeout(200)
+        page.screenshot(path=FOLDER / "page_study.png")
+        charts = page.locator("#study-charts .u-over")
+        assert charts.count() == 3
+        box = charts.first.bounding_box()
+        page.mouse.click(box["x"] + 0.999 * box["width"], box["y"] + 30)
+        says(page, "^0 impacts in 20 s")
+        gap = float(line_at(page, "gap")[0].split("=")[1])
+        assert 0.12 < gap < 0.14, gap
+        page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 30)
+        assert re.match(r"1[01][.\d]* mm", page.locator("#study-charts .u-value").first.inner_text())
+
+
+def stops_a_long_run(browser):
+    with visit(browser) as page:
+        text = page.locator("#scene").input_value()
+        for old, new in LONG:
+            text = text.replace(old, new)
+        page.locator("#scene").fill(text)
+        says(page, "of 200000 s, .* impacts so far")
+        # The page answers while it computes.
+        longest = page.evaluate("""() => new Promise((done) => {
+            let [last, longest, frames] = [performance.now(), 0, 0];
+            const frame = (now) => {
+                longest = Math.max(longest, now - last);
+                last = now;
+                if (++frames < 60) requestAnimationFrame(frame);
+                else done(longest);
+            };
+            requestAnimationFrame(frame);
+        })""")
+        assert longest < 500, longest
+        assert 0 < float(page.locator("#progress").get_attribute("value")) < 1
+        took = page.evaluate("""() => {
+            const begun = performance.now();
+            document.querySelector("#stop").click();
+            return [performance.now() - begun, document.querySelector("#stop").disabled];
+        }""")
+        assert took[0] < 200 and took[1], took
+        says(page, "^Stopped at .* s of 200000 s: what you see goes up to there")
+        page.keyboard.press("Control+z")
+        says(page, "The scene has changed|^108 impacts")
+        page.locator("#run").click()
+        says(page, "^108 impacts")
+        assert len(lines(page)) > 20
+
+
+def is_fast_with_many_impacts(browser):
+    with visit(browser) as page:
+        text = page.locator("#scene").input_value()
+        for old, new in LONG:
+            text = text.replace(old, new.replace("2e5", "200.0"))
+        page.locator("#scene").fill(text)
+        says(page, r"^1\d\d\d impacts in 200 s")
+        count = impacts_of(page)
+        page.locator(f"#impacts tbody tr[data-row='{count - 1}']").wait_for(state="attached")
+        assert page.locator("#impacts tbody tr").count() == count
+        took = page.evaluate("""() => {
+            const begun = performance.now();
+            document.querySelector("#impacts th button[data-key=impulse]").click();
+            return performance.now() - begun;
+        }""")
+        assert took < 300, took
+
+
+LOOKS = [
+    plays_and_stands_still, shows_both_with_and_without_contact, zooms_all_charts_together, sorts_impacts_and_goes_to_them,
+    says_the_peaks, draws_loops_where_storeys_yield, studies_the_gap, stops_a_long_run, is_fast_with_many_impacts,
+]  # fmt: skip
