@@ -1,5 +1,6 @@
 //! The errors of a run that the engine cannot continue, and of a state that it cannot restore.
 
+use crate::figures::plain;
 use crate::structure::Side;
 
 /// A run that cannot be continued, or a state that cannot be restored. The message has the numbers and, of a run, the
@@ -9,8 +10,9 @@ use crate::structure::Side;
 pub enum EngineError {
     /// The motion has overflown. `contact` is the stiffest of those that were closed, the likeliest cause.
     #[error(
-        "the motion exceeds what double precision can hold at t = {time} s{}; check the units of masses, stiffnesses, \
+        "the motion exceeds what double precision can hold at t = {} s{}; check the units of masses, stiffnesses, \
          gaps and ground acceleration",
+        plain(*.time),
         place(.contact)
     )]
     Overflow {
@@ -21,8 +23,10 @@ pub enum EngineError {
     },
     /// A communication step that reaches far beyond the record.
     #[error(
-        "a communication step from t = {from} s to {until} s is {segments:.1e} intervals after the record, as long as \
-         between its samples, more than the {most:.1e} that one step may take: take smaller communication steps"
+        "a communication step from t = {} s to {} s is {segments:.1e} intervals after the record, as long as \
+         between its samples, more than the {most:.1e} that one step may take: take smaller communication steps",
+        plain(*.from),
+        plain(*.until)
     )]
     TooManyIntervals {
         /// Where the communication step begins, s.
@@ -65,9 +69,11 @@ pub enum EngineError {
 /// A communication step that was given up, and what it had come to.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "given up at t = {time} s, after {steps} internal steps ({in_contact} in contact, {}{impacts} impacts) since \
-     t = {start} s; {remedy}, or take smaller communication steps",
-    while_yielding(.yielding)
+    "given up at t = {} s, after {steps} internal steps ({in_contact} in contact, {}{impacts} impacts) since \
+     t = {} s; {remedy}, or take smaller communication steps",
+    plain(*.time),
+    while_yielding(.yielding),
+    plain(*.start)
 )]
 #[non_exhaustive]
 pub struct GivenUp {
@@ -95,4 +101,26 @@ fn place(contact: &Option<(usize, Option<f64>)>) -> String {
 
 fn while_yielding(steps: &u64) -> String {
     if *steps > 0 { format!("{steps} while a storey yields, ") } else { String::new() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_of_any_size_can_be_read() {
+        let given_up = GivenUp {
+            time: 1.5e-140,
+            start: 0.0,
+            steps: 7,
+            in_contact: 0,
+            yielding: 0,
+            impacts: 0,
+            remedy: "a smaller stiffness".to_owned(),
+        };
+        let text = EngineError::Stalled(given_up).to_string();
+        assert!(text.contains("given up at t = 1.5e-140 s") && text.contains("since t = 0 s; a smaller"), "{text}");
+        let text = EngineError::TooManyIntervals { from: 0.0, until: 3e20, segments: 1e30, most: 1e8 }.to_string();
+        assert!(text.contains("from t = 0 s to 3e20 s"), "{text}");
+    }
 }
