@@ -16,6 +16,7 @@ import math
 import os
 import re
 import shlex
+import shutil
 import struct
 import subprocess
 import sys
@@ -125,6 +126,7 @@ def same_fmus(page):
         said = refusal(page, "pounding.buildFmu(scene, { records })", *question)
         assert "no libraries" in said, said
         return "without libraries there are none"
+    shutil.rmtree(FOLDER / "libraries", ignore_errors=True)
     for platform, content in libraries.items():
         place = FOLDER / "libraries" / platform / f"pounding.{'dll' if platform.startswith('win') else 'so'}"
         place.parent.mkdir(parents=True, exist_ok=True)
