@@ -79,7 +79,8 @@ export class Engine {
   // the share that is done, s, how many rows and impacts there are, and a function that makes a run of them.
   async simulate(scene, options = {}, onProgress = () => {}, lane = "runs") {
     const { step, stop, outputs, parameters, records = {}, rowsPerImpact, withoutContacts } = options;
-    const header = { call: "run", step: spoken(step), stop: spoken(stop), outputs: outputs && [...outputs],
+    if (outputs != null && !Array.isArray(outputs)) throw wrongType("outputs", "a list of names", outputs);
+    const header = { call: "run", step: spoken(step), stop: spoken(stop), outputs: outputs ?? undefined,
       parameters: Object.entries(parameters ?? {}).map(([name, value]) => [name, spoken(value)]), rowsPerImpact, withoutContacts };
     let run = null;
     const take = (answer) => {
@@ -196,7 +197,16 @@ class Run {
 
   constructor(begun) {
     Object.assign(this, { begun, rows: 0, impacts: [], at: 0 });
-    this.#columns = [{ name: "time" }, ...begun.columns].map(({ name }) => [name, new Float64Array(begun.rows)]);
+    this.#columns = [{ name: "time" }, ...begun.columns].map(({ name }) => [name, this.#room(begun)]);
+  }
+
+  #room({ rows, columns }) {
+    try {
+      return new Float64Array(rows);
+    } catch {
+      const problem = `${rows} rows of ${columns.length + 1} columns: expected fewer, by a larger step`;
+      throw new Refusal({ kind: "MemoryError", problems: [problem] });
+    }
   }
 
   get share() {
@@ -232,11 +242,18 @@ function impactsOf(numbers) {
   return Array.from({ length: count }, (_, at) => impact(at));
 }
 
+const isContent = (value) => typeof value === "string" || value instanceof Uint8Array;
+
+function wrongType(name, expected, value) {
+  return new Refusal({ kind: "TypeError", problems: [`${name}: expected ${expected}, not ${value === null ? "null" : typeof value}`] });
+}
+
 function question(scene, records, header) {
-  if (typeof scene !== "string" && !(scene instanceof Uint8Array)) {
-    throw new Refusal({ kind: "TypeError", problems: [`scene: expected the text of a scene, not ${scene === null ? "null" : typeof scene}`] });
-  }
+  if (!isContent(scene)) throw wrongType("scene", "the text of a scene", scene);
   const all = Object.entries(records ?? {});
+  for (const [name, content] of all) {
+    if (!isContent(content)) throw wrongType(`records[${JSON.stringify(name)}]`, "the text or the bytes of a record", content);
+  }
   return { header: { ...header, records: all.map(([name]) => name) }, parts: [scene, ...all.map(([, content]) => content)].map(bytesOf) };
 }
 

@@ -202,7 +202,12 @@ def refuses(page):
         said = refusal(page, f"pounding.simulate(scene, {{ records, {option} }})", scene, records)
         assert said and said.startswith(expected), (option, said)
     for value in ("null", "7", "undefined", "{}"):
-        assert "expected the text of a scene" in refusal(page, f"pounding.simulate({value})", ""), value
+        assert "scene: expected the text of a scene" in refusal(page, f"pounding.simulate({value})", ""), value
+    assert refusal(page, "pounding.simulate(scene, { records: { a: 7 } })", scene) == (
+        'records["a"]: expected the text or the bytes of a record, not number'
+    )
+    said = refusal(page, "pounding.simulate(scene, { records, outputs: 'impacts' })", scene, records)
+    assert said == "outputs: expected a list of names, not string"
     assert "has not been given" in refusal(page, "pounding.simulate(scene)", scene.replace("el_centro", "nowhere"))
     assert "UTF-8" in page.evaluate("() => pounding.engine.problems(new Uint8Array([110, 255, 10]))")[0]
     return f"{len(options)} options"
