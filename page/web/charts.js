@@ -1,10 +1,10 @@
 // Charts over time: one below the other, all over the same stretch, with the moment of the picture as a line.
 
 import { digits, handyUnit, largestOf, seconds, withUnit } from "./format.js";
-import { element, make, onceAFrame } from "./make.js";
+import { element, make, onceAFrame, settled } from "./make.js";
 import { rowBefore } from "./motion.js";
 import { colour } from "./palette.js";
-import { makePlot, widthOf } from "./plots.js";
+import { describePlot, makePlot, widthOf } from "./plots.js";
 import { chartsOf, usualFloors } from "./series.js";
 
 const HEIGHT = 132;
@@ -15,6 +15,7 @@ export class Charts {
   constructor(state, player) {
     Object.assign(this, { state, player, plots: [], floors: new Set(), known: "" });
     this.update = onceAFrame(() => this.#update());
+    this.describe = settled(() => this.plots.forEach(({ plot, heading }) => describePlot(plot, heading.textContent)), 500);
     state.on("run", () => this.#newRun());
     state.on("colours", () => this.draw());
     state.on("time", () => this.#moment());
@@ -58,6 +59,7 @@ export class Charts {
       plot.setData([run.time, ...columns.map((column) => column.map((value) => value * factor))], false);
       plot.setScale("x", { min: this.state.stretch[0], max: this.state.stretch[1] });
     });
+    this.describe();
     queueMicrotask(() => this.#moment());
   }
 
@@ -96,7 +98,6 @@ export class Charts {
       this.player.pause();
       this.state.seek(plot.posToVal(event.clientX - plot.over.getBoundingClientRect().left, "x"));
     });
-    plot.over.addEventListener("dblclick", () => this.state.show(0, this.state.run.stop));
   }
 
   // What one chart shows, all show.
@@ -105,8 +106,6 @@ export class Charts {
     const [from, to] = this.state.stretch;
     const stop = this.state.run?.stop;
     if (this.following || min === null || !stop || (min === from && max === to)) return;
-    // Its own way back to all of its rows.
-    if (min <= 0 && max >= stop && plot.cursor.event?.type === "dblclick") return;
     this.state.show(min, max);
   }
 

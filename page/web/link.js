@@ -21,7 +21,12 @@ export async function fromLink() {
   }
 }
 
-export function startLinks(state, runner, recordsOfPage) {
+// A link that is opened in the page as it is tells through `opened`; one that the scene has left behind goes from the address.
+export function startLinks(state, runner, recordsOfPage, opened) {
+  addEventListener("hashchange", async () => opened(await fromLink()));
+  state.on("scene", (kind) => {
+    if (kind !== "begin" && location.hash.startsWith(MARK)) history.replaceState(null, "", location.href.split("#")[0]);
+  });
   const box = element("link-box");
   element("link").addEventListener("click", async () => {
     const { records, left } = small(runner.records(), recordsOfPage);
@@ -30,7 +35,7 @@ export function startLinks(state, runner, recordsOfPage) {
     history.replaceState(null, "", MARK + packed);
     element("link-text").value = address;
     const without = left.length > 0 ? ` The record ${left.join(", ")} is too large for a link: send its file along, it is dropped into the page.` : "";
-    element("link-says").textContent = `It holds the whole scene, ${address.length} letters, and is also in the address bar. Nothing is sent anywhere by making it.${without}`;
+    element("link-says").textContent = `It holds the whole scene, ${address.length} letters. What stands from # on works behind the address of any copy of this page. Nothing is sent anywhere by making it.${without}`;
     box.showModal();
     element("link-text").select();
   });

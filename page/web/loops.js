@@ -23,7 +23,7 @@ export class Loops {
     const panel = element("panel-loops");
     panel.replaceChildren();
     this.figures = [this.#impact(), ...this.#storeys()].filter(Boolean);
-    if (this.figures.length === 0) make(panel, "p", `No impact${run ? " in this run" : ""}, and no storey that can yield.`, { class: "hint" });
+    if (this.figures.length === 0) make(panel, "p", "No impact that presses with a force over a penetration, and no storey that can yield.", { class: "hint" });
     for (const figure of this.figures) {
       const box = make(panel, "figure");
       make(box, "figcaption", figure.caption);

@@ -1,4 +1,16 @@
 // The page begins here: the engine is unpacked, the parts are made and know each other by the state only, and the first scene runs.
+//
+// state.js       what the page knows, and who is told when it changes
+// engine.js      what the engine is asked (lane.js, asking.js, worker.js: how)
+// runner.js      from text to run: checked, run, stopped, said
+// editor.js      the scene as text (history.js, highlight.js); handles.js: what a hand is quicker at; files.js, link.js, keep.js
+//                and packed.js: where a scene comes from and stays
+// ground.js      records
+// stage.js       the buildings in motion (geometry.js, motion.js, drawing.js); player.js: the clock
+// charts.js      charts over time (series.js: of what); plots.js and xy.js: how any chart looks
+// impacts.js, peaks.js, loops.js, study.js: the other results; tabs.js
+// save.js        what leaves the page
+// format.js, make.js, notice.js, palette.js, strength.js: shared by all
 
 import { Charts } from "./charts.js";
 import { Editor } from "./editor.js";
@@ -82,12 +94,18 @@ async function begin() {
   state.records = { ...engine.records, ...keptRecords() };
   listExamples();
   handles.listLaws(engine.laws);
-  startLinks(state, runner, engine.records);
+  startLinks(state, runner, engine.records, (link) => brought(link) && editor.open(link.scene));
   const link = await fromLink();
-  if (link?.broken) said("The link holds no scene that can be read; here is the last one.");
-  Object.assign(state.records, link?.records);
+  const isBrought = brought(link);
   state.tell("records");
-  editor.begin(link?.scene ?? memory.get("scene") ?? engine.given?.text ?? engine.examples.find(({ file }) => file === FIRST).text);
+  editor.begin(isBrought ? link.scene : memory.get("scene") ?? engine.given?.text ?? engine.examples.find(({ file }) => file === FIRST).text);
+}
+
+// Whether a link brings a scene; its records are kept with the others.
+function brought(link) {
+  if (link?.broken) said("The link holds no scene that can be read; the one before stays.");
+  Object.assign(state.records, link?.records);
+  return typeof link?.scene === "string";
 }
 
 // The scene that the page has been made for comes first.

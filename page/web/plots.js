@@ -26,8 +26,22 @@ export function makePlot(list, { title, height, lines, data, x, options = {}, at
   const legend = plot.root.querySelector(".u-legend");
   head.append(legend);
   drawKeys(legend, series);
-  plot.over.setAttribute("aria-hidden", "true");
+  plot.root.querySelector(".u-wrap").setAttribute("role", "img");
+  describePlot(plot, title);
   return { box, heading, plot };
+}
+
+// What a chart shows, for those who do not see it: each line with its least and its largest value.
+export function describePlot(plot, title) {
+  const said = plot.series.slice(1).map(({ label }, at) => `${label} from ${digits(extremeOf(plot.data[at + 1], -1), 3)} to ${digits(extremeOf(plot.data[at + 1], 1), 3)}`);
+  plot.root.querySelector(".u-wrap").setAttribute("aria-label", `${title}: ${said.join("; ")}`);
+}
+
+// The least (-1) or the largest (1) of some numbers.
+function extremeOf(values, sign) {
+  let found = -Infinity;
+  for (const value of values) if (sign * value > found) found = sign * value;
+  return sign * found;
 }
 
 // A line from the bottom of a chart to its top.

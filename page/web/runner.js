@@ -52,8 +52,10 @@ export class Runner {
     const turn = ++this.checked;
     const { scene } = this.state;
     const records = this.records();
+    const waiting = setTimeout(() => say("The scene is being checked."), BAR_AFTER);
     const look = await this.engine.lookBeside(scene, records).catch(() => null);
     const findings = look?.warnings ?? (await this.engine.findingsBeside(scene, records).catch((error) => problemsOf(error)));
+    clearTimeout(waiting);
     if (turn !== this.checked) return;
     this.state.problems = findings.filter(({ kind }) => kind !== "warning");
     this.state.warnings = findings.filter(({ kind }) => kind === "warning");

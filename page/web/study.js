@@ -70,7 +70,7 @@ export class Study {
     const named = (pattern) => Object.keys(result.columns).filter((name) => pattern.test(name));
     const force = most(named(/^contact\[\d+\]\.peak_force$/));
     const drifts = SIDES.map((side) => ({ side, values: most(named(new RegExp(`^${side}\\.peak_drift`))) })).filter(({ side }) => named(new RegExp(`^${side}\\.peak_drift`)).length > 0);
-    this.result = { gaps: result.gaps, force, drifts, impacts: Array.from(result.columns.impacts ?? []), needed, failures: result.failures };
+    this.result = { gaps: result.gaps, force, laws: this.state.look.layout.contacts.map(({ law }) => law), drifts, impacts: Array.from(result.columns.impacts ?? []), needed, failures: result.failures };
     this.draw();
   }
 
@@ -83,8 +83,10 @@ export class Study {
     const forces = handyUnit(largestOf(force), "N");
     const drift = handyUnit(Math.max(0, ...drifts.map(({ values }) => largestOf(values))), "m");
     const of = (values, { factor }) => values.map((value) => value * factor);
+    // Rigid floors exchange impulses; a force is there only while they are held together.
+    const isRigid = this.result.laws.every((law) => law === "stereomechanical");
     this.plots = [
-      this.#plot("hardest impact", forces, x, [{ label: "peak force", values: of(force, forces), ...lineLook("others", 0) }]),
+      this.#plot(isRigid ? "pressing while held together" : "hardest impact", forces, x, [{ label: "peak force", values: of(force, forces), ...lineLook("others", 0) }]),
       this.#plot("largest drift", drift, x, drifts.map(({ side, values }) => ({ label: side, values: of(values, drift), ...lineLook(side, 0) }))),
       this.#plot("impacts", { name: "" }, x, [{ label: "count", values: impacts, ...lineLook("others", 0) }]),
     ];
@@ -130,10 +132,10 @@ export class Study {
   }
 
   #sayResult(took) {
-    const { gaps, force, needed, failures } = this.result;
+    const { gaps, force, laws, needed, failures } = this.result;
     const worst = force.indexOf(Math.max(...force));
     const apart = `From ${quantity(needed, "m", 3)} on they never touch (the dashed line is the gap of the scene)`;
-    const hardest = force[worst] > 0 ? `; hardest at ${quantity(gaps[worst], "m", 3)} with ${quantity(force[worst], "N", 3)}` : "";
+    const hardest = force[worst] > 0 && !laws.includes("stereomechanical") ? `; hardest at ${quantity(gaps[worst], "m", 3)} with ${quantity(force[worst], "N", 3)}` : "";
     const failed = failures.length > 0 ? ` ${failures.length} gaps could not be run: ${failures[0]}` : "";
     this.#say(`${apart}${hardest}. ${gaps.length} runs in ${digits(took, 2)} s. A click on a curve sets the gap.${failed}`);
   }

@@ -44,6 +44,8 @@ def has_names_for_everything(browser):
             assert page.evaluate(NAMELESS) == []
         for id in ["scene", "record", "gap", "strength", "run", "stop", "problems", "impacts", "save-fmu", "save-csv", "save-report", "save-scene"]:
             assert page.locator(f"#{id}").count() == 1, id
+        charts = page.locator("#chart-list [role=img]").evaluate_all("charts => charts.map(chart => chart.getAttribute('aria-label'))")
+        assert charts[0].startswith("Displacement of floors [mm]: left 2 from -44.6 to "), charts
         live = page.locator("[aria-live=polite], [role=status]").evaluate_all("ones => ones.map(one => one.id)")
         assert {"happened", "problems", "saved", "record-says", "study-says"} <= set(live), live
 
