@@ -15,7 +15,10 @@ export class Charts {
   constructor(state, player) {
     Object.assign(this, { state, player, plots: [], floors: new Set(), known: "" });
     this.update = onceAFrame(() => this.#update());
-    this.describe = settled(() => this.plots.forEach(({ plot, heading }) => describePlot(plot, heading.textContent)), 500);
+    this.describe = settled(
+      () => this.plots.forEach(({ plot, heading }) => describePlot(plot, heading.textContent)),
+      500,
+    );
     state.on("run", () => this.#newRun());
     state.on("colours", () => this.draw());
     state.on("time", () => this.#moment());
@@ -52,7 +55,10 @@ export class Charts {
       const { plot, heading, shown } = this.plots[at];
       const columns = chart.lines.map(({ name }) => run.columns[name]);
       const force = chart.impacts ? largestForce(run) : 0;
-      const unit = handyUnit(columns.reduce((most, column) => Math.max(most, largestOf(column)), force), chart.unit);
+      const unit = handyUnit(
+        columns.reduce((most, column) => Math.max(most, largestOf(column)), force),
+        chart.unit,
+      );
       heading.textContent = withUnit(chart.title, unit);
       const factor = unit.factor * (chart.factor ?? 1);
       Object.assign(shown, { chart, unit, force: force * unit.factor });
@@ -76,12 +82,23 @@ export class Charts {
     const shown = { force: 0 };
     const lines = chart.lines.map(({ label, look }) => ({ label, ...look() }));
     const { box, heading, plot } = makePlot(element("chart-list"), {
-      title: chart.title, height: HEIGHT, lines, data: [[0], ...lines.map(() => [0])], attributes: { "data-chart": chart.id },
+      title: chart.title,
+      height: HEIGHT,
+      lines,
+      data: [[0], ...lines.map(() => [0])],
+      attributes: { "data-chart": chart.id },
       x: { label: "t", text: (time) => `${seconds(time, 4)} s`, tick: (tick) => digits(tick, 9) },
       options: {
         cursor: { sync: { key: "run" }, drag: { x: true, y: false }, points: { size: 5 } },
-        scales: { x: { time: false }, y: { range: (_, low, high) => rangeWith(chart.floats ? [low, high] : [0, shown.force], low, high) } },
-        hooks: { setScale: [(one, key) => key === "x" && this.#zoomed(one)], draw: chart.impacts ? [(one) => this.#dots(one, shown)] : [], drawClear: chart.zero ? [drawZero] : [] },
+        scales: {
+          x: { time: false },
+          y: { range: (_, low, high) => rangeWith(chart.floats ? [low, high] : [0, shown.force], low, high) },
+        },
+        hooks: {
+          setScale: [(one, key) => key === "x" && this.#zoomed(one)],
+          draw: chart.impacts ? [(one) => this.#dots(one, shown)] : [],
+          drawClear: chart.zero ? [drawZero] : [],
+        },
       },
     });
     const now = make(plot.over, "div", "", { class: "moment" });
@@ -133,7 +150,8 @@ export class Charts {
     }
   }
 
-  // The largest force of each impact, which the rows may miss: a stem each, and as long as they can be told apart a dot.
+  // The largest force of each impact, which the rows may miss: a stem each, and as long as they can be told apart a
+  // dot.
   #dots(plot, { unit, chart }) {
     const { run } = this.state;
     if (!run || !chart) return;
@@ -143,7 +161,12 @@ export class Charts {
     for (const { name, look } of chart.lines) {
       const contact = Number(name.match(/\d+/)[0]);
       const own = shown.filter((impact) => impact.contact === contact);
-      drawStems(plot, own.map(({ peak_time_s: time, peak_force: force }) => [time, force * unit.factor]), look().stroke, shown.length < MOST_DOTS);
+      drawStems(
+        plot,
+        own.map(({ peak_time_s: time, peak_force: force }) => [time, force * unit.factor]),
+        look().stroke,
+        shown.length < MOST_DOTS,
+      );
     }
     plot.ctx.restore();
   }
@@ -164,7 +187,13 @@ export class Charts {
       const [from, to] = state.stretch;
       state.show(from + share * (to - from), to + share * (to - from));
     };
-    const buttons = { earlier: () => move(-0.5), later: () => move(0.5), nearer: () => scale(0.5), farther: () => scale(2), whole: () => state.show(0, state.run?.stop ?? 1) };
+    const buttons = {
+      earlier: () => move(-0.5),
+      later: () => move(0.5),
+      nearer: () => scale(0.5),
+      farther: () => scale(2),
+      whole: () => state.show(0, state.run?.stop ?? 1),
+    };
     for (const [id, act] of Object.entries(buttons)) element(id).addEventListener("click", act);
   }
 

@@ -1,5 +1,5 @@
-// Gap, strength, law and storeys: what a hand is quicker at than a keyboard. A handle shows what is in the scene, and writes it there;
-// it holds nothing itself.
+// Gap, strength, law and storeys: what a hand is quicker at than a keyboard. A handle shows what is in the scene, and
+// writes it there; it holds nothing itself.
 
 import { GRAVITY, digits } from "./format.js";
 import { element, make } from "./make.js";
@@ -15,17 +15,25 @@ export class Handles {
   constructor(state, change) {
     Object.assign(this, { state, change, of: "all" });
     element("gap").addEventListener("input", () => this.setGap(Number(element("gap").value)));
-    element("gap-number").addEventListener("change", () => this.#typed("gap-number", (value) => this.setGap(toMetres(value))));
+    element("gap-number").addEventListener("change", () =>
+      this.#typed("gap-number", (value) => this.setGap(toMetres(value))),
+    );
     element("gap-of").addEventListener("change", () => this.#chooseGap());
     element("strength").addEventListener("input", () => this.#setStrength(Number(element("strength").value)));
-    element("strength-number").addEventListener("change", () => this.#typed("strength-number", (value) => this.#setStrength(value)));
-    element("law").addEventListener("change", () => this.change({ [`${this.#contacts()}.law`]: element("law").value }, "law"));
-    for (const button of document.querySelectorAll("[data-side]")) button.addEventListener("click", () => this.#setStoreys(button.dataset));
+    element("strength-number").addEventListener("change", () =>
+      this.#typed("strength-number", (value) => this.#setStrength(value)),
+    );
+    element("law").addEventListener("change", () =>
+      this.change({ [`${this.#contacts()}.law`]: element("law").value }, "law"),
+    );
+    for (const button of document.querySelectorAll("[data-side]"))
+      button.addEventListener("click", () => this.#setStoreys(button.dataset));
     state.on("look", () => this.show());
   }
 
   listLaws(laws) {
-    for (const { name, force } of laws) make(element("law"), "option", name.replaceAll("_", " "), { value: name, title: force });
+    for (const { name, force } of laws)
+      make(element("law"), "option", name.replaceAll("_", " "), { value: name, title: force });
   }
 
   // m, of the contacts that the handle is for.
@@ -86,7 +94,8 @@ export class Handles {
     const differ = gaps.some((gap) => gap !== gaps[0]);
     const choosable = !facing && contacts.length > 1;
     if (!choosable || !(this.of === "all" || this.of <= contacts.length)) this.of = "all";
-    if (choosable && differ && this.of === "all" && element("gap-of").options.length !== contacts.length + 1) this.of = "1";
+    if (choosable && differ && this.of === "all" && element("gap-of").options.length !== contacts.length + 1)
+      this.of = "1";
     this.#listGaps(choosable ? contacts.length : 0);
     const gap = this.gapNow();
     for (const id of ["gap", "gap-number", "law"]) element(id).disabled = contacts.length === 0;
@@ -109,7 +118,9 @@ export class Handles {
 
   #showStrength({ ground }) {
     for (const id of ["strength", "strength-number"]) element(id).disabled = !ground;
-    element("strength-says").textContent = ground ? `peak ${digits(ground.peakInG, 3)} g = ${digits(ground.peakInG * GRAVITY, 3)} m/s\u00B2` : "no record in the scene";
+    element("strength-says").textContent = ground
+      ? `peak ${digits(ground.peakInG, 3)} g = ${digits(ground.peakInG * GRAVITY, 3)} m/s\u00B2`
+      : "no record in the scene";
     if (!ground) return;
     const isPga = ground.pga !== null;
     const value = isPga ? ground.pga : ground.scale;
