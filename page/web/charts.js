@@ -92,12 +92,14 @@ export class Charts {
         cursor: { sync: { key: "run" }, drag: { x: true, y: false }, points: { size: 5 } },
         scales: {
           x: { time: false },
-          y: { range: (_, low, high) => rangeWith(chart.floats ? [low, high] : [0, shown.force], low, high) },
+          y: {
+            range: (one, low, high) =>
+              rangeWith([low, high, ...atEdges(one, this.state.stretch), ...(chart.floats ? [] : [0, shown.force])]),
+          },
         },
         hooks: {
           setScale: [(one, key) => key === "x" && this.#zoomed(one)],
-          draw: chart.impacts ? [(one) => this.#dots(one, shown)] : [],
-          drawClear: chart.zero ? [drawZero] : [],
+          draw: [(one) => chart.impacts && this.#dots(one, shown), (one) => chart.zero && drawZero(one)],
         },
       },
     });
@@ -245,9 +247,20 @@ function drawStems(plot, points, stroke, withDots) {
 
 const largestForce = (run) => run.impacts.reduce((most, impact) => Math.max(most, impact.peak_force || 0), 0);
 
-// From the lowest to the highest, with what has to be in sight (0, the dots of impacts) and a little room.
-function rangeWith(seen, low, high) {
-  const known = [...seen, low, high].filter((value) => value !== null);
+// Values where lines come in and go out: between two rows, of which one is out of sight.
+function atEdges(plot, stretch) {
+  const [times, ...columns] = plot.data;
+  return stretch.flatMap((time) => {
+    if (!(time > times[0] && time < times.at(-1))) return [];
+    const row = rowBefore(times, time);
+    const share = (time - times[row]) / (times[row + 1] - times[row] || 1);
+    return columns.map((column) => column[row] + share * (column[row + 1] - column[row]));
+  });
+}
+
+// From the lowest to the highest of what has to be in sight, with a little room; nothing is at null.
+function rangeWith(seen) {
+  const known = seen.filter((value) => value !== null);
   const [from, to] = [Math.min(...known), Math.max(...known)];
   const room = 0.06 * (to - from || Math.abs(to) || 1);
   return [from === 0 ? 0 : from - room, to === 0 ? 0 : to + room];

@@ -46,7 +46,7 @@ export function makePlot(list, { title, height, lines, data, x, options = {}, at
   head.append(legend);
   drawKeys(legend, series);
   plot.root.querySelector(".u-wrap").setAttribute("role", "img");
-  describePlot(plot, title);
+  if (data[0].length > 1) describePlot(plot, title);
   return { box, heading, plot };
 }
 
