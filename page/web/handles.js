@@ -43,7 +43,7 @@ export class Handles {
   }
 
   setGap(gap) {
-    if (gap !== this.gapNow()) this.change({ [`${this.#contacts()}.gap`]: gap }, "gap");
+    this.change({ [`${this.#contacts()}.gap`]: gap }, "gap");
   }
 
   #contacts() {
@@ -69,19 +69,24 @@ export class Handles {
     const isPga = ground.pga !== null;
     const now = isPga ? ground.pga : ground.scale;
     const value = now < 0 ? -Math.abs(size) : size;
-    if (value !== now && value !== 0) this.change({ [isPga ? "ground.pga" : "ground.scale"]: value }, "strength");
+    if (value !== 0) this.change({ [isPga ? "ground.pga" : "ground.scale"]: value }, "strength");
   }
 
   #setStoreys({ side, by }) {
-    const count = (this.state.look?.[side]?.floors ?? 0) + Number(by);
-    if (count >= 1) this.change({ [`${side}.storeys`]: count }, "storeys");
+    const shown = element(`${side}-storeys`);
+    const count = Number(shown.textContent) + Number(by);
+    // Shown at once: the next press counts from it.
+    if (count >= 1 && this.change({ [`${side}.storeys`]: count }, "storeys")) shown.textContent = count;
   }
 
   show() {
     const { look } = this.state;
     if (!look) return;
+    // A hand that moves a handle is ahead of what has been checked.
+    this.isAhead = this.state.checked !== this.state.scene;
     this.#showGap(look);
     this.#showStrength(look);
+    if (this.isAhead) return;
     for (const side of SIDES) element(`${side}-storeys`).textContent = look[side]?.floors ?? 0;
     for (const button of document.querySelectorAll("[data-side]")) {
       const { side, by } = button.dataset;
@@ -100,7 +105,7 @@ export class Handles {
     const gap = this.gapNow();
     for (const id of ["gap", "gap-number", "law"]) element(id).disabled = contacts.length === 0;
     if (contacts.length === 0) return;
-    showRange("gap", gap, LEAST_RANGE.gap);
+    showRange("gap", gap, LEAST_RANGE.gap, this.isAhead);
     showNumber("gap-number", toMillimetres(gap));
     element("law").value = (this.of === "all" ? contacts[0] : contacts[this.of - 1]).law;
   }
@@ -125,14 +130,15 @@ export class Handles {
     const isPga = ground.pga !== null;
     const value = isPga ? ground.pga : ground.scale;
     element("strength-unit").textContent = isPga ? "m/s\u00B2" : "\u00D7";
-    showRange("strength", Math.abs(value), LEAST_RANGE[isPga ? "pga" : "scale"]);
+    showRange("strength", Math.abs(value), LEAST_RANGE[isPga ? "pga" : "scale"], this.isAhead);
     showNumber("strength-number", value);
   }
 }
 
 // The range grows with what is in it, but not under a hand that moves it.
-function showRange(id, value, least) {
+function showRange(id, value, least, isAhead) {
   const range = element(id);
+  if (isAhead && document.activeElement === range) return;
   if (document.activeElement !== range || value > Number(range.max)) {
     const power = 10 ** Math.floor(Math.log10(Math.max(value, 1e-9)));
     const enough = [1, 2, 5, 10, 20].find((digit) => digit * power >= 1.5 * value) * power;

@@ -31,7 +31,7 @@ const MOST_CONTACTS_SHOWN = 40;
 
 export class Runner {
   constructor(state, engine) {
-    Object.assign(this, { state, engine, checked: 0, running: null, again: false, took: 0 });
+    Object.assign(this, { state, engine, checking: null, isStale: false, running: null, again: false, took: 0 });
     this.checkSoon = settled(() => this.check(), TYPING);
     this.startSoon = settled(() => this.isRight && this.start(), UNTIL_SETTLED);
     state.on("scene", (kind) => (kind === "typing" ? this.checkSoon() : this.check()));
@@ -50,29 +50,49 @@ export class Runner {
     return Object.fromEntries(named);
   }
 
+  // One after the other: what changes meanwhile is checked next, and a slow check is left for that.
   async check() {
-    const turn = ++this.checked;
-    const { scene } = this.state;
+    this.isStale = true;
+    if (this.checking) {
+      if (performance.now() - this.checking > 1e3 * QUICK) this.engine.stop("checks");
+      return;
+    }
+    while (this.isStale) {
+      this.isStale = false;
+      this.checking = performance.now();
+      await this.#checkOnce(this.state.scene);
+    }
+    this.checking = null;
+  }
+
+  async #checkOnce(scene) {
     const records = this.records();
     const waiting = setTimeout(() => say("The scene is being checked."), BAR_AFTER);
     const look = await this.engine.lookBeside(scene, records).catch(() => null);
-    const findings =
-      look?.warnings ?? (await this.engine.findingsBeside(scene, records).catch((error) => problemsOf(error)));
+    const findings = look?.warnings ?? (this.isStale ? [] : await this.#findings(scene, records));
     clearTimeout(waiting);
-    if (turn !== this.checked) return;
+    if (!look && this.isStale) return;
     this.state.problems = findings.filter(({ kind }) => kind !== "warning");
     this.state.warnings = findings.filter(({ kind }) => kind === "warning");
-    if (look) this.state.look = look;
+    this.state.checked = scene;
     this.isRight = look !== null;
+    if (look) Object.assign(this.state, { look });
+    if (look) this.right = { scene, look };
     this.state.tell("findings");
     this.state.tell("look");
-    if (look && this.took < QUICK) this.start();
-    else if (look && this.took < BEARABLE) this.startSoon();
-    else if (look) say("The scene has changed: Run computes it.");
-    else
-      say(
-        `${plural(this.state.problems.length, "mistake")} in the scene; what you see is the last run that was right.`,
-      );
+    this.#goOn();
+  }
+
+  #findings(scene, records) {
+    return this.engine.findingsBeside(scene, records).catch((error) => problemsOf(error));
+  }
+
+  #goOn() {
+    const mistakes = plural(this.state.problems.length, "mistake");
+    if (!this.isRight) say(`${mistakes} in the scene; what you see is the last run that was right.`);
+    else if (this.took < QUICK) this.start();
+    else if (this.took < BEARABLE) this.startSoon();
+    else say("The scene has changed: Run computes it.");
   }
 
   // A run that goes on is finished first if it is quick, else left for the new one.
@@ -109,7 +129,7 @@ export class Runner {
 
   async #run() {
     const { state } = this;
-    const { scene, look } = state;
+    const { scene, look } = this.right;
     const started = performance.now();
     const run = await this.#compute(scene, look);
     const passed = (performance.now() - started) / 1e3;

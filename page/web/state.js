@@ -12,6 +12,7 @@ export class State {
   records = {};
   // What the engine says of the last scene that was right, and of the text as it is now.
   look = null;
+  checked = "";
   problems = [];
   warnings = [];
   // The last run that went well, with the look of its scene; the same run without contacts; each null before.
