@@ -15,7 +15,7 @@ def of(path):
         return of_library(reading.read(path))
     if path.suffix in (".fmu", ".whl"):
         return of_archive(path)
-    return ""
+    return "a browser, no network" if path.suffix == ".html" else ""
 
 
 def of_library(library):

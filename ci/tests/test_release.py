@@ -85,6 +85,10 @@ class Needs(unittest.TestCase):
         )
         self.assertEqual((self.folder / "NEEDS").read_text().splitlines(), [fmu, linux])
 
+    def test_the_page(self):
+        (self.folder / "pounding.html").write_text("<!DOCTYPE html>")
+        self.assertRegex(needs.write(self.folder)[-1], r"^pounding\.html +a browser, no network$")
+
     def test_checksums(self):
         needs.write(self.folder)
         needs.write(self.folder)

@@ -8,6 +8,7 @@
 //! | `scene.rs` | the scene of a question; what is wrong and odd in it, with lines |
 //! | `look.rs` | what can be drawn of a scene before it is run |
 //! | `job.rs` | what takes long, in slices: after each the page can show how far it is |
+//! | `close.rs` | the name that may have been meant |
 //! | `run.rs`, `study.rs`, `spectrum.rs` | the jobs: a run, the same scene with many gaps, the spectrum of a record |
 //! | `motion.rs` | what is in a record |
 //! | `files.rs` | FMU, tables and report of a scene, as the commands write them |
@@ -15,6 +16,7 @@
 //! | `laws.rs` | the laws of contact, to choose from |
 #![deny(unsafe_code)]
 
+mod close;
 pub mod desk;
 mod edit;
 #[allow(unsafe_code)]

@@ -1,5 +1,6 @@
 //! A run, in slices of rows, with the columns and the bits of `pounding_fmu.simulate`.
 
+use crate::close;
 use crate::job::Job;
 use crate::message::{Answer, Refusal, of_record};
 use crate::scene::Given;
@@ -173,8 +174,8 @@ fn chosen<'s>(scenario: &'s Scenario, names: Option<&[String]>) -> Result<Vec<(u
 }
 
 fn unknown(scenario: &Scenario, name: &str) -> String {
-    let longer = scenario.table.rows.iter().find(|row| !name.is_empty() && row.name.starts_with(name));
-    let meant = longer.map_or(String::new(), |row| format!("; did you mean {}?", row.name));
+    let meant = close::meant(name, scenario.table.rows.iter().map(|row| row.name.as_str()));
+    let meant = meant.map_or(String::new(), |name| format!("; did you mean {name}?"));
     format!("{name}: the scene has no such variable{meant}")
 }
 
@@ -233,11 +234,12 @@ impl Wished {
         }
     }
 
+    /// As Python writes it.
     fn written(&self) -> String {
         match self {
-            Wished::Number(number) => number.to_string(),
-            Wished::Text(text) => format!("{text:?}"),
-            Wished::Special { number } => number.clone(),
+            Wished::Number(number) => format!("{number:?}"),
+            Wished::Text(text) => format!("'{text}'"),
+            Wished::Special { number } => number.to_lowercase().replace("infinity", "inf"),
             Wished::Other(value) => value.to_string(),
         }
     }

@@ -14,7 +14,10 @@ const CRASHED = "the engine has met a bug of its own, or has run out of memory";
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
 
-export const bytesOf = (content) => (typeof content === "string" ? encoder.encode(content) : content);
+export const bytesOf = (content) => {
+  if (typeof content === "string") return encoder.encode(content);
+  return content instanceof ArrayBuffer ? new Uint8Array(content) : content;
+};
 
 export class Asking {
   constructor(module) {

@@ -1,10 +1,10 @@
 // Charts over time: one below the other, all over the same stretch, with the moment of the picture as a line.
 
 import { digits, handyUnit, largestOf, seconds, withUnit } from "./format.js";
-import { element, make, onceAFrame } from "./make.js";
+import { element, make, onceAFrame, settled } from "./make.js";
 import { rowBefore } from "./motion.js";
 import { colour } from "./palette.js";
-import { makePlot, widthOf } from "./plots.js";
+import { describePlot, makePlot, widthOf } from "./plots.js";
 import { chartsOf, usualFloors } from "./series.js";
 
 const HEIGHT = 132;
@@ -15,6 +15,10 @@ export class Charts {
   constructor(state, player) {
     Object.assign(this, { state, player, plots: [], floors: new Set(), known: "" });
     this.update = onceAFrame(() => this.#update());
+    this.describe = settled(
+      () => this.plots.forEach(({ plot, heading }) => describePlot(plot, heading.textContent)),
+      500,
+    );
     state.on("run", () => this.#newRun());
     state.on("colours", () => this.draw());
     state.on("time", () => this.#moment());
@@ -51,13 +55,17 @@ export class Charts {
       const { plot, heading, shown } = this.plots[at];
       const columns = chart.lines.map(({ name }) => run.columns[name]);
       const force = chart.impacts ? largestForce(run) : 0;
-      const unit = handyUnit(columns.reduce((most, column) => Math.max(most, largestOf(column)), force), chart.unit);
+      const unit = handyUnit(
+        columns.reduce((most, column) => Math.max(most, largestOf(column)), force),
+        chart.unit,
+      );
       heading.textContent = withUnit(chart.title, unit);
       const factor = unit.factor * (chart.factor ?? 1);
       Object.assign(shown, { chart, unit, force: force * unit.factor });
       plot.setData([run.time, ...columns.map((column) => column.map((value) => value * factor))], false);
       plot.setScale("x", { min: this.state.stretch[0], max: this.state.stretch[1] });
     });
+    this.describe();
     queueMicrotask(() => this.#moment());
   }
 
@@ -74,12 +82,25 @@ export class Charts {
     const shown = { force: 0 };
     const lines = chart.lines.map(({ label, look }) => ({ label, ...look() }));
     const { box, heading, plot } = makePlot(element("chart-list"), {
-      title: chart.title, height: HEIGHT, lines, data: [[0], ...lines.map(() => [0])], attributes: { "data-chart": chart.id },
+      title: chart.title,
+      height: HEIGHT,
+      lines,
+      data: [[0], ...lines.map(() => [0])],
+      attributes: { "data-chart": chart.id },
       x: { label: "t", text: (time) => `${seconds(time, 4)} s`, tick: (tick) => digits(tick, 9) },
       options: {
         cursor: { sync: { key: "run" }, drag: { x: true, y: false }, points: { size: 5 } },
-        scales: { x: { time: false }, y: { range: (_, low, high) => rangeWith(chart.floats ? [low, high] : [0, shown.force], low, high) } },
-        hooks: { setScale: [(one, key) => key === "x" && this.#zoomed(one)], draw: chart.impacts ? [(one) => this.#dots(one, shown)] : [], drawClear: chart.zero ? [drawZero] : [] },
+        scales: {
+          x: { time: false },
+          y: {
+            range: (one, low, high) =>
+              rangeWith([low, high, ...atEdges(one, this.state.stretch), ...(chart.floats ? [] : [0, shown.force])]),
+          },
+        },
+        hooks: {
+          setScale: [(one, key) => key === "x" && this.#zoomed(one)],
+          draw: [(one) => chart.impacts && this.#dots(one, shown), (one) => chart.zero && drawZero(one)],
+        },
       },
     });
     const now = make(plot.over, "div", "", { class: "moment" });
@@ -96,7 +117,6 @@ export class Charts {
       this.player.pause();
       this.state.seek(plot.posToVal(event.clientX - plot.over.getBoundingClientRect().left, "x"));
     });
-    plot.over.addEventListener("dblclick", () => this.state.show(0, this.state.run.stop));
   }
 
   // What one chart shows, all show.
@@ -105,8 +125,6 @@ export class Charts {
     const [from, to] = this.state.stretch;
     const stop = this.state.run?.stop;
     if (this.following || min === null || !stop || (min === from && max === to)) return;
-    // Its own way back to all of its rows.
-    if (min <= 0 && max >= stop && plot.cursor.event?.type === "dblclick") return;
     this.state.show(min, max);
   }
 
@@ -134,7 +152,8 @@ export class Charts {
     }
   }
 
-  // The largest force of each impact, which the rows may miss: a stem each, and as long as they can be told apart a dot.
+  // The largest force of each impact, which the rows may miss: a stem each, and as long as they can be told apart a
+  // dot.
   #dots(plot, { unit, chart }) {
     const { run } = this.state;
     if (!run || !chart) return;
@@ -144,7 +163,12 @@ export class Charts {
     for (const { name, look } of chart.lines) {
       const contact = Number(name.match(/\d+/)[0]);
       const own = shown.filter((impact) => impact.contact === contact);
-      drawStems(plot, own.map(({ peak_time_s: time, peak_force: force }) => [time, force * unit.factor]), look().stroke, shown.length < MOST_DOTS);
+      drawStems(
+        plot,
+        own.map(({ peak_time_s: time, peak_force: force }) => [time, force * unit.factor]),
+        look().stroke,
+        shown.length < MOST_DOTS,
+      );
     }
     plot.ctx.restore();
   }
@@ -165,7 +189,13 @@ export class Charts {
       const [from, to] = state.stretch;
       state.show(from + share * (to - from), to + share * (to - from));
     };
-    const buttons = { earlier: () => move(-0.5), later: () => move(0.5), nearer: () => scale(0.5), farther: () => scale(2), whole: () => state.show(0, state.run?.stop ?? 1) };
+    const buttons = {
+      earlier: () => move(-0.5),
+      later: () => move(0.5),
+      nearer: () => scale(0.5),
+      farther: () => scale(2),
+      whole: () => state.show(0, state.run?.stop ?? 1),
+    };
     for (const [id, act] of Object.entries(buttons)) element(id).addEventListener("click", act);
   }
 
@@ -217,9 +247,20 @@ function drawStems(plot, points, stroke, withDots) {
 
 const largestForce = (run) => run.impacts.reduce((most, impact) => Math.max(most, impact.peak_force || 0), 0);
 
-// From the lowest to the highest, with what has to be in sight (0, the dots of impacts) and a little room.
-function rangeWith(seen, low, high) {
-  const known = [...seen, low, high].filter((value) => value !== null);
+// Values where lines come in and go out: between two rows, of which one is out of sight.
+function atEdges(plot, stretch) {
+  const [times, ...columns] = plot.data;
+  return stretch.flatMap((time) => {
+    if (!(time > times[0] && time < times.at(-1))) return [];
+    const row = rowBefore(times, time);
+    const share = (time - times[row]) / (times[row + 1] - times[row] || 1);
+    return columns.map((column) => column[row] + share * (column[row + 1] - column[row]));
+  });
+}
+
+// From the lowest to the highest of what has to be in sight, with a little room; nothing is at null.
+function rangeWith(seen) {
+  const known = seen.filter((value) => value !== null);
   const [from, to] = [Math.min(...known), Math.max(...known)];
   const room = 0.06 * (to - from || Math.abs(to) || 1);
   return [from === 0 ? 0 : from - room, to === 0 ? 0 : to + room];

@@ -1,4 +1,5 @@
-// One picture of the buildings on a canvas: ground, slabs, columns, walls, contacts, and the impacts that have just been.
+// One picture of the buildings on a canvas: ground, slabs, columns, walls, contacts, and the impacts that have just
+// been.
 
 import { bend } from "./geometry.js";
 import { SIDES } from "./motion.js";
@@ -68,7 +69,8 @@ export class Drawing {
       context.fillRect(from, level, to - from, 5);
     });
     const bottom = place.box.y + place.box.height;
-    for (const side of geometry.sides) this.#text(side, this.#centre(side), bottom - 12, side === "right" ? "right-text" : side, "center");
+    for (const side of geometry.sides)
+      this.#text(side, this.#centre(side), bottom - 12, side === "right" ? "right-text" : side, "center");
     if (ground) this.#arrow(place.x(geometry.gap / 2), bottom - 22, ground);
   }
 
@@ -115,7 +117,9 @@ export class Drawing {
 
   #building(side, moved, yielding) {
     const { context, place, geometry, colours } = this;
-    const edges = moved.map((u, floor) => place.x(geometry.inner[side][floor] + u) + (side === "left" ? -place.width : 0));
+    const edges = moved.map(
+      (u, floor) => place.x(geometry.inner[side][floor] + u) + (side === "left" ? -place.width : 0),
+    );
     const levels = geometry.levels[side].map(place.y);
     const inset = geometry.hit[side] ? 0 : Math.min(10, 0.07 * place.width);
     const offsets = [inset + this.column / 2, place.width - inset - this.column / 2];
@@ -151,15 +155,21 @@ export class Drawing {
     }
   }
 
-  // The numbers of the contacts, as in the table, above what meets there; those that would cover others stand beside them.
+  // The numbers of the contacts, as in the table, above what meets there; those that would cover others stand beside
+  // them.
   #numbers(moved) {
     const { place, geometry } = this;
     if (geometry.contacts.length > MOST_NUMBERS) return;
     const placed = [];
     geometry.contacts.forEach((contact, at) => {
       const [left, right] = geometry.faces(contact, moved, place.width / place.across);
-      const number = { x: place.x((left + right) / 2), y: place.y(contact.height) - this.slab / 2 - 13, text: String(at + 1) };
-      while (placed.some((other) => Math.hypot(number.x - other.x, number.y - other.y) < 2 * NUMBER)) number.x += 2 * NUMBER + 1;
+      const number = {
+        x: place.x((left + right) / 2),
+        y: place.y(contact.height) - this.slab / 2 - 13,
+        text: String(at + 1),
+      };
+      while (placed.some((other) => Math.hypot(number.x - other.x, number.y - other.y) < 2 * NUMBER))
+        number.x += 2 * NUMBER + 1;
       placed.push(number);
     });
     placed.forEach((number) => this.#number(number));
@@ -183,7 +193,10 @@ export class Drawing {
     const pair = geometry.contacts[contact - 1];
     if (!pair) return;
     const [left, right] = geometry.faces(pair, moved, place.width / place.across);
-    const [x, y] = [place.x(pair.wall === "right" ? right : pair.wall === "left" ? left : (left + right) / 2), place.y(pair.height)];
+    const [x, y] = [
+      place.x(pair.wall === "right" ? right : pair.wall === "left" ? left : (left + right) / 2),
+      place.y(pair.height),
+    ];
     const radius = Math.min(7 + 24 * size, this.largestFlash) * (1 - 0.35 * age);
     context.globalAlpha = 1 - age * age;
     context.beginPath();

@@ -1,5 +1,6 @@
-// The scene as text: lines with numbers, colours, and a mark where something is wrong or odd. The text itself is a textarea,
-// as every keyboard and screen reader knows it; what is drawn under it shows the visible lines only, however long it is.
+// The scene as text: lines with numbers, colours, and a mark where something is wrong or odd. The text itself is a
+// textarea, as every keyboard and screen reader knows it; what is drawn under it shows the visible lines only,
+// however long it is.
 
 import { History } from "./history.js";
 import { element, make, onceAFrame } from "./make.js";
@@ -31,7 +32,9 @@ export class Editor {
 
   // Why a text cannot be edited here; nothing where it can.
   tooLong(text) {
-    if (text.length > MOST_LETTERS) return `${(text.length / 1e6).toFixed(1)} million letters: expected a scene of at most ${MOST_LETTERS / 1e6} million.`;
+    const millions = (text.length / 1e6).toFixed(1);
+    if (text.length > MOST_LETTERS)
+      return `${millions} million letters: expected a scene of at most ${MOST_LETTERS / 1e6} million.`;
     return hasManyLines(text) ? `more than ${MOST_LINES_OF_TEXT} lines, which are too many for a scene.` : "";
   }
 

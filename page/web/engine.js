@@ -8,6 +8,8 @@ const IMPACT = ["contact", "start_s", "end_s", "approach_velocity", "separation_
   "peak_penetration", "impulse", "dissipated_energy"];
 const NO_LIBRARIES = "this page holds no libraries, without which an FMU cannot be run; the page of a release has them";
 
+const OF_RUN = ["step", "stop", "outputs", "parameters", "records", "rowsPerImpact", "withoutContacts"];
+
 const held = (id) => document.getElementById(id).textContent;
 
 export class Engine {
@@ -15,7 +17,7 @@ export class Engine {
   examples = JSON.parse(held("examples"));
   given = JSON.parse(held("given"));
   // Content of the records that these scenes name, by the path that is in the scene; complete when the engine is ready.
-  records = {};
+  records = Object.create(null);
   platforms = Object.keys(JSON.parse(held("libraries")));
   #asking = null;
   #lanes = new Map();
@@ -78,8 +80,9 @@ export class Engine {
   // A run, with the rows and the bits of pounding_fmu.simulate. `onProgress` gets { share, time, rows, impacts, partial }:
   // the share that is done, s, how many rows and impacts there are, and a function that makes a run of them.
   async simulate(scene, options = {}, onProgress = () => {}, lane = "runs") {
-    const { step, stop, outputs, parameters, records = {}, rowsPerImpact, withoutContacts } = options;
-    const header = { call: "run", step: spoken(step), stop: spoken(stop), outputs: outputs && [...outputs],
+    const { step, stop, outputs, parameters, records = {}, rowsPerImpact, withoutContacts } = checked(options, OF_RUN);
+    if (outputs != null && !Array.isArray(outputs)) throw wrongType("outputs", "a list of names", outputs);
+    const header = { call: "run", step: spoken(step), stop: spoken(stop), outputs: outputs ?? undefined,
       parameters: Object.entries(parameters ?? {}).map(([name, value]) => [name, spoken(value)]), rowsPerImpact, withoutContacts };
     let run = null;
     const take = (answer) => {
@@ -196,7 +199,16 @@ class Run {
 
   constructor(begun) {
     Object.assign(this, { begun, rows: 0, impacts: [], at: 0 });
-    this.#columns = [{ name: "time" }, ...begun.columns].map(({ name }) => [name, new Float64Array(begun.rows)]);
+    this.#columns = [{ name: "time" }, ...begun.columns].map(({ name }) => [name, this.#room(begun)]);
+  }
+
+  #room({ rows, columns }) {
+    try {
+      return new Float64Array(rows);
+    } catch {
+      const problem = `${rows} rows of ${columns.length + 1} columns: expected fewer, by a larger step`;
+      throw new Refusal({ kind: "MemoryError", problems: [problem] });
+    }
   }
 
   get share() {
@@ -232,11 +244,26 @@ function impactsOf(numbers) {
   return Array.from({ length: count }, (_, at) => impact(at));
 }
 
+const isContent = (value) => typeof value === "string" || value instanceof Uint8Array || value instanceof ArrayBuffer;
+
+// Options by name; unknown ones are slips.
+function checked(options, known) {
+  if (options !== null && typeof options !== "object") throw wrongType("options", `an object of ${known.join(", ")}`, options);
+  const unknown = Object.keys(options ?? {}).find((name) => !known.includes(name));
+  if (unknown === undefined) return options ?? {};
+  throw new Refusal({ kind: "TypeError", problems: [`${unknown}: no such option; expected ${known.join(", ")}`] });
+}
+
+function wrongType(name, expected, value) {
+  return new Refusal({ kind: "TypeError", problems: [`${name}: expected ${expected}, not ${value === null ? "null" : typeof value}`] });
+}
+
 function question(scene, records, header) {
-  if (typeof scene !== "string" && !(scene instanceof Uint8Array)) {
-    throw new Refusal({ kind: "TypeError", problems: [`scene: expected the text of a scene, not ${scene === null ? "null" : typeof scene}`] });
-  }
+  if (!isContent(scene)) throw wrongType("scene", "the text of a scene", scene);
   const all = Object.entries(records ?? {});
+  for (const [name, content] of all) {
+    if (!isContent(content)) throw wrongType(`records[${JSON.stringify(name)}]`, "the text or the bytes of a record", content);
+  }
   return { header: { ...header, records: all.map(([name]) => name) }, parts: [scene, ...all.map(([, content]) => content)].map(bytesOf) };
 }
 
@@ -259,14 +286,23 @@ export async function unpacked(text) {
 
 // What a script may use, `window.pounding`: records that it does not give are those that the page has.
 export function forScripts(engine, recordsOfPage = () => engine.records) {
-  const all = (records) => ({ ...recordsOfPage(), ...records });
+  // A record's name may be one that objects have by themselves.
+  const all = (records) => Object.assign(Object.create(null), recordsOfPage(), records);
+  // Both problems(scene, records) and, as simulate has it, problems(scene, { records }).
+  const isMap = (value) => value !== null && typeof value === "object" && !isContent(value);
+  const either = (records) => all(isMap(records?.records) ? records.records : records);
   return {
     engine,
     ready: engine.ready,
-    problems: (scene, records) => engine.problems(scene, all(records)),
-    warnings: (scene, records) => engine.warnings(scene, all(records)),
-    simulate: (scene, options = {}) =>
-      engine.simulate(scene, { ...options, records: all(options.records) }, undefined, "scripts"),
-    buildFmu: (scene, { records, fmi } = {}) => engine.buildFmu(scene, { records: all(records), fmi }),
+    problems: (scene, records) => engine.problems(scene, either(records)),
+    warnings: (scene, records) => engine.warnings(scene, either(records)),
+    simulate: async (scene, options = {}) => {
+      const wishes = checked(options, OF_RUN);
+      return engine.simulate(scene, { ...wishes, records: all(wishes.records) }, undefined, "scripts");
+    },
+    buildFmu: async (scene, options = {}) => {
+      const { records, fmi } = checked(options, ["records", "fmi"]);
+      return engine.buildFmu(scene, { records: all(records), fmi });
+    },
   };
 }

@@ -4,7 +4,6 @@ import { MOST_LETTERS } from "./editor.js";
 import { element } from "./make.js";
 import { said } from "./notice.js";
 
-
 export function startFiles(editor, ground) {
   const take = async (files) => {
     const scenes = files.filter(({ name }) => /\.toml$/i.test(name));
@@ -34,7 +33,10 @@ export function startFiles(editor, ground) {
 }
 
 async function openScene(editor, file) {
-  if (file.size > 4 * MOST_LETTERS) return said(`${file.name} has ${Math.round(file.size / 1e6)} MB: expected a scene of at most ${MOST_LETTERS / 1e6} MB.`);
+  if (file.size > 4 * MOST_LETTERS)
+    return said(
+      `${file.name} has ${Math.round(file.size / 1e6)} MB: expected a scene of at most ${MOST_LETTERS / 1e6} MB.`,
+    );
   const bytes = new Uint8Array(await file.arrayBuffer());
   try {
     editor.open(new TextDecoder("utf-8", { fatal: true }).decode(bytes));

@@ -15,10 +15,25 @@ export const seconds = (value, places = 3) => (Number.isFinite(value) ? value.to
 
 // What a unit may be shown as: name, factor, and the largest number that it is good for.
 const SHOWN = {
-  m: [["mm", 1e3, 1e4], ["m", 1, Infinity]],
-  N: [["N", 1, 1e4], ["kN", 1e-3, 1e5], ["MN", 1e-6, Infinity]],
-  "N.s": [["N s", 1, 1e4], ["kN s", 1e-3, 1e5], ["MN s", 1e-6, Infinity]],
-  J: [["J", 1, 1e4], ["kJ", 1e-3, 1e5], ["MJ", 1e-6, Infinity]],
+  m: [
+    ["mm", 1e3, 1e4],
+    ["m", 1, Infinity],
+  ],
+  N: [
+    ["N", 1, 1e4],
+    ["kN", 1e-3, 1e5],
+    ["MN", 1e-6, Infinity],
+  ],
+  "N.s": [
+    ["N s", 1, 1e4],
+    ["kN s", 1e-3, 1e5],
+    ["MN s", 1e-6, Infinity],
+  ],
+  J: [
+    ["J", 1, 1e4],
+    ["kJ", 1e-3, 1e5],
+    ["MJ", 1e-6, Infinity],
+  ],
   "m/s": [["m/s", 1, Infinity]],
   "m/s2": [["m/s\u00B2", 1, Infinity]],
   s: [["s", 1, Infinity]],
@@ -54,4 +69,5 @@ export function largestOf(values) {
 export const GRAVITY = 9.80665;
 
 // Along a logarithmic axis 1, 2 and 5 times powers of ten have room for their names.
-export const isRound = (value) => [1, 2, 5].includes(Number((value / 10 ** Math.floor(Math.log10(value) + 1e-9)).toPrecision(6)));
+export const isRound = (value) =>
+  [1, 2, 5].includes(Number((value / 10 ** Math.floor(Math.log10(value) + 1e-9)).toPrecision(6)));

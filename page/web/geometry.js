@@ -1,5 +1,5 @@
-// Where buildings, contacts and walls stand at rest: across in m from the left building's edge at the gap, upwards by the
-// levels of the scene, or, without them, with all storeys equally high.
+// Where buildings, contacts and walls stand at rest: across in m from the left building's edge at the gap, upwards by
+// the levels of the scene, or, without them, with all storeys equally high.
 
 import { SIDES } from "./motion.js";
 
@@ -16,7 +16,9 @@ export class Geometry {
     [this.bottom, this.top] = [Math.min(0, ...ends(all)), Math.max(...ends(all), 1e-9)];
     this.contacts = layout.contacts.map((contact) => this.#contactOf(contact));
     this.inner = { left: this.levels.left.map(() => 0), right: this.#innerRight() };
-    this.hit = Object.fromEntries(SIDES.map((side) => [side, this.contacts.some((contact) => contact.columns === side)]));
+    this.hit = Object.fromEntries(
+      SIDES.map((side) => [side, this.contacts.some((contact) => contact.columns === side)]),
+    );
     this.gap = this.contacts.reduce((most, { gap }) => Math.max(most, Math.abs(gap)), 0);
     this.walls = this.contacts.filter((contact) => contact.wall);
   }
@@ -29,7 +31,9 @@ export class Geometry {
   // What the picture needs of a contact: its gap, its height, and what is on each side of it.
   #contactOf({ left, right, gap, meeting, law }) {
     const surfaces = { left, right };
-    const heights = Object.values(surfaces).map((surface) => this.#heightOf(surface)).filter((height) => height !== null);
+    const heights = Object.values(surfaces)
+      .map((surface) => this.#heightOf(surface))
+      .filter((height) => height !== null);
     const height = heights.reduce((sum, one) => sum + one, 0) / heights.length;
     const columns = Object.values(surfaces).find((surface) => surface.kind === "columns")?.side ?? null;
     const wall = SIDES.find((side) => surfaces[side].kind === "wall") ?? null;
@@ -51,10 +55,17 @@ export class Geometry {
     return this.levels.right.map((level) => interpolate(known, level));
   }
 
-  // Left and right side of the gap of a contact, m across, for floors that are displaced; `width` is that of a building.
+  // Left and right side of the gap of a contact, m across, for floors that are displaced; `width` is that of a
+  // building.
   faces({ surfaces, gap }, moved, width) {
     const [left, right] = SIDES.map((on) => this.#face(surfaces[on], on, moved, width));
-    const still = (on) => this.#face(surfaces[on], on, { left: this.levels.left.map(() => 0), right: this.levels.right.map(() => 0) }, width);
+    const still = (on) =>
+      this.#face(
+        surfaces[on],
+        on,
+        { left: this.levels.left.map(() => 0), right: this.levels.right.map(() => 0) },
+        width,
+      );
     return [left ?? still("right") - gap, right ?? still("left") + gap];
   }
 

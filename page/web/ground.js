@@ -5,7 +5,7 @@ import { element, make } from "./make.js";
 import { SIDES } from "./motion.js";
 import { colour, lineLook } from "./palette.js";
 import { drawUpright, makePlot, widthOf } from "./plots.js";
-import { sentence } from "./runner.js";
+import { sentence } from "./words.js";
 
 const MOST_BYTES_READ = 6e7;
 const POINTS = 90;
@@ -36,7 +36,10 @@ export class Ground {
   }
 
   async #read(file) {
-    if (file.size > MOST_BYTES_READ) return void this.#say(`${file.name} has ${digits(file.size / 1e6, 3)} MB: expected a record of at most ${MOST_BYTES_READ / 1e6} MB.`);
+    if (file.size > MOST_BYTES_READ)
+      return void this.#say(
+        `${file.name} has ${digits(file.size / 1e6, 3)} MB: expected a record of at most ${MOST_BYTES_READ / 1e6} MB.`,
+      );
     this.#say(`${file.name} is being read.`);
     try {
       const bytes = new Uint8Array(await file.arrayBuffer());
@@ -61,7 +64,8 @@ export class Ground {
     list.value = named;
   }
 
-  // A file may have several, of which a scene names one behind the name of the file: by the number that it has in the file, if any.
+  // A file may have several, of which a scene names one behind the name of the file: by the number that it has in the
+  // file, if any.
   #channelsOf(name) {
     const channels = this.known.get(name)?.channels ?? [];
     if (channels.length < 2) return [{ value: name, text: name }];
@@ -112,8 +116,11 @@ export class Ground {
   }
 
   #facts({ samples, duration, recordPeak, factor, peakInG }) {
-    const own = `${samples} samples, ${digits(duration)} s, peak ${digits(recordPeak / GRAVITY, 3)} g (${digits(recordPeak, 3)} m/s\u00B2)`;
-    this.#say(Math.abs(factor - 1) < 1e-9 ? own : `${own}; in this run times ${digits(factor, 3)}: ${digits(peakInG, 3)} g`);
+    const peak = `peak ${digits(recordPeak / GRAVITY, 3)} g (${digits(recordPeak, 3)} m/s\u00B2)`;
+    const own = `${samples} samples, ${digits(duration)} s, ${peak}`;
+    this.#say(
+      Math.abs(factor - 1) < 1e-9 ? own : `${own}; in this run times ${digits(factor, 3)}: ${digits(peakInG, 3)} g`,
+    );
   }
 
   draw() {
@@ -124,7 +131,12 @@ export class Ground {
     const facts = element("record-facts");
     if (!this.name || !this.about) return void (facts.textContent = "No record to look at: drop one anywhere.");
     const { format, samples, duration, peakInG, peakTime, ariasIntensity, mean } = this.about;
-    facts.textContent = `${this.name.split("/").at(-1)}: ${format}. ${plural(samples, "sample")} in ${digits(duration)} s; as recorded peak ${digits(peakInG, 3)} g at ${seconds(peakTime, 2)} s, mean ${digits(mean / GRAVITY, 2)} g, Arias intensity ${digits(ariasIntensity, 3)} m/s.`;
+    facts.textContent = [
+      `${this.name.split("/").at(-1)}: ${format}.`,
+      `${plural(samples, "sample")} in ${digits(duration)} s;`,
+      `as recorded peak ${digits(peakInG, 3)} g at ${seconds(peakTime, 2)} s,`,
+      `mean ${digits(mean / GRAVITY, 2)} g, Arias intensity ${digits(ariasIntensity, 3)} m/s.`,
+    ].join(" ");
     this.#acceleration();
     this.#response();
   }
@@ -133,16 +145,23 @@ export class Ground {
     const { times, accelerations } = this.about;
     const factor = (this.state.look?.ground?.factor ?? 1) / GRAVITY;
     const x = { label: "t", text: (time) => `${seconds(time)} s`, tick: (tick) => `${digits(tick, 9)} s` };
-    this.#plot("acceleration [g]", [times, accelerations.map((value) => value * factor)], { label: "ground" }, x, { scales: { x: { time: false } } });
+    this.#plot("acceleration [g]", [times, accelerations.map((value) => value * factor)], { label: "ground" }, x, {
+      scales: { x: { time: false } },
+    });
   }
 
   #response() {
     if (!this.spectrum) this.#findSpectrum();
-    if (this.spectrum.isUnderWay) make(element("record-charts"), "p", "The response spectrum is being computed.", { class: "hint" });
+    if (this.spectrum.isUnderWay)
+      make(element("record-charts"), "p", "The response spectrum is being computed.", { class: "hint" });
     if (!this.spectrum.values) return;
     const factor = Math.abs(this.state.look?.ground?.factor ?? 1) / GRAVITY;
     const values = Array.from(this.spectrum.values, (value) => value * factor);
-    const x = { label: "period", text: (period) => `${digits(period, 3)} s`, tick: (tick) => (tick === null || !isRound(tick) ? "" : `${digits(tick)} s`) };
+    const x = {
+      label: "period",
+      text: (period) => `${digits(period, 3)} s`,
+      tick: (tick) => (tick === null || !isRound(tick) ? "" : `${digits(tick)} s`),
+    };
     this.#plot("response spectrum, 5 % [g]", [this.spectrum.periods, values], { label: "Sa" }, x, {
       cursor: { drag: { x: false, y: false } },
       scales: { x: { time: false, distr: 3, range: () => [SHORTEST, LONGEST] } },
@@ -150,18 +169,30 @@ export class Ground {
     });
     for (const side of SIDES) {
       const period = this.state.look?.[side]?.periods?.[0];
-      if (period) make(element("record-charts"), "p", `first period, ${side}: ${digits(period, 3)} s`, { class: `hint of-${side}` });
+      if (period)
+        make(element("record-charts"), "p", `first period, ${side}: ${digits(period, 3)} s`, {
+          class: `hint of-${side}`,
+        });
     }
   }
 
   #plot(title, data, line, x, options) {
-    const { plot } = makePlot(element("record-charts"), { title, height: RECORD_HEIGHT, data, lines: [{ ...line, ...lineLook("others", 0) }], x, options });
+    const { plot } = makePlot(element("record-charts"), {
+      title,
+      height: RECORD_HEIGHT,
+      data,
+      lines: [{ ...line, ...lineLook("others", 0) }],
+      x,
+      options,
+    });
     this.plots.push(plot);
   }
 
   // Where the first periods of the buildings are in the spectrum; names stand away from the other one.
   #periods(plot) {
-    const known = SIDES.map((side) => ({ side, period: this.state.look?.[side]?.periods?.[0] })).filter(({ period }) => period >= plot.scales.x.min && period <= plot.scales.x.max);
+    const known = SIDES.map((side) => ({ side, period: this.state.look?.[side]?.periods?.[0] })).filter(
+      ({ period }) => period >= plot.scales.x.min && period <= plot.scales.x.max,
+    );
     const shortest = Math.min(...known.map(({ period }) => period));
     for (const { side, period } of known) markPeriod(plot, side, period, known.length > 1 && period === shortest);
   }

@@ -1,5 +1,5 @@
-// Gap, strength, law and storeys: what a hand is quicker at than a keyboard. A handle shows what is in the scene, and writes it there;
-// it holds nothing itself.
+// Gap, strength, law and storeys: what a hand is quicker at than a keyboard. A handle shows what is in the scene, and
+// writes it there; it holds nothing itself.
 
 import { GRAVITY, digits } from "./format.js";
 import { element, make } from "./make.js";
@@ -15,17 +15,25 @@ export class Handles {
   constructor(state, change) {
     Object.assign(this, { state, change, of: "all" });
     element("gap").addEventListener("input", () => this.setGap(Number(element("gap").value)));
-    element("gap-number").addEventListener("change", () => this.#typed("gap-number", (value) => this.setGap(toMetres(value))));
+    element("gap-number").addEventListener("change", () =>
+      this.#typed("gap-number", (value) => this.setGap(toMetres(value))),
+    );
     element("gap-of").addEventListener("change", () => this.#chooseGap());
     element("strength").addEventListener("input", () => this.#setStrength(Number(element("strength").value)));
-    element("strength-number").addEventListener("change", () => this.#typed("strength-number", (value) => this.#setStrength(value)));
-    element("law").addEventListener("change", () => this.change({ [`${this.#contacts()}.law`]: element("law").value }, "law"));
-    for (const button of document.querySelectorAll("[data-side]")) button.addEventListener("click", () => this.#setStoreys(button.dataset));
+    element("strength-number").addEventListener("change", () =>
+      this.#typed("strength-number", (value) => this.#setStrength(value)),
+    );
+    element("law").addEventListener("change", () =>
+      this.change({ [`${this.#contacts()}.law`]: element("law").value }, "law"),
+    );
+    for (const button of document.querySelectorAll("[data-side]"))
+      button.addEventListener("click", () => this.#setStoreys(button.dataset));
     state.on("look", () => this.show());
   }
 
   listLaws(laws) {
-    for (const { name, force } of laws) make(element("law"), "option", name.replaceAll("_", " "), { value: name, title: force });
+    for (const { name, force } of laws)
+      make(element("law"), "option", name.replaceAll("_", " "), { value: name, title: force });
   }
 
   // m, of the contacts that the handle is for.
@@ -35,7 +43,7 @@ export class Handles {
   }
 
   setGap(gap) {
-    if (gap !== this.gapNow()) this.change({ [`${this.#contacts()}.gap`]: gap }, "gap");
+    this.change({ [`${this.#contacts()}.gap`]: gap }, "gap");
   }
 
   #contacts() {
@@ -61,19 +69,24 @@ export class Handles {
     const isPga = ground.pga !== null;
     const now = isPga ? ground.pga : ground.scale;
     const value = now < 0 ? -Math.abs(size) : size;
-    if (value !== now && value !== 0) this.change({ [isPga ? "ground.pga" : "ground.scale"]: value }, "strength");
+    if (value !== 0) this.change({ [isPga ? "ground.pga" : "ground.scale"]: value }, "strength");
   }
 
   #setStoreys({ side, by }) {
-    const count = (this.state.look?.[side]?.floors ?? 0) + Number(by);
-    if (count >= 1) this.change({ [`${side}.storeys`]: count }, "storeys");
+    const shown = element(`${side}-storeys`);
+    const count = Number(shown.textContent) + Number(by);
+    // Shown at once: the next press counts from it.
+    if (count >= 1 && this.change({ [`${side}.storeys`]: count }, "storeys")) shown.textContent = count;
   }
 
   show() {
     const { look } = this.state;
     if (!look) return;
+    // A hand that moves a handle is ahead of what has been checked.
+    this.isAhead = this.state.checked !== this.state.scene;
     this.#showGap(look);
     this.#showStrength(look);
+    if (this.isAhead) return;
     for (const side of SIDES) element(`${side}-storeys`).textContent = look[side]?.floors ?? 0;
     for (const button of document.querySelectorAll("[data-side]")) {
       const { side, by } = button.dataset;
@@ -86,12 +99,13 @@ export class Handles {
     const differ = gaps.some((gap) => gap !== gaps[0]);
     const choosable = !facing && contacts.length > 1;
     if (!choosable || !(this.of === "all" || this.of <= contacts.length)) this.of = "all";
-    if (choosable && differ && this.of === "all" && element("gap-of").options.length !== contacts.length + 1) this.of = "1";
+    if (choosable && differ && this.of === "all" && element("gap-of").options.length !== contacts.length + 1)
+      this.of = "1";
     this.#listGaps(choosable ? contacts.length : 0);
     const gap = this.gapNow();
     for (const id of ["gap", "gap-number", "law"]) element(id).disabled = contacts.length === 0;
     if (contacts.length === 0) return;
-    showRange("gap", gap, LEAST_RANGE.gap);
+    showRange("gap", gap, LEAST_RANGE.gap, this.isAhead);
     showNumber("gap-number", toMillimetres(gap));
     element("law").value = (this.of === "all" ? contacts[0] : contacts[this.of - 1]).law;
   }
@@ -109,19 +123,22 @@ export class Handles {
 
   #showStrength({ ground }) {
     for (const id of ["strength", "strength-number"]) element(id).disabled = !ground;
-    element("strength-says").textContent = ground ? `peak ${digits(ground.peakInG, 3)} g = ${digits(ground.peakInG * GRAVITY, 3)} m/s\u00B2` : "no record in the scene";
+    element("strength-says").textContent = ground
+      ? `peak ${digits(ground.peakInG, 3)} g = ${digits(ground.peakInG * GRAVITY, 3)} m/s\u00B2`
+      : "no record in the scene";
     if (!ground) return;
     const isPga = ground.pga !== null;
     const value = isPga ? ground.pga : ground.scale;
     element("strength-unit").textContent = isPga ? "m/s\u00B2" : "\u00D7";
-    showRange("strength", Math.abs(value), LEAST_RANGE[isPga ? "pga" : "scale"]);
+    showRange("strength", Math.abs(value), LEAST_RANGE[isPga ? "pga" : "scale"], this.isAhead);
     showNumber("strength-number", value);
   }
 }
 
 // The range grows with what is in it, but not under a hand that moves it.
-function showRange(id, value, least) {
+function showRange(id, value, least, isAhead) {
   const range = element(id);
+  if (isAhead && document.activeElement === range) return;
   if (document.activeElement !== range || value > Number(range.max)) {
     const power = 10 ** Math.floor(Math.log10(Math.max(value, 1e-9)));
     const enough = [1, 2, 5, 10, 20].find((digit) => digit * power >= 1.5 * value) * power;

@@ -1,5 +1,5 @@
-// Undo and redo of the scene's text, for what is typed and what handles write alike. What follows quickly upon its like is one
-// step: letters of a word, positions of a slider.
+// Undo and redo of the scene's text, for what is typed and what handles write alike. What follows quickly upon its
+// like is one step: letters of a word, positions of a slider.
 
 const TOGETHER = 900;
 const JOINING = ["typing", "gap", "strength"];

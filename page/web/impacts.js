@@ -1,5 +1,5 @@
-// The table of impacts: a heading sorts, a row goes to its time. Of many the first are there at once, the others follow while
-// nothing else is to do.
+// The table of impacts: a heading sorts, a row goes to its time. Of many the first are there at once, the others
+// follow while nothing else is to do.
 
 import { digits, handyUnit, seconds, withUnit } from "./format.js";
 import { element, make } from "./make.js";
@@ -33,7 +33,9 @@ export class Impacts {
 
   draw() {
     const { run } = this.state;
-    this.units = Object.fromEntries(COLUMNS.map(({ key, unit }) => [key, handyUnit(largestBy(run.impacts, key), unit)]));
+    this.units = Object.fromEntries(
+      COLUMNS.map(({ key, unit }) => [key, handyUnit(largestBy(run.impacts, key), unit)]),
+    );
     const sorted = this.#sorted();
     this.rows = sorted.slice(0, MOST_ROWS);
     this.#head();
@@ -54,8 +56,11 @@ export class Impacts {
   #say(count) {
     const line = element("no-impacts");
     line.hidden = count > 0 && count <= MOST_ROWS;
-    const none = this.state.run.look.contacts.length ? "The buildings do not touch in this run." : "The scene has no contacts.";
-    line.textContent = count > 0 ? `The first ${MOST_ROWS} of ${count} in this order; another heading brings others.` : none;
+    const none = this.state.run.look.contacts.length
+      ? "The buildings do not touch in this run."
+      : "The scene has no contacts.";
+    line.textContent =
+      count > 0 ? `The first ${MOST_ROWS} of ${count} in this order; another heading brings others.` : none;
   }
 
   #head() {
@@ -91,7 +96,11 @@ export class Impacts {
     const from = this.body.childElementCount;
     const rows = document.createDocumentFragment();
     this.rows.slice(from, from + count).forEach((impact, at) => {
-      const row = make(rows, "tr", "", { tabindex: from + at === 0 ? 0 : -1, "data-row": from + at, "aria-rowindex": from + at + 2 });
+      const row = make(rows, "tr", "", {
+        tabindex: from + at === 0 ? 0 : -1,
+        "data-row": from + at,
+        "aria-rowindex": from + at + 2,
+      });
       for (const { key, time } of COLUMNS) make(row, "td", this.#cell(impact, key, time));
       if (impact === this.state.chosen) row.className = "chosen";
     });

@@ -50,14 +50,16 @@ export class Lane {
   #hear({ id, answer, isLast, refusal }) {
     const waiting = this.#waiting.get(id);
     if (!waiting) return;
+    if (refusal || isLast) this.#waiting.delete(id);
+    if (refusal) return waiting.refuse(new Refusal(refusal));
+    if (isLast) return waiting.answer(answer);
     try {
-      if (refusal) throw new Refusal(refusal);
-      if (!isLast) return void waiting.take(answer);
-      this.#waiting.delete(id);
-      waiting.answer(answer);
+      waiting.take(answer);
     } catch (error) {
+      // Nobody would listen to the rest.
       this.#waiting.delete(id);
       waiting.refuse(error);
+      this.stop();
     }
   }
 }

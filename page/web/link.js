@@ -1,4 +1,5 @@
-// A scene in a link: its text, packed, behind the hash, which no server ever sees. A small record of one's own goes along.
+// A scene in a link: its text, packed, behind the hash, which no server ever sees. A small record of one's own goes
+// along.
 
 import { MOST_LETTERS } from "./editor.js";
 import { element } from "./make.js";
@@ -21,7 +22,13 @@ export async function fromLink() {
   }
 }
 
-export function startLinks(state, runner, recordsOfPage) {
+// A link that is opened in the page as it is tells through `opened`; one that the scene has left behind goes from the
+// address.
+export function startLinks(state, runner, recordsOfPage, opened) {
+  addEventListener("hashchange", async () => opened(await fromLink()));
+  state.on("scene", (kind) => {
+    if (kind !== "begin" && location.hash.startsWith(MARK)) history.replaceState(null, "", location.href.split("#")[0]);
+  });
   const box = element("link-box");
   element("link").addEventListener("click", async () => {
     const { records, left } = small(runner.records(), recordsOfPage);
@@ -29,15 +36,29 @@ export function startLinks(state, runner, recordsOfPage) {
     const address = location.href.split("#")[0] + MARK + packed;
     history.replaceState(null, "", MARK + packed);
     element("link-text").value = address;
-    const without = left.length > 0 ? ` The record ${left.join(", ")} is too large for a link: send its file along, it is dropped into the page.` : "";
-    element("link-says").textContent = `It holds the whole scene, ${address.length} letters, and is also in the address bar. Nothing is sent anywhere by making it.${without}`;
+    const without =
+      left.length > 0
+        ? ` The record ${left.join(", ")} is too large for a link: send its file along, it is dropped into the page.`
+        : "";
+    element("link-says").textContent = [
+      `It holds the whole scene, ${address.length} letters.`,
+      "What stands from # on works behind the address of any copy of this page.",
+      `Nothing is sent anywhere by making it.${without}`,
+    ].join(" ");
     box.showModal();
     element("link-text").select();
   });
   element("copy-link").addEventListener("click", async () => {
     element("link-text").select();
-    const copied = await navigator.clipboard?.writeText(element("link-text").value).then(() => true, () => false);
-    said(copied || document.execCommand("copy") ? "The link is copied." : "The browser does not let this file copy: press Ctrl+C.");
+    const copied = await navigator.clipboard?.writeText(element("link-text").value).then(
+      () => true,
+      () => false,
+    );
+    said(
+      copied || document.execCommand("copy")
+        ? "The link is copied."
+        : "The browser does not let this file copy: press Ctrl+C.",
+    );
     box.close();
   });
 }

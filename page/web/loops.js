@@ -1,10 +1,11 @@
-// Loops: force over penetration of an impact, storey shear over drift of storeys that can yield. What one encloses is lost.
+// Loops: force over penetration of an impact, storey shear over drift of storeys that can yield. What one encloses is
+// lost.
 
 import { digits, handyUnit, largestOf, quantity, seconds, withUnit } from "./format.js";
 import { element, make, onceAFrame } from "./make.js";
 import { SIDES, rowBefore } from "./motion.js";
 import { colour } from "./palette.js";
-import { hardestOf } from "./strength.js";
+import { endOf, hardestOf } from "./strength.js";
 import { drawAxes } from "./xy.js";
 
 const MOST_STOREYS = 12;
@@ -23,7 +24,10 @@ export class Loops {
     const panel = element("panel-loops");
     panel.replaceChildren();
     this.figures = [this.#impact(), ...this.#storeys()].filter(Boolean);
-    if (this.figures.length === 0) make(panel, "p", `No impact${run ? " in this run" : ""}, and no storey that can yield.`, { class: "hint" });
+    if (this.figures.length === 0)
+      make(panel, "p", "No impact that presses with a force over a penetration, and no storey that can yield.", {
+        class: "hint",
+      });
     for (const figure of this.figures) {
       const box = make(panel, "figure");
       make(box, "figcaption", figure.caption);
@@ -36,23 +40,35 @@ export class Loops {
   #impact() {
     const { run, chosen } = this.state;
     const impact = run.impacts.includes(chosen) ? chosen : hardestOf(run.impacts);
-    const [force, depth] = impact ? ["force", "penetration"].map((part) => run.columns[`contact[${impact.contact}].${part}`]) : [];
+    const [force, depth] = impact
+      ? ["force", "penetration"].map((part) => run.columns[`contact[${impact.contact}].${part}`])
+      : [];
     if (!force || !depth || !impact.peak_force) return null;
-    const [from, to] = [rowBefore(run.time, impact.start_s), rowBefore(run.time, impact.end_s ?? run.stop) + 2];
-    const inside = Array.from(run.time.subarray(from, to), (time, at) => [time, from + at]).filter(([time]) => time >= impact.start_s && time <= (impact.end_s || run.stop));
+    const end = endOf(impact, run);
+    const [from, to] = [rowBefore(run.time, impact.start_s), rowBefore(run.time, end) + 2];
+    const inside = Array.from(run.time.subarray(from, to), (time, at) => [time, from + at]).filter(
+      ([time]) => time >= impact.start_s && time <= end,
+    );
     const rows = inside.map(([, row]) => row);
+    const [largest, lost] = [quantity(impact.peak_force, "N"), quantity(impact.dissipated_energy, "J", 3)];
     const which = impact === chosen ? "Impact" : "Hardest impact";
     return {
-      caption: `${which}, contact ${impact.contact} at ${seconds(impact.start_s)} s: ${quantity(impact.peak_force, "N")}, ${quantity(impact.dissipated_energy, "J", 3)} lost`,
-      x: rows.map((row) => depth[row]), y: rows.map((row) => force[row]), times: rows.map((row) => run.time[row]),
-      titles: ["penetration", "force"], units: ["m", "N"], ink: "ink",
+      caption: `${which}, contact ${impact.contact} at ${seconds(impact.start_s)} s: ${largest}, ${lost} lost`,
+      x: rows.map((row) => depth[row]),
+      y: rows.map((row) => force[row]),
+      times: rows.map((row) => run.time[row]),
+      titles: ["penetration", "force"],
+      units: ["m", "N"],
+      ink: "ink",
     };
   }
 
   // Of many those with the largest ductility.
   #storeys() {
     const { run } = this.state;
-    const storeys = SIDES.flatMap((side) => (run.look[side]?.yields ?? []).map((yields, at) => yields && { side, storey: at + 1 })).filter(Boolean);
+    const storeys = SIDES.flatMap((side) =>
+      (run.look[side]?.yields ?? []).map((yields, at) => yields && { side, storey: at + 1 }),
+    ).filter(Boolean);
     for (const one of storeys) one.ductility = run.columns[`${one.side}.ductility[${one.storey}]`]?.at(-1) ?? 0;
     storeys.sort((a, b) => b.ductility - a.ductility);
     return storeys.slice(0, MOST_STOREYS).map((one) => this.#storey(one));
@@ -66,7 +82,12 @@ export class Loops {
     const drift = below ? above.map((value, row) => value - below[row]) : above;
     return {
       caption: `${side} storey ${storey}: ductility ${digits(ductility, 3)}`,
-      x: drift, y: shear, times: time, titles: ["drift", "shear"], units: ["m", "N"], ink: side,
+      x: drift,
+      y: shear,
+      times: time,
+      titles: ["drift", "shear"],
+      units: ["m", "N"],
+      ink: side,
     };
   }
 
@@ -79,7 +100,12 @@ export class Loops {
   #drawOne({ canvas, x, y, times, titles, units, ink }) {
     const [across, up] = [handyUnit(largestOf(x), units[0]), handyUnit(largestOf(y), units[1])];
     const at = (row) => [x[row] * across.factor, y[row] * up.factor];
-    const { context, place } = drawAxes(canvas, { x: extent(x, across.factor), y: extent(y, up.factor), xTitle: withUnit(titles[0], across), yTitle: withUnit(titles[1], up) });
+    const { context, place } = drawAxes(canvas, {
+      x: extent(x, across.factor),
+      y: extent(y, up.factor),
+      xTitle: withUnit(titles[0], across),
+      yTitle: withUnit(titles[1], up),
+    });
     context.strokeStyle = colour(ink);
     context.lineWidth = 1.3;
     context.beginPath();

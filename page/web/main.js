@@ -1,4 +1,17 @@
-// The page begins here: the engine is unpacked, the parts are made and know each other by the state only, and the first scene runs.
+// The page begins here: the engine is unpacked, the parts are made and know each other by the state only, and the first
+// scene runs.
+//
+// state.js       what the page knows, and who is told when it changes
+// engine.js      what the engine is asked (lane.js, asking.js, worker.js: how)
+// runner.js      from text to run: checked, run, stopped, said
+// editor.js      the scene as text (history.js, highlight.js); handles.js: what a hand is quicker at; files.js,
+//                link.js, keep.js and packed.js: where a scene comes from and stays
+// ground.js      records
+// stage.js       the buildings in motion (geometry.js, motion.js, drawing.js); player.js: the clock
+// charts.js      charts over time (series.js: of what); plots.js and xy.js: how any chart looks
+// impacts.js, peaks.js, loops.js, study.js: the other results; tabs.js
+// save.js        what leaves the page
+// format.js, make.js, notice.js, palette.js, strength.js, words.js: shared by all
 
 import { Charts } from "./charts.js";
 import { Editor } from "./editor.js";
@@ -14,7 +27,7 @@ import { element, make, settled } from "./make.js";
 import { startTheme } from "./palette.js";
 import { Peaks } from "./peaks.js";
 import { Player } from "./player.js";
-import { Runner, sentence } from "./runner.js";
+import { Runner } from "./runner.js";
 import { said } from "./notice.js";
 import { Save } from "./save.js";
 import { Stage } from "./stage.js";
@@ -22,6 +35,7 @@ import { State } from "./state.js";
 import { hardestOf } from "./strength.js";
 import { Study } from "./study.js";
 import { startTabs } from "./tabs.js";
+import { sentence } from "./words.js";
 
 const FIRST = "feup.toml";
 const MOST_KEPT = 2e6;
@@ -40,7 +54,10 @@ const runner = new Runner(state, engine);
 const player = new Player(state);
 const handles = new Handles(state, change);
 const ground = new Ground(state, engine, (name) => change({ "ground.record": name }, "record"));
-const study = new Study(state, engine, runner, { setGap: (gap) => handles.setGap(gap), gapNow: () => handles.gapNow() });
+const study = new Study(state, engine, runner, {
+  setGap: (gap) => handles.setGap(gap),
+  gapNow: () => handles.gapNow(),
+});
 const charts = new Charts(state, player);
 const loops = new Loops(state);
 new Stage(state, player);
@@ -82,12 +99,22 @@ async function begin() {
   state.records = { ...engine.records, ...keptRecords() };
   listExamples();
   handles.listLaws(engine.laws);
-  startLinks(state, runner, engine.records);
+  startLinks(state, runner, engine.records, (link) => brought(link) && editor.open(link.scene));
   const link = await fromLink();
-  if (link?.broken) said("The link holds no scene that can be read; here is the last one.");
-  Object.assign(state.records, link?.records);
+  const isBrought = brought(link);
   state.tell("records");
-  editor.begin(link?.scene ?? memory.get("scene") ?? engine.given?.text ?? engine.examples.find(({ file }) => file === FIRST).text);
+  editor.begin(
+    isBrought
+      ? link.scene
+      : (memory.get("scene") ?? engine.given?.text ?? engine.examples.find(({ file }) => file === FIRST).text),
+  );
+}
+
+// Whether a link brings a scene; its records are kept with the others.
+function brought(link) {
+  if (link?.broken) said("The link holds no scene that can be read; the one before stays.");
+  Object.assign(state.records, link?.records);
+  return typeof link?.scene === "string";
 }
 
 // The scene that the page has been made for comes first.
@@ -108,7 +135,9 @@ function listExamples() {
 // The scene, and records of one's own as long as there is room.
 function keepScene() {
   memory.set("scene", state.scene);
-  const own = Object.entries(state.records).filter(([name, content]) => content !== engine.records[name]).map(([name, content]) => [name, textOf(content)]);
+  const own = Object.entries(state.records)
+    .filter(([name, content]) => content !== engine.records[name])
+    .map(([name, content]) => [name, textOf(content)]);
   const texts = JSON.stringify(Object.fromEntries(own.filter(([, text]) => text !== null)));
   if (texts.length <= MOST_KEPT) memory.set("records", texts);
   else memory.drop("records");
@@ -122,7 +151,8 @@ function keptRecords() {
   }
 }
 
-// The first run moves by itself, shortly before the first impact; for those who want no motion the hardest stands still.
+// The first run moves by itself, from shortly before the first impact; for those who want no motion the hardest stands
+// still.
 let hasMoved = false;
 function startMotion() {
   if (hasMoved) return;

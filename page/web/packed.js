@@ -14,11 +14,15 @@ async function through(bytes, stream) {
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 }
 
-export const packText = async (text) => toBase64(await through(new TextEncoder().encode(text), new CompressionStream("deflate-raw")));
+export const packText = async (text) =>
+  toBase64(await through(new TextEncoder().encode(text), new CompressionStream("deflate-raw")));
 
 // Refuses what unpacks to more than a link may bring.
 export async function unpackText(packed, most) {
-  const reader = new Blob([fromBase64(packed)]).stream().pipeThrough(new DecompressionStream("deflate-raw")).getReader();
+  const reader = new Blob([fromBase64(packed)])
+    .stream()
+    .pipeThrough(new DecompressionStream("deflate-raw"))
+    .getReader();
   const decoder = new TextDecoder("utf-8", { fatal: true });
   let [text, size] = ["", 0];
   for (let { done, value } = await reader.read(); !done; { done, value } = await reader.read()) {

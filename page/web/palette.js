@@ -1,5 +1,5 @@
-// Colours and dashes: Okabe and Ito's, which colour-blind eyes tell apart. Left is cold and solid, right warm and dashed or
-// hatched. The style sheet has the values, light and dark; what is drawn on a canvas asks here.
+// Colours and dashes: Okabe and Ito's, which colour-blind eyes tell apart. Left is cold and solid, right warm and
+// dashed or hatched. The style sheet has the values, light and dark; what is drawn on a canvas asks here.
 
 const NAMES = ["page", "card", "line", "ink", "quiet", "left", "right", "right-text", "flash", "flash-edge"];
 const LINES = {
@@ -7,7 +7,15 @@ const LINES = {
   right: ["--right", "--right-2", "--right-3", "--right-4"],
   others: ["--ink", "--line-1", "--line-2", "--line-3", "--line-4", "--line-5"],
 };
-const DASHES = { left: [[], [2, 3], [12, 3, 2, 3]], right: [[8, 4], [4, 3], [8, 3, 2, 3]], others: [[], [8, 4], [2, 3]] };
+const DASHES = {
+  left: [[], [2, 3], [12, 3, 2, 3]],
+  right: [
+    [8, 4],
+    [4, 3],
+    [8, 3, 2, 3],
+  ],
+  others: [[], [8, 4], [2, 3]],
+};
 
 let probe = null;
 let known = new Map();
@@ -32,10 +40,14 @@ export function forgetColours() {
 // Colour and dash of the line in a place among those of its kind.
 export function lineLook(kind, place) {
   const [names, dashes] = [LINES[kind] ?? LINES.others, DASHES[kind] ?? DASHES.others];
-  return { stroke: colour(names[place % names.length]), dash: dashes[Math.floor(place / names.length) % dashes.length] };
+  return {
+    stroke: colour(names[place % names.length]),
+    dash: dashes[Math.floor(place / names.length) % dashes.length],
+  };
 }
 
-// As the system has it until somebody presses the button, then light or dark in turn; the choice is kept where the browser keeps anything.
+// As the system has it until somebody presses the button, then light or dark in turn; the choice is kept where the
+// browser keeps anything.
 export function startTheme(button, keep, changed) {
   const system = matchMedia("(prefers-color-scheme: dark)");
   let choice = keep.get("theme") ?? "auto";

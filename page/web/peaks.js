@@ -1,5 +1,5 @@
-// The largest values of a run, as long as the scene keeps them: of each floor and storey, the top first, with the times at which
-// they were reached; a time goes there.
+// The largest values of a run, as long as the scene keeps them: of each floor and storey, the top first, with the
+// times at which they were reached; a time goes there.
 
 import { GRAVITY, digits, handyUnit, largestOf, plural, seconds, withUnit } from "./format.js";
 import { element, make } from "./make.js";
@@ -23,8 +23,15 @@ export class Peaks {
     const panel = element("panel-peaks");
     panel.replaceChildren();
     const sides = SIDES.filter((side) => run.columns[`${side}.peak_drift[1]`]);
-    if (sides.length === 0) make(panel, "p", "The scene says outputs.peaks = false: no peaks are kept.", { class: "hint" });
-    else make(panel, "p", "Of either sign, in continuous time, with the time at which it was reached. Displacements are relative to the ground.", { class: "hint" });
+    if (sides.length === 0)
+      make(panel, "p", "The scene says outputs.peaks = false: no peaks are kept.", { class: "hint" });
+    else
+      make(
+        panel,
+        "p",
+        "Of either sign, in continuous time, and when it was reached. Displacements are relative to the ground.",
+        { class: "hint" },
+      );
     for (const side of sides) this.#building(panel, side);
     this.#yielding(panel);
   }
@@ -53,7 +60,8 @@ export class Peaks {
     if (inG) return { name: "g", factor: 1 / GRAVITY };
     if (percent) return { name: "%", factor: 100 };
     let most = 0;
-    for (let floor = 1; floor <= floors; floor++) most = Math.max(most, largestOf(this.state.run.columns[`${side}.${part}[${floor}]`]?.subarray(-1)));
+    for (let floor = 1; floor <= floors; floor++)
+      most = Math.max(most, largestOf(this.state.run.columns[`${side}.${part}[${floor}]`]?.subarray(-1)));
     return handyUnit(most, unit);
   }
 
@@ -66,7 +74,10 @@ export class Peaks {
   #time(cell, column) {
     const time = this.state.run.time[firstAtEnd(column)];
     cell.append(" ");
-    make(cell, "button", `${seconds(time, 2)} s`, { class: "goes", "aria-label": `go to ${seconds(time, 2)} s` }).addEventListener("click", () => this.state.seek(time));
+    make(cell, "button", `${seconds(time, 2)} s`, {
+      class: "goes",
+      "aria-label": `go to ${seconds(time, 2)} s`,
+    }).addEventListener("click", () => this.state.seek(time));
   }
 
   #shear(panel, column) {
@@ -79,19 +90,26 @@ export class Peaks {
   // Storeys that can yield, at the end of the run.
   #yielding(panel) {
     const { run } = this.state;
-    const storeys = SIDES.flatMap((side) => (run.look[side]?.yields ?? []).map((yields, at) => yields && [side, at + 1])).filter(Boolean);
+    const storeys = SIDES.flatMap((side) =>
+      (run.look[side]?.yields ?? []).map((yields, at) => yields && [side, at + 1]),
+    ).filter(Boolean);
     if (storeys.length === 0) return;
     const table = make(panel, "table", "", { class: "numbers" });
     make(table, "caption", "Storeys that can yield, at the end");
     const head = make(make(table, "thead"), "tr");
-    for (const title of ["storey", "ductility", "residual drift [mm]", "dissipated"]) make(head, "th", title, { scope: "col" });
+    for (const title of ["storey", "ductility", "residual drift [mm]", "dissipated"])
+      make(head, "th", title, { scope: "col" });
     const body = make(table, "tbody");
     for (const [side, storey] of storeys.reverse()) {
       const last = (part) => run.columns[`${side}.${part}[${storey}]`]?.at(-1);
       const row = make(body, "tr");
       make(row, "th", `${side} ${storey}`, { scope: "row" });
       const energy = handyUnit(last("hysteretic_energy") ?? 0, "J");
-      const cells = [digits(last("ductility"), 3), digits(1e3 * last("residual_drift"), 3), `${digits(last("hysteretic_energy") * energy.factor, 3)} ${energy.name}`];
+      const cells = [
+        digits(last("ductility"), 3),
+        digits(1e3 * last("residual_drift"), 3),
+        `${digits(last("hysteretic_energy") * energy.factor, 3)} ${energy.name}`,
+      ];
       cells.forEach((text) => make(row, "td", text));
     }
   }

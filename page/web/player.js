@@ -57,7 +57,7 @@ export class Player {
   // To the next impact after the moment, or the one before.
   leap(by) {
     const { run, time } = this.state;
-    const times = (run?.impacts ?? []).map((impact) => impact.peak_time_s ?? impact.start_s);
+    const times = (run?.impacts ?? []).map((impact) => impact.peak_time_s || impact.start_s);
     const other = times.filter((at) => (by > 0 ? at > time + 1e-9 : at < time - 1e-9));
     if (other.length === 0) return;
     this.pause();
@@ -83,7 +83,9 @@ export class Player {
   }
 
   #button() {
-    element("play").querySelector("path").setAttribute("d", this.playing ? PAUSE : PLAY);
+    element("play")
+      .querySelector("path")
+      .setAttribute("d", this.playing ? PAUSE : PLAY);
     element("play").setAttribute("aria-label", this.playing ? "Pause" : "Play");
   }
 

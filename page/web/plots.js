@@ -8,17 +8,36 @@ const NARROWEST = 200;
 
 export const widthOf = (list) => Math.max(NARROWEST, list.clientWidth);
 
-// A chart at the end of a list. `lines` have a label, a colour and a dash; `x` says the name of the first row of the legend, how
-// a place along it is written there, and at the ticks; `options` are those of uPlot, put over what all charts have.
+// A chart at the end of a list. `lines` have a label, a colour and a dash; `x` says the name of the first row of the
+// legend, how a place along it is written there, and at the ticks; `options` are those of uPlot, put over what all
+// charts have.
 export function makePlot(list, { title, height, lines, data, x, options = {}, attributes = {} }) {
   const box = make(list, "div", "", { class: "chart", ...attributes });
   const head = make(box, "div", "", { class: "chart-head" });
   const heading = make(head, "h3", title);
-  const axis = { stroke: colour("quiet"), grid: { stroke: colour("grid"), width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
-  const series = lines.map(({ label, stroke, dash }) => ({ label, stroke, dash, width: 1.4, pxAlign: 0, points: { show: false }, value: (_, value) => digits(value) }));
+  const axis = {
+    stroke: colour("quiet"),
+    grid: { stroke: colour("grid"), width: 1 },
+    ticks: { show: false },
+    font: "11px system-ui, sans-serif",
+  };
+  const series = lines.map(({ label, stroke, dash }) => ({
+    label,
+    stroke,
+    dash,
+    width: 1.4,
+    pxAlign: 0,
+    points: { show: false },
+    value: (_, value) => digits(value),
+  }));
   const all = {
-    width: widthOf(list), height, padding: [8, 12, 0, 0],
-    axes: [{ ...axis, size: 24, values: (_, ticks) => ticks.map(x.tick) }, { ...axis, size: 56, space: 26, values: (_, ticks) => ticks.map((tick) => digits(tick)) }],
+    width: widthOf(list),
+    height,
+    padding: [8, 12, 0, 0],
+    axes: [
+      { ...axis, size: 24, values: (_, ticks) => ticks.map(x.tick) },
+      { ...axis, size: 56, space: 26, values: (_, ticks) => ticks.map((tick) => digits(tick)) },
+    ],
     series: [{ label: x.label, value: (_, at) => (at === null ? "" : x.text(at)) }, ...series],
     ...options,
   };
@@ -26,8 +45,27 @@ export function makePlot(list, { title, height, lines, data, x, options = {}, at
   const legend = plot.root.querySelector(".u-legend");
   head.append(legend);
   drawKeys(legend, series);
-  plot.over.setAttribute("aria-hidden", "true");
+  plot.root.querySelector(".u-wrap").setAttribute("role", "img");
+  if (data[0].length > 1) describePlot(plot, title);
   return { box, heading, plot };
+}
+
+// What a chart shows, for those who do not see it: each line with its least and its largest value.
+export function describePlot(plot, title) {
+  const said = plot.series
+    .slice(1)
+    .map(
+      ({ label }, at) =>
+        `${label} from ${digits(extremeOf(plot.data[at + 1], -1), 3)} to ${digits(extremeOf(plot.data[at + 1], 1), 3)}`,
+    );
+  plot.root.querySelector(".u-wrap").setAttribute("aria-label", `${title}: ${said.join("; ")}`);
+}
+
+// The least (-1) or the largest (1) of some numbers.
+function extremeOf(values, sign) {
+  let found = -Infinity;
+  for (const value of values) if (sign * value > found) found = sign * value;
+  return sign * found;
 }
 
 // A line from the bottom of a chart to its top.
@@ -51,8 +89,18 @@ function drawKeys(legend, series) {
   marks.forEach((mark, at) => {
     const key = document.createElementNS("http://www.w3.org/2000/svg", "svg");
     const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
-    const look = { x1: 0, x2: 26, y1: 5, y2: 5, stroke: series[at].stroke, "stroke-width": 2, "stroke-dasharray": series[at].dash.join(" ") || "none" };
-    Object.entries({ class: "line-key", width: 26, height: 10 }).forEach(([name, value]) => key.setAttribute(name, value));
+    const look = {
+      x1: 0,
+      x2: 26,
+      y1: 5,
+      y2: 5,
+      stroke: series[at].stroke,
+      "stroke-width": 2,
+      "stroke-dasharray": series[at].dash.join(" ") || "none",
+    };
+    Object.entries({ class: "line-key", width: 26, height: 10 }).forEach(([name, value]) =>
+      key.setAttribute(name, value),
+    );
     Object.entries(look).forEach(([name, value]) => line.setAttribute(name, value));
     key.append(line);
     mark.replaceWith(key);

@@ -1,20 +1,22 @@
-// From text to picture: what is changed is checked, what is right is looked at and run, what has gone wrong is said in words while
-// the last good picture stays.
+// From text to picture: what is changed is checked, what is right is looked at and run, what has gone wrong is said
+// in words while the last good picture stays.
 
-import { digits, plural, quantity, seconds } from "./format.js";
+import { digits, plural, seconds } from "./format.js";
 import { element, settled } from "./make.js";
-import { hardestOf } from "./strength.js";
+import { runInWords, sentence } from "./words.js";
 
 // ms
 const TYPING = 250;
-// s: a run that takes no longer follows every change; one that takes no longer than the second number waits, ms, for the last change.
+// s: a run that takes no longer follows every change; one that takes no longer than the second number waits, ms, for
+// the last change.
 const QUICK = 0.5;
 const BEARABLE = 4;
 const UNTIL_SETTLED = 700;
 // s that the first run may take longer: in it the browser compiles the engine.
 const WARMING_UP = 1.5;
 const BAR_AFTER = 250;
-// Rows that a picture needs, s between them that are too long for one, rows in each impact, and numbers of all columns together.
+// Rows that a picture needs, s between them that are too long for one, rows in each impact, and numbers of all
+// columns together.
 const ROWS = 4000;
 const FEWEST_ROWS = 1000;
 const LONGEST_STEP = 0.01;
@@ -26,12 +28,10 @@ const MOST_IMPACTS = 200_000;
 const SILENCE = 1200;
 const MOST_NUMBERS_KEPT = 4e6;
 const MOST_CONTACTS_SHOWN = 40;
-const FEW = 2;
-const LONG = 400;
 
 export class Runner {
   constructor(state, engine) {
-    Object.assign(this, { state, engine, checked: 0, running: null, again: false, took: 0 });
+    Object.assign(this, { state, engine, checking: null, isStale: false, running: null, again: false, took: 0 });
     this.checkSoon = settled(() => this.check(), TYPING);
     this.startSoon = settled(() => this.isRight && this.start(), UNTIL_SETTLED);
     state.on("scene", (kind) => (kind === "typing" ? this.checkSoon() : this.check()));
@@ -44,27 +44,55 @@ export class Runner {
   // Only what the text names goes along: another record may be large.
   records(scene = this.state.scene) {
     const { records } = this.state;
-    const named = Object.entries(records).filter(([name]) => scene.includes(name) || scene.includes(JSON.stringify(name).slice(1, -1)));
+    const named = Object.entries(records).filter(
+      ([name]) => scene.includes(name) || scene.includes(JSON.stringify(name).slice(1, -1)),
+    );
     return Object.fromEntries(named);
   }
 
+  // One after the other: what changes meanwhile is checked next, and a slow check is left for that.
   async check() {
-    const turn = ++this.checked;
-    const { scene } = this.state;
+    this.isStale = true;
+    if (this.checking) {
+      if (performance.now() - this.checking > 1e3 * QUICK) this.engine.stop("checks");
+      return;
+    }
+    while (this.isStale) {
+      this.isStale = false;
+      this.checking = performance.now();
+      await this.#checkOnce(this.state.scene);
+    }
+    this.checking = null;
+  }
+
+  async #checkOnce(scene) {
     const records = this.records();
+    const waiting = setTimeout(() => say("The scene is being checked."), BAR_AFTER);
     const look = await this.engine.lookBeside(scene, records).catch(() => null);
-    const findings = look?.warnings ?? (await this.engine.findingsBeside(scene, records).catch((error) => problemsOf(error)));
-    if (turn !== this.checked) return;
+    const findings = look?.warnings ?? (this.isStale ? [] : await this.#findings(scene, records));
+    clearTimeout(waiting);
+    if (!look && this.isStale) return;
     this.state.problems = findings.filter(({ kind }) => kind !== "warning");
     this.state.warnings = findings.filter(({ kind }) => kind === "warning");
-    if (look) this.state.look = look;
+    this.state.checked = scene;
     this.isRight = look !== null;
+    if (look) Object.assign(this.state, { look });
+    if (look) this.right = { scene, look };
     this.state.tell("findings");
     this.state.tell("look");
-    if (look && this.took < QUICK) this.start();
-    else if (look && this.took < BEARABLE) this.startSoon();
-    else if (look) say("The scene has changed: Run computes it.");
-    else say(`${plural(this.state.problems.length, "mistake")} in the scene; what you see is the last run that was right.`);
+    this.#goOn();
+  }
+
+  #findings(scene, records) {
+    return this.engine.findingsBeside(scene, records).catch((error) => problemsOf(error));
+  }
+
+  #goOn() {
+    const mistakes = plural(this.state.problems.length, "mistake");
+    if (!this.isRight) say(`${mistakes} in the scene; what you see is the last run that was right.`);
+    else if (this.took < QUICK) this.start();
+    else if (this.took < BEARABLE) this.startSoon();
+    else say("The scene has changed: Run computes it.");
   }
 
   // A run that goes on is finished first if it is quick, else left for the new one.
@@ -101,7 +129,7 @@ export class Runner {
 
   async #run() {
     const { state } = this;
-    const { scene, look } = state;
+    const { scene, look } = this.right;
     const started = performance.now();
     const run = await this.#compute(scene, look);
     const passed = (performance.now() - started) / 1e3;
@@ -136,11 +164,17 @@ export class Runner {
 
   #take(run, scene, look, took) {
     const { state } = this;
-    state.run = { ...run, look: { ...look, contacts: look.layout.contacts }, scene, stop: run.time.at(-1) || run.stop, took };
+    state.run = {
+      ...run,
+      look: { ...look, contacts: look.layout.contacts },
+      scene,
+      stop: run.time.at(-1) || run.stop,
+      took,
+    };
     state.chosen = null;
     state.alone = null;
     state.tell("run");
-    this.#sayRun();
+    say(runInWords(state.run));
   }
 
   // What there is of a run that has been stopped is worth a look.
@@ -157,7 +191,12 @@ export class Runner {
     const { state, engine } = this;
     const { run } = state;
     if (run && element("alone").checked && !state.alone) {
-      const options = { ...wishes(run.look), records: this.records(run.scene), withoutContacts: true, rowsPerImpact: undefined };
+      const options = {
+        ...wishes(run.look),
+        records: this.records(run.scene),
+        withoutContacts: true,
+        rowsPerImpact: undefined,
+      };
       const alone = await engine.simulate(run.scene, options, undefined, "alone").catch(() => null);
       if (state.run === run) state.alone = alone && { ...alone, look: run.look };
     }
@@ -176,24 +215,13 @@ export class Runner {
   #progress({ share, time, impacts }) {
     element("progress").value = share;
     if (impacts > MOST_IMPACTS) return this.engine.stop("runs");
-    if (performance.now() - this.running > 1e3 * QUICK) say(`${seconds(time, 2)} s of ${digits(this.state.look.stop)} s, ${plural(impacts, "impact")} so far`);
+    if (performance.now() - this.running > 1e3 * QUICK)
+      say(`${seconds(time, 2)} s of ${digits(this.state.look.stop)} s, ${plural(impacts, "impact")} so far`);
   }
 
   #refused() {
     say("The scene has mistakes: the list under it says which.");
     element("problems").querySelector("button")?.focus();
-  }
-
-  #sayRun() {
-    const { run } = this.state;
-    const hardest = hardestOf(run.impacts);
-    const time = run.took < 1 ? `${digits(1e3 * run.took, 2)} ms` : `${digits(run.took, 3)} s`;
-    const took = run.took === null ? "" : ` Computed in ${time}.`;
-    const coarse = run.step > 5 * LONGEST_STEP ? ` Of so long a run the picture has a row every ${digits(run.step, 2)} s only; impacts and peaks are complete.` : "";
-    const collapsed = ["left", "right"].filter((side) => run.columns[`${side}.collapsed`]?.at(-1));
-    const fell = collapsed.map((side) => ` The ${side} building has collapsed at ${seconds(run.columns[`${side}.collapse_time`].at(-1))} s.`).join("");
-    const how = hardest && `The hardest: ${hardest.peak_force ? quantity(hardest.peak_force, "N") : quantity(hardest.impulse, "N.s")} at ${seconds(hardest.peak_time_s || hardest.start_s)} s, ${meeting(run, hardest)}.`;
-    say(`${plural(run.impacts.length, "impact")} in ${digits(run.stop)} s${hardest ? `. ${how}` : "."}${fell}${took}${coarse}`);
   }
 
   #key(event) {
@@ -204,20 +232,12 @@ export class Runner {
   }
 }
 
-const meeting = (run, { contact }) => run.look.contacts[contact - 1]?.meeting ?? `contact ${contact}`;
-
 function say(text) {
   if (element("happened").textContent !== text) element("happened").textContent = text;
 }
 
-// What has gone wrong, in few words even where much has.
-export function sentence(error) {
-  const problems = error.problems ?? [error.message];
-  const short = problems.slice(0, FEW).map((problem) => (problem.length > LONG ? `${problem.slice(0, LONG)}...` : problem));
-  return `${short.join(" ")}${problems.length > FEW ? ` And ${problems.length - FEW} more.` : ""}`;
-}
-
-const problemsOf = (error) => (error.problems ?? [error.message]).map((text) => ({ kind: "problem", text, line: null }));
+const problemsOf = (error) =>
+  (error.problems ?? [error.message]).map((text) => ({ kind: "problem", text, line: null }));
 
 // Rows and columns that a picture needs: all outputs, of tall buildings fewer rows, of the tallest what is drawn.
 function wishes(look) {
@@ -227,7 +247,11 @@ function wishes(look) {
   const most = MOST_NUMBERS_KEPT / columns;
   const isTall = most < FEWEST_ROWS;
   const step = Math.max(look.stop / Math.max(most, FEWEST_ROWS), Math.min(look.stop / ROWS, LONGEST_STEP));
-  return { step, rowsPerImpact: look.stop > LONG_RUN ? undefined : IN_IMPACTS, outputs: isTall ? drawn(look, floors, contacts) : undefined };
+  return {
+    step,
+    rowsPerImpact: look.stop > LONG_RUN ? undefined : IN_IMPACTS,
+    outputs: isTall ? drawn(look, floors, contacts) : undefined,
+  };
 }
 
 function drawn(look, floors, contacts) {
@@ -235,6 +259,7 @@ function drawn(look, floors, contacts) {
   for (const side of ["left", "right"]) {
     for (let floor = 1; floor <= (look[side]?.floors ?? 0); floor++) names.push(`${side}.displacement[${floor}]`);
   }
-  for (let contact = 1; contact <= Math.min(contacts, MOST_CONTACTS_SHOWN); contact++) names.push(`contact[${contact}].force`, `contact[${contact}].penetration`);
+  for (let contact = 1; contact <= Math.min(contacts, MOST_CONTACTS_SHOWN); contact++)
+    names.push(`contact[${contact}].force`, `contact[${contact}].penetration`);
   return names;
 }

@@ -4,7 +4,7 @@ import { digits } from "./format.js";
 import { element } from "./make.js";
 import { said } from "./notice.js";
 import { colour } from "./palette.js";
-import { sentence } from "./runner.js";
+import { sentence } from "./words.js";
 
 const MARGIN = 16;
 
@@ -20,7 +20,9 @@ export class Save {
   constructor(state, engine, runner) {
     Object.assign(this, { state, engine, runner });
     this.#on("save-fmu", () => this.#fmu());
-    this.#on("save-report", async (name) => download(`${name}.html`, await engine.report(state.scene, { records: runner.records() }), "text/html"));
+    this.#on("save-report", async (name) =>
+      download(`${name}.html`, await engine.report(state.scene, { records: runner.records() }), "text/html"),
+    );
     this.#on("save-csv", (name) => this.#csv(name));
     this.#on("save-picture", async (name) => download(`${name}.png`, await this.#picture(), "image/png"));
     element("save-scene").addEventListener("click", () => {
@@ -67,7 +69,8 @@ export class Save {
     if (!run) throw new Error("no run yet to make a picture of");
     const ratio = devicePixelRatio || 1;
     const parts = [{ canvas: element("buildings"), title: `${run.look.name}, ${digits(time, 5)} s` }];
-    for (const chart of document.querySelectorAll("#chart-list .chart")) parts.push({ canvas: chart.querySelector("canvas"), title: chart.querySelector("h3").textContent });
+    for (const chart of document.querySelectorAll("#chart-list .chart"))
+      parts.push({ canvas: chart.querySelector("canvas"), title: chart.querySelector("h3").textContent });
     const line = 20 * ratio;
     const whole = document.createElement("canvas");
     whole.width = Math.max(...parts.map(({ canvas }) => canvas.width)) + 2 * MARGIN;

@@ -9,20 +9,28 @@ const MOST_LINES = 6;
 // Columns of a run by what they are of: side or contact, quantity, number.
 function columnsOf(run, whole, part) {
   const pattern = new RegExp(`^${whole}\\.${part}\\[(\\d+)\\]$`);
-  return Object.keys(run.columns).map((name) => [name, Number(name.match(pattern)?.[1])]).filter(([, number]) => number > 0);
+  return Object.keys(run.columns)
+    .map((name) => [name, Number(name.match(pattern)?.[1])])
+    .filter(([, number]) => number > 0);
 }
 
 function contactColumns(run, part) {
   const count = run.look.contacts.length;
-  return Array.from({ length: count }, (_, at) => [`contact[${at + 1}].${part}`, at + 1]).filter(([name]) => run.columns[name]);
+  return Array.from({ length: count }, (_, at) => [`contact[${at + 1}].${part}`, at + 1]).filter(
+    ([name]) => run.columns[name],
+  );
 }
 
 // Contacts that are worth a line: of many those with the hardest impacts.
 function telling(run, columns) {
   if (columns.length <= MOST_LINES) return columns;
   const most = new Map();
-  for (const { contact, peak_force, impulse } of run.impacts) most.set(contact, Math.max(most.get(contact) ?? 0, peak_force || impulse));
-  const hardest = [...most].sort(([, a], [, b]) => b - a).slice(0, MOST_LINES).map(([contact]) => contact);
+  for (const { contact, peak_force, impulse } of run.impacts)
+    most.set(contact, Math.max(most.get(contact) ?? 0, peak_force || impulse));
+  const hardest = [...most]
+    .sort(([, a], [, b]) => b - a)
+    .slice(0, MOST_LINES)
+    .map(([contact]) => contact);
   return columns.filter(([, contact]) => hardest.includes(contact) || hardest.length === 0).slice(0, MOST_LINES);
 }
 
@@ -36,7 +44,9 @@ export function usualFloors(look) {
 
 function floorLines(run, part, chosen) {
   return SIDES.flatMap((side) => {
-    const drawn = columnsOf(run, side, part).filter(([, floor]) => chosen.has(`${side} ${floor}`)).reverse();
+    const drawn = columnsOf(run, side, part)
+      .filter(([, floor]) => chosen.has(`${side} ${floor}`))
+      .reverse();
     return drawn.map(([name, floor], at) => ({ name, label: `${side} ${floor}`, look: () => lineLook(side, at) }));
   });
 }
@@ -45,14 +55,38 @@ const ENERGIES = ["input", "external", "kinetic", "strain", "viscous", "hysteret
 
 // All charts of a run; those without lines are left out.
 export function chartsOf(run, floors) {
-  const energies = ENERGIES.map((name) => [`energy.${name}`, name]).filter(([name]) => largestOf(run.columns[name]) > 0);
+  const energies = ENERGIES.map((name) => [`energy.${name}`, name]).filter(
+    ([name]) => largestOf(run.columns[name]) > 0,
+  );
   const opening = others(telling(run, contactColumns(run, "penetration")), (number) => `contact ${number}`);
   const charts = [
-    { id: "displacement", title: "Displacement of floors", unit: "m", floats: true, lines: floorLines(run, "displacement", floors) },
+    {
+      id: "displacement",
+      title: "Displacement of floors",
+      unit: "m",
+      floats: true,
+      lines: floorLines(run, "displacement", floors),
+    },
     { id: "opening", title: "Gap opening", unit: "m", factor: -1, zero: "closed", lines: opening },
-    { id: "force", title: "Contact force", unit: "N", impacts: true, lines: others(telling(run, contactColumns(run, "force")), (number) => `contact ${number}`) },
-    { id: "ground", title: "Ground acceleration", unit: "m/s2", lines: others(run.columns["ground.acceleration"] ? [["ground.acceleration", 0]] : [], () => "ground") },
-    { id: "acceleration", title: "Acceleration of floors", unit: "m/s2", lines: floorLines(run, "acceleration", floors) },
+    {
+      id: "force",
+      title: "Contact force",
+      unit: "N",
+      impacts: true,
+      lines: others(telling(run, contactColumns(run, "force")), (number) => `contact ${number}`),
+    },
+    {
+      id: "ground",
+      title: "Ground acceleration",
+      unit: "m/s2",
+      lines: others(run.columns["ground.acceleration"] ? [["ground.acceleration", 0]] : [], () => "ground"),
+    },
+    {
+      id: "acceleration",
+      title: "Acceleration of floors",
+      unit: "m/s2",
+      lines: floorLines(run, "acceleration", floors),
+    },
     { id: "energy", title: "Energy", unit: "J", lines: others(energies, (name) => name) },
   ];
   return charts.filter(({ lines }) => lines.length > 0);

@@ -1,4 +1,5 @@
-// The buildings in motion: the picture of the moment, alone or beside that without contact, and in words how it is drawn.
+// The buildings in motion: the picture of the moment, alone or beside that without contact, and in words how it is
+// drawn.
 
 import { Drawing, layOut } from "./drawing.js";
 import { GRAVITY, digits, largestOf, seconds } from "./format.js";
@@ -6,7 +7,7 @@ import { Geometry } from "./geometry.js";
 import { element, onceAFrame } from "./make.js";
 import { Motion, SIDES } from "./motion.js";
 import { colours } from "./palette.js";
-import { mostOf, strengthOf } from "./strength.js";
+import { endOf, mostOf, strengthOf } from "./strength.js";
 
 // s on the clock of the reader that an impact is seen.
 const AFTERGLOW = 0.35;
@@ -84,17 +85,22 @@ export class Stage {
   }
 
   #yielding(motion, geometry) {
-    const of = (side) => geometry.levels[side].map((_, storey) => Math.abs(motion.value(`${side}.yielding[${storey}]`, this.state.time)) > 0.5);
+    const of = (side) =>
+      geometry.levels[side].map(
+        (_, storey) => Math.abs(motion.value(`${side}.yielding[${storey}]`, this.state.time)) > 0.5,
+      );
     return Object.fromEntries(SIDES.map((side) => [side, of(side)]));
   }
 
   // Impacts are seen a little longer than they last.
   #flashes(impacts) {
-    const { time } = this.state;
+    const { time, run } = this.state;
     const glow = AFTERGLOW * this.player.speed;
-    const recent = (impacts ?? []).filter((impact) => impact.start_s <= time && time <= Math.max(impact.end_s ?? Infinity, impact.start_s + glow));
+    const recent = (impacts ?? []).filter(
+      (impact) => impact.start_s <= time && time <= Math.max(endOf(impact, run), impact.start_s + glow),
+    );
     return recent.map((impact) => {
-      const past = Math.max(0, time - (impact.end_s ?? time));
+      const past = Math.max(0, time - endOf(impact, run));
       const size = this.strongest > 0 ? Math.sqrt(strengthOf(impact) / this.strongest) : 0;
       return { contact: impact.contact, size, age: Math.min(1, past / glow) };
     });
@@ -109,7 +115,9 @@ export class Stage {
     const drawn = !this.shown.geometry.hasLevels
       ? "storeys drawn equally high: the scene has no heights"
       : `motion and gaps drawn ${digits(factor, 2)} times as large as heights`;
-    const yields = SIDES.some((side) => this.state.run.look[side]?.yields.some(Boolean)) ? "; dashed: yields at this moment" : "";
+    const yields = SIDES.some((side) => this.state.run.look[side]?.yields.some(Boolean))
+      ? "; dashed: yields at this moment"
+      : "";
     const text = `${bar < 1 ? `${digits(1e3 * bar)} mm` : `${digits(bar)} m`}; ${drawn}${yields}`;
     if (scale.textContent !== text) scale.textContent = text;
     this.canvas.setAttribute("aria-label", this.#inWords());
@@ -120,7 +128,10 @@ export class Stage {
     const moved = this.shown.motion.at(time);
     const roofs = this.shown.geometry.sides.map((side) => `${side} roof ${digits(1e3 * moved[side].at(-1), 3)} mm`);
     const touching = this.#flashes(run.impacts).length > 0 ? "; they hit each other" : "";
-    const ground = this.groundPeak > 0 ? `, ground ${digits(this.shown.motion.value("ground.acceleration", time) / GRAVITY, 2)} g` : "";
+    const ground =
+      this.groundPeak > 0
+        ? `, ground ${digits(this.shown.motion.value("ground.acceleration", time) / GRAVITY, 2)} g`
+        : "";
     return `The buildings at ${seconds(time)} s: ${roofs.join(", ")}${ground}${touching}`;
   }
 }

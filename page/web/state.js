@@ -1,6 +1,8 @@
 // What the page knows: the text of the scene, the records that it may name, and what the engine has said about them.
 // Everything else is worked out from these; what changes is told to those who listen.
 
+import { endOf } from "./strength.js";
+
 export class State {
   #listeners = new Map();
 
@@ -10,6 +12,7 @@ export class State {
   records = {};
   // What the engine says of the last scene that was right, and of the text as it is now.
   look = null;
+  checked = "";
   problems = [];
   warnings = [];
   // The last run that went well, with the look of its scene; the same run without contacts; each null before.
@@ -43,10 +46,10 @@ export class State {
 
   // Goes to an impact: the moment of its largest force, and the charts to just around it.
   choose(impact) {
-    const end = impact.end_s ?? this.run.stop;
+    const end = endOf(impact, this.run);
     const around = Math.max(1.5 * (end - impact.start_s), 2e-3);
     this.chosen = impact;
-    this.seek(impact.peak_time_s ?? impact.start_s);
+    this.seek(impact.peak_time_s || impact.start_s);
     this.show(impact.start_s - around, end + around);
     this.tell("chosen");
   }

@@ -9,3 +9,6 @@ export function hardestOf(impacts) {
 
 // The strength of the strongest, 0 of none.
 export const mostOf = (impacts) => (impacts.length > 0 ? strengthOf(hardestOf(impacts)) : 0);
+
+// s: where an impact ends, or the run, if it goes on until then.
+export const endOf = (impact, run) => (Number.isFinite(impact.end_s) ? impact.end_s : run.stop);

@@ -1,12 +1,12 @@
-// Which gap? The run repeated with many gaps: how hard the hardest impact is and how far storeys drift, over the gap. A click on
-// the curve sets the gap of the scene.
+// Which gap? The run repeated with many gaps: how hard the hardest impact is and how far storeys drift, over the gap.
+// A click on the curve sets the gap of the scene.
 
 import { digits, handyUnit, isRound, largestOf, quantity, withUnit } from "./format.js";
 import { element, make } from "./make.js";
 import { SIDES } from "./motion.js";
 import { colour, lineLook } from "./palette.js";
 import { drawUpright, makePlot, widthOf } from "./plots.js";
-import { sentence } from "./runner.js";
+import { sentence } from "./words.js";
 
 const GAPS = 100;
 const CHART_HEIGHT = 118;
@@ -33,7 +33,9 @@ export class Study {
       if (!(needed > 0)) throw new Error("The buildings never come closer than at rest: any gap will do.");
       const gaps = spaced(needed / 100, 1.3 * needed, GAPS);
       const started = performance.now();
-      const result = await engine.study(scene, { gaps, records }, ({ share, partial }) => this.#progress(share, partial, needed));
+      const result = await engine.study(scene, { gaps, records }, ({ share, partial }) =>
+        this.#progress(share, partial, needed),
+      );
       this.#take(result, needed);
       this.#sayResult((performance.now() - started) / 1e3);
     } catch (error) {
@@ -44,12 +46,17 @@ export class Study {
 
   // m: how far both sides of a contact would overlap if they could, which is the gap that keeps them apart.
   async #needed(scene, records, look) {
-    const outputs = SIDES.flatMap((side) => Array.from({ length: look[side]?.floors ?? 0 }, (_, floor) => `${side}.displacement[${floor + 1}]`));
+    const outputs = SIDES.flatMap((side) =>
+      Array.from({ length: look[side]?.floors ?? 0 }, (_, floor) => `${side}.displacement[${floor + 1}]`),
+    );
     const free = await this.engine.simulate(scene, { records, outputs, withoutContacts: true }, undefined, "study");
     let most = 0;
     for (const { row } of look.layout.contacts) {
       for (let at = 0; at < free.time.length; at++) {
-        const depth = row.reduce((sum, [side, floor, weight]) => sum + weight * free.columns[`${side}.displacement[${floor}]`][at], 0);
+        const depth = row.reduce(
+          (sum, [side, floor, weight]) => sum + weight * free.columns[`${side}.displacement[${floor}]`][at],
+          0,
+        );
         most = Math.max(most, depth);
       }
     }
@@ -66,11 +73,24 @@ export class Study {
 
   #take(result, needed) {
     if (!result.gaps?.length) return;
-    const most = (names) => Array.from(result.gaps, (_, at) => names.reduce((largest, name) => Math.max(largest, result.columns[name][at]), 0));
+    const most = (names) =>
+      Array.from(result.gaps, (_, at) =>
+        names.reduce((largest, name) => Math.max(largest, result.columns[name][at]), 0),
+      );
     const named = (pattern) => Object.keys(result.columns).filter((name) => pattern.test(name));
     const force = most(named(/^contact\[\d+\]\.peak_force$/));
-    const drifts = SIDES.map((side) => ({ side, values: most(named(new RegExp(`^${side}\\.peak_drift`))) })).filter(({ side }) => named(new RegExp(`^${side}\\.peak_drift`)).length > 0);
-    this.result = { gaps: result.gaps, force, drifts, impacts: Array.from(result.columns.impacts ?? []), needed, failures: result.failures };
+    const drifts = SIDES.map((side) => ({ side, values: most(named(new RegExp(`^${side}\\.peak_drift`))) })).filter(
+      ({ side }) => named(new RegExp(`^${side}\\.peak_drift`)).length > 0,
+    );
+    this.result = {
+      gaps: result.gaps,
+      force,
+      laws: this.state.look.layout.contacts.map(({ law }) => law),
+      drifts,
+      impacts: Array.from(result.columns.impacts ?? []),
+      needed,
+      failures: result.failures,
+    };
     this.draw();
   }
 
@@ -83,20 +103,39 @@ export class Study {
     const forces = handyUnit(largestOf(force), "N");
     const drift = handyUnit(Math.max(0, ...drifts.map(({ values }) => largestOf(values))), "m");
     const of = (values, { factor }) => values.map((value) => value * factor);
+    // Rigid floors exchange impulses; a force is there only while they are held together.
+    const isRigid = this.result.laws.every((law) => law === "stereomechanical");
     this.plots = [
-      this.#plot("hardest impact", forces, x, [{ label: "peak force", values: of(force, forces), ...lineLook("others", 0) }]),
-      this.#plot("largest drift", drift, x, drifts.map(({ side, values }) => ({ label: side, values: of(values, drift), ...lineLook(side, 0) }))),
+      this.#plot(isRigid ? "pressing while held together" : "hardest impact", forces, x, [
+        { label: "peak force", values: of(force, forces), ...lineLook("others", 0) },
+      ]),
+      this.#plot(
+        "largest drift",
+        drift,
+        x,
+        drifts.map(({ side, values }) => ({ label: side, values: of(values, drift), ...lineLook(side, 0) })),
+      ),
       this.#plot("impacts", { name: "" }, x, [{ label: "count", values: impacts, ...lineLook("others", 0) }]),
     ];
   }
 
   #plot(title, unit, gaps, lines) {
     const { plot } = makePlot(element("study-charts"), {
-      title: withUnit(title, unit), height: CHART_HEIGHT, lines, data: [gaps, ...lines.map(({ values }) => values)],
-      x: { label: "gap", text: (gap) => `${digits(gap, 3)} mm`, tick: (tick) => (tick === null || !isRound(tick) ? "" : `${digits(tick)} mm`) },
+      title: withUnit(title, unit),
+      height: CHART_HEIGHT,
+      lines,
+      data: [gaps, ...lines.map(({ values }) => values)],
+      x: {
+        label: "gap",
+        text: (gap) => `${digits(gap, 3)} mm`,
+        tick: (tick) => (tick === null || !isRound(tick) ? "" : `${digits(tick)} mm`),
+      },
       options: {
         cursor: { sync: { key: "study" }, drag: { x: false, y: false } },
-        scales: { x: { time: false, distr: 3, range: () => [gaps[0], gaps.at(-1)] }, y: { range: (_, low, high) => [0, 1.08 * (high || 1)] } },
+        scales: {
+          x: { time: false, distr: 3, range: () => [gaps[0], gaps.at(-1)] },
+          y: { range: (_, low, high) => [0, 1.08 * (high || 1)] },
+        },
         hooks: { draw: [(one) => this.#present(one)] },
       },
     });
@@ -130,12 +169,17 @@ export class Study {
   }
 
   #sayResult(took) {
-    const { gaps, force, needed, failures } = this.result;
+    const { gaps, force, laws, needed, failures } = this.result;
     const worst = force.indexOf(Math.max(...force));
     const apart = `From ${quantity(needed, "m", 3)} on they never touch (the dashed line is the gap of the scene)`;
-    const hardest = force[worst] > 0 ? `; hardest at ${quantity(gaps[worst], "m", 3)} with ${quantity(force[worst], "N", 3)}` : "";
+    const hardest =
+      force[worst] > 0 && !laws.includes("stereomechanical")
+        ? `; hardest at ${quantity(gaps[worst], "m", 3)} with ${quantity(force[worst], "N", 3)}`
+        : "";
     const failed = failures.length > 0 ? ` ${failures.length} gaps could not be run: ${failures[0]}` : "";
-    this.#say(`${apart}${hardest}. ${gaps.length} runs in ${digits(took, 2)} s. A click on a curve sets the gap.${failed}`);
+    this.#say(
+      `${apart}${hardest}. ${gaps.length} runs in ${digits(took, 2)} s. A click on a curve sets the gap.${failed}`,
+    );
   }
 
   #busy(is) {

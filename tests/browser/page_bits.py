@@ -16,6 +16,7 @@ import math
 import os
 import re
 import shlex
+import shutil
 import struct
 import subprocess
 import sys
@@ -125,6 +126,7 @@ def same_fmus(page):
         said = refusal(page, "pounding.buildFmu(scene, { records })", *question)
         assert "no libraries" in said, said
         return "without libraries there are none"
+    shutil.rmtree(FOLDER / "libraries", ignore_errors=True)
     for platform, content in libraries.items():
         place = FOLDER / "libraries" / platform / f"pounding.{'dll' if platform.startswith('win') else 'so'}"
         place.parent.mkdir(parents=True, exist_ok=True)
@@ -188,11 +190,13 @@ def refuses(page):
         "left.mass[2] = nan: expected a finite mass > 0 kg",
     ]
     options = {
-        "step: 0": "step = 0: expected a number of seconds > 0",
-        "stop: NaN": "stop = NaN: expected a number of seconds > 0",
+        "step: 0": "step = 0.0: expected a number of seconds > 0",
+        "stop: -Infinity": "stop = -inf: expected a number of seconds > 0",
         "outputs: ['left.displacement[7]']": "left.displacement[7]: the scene has no such variable",
         "parameters: { 'contact[1].gap': NaN }": "contact[1].gap = nan: expected a finite distance in m",
-        "parameters: { 'contact[1].gap': '5' }": 'contact[1].gap = "5": expected a number',
+        "parameters: { 'contact[1].gap': '5' }": "contact[1].gap = '5': expected a number",
+        "parameters: { 'contact[1].gapp': 1 }": "contact[1].gapp: the scene has no such variable; did you mean contact[1].gap?",
+        "speed: 1": "speed: no such option; expected step, stop,",
         "parameters: { impacts: 1 }": "impacts is computed and cannot be set: expected names of parameters",
         "step: 1e-12": "2.0e13 rows of 60 columns: expected fewer, by a larger step",
     }
@@ -200,7 +204,19 @@ def refuses(page):
         said = refusal(page, f"pounding.simulate(scene, {{ records, {option} }})", scene, records)
         assert said and said.startswith(expected), (option, said)
     for value in ("null", "7", "undefined", "{}"):
-        assert "expected the text of a scene" in refusal(page, f"pounding.simulate({value})", ""), value
+        assert "scene: expected the text of a scene" in refusal(page, f"pounding.simulate({value})", ""), value
+    # A record by a name that every object has, as bytes, told in either way.
+    own = re.sub(r'record = ".*"', 'record = "__proto__"', scene)
+    given = "{ ['__proto__']: new TextEncoder().encode(Object.values(records)[0]).buffer }"
+    for form in (given, f"{{ records: {given} }}"):
+        assert page.evaluate(f"([scene, records]) => pounding.problems(scene, {form})", [own, records]) == [], form
+    assert refusal(page, f"pounding.simulate(scene, {{ records: {given}, stop: 1 }})", own, records) is None
+    assert refusal(page, "pounding.simulate(scene, null)", re.sub(r"record = .*", "", scene)) is None
+    assert refusal(page, "pounding.simulate(scene, { records: { a: 7 } })", scene) == (
+        'records["a"]: expected the text or the bytes of a record, not number'
+    )
+    said = refusal(page, "pounding.simulate(scene, { records, outputs: 'impacts' })", scene, records)
+    assert said == "outputs: expected a list of names, not string"
     assert "has not been given" in refusal(page, "pounding.simulate(scene)", scene.replace("el_centro", "nowhere"))
     assert "UTF-8" in page.evaluate("() => pounding.engine.problems(new Uint8Array([110, 255, 10]))")[0]
     return f"{len(options)} options"

@@ -5,8 +5,9 @@ use pounding::contact::{LawInfo, LawKind, StiffnessUnit};
 use pounding::scene::law_key::number;
 use toml_edit::{DocumentMut, Item, TableLike, Value};
 
-/// m, the penetration at which a law with another exponent pushes as the one before.
-const ALIKE_AT: f64 = 1e-3;
+/// m, the penetration, about 1 mm, at which a law with another exponent pushes as the one before: between 1 and 1.5 it makes
+/// the stiffness 30 times as large, so that round numbers stay round there and back.
+const ALIKE_AT: f64 = 1.0 / 900.0;
 /// Of a law that comes where rigid floors had none: e of concrete against concrete, and k over that of the stiffest storey.
 const RESTITUTION: f64 = 0.65;
 const TIMES_A_STOREY: f64 = 300.0;

@@ -85,9 +85,11 @@ fn what_cannot_be_done_is_said() {
 
 #[test]
 fn a_law_comes_with_its_numbers() {
-    // k 0.001 = k' 0.001^1.5: at 1 mm both push alike.
-    let hertz = [("kelvin_voigt", "hertz"), ("1.0e6", "3.16e7"), ("restitution = 0.5\n", "")];
+    // k d = k' d^1.5 at d = 1 / 900 m: both push alike there.
+    let hertz = [("kelvin_voigt", "hertz"), ("1.0e6", "3e7"), ("restitution = 0.5\n", "")];
     assert_eq!(after("contact[1].law", json!("hertz")), with(&hertz));
+    let back = edited(with(&hertz).as_bytes(), &[("contact[1].law".to_owned(), json!("linear"))]).unwrap();
+    assert!(back.contains("law = \"linear\"\nstiffness = 1e6\n"), "{back}");
     assert_eq!(
         after("contact[*].law", json!("stereomechanical")),
         with(&[("kelvin_voigt", "stereomechanical"), ("stiffness = 1.0e6\n", "")])

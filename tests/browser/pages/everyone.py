@@ -44,6 +44,9 @@ def has_names_for_everything(browser):
             assert page.evaluate(NAMELESS) == []
         for id in ["scene", "record", "gap", "strength", "run", "stop", "problems", "impacts", "save-fmu", "save-csv", "save-report", "save-scene"]:
             assert page.locator(f"#{id}").count() == 1, id
+        page.locator("#chart-list [role=img][aria-label^=Energy]").wait_for()
+        charts = page.locator("#chart-list [role=img]").evaluate_all("charts => charts.map(chart => chart.getAttribute('aria-label'))")
+        assert charts[0].startswith("Displacement of floors [mm]: left 2 from -44.6 to "), charts
         live = page.locator("[aria-live=polite], [role=status]").evaluate_all("ones => ones.map(one => one.id)")
         assert {"happened", "problems", "saved", "record-says", "study-says"} <= set(live), live
 
@@ -111,8 +114,11 @@ def fits_a_phone(browser):
             page.locator("#chart-list .u-over").first.tap()
     with visit(browser, viewport={"width": 844, "height": 390}) as page:
         assert page.evaluate("document.documentElement.scrollWidth") <= 844
-    with visit(browser, viewport={"width": 1024, "height": 768}) as page:
-        assert page.evaluate("document.documentElement.scrollWidth") <= 1024
+    for width in [1024, 1280]:
+        with visit(browser, viewport={"width": width, "height": 768}) as page:
+            assert page.evaluate("document.documentElement.scrollWidth") <= width
+            theme, save = page.locator("#theme").bounding_box(), page.locator(".save").bounding_box()
+            assert theme["x"] + theme["width"] < save["x"] or theme["y"] + theme["height"] <= save["y"], (theme, save)
 
 
 def stands_still_where_motion_is_unwelcome(browser):

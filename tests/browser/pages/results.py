@@ -51,14 +51,17 @@ def shows_both_with_and_without_contact(browser):
         page.keyboard.press("End")
         page.wait_for_timeout(800)
         page.screenshot(path=FOLDER / "page_alone.png")
-        # Fallen on the right half, held up on the left one: the pictures differ.
-        halves = page.locator("#buildings").evaluate("""canvas => {
-            const pen = canvas.getContext("2d"), half = Math.floor(canvas.width / 2) - 2;
-            const of = (x) => [...new Uint32Array(pen.getImageData(x, 40, half, canvas.height - 110).data.buffer)];
-            const [one, other] = [of(0), of(canvas.width - half)];
-            return one.filter((pixel, at) => pixel !== other[at]).length / one.length;
+        # Held up on the left half, fallen on the right one: the blue slab there is elsewhere.
+        held, fallen = page.locator("#buildings").evaluate("""canvas => {
+            const pen = canvas.getContext("2d"), half = Math.floor(canvas.width / 2);
+            const slab = (from) => {
+                const { data } = pen.getImageData(from, 20, half, 60);
+                const blue = (at) => data[at] === 0 && data[at + 1] === 114 && data[at + 2] === 178;
+                return Math.min(...Array.from(data, (_, at) => (at % 4 === 0 && blue(at) ? (at / 4) % half : half)));
+            };
+            return [slab(0), slab(canvas.width - half)];
         }""")
-        assert halves > 0.01, halves
+        assert 0 < held < fallen - 15, (held, fallen)
 
 
 def zooms_all_charts_together(browser):
@@ -74,9 +77,9 @@ def zooms_all_charts_together(browser):
         page.mouse.up()
         page.wait_for_timeout(100)
         assert all(abs(at - wanted) < 0.1 for at, wanted in zip(stretch(page), [2.0, 4.0])), stretch(page)
-        # The times along all of them begin alike: their pictures of the axis are those of one stretch.
         page.mouse.click(*across(0.5))
         assert abs(now(page) - 3.0) < 0.06, now(page)
+        assert all(abs(place - 0.5) < 0.02 for place in moments(page)), moments(page)
         page.mouse.move(*across(0.25))
         values = page.locator("#chart-list .u-legend .u-series:first-child .u-value").all_inner_texts()
         assert len(set(values)) == 1 and abs(float(values[0].split()[0]) - 2.5) < 0.06, values
@@ -87,12 +90,23 @@ def zooms_all_charts_together(browser):
         assert stretch(page) == [0.0, 20.0], stretch(page)
         page.locator("#nearer").click()
         assert abs(stretch(page)[1] - stretch(page)[0] - 10.0) < 0.1
+        page.locator("#earlier").click()
+        page.wait_for_timeout(100)
+        wanted = (now(page) - stretch(page)[0]) / 10.0
+        assert all(abs(place - wanted) < 0.02 for place in moments(page)), (moments(page), wanted)
         page.locator("#whole").click()
         assert stretch(page) == [0.0, 20.0]
         page.locator("#floors summary").click()
         page.locator("#floor-choice label", has_text="left 1").click()
         page.wait_for_timeout(100)
         assert "left 1" in " ".join(page.locator("[data-chart=displacement] .u-legend").inner_text().split())
+
+
+def moments(page):
+    """Where the line of the picture's time stands in each chart, as a share of its width."""
+    return page.locator("#chart-list .moment").evaluate_all(
+        "lines => lines.map(line => parseFloat(line.style.transform.match(/[\\d.]+/)[0]) / line.parentElement.clientWidth)"
+    )
 
 
 def sorts_impacts_and_goes_to_them(browser):
@@ -211,12 +225,14 @@ def is_fast_with_many_impacts(browser):
         count = impacts_of(page)
         page.locator(f"#impacts tbody tr[data-row='{count - 1}']").wait_for(state="attached")
         assert page.locator("#impacts tbody tr").count() == count
-        took = page.evaluate("""() => {
+        # Until the table stands sorted; the best of some, since others may use the machine.
+        took = page.evaluate("""() => Math.min(...Array.from({ length: 4 }, () => {
             const begun = performance.now();
             document.querySelector("#impacts th button[data-key=impulse]").click();
+            document.querySelector("#impacts").getBoundingClientRect();
             return performance.now() - begun;
-        }""")
-        assert took < 300, took
+        }))""")
+        assert took < 150, took
 
 
 LOOKS = [
