@@ -192,6 +192,6 @@ mod tests {
                 assert!(is_lent() && is_given_up(c));
             });
         }
-        logged.is_freed();
+        logged.without_component();
     }
 }

@@ -38,7 +38,7 @@ impl Logged {
     }
 
     /// Leaves what remains without the component, which has been freed.
-    pub(super) fn is_freed(mut self) {
+    pub(super) fn without_component(mut self) {
         self.component = ptr::null_mut();
     }
 
