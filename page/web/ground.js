@@ -4,6 +4,8 @@ import { GRAVITY, digits, isRound, plural, seconds } from "./format.js";
 import { element, make } from "./make.js";
 import { SIDES } from "./motion.js";
 import { colour, lineLook } from "./palette.js";
+import { MOST_KEPT } from "./keep.js";
+import { said } from "./notice.js";
 import { drawUpright, makePlot, widthOf } from "./plots.js";
 import { sentence } from "./words.js";
 
@@ -44,10 +46,16 @@ export class Ground {
     try {
       const bytes = new Uint8Array(await file.arrayBuffer());
       const about = await this.engine.record(bytes, file.name);
-      this.state.records[file.name] = bytes;
-      this.known.set(file.name, about);
+      // A name that a scene can write as it is.
+      const name = file.name.replace(/[\\\u0000-\u001f]/g, "_");
+      this.state.records[name] = bytes;
+      this.known.set(name, about);
       this.state.tell("records");
-      return file.name;
+      const isKept = bytes.length <= MOST_KEPT;
+      said(
+        `${name} is read.${isKept ? "" : " It is too large for the browser to keep: drop it again after a reload."}`,
+      );
+      return name;
     } catch (error) {
       return void this.#say(sentence(error));
     }
@@ -78,6 +86,11 @@ export class Ground {
   // What the scene names now.
   async show() {
     this.#list();
+    const missing = this.state.problems.find(({ text }) => /^ground\.record = .*has not been given/s.test(text));
+    if (missing)
+      return this.#say(
+        `${missing.text.split(": expected")[0]}: this file is not in the browser (any more). Drop it here.`,
+      );
     const { ground } = this.state.look ?? {};
     if (!ground) {
       this.name = null;

@@ -69,7 +69,7 @@ export class Handles {
     const isPga = ground.pga !== null;
     const now = isPga ? ground.pga : ground.scale;
     const value = now < 0 ? -Math.abs(size) : size;
-    if (value !== 0) this.change({ [isPga ? "ground.pga" : "ground.scale"]: value }, "strength");
+    this.change({ [isPga ? "ground.pga" : "ground.scale"]: value }, "strength");
   }
 
   #setStoreys({ side, by }) {
@@ -107,6 +107,7 @@ export class Handles {
     if (contacts.length === 0) return;
     showRange("gap", gap, LEAST_RANGE.gap, this.isAhead);
     showNumber("gap-number", toMillimetres(gap));
+    element("gap").setAttribute("aria-valuetext", `${toMillimetres(gap)} mm`);
     element("law").value = (this.of === "all" ? contacts[0] : contacts[this.of - 1]).law;
   }
 
@@ -132,6 +133,7 @@ export class Handles {
     element("strength-unit").textContent = isPga ? "m/s\u00B2" : "\u00D7";
     showRange("strength", Math.abs(value), LEAST_RANGE[isPga ? "pga" : "scale"], this.isAhead);
     showNumber("strength-number", value);
+    element("strength").setAttribute("aria-valuetext", element("strength-says").textContent);
   }
 }
 

@@ -1,6 +1,8 @@
 // What the browser keeps from visit to visit, where it keeps anything: a file may be forbidden to, and room is limited.
 
 const PREFIX = "pounding.";
+// Letters of records.
+export const MOST_KEPT = 2e6;
 
 export class Keep {
   // `place` keeps apart what belongs to different pages: browsers may take all files for one.

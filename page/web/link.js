@@ -65,7 +65,7 @@ export function startLinks(state, runner, recordsOfPage, opened) {
 
 // Records that a link has room for, as text; the names of those that it has not.
 function small(records, recordsOfPage) {
-  const [kept, left] = [{}, []];
+  const [kept, left] = [Object.create(null), []];
   for (const [name, content] of Object.entries(records)) {
     if (content === recordsOfPage[name]) continue;
     const text = textOf(content);

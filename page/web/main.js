@@ -20,7 +20,7 @@ import { startFiles } from "./files.js";
 import { Ground } from "./ground.js";
 import { Handles } from "./handles.js";
 import { Impacts } from "./impacts.js";
-import { Keep, nameOf } from "./keep.js";
+import { Keep, MOST_KEPT, nameOf } from "./keep.js";
 import { fromLink, startLinks, textOf } from "./link.js";
 import { Loops } from "./loops.js";
 import { element, make, settled } from "./make.js";
@@ -38,7 +38,6 @@ import { startTabs } from "./tabs.js";
 import { sentence } from "./words.js";
 
 const FIRST = "feup.toml";
-const MOST_KEPT = 2e6;
 // s before the first impact that the first picture begins, so that something happens.
 const BEFORE_IMPACT = 0.6;
 
@@ -96,7 +95,7 @@ async function begin() {
     element("happened").textContent = `The engine does not start in this browser: ${error.message}`;
     return;
   }
-  state.records = { ...engine.records, ...keptRecords() };
+  Object.assign(state.records, engine.records, keptRecords());
   listExamples();
   handles.listLaws(engine.laws);
   startLinks(state, runner, engine.records, (link) => brought(link) && editor.open(link.scene));

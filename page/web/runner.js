@@ -31,10 +31,23 @@ const MOST_CONTACTS_SHOWN = 40;
 
 export class Runner {
   constructor(state, engine) {
-    Object.assign(this, { state, engine, checking: null, isStale: false, running: null, again: false, took: 0 });
+    Object.assign(this, {
+      state,
+      engine,
+      checking: null,
+      isStale: false,
+      isRight: false,
+      running: null,
+      again: false,
+      took: 0,
+    });
     this.checkSoon = settled(() => this.check(), TYPING);
     this.startSoon = settled(() => this.isRight && this.start(), UNTIL_SETTLED);
     state.on("scene", (kind) => (kind === "typing" ? this.checkSoon() : this.check()));
+    state.on("records", () => {
+      state.checked = null;
+      if (state.scene) this.check();
+    });
     element("run").addEventListener("click", () => this.start());
     element("stop").addEventListener("click", () => this.stop());
     element("alone").addEventListener("change", () => this.runAlone());
@@ -51,18 +64,25 @@ export class Runner {
   }
 
   // One after the other: what changes meanwhile is checked next, and a slow check is left for that.
-  async check() {
+  check() {
     this.isStale = true;
-    if (this.checking) {
-      if (performance.now() - this.checking > 1e3 * QUICK) this.engine.stop("checks");
-      return;
-    }
+    if (!this.checking) this.checking = this.#checkAll().finally(() => (this.checking = null));
+    else if (performance.now() - this.checkBegan > 1e3 * QUICK) this.engine.stop("checks");
+    return this.checking;
+  }
+
+  async #checkAll() {
     while (this.isStale) {
       this.isStale = false;
-      this.checking = performance.now();
+      this.checkBegan = performance.now();
       await this.#checkOnce(this.state.scene);
     }
-    this.checking = null;
+  }
+
+  // Whether the text as it stands is right, and the name of its scene; for what must not act on an earlier one.
+  async verdict() {
+    if (this.state.checked !== this.state.scene) await this.check();
+    return this.isRight ? this.right.look.name : null;
   }
 
   async #checkOnce(scene) {
@@ -89,7 +109,8 @@ export class Runner {
 
   #goOn() {
     const mistakes = plural(this.state.problems.length, "mistake");
-    if (!this.isRight) say(`${mistakes} in the scene; what you see is the last run that was right.`);
+    const seen = this.state.run ? "what you see is the last run that was right" : "nothing has run yet";
+    if (!this.isRight) say(`${mistakes} in the scene; ${seen}.`);
     else if (this.took < QUICK) this.start();
     else if (this.took < BEARABLE) this.startSoon();
     else say("The scene has changed: Run computes it.");
@@ -102,7 +123,8 @@ export class Runner {
       if (performance.now() - this.running > 1e3 * QUICK) this.engine.stop("runs");
       return;
     }
-    if (!this.isRight) return this.#refused();
+    if (!(await this.verdict())) return this.#refused();
+    if (this.running) return void (this.again = true);
     this.running = performance.now();
     this.#busy(true);
     try {
@@ -121,6 +143,7 @@ export class Runner {
 
   stop() {
     this.again = false;
+    if (document.activeElement === element("stop")) element("run").focus();
     element("stop").disabled = true;
     say("Stopped.");
     this.engine.stop("runs");
@@ -209,7 +232,12 @@ export class Runner {
     clearTimeout(this.bar);
     element("progress").hidden = true;
     element("progress").value = 0;
-    if (is) this.bar = setTimeout(() => (element("progress").hidden = false), BAR_AFTER);
+    if (is) this.bar = setTimeout(() => this.#showBusy(), BAR_AFTER);
+  }
+
+  #showBusy() {
+    element("progress").hidden = false;
+    say(this.state.run ? "Computing; what you see is the run before." : "Computing.");
   }
 
   #progress({ share, time, impacts }) {
@@ -240,7 +268,7 @@ const problemsOf = (error) =>
   (error.problems ?? [error.message]).map((text) => ({ kind: "problem", text, line: null }));
 
 // Rows and columns that a picture needs: all outputs, of tall buildings fewer rows, of the tallest what is drawn.
-function wishes(look) {
+export function wishes(look) {
   const floors = (look.left?.floors ?? 0) + (look.right?.floors ?? 0);
   const contacts = look.layout.contacts.length;
   const columns = 11 * floors + 10 * contacts + 12;

@@ -120,6 +120,7 @@ export class Stage {
       : "";
     const text = `${bar < 1 ? `${digits(1e3 * bar)} mm` : `${digits(bar)} m`}; ${drawn}${yields}`;
     if (scale.textContent !== text) scale.textContent = text;
+    element("size").setAttribute("aria-valuetext", drawn);
     this.canvas.setAttribute("aria-label", this.#inWords());
   }
 

@@ -9,7 +9,7 @@ export class State {
   // The text is the scene: handles write it, the engine reads it.
   scene = "";
   // Content of each record by the path that a scene writes for it; bytes or text.
-  records = {};
+  records = Object.create(null);
   // What the engine says of the last scene that was right, and of the text as it is now.
   look = null;
   checked = "";

@@ -6,6 +6,7 @@ import { element, make } from "./make.js";
 import { SIDES } from "./motion.js";
 import { colour, lineLook } from "./palette.js";
 import { drawUpright, makePlot, widthOf } from "./plots.js";
+import { wishes } from "./runner.js";
 import { sentence } from "./words.js";
 
 const GAPS = 100;
@@ -18,13 +19,14 @@ export class Study {
     element("study").addEventListener("click", () => this.start());
     element("stop-study").addEventListener("click", () => this.engine.stop("study"));
     state.on("look", () => this.#moved());
+    state.on("scene", (kind) => kind !== "gap" && this.#leave());
     state.on("colours", () => this.draw());
     new ResizeObserver(() => this.#resize()).observe(element("study-charts"));
   }
 
   async start() {
     const { state, engine } = this;
-    if (!this.runner.isRight) return this.#say("The scene has mistakes: correct them first.");
+    if (!(await this.runner.verdict())) return this.#say("The scene has mistakes: correct them first.");
     this.#busy(true);
     this.#say("The gap at which the buildings just do not touch is looked for.");
     const [scene, records, look] = [state.scene, this.runner.records(), state.look];
@@ -49,7 +51,8 @@ export class Study {
     const outputs = SIDES.flatMap((side) =>
       Array.from({ length: look[side]?.floors ?? 0 }, (_, floor) => `${side}.displacement[${floor + 1}]`),
     );
-    const free = await this.engine.simulate(scene, { records, outputs, withoutContacts: true }, undefined, "study");
+    const options = { records, outputs, step: wishes(look).step, withoutContacts: true };
+    const free = await this.engine.simulate(scene, options, undefined, "study");
     let most = 0;
     for (const { row } of look.layout.contacts) {
       for (let at = 0; at < free.time.length; at++) {
@@ -158,7 +161,19 @@ export class Study {
     plot.ctx.restore();
   }
 
+  // What was found for another scene says nothing of this one.
+  #leave() {
+    this.engine.stop("study");
+    this.result = null;
+    for (const plot of this.plots) plot.destroy();
+    this.plots = [];
+    element("study-charts").replaceChildren();
+    this.#say("");
+  }
+
   #moved() {
+    const contacts = this.state.look?.layout.contacts ?? [];
+    element("study").disabled = contacts.length === 0 || !element("stop-study").hidden;
     for (const plot of this.plots) plot.redraw();
   }
 

@@ -43,6 +43,16 @@ def saves_nothing_of_a_scene_with_mistakes(browser):
         says(page, "has mistakes.*Nothing is saved", at="#saved")
 
 
+def saves_the_text_as_it_stands(browser):
+    """Right after an edit, when nothing has been checked or run yet."""
+    with visit(browser) as page:
+        text = page.locator("#scene").input_value().replace('name = "FeupFrames"', 'name = "Other"')
+        page.locator("#scene").fill(text)
+        assert saved(page, "#save-scene", "Other.toml") == text.encode()
+        page.locator("#scene").fill(text.replace("Other", "Third"))
+        saved(page, "#save-csv", "Third.csv")
+
+
 def saved(page, button, name):
     """The bytes of the file that a button saves."""
     with page.expect_download() as waiting:
@@ -51,4 +61,4 @@ def saved(page, button, name):
     return Path(waiting.value.path()).read_bytes()
 
 
-LOOKS = [saves_the_scene_and_tables, saves_fmus_for_all_platforms, saves_nothing_of_a_scene_with_mistakes]
+LOOKS = [saves_the_scene_and_tables, saves_fmus_for_all_platforms, saves_nothing_of_a_scene_with_mistakes, saves_the_text_as_it_stands]

@@ -130,6 +130,12 @@ def changes_strength_law_and_storeys(browser):
         page.keyboard.press("Enter")
         says(page, r"peak 0\.159 g", at="#strength-says")
         assert line_at(page, "scale") == ["scale = 0.5"]
+        page.locator("#strength").focus()
+        page.keyboard.press("Home")
+        says(page, "^0 impacts")
+        assert line_at(page, "scale") == ["scale = 0.0"] and page.locator("#strength-number").input_value() == "0"
+        page.keyboard.press("Control+z")
+        says(page, "^(?!0 )")
         before = len([line for line in lines(page) if line.startswith("#")])
         page.locator("#law").select_option("stereomechanical")
         says(page, r"N s at ")
@@ -143,7 +149,7 @@ def changes_strength_law_and_storeys(browser):
         assert len([line for line in lines(page) if line.startswith("#")]) == before, "comments are gone"
         page.get_by_role("button", name="One storey less on the right").click()
         says(page, "^3$", at="#right-storeys")
-        for _ in range(5):
+        while page.locator("#undo").is_enabled():
             page.locator("#undo").click()
         says(page, "^108 impacts")
         assert page.locator("#undo").is_disabled()
@@ -195,6 +201,22 @@ def takes_records(browser):
         drop(page, "none.txt", "this is no record")
         says(page, "none.txt.*expected a record file", at="#record-says")
         assert line_at(page, "record") == ['record = "SINE.AT2"']
+
+
+def says_when_a_record_is_not_there_any_more(browser):
+    rows = "".join(f"{0.01 * k:.2f},{(k * 7919) % 1000 / 500 - 1:.9f}\n" for k in range(130_000))
+    with visit(browser) as page:
+        drop(page, "large.csv", f"time_s,accel_m_s2\n{rows}")
+        says(page, "large.csv is read. It is too large for the browser to keep", at="#saved")
+        says(page, "130000 samples", at="#record-says")
+        page.wait_for_timeout(900)
+        page.reload()
+        says(page, "1 mistake in the scene; nothing has run yet")
+        says(page, "large.csv.*not in the browser", at="#record-says")
+        drop(page, "large.csv", f"time_s,accel_m_s2\n{rows}")
+        says(page, "impacts? in 20 s")
+        drop(page, "__proto__", "time_s,accel_m_s2\n0,0\n1,3\n2,0\n")
+        says(page, "3 samples", at="#record-says")
 
 
 def takes_one_channel_of_several(browser):
@@ -296,6 +318,7 @@ LOOKS = [
     shows_a_collision_before_anything_is_done, says_what_is_wrong_at_its_line, warns_of_slips, has_handles_that_write_the_text,
     follows_a_handle_while_it_is_dragged,
     changes_strength_law_and_storeys, opens_every_example, takes_records, survives_a_reload_and_travels_in_a_link,
-    says_when_a_record_is_too_large_for_a_link, takes_one_channel_of_several, opens_the_scene_that_it_was_made_for,
+    says_when_a_record_is_too_large_for_a_link, takes_one_channel_of_several,
+    says_when_a_record_is_not_there_any_more, opens_the_scene_that_it_was_made_for,
     answers_scripts,
 ]  # fmt: skip
