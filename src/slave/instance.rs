@@ -8,7 +8,7 @@ use super::sequence::{Call, Phase};
 use super::simulation::Simulation;
 use super::snapshots::Snapshots;
 use super::status::{Refusal, Status, StatusKind};
-use super::updates::{UnderWay, Updates};
+use super::stepped::{UnderWay, Updates};
 use crate::FmiVersion;
 use crate::description::{Category, Package, guid};
 use crate::figures::plain;

@@ -2,7 +2,7 @@
 //!
 //! The caller asks [`Slave::check`] before each call (`sequence.rs` has the table), reports what comes back with
 //! [`Slave::report`] and hands the messages of [`Slave::take_messages`] to the master. `instance.rs` has its life, `steps.rs`
-//! its steps and events, `updates.rs` the turns of the master within a step, `interface.rs` what the master has chosen of
+//! its steps and events, `updates.rs` the turns of the master within a step (`stepped.rs` what a step comes to), `interface.rs` what the master has chosen of
 //! steps. Values go through `access.rs`, which walks the table of variables, derivatives through `derivatives.rs`;
 //! `states.rs` records what the master wants to come back to, `snapshots.rs` keeps it, `serialized.rs` turns it into bytes
 //! and back; `run.rs` holds time and inputs until a simulation starts, and that from then on.
@@ -42,6 +42,7 @@ mod simulation;
 mod snapshots;
 mod states;
 mod status;
+mod stepped;
 mod steps;
 mod updates;
 
@@ -52,5 +53,4 @@ pub use log::{Log, Message};
 pub use sequence::{Call, Phase};
 pub use snapshots::Handle;
 pub use status::{Refusal, Status, StatusKind};
-pub use steps::Stepped;
-pub use updates::{Part, Update};
+pub use stepped::{Part, Stepped, Update};

@@ -10,7 +10,7 @@ use super::instance::{Slave, is_time};
 use super::sequence::{Call, Phase};
 use super::simulation::Simulation;
 use super::status::{Refusal, Status};
-use super::updates::Part;
+use super::stepped::{Part, Stepped};
 use crate::FmiVersion;
 use crate::description::Category;
 use crate::engine::{Collapse, Episode};
@@ -19,22 +19,6 @@ use crate::scene::rule::MOST_TIME;
 
 /// Communication points may differ by the rounding of the master: s, relative to their magnitude above 1 s.
 const TIME_TOLERANCE: f64 = 1e-9;
-
-/// What a communication step has come to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Stepped {
-    /// Discarded where the run is over, in FMI 3.0 from the second time on that a step says so.
-    pub status: Status,
-    /// s, the time that has been reached.
-    pub time: f64,
-    /// It has ended at an event, before the time that was asked for.
-    pub is_early: bool,
-    /// Event Mode is to be entered: discrete outputs get new values there.
-    pub needs_event_mode: bool,
-    /// A storey has collapsed, which ends the run.
-    pub is_over: bool,
-}
 
 impl Slave {
     /// One communication step, s: from the last communication point, give or take the rounding of the master. Where a storey

@@ -7,52 +7,9 @@
 use super::instance::Slave;
 use super::sequence::Phase;
 use super::status::Refusal;
-use super::steps::Stepped;
+use super::stepped::{Part, Turn, UnderWay, Update, Updates};
 use crate::engine::Input;
 use crate::variables::Slot;
-
-/// What a master wants of a step while it is under way.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Updates {
-    /// To give inputs at the end of the step.
-    pub inputs: bool,
-    /// To read outputs at events.
-    pub outputs: bool,
-}
-
-/// What a part of a communication step has come to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Part {
-    /// The step is over.
-    Done(Stepped),
-    /// The master has its turn, and the step goes on by [`Slave::go_on`].
-    Update(Update),
-}
-
-/// A turn of the master within a step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Update {
-    /// s, `intermediateUpdateTime`.
-    pub time: f64,
-    /// `intermediateVariableSetRequested`: inputs as they will be at that time, which is the end of the step. Otherwise
-    /// outputs can be read.
-    pub sets_inputs: bool,
-}
-
-/// A step that waits for the master.
-#[derive(Debug)]
-pub(super) struct UnderWay {
-    /// s, end of the step.
-    target: f64,
-    turn: Turn,
-}
-
-#[derive(Debug)]
-enum Turn {
-    /// What inputs are to be at the end of the step, as far as the master has said.
-    Inputs(Vec<(Input, f64)>),
-    Outputs,
-}
 
 impl Slave {
     /// Has steps come in parts, for the sake of these variables.
