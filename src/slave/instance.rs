@@ -190,7 +190,8 @@ impl Slave {
         Status::Ok
     }
 
-    /// As after instantiation, with the same interface and the same updates. The logging stays as the master has chosen it, and so do the snapshots.
+    /// As after instantiation, with the same interface and the same updates. The logging stays as the master has chosen it,
+    /// and so do the snapshots.
     pub fn reset(&mut self) -> Status {
         self.settings = Arc::clone(&self.defaults);
         (self.run, self.held, self.stop_time) = (Run::new(&self.settings.scene), None, None);

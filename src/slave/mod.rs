@@ -1,11 +1,12 @@
 //! The co-simulation object, in safe Rust and without a word of C.
 //!
 //! The caller asks [`Slave::check`] before each call (`sequence.rs` has the table), reports what comes back with
-//! [`Slave::report`] and hands the messages of [`Slave::take_messages`] to the master. `instance.rs` has its life, `steps.rs`
-//! its steps and events, `updates.rs` the turns of the master within a step (`stepped.rs` what a step comes to), `interface.rs` what the master has chosen of
-//! steps. Values go through `access.rs`, which walks the table of variables, derivatives through `derivatives.rs`;
-//! `states.rs` records what the master wants to come back to, `snapshots.rs` keeps it, `serialized.rs` turns it into bytes
-//! and back; `run.rs` holds time and inputs until a simulation starts, and that from then on.
+//! [`Slave::report`] and hands the messages of [`Slave::take_messages`] to the master. `instance.rs` has its life,
+//! `steps.rs` its steps and events, `updates.rs` the turns of the master within a step (`stepped.rs` what a step comes
+//! to), `interface.rs` what the master has chosen of steps. Values go through `access.rs`, which walks the table of
+//! variables, derivatives through `derivatives.rs`; `states.rs` records what the master wants to come back to,
+//! `snapshots.rs` keeps it, `serialized.rs` turns it into bytes and back; `run.rs` holds time and inputs until a
+//! simulation starts, and that from then on.
 //!
 //! ```
 //! use pounding::description::Package;
