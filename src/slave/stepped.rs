@@ -33,7 +33,7 @@ pub(super) struct Updates {
 pub enum Part {
     /// The step is over.
     Done(Stepped),
-    /// The master has its turn, and the step goes on by [`Slave::go_on`].
+    /// The master has its turn, and the step goes on by [`go_on`](super::Slave::go_on).
     Update(Update),
 }
 
