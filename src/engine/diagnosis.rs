@@ -167,7 +167,7 @@ impl Model {
     /// The message's part on the building with the fastest mode.
     fn quick(&self) -> String {
         let fastest = |side: Side| {
-            let range = self.system.structure.range(side);
+            let range = self.system.structure.body(side).range.clone();
             let omega =
                 self.system.structure.omega2[range.clone()].iter().fold(0.0_f64, |most, w2| most.max(w2.sqrt()));
             (omega, self.system.structure.damping[range].iter().fold(0.0_f64, |most, c| most.max(*c)))

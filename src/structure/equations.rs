@@ -1,12 +1,12 @@
 //! Both buildings in modal coordinates: their equation of motion, forces and energies.
 
+use super::bodies::{Body, Part};
 use super::floors::Floors;
-use super::lane_matrix::{LaneMatrix, block_of_both};
+use super::lane_matrix::{LaneMatrix, block_of_all};
 use super::lanes::{LANES, Lane};
 use super::modes::{ModalDamping, Modes, NotPositiveDefinite};
 use crate::scene::{Building, Side};
 use nalgebra::DMatrix;
-use std::ops::Range;
 
 /// Number of floor forces that are projected on the modes at a time.
 const AT_ONCE: usize = 8;
@@ -14,7 +14,12 @@ const AT_ONCE: usize = 8;
 /// Both buildings in modal coordinates.
 #[derive(Clone, Debug)]
 pub struct Structure {
-    buildings: [Modes; 2],
+    /// What moves together, in the order of their modes and floors.
+    pub bodies: Vec<Body>,
+    /// The body of each building, and the row of its lowest floor there.
+    places: [(usize, usize); 2],
+    /// Number of floors of each building.
+    counts: [usize; 2],
     /// Length of a modal vector.
     pub lanes: usize,
     /// w^2 of each mode, 1/s^2; 0 in the padding, as everywhere below.
@@ -32,14 +37,14 @@ pub struct Structure {
     coupling: Vec<Coupling>,
     /// The buildings floor by floor.
     pub floors: Floors,
-    /// From modes to floors and back, for each building.
-    to_floors: [LaneMatrix; 2],
-    to_modes: [LaneMatrix; 2],
-    /// For each floor number the shapes of all modes there; empty unless forces act on floors.
+    /// From modes to floors and back, for each body.
+    to_floors: Vec<LaneMatrix>,
+    to_modes: Vec<LaneMatrix>,
+    /// For each floor number of a body the shapes of all modes there; empty unless forces act on floors.
     floor_shapes: Vec<f64>,
 }
 
-/// Off-diagonal damping of one building, 1/s.
+/// Off-diagonal damping of one body, 1/s.
 #[derive(Clone, Debug)]
 struct Coupling {
     offset: usize,
@@ -47,23 +52,43 @@ struct Coupling {
 }
 
 impl Structure {
-    /// Solves both eigenproblems.
+    /// Solves the eigenproblems of both buildings.
     pub fn new(left: &Building, right: &Building) -> Result<Structure, (Side, NotPositiveDefinite)> {
         let buildings = [left, right];
         let left = Modes::of(left).map_err(|e| (Side::Left, e))?;
         let right = Modes::of(right).map_err(|e| (Side::Right, e))?;
-        let counts = [left.omega.len(), right.omega.len()];
-        let lanes = Floors::lanes(counts[0], counts[1]);
         let modes = [left, right];
         let floors = Floors::new(buildings, &modes);
-        let (first_mode, first_floor) = ([0, counts[0]], [floors.lane(0, 0), floors.lane(1, 0)]);
-        let shape = |side: usize| &modes[side].shape;
-        let to_floors = [0, 1]
-            .map(|side| LaneMatrix::new(counts[side], first_mode[side], first_floor[side], |i, m| shape(side)[(i, m)]));
-        let to_modes = [0, 1].map(|side| {
-            let weighted = |m: usize, i: usize| shape(side)[(i, m)] * buildings[side].mass[i];
-            LaneMatrix::new(counts[side], first_floor[side], first_mode[side], weighted)
+        let counts = buildings.map(|building| building.mass.len());
+        let mut from = 0;
+        let bodies = [Side::Left, Side::Right].into_iter().zip(modes).map(|(side, modes)| {
+            let count = modes.omega.len();
+            let range = from..from + count;
+            from += count;
+            Body {
+                modes,
+                range,
+                lanes: floors.lanes_of(side as usize),
+                buildings: vec![Part { side, floors: 0..count }],
+            }
         });
+        Ok(Structure::of_bodies(bodies.collect(), floors, counts))
+    }
+
+    fn of_bodies(bodies: Vec<Body>, floors: Floors, counts: [usize; 2]) -> Structure {
+        let lanes = floors.mass().len();
+        let to_floors = |body: &Body| {
+            let shape = |i: usize, m: usize| body.modes.shape[(i, m)];
+            LaneMatrix::new(body.modes.omega.len(), body.range.start, body.lanes.start, shape)
+        };
+        let to_modes = |body: &Body| {
+            let weighted = |m: usize, i: usize| body.modes.shape[(i, m)] * floors.mass()[body.lanes.start + i];
+            LaneMatrix::new(body.modes.omega.len(), body.lanes.start, body.range.start, weighted)
+        };
+        let mut places = [(0, 0); 2];
+        for (b, body) in bodies.iter().enumerate() {
+            body.buildings.iter().for_each(|part| places[part.side as usize] = (b, part.floors.start));
+        }
         let mut structure = Structure {
             lanes,
             omega2: vec![0.0; lanes],
@@ -73,25 +98,25 @@ impl Structure {
             weight: vec![0.0; lanes],
             fastest: 0.0,
             coupling: Vec::new(),
+            to_floors: bodies.iter().map(to_floors).collect(),
+            to_modes: bodies.iter().map(to_modes).collect(),
             floors,
-            to_floors,
-            to_modes,
             floor_shapes: Vec::new(),
-            buildings: modes,
+            places,
+            counts,
+            bodies: Vec::new(),
         };
-        for side in [Side::Left, Side::Right] {
-            structure.spread(side);
-        }
+        bodies.iter().for_each(|body| structure.spread(body));
+        structure.bodies = bodies;
         for m in 0..lanes {
             structure.quickness[m] = structure.omega2[m].sqrt() + structure.damping[m];
         }
-        Ok(structure)
+        structure
     }
 
-    /// Lays one building's modes into the common vectors.
-    fn spread(&mut self, side: Side) {
-        let offset = self.offset(side);
-        let modes = &self.buildings[side as usize];
+    /// Lays one body's modes into the common vectors.
+    fn spread(&mut self, body: &Body) {
+        let (offset, modes) = (body.range.start, &body.modes);
         for (m, w) in modes.omega.iter().enumerate() {
             self.omega2[offset + m] = w * w;
             self.participation[offset + m] = modes.participation[m];
@@ -104,44 +129,41 @@ impl Structure {
                 self.fastest = c.iter().fold(self.fastest, |fastest, c| fastest.max(*c));
             }
             ModalDamping::Coupled(c) => {
-                let mut matrix = c.clone();
-                for m in 0..c.nrows() {
-                    self.damping[offset + m] = c[(m, m)];
-                    matrix[(m, m)] = 0.0;
-                }
+                (0..c.nrows()).for_each(|m| self.damping[offset + m] = c[(m, m)]);
                 self.fastest = self.fastest.max(c.abs().row_sum().max());
-                self.coupling.push(Coupling { offset, matrix });
             }
         }
+        self.coupling.extend(body.coupling().map(|matrix| Coupling { offset, matrix }));
     }
 
-    /// The modes of one building.
+    /// The body of a building.
+    pub fn body(&self, side: Side) -> &Body {
+        &self.bodies[self.places[side as usize].0]
+    }
+
+    /// The row of a floor in the shapes of its body.
+    pub fn row(&self, side: Side, floor: usize) -> usize {
+        self.places[side as usize].1 + floor
+    }
+
+    /// The modes of one building by itself.
     pub fn modes(&self, side: Side) -> &Modes {
-        &self.buildings[side as usize]
+        &self.body(side).modes
     }
 
-    /// Number of floors, which is also that of modes, of one building.
+    /// Number of floors of one building.
     pub fn floors(&self, side: Side) -> usize {
-        self.modes(side).omega.len()
+        self.counts[side as usize]
+    }
+
+    /// Number of a floor among those of both buildings, the left one's first.
+    pub fn number(&self, side: Side, floor: usize) -> usize {
+        if side == Side::Left { floor } else { self.floors(Side::Left) + floor }
     }
 
     /// Number of modes of both buildings, which is that of their floors.
     pub fn modes_of_both(&self) -> usize {
         self.floors(Side::Left) + self.floors(Side::Right)
-    }
-
-    /// Where a building's modes begin in a modal vector.
-    pub fn offset(&self, side: Side) -> usize {
-        match side {
-            Side::Left => 0,
-            Side::Right => self.floors(Side::Left),
-        }
-    }
-
-    /// A building's modes in a modal vector.
-    pub fn range(&self, side: Side) -> Range<usize> {
-        let offset = self.offset(side);
-        offset..offset + self.floors(side)
     }
 
     /// Whether no mode is coupled to another by damping.
@@ -160,25 +182,26 @@ impl Structure {
     /// vector of all floors.
     #[inline]
     pub fn at_floors<const N: usize>(&self, block: usize, modal: [&[f64]; N]) -> [Lane; N] {
-        block_of_both(&self.to_floors, block, modal)
+        block_of_all(&self.to_floors, block, modal)
     }
 
-    /// The modal vector of floor displacements or velocities: shape' M u.
-    pub fn to_modal(&self, side: Side, mass: &[f64], floors: &[f64], modal: &mut [f64]) {
-        let offset = self.offset(side);
-        for (m, column) in self.modes(side).shape.column_iter().enumerate() {
-            modal[offset + m] = column.iter().zip(mass).zip(floors).map(|((shape, m), u)| shape * m * u).sum();
+    /// Adds the modal vector of displacements or velocities of one building's floors: shape' M u.
+    pub fn add_modal(&self, side: Side, floors: &[f64], modal: &mut [f64]) {
+        let (body, mass) = (self.body(side), self.floors.of_building(side as usize, self.floors.mass()));
+        for (modal, column) in modal[body.range.clone()].iter_mut().zip(body.modes.shape.column_iter()) {
+            let own = column.iter().skip(self.row(side, 0));
+            *modal += own.zip(mass).zip(floors).map(|((shape, m), u)| shape * m * u).sum::<f64>();
         }
     }
 
     /// Adds the modal load of a force, N, on one floor.
     pub fn add_floor_force(&self, side: Side, floor: usize, force: f64, load: &mut [f64]) {
-        let range = self.range(side);
-        let shapes = self.floor_shapes.get(floor * self.lanes..).and_then(|row| row.get(range.clone()));
+        let (Body { modes, range, .. }, row) = (self.body(side), self.row(side, floor));
+        let shapes = self.floor_shapes.get(row * self.lanes..).and_then(|row| row.get(range.clone()));
         match shapes {
-            Some(row) => add_multiple(row, force, &mut load[range]),
+            Some(row) => add_multiple(row, force, &mut load[range.clone()]),
             None => {
-                for (shape, load) in self.modes(side).shape.row(floor).iter().zip(&mut load[range]) {
+                for (shape, load) in modes.shape.row(row).iter().zip(&mut load[range.clone()]) {
                     *load += shape * force;
                 }
             }
@@ -187,7 +210,7 @@ impl Structure {
 
     /// Adds the modal load of forces, N, on some floors of a building: to the same bits as one after the other.
     pub fn add_floor_forces(&self, side: Side, forces: impl Iterator<Item = (usize, f64)>, load: &mut [f64]) {
-        let range = self.range(side);
+        let (range, first) = (self.body(side).range.clone(), self.row(side, 0));
         let (mut group, mut count) = ([(0, 0.0); AT_ONCE], 0);
         for force in forces {
             group[count] = force;
@@ -196,7 +219,8 @@ impl Structure {
                 match self.floor_shapes.is_empty() {
                     true => group.iter().for_each(|&(floor, force)| self.add_floor_force(side, floor, force, load)),
                     false => {
-                        add_multiples(&self.floor_shapes, (self.lanes, range.start), &group, &mut load[range.clone()])
+                        let rows = group.map(|(floor, force)| (first + floor, force));
+                        add_multiples(&self.floor_shapes, (self.lanes, range.start), &rows, &mut load[range.clone()])
                     }
                 }
                 count = 0;
@@ -207,12 +231,11 @@ impl Structure {
 
     /// Lays out the shapes floor by floor: for forces on all floors, which are projected on the modes again and again.
     pub fn prepare_floor_forces(&mut self) {
-        let highest = self.floors(Side::Left).max(self.floors(Side::Right));
-        self.floor_shapes = vec![0.0; highest * self.lanes];
-        for side in [Side::Left, Side::Right] {
-            let range = self.range(side);
-            for (floor, row) in self.buildings[side as usize].shape.row_iter().enumerate() {
-                let out = &mut self.floor_shapes[floor * self.lanes..][range.clone()];
+        let highest = self.bodies.iter().map(|body| body.modes.shape.nrows()).max();
+        self.floor_shapes = vec![0.0; highest.unwrap_or(0) * self.lanes];
+        for body in &self.bodies {
+            for (floor, row) in body.modes.shape.row_iter().enumerate() {
+                let out = &mut self.floor_shapes[floor * self.lanes..][body.range.clone()];
                 out.iter_mut().zip(row.iter()).for_each(|(out, shape)| *out = *shape);
             }
         }
@@ -268,8 +291,8 @@ impl Structure {
 
     /// Force of a building on the ground, N: sum over its floors of K u + C v.
     pub fn base_shear(&self, side: Side, q: &[f64], v: &[f64]) -> f64 {
-        let offset = self.offset(side);
-        let modes = self.modes(side);
+        let Body { modes, range, .. } = self.body(side);
+        let offset = range.start;
         let mut shear = 0.0;
         for (m, participation) in modes.participation.iter().enumerate() {
             let i = offset + m;

@@ -5,7 +5,6 @@ use super::equations::{Scratch, Structure};
 use super::lanes::{FEW_BLOCKS, LANES, Lane};
 use super::modes::ModalDamping;
 use super::propagator::{CoupledIncrement, ModeIncrement};
-use crate::scene::Side;
 
 /// The exact flight of all modes over one interval length.
 #[derive(Clone, Debug, Default)]
@@ -42,18 +41,17 @@ impl Interval {
     fn prepare_mode_by_mode(&mut self, structure: &Structure, length: f64) {
         self.length = length;
         self.coupled.clear();
-        for side in [Side::Left, Side::Right] {
-            let offset = structure.offset(side);
-            let building = structure.modes(side);
-            match &building.damping {
+        for body in &structure.bodies {
+            let (offset, modes) = (body.range.start, &body.modes);
+            match &modes.damping {
                 ModalDamping::Diagonal(c) => {
-                    for (m, w) in building.omega.iter().enumerate() {
+                    for (m, w) in modes.omega.iter().enumerate() {
                         let i = offset + m;
                         self.modes[i / LANES].set(i % LANES, &ModeIncrement::new(*w, c[m], length));
                     }
                 }
                 ModalDamping::Coupled(c) => {
-                    self.coupled.push((offset, CoupledIncrement::new(&building.omega, c, length)));
+                    self.coupled.push((offset, CoupledIncrement::new(&modes.omega, c, length)));
                 }
             }
         }

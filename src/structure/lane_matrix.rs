@@ -62,9 +62,9 @@ fn add_all(matrix: &LaneMatrix, vector: &[f64], out: &mut [Lane]) {
     }
 }
 
-/// One block of the sum of two matrices, times each of some vectors.
+/// One block of the sum of some matrices, times each of some vectors.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-pub fn block_of_both<const N: usize>(matrices: &[LaneMatrix; 2], block: usize, vectors: [&[f64]; N]) -> [Lane; N] {
+pub fn block_of_all<const N: usize>(matrices: &[LaneMatrix], block: usize, vectors: [&[f64]; N]) -> [Lane; N] {
     let mut sums = [[0.0; LANES]; N];
     for matrix in matrices {
         if let Some(rows) = matrix.rows(block) {
@@ -120,7 +120,7 @@ mod tests {
         let matrices =
             [LaneMatrix::new(1, 0, 0, |_, _| 2.0), LaneMatrix::new(2, 1, 2, |i, j| [[3.0, 4.0], [5.0, 6.0]][i][j])];
         let vectors = [[1.0, 10.0, 100.0, 0.0], [-1.0, 0.0, 1.0, 0.0]];
-        let got = block_of_both(&matrices, 0, vectors.each_ref().map(|vector| &vector[..]));
+        let got = block_of_all(&matrices, 0, vectors.each_ref().map(|vector| &vector[..]));
         assert_eq!(got, [[2.0, 0.0, 430.0, 650.0], [-2.0, 0.0, 4.0, 6.0]]);
     }
 }

@@ -25,6 +25,7 @@
 pub use crate::scene::Side;
 
 mod block_increments;
+mod bodies;
 mod equations;
 mod first_mode;
 mod flight_work;
@@ -41,6 +42,7 @@ mod series;
 mod short_flight;
 
 pub use block_increments::ModeIncrements;
+pub use bodies::{Body, Part};
 pub use equations::{Scratch, Structure};
 pub use first_mode::FirstMode;
 pub use flight_work::{FlightEnergy, FlightWork};

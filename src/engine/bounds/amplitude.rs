@@ -27,7 +27,7 @@
 
 use crate::engine::excitation::record::Ahead;
 use crate::numerics::polynomial::each;
-use crate::structure::{LANES, Lane, ModalDamping, Side, Structure, from_left_to_right};
+use crate::structure::{LANES, Lane, Structure, from_left_to_right};
 use std::ops::Range;
 
 /// Largest number of segments for which a row is looked ahead.
@@ -50,7 +50,7 @@ pub struct ModeRates {
     /// What each mode's amplitude gains at most per unit of cumulative absolute velocity (integral of |ground
     /// acceleration|), kg^1/2: |participation|, where damping couples modes that of all together.
     pub gains: Vec<f64>,
-    /// Ranges of the modes of buildings in which damping couples modes.
+    /// Ranges of the modes of bodies in which damping couples modes.
     coupled: Vec<Range<usize>>,
 }
 
@@ -129,9 +129,8 @@ impl Ends {
 impl ModeRates {
     /// For a structure; `weight` is the largest |row| entry of each mode over all rows.
     pub fn of(structure: &Structure, weight: &[f64]) -> ModeRates {
-        let couples = |side: &Side| matches!(structure.modes(*side).damping, ModalDamping::Coupled(_));
-        let coupled: Vec<Range<usize>> =
-            [Side::Left, Side::Right].into_iter().filter(couples).map(|side| structure.range(side)).collect();
+        let coupled = structure.bodies.iter().filter(|body| body.is_coupled());
+        let coupled: Vec<Range<usize>> = coupled.map(|body| body.range.clone()).collect();
         let mut gains: Vec<f64> = structure.participation.iter().map(|p| p.abs()).collect();
         let omega: Vec<f64> = structure.omega2.iter().map(|w2| w2.sqrt()).collect();
         let mut quickness = structure.quickness.clone();

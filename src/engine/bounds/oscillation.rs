@@ -10,7 +10,7 @@
 //! which is largest at one of the ends, at most by the sum over modes of |row| R. So a motion that has died out needs
 //! no further tests, nor does one that oscillates for ever without reaching a limit.
 
-use crate::structure::{Side, Structure};
+use crate::structure::{Body, Structure};
 
 /// Margin for rounding, relative to the terms of a quantity.
 const MARGIN: f64 = 1e-10;
@@ -54,10 +54,10 @@ impl<'a> Oscillation<'a> {
     /// Whether `sign` times the quantity of a row stays below a limit, m.
     pub fn stays_below(&self, row: &[f64], sign: f64, limit: f64) -> bool {
         let (mut start, mut change, mut swing, mut size) = (0.0, 0.0, 0.0, limit.abs());
-        for side in [Side::Left, Side::Right] {
-            for m in self.structure.range(side) {
+        for body in &self.structure.bodies {
+            for m in body.range.clone() {
                 let [quasi_static, drift, radius] = self.of_mode(m);
-                let radius = if self.structure.is_classical() { radius } else { self.shared_radius(side, m) };
+                let radius = if self.structure.is_classical() { radius } else { self.shared_radius(body, m) };
                 start += row[m] * quasi_static;
                 change += row[m] * drift;
                 swing += row[m].abs() * radius;
@@ -68,11 +68,11 @@ impl<'a> Oscillation<'a> {
         (sign * start).max(sign * (start + change)) - limit + swing + MARGIN * size < 0.0
     }
 
-    /// Envelope radius of a mode of a building in which damping couples modes: that of all its modes, since they
+    /// Envelope radius of a mode of a body in which damping couples modes: that of all its modes, since they
     /// exchange energy.
-    fn shared_radius(&self, side: Side, mode: usize) -> f64 {
+    fn shared_radius(&self, body: &Body, mode: usize) -> f64 {
         let w2 = &self.structure.omega2;
         let energy = |m: usize| w2[m] * self.of_mode(m)[2] * self.of_mode(m)[2];
-        (self.structure.range(side).map(energy).sum::<f64>() / w2[mode]).sqrt()
+        (body.range.clone().map(energy).sum::<f64>() / w2[mode]).sqrt()
     }
 }

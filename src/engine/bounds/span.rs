@@ -12,7 +12,7 @@
 //! start of the other.
 
 use crate::engine::bounds::flights::{Flights, Forces};
-use crate::engine::quantities::truncated::{Mode, PushedFloors, TruncatedBlock, TruncatedBuilding};
+use crate::engine::quantities::truncated::{Mode, PushedFloors, TruncatedBlock, TruncatedBody};
 use crate::numerics::polynomial::{each, larger};
 use crate::structure::{LANES, Lane};
 
@@ -136,8 +136,8 @@ impl<const N: usize> Span<N> {
 
     /// Bounds on R of each group of quick modes, for each part: `out` has the groups of the first part first, and after those
     /// of all parts the largest ones.
-    pub fn bound_quick(&self, flights: &Flights, offset: usize, building: &TruncatedBuilding, out: &mut [f64]) {
-        let TruncatedBuilding { modes, groups, .. } = building;
+    pub fn bound_quick(&self, flights: &Flights, offset: usize, body: &TruncatedBody, out: &mut [f64]) {
+        let TruncatedBody { modes, groups, .. } = body;
         let (parts, most) = out.split_at_mut(self.parts() * groups.len());
         most.fill(0.0);
         for (part, out) in parts.chunks_mut(groups.len()).enumerate() {

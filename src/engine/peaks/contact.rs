@@ -15,7 +15,7 @@ use crate::engine::step::{Dense, Step};
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::polynomial::{larger, value_and_slope};
 use crate::numerics::powers::Powers;
-use crate::structure::{MotionSeries, Side};
+use crate::structure::{LANES, MotionSeries, Side};
 use std::ops::Range;
 
 /// Largest error of a quantity's series at the end of a step, relative to its peak, with which the series is searched.
@@ -120,10 +120,10 @@ impl Model {
         self.find_ends(part, work);
         self.find_pushes(part.base, work);
         // The bounds of `floors.rs` cost less than those of a series, and often suffice.
-        let is_open = [Side::Left, Side::Right].map(|side| {
-            self.bound_building(side, part, work);
-            self.may_exceed(side, part, peaks, work)
-        });
+        for b in 0..self.system.structure.bodies.len() {
+            self.bound_body(b, part, work);
+        }
+        let is_open = [Side::Left, Side::Right].map(|side| self.may_exceed(side, part, peaks, work));
         if is_open == [false; 2] {
             return;
         }
@@ -243,16 +243,16 @@ impl Model {
         true
     }
 
-    /// Works out upper bounds on the floors' accelerations.
-    fn bound_building(&self, side: Side, part: &ContactStep, work: &mut PeakWork) {
+    /// Works out upper bounds on the accelerations of a body's floors.
+    fn bound_body(&self, b: usize, part: &ContactStep, work: &mut PeakWork) {
         let (ground, slope) = part.ground();
         let ground = larger(ground.abs(), (ground + slope * part.length).abs());
         let room = &mut work.peaks.floors;
-        for lane in self.system.structure.floors.lanes_of(side as usize) {
+        for lane in self.system.structure.bodies[b].lanes.clone() {
             let resisted = larger(room.start.resisted[lane].abs(), room.end.resisted[lane].abs());
             room.largest[lane] = resisted + larger(room.most[lane], -room.least[lane]) + ground;
         }
-        self.find_strays(side, part.length, room);
+        self.find_strays(b, part.length, room);
     }
 
     /// Works out upper bounds on the floors' accelerations from those at both ends and the deviations in between.
@@ -353,7 +353,7 @@ impl Model {
     ) -> f64 {
         let mut rows = std::mem::take(&mut work.peaks.rows);
         let lanes = self.set_rows(of, part.base.coordinates, &mut rows);
-        let span = self.span_of(of.side(), part.base.coordinates);
+        let span = self.span_of(self.peak_rows.body_of(self.peak_rows.place(of) / LANES), part.base.coordinates);
         let step = part.step;
         let at_rest = part.base.rest.watched[self.peak_rows.place(of)] + self.soften_row(of, part.base, &mut rows);
         let quantity = Quantity { of, rows: &rows, lanes, span, at_rest, ground: part.ground() };

@@ -14,7 +14,7 @@ use crate::engine::bounds::stretch::Stretch;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
 use crate::engine::peaks::room::{LEAVES, MOST_PIECES, PeakWork, Suspect};
-use crate::engine::quantities::rows::{BuildingRows, PeakOf};
+use crate::engine::quantities::rows::{BodyRows, PeakOf};
 use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Lane};
 
@@ -22,11 +22,11 @@ impl Model {
     /// Raises the peaks over a flight.
     pub(in crate::engine) fn check_blocks(&self, flight: &Stretch, peaks: &mut Peaks, work: &mut PeakWork) {
         work.peaks.start_flight();
-        for building in &self.peak_rows.buildings {
+        for body in &self.peak_rows.bodies {
             let jerk = &mut work.buffers.node_v;
-            work.peaks.bounds.set(&self.system.structure, building.modes.clone(), flight, jerk);
-            for b in 0..building.blocks.len() {
-                self.check_block(building, b, (flight, None), peaks, work);
+            work.peaks.bounds.set(&self.system.structure, body.modes.clone(), flight, jerk);
+            for b in 0..body.blocks.len() {
+                self.check_block(body, b, (flight, None), peaks, work);
             }
         }
         self.search_flight(flight, peaks, work);
@@ -35,11 +35,11 @@ impl Model {
     /// Raises peaks to the motion of the base, on modes and without contact forces. An input that has just been set
     /// does not count yet: it acts in the next step.
     pub(in crate::engine) fn raise_to_motion(&self, base: &Base, peaks: &mut Peaks) {
-        for building in &self.peak_rows.buildings {
-            let [q, v] = [&base.q, &base.v].map(|vector| &vector[building.modes.clone()]);
-            for b in 0..building.blocks.len() {
-                for (i, value) in self.values_at((building, b), &base.rest.watched, (q, v)).into_iter().enumerate() {
-                    let place = (building.first + b) * LANES + i;
+        for body in &self.peak_rows.bodies {
+            let [q, v] = [&base.q, &base.v].map(|vector| &vector[body.modes.clone()]);
+            for b in 0..body.blocks.len() {
+                for (i, value) in self.values_at((body, b), &base.rest.watched, (q, v)).into_iter().enumerate() {
+                    let place = (body.first + b) * LANES + i;
                     if !(self.system.floor_forces && matches!(self.peak_rows.at(place), Some(PeakOf::Acceleration(..))))
                     {
                         peaks.raise(place, value);
@@ -66,19 +66,19 @@ impl Model {
     /// that have to be searched for; `known_ends` are the values at both ends, if they are known.
     pub(in crate::engine) fn check_block(
         &self,
-        building: &BuildingRows,
+        body: &BodyRows,
         b: usize,
         (flight, known_ends): (&Stretch, Option<[Lane; 2]>),
         peaks: &mut Peaks,
         work: &mut PeakWork,
     ) {
-        let (block, modes, h) = (&building.blocks[b], building.modes.clone(), flight.length);
+        let (block, modes, h) = (&body.blocks[b], body.modes.clone(), flight.length);
         let bounds = &work.peaks.bounds;
-        let place = (building.first + b) * LANES;
+        let place = (body.first + b) * LANES;
         let direct = &work.peaks.direct[place..];
-        let known = *peaks.block(building.first + b);
+        let known = *peaks.block(body.first + b);
         let added = self.system.floor_forces.then_some((direct, 0.0, h));
-        let at_rest = flight.rest.as_chunks::<LANES>().0[building.first + b];
+        let at_rest = flight.rest.as_chunks::<LANES>().0[body.first + b];
         if !flight.is_suspect && stay_below(&known, (block, &at_rest), (bounds, &modes), added) == [true; LANES] {
             return;
         }

@@ -58,11 +58,11 @@ impl Model {
         }
     }
 
-    /// Works out the deviations T A of a building's floors in a step of h seconds; `largest` holds B before and A
-    /// after.
-    pub(in crate::engine) fn find_strays(&self, side: Side, h: f64, room: &mut FloorRoom) {
-        let Resistance { dense, most, .. } = &self.resistance.buildings[side as usize];
-        let lanes = self.system.structure.floors.lanes_of(side as usize);
+    /// Works out the deviations T A of a body's floors in a step of h seconds; `largest` holds B before and A after.
+    pub(in crate::engine) fn find_strays(&self, b: usize, h: f64, room: &mut FloorRoom) {
+        let Resistance { dense, most, .. } = &self.resistance.bodies[b];
+        let body = &self.system.structure.bodies[b];
+        let lanes = body.lanes.clone();
         let factors = [0.125 * h * h, 0.5 * h];
         let norm = factors[0] * most[0] + factors[1] * most[1];
         let FloorRoom { largest, strays, .. } = room;
@@ -74,7 +74,9 @@ impl Model {
         }
         strays[lanes.clone()].fill(0.0);
         match dense {
-            None => self.system.structure.floors.add_sizes(side as usize, factors, largest, strays),
+            None => body.buildings.iter().for_each(|part| {
+                self.system.structure.floors.add_sizes(part.side as usize, factors, largest, strays);
+            }),
             Some([stiffness, damping]) => {
                 let own = lanes.clone();
                 add_product(
@@ -95,7 +97,7 @@ impl Model {
 
     /// Bound on the deviation of a base shear from its chord, N, with the floors' `largest` accelerations.
     pub(in crate::engine) fn shear_strays(&self, side: Side, h: f64, largest: &[f64]) -> f64 {
-        let [on_u, on_v] = &self.resistance.buildings[side as usize].shear;
+        let [on_u, on_v] = self.resistance.shear(side as usize);
         let largest = self.system.structure.floors.of_building(side as usize, largest);
         let terms = on_u.iter().zip(on_v).zip(largest);
         terms.map(|((k, c), a)| (0.125 * h * h * k.abs() + 0.5 * h * c.abs()) * a).sum()
@@ -103,7 +105,7 @@ impl Model {
 
     /// Base shear, N: the force of a building on the ground, from a motion relative to the position of rest.
     fn shear_of(&self, side: Side, floors: &FloorState) -> f64 {
-        let [on_u, on_v] = &self.resistance.buildings[side as usize].shear;
+        let [on_u, on_v] = self.resistance.shear(side as usize);
         let [u, v] =
             [&floors.u, &floors.v].map(|vector| self.system.structure.floors.of_building(side as usize, vector));
         let terms = on_u.iter().zip(on_v).zip(u.iter().zip(v));

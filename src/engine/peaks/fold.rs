@@ -1,6 +1,6 @@
 //! Folding logged flights into the peaks, largest spans first.
 //!
-//! Each building's flights are read in spans of some flights over its slow modes (`bounds/span.rs`). A block of quantities
+//! Each body's flights are read in spans of some flights over its slow modes (`bounds/span.rs`). A block of quantities
 //! whose bound over a span is below its peaks is done with; the others are read at the ends of the flights, which gives a
 //! lower bound on each peak and an upper bound on each flight. Only the flights that may exceed a peak are read with all
 //! modes, and searched for turning points: of many thousands a few. All peaks come from there; the slow modes only tell where
@@ -14,17 +14,17 @@ use crate::engine::bounds::stretch::Stretch;
 use crate::engine::model::Model;
 use crate::engine::peaks::fold_room::{FoldRoom, OpenBlock, SHORT, SpanRoom, Survivor};
 use crate::engine::peaks::room::PeakWork;
-use crate::engine::quantities::rows::{BuildingRows, values_of};
-use crate::engine::quantities::truncated::TruncatedBuilding;
+use crate::engine::quantities::rows::{BodyRows, values_of};
+use crate::engine::quantities::truncated::TruncatedBody;
 use crate::numerics::polynomial::{each, larger};
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
 
-/// Flights, and one building's rows to be read over them.
+/// Flights, and one body's rows to be read over them.
 struct Fold<'a> {
     flights: &'a Flights<'a>,
-    rows: &'a BuildingRows,
-    truncated: &'a TruncatedBuilding,
+    rows: &'a BodyRows,
+    truncated: &'a TruncatedBody,
     /// The quantities at rest.
     rest: &'a [Lane],
     /// Whether peaks rise to lower bounds.
@@ -63,10 +63,10 @@ impl Model {
             true => room.short.part(flights),
             false => room.long.part(flights),
         }
-        for (rows, truncated) in self.peak_rows.buildings.iter().zip(&self.truncated.buildings) {
-            let of_building = rows.first..rows.first + rows.blocks.len();
-            let fold = Fold { flights, rows, truncated, rest: &rest.as_chunks::<LANES>().0[of_building.clone()], rise };
-            let known = &mut peaks.values.as_chunks_mut::<LANES>().0[of_building];
+        for (rows, truncated) in self.peak_rows.bodies.iter().zip(&self.truncated.bodies) {
+            let of_body = rows.first..rows.first + rows.blocks.len();
+            let fold = Fold { flights, rows, truncated, rest: &rest.as_chunks::<LANES>().0[of_body.clone()], rise };
+            let known = &mut peaks.values.as_chunks_mut::<LANES>().0[of_body];
             match is_short {
                 true => fold.find_survivors(known, &mut room.short, &mut room.survivors),
                 false => fold.find_survivors(known, &mut room.long, &mut room.survivors),
@@ -102,7 +102,7 @@ impl Model {
             if is_below(&survivor.upper, known) {
                 return false;
             }
-            let rows = &self.peak_rows.buildings[usize::from(survivor.block >= self.peak_rows.buildings[1].first)];
+            let rows = &self.peak_rows.bodies[self.peak_rows.body_of(survivor.block)];
             let at_rest = &rest.as_chunks::<LANES>().0[survivor.block];
             let [push, rate] = self.pushes(flights, survivor);
             let times = [0.0, flights.load(survivor.flight).length];
@@ -131,9 +131,8 @@ impl Model {
         let Some(acting) = flights.forces.and_then(|forces| forces.acting(survivor.flight)) else {
             return [[0.0; LANES]; 2];
         };
-        let second = self.truncated.buildings[0].blocks.len();
-        let (side, first) = if survivor.block < second { (0, 0) } else { (1, second) };
-        let floors = self.truncated.buildings[side].blocks[survivor.block - first].pushed;
+        let body = self.peak_rows.body_of(survivor.block);
+        let floors = self.truncated.bodies[body].blocks[survivor.block - self.peak_rows.bodies[body].first].pushed;
         floors.map_or([[0.0; LANES]; 2], |floors| [acting.0, acting.1].map(|forces| floors.accelerations(forces)))
     }
 
@@ -184,16 +183,16 @@ impl Model {
 
     fn search_stretch(&self, stretch: &Stretch, survivors: &[Survivor], peaks: &mut Peaks, work: &mut PeakWork) {
         work.peaks.start_flight();
-        for building in &self.peak_rows.buildings {
-            let own = building.first..building.first + building.blocks.len();
+        for body in &self.peak_rows.bodies {
+            let own = body.first..body.first + body.blocks.len();
             let mut is_bounded = false;
             for survivor in survivors.iter().filter(|survivor| own.contains(&survivor.block)) {
                 if !std::mem::replace(&mut is_bounded, true) {
                     let jerk = &mut work.buffers.node_v;
-                    work.peaks.bounds.set(&self.system.structure, building.modes.clone(), stretch, jerk);
+                    work.peaks.bounds.set(&self.system.structure, body.modes.clone(), stretch, jerk);
                 }
                 let known_ends = Some(survivor.ends);
-                self.check_block(building, survivor.block - building.first, (stretch, known_ends), peaks, work);
+                self.check_block(body, survivor.block - body.first, (stretch, known_ends), peaks, work);
             }
         }
         self.search_flight(stretch, peaks, work);

@@ -3,7 +3,7 @@
 use crate::engine::bounds::flights::Flights;
 use crate::engine::bounds::span::{ModeSizes, PART, Span};
 use crate::engine::quantities::rows::PeakRows;
-use crate::engine::quantities::truncated::{TruncatedBuilding, TruncatedRows};
+use crate::engine::quantities::truncated::{TruncatedBody, TruncatedRows};
 use crate::structure::Lane;
 
 /// Times in a span of a long log, and of one or two flights.
@@ -70,8 +70,8 @@ impl FoldRoom {
 impl<const N: usize> SpanRoom<N> {
     fn new(rows: &PeakRows, truncated: &TruncatedRows, flights: usize) -> SpanRoom<N> {
         let spans = flights.div_ceil(N - 1);
-        let most = |of: &dyn Fn(&TruncatedBuilding) -> usize| truncated.buildings.iter().map(of).max().unwrap_or(0);
-        let blocks = rows.buildings.iter().map(|building| building.blocks.len()).max().unwrap_or(0);
+        let most = |of: &dyn Fn(&TruncatedBody) -> usize| truncated.bodies.iter().map(of).max().unwrap_or(0);
+        let blocks = rows.bodies.iter().map(|body| body.blocks.len()).max().unwrap_or(0);
         SpanRoom {
             spans: Vec::with_capacity(spans),
             motion: Vec::with_capacity(most(&|building| building.slow)),

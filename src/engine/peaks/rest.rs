@@ -2,21 +2,20 @@
 
 use crate::engine::base::{Base, Coordinates};
 use crate::engine::model::Model;
-use crate::engine::quantities::rows::{BuildingRows, PeakOf, values_of};
+use crate::engine::quantities::rows::{BodyRows, PeakOf, values_of};
 use crate::engine::yielding::storey::YieldingStorey;
 use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane};
 
 impl Model {
-    /// The values of block `b` of a building in a motion, with those at rest.
+    /// The values of block `b` of a body in a motion, with those at rest.
     pub(in crate::engine) fn values_at(
         &self,
-        (building, b): (&BuildingRows, usize),
+        (body, b): (&BodyRows, usize),
         rest: &[f64],
         (q, v): (&[f64], &[f64]),
     ) -> Lane {
-        let (values, at_rest) =
-            (values_of(&building.blocks[b], q, v), &rest.as_chunks::<LANES>().0[building.first + b]);
+        let (values, at_rest) = (values_of(&body.blocks[b], q, v), &rest.as_chunks::<LANES>().0[body.first + b]);
         each(|i| values[i] + at_rest[i])
     }
 

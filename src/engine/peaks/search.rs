@@ -8,10 +8,10 @@ use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::model::Model;
 use crate::engine::peaks::quantity::{Quantity, highest};
 use crate::engine::peaks::room::{LEAVES, MOST_FLOWN, PeakRoom, PeakWork, Suspect};
-use crate::engine::quantities::rows::{Block, BuildingRows, PeakOf, values_of};
+use crate::engine::quantities::rows::{Block, BodyRows, PeakOf, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_ORDER, larger};
-use crate::structure::{EXACT, LANES, Lane, Side, flight_order};
+use crate::structure::{EXACT, LANES, Lane, flight_order};
 
 /// Length of a piece, in units of 1 / (fastest rate), that one series reaches.
 const REACH: f64 = 1.5;
@@ -171,8 +171,8 @@ impl Model {
             if !are_any_left(suspects) {
                 continue;
             }
-            let (building, block) = self.block_of(suspects[0].place);
-            let [q, v] = [q, v].map(|place| &work.peaks.pieces[place][building.modes.clone()]);
+            let (body, block) = self.block_of(suspects[0].place);
+            let [q, v] = [q, v].map(|place| &work.peaks.pieces[place][body.modes.clone()]);
             let values = values_of(block, q, v);
             for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
                 let [direct, rate] = match self.system.floor_forces {
@@ -188,8 +188,8 @@ impl Model {
     /// Works out bounds on |y''| from the start of some bounds on the modes on: |q''| <= E / w, |q'''| <= E.
     fn bound_bends(&self, suspects: &mut [Suspect], bounds: &ModeBounds) {
         for suspects in suspects.chunk_by_mut(are_of_one_block) {
-            let (building, block) = self.block_of(suspects[0].place);
-            let [energy, over_w] = [&bounds.energy, &bounds.energy_over_w].map(|all| &all[building.modes.clone()]);
+            let (body, block) = self.block_of(suspects[0].place);
+            let [energy, over_w] = [&bounds.energy, &bounds.energy_over_w].map(|all| &all[body.modes.clone()]);
             let bends = bend_of(block, energy, over_w);
             suspects.iter_mut().for_each(|suspect| suspect.bend = bends[suspect.place % LANES]);
         }
@@ -206,16 +206,16 @@ impl Model {
         let (loads, length) = ((&peaks.load[..], flight.loads.1), piece.to - piece.from);
         let own =
             Stretch { start: (q, v), end: (end_q, end_v), loads, length, is_suspect: false, whole: None, ..*flight };
-        for building in &self.peak_rows.buildings {
-            peaks.piece.set(&self.system.structure, building.modes.clone(), &own, jerk);
+        for body in &self.peak_rows.bodies {
+            peaks.piece.set(&self.system.structure, body.modes.clone(), &own, jerk);
         }
         for suspects in suspects.chunk_by_mut(are_of_one_block) {
-            let (place, (building, block)) = (suspects[0].place / LANES * LANES, self.block_of(suspects[0].place));
+            let (place, (body, block)) = (suspects[0].place / LANES * LANES, self.block_of(suspects[0].place));
             let mut known = [f64::INFINITY; LANES];
             suspects.iter().for_each(|suspect| known[suspect.place % LANES] = suspect.peak);
             let direct = self.system.floor_forces.then_some((&peaks.direct[place..], piece.from, length));
             let at_rest = &flight.rest.as_chunks::<LANES>().0[place / LANES];
-            let are_below = stay_below(&known, (block, at_rest), (&peaks.piece, &building.modes), direct);
+            let are_below = stay_below(&known, (block, at_rest), (&peaks.piece, &body.modes), direct);
             for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
                 suspect.cleared_in = are_below[suspect.place % LANES].then_some(piece.halvings);
             }
@@ -237,13 +237,13 @@ impl Model {
         self.set_load(flight, from, work);
         let PeakRoom { pieces: [q, v, end_q, end_v], load, piece: ends, bounds, direct, .. } = &mut *work.peaks;
         let own = Stretch { start: (q, v), end: (end_q, end_v), loads: (load, flight.loads.1), length, ..*flight };
-        for building in &self.peak_rows.buildings {
-            ends.set_accelerations(&self.system.structure, building.modes.clone(), &own);
+        for body in &self.peak_rows.bodies {
+            ends.set_accelerations(&self.system.structure, body.modes.clone(), &own);
         }
         for suspects in suspects.chunk_by_mut(are_of_one_block).filter(|suspects| are_any_left(suspects)) {
-            let (building, block) = self.block_of(suspects[0].place);
-            let accelerations = [&ends.first, &ends.last].map(|all| &all[building.modes.clone()]);
-            let mut course = slopes_of(block, (&own, accelerations), bounds, building.modes.clone());
+            let (body, block) = self.block_of(suspects[0].place);
+            let accelerations = [&ends.first, &ends.last].map(|all| &all[body.modes.clone()]);
+            let mut course = slopes_of(block, (&own, accelerations), bounds, body.modes.clone());
             if self.system.floor_forces {
                 course.add_rates(&direct[suspects[0].place / LANES * LANES..]);
             }
@@ -255,10 +255,10 @@ impl Model {
         }
     }
 
-    /// The building and the block of a quantity.
-    fn block_of(&self, place: usize) -> (&BuildingRows, &Block) {
-        let building = &self.peak_rows.buildings[usize::from(place >= self.peak_rows.buildings[1].first * LANES)];
-        (building, &building.blocks[place / LANES - building.first])
+    /// The body and the block of a quantity.
+    fn block_of(&self, place: usize) -> (&BodyRows, &Block) {
+        let body = &self.peak_rows.bodies[self.peak_rows.body_of(place / LANES)];
+        (body, &body.blocks[place / LANES - body.first])
     }
 
     /// Finds the largest magnitudes within a leaf by its series.
@@ -272,11 +272,11 @@ impl Model {
     ) {
         let (mut rows, (ground, slope)) = (std::mem::take(&mut work.peaks.rows), flight.ground);
         let end = if until < to { (until - from) / (to - from) } else { 1.0 };
-        for suspects in suspects.chunk_by_mut(|one, next| one.of.side() == next.of.side()) {
+        for suspects in suspects.chunk_by_mut(|one, next| self.body_of(one) == self.body_of(next)) {
             if !are_any_left(suspects) {
                 continue;
             }
-            let span = self.span_of(suspects[0].of.side(), Coordinates::Modes);
+            let span = self.span_of(self.body_of(&suspects[0]), Coordinates::Modes);
             self.expand_leaf(flight, (from, to), span, work);
             for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
                 let of = suspect.of;
@@ -291,7 +291,7 @@ impl Model {
         work.peaks.rows = rows;
     }
 
-    /// Expands a piece of a flight into a power series, for the modes of one building.
+    /// Expands a piece of a flight into a power series, for the modes of one body.
     fn expand_leaf(&self, flight: &Stretch, (from, to): (f64, f64), modes: (usize, usize), work: &mut PeakWork) {
         self.fly_to(flight, from, [0, 1], work);
         self.set_load(flight, from, work);
@@ -339,11 +339,17 @@ impl Model {
         }
     }
 
-    /// The first lane of a building in some coordinates, and the one after its last.
-    pub(in crate::engine) fn span_of(&self, side: Side, coordinates: Coordinates) -> (usize, usize) {
+    /// The number of the body to which a quantity belongs.
+    fn body_of(&self, suspect: &Suspect) -> usize {
+        self.peak_rows.body_of(suspect.place / LANES)
+    }
+
+    /// The first lane of a body in some coordinates, and the one after its last.
+    pub(in crate::engine) fn span_of(&self, body: usize, coordinates: Coordinates) -> (usize, usize) {
+        let body = &self.system.structure.bodies[body];
         let lanes = match coordinates {
-            Coordinates::Modes => self.system.structure.range(side),
-            Coordinates::Floors => self.system.structure.floors.lanes_of(side as usize),
+            Coordinates::Modes => &body.range,
+            Coordinates::Floors => &body.lanes,
         };
         (lanes.start, lanes.end)
     }
@@ -355,37 +361,40 @@ impl Model {
         coordinates: Coordinates,
         rows: &mut [Vec<f64>; 2],
     ) -> Option<(usize, Option<usize>)> {
-        let structure = &self.system.structure;
-        let side = of.side() as usize;
+        rows.iter_mut().for_each(|row| row.fill(0.0));
         if coordinates == Coordinates::Floors {
-            let lane = |floor| structure.floors.lane(side, floor);
-            match of {
-                PeakOf::Displacement(_, floor) | PeakOf::Acceleration(_, floor) => return Some((lane(floor), None)),
-                PeakOf::Drift(_, floor) => return Some((lane(floor), floor.checked_sub(1).map(lane))),
-                PeakOf::BaseShear(_) => {}
-            }
+            return self.set_rows_of_floors(of, rows);
         }
-        let [row, row_v] = rows;
-        row.fill(0.0);
-        row_v.fill(0.0);
-        let of_shape = match of {
+        let place = self.peak_rows.place(match of {
             PeakOf::Acceleration(side, floor) => PeakOf::Displacement(side, floor),
             _ => of,
-        };
-        match coordinates {
-            Coordinates::Modes => {
-                let (building, place) = (&self.peak_rows.buildings[side], self.peak_rows.place(of_shape));
-                let (block, lane) = (&building.blocks[place / LANES - building.first], place % LANES);
-                for (m, a) in building.modes.clone().zip(&block.on_q) {
-                    row[m] = a[lane];
-                }
-                for (m, b) in building.modes.clone().zip(&block.on_v) {
-                    row_v[m] = b[lane];
-                }
-            }
-            Coordinates::Floors => self.resistance.set_shear_rows(side, structure.floors.lanes_of(side), row, row_v),
+        });
+        let ([row, row_v], (body, block)) = (rows, self.block_of(place));
+        for (m, a) in body.modes.clone().zip(&block.on_q) {
+            row[m] = a[place % LANES];
+        }
+        for (m, b) in body.modes.clone().zip(&block.on_v) {
+            row_v[m] = b[place % LANES];
         }
         None
+    }
+
+    /// The same over the floors, from rows of zeros.
+    fn set_rows_of_floors(&self, of: PeakOf, [row, row_v]: &mut [Vec<f64>; 2]) -> Option<(usize, Option<usize>)> {
+        let floors = &self.system.structure.floors;
+        match of {
+            PeakOf::Displacement(side, floor) | PeakOf::Acceleration(side, floor) => {
+                Some((floors.lane(side as usize, floor), None))
+            }
+            PeakOf::Drift(side, storey) => {
+                let lane = floors.lane(side as usize, storey);
+                Some((lane, storey.checked_sub(1).map(|_| lane - 1)))
+            }
+            PeakOf::BaseShear(side) => {
+                self.resistance.set_shear_rows(side as usize, floors.lanes_of(side as usize), row, row_v);
+                None
+            }
+        }
     }
 }
 

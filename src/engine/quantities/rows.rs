@@ -1,7 +1,7 @@
 //! The quantities whose peaks are kept, as linear functions of the motion, in blocks of four.
 //!
 //! Without contact and floor forces each quantity y is a row A over the displacements q and a row B over the velocities
-//! v of its building's modes, y = A q + B v:
+//! v of its body's modes, y = A q + B v:
 //!
 //! ```text
 //! displacement         A = shape of the floor                     B = 0
@@ -10,7 +10,7 @@
 //! base shear           A = w^2 participation                      B = participation C
 //! ```
 
-use crate::structure::{LANES, Lane, ModalDamping, Side, Structure};
+use crate::structure::{Body, LANES, Lane, ModalDamping, Side, Structure};
 use std::ops::Range;
 
 /// A quantity whose largest magnitude is kept. Floors and storeys count from 0.
@@ -27,38 +27,39 @@ pub enum PeakOf {
     BaseShear(Side),
 }
 
-impl PeakOf {
-    /// The building to which the quantity belongs.
-    pub(in crate::engine) fn side(self) -> Side {
-        match self {
-            PeakOf::Displacement(side, _) | PeakOf::Drift(side, _) | PeakOf::Acceleration(side, _) => side,
-            PeakOf::BaseShear(side) => side,
-        }
-    }
-}
-
-/// The watched quantities of both buildings.
+/// The watched quantities of all bodies.
 #[derive(Debug)]
 pub(crate) struct PeakRows {
-    pub buildings: [BuildingRows; 2],
+    pub bodies: Vec<BodyRows>,
+    /// Where those of each building begin.
+    buildings: [Places; 2],
 }
 
-/// The watched quantities of one building, in blocks of [`LANES`]: first displacements and drifts, then accelerations
-/// and the base shear.
+/// The watched quantities of one body, in blocks of [`LANES`]: first those that are rows over the displacements alone,
+/// then those that are forces over masses, and forces.
 #[derive(Debug)]
-pub(crate) struct BuildingRows {
-    /// The building's modes in a modal vector.
+pub(crate) struct BodyRows {
+    /// The body's modes in a modal vector.
     pub modes: Range<usize>,
-    /// Number of its first block among the blocks of both buildings.
+    /// Number of its first block among the blocks of all bodies.
     pub first: usize,
     pub blocks: Vec<Block>,
-    /// Number of floors.
-    floors: usize,
-    /// Number of blocks of displacements and drifts.
-    moving: usize,
+    /// Displacements and drifts.
+    moving: Vec<PeakOf>,
+    /// Accelerations and base shears.
+    pulling: Vec<PeakOf>,
 }
 
-/// [`LANES`] quantities of one building.
+/// Indices of the first displacement, drift and acceleration of a building, and of its base shear.
+#[derive(Clone, Copy, Debug, Default)]
+struct Places {
+    displacement: usize,
+    drift: usize,
+    acceleration: usize,
+    shear: usize,
+}
+
+/// [`LANES`] quantities of one body.
 #[derive(Debug)]
 pub(crate) struct Block {
     /// Row A, mode by mode.
@@ -68,34 +69,50 @@ pub(crate) struct Block {
 }
 
 impl PeakRows {
-    /// The watched quantities of both buildings; none unless `wanted`.
+    /// The watched quantities of all bodies; none unless `wanted`.
     pub(crate) fn of(structure: &Structure, wanted: bool) -> PeakRows {
-        let left = BuildingRows::of(structure, Side::Left, 0, wanted);
-        let right = BuildingRows::of(structure, Side::Right, left.blocks.len(), wanted);
-        PeakRows { buildings: [left, right] }
+        let mut rows = PeakRows { bodies: Vec::new(), buildings: [Places::default(); 2] };
+        for body in structure.bodies.iter().filter(|_| wanted) {
+            let of_body = BodyRows::of(body, rows.blocks());
+            for (place, of) in of_body.all() {
+                match of {
+                    PeakOf::Displacement(side, 0) => rows.buildings[side as usize].displacement = place,
+                    PeakOf::Drift(side, 0) => rows.buildings[side as usize].drift = place,
+                    PeakOf::Acceleration(side, 0) => rows.buildings[side as usize].acceleration = place,
+                    PeakOf::BaseShear(side) => rows.buildings[side as usize].shear = place,
+                    PeakOf::Displacement(..) | PeakOf::Drift(..) | PeakOf::Acceleration(..) => {}
+                }
+            }
+            rows.bodies.push(of_body);
+        }
+        rows
     }
 
     /// Whether no quantity is watched.
     pub(crate) fn are_none(&self) -> bool {
-        self.blocks() == 0
+        self.bodies.is_empty()
     }
 
-    /// Number of blocks of both buildings.
+    /// Number of blocks of all bodies.
     pub(crate) fn blocks(&self) -> usize {
-        self.buildings.iter().map(|building| building.blocks.len()).sum()
+        self.bodies.last().map_or(0, |body| body.first + body.blocks.len())
+    }
+
+    /// The number of the body to which a block belongs.
+    #[inline(always)]
+    pub(crate) fn body_of(&self, block: usize) -> usize {
+        self.bodies.iter().rposition(|body| body.first <= block).unwrap_or(0)
     }
 
     /// Index of a quantity among those of all blocks.
+    #[inline(always)]
     pub(crate) fn place(&self, of: PeakOf) -> usize {
-        let building = &self.buildings[of.side() as usize];
-        let floors = building.floors;
-        building.first * LANES
-            + match of {
-                PeakOf::Displacement(_, floor) => floor,
-                PeakOf::Drift(_, storey) => floors + storey,
-                PeakOf::Acceleration(_, floor) => building.moving * LANES + floor,
-                PeakOf::BaseShear(_) => building.moving * LANES + floors,
-            }
+        match of {
+            PeakOf::Displacement(side, floor) => self.buildings[side as usize].displacement + floor,
+            PeakOf::Drift(side, storey) => self.buildings[side as usize].drift + storey,
+            PeakOf::Acceleration(side, floor) => self.buildings[side as usize].acceleration + floor,
+            PeakOf::BaseShear(side) => self.buildings[side as usize].shear,
+        }
     }
 
     /// Writes the quantities of floors that have those displacements, m, and no velocities, in the order of their peaks:
@@ -113,54 +130,59 @@ impl PeakRows {
 
     /// The quantity at an index; `None` in a lane that is not used.
     pub(crate) fn at(&self, place: usize) -> Option<PeakOf> {
-        let side = if place < self.buildings[1].first * LANES { Side::Left } else { Side::Right };
-        let building = &self.buildings[side as usize];
-        let (place, floors, moving) = (place - building.first * LANES, building.floors, building.moving * LANES);
-        match place {
-            _ if place < floors => Some(PeakOf::Displacement(side, place)),
-            _ if place < 2 * floors => Some(PeakOf::Drift(side, place - floors)),
-            _ if place < moving => None,
-            _ if place < moving + floors => Some(PeakOf::Acceleration(side, place - moving)),
-            _ if place == moving + floors => Some(PeakOf::BaseShear(side)),
-            _ => None,
+        self.bodies.get(self.body_of(place / LANES))?.at(place)
+    }
+}
+
+impl BodyRows {
+    fn of(body: &Body, first: usize) -> BodyRows {
+        let floors: Vec<(Side, usize)> = (0..body.lanes.len()).filter_map(|row| body.floor(row)).collect();
+        let of_floors = |of: fn(Side, usize) -> PeakOf| floors.iter().map(move |&(side, floor)| of(side, floor));
+        let moving: Vec<PeakOf> = of_floors(PeakOf::Displacement).chain(of_floors(PeakOf::Drift)).collect();
+        let shears = body.buildings.iter().map(|part| PeakOf::BaseShear(part.side));
+        let pulling: Vec<PeakOf> = of_floors(PeakOf::Acceleration).chain(shears).collect();
+        let count = body.modes.omega.len();
+        let block = |quantities: &[PeakOf]| {
+            Block::of(count, |i, m| quantities.get(i).map_or([0.0; 2], |of| row_of(body, *of, m)))
+        };
+        let blocks = moving.chunks(LANES).chain(pulling.chunks(LANES)).map(block).collect();
+        BodyRows { modes: body.range.clone(), first, blocks, moving, pulling }
+    }
+
+    /// Index of the first quantity that follows from forces.
+    fn first_pulling(&self) -> usize {
+        self.first * LANES + self.moving.len().next_multiple_of(LANES)
+    }
+
+    /// All quantities with their indices.
+    fn all(&self) -> impl Iterator<Item = (usize, PeakOf)> {
+        let moving = (self.first * LANES..).zip(&self.moving);
+        moving.chain((self.first_pulling()..).zip(&self.pulling)).map(|(place, of)| (place, *of))
+    }
+
+    fn at(&self, place: usize) -> Option<PeakOf> {
+        match place.checked_sub(self.first_pulling()) {
+            Some(place) => self.pulling.get(place).copied(),
+            None => self.moving.get(place - self.first * LANES).copied(),
         }
     }
 }
 
-impl BuildingRows {
-    fn of(structure: &Structure, side: Side, first: usize, wanted: bool) -> BuildingRows {
-        let modes = structure.modes(side);
-        let (floors, count) = (modes.shape.nrows(), modes.omega.len());
-        let shape = |floor: usize, m: usize| modes.shape[(floor, m)];
-        let drift = |storey: usize, m: usize| match storey {
-            0 => shape(0, m),
-            _ => shape(storey, m) - shape(storey - 1, m),
-        };
-        let damped = |of: &dyn Fn(usize) -> f64, m: usize| match &modes.damping {
-            ModalDamping::Diagonal(c) => c[m] * of(m),
-            ModalDamping::Coupled(c) => (0..count).map(|k| c[(k, m)] * of(k)).sum(),
-        };
-        let w2 = |m: usize| modes.omega[m] * modes.omega[m];
-        let moving = |place: usize, m: usize| match place {
-            _ if place < floors => [shape(place, m), 0.0],
-            _ if place < 2 * floors => [drift(place - floors, m), 0.0],
-            _ => [0.0; 2],
-        };
-        let pulling = |place: usize, m: usize| match place {
-            _ if place < floors => [-w2(m) * shape(place, m), -damped(&|k| shape(place, k), m)],
-            _ if place == floors => [w2(m) * modes.participation[m], damped(&|k| modes.participation[k], m)],
-            _ => [0.0; 2],
-        };
-        let mut blocks = Vec::new();
-        let count_of = |quantities: usize| if wanted { quantities } else { 0 };
-        for from in (0..count_of(2 * floors)).step_by(LANES) {
-            blocks.push(Block::of(count, |i, m| moving(from + i, m)));
+/// The entries of rows A and B of a quantity for one mode of its body.
+fn row_of(body: &Body, of: PeakOf, m: usize) -> [f64; 2] {
+    let (modes, w2) = (&body.modes, body.modes.omega[m] * body.modes.omega[m]);
+    let damped = |of: &dyn Fn(usize) -> f64| match &modes.damping {
+        ModalDamping::Diagonal(c) => c[m] * of(m),
+        ModalDamping::Coupled(c) => (0..c.nrows()).map(|k| c[(k, m)] * of(k)).sum(),
+    };
+    match of {
+        PeakOf::Displacement(side, floor) => [modes.shape[(body.row(side, floor), m)], 0.0],
+        PeakOf::Drift(side, storey) => [body.drift(body.row(side, storey), m), 0.0],
+        PeakOf::Acceleration(side, floor) => {
+            let shape = |k: usize| modes.shape[(body.row(side, floor), k)];
+            [-w2 * shape(m), -damped(&shape)]
         }
-        let moving = blocks.len();
-        for from in (0..count_of(floors + 1)).step_by(LANES) {
-            blocks.push(Block::of(count, |i, m| pulling(from + i, m)));
-        }
-        BuildingRows { modes: structure.range(side), first, blocks, floors, moving }
+        PeakOf::BaseShear(_) => [w2 * modes.participation[m], damped(&|k| modes.participation[k])],
     }
 }
 

@@ -15,13 +15,13 @@
 //! Where forces may act on floors all modes are taken for slow: the quick ones follow each force by itself. The absolute
 //! acceleration of a floor is then the sum over all modes and its own force by its mass.
 
-use crate::engine::quantities::rows::{Block, BuildingRows, PeakOf, PeakRows};
-use crate::structure::{LANES, Lane, Side, Structure};
+use crate::engine::quantities::rows::{Block, BodyRows, PeakOf, PeakRows};
+use crate::structure::{LANES, Lane, Structure};
 use std::ops::Range;
 
 /// Modes with w h up to this, in segments of the usual length h, are slow.
 const SLOW: f64 = 2.0;
-/// Of a building with so few modes all are slow.
+/// Of a body with so few modes all are slow.
 const FEW: usize = 12;
 /// Least number of quick modes.
 const LEAST: usize = 5;
@@ -31,22 +31,22 @@ const GROUPS: usize = 8;
 /// Length of a segment where the scene has no record, s.
 const USUAL: f64 = 0.01;
 
-/// The quantities of both buildings.
+/// The quantities of all bodies.
 #[derive(Debug)]
 pub(crate) struct TruncatedRows {
-    pub buildings: [TruncatedBuilding; 2],
+    pub bodies: Vec<TruncatedBody>,
 }
 
-/// The quantities of one building.
+/// The quantities of one body.
 #[derive(Debug)]
-pub(crate) struct TruncatedBuilding {
+pub(crate) struct TruncatedBody {
     /// All modes, the slow ones first.
     pub modes: Vec<Mode>,
     /// Number of slow modes.
     pub slow: usize,
     /// Groups of the quick modes.
     pub groups: Vec<Group>,
-    /// The blocks of the building's rows.
+    /// The blocks of the body's rows.
     pub blocks: Vec<TruncatedBlock>,
 }
 
@@ -111,31 +111,32 @@ impl TruncatedRows {
     pub(crate) fn of(structure: &Structure, rows: &PeakRows, usual: Option<f64>, has_forces: bool) -> TruncatedRows {
         // So short that no mode is quick.
         let usual = if has_forces { 0.0 } else { usual.unwrap_or(USUAL) };
-        let mut buildings = [0, 1].map(|side| TruncatedBuilding::of(structure, &rows.buildings[side], usual));
-        for side in [Side::Left, Side::Right].into_iter().filter(|_| has_forces) {
-            for (b, block) in buildings[side as usize].blocks.iter_mut().enumerate() {
-                block.pushed = pushed_floors(structure, rows, (side, b));
+        let mut bodies: Vec<TruncatedBody> =
+            rows.bodies.iter().map(|body| TruncatedBody::of(structure, body, usual)).collect();
+        for (body, of) in bodies.iter_mut().zip(&rows.bodies).filter(|_| has_forces) {
+            for (block, number) in body.blocks.iter_mut().zip(of.first..) {
+                block.pushed = pushed_floors(structure, rows, number);
             }
         }
-        TruncatedRows { buildings }
+        TruncatedRows { bodies }
     }
 }
 
-/// The floors of block `b` of a building, if it is one of accelerations.
-fn pushed_floors(structure: &Structure, rows: &PeakRows, (side, b): (Side, usize)) -> Option<PushedFloors> {
-    let place = (rows.buildings[side as usize].first + b) * LANES;
-    let Some(PeakOf::Acceleration(_, first)) = rows.at(place) else { return None };
+/// The floors of a block, if it is one of accelerations.
+fn pushed_floors(structure: &Structure, rows: &PeakRows, block: usize) -> Option<PushedFloors> {
+    let place = block * LANES;
+    let Some(PeakOf::Acceleration(side, first)) = rows.at(place) else { return None };
     let inverse_mass = std::array::from_fn(|i| match rows.at(place + i) {
-        Some(PeakOf::Acceleration(_, floor)) => {
+        Some(PeakOf::Acceleration(side, floor)) => {
             structure.floors.inverse_mass(structure.floors.lane(side as usize, floor))
         }
         _ => 0.0,
     });
-    Some(PushedFloors { first: structure.offset(side) + first, inverse_mass })
+    Some(PushedFloors { first: structure.number(side, first), inverse_mass })
 }
 
-impl TruncatedBuilding {
-    fn of(structure: &Structure, rows: &BuildingRows, usual: f64) -> TruncatedBuilding {
+impl TruncatedBody {
+    fn of(structure: &Structure, rows: &BodyRows, usual: f64) -> TruncatedBody {
         let modes: Vec<Mode> = rows
             .modes
             .clone()
@@ -153,7 +154,7 @@ impl TruncatedBuilding {
         };
         let groups = group(&modes, slow);
         let blocks = rows.blocks.iter().map(|block| TruncatedBlock::of(block, (&modes, slow), &groups)).collect();
-        TruncatedBuilding { modes, slow, groups, blocks }
+        TruncatedBody { modes, slow, groups, blocks }
     }
 }
 

@@ -316,9 +316,8 @@ fn contact_coordinates(structure: &Structure, has_windows: bool) -> Coordinates 
 fn initial_state(scene: &Scene, structure: &Structure) -> [Vec<f64>; 2] {
     let mut state = [vec![0.0; structure.lanes], vec![0.0; structure.lanes]];
     for (side, building) in [(Side::Left, &scene.left), (Side::Right, &scene.right)] {
-        let Building { mass, initial_displacement, initial_velocity, .. } = building;
-        structure.to_modal(side, mass, initial_displacement, &mut state[0]);
-        structure.to_modal(side, mass, initial_velocity, &mut state[1]);
+        structure.add_modal(side, &building.initial_displacement, &mut state[0]);
+        structure.add_modal(side, &building.initial_velocity, &mut state[1]);
     }
     state
 }

@@ -83,8 +83,9 @@ impl System {
     fn displacement(&self, coordinates: Coordinates, (side, floor): (Side, usize), motion: &[f64]) -> f64 {
         match coordinates {
             Coordinates::Modes => {
-                let shape = self.structure.modes(side).shape.row(floor);
-                shape.iter().zip(&motion[self.structure.range(side)]).map(|(shape, q)| shape * q).sum::<f64>()
+                let body = self.structure.body(side);
+                let shape = body.modes.shape.row(body.row(side, floor));
+                shape.iter().zip(&motion[body.range.clone()]).map(|(shape, q)| shape * q).sum::<f64>()
             }
             Coordinates::Floors => motion[self.structure.floors.lane(side as usize, floor)],
         }

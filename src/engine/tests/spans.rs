@@ -10,7 +10,7 @@ use crate::engine::peaks::log::PeakLog;
 use crate::engine::quantities::rows::{PeakOf, values_of};
 use crate::record::Record;
 use crate::scene::Scene;
-use crate::structure::{Interval, LANES, Side};
+use crate::structure::{Interval, LANES};
 
 /// Length of a sample, s: sums of it are exact.
 const SAMPLE: f64 = 1.0 / 128.0;
@@ -121,7 +121,7 @@ impl Case {
         let structure = &self.model.system.structure;
         let Some(PeakOf::Acceleration(side, floor)) = self.model.peak_rows.at(place) else { return 0.0 };
         let Some((forces, rates)) = self.flights().forces.and_then(|forces| forces.acting(k)) else { return 0.0 };
-        let number = if side == Side::Left { floor } else { structure.floors(Side::Left) + floor };
+        let number = structure.number(side, floor);
         (forces[number] + rates[number] * time)
             * structure.floors.inverse_mass(structure.floors.lane(side as usize, floor))
     }
@@ -141,7 +141,7 @@ fn compare<const N: usize>(case: &Case) -> f64 {
     let flights = case.flights();
     let motions: Vec<Vec<_>> = (0..flights.count()).map(|k| case.instants(k)).collect();
     let mut nearest = f64::INFINITY;
-    for (rows, truncated) in case.model.peak_rows.buildings.iter().zip(&case.model.truncated.buildings) {
+    for (rows, truncated) in case.model.peak_rows.bodies.iter().zip(&case.model.truncated.bodies) {
         let groups = truncated.groups.len();
         let mut motion = vec![[[0.0; N]; 2]; truncated.slow];
         let mut sizes = vec![ModeSizes::default(); truncated.slow];

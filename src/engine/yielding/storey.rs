@@ -63,7 +63,7 @@ impl YieldingStorey {
         below.iter().for_each(|&floor| structure.add_floor_force(side, floor, -1.0, &mut row));
         let lifted_floors: Vec<f64> = (0..building.mass.len()).map(|f| f64::from(u8::from(f >= storey))).collect();
         let mut lift = vec![0.0; structure.lanes];
-        structure.to_modal(side, &building.mass, &lifted_floors, &mut lift);
+        structure.add_modal(side, &lifted_floors, &mut lift);
         Some(YieldingStorey {
             side,
             storey,
