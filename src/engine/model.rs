@@ -65,7 +65,7 @@ impl Model {
         self.system.set_rest(&base.storeys, &mut base.rest);
         base.rest.watched.resize(self.peak_rows.blocks() * LANES, 0.0);
         if !base.storeys.is_empty() && !self.peak_rows.are_none() {
-            self.peak_rows.set_at_rest(&self.system.structure, &base.rest.floors, &mut base.rest.watched);
+            self.set_watched_at_rest(base);
         }
     }
 

@@ -29,6 +29,8 @@ pub struct Scene {
     pub floor_forces: bool,
     /// What may collide.
     pub contacts: Vec<ContactPair>,
+    /// Devices between the buildings, or between a floor and the ground.
+    pub links: Vec<super::link::Link>,
     /// m, `facing.level_tolerance` where `[facing]` has made the contacts.
     pub facing: Option<f64>,
     /// `outputs.energy`: the energy account exists.

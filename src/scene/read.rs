@@ -120,6 +120,7 @@ fn scene(mut root: Section<'_>) -> Scene {
         floor_forces,
         contacts,
         facing,
+        links: Vec::new(),
         energy,
         peaks,
         solver,

@@ -1,11 +1,12 @@
 //! Both buildings in modal coordinates: their equation of motion, forces and energies.
 
-use super::bodies::{Body, Part};
+use super::bodies::Body;
 use super::floors::Floors;
 use super::lane_matrix::{LaneMatrix, block_of_all};
-use super::lanes::{LANES, Lane};
+use super::lanes::{LANES, Lane, dot};
+use super::links::LinkRow;
 use super::modes::{ModalDamping, Modes, NotPositiveDefinite};
-use crate::scene::{Building, Side};
+use crate::scene::{Scene, Side};
 use nalgebra::DMatrix;
 
 /// Number of floor forces that are projected on the modes at a time.
@@ -18,6 +19,12 @@ pub struct Structure {
     pub bodies: Vec<Body>,
     /// The body of each building, and the row of its lowest floor there.
     places: [(usize, usize); 2],
+    /// The modes of each building by itself, where links act on it.
+    alone: [Option<Modes>; 2],
+    /// Base shears of the buildings on which links act.
+    shears: [Option<BaseShear>; 2],
+    /// The links of the scene.
+    pub links: Vec<LinkRow>,
     /// Number of floors of each building.
     counts: [usize; 2],
     /// Length of a modal vector.
@@ -51,28 +58,56 @@ struct Coupling {
     matrix: DMatrix<f64>,
 }
 
+/// The force of one building of a body on the ground: rows over displacements and velocities of its floors, and of all
+/// modes.
+#[derive(Clone, Debug)]
+struct BaseShear {
+    of_floors: [Vec<f64>; 2],
+    of_modes: [Vec<f64>; 2],
+}
+
 impl Structure {
-    /// Solves the eigenproblems of both buildings.
-    pub fn new(left: &Building, right: &Building) -> Result<Structure, (Side, NotPositiveDefinite)> {
-        let buildings = [left, right];
-        let left = Modes::of(left).map_err(|e| (Side::Left, e))?;
-        let right = Modes::of(right).map_err(|e| (Side::Right, e))?;
+    /// Solves the eigenproblems of all bodies of a scene.
+    pub fn of(scene: &Scene) -> Result<Structure, (Side, NotPositiveDefinite)> {
+        let buildings = [&scene.left, &scene.right];
+        let left = Modes::of(buildings[0]).map_err(|e| (Side::Left, e))?;
+        let right = Modes::of(buildings[1]).map_err(|e| (Side::Right, e))?;
         let modes = [left, right];
-        let floors = Floors::new(buildings, &modes);
-        let counts = buildings.map(|building| building.mass.len());
-        let mut from = 0;
-        let bodies = [Side::Left, Side::Right].into_iter().zip(modes).map(|(side, modes)| {
-            let count = modes.omega.len();
-            let range = from..from + count;
-            from += count;
-            Body {
-                modes,
-                range,
-                lanes: floors.lanes_of(side as usize),
-                buildings: vec![Part { side, floors: 0..count }],
-            }
+        let floors = Floors::new(buildings, &modes, !scene.links.is_empty());
+        let bodies = Body::all(buildings, &modes, &scene.links, &floors)?;
+        let is_linked = |side: Side| bodies.iter().any(|body| body.is_linked && body.has(side));
+        let [left, right] = modes;
+        let alone = [(Side::Left, left), (Side::Right, right)].map(|(side, of)| is_linked(side).then_some(of));
+        let mut structure = Structure::of_bodies(bodies, floors, buildings.map(|building| building.mass.len()));
+        structure.links =
+            scene.links.iter().map(|link| LinkRow::of(link, &structure.bodies, &structure.floors)).collect();
+        structure.shears =
+            [0, 1].map(|side| alone[side].as_ref().map(|modes| structure.shear_beside_links(side, modes)));
+        structure.alone = alone;
+        Ok(structure)
+    }
+
+    /// The base shear of a building on which links act, from its modes by itself.
+    fn shear_beside_links(&self, side: usize, modes: &Modes) -> BaseShear {
+        let of = if side == 0 { Side::Left } else { Side::Right };
+        let mass = self.floors.of_building(side, self.floors.mass());
+        let (count, shape) = (mass.len(), &modes.shape);
+        let damped = |m: usize| match &modes.damping {
+            ModalDamping::Diagonal(c) => c[m] * modes.participation[m],
+            ModalDamping::Coupled(c) => (0..count).map(|k| c[(k, m)] * modes.participation[k]).sum(),
+        };
+        let pulled = |m: usize| modes.omega[m] * modes.omega[m] * modes.participation[m];
+        let over_floors = |of_mode: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            let of_modes: Vec<f64> = (0..count).map(of_mode).collect();
+            (0..count).map(|j| mass[j] * (0..count).map(|m| of_modes[m] * shape[(j, m)]).sum::<f64>()).collect()
+        };
+        let of_floors = [over_floors(&pulled), over_floors(&damped)];
+        let of_modes = of_floors.each_ref().map(|row| {
+            let mut modal = vec![0.0; self.lanes];
+            row.iter().enumerate().for_each(|(floor, force)| self.add_floor_force(of, floor, *force, &mut modal));
+            modal
         });
-        Ok(Structure::of_bodies(bodies.collect(), floors, counts))
+        BaseShear { of_floors, of_modes }
     }
 
     fn of_bodies(bodies: Vec<Body>, floors: Floors, counts: [usize; 2]) -> Structure {
@@ -104,6 +139,9 @@ impl Structure {
             floor_shapes: Vec::new(),
             places,
             counts,
+            alone: [None, None],
+            shears: [None, None],
+            links: Vec::new(),
             bodies: Vec::new(),
         };
         bodies.iter().for_each(|body| structure.spread(body));
@@ -148,7 +186,17 @@ impl Structure {
 
     /// The modes of one building by itself.
     pub fn modes(&self, side: Side) -> &Modes {
-        &self.body(side).modes
+        self.alone[side as usize].as_ref().unwrap_or(&self.body(side).modes)
+    }
+
+    /// The rows of the base shear over displacements and velocities of all modes, where links act on the building.
+    pub fn shear_rows(&self, side: Side) -> Option<&[Vec<f64>; 2]> {
+        self.shears[side as usize].as_ref().map(|shear| &shear.of_modes)
+    }
+
+    /// The same over those of its floors.
+    pub fn shear_rows_of_floors(&self, side: Side) -> Option<&[Vec<f64>; 2]> {
+        self.shears[side as usize].as_ref().map(|shear| &shear.of_floors)
     }
 
     /// Number of floors of one building.
@@ -291,6 +339,9 @@ impl Structure {
 
     /// Force of a building on the ground, N: sum over its floors of K u + C v.
     pub fn base_shear(&self, side: Side, q: &[f64], v: &[f64]) -> f64 {
+        if let Some([on_q, on_v]) = self.shear_rows(side) {
+            return dot(on_q, q) + dot(on_v, v);
+        }
         let Body { modes, range, .. } = self.body(side);
         let offset = range.start;
         let mut shear = 0.0;

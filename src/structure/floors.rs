@@ -82,15 +82,13 @@ impl Floors {
         (second, lanes(second))
     }
 
-    /// Lanes that a vector of all floors needs.
-    pub fn lanes(left: usize, right: usize) -> usize {
-        Floors::layout(left, right).1
-    }
-
-    /// For two buildings and their modes.
-    pub fn new(buildings: [&Building; 2], modes: &[Modes; 2]) -> Floors {
+    /// For two buildings and their modes, which may be linked.
+    pub fn new(buildings: [&Building; 2], modes: &[Modes; 2], are_linked: bool) -> Floors {
         let count = buildings.map(|building| building.mass.len());
-        let (second, lanes) = Floors::layout(count[0], count[1]);
+        let (second, lanes) = match are_linked {
+            true => (count[0], (count[0] + count[1]).next_multiple_of(LANES)),
+            false => Floors::layout(count[0], count[1]),
+        };
         let zeros = vec![0.0; lanes];
         let mut floors = Floors {
             first: [0, second],
@@ -101,7 +99,7 @@ impl Floors {
             blocks: vec![Block::default(); zeros.len() / LANES],
             buildings: [Blocks::default(); 2],
             rest: zeros,
-            is_sparse: second.is_multiple_of(LANES),
+            is_sparse: second.is_multiple_of(LANES) && !are_linked,
         };
         for side in 0..2 {
             floors.lay_out(side, buildings[side], &modes[side]);
@@ -374,7 +372,7 @@ mod tests {
     #[test]
     fn storeys_with_rayleigh_damping_know_their_neighbours_only() {
         let scene = scene(SHEAR);
-        let structure = Structure::new(&scene.left, &scene.right).unwrap();
+        let structure = Structure::of(&scene).unwrap();
         let floors = &structure.floors;
         assert!(floors.is_sparse());
         let (u, v) = (motion(floors, 0.3), motion(floors, 1.1));
@@ -407,7 +405,7 @@ mod tests {
     fn other_buildings_stay_in_modes() {
         for buildings in [RATIOS, MATRIX] {
             let scene = scene(buildings);
-            assert!(!Structure::new(&scene.left, &scene.right).unwrap().floors.is_sparse());
+            assert!(!Structure::of(&scene).unwrap().floors.is_sparse());
         }
     }
 }

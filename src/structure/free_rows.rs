@@ -102,7 +102,7 @@ mod tests {
         };
         let text = format!("name = \"Two\"\n[left]\n{}\n[right]\n{}", building(14, 900.0), building(11, 500.0));
         let scene = Scene::from_toml(&text).unwrap();
-        let structure = Structure::new(&scene.left, &scene.right).unwrap();
+        let structure = Structure::of(&scene).unwrap();
         let length = 6.0 / structure.fastest;
         let vector = |seed: f64| (0..structure.lanes).map(|m| (seed + 1.3 * m as f64).sin()).collect::<Vec<_>>();
         let (mut row, q, v) = (vector(0.1), vector(0.7), vector(1.9));

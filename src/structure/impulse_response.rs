@@ -178,7 +178,7 @@ mod tests {
         let text = "name = \"Two\"\n[left]\nmass = [2.0]\nstiffness = [50.0]\ndamping = { ratio = 0.1 }\n\
                     [right]\nmass = [3.0]\nstiffness = [48.0]\ndamping = { ratio = 0.0 }";
         let scene = Scene::from_toml(text).unwrap();
-        Structure::new(&scene.left, &scene.right).unwrap()
+        Structure::of(&scene).unwrap()
     }
 
     /// h = exp(-z w t) sin(w_d t) / w_d.
@@ -213,7 +213,7 @@ mod tests {
             let building = format!("mass = [1.0]\nstiffness = [{:?}]\ndamping = {{ matrix = [[{c:?}]] }}", w * w);
             let text = format!("name = \"Two\"\n[left]\n{building}\n[right]\n{building}");
             let scene = Scene::from_toml(&text).unwrap();
-            let structure = Structure::new(&scene.left, &scene.right).unwrap();
+            let structure = Structure::of(&scene).unwrap();
             let response = ImpulseResponse::of(&structure).unwrap();
             for time in [0.1, 1.0, 3.0, 10.0] {
                 let velocity = |k: i32| ModeIncrement::new(w, c, time * f64::from(k) / 1000.0).dvv;

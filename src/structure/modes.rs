@@ -25,47 +25,63 @@ pub enum ModalDamping {
     Coupled(DMatrix<f64>),
 }
 
+impl ModalDamping {
+    /// As a full matrix.
+    pub(super) fn matrix(&self) -> DMatrix<f64> {
+        match self {
+            ModalDamping::Diagonal(c) => DMatrix::from_diagonal(&DVector::from_column_slice(c)),
+            ModalDamping::Coupled(c) => c.clone(),
+        }
+    }
+}
+
 /// A stiffness matrix is not positive definite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NotPositiveDefinite;
 
 impl Modes {
     /// Solves K shape = M shape omega^2.
-    ///
-    /// nalgebra's symmetric eigenvalue solver is accurate relative to the *largest* frequency. One step of the
-    /// refinement of Ogita and Aishima (2018), on a factor R of K = R'R instead of K itself, makes the lowest
-    /// frequencies as accurate: they carry the motion, and their error grows with time.
     pub fn of(building: &Building) -> Result<Modes, NotPositiveDefinite> {
         if building.is_absent() {
             return Ok(Modes::none());
         }
         let mass = DVector::from_column_slice(&building.mass);
-        let factor = stiffness_factor(&building.net_stiffness())?;
-        let root_mass = mass.map(f64::sqrt);
-        let scaled = DMatrix::from_fn(factor.nrows(), factor.ncols(), |i, j| factor[(i, j)] / root_mass[j]);
-        let eigen = SymmetricEigen::new(scaled.transpose() * &scaled);
-        let mut order: Vec<usize> = (0..mass.len()).collect();
-        order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-        let mut shape =
-            DMatrix::from_fn(mass.len(), mass.len(), |i, j| eigen.eigenvectors[(i, order[j])] / root_mass[i]);
-        let mut omega2 = vec![0.0; mass.len()];
-        for _ in 0..2 {
-            omega2 = refine(&mut shape, &factor, &mass);
-        }
-        if omega2.iter().any(|&w2| w2 <= 0.0 || !w2.is_finite()) {
-            return Err(NotPositiveDefinite);
-        }
-        for mut column in shape.column_iter_mut() {
-            // The sign of a shape is free: the top floor moves to the right.
-            if column[column.len() - 1] < 0.0 {
-                column.neg_mut();
-            }
-        }
-        let omega: Vec<f64> = omega2.iter().map(|w2| w2.sqrt()).collect();
+        let (omega, shape) = solve(&mass, &stiffness_factor(&building.net_stiffness())?)?;
         let participation = shape.tr_mul(&mass).as_slice().to_vec();
         let damping = modal_damping(&building.damping, &omega, &shape);
         Ok(Modes { omega, shape, participation, damping })
     }
+}
+
+/// Frequencies and shapes of K = R'R from the factor R.
+///
+/// nalgebra's symmetric eigenvalue solver is accurate relative to the *largest* frequency. One step of the
+/// refinement of Ogita and Aishima (2018), on a factor R of K = R'R instead of K itself, makes the lowest
+/// frequencies as accurate: they carry the motion, and their error grows with time.
+pub(super) fn solve(
+    mass: &DVector<f64>,
+    factor: &DMatrix<f64>,
+) -> Result<(Vec<f64>, DMatrix<f64>), NotPositiveDefinite> {
+    let root_mass = mass.map(f64::sqrt);
+    let scaled = DMatrix::from_fn(factor.nrows(), factor.ncols(), |i, j| factor[(i, j)] / root_mass[j]);
+    let eigen = SymmetricEigen::new(scaled.transpose() * &scaled);
+    let mut order: Vec<usize> = (0..mass.len()).collect();
+    order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
+    let mut shape = DMatrix::from_fn(mass.len(), mass.len(), |i, j| eigen.eigenvectors[(i, order[j])] / root_mass[i]);
+    let mut omega2 = vec![0.0; mass.len()];
+    for _ in 0..2 {
+        omega2 = refine(&mut shape, factor, mass);
+    }
+    if omega2.iter().any(|&w2| w2 <= 0.0 || !w2.is_finite()) {
+        return Err(NotPositiveDefinite);
+    }
+    for mut column in shape.column_iter_mut() {
+        // The sign of a shape is free: the top floor moves to the right.
+        if column[column.len() - 1] < 0.0 {
+            column.neg_mut();
+        }
+    }
+    Ok((omega2.iter().map(|w2| w2.sqrt()).collect(), shape))
 }
 
 impl Modes {
@@ -83,7 +99,7 @@ impl Modes {
 }
 
 /// R with K = R'R: sqrt(k) times the drifts of a shear building, else the Cholesky factor.
-fn stiffness_factor(stiffness: &Stiffness) -> Result<DMatrix<f64>, NotPositiveDefinite> {
+pub(super) fn stiffness_factor(stiffness: &Stiffness) -> Result<DMatrix<f64>, NotPositiveDefinite> {
     match stiffness {
         Stiffness::Shear(k) => {
             let mut factor = drifts(k.len());

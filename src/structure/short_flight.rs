@@ -119,7 +119,7 @@ mod tests {
         };
         let text = format!("name = \"Two\"\n[left]\n{}\n[right]\n{}", building(4, 300.0), building(7, 900.0));
         let scene = Scene::from_toml(&text).unwrap();
-        let structure = Structure::new(&scene.left, &scene.right).unwrap();
+        let structure = Structure::of(&scene).unwrap();
         let vector = |seed: f64| (0..structure.lanes).map(|m| (seed + 1.3 * m as f64).sin()).collect::<Vec<_>>();
         let (q, v, load, slope) = (vector(0.1), vector(0.7), vector(1.9), vector(2.3));
         let mut series = MotionSeries::new(structure.lanes, MAX_TERMS - 1);

@@ -68,6 +68,7 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
         Output::Contact(p, C::Force | C::PeakForce) => contact_force(scene, p, known),
         // Nothing has been done yet, and an overlap at the start has no approach velocity.
         Output::Contact(_, C::Impulse | C::DissipatedEnergy | C::ApproachVelocity) => false,
+        Output::Link(..) | Output::Peak(PeakOf::LinkDisplacement(_) | PeakOf::LinkForce(_)) => false,
         Output::Impacts => (0..scene.contacts.len()).any(|p| is_of_distance(scene, p, known) && is_pushed(scene, p)),
         Output::Energy(term) => energy(scene, term, known),
     }

@@ -10,7 +10,7 @@ fn structure([left, right]: [(f64, f64); 2]) -> Structure {
         format!("[{side}]\nmass = [2.0]\nstiffness = [{:e}]\ndamping = {{ ratio = {ratio} }}\n", 2.0 * omega * omega)
     };
     let scene = scene(&format!("name = \"Two\"\n{}{}", building("left", left), building("right", right)));
-    Structure::new(&scene.left, &scene.right).ok().unwrap()
+    Structure::of(&scene).ok().unwrap()
 }
 
 /// The motion at the end of a flight of `length` seconds.

@@ -274,7 +274,7 @@ mod tests {
         let building = "mass = [1e3]\nstiffness = [1e5]\ndamping = { ratio = 0.05 }\n";
         let scene = format!("name = \"Two\"\n[left]\n{building}[right]\n{building}");
         let scene = Scene::from_toml(&scene).unwrap();
-        let structure = Structure::new(&scene.left, &scene.right).ok().unwrap();
+        let structure = Structure::of(&scene).ok().unwrap();
         let record = Record { accelerations: times.iter().map(|time| time.sin()).collect(), times };
         GroundMotion::new(&record, 1.0, &structure, true)
     }

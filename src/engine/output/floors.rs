@@ -46,7 +46,13 @@ impl Model {
     #[inline(never)]
     pub(in crate::engine) fn base_shear(&self, point: &Point, side: Side) -> f64 {
         match point.coordinates {
-            Coordinates::Modes => self.system.structure.base_shear(side, &point.q, &point.v),
+            Coordinates::Modes => {
+                let at_rest = match point.storeys.is_empty() {
+                    true => 0.0,
+                    false => self.system.shear_at_rest(&point.storeys, side, &point.rest),
+                };
+                self.system.structure.base_shear(side, &point.q, &point.v) + at_rest
+            }
             Coordinates::Floors => {
                 self.system.structure.floors.base_shear(side as usize, &self.accelerations(point).resisted)
             }

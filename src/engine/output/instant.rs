@@ -1,7 +1,7 @@
 //! The solution at one time: the door through which outputs and their derivatives are read.
 
 use crate::engine::model::Model;
-use crate::engine::output::outputs::{ContactOutput, ContactPoint, EnergyPoint, Output, Rates};
+use crate::engine::output::outputs::{ContactOutput, ContactPoint, EnergyPoint, LinkOutput, Output, Rates};
 use crate::engine::output::point::Point;
 use crate::engine::output::point_rates::{PEAK_ROUNDING, PointRates};
 use crate::engine::quantities::rows::PeakOf;
@@ -82,6 +82,7 @@ impl<'a> Instant<'a> {
                 of_side.map_or(-1.0, |collapse| collapse.time)
             }
             Output::Contact(p, of) => model.contact(state, point, p).get(of),
+            Output::Link(l, of) => model.link(point, l, of),
             Output::Impacts => point.impacts as f64,
             Output::Energy(of) => model.energy(state, point).unwrap_or_default().get(of),
         }
@@ -156,6 +157,7 @@ impl<'a> Instant<'a> {
                 None => model.yielding_rates(point, rates, of, (side, storey)),
             },
             Output::Contact(p, of) => rates.contacts[p][of],
+            Output::Link(l, of) => model.link_rates(point, rates, l, of),
             Output::Energy(of) => rates.energy.unwrap_or_default()[of],
             // Held from one event to the next.
             Output::Impacts | Output::Yielding(..) | Output::Collapsed(_) | Output::CollapseTime(_) => [0.0; 2],
@@ -174,6 +176,8 @@ impl<'a> Instant<'a> {
             }
             PeakOf::Acceleration(side, floor) => Output::Acceleration(side, floor),
             PeakOf::BaseShear(side) => Output::BaseShear(side),
+            PeakOf::LinkDisplacement(l) => Output::Link(l, LinkOutput::Displacement),
+            PeakOf::LinkForce(l) => Output::Link(l, LinkOutput::Force),
         };
         rates_of_peak(self.read(now), self.rates(rates, now), model.peak(state, point, of))
     }

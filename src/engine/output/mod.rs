@@ -7,6 +7,7 @@ pub(super) mod floors;
 pub(super) mod frequencies;
 pub(super) mod instant;
 pub(super) mod known;
+mod links;
 pub(super) mod outputs;
 pub(super) mod peaks;
 pub(super) mod point;

@@ -36,6 +36,8 @@ pub enum Output {
     CollapseTime(Side),
     /// One contact.
     Contact(usize, ContactOutput),
+    /// One link.
+    Link(usize, LinkOutput),
     /// Contact episodes begun so far, of all contacts.
     Impacts,
     /// One term of the energy account.
@@ -61,6 +63,18 @@ pub enum YieldingOf {
     /// Largest drift so far over the critical drift, beyond which gravity pushes a storey that yields on; where no peaks
     /// are watched, 0 until the storey yields.
     PeakStabilityIndex,
+}
+
+/// A quantity of a link.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LinkOutput {
+    /// Force, N, positive where it pushes the ends apart.
+    Force,
+    /// By how much the ends have come nearer, m.
+    Displacement,
+    /// How fast they do, m/s.
+    Velocity,
 }
 
 /// Makes of one list of quantities an enum of them, a struct of their values, each of which can be had by its field or

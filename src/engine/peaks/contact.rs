@@ -96,7 +96,7 @@ impl Model {
         self.find_pushes(base, work);
         let room = &mut work.peaks.floors;
         let mut modal = std::mem::take(&mut room.modal);
-        self.find_floors(base.coordinates, (&base.rest.floors, (&base.q, &base.v)), &mut room.start, &mut modal);
+        self.find_floors(base.coordinates, (&base.rest, (&base.q, &base.v)), &mut room.start, &mut modal);
         room.modal = modal;
         for side in [Side::Left, Side::Right] {
             let FloorRoom { start, .. } = &work.peaks.floors;
@@ -113,6 +113,7 @@ impl Model {
             }
             peaks.raise(self.peak_rows.place(PeakOf::BaseShear(side)), start.shear[side as usize]);
         }
+        self.raise_to_links(base, peaks, work);
     }
 
     fn check_contact_step(&self, part: &ContactStep, peaks: &mut Peaks, work: &mut PeakWork) {
@@ -124,7 +125,8 @@ impl Model {
             self.bound_body(b, part, work);
         }
         let is_open = [Side::Left, Side::Right].map(|side| self.may_exceed(side, part, peaks, work));
-        if is_open == [false; 2] {
+        let are_links_open = self.links_may_exceed(part, peaks, work);
+        if is_open == [false; 2] && !are_links_open {
             return;
         }
         let has_series = self.bound_by_series(part, work);
@@ -134,6 +136,12 @@ impl Model {
                 self.may_exceed(side, part, peaks, work);
             }
             self.check_building(side, part, peaks, work);
+        }
+        if are_links_open {
+            if has_series {
+                [Side::Left, Side::Right].into_iter().for_each(|side| self.bound_building_by_series(side, part, work));
+            }
+            self.check_links(part, peaks, work);
         }
     }
 
@@ -167,9 +175,9 @@ impl Model {
         let room = &mut work.peaks.floors;
         let mut modal = std::mem::take(&mut room.modal);
         if !room.go_on([base.segment.start, base.elapsed]) {
-            self.find_floors(base.coordinates, (&base.rest.floors, (&base.q, &base.v)), &mut room.start, &mut modal);
+            self.find_floors(base.coordinates, (&base.rest, (&base.q, &base.v)), &mut room.start, &mut modal);
         }
-        self.find_floors(base.coordinates, (&base.rest.floors, end), &mut room.end, &mut modal);
+        self.find_floors(base.coordinates, (&base.rest, end), &mut room.end, &mut modal);
         self.soften(base, end.0, &mut room.end);
         room.modal = modal;
         if self.system.floor_forces {
@@ -319,7 +327,7 @@ impl Model {
 
     /// Raises one peak from the values at both ends, a bound on it, and whether the quantity is monotonic.
     #[inline(always)]
-    fn check_one(
+    pub(in crate::engine) fn check_one(
         &self,
         of: PeakOf,
         ends: [f64; 2],

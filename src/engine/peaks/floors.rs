@@ -5,10 +5,11 @@
 //! accelerations of all floors and T = h^2/8 |M^-1 K| + h/2 |M^-1 C|. With B the larger r at the ends plus the largest
 //! accelerations by all forces, A <= B + T A, and so A <= B + T B + |T|^2 / (1 - |T|) max B.
 
-use crate::engine::base::{Base, Coordinates};
+use crate::engine::base::{Base, Coordinates, Rest};
 use crate::engine::model::Model;
 use crate::engine::peaks::room::{FloorRoom, FloorState};
 use crate::engine::quantities::resistance::Resistance;
+use crate::engine::quantities::rows::PeakOf;
 use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Side};
 
@@ -20,7 +21,7 @@ impl Model {
     pub(in crate::engine) fn find_floors(
         &self,
         coordinates: Coordinates,
-        (rest, (q, v)): (&[f64], (&[f64], &[f64])),
+        (rest, (q, v)): (&Rest, (&[f64], &[f64])),
         out: &mut FloorState,
         modal: &mut [f64],
     ) {
@@ -44,7 +45,10 @@ impl Model {
         }
         out.shear = [Side::Left, Side::Right].map(|side| self.shear_of(side, out));
         if !self.system.storeys.is_empty() {
-            out.u.iter_mut().zip(rest).for_each(|(u, rest)| *u += rest);
+            for side in [Side::Left, Side::Right] {
+                out.shear[side as usize] += rest.watched[self.peak_rows.place(PeakOf::BaseShear(side))];
+            }
+            out.u.iter_mut().zip(&rest.floors).for_each(|(u, rest)| *u += rest);
         }
     }
 

@@ -19,6 +19,7 @@ pub mod flight;
 pub mod floors;
 pub mod fold;
 mod fold_room;
+pub mod links;
 pub mod log;
 mod quantity;
 pub mod reading;

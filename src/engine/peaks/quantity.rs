@@ -39,8 +39,8 @@ impl Quantity<'_> {
     /// Product of the second row with a vector of the motion's rate.
     pub fn of_rate(&self, rate: &[f64]) -> f64 {
         match self.of {
-            PeakOf::BaseShear(_) => dot(&self.rows[1], rate),
-            PeakOf::Displacement(..) | PeakOf::Drift(..) | PeakOf::Acceleration(..) => 0.0,
+            PeakOf::BaseShear(_) | PeakOf::LinkForce(_) => dot(&self.rows[1], rate),
+            _ => 0.0,
         }
     }
 
@@ -58,7 +58,7 @@ impl Quantity<'_> {
         }
         // Each derivative loses a power.
         let order = match self.of {
-            PeakOf::Displacement(..) | PeakOf::Drift(..) => {
+            PeakOf::Displacement(..) | PeakOf::Drift(..) | PeakOf::LinkDisplacement(_) => {
                 terms = of_q;
                 series.order
             }
@@ -70,7 +70,7 @@ impl Quantity<'_> {
                 terms[1] += self.ground.1 * series.scale;
                 series.order - 2
             }
-            PeakOf::BaseShear(_) => {
+            PeakOf::BaseShear(_) | PeakOf::LinkForce(_) => {
                 let mut of_v = [0.0; MAX_TERMS];
                 series.dot_each_in(self.span(), &self.rows[1], 0, &mut of_v);
                 for n in 0..series.order {

@@ -126,7 +126,7 @@ impl Model {
         step.set_powers(time, &mut powers);
         powers.set_in_time(&step.taylor.series.time_map);
         step.taylor.series.evaluate(&powers, q, v);
-        self.find_floors(base.coordinates, (&base.rest.floors, (q, v)), floors, modal);
+        self.find_floors(base.coordinates, (&base.rest, (q, v)), floors, modal);
         self.soften(base, q, floors);
         if self.system.floor_forces {
             self.add_forces((base, inputs), time, &mut floors.resisted);

@@ -1,13 +1,33 @@
 //! The part of displacements and drifts by the position of rest, to which the motion is relative.
 
-use crate::engine::base::{Base, Coordinates};
+use crate::engine::base::{Base, Coordinates, Rest};
 use crate::engine::model::Model;
 use crate::engine::quantities::rows::{BodyRows, PeakOf, values_of};
-use crate::engine::yielding::storey::YieldingStorey;
 use crate::numerics::polynomial::each;
-use crate::structure::{LANES, Lane};
+use crate::structure::{LANES, Lane, Side};
 
 impl Model {
+    /// Writes the watched quantities in the position of rest of the storeys of the base: accelerations are 0, and so are base
+    /// shears without links.
+    pub(in crate::engine) fn set_watched_at_rest(&self, base: &mut Base) {
+        let Base { rest: Rest { floors, watched, .. }, storeys, .. } = base;
+        let (system, place) = (&self.system, |of| self.peak_rows.place(of));
+        for l in 0..system.structure.links.len() {
+            let closing = system.link_closing_of_floors(l, floors);
+            watched[place(PeakOf::LinkDisplacement(l))] = closing;
+            watched[place(PeakOf::LinkForce(l))] = system.link_force(storeys, l, (closing, 0.0));
+        }
+        for side in [Side::Left, Side::Right] {
+            watched[place(PeakOf::BaseShear(side))] = system.shear_at_rest(storeys, side, floors);
+            let mut below = 0.0;
+            for (floor, lane) in system.structure.floors.lanes_of(side as usize).enumerate() {
+                watched[place(PeakOf::Displacement(side, floor))] = floors[lane];
+                watched[place(PeakOf::Drift(side, floor))] = floors[lane] - below;
+                below = floors[lane];
+            }
+        }
+    }
+
     /// The values of block `b` of a body in a motion, with those at rest.
     pub(in crate::engine) fn values_at(
         &self,
@@ -19,13 +39,16 @@ impl Model {
         each(|i| values[i] + at_rest[i])
     }
 
-    /// Takes from the row of a base shear what the lowest storey does not resist with if it yields in a step; returns the
-    /// part of the base shear that this row leaves out.
+    /// Takes from the row of a base shear what the lowest storey does not resist with if it yields in a step, or from that of
+    /// a link's force what the link does not; returns the part of the force that this row leaves out.
     pub(in crate::engine) fn soften_row(&self, of: PeakOf, base: &Base, rows: &mut [Vec<f64>; 2]) -> f64 {
-        let PeakOf::BaseShear(side) = of else { return 0.0 };
-        let is_lowest = |of: &YieldingStorey| of.side == side && of.storey == 0;
-        let lowest = self.system.storeys.iter().zip(&base.storeys).find(|(of, _)| is_lowest(of));
-        let Some((of, _)) = lowest.filter(|(_, storey)| storey.yields.is_some()) else { return 0.0 };
+        let number = match of {
+            PeakOf::BaseShear(side) => self.system.number_of_storey((side, 0)),
+            PeakOf::LinkForce(l) => self.system.number_of_link(l),
+            _ => None,
+        };
+        let Some(i) = number.filter(|i| base.storeys[*i].yields.is_some()) else { return 0.0 };
+        let of = &self.system.storeys[i];
         match base.coordinates {
             Coordinates::Modes => rows[0].iter_mut().zip(&of.row).for_each(|(entry, row)| *entry -= of.lost * row),
             Coordinates::Floors => rows[0][of.floors.0] -= of.lost,

@@ -394,6 +394,8 @@ impl Model {
                 self.resistance.set_shear_rows(side as usize, floors.lanes_of(side as usize), row, row_v);
                 None
             }
+            // Linked buildings move in modes.
+            PeakOf::LinkDisplacement(_) | PeakOf::LinkForce(_) => None,
         }
     }
 }

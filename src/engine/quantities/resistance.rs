@@ -30,7 +30,10 @@ impl FloorResistance {
         for body in &structure.bodies {
             let matrices = matrices(structure, body);
             for part in &body.buildings {
-                of_structure.shear[part.side as usize] = shears(structure, body, &matrices);
+                of_structure.shear[part.side as usize] = match structure.shear_rows_of_floors(part.side) {
+                    Some(rows) => rows.clone(),
+                    None => shears(structure, body, &matrices),
+                };
             }
             of_structure.bodies.push(Resistance::of(structure, &matrices));
         }

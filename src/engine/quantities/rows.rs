@@ -8,6 +8,8 @@
 //! drift                A = that less the shape of the floor below B = 0
 //! acceleration         A = -w^2 shape                             B = -shape C     (absolute)
 //! base shear           A = w^2 participation                      B = participation C
+//! displacement of link A = shapes of its floors, 1 and -1         B = 0
+//! force of link        A = stiffness times that                   B = dashpot times that
 //! ```
 
 use crate::structure::{Body, LANES, Lane, ModalDamping, Side, Structure};
@@ -25,6 +27,10 @@ pub enum PeakOf {
     Acceleration(Side, usize),
     /// Force of the building on the ground, N.
     BaseShear(Side),
+    /// By how much the ends of a link have come nearer, m.
+    LinkDisplacement(usize),
+    /// Force with which a link pushes its ends apart, N.
+    LinkForce(usize),
 }
 
 /// The watched quantities of all bodies.
@@ -33,6 +39,8 @@ pub(crate) struct PeakRows {
     pub bodies: Vec<BodyRows>,
     /// Where those of each building begin.
     buildings: [Places; 2],
+    /// Indices of displacement and force of each link.
+    links: Vec<[usize; 2]>,
 }
 
 /// The watched quantities of one body, in blocks of [`LANES`]: first those that are rows over the displacements alone,
@@ -44,9 +52,9 @@ pub(crate) struct BodyRows {
     /// Number of its first block among the blocks of all bodies.
     pub first: usize,
     pub blocks: Vec<Block>,
-    /// Displacements and drifts.
+    /// Displacements and drifts, and displacements of links.
     moving: Vec<PeakOf>,
-    /// Accelerations and base shears.
+    /// Accelerations and base shears, and forces of links.
     pulling: Vec<PeakOf>,
 }
 
@@ -71,15 +79,18 @@ pub(crate) struct Block {
 impl PeakRows {
     /// The watched quantities of all bodies; none unless `wanted`.
     pub(crate) fn of(structure: &Structure, wanted: bool) -> PeakRows {
-        let mut rows = PeakRows { bodies: Vec::new(), buildings: [Places::default(); 2] };
-        for body in structure.bodies.iter().filter(|_| wanted) {
-            let of_body = BodyRows::of(body, rows.blocks());
+        let links = vec![[0; 2]; structure.links.len()];
+        let mut rows = PeakRows { bodies: Vec::new(), buildings: [Places::default(); 2], links };
+        for b in (0..structure.bodies.len()).filter(|_| wanted) {
+            let of_body = BodyRows::of(structure, b, rows.blocks());
             for (place, of) in of_body.all() {
                 match of {
                     PeakOf::Displacement(side, 0) => rows.buildings[side as usize].displacement = place,
                     PeakOf::Drift(side, 0) => rows.buildings[side as usize].drift = place,
                     PeakOf::Acceleration(side, 0) => rows.buildings[side as usize].acceleration = place,
                     PeakOf::BaseShear(side) => rows.buildings[side as usize].shear = place,
+                    PeakOf::LinkDisplacement(l) => rows.links[l][0] = place,
+                    PeakOf::LinkForce(l) => rows.links[l][1] = place,
                     PeakOf::Displacement(..) | PeakOf::Drift(..) | PeakOf::Acceleration(..) => {}
                 }
             }
@@ -112,19 +123,8 @@ impl PeakRows {
             PeakOf::Drift(side, storey) => self.buildings[side as usize].drift + storey,
             PeakOf::Acceleration(side, floor) => self.buildings[side as usize].acceleration + floor,
             PeakOf::BaseShear(side) => self.buildings[side as usize].shear,
-        }
-    }
-
-    /// Writes the quantities of floors that have those displacements, m, and no velocities, in the order of their peaks:
-    /// accelerations and base shears by the position of rest are 0.
-    pub(crate) fn set_at_rest(&self, structure: &Structure, floors: &[f64], out: &mut [f64]) {
-        for side in [Side::Left, Side::Right] {
-            let mut below = 0.0;
-            for (floor, lane) in structure.floors.lanes_of(side as usize).enumerate() {
-                out[self.place(PeakOf::Displacement(side, floor))] = floors[lane];
-                out[self.place(PeakOf::Drift(side, floor))] = floors[lane] - below;
-                below = floors[lane];
-            }
+            PeakOf::LinkDisplacement(l) => self.links[l][0],
+            PeakOf::LinkForce(l) => self.links[l][1],
         }
     }
 
@@ -135,15 +135,19 @@ impl PeakRows {
 }
 
 impl BodyRows {
-    fn of(body: &Body, first: usize) -> BodyRows {
+    fn of(structure: &Structure, b: usize, first: usize) -> BodyRows {
+        let body = &structure.bodies[b];
+        let links = || (0..structure.links.len()).filter(|l| structure.links[*l].body == b);
         let floors: Vec<(Side, usize)> = (0..body.lanes.len()).filter_map(|row| body.floor(row)).collect();
         let of_floors = |of: fn(Side, usize) -> PeakOf| floors.iter().map(move |&(side, floor)| of(side, floor));
-        let moving: Vec<PeakOf> = of_floors(PeakOf::Displacement).chain(of_floors(PeakOf::Drift)).collect();
+        let moving = of_floors(PeakOf::Displacement).chain(of_floors(PeakOf::Drift));
+        let moving: Vec<PeakOf> = moving.chain(links().map(PeakOf::LinkDisplacement)).collect();
         let shears = body.buildings.iter().map(|part| PeakOf::BaseShear(part.side));
-        let pulling: Vec<PeakOf> = of_floors(PeakOf::Acceleration).chain(shears).collect();
+        let pulling = of_floors(PeakOf::Acceleration).chain(shears);
+        let pulling: Vec<PeakOf> = pulling.chain(links().map(PeakOf::LinkForce)).collect();
         let count = body.modes.omega.len();
         let block = |quantities: &[PeakOf]| {
-            Block::of(count, |i, m| quantities.get(i).map_or([0.0; 2], |of| row_of(body, *of, m)))
+            Block::of(count, |i, m| quantities.get(i).map_or([0.0; 2], |of| row_of(structure, body, *of, m)))
         };
         let blocks = moving.chunks(LANES).chain(pulling.chunks(LANES)).map(block).collect();
         BodyRows { modes: body.range.clone(), first, blocks, moving, pulling }
@@ -169,7 +173,7 @@ impl BodyRows {
 }
 
 /// The entries of rows A and B of a quantity for one mode of its body.
-fn row_of(body: &Body, of: PeakOf, m: usize) -> [f64; 2] {
+fn row_of(structure: &Structure, body: &Body, of: PeakOf, m: usize) -> [f64; 2] {
     let (modes, w2) = (&body.modes, body.modes.omega[m] * body.modes.omega[m]);
     let damped = |of: &dyn Fn(usize) -> f64| match &modes.damping {
         ModalDamping::Diagonal(c) => c[m] * of(m),
@@ -182,7 +186,15 @@ fn row_of(body: &Body, of: PeakOf, m: usize) -> [f64; 2] {
             let shape = |k: usize| modes.shape[(body.row(side, floor), k)];
             [-w2 * shape(m), -damped(&shape)]
         }
-        PeakOf::BaseShear(_) => [w2 * modes.participation[m], damped(&|k| modes.participation[k])],
+        PeakOf::BaseShear(side) => match structure.shear_rows(side) {
+            None => [w2 * modes.participation[m], damped(&|k| modes.participation[k])],
+            Some([on_q, on_v]) => [on_q[body.range.start + m], on_v[body.range.start + m]],
+        },
+        PeakOf::LinkDisplacement(l) => [structure.links[l].row[body.range.start + m], 0.0],
+        PeakOf::LinkForce(l) => {
+            let link = &structure.links[l];
+            [link.stiffness, link.dashpot].map(|factor| factor * link.row[body.range.start + m])
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 pub mod buffers;
 pub mod error_norm;
 pub mod limits;
+pub mod links;
 pub mod rest;
 pub mod tolerance;
 pub mod yields;
@@ -67,8 +68,7 @@ pub struct System {
 impl System {
     /// The system of a checked scene; `record` is there when `scene.ground.record` is.
     pub fn of(scene: &Scene, record: Option<&Record>) -> Result<System, SceneError> {
-        let mut structure =
-            Structure::new(&scene.left, &scene.right).map_err(|(side, _)| not_positive_definite(side))?;
+        let mut structure = Structure::of(scene).map_err(|(side, _)| not_positive_definite(side))?;
         if scene.floor_forces {
             structure.prepare_floor_forces();
         }

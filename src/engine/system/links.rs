@@ -1,0 +1,48 @@
+//! Links in a motion: how far their ends have come nearer, and what that and their dashpots push with.
+
+use crate::engine::base::storey::Storey;
+use crate::engine::system::System;
+use crate::structure::{Side, dot};
+
+impl System {
+    /// By how much the ends of a link have come nearer in a modal motion relative to the position of rest, m; or how fast
+    /// they do.
+    pub fn link_closing(&self, l: usize, motion: &[f64]) -> f64 {
+        dot(&self.structure.links[l].row, motion)
+    }
+
+    /// By how much they have in displacements of all floors, m.
+    pub fn link_closing_of_floors(&self, l: usize, floors: &[f64]) -> f64 {
+        self.structure.links[l].floors.iter().map(|&(lane, weight)| weight * floors[lane]).sum()
+    }
+
+    /// Force with which a link pushes its ends apart, N, from how far and how fast they have come nearer, m and m/s.
+    pub fn link_force(&self, storeys: &[Storey], l: usize, (closing, rate): (f64, f64)) -> f64 {
+        let link = &self.structure.links[l];
+        link.stiffness * closing + link.dashpot * rate - self.slack_of_link(storeys, l)
+    }
+
+    /// What a link has lost of the force of its spring by slipping, N.
+    fn slack_of_link(&self, storeys: &[Storey], l: usize) -> f64 {
+        self.number_of_link(l).map_or(0.0, |i| self.storeys[i].lost * storeys[i].plastic)
+    }
+
+    /// The number of a link among what can yield.
+    pub fn number_of_link(&self, _l: usize) -> Option<usize> {
+        None
+    }
+
+    /// What is missing of the stiffness of a link's spring while it slips, N/m.
+    pub fn stiffness_lost_by_link(&self, storeys: &[Storey], l: usize) -> f64 {
+        let slips = self.number_of_link(l).filter(|i| storeys[*i].yields.is_some());
+        slips.map_or(0.0, |i| self.storeys[i].lost)
+    }
+
+    /// Base shear of a building in the position of rest, N: links hold what they have to, between floors that have yielded.
+    pub fn shear_at_rest(&self, storeys: &[Storey], side: Side, floors: &[f64]) -> f64 {
+        let Some([on_u, _]) = self.structure.shear_rows_of_floors(side) else { return 0.0 };
+        let elastic: f64 =
+            on_u.iter().zip(self.structure.floors.of_building(side as usize, floors)).map(|(k, u)| k * u).sum();
+        elastic - self.number_of_storey((side, 0)).map_or(0.0, |i| self.storeys[i].lost * storeys[i].plastic)
+    }
+}

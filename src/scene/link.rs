@@ -1,0 +1,41 @@
+//! A device between two floors, or between a floor and the ground.
+
+use super::side::Side;
+
+/// A link as a scene has it: a spring and a dashpot side by side. Floors are counted from 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link {
+    /// The floor of the left building; `None`: the ground.
+    pub left: Option<usize>,
+    /// The floor of the right building; `None`: the ground.
+    pub right: Option<usize>,
+    /// N/m.
+    pub stiffness: f64,
+    /// N s/m.
+    pub dashpot: f64,
+    /// Where the spring slips.
+    pub slip: Option<Slip>,
+}
+
+/// A spring that slips.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slip {
+    /// N, at which it does.
+    pub force: f64,
+    /// Stiffness while it does over that before.
+    pub ratio: f64,
+}
+
+impl Link {
+    /// Its floors, with the weights of their displacements in e = u_left - u_right, which is positive when the ends have come
+    /// nearer.
+    pub fn ends(&self) -> impl Iterator<Item = (Side, usize, f64)> + use<> {
+        let left = self.left.map(|floor| (Side::Left, floor, 1.0));
+        left.into_iter().chain(self.right.map(|floor| (Side::Right, floor, -1.0)))
+    }
+
+    /// Whether it is between the buildings.
+    pub fn joins_buildings(&self) -> bool {
+        self.left.is_some() && self.right.is_some()
+    }
+}
