@@ -78,6 +78,7 @@ impl System {
         let impact = base.dissipated_by_contacts();
         let [kinetic, strain, gravity] = self.energies((base.coordinates, &base.storeys), &base.q, &base.v);
         let hysteretic = self.hysteretic_energy(&base.storeys);
+        base.dashpots.iter_mut().zip(&work.dashpots).for_each(|(sum, done)| sum.add(*done));
         if let Some(account) = &mut base.energy {
             account.add(&done);
             account.update_largest([kinetic, strain, gravity, impact, hysteretic]);
@@ -92,9 +93,10 @@ impl System {
         ground.work_over(&base.segment)
     }
 
-    /// The work from the base over `length` seconds.
+    /// The work from the base over `length` seconds; that of the dashpots of links is left in `work`.
     pub(super) fn work_over(&self, base: &Base, step: &Step, inputs: &Inputs, work: &mut Buffers, length: f64) -> Work {
         let mut done = Work::default();
+        work.dashpots.fill(0.0);
         self.find_force_slopes(inputs, base.coordinates, work);
         match step.dense() {
             _ if length == 0.0 => return done,
@@ -244,7 +246,7 @@ impl System {
         work: &mut Buffers,
         done: &mut Work,
     ) {
-        let Buffers { node_q: q, node_v: v, v: damped, force_slope, powers, .. } = work;
+        let Buffers { node_q: q, node_v: v, v: damped, force_slope, powers, dashpots, .. } = work;
         for (t, weight) in nodes {
             motion(t, powers, q, v);
             let acceleration = base.segment.acceleration_at(base.elapsed + from + t);
@@ -257,6 +259,9 @@ impl System {
             };
             done.input -= weight * acceleration * momentum;
             done.viscous += weight * viscous;
+            for (l, done) in dashpots.iter_mut().enumerate() {
+                *done += weight * self.power_of_dashpot(l, self.link_closing(l, v));
+            }
             if !force_slope.is_empty() {
                 done.external += weight * (from + t) * dot(force_slope, v);
             }

@@ -149,6 +149,7 @@ impl Model {
             && base.contacts.len() == self.system.pairs.len()
             && base.storeys.len() == self.system.storeys.len()
             && base.energy.is_some() == self.energy
+            && base.dashpots.len() == self.system.structure.links.len()
             && inputs.are_as_many_as(&fresh.inputs);
         require(fits, "it is of a scene with other floors, contacts, inputs or outputs")
     }

@@ -54,6 +54,8 @@ pub(super) struct Base {
     pub peaks: Peaks,
     /// The energy account; `None` where the scene does not ask for it.
     pub energy: Option<Account>,
+    /// Energy dissipated by the dashpot of each link, J; 0 where no account is kept.
+    pub dashpots: Vec<Sum>,
     /// Largest floor velocity in the steps in contact so far, m/s: their error is measured relative to it.
     pub velocity_scale: f64,
     /// Length of the last step in contact, s: the time unit of the next series; 0 where the next series finds its own.

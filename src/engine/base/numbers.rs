@@ -4,6 +4,7 @@ use crate::engine::base::contact::{Contact, Episode};
 use crate::engine::base::counters::Counters;
 use crate::engine::base::storey::Storey;
 use crate::engine::base::{Account, Base};
+use crate::numerics::sum::Sum;
 
 impl Base {
     pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
@@ -19,6 +20,7 @@ impl Base {
             clearance: _, // counts, looked at by themselves
             peaks,
             energy,
+            dashpots,
             velocity_scale,
             last_length: _, // infinite where a series ended by itself
             impacts: _,
@@ -32,6 +34,7 @@ impl Base {
             .chain(of_storeys)
             .chain(peaks.numbers())
             .chain(energy.iter().flat_map(Account::numbers))
+            .chain(dashpots.iter().flat_map(Sum::numbers))
     }
 
     /// Displacements and velocities, with the contacts' penetrations and rates.

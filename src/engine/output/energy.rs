@@ -27,10 +27,13 @@ impl Model {
     #[inline(never)]
     fn read_energy(&self, mut account: Account, state: &State, work: &mut Buffers, point: &Point) -> EnergyPoint {
         let elapsed = state.since_base();
+        work.dashpots.fill(0.0);
         if elapsed > 0.0 {
             let done = self.system.work_over(&state.base, &state.step, &state.inputs, work, elapsed);
             account.add(&done);
         }
+        let dashpots = state.base.dashpots.iter().zip(&work.dashpots).map(|(sum, done)| sum.exact() + done);
+        point.dashpots.replace(dashpots.collect());
         let [kinetic, strain, gravity] = self.system.energies((point.coordinates, &point.storeys), &point.q, &point.v);
         let hysteretic = self.system.hysteretic_energy(&point.storeys);
         let contacts = 0..self.system.pairs.len();

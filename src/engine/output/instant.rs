@@ -82,7 +82,7 @@ impl<'a> Instant<'a> {
                 of_side.map_or(-1.0, |collapse| collapse.time)
             }
             Output::Contact(p, of) => model.contact(state, point, p).get(of),
-            Output::Link(l, of) => model.link(point, l, of),
+            Output::Link(l, of) => model.link(state, point, l, of),
             Output::Impacts => point.impacts as f64,
             Output::Energy(of) => model.energy(state, point).unwrap_or_default().get(of),
         }

@@ -75,6 +75,14 @@ pub enum LinkOutput {
     Displacement,
     /// How fast they do, m/s.
     Velocity,
+    /// Energy dissipated so far, J: by its spring where that slips, and, with an energy account, by its dashpot.
+    DissipatedEnergy,
+    /// Of one that slips: by how much the spring has slipped, m.
+    Slip,
+    /// The sum of the magnitudes of all slips so far, m.
+    SlipTravel,
+    /// The sense in which the spring slips now: 1 or -1, or 0.
+    Slipping,
 }
 
 /// Makes of one list of quantities an enum of them, a struct of their values, each of which can be had by its field or

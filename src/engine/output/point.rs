@@ -31,6 +31,8 @@ pub struct Point {
     pub(in crate::engine) contacts: Vec<Cell<Known<ContactPoint>>>,
     /// The energy account, once it has been worked out.
     pub(in crate::engine) energy: Cell<Known<EnergyPoint>>,
+    /// Energy dissipated by the dashpots of the links, J, worked out with the energy account.
+    pub(in crate::engine) dashpots: RefCell<Vec<f64>>,
     pub(in crate::engine) work: RefCell<Option<Box<Buffers>>>,
     pub(in crate::engine) peaks: PeakCell,
 }

@@ -31,6 +31,8 @@ pub struct Buffers {
     /// Velocities at the nodes of a quadrature (`energy.rs`). Elsewhere: bounds on the modal amplitudes, m kg^1/2/s
     /// (`flight`), third derivatives of the modes (`peaks`), or a term of a series.
     pub node_v: Vec<f64>,
+    /// Energy dissipated by the dashpot of each link over a step, J.
+    pub dashpots: Vec<f64>,
     /// Terms of one pair's penetration, m.
     pub scalar: Coefficients,
     /// Powers of the point at which a series is evaluated.
@@ -55,6 +57,7 @@ impl Buffers {
             interval: Interval::room(structure),
             node_q: vector(),
             node_v: vector(),
+            dashpots: vec![0.0; structure.links.len()],
             scalar: [0.0; MAX_TERMS],
             powers: Powers::default(),
             rigid: Complementarity::new(rigid),

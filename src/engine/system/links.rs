@@ -27,6 +27,11 @@ impl System {
         self.number_of_link(l).map_or(0.0, |i| self.storeys[i].lost * storeys[i].plastic)
     }
 
+    /// Power that the dashpot of a link takes, W, from how fast its ends come nearer.
+    pub fn power_of_dashpot(&self, l: usize, rate: f64) -> f64 {
+        self.structure.links[l].dashpot * (rate * rate)
+    }
+
     /// The number of a link among what can yield.
     pub fn number_of_link(&self, _l: usize) -> Option<usize> {
         None

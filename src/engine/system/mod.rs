@@ -22,6 +22,7 @@ use crate::engine::pairs::pair::Pair;
 use crate::engine::pairs::rigid::RigidPairs;
 use crate::engine::system::tolerance::Tolerance;
 use crate::engine::yielding::storey::YieldingStorey;
+use crate::numerics::sum::Sum;
 use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
 use crate::structure::{FEW_BLOCKS, FreeRows, ImpulseResponse, LANES, Side, Structure};
@@ -134,6 +135,7 @@ impl System {
             rest,
             peaks,
             energy,
+            dashpots: vec![Sum::default(); self.structure.links.len()],
             velocity_scale: 0.0,
             last_length: 0.0,
             impacts: contacts.iter().map(|contact| contact.impacts).sum(),
