@@ -5,7 +5,7 @@
 use crate::common::problems::frames::zigzag;
 use crate::common::{Run, record, scene};
 use crate::piecewise::assert_same_motion;
-use pounding::engine::{EnergyOutput, LinkOutput, Output, PeakOf, PointRates, Side, YieldingOf};
+use pounding::engine::{EnergyOutput, EngineError, LinkOutput, Output, PeakOf, PointRates, Side, YieldingOf};
 use pounding::record::Record;
 use pounding::scene::{Link, Scene, Slip};
 
@@ -285,4 +285,18 @@ fn steps_and_saved_states_do_not_matter() {
     }
     assert!(seen(&run) == seen(&whole));
     assert!(slipping > 30, "{slipping} of 500 times");
+}
+
+/// A spring that has gone further than it can without slipping, as its slip force is that of another scene.
+#[test]
+fn links_in_states_that_they_cannot_have_are_refused() {
+    let record = shaking(0.25);
+    let [mut run, other] = [1e9, 1e4].map(|force| {
+        let links = [link((3, 1), (0.0, 1e5), None), link((2, 2), (3e7, 0.0), Some((force, 0.0)))];
+        Run::new(&shaken(&format!("{LEFT}{RIGHT}{YIELDING}"), &links), Some(&record))
+    });
+    let saved = run.to(0.5).save();
+    run.model.check_saved(&saved).unwrap();
+    let refused = other.model.check_saved(&saved).unwrap_err();
+    assert_eq!(refused, EngineError::ImpossibleLink { link: 1 });
 }
