@@ -65,6 +65,9 @@ fn between_frames() {
     check(&format!("{LEFT}{RIGHT}"), &links, 0.25, (60, 0));
     check(&format!("{LEFT}{RIGHT}{YIELDING}"), &links, 0.25, (60, 0));
     check(&format!("{LEFT}{RIGHT}{YIELDING}"), &links[1..2], 0.25, (40, 0));
+    // Let go beyond what storeys and links can bear without yielding.
+    let pulled = "initial_displacement = [0.004, 0.018, 0.02]\n";
+    check(&format!("{LEFT}{pulled}{RIGHT}{YIELDING}"), &links, 0.25, (60, 0));
 }
 
 #[test]

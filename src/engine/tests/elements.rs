@@ -2,9 +2,10 @@
 //! floors.
 
 use crate::engine::base::Coordinates;
+use crate::engine::base::peaks::Peaks;
 use crate::engine::base::storey::Storey;
 use crate::engine::system::System;
-use crate::engine::yielding::element::ElementOf;
+use crate::engine::yielding::element::{Element, ElementOf};
 use crate::scene::{Link, Scene, Side, Slip};
 use nalgebra::{DMatrix, DVector};
 
@@ -34,6 +35,8 @@ fn plastic_drifts_move_the_whole_body_and_all_limits() {
     assert_eq!(system.storeys.iter().map(|of| of.place).collect::<Vec<_>>(), places);
     assert_eq!(places.map(|place| system.number_of(place)), [0, 1, 2, 3].map(Some));
     assert_eq!((system.number_of_link(0), system.number_of_link(1)), (None, Some(3)));
+    // Of the ground's acceleration, drifts between two floors get nothing.
+    assert_eq!(system.storeys.iter().map(Element::share_of_ground).collect::<Vec<_>>(), [1.0, 0.0, 1.0, 0.0]);
     // (row, k, (1 - r) k) of the elements, and the link that does not slip.
     let elements = [
         ([1.0, 0.0, 0.0], 2e7, 0.9 * 2e7),
@@ -61,7 +64,7 @@ fn plastic_drifts_move_the_whole_body_and_all_limits() {
         // At rest: x = 0.
         let shear = k * at_rest - lost * plastic[i];
         assert!((of.shear((storey, centre), 0.0) - shear).abs() < 1e-9, "{i}: not {shear} N");
-        assert!(of.noise(centre, 0.0) > 2.0 * f64::EPSILON * centre.abs(), "{i}");
+        assert_eq!(of.noise(centre, 0.0), 2.0 * f64::EPSILON * (of.limit + centre.abs()));
         assert_eq!(of.moved_share(centre), centre.abs() / of.limit);
         locked += 0.5 * lost * plastic[i] * plastic[i];
     }
@@ -87,5 +90,21 @@ fn only_its_own_elastic_part_follows_a_plastic_drift() {
             let expected = if j == i { before - 0.002 } else { *before };
             assert!((after - expected).abs() < 1e-16, "{j} after {i}: {after} not {expected}");
         }
+    }
+}
+
+/// At rest a body stays within its limits for ever as long as plastic drifts leave it within them, in either sense.
+#[test]
+fn envelopes_know_where_the_limits_are() {
+    let system = linked();
+    let mut base = system.start(0.0, Peaks::default(), None);
+    let still = vec![0.0; system.structure.lanes];
+    base.storeys[3].plastic = 1.0;
+    let (of, (_, per_unit)) = system.element(3, &base.storeys);
+    let farthest = of.limit / per_unit;
+    for (share, stays) in [(0.999, true), (1.001, false), (-0.999, true), (-1.001, false)] {
+        base.storeys[3].plastic = share * farthest;
+        let found = system.envelopes_stay_within(&base, (&still, &still), (&still, &still), 1.0);
+        assert_eq!(found, stays, "{share} of {farthest} m");
     }
 }
