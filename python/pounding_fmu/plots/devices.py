@@ -21,7 +21,9 @@ TEETH = 4
 HALF, APART, BELOW = 0.07, 0.22, 0.2
 # Shares of the length at rest: leads of a spring, cup and block, and from the right end to what they are held by.
 LEAD, CUP, BLOCK, HELD = 0.1, 0.26, 0.14, 0.2
+SHORTEST = 0.6  # of all of them together, and a spring that is quite compressed
 Strokes = list[list[tuple[float, float]]]  # along and across
+STRAIGHT: Strokes = [[(0.0, 0.0), (1.0, 0.0)]]  # of ends that have passed each other
 
 
 class Device:
@@ -38,10 +40,12 @@ class Device:
         left, right = (end + [shift, 0.0] for end, shift in zip(self.ends, moved))
         pieces = [np.array([end, end - [0.0, self.depth(len(self.link.parts) - 1)]]) for end in (left, right)]
         length = float(right[0] - left[0])
+        # What keeps its length, cups and blocks, becomes shorter only where there is no room for it.
+        fixed = min(self.rest, length / SHORTEST)
         for row, part in enumerate(self.link.parts):
-            for stroke in DRAWN[part](length, self.rest):
+            for stroke in DRAWN[part](length, fixed) if length > 0.0 else STRAIGHT:
                 along, across = np.array(stroke).T
-                share = (along / length)[:, None]
+                share = (along / (length if length > 0.0 else 1.0))[:, None]
                 up = np.column_stack([0 * across, self.storey * HALF * across - self.depth(row)])
                 pieces.append(left + share * (right - left) + up)
         self.line.set_data(*np.concatenate(list(broken(pieces))).T)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 # mm between buildings of which no contact says how far apart they are.
 USUAL_GAP = 50.0
 # Shares of the width of a building: from the edge of a slab to its link, and to what holds the link on the ground.
-INSET, TO_GROUND = 0.14, 0.25
+INSET, TO_GROUND = 0.2, 0.3
 
 
 class Elevation:
