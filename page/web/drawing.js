@@ -9,9 +9,10 @@ const COLUMN_POINTS = 12;
 const MOST_NUMBERS = 12;
 // Pixels, the radius of a number's circle.
 const NUMBER = 8;
-// Pixels: how far from the edge of a slab a link begins, and from the edge of a floor to what holds its link on the ground.
+// Pixels: how far from the edge of a slab a link begins, and how far from there what holds its link on the ground is, beyond the
+// farthest that a floor goes.
 const INSET = 24;
-const TO_GROUND = 40;
+const TO_GROUND = 30;
 
 // How a picture is laid out in a rectangle of the canvas: pixels per m across and per level upwards.
 export function layOut(geometry, box, reach, size) {
@@ -24,7 +25,7 @@ export function layOut(geometry, box, reach, size) {
   const middle = geometry.sides.includes("left") ? (two ? geometry.gap / 2 : -width / across / 2) : width / across / 2;
   const x = (metres) => box.x + box.width / 2 + (metres - middle) * across;
   const y = (level) => box.y + box.height - 36 - (level - geometry.bottom) * up;
-  return { box, up, across, x, y, width };
+  return { box, up, across, x, y, width, farthest: reach * across };
 }
 
 export class Drawing {
@@ -168,11 +169,8 @@ export class Drawing {
       const [from, to] = this.#linkAt(link, moved, rest);
       const keys = SIDES.map((side) => `${side} ${link.surfaces[side].floor ?? link.surfaces[other(side)].floor}`);
       const length = Math.hypot(rest[1].x - rest[0].x, rest[1].y - rest[0].y);
-      devices.draw({ parts: link.parts, from, to, rest: length, keys, slab, slips: slipping[at] });
-      SIDES.filter((side) => link.surfaces[side].kind === "wall").forEach((side) => {
-        const held = side === "left" ? from : to;
-        devices.support(held.x, held.y, side);
-      });
+      const grounded = SIDES.find((side) => link.surfaces[side].kind === "wall");
+      devices.draw({ parts: link.parts, from, to, rest: length, keys, slab, grounded, slips: slipping[at] });
     });
   }
 
@@ -184,7 +182,7 @@ export class Drawing {
       return end && { x: place.x(end.x) + (at === 0 ? -inset : inset), y: place.y(end.level) };
     });
     return points.map((point, at) => {
-      const away = (at === 0 ? -1 : 1) * (inset + TO_GROUND);
+      const away = (at === 0 ? -1 : 1) * (inset + TO_GROUND + place.farthest);
       return point ?? rest?.[at] ?? { x: points[1 - at].x + away, y: points[1 - at].y };
     });
   }
