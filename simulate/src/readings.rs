@@ -10,6 +10,8 @@ pub enum Reading {
     Computed(Output, Kind),
     /// Hz, of the model.
     Frequency(Side, usize),
+    /// Hz, of the model with its links.
+    SystemFrequency(usize),
     /// Does not change: a parameter or an input, which nobody sets.
     Constant(f64),
 }
@@ -32,6 +34,7 @@ impl Reading {
         Some(match row.slot {
             Slot::Output(output) => Reading::Computed(output, Kind::of(row.ty)?),
             Slot::Calculated(Calculated::Frequency(side, mode)) => Reading::Frequency(side, mode),
+            Slot::Calculated(Calculated::SystemFrequency(mode)) => Reading::SystemFrequency(mode),
             Slot::Calculated(calculated) => Reading::Constant(settings.calculate(calculated)),
             Slot::Input(_) => Reading::Constant(0.0),
             Slot::Parameter(parameter) => Reading::Constant(settings.read(parameter).real()?),
@@ -48,6 +51,7 @@ impl Reading {
         match self {
             Reading::Computed(output, _) => now.read(output),
             Reading::Frequency(side, mode) => now.model().natural_frequencies(side)[mode],
+            Reading::SystemFrequency(mode) => now.model().system_frequencies()[mode],
             Reading::Constant(value) => value,
         }
     }

@@ -15,7 +15,7 @@ use crate::engine::window::free::FreeMotion;
 use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
 use crate::numerics::quadrature::{TWELVE, TWELVE_POINTS, gauss, graded};
-use crate::structure::{FlightWork, LANES, MotionSeries, dot, flight_order};
+use crate::structure::{FlightWork, MotionSeries, dot, flight_order};
 
 /// Work over an interval of time, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -65,10 +65,12 @@ impl System {
             return;
         }
         let length = step.planned.length;
-        if let Some(work) = self.work_of_segment(base, step) {
-            let (q, v) = (base.q.as_chunks::<LANES>().0, base.v.as_chunks::<LANES>().0);
-            let flight = work.over((q, v), (base.segment.acceleration_at(0.0), base.segment.slope));
+        work.dashpots.fill(0.0);
+        if let Some(of_segment) = self.work_of_segment(base, step) {
+            let load = (base.segment.acceleration_at(0.0), base.segment.slope);
+            let flight = of_segment.over_all((&base.q, &base.v), load, &mut work.z, &mut work.dashpots);
             let impact = base.dissipated_by_contacts();
+            base.dashpots.iter_mut().zip(&work.dashpots).for_each(|(sum, done)| sum.add(*done));
             counters.energy_steps += 1;
             base.energy.iter_mut().for_each(|account| account.add_flight(&flight, impact));
             return;

@@ -64,6 +64,12 @@ pub enum EngineError {
         /// Counted from 0.
         storey: usize,
     },
+    /// A saved state in which a link that slips cannot be as it is.
+    #[error("not a state of this scene: link[{}] is in no state that it can have", .link + 1)]
+    ImpossibleLink {
+        /// Counted from 0.
+        link: usize,
+    },
 }
 
 /// A communication step that was given up, and what it had come to.

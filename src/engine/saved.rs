@@ -15,6 +15,7 @@ use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
 use crate::engine::state::State;
 use crate::engine::step::StepKind;
+use crate::engine::yielding::element::ElementOf;
 use serde::{Deserialize, Serialize};
 
 /// Largest count that a saved state may have: no run gets that far, and beyond it a count could overflow.
@@ -183,17 +184,20 @@ impl Model {
         require(base.impacts == impacts && impacts <= MOST_COUNTED, "its impacts are not those of its contacts")
     }
 
-    /// A storey is not beyond its limits, and at one of them where it yields or has just turned.
+    /// An element is not beyond its limits, and at one of them where it yields or has just turned.
     fn check_storeys(&self, base: &Base) -> Result<(), EngineError> {
-        for (of, storey) in self.system.storeys.iter().zip(&base.storeys) {
+        for (of, (storey, centre)) in self.system.elements(&base.storeys) {
             let drift = of.drift(base.coordinates, &base.q);
             let rounding = AT_LIMIT * (of.limit + of.size(base.coordinates, &base.q));
-            let is_within = Sense::BOTH.into_iter().all(|sense| of.excess(storey, sense, drift) <= rounding);
-            let is_at = |sense: Sense| of.excess(storey, sense, drift).abs() <= rounding;
+            let is_within = Sense::BOTH.into_iter().all(|sense| of.excess(centre, sense, drift) <= rounding);
+            let is_at = |sense: Sense| of.excess(centre, sense, drift).abs() <= rounding;
             let is_at_limit = storey.yields.is_none_or(is_at) && storey.turned.is_none_or(is_at);
             let has_flowed = storey.furthest >= storey.plastic.abs() && storey.cumulative.value >= 0.0;
             if !(is_within && is_at_limit && has_flowed && (storey.yields.is_none() || storey.turned.is_none())) {
-                return Err(EngineError::ImpossibleStorey { side: of.side, storey: of.storey });
+                return Err(match of.place {
+                    ElementOf::Storey(side, storey) => EngineError::ImpossibleStorey { side, storey },
+                    ElementOf::Link(link) => EngineError::ImpossibleLink { link },
+                });
             }
         }
         let fallen = base.collapsed.map(|i| (self.system.storeys.get(i), base.storeys.get(i)));

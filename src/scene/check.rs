@@ -5,6 +5,7 @@
 use super::checker::Checker;
 use super::contact_pair::{ContactPair, Face};
 use super::data::{Building, Damping, Ground, Scaling, Scene, Stiffness, Yielding};
+use super::link::Link;
 use super::problem::{self, Problem, SceneError};
 use super::side::Side;
 use super::{identifier, law_key, matrix, rule};
@@ -28,7 +29,9 @@ pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
     check.texts(scene);
     scene.stop_time.inspect(|&time| check.number("stop_time", time, rule::STOP_TIME));
     check.building("left", &scene.left);
-    if !scene.right.is_absent() || scene.contacts.iter().any(|pair| pair.is_with(Side::Right)) {
+    let is_needed = scene.contacts.iter().any(|pair| pair.is_with(Side::Right))
+        || scene.links.iter().any(|link| link.right.is_some());
+    if !scene.right.is_absent() || is_needed {
         check.building("right", &scene.right);
     }
     check.ground(&scene.ground);
@@ -37,7 +40,11 @@ pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
     }
     scene.facing.inspect(|&tolerance| check.number("facing.level_tolerance", tolerance, rule::LEVEL_TOLERANCE));
     check.pairs_differ(&scene.contacts);
-    check.count_contacts(scene);
+    for (i, link) in scene.links.iter().enumerate() {
+        check.link(&format!("link[{}]", i + 1), link, scene);
+    }
+    check.count("contact", "contacts", scene.contacts.len(), scene);
+    check.count("link", "links", scene.links.len(), scene);
     check.number("solver.relative_tolerance", scene.solver.relative_tolerance, rule::RELATIVE_TOLERANCE);
     check.number("solver.min_approach_velocity", scene.solver.min_approach_velocity, rule::MIN_APPROACH_VELOCITY);
     check.problems
@@ -185,6 +192,11 @@ impl Checker {
             }
             Face::Wall => return,
         };
+        self.floor(path, (side, number, what), scene);
+    }
+
+    /// Whether a building has that floor or storey, counted from 1.
+    fn floor(&mut self, path: &str, (side, number, what): (Side, usize, &str), scene: &Scene) {
         let floors = scene.building(side).mass.len();
         if number >= 1 && (floors == 0 || number <= floors) {
             return;
@@ -201,15 +213,30 @@ impl Checker {
         }
     }
 
-    fn count_contacts(&mut self, scene: &Scene) {
-        let (contacts, floors) = (scene.contacts.len(), scene.left.mass.len() + scene.right.mass.len());
-        if contacts.saturating_mul(floors) > rule::MOST_CONTACTS_TIMES_FLOORS {
+    fn count(&mut self, path: &str, what: &str, count: usize, scene: &Scene) {
+        let floors = scene.left.mass.len() + scene.right.mass.len();
+        if count.saturating_mul(floors) > rule::MOST_CONTACTS_TIMES_FLOORS {
             let most = rule::MOST_CONTACTS_TIMES_FLOORS / floors;
-            self.refuse(
-                "contact",
-                "",
-                format!("at most {most} contacts where there are {floors} floors, not {contacts}"),
-            );
+            self.refuse(path, "", format!("at most {most} {what} where there are {floors} floors, not {count}"));
+        }
+    }
+
+    fn link(&mut self, path: &str, link: &Link, scene: &Scene) {
+        for (side, floor, _) in link.ends() {
+            self.floor(path, (side, floor + 1, "floor"), scene);
+        }
+        self.number(format_args!("{path}.stiffness"), link.stiffness, rule::LINK_STIFFNESS);
+        self.number(format_args!("{path}.dashpot"), link.dashpot, rule::DASHPOT);
+        if let Some(slip) = link.slip {
+            self.number(format_args!("{path}.slip_force"), slip.force, rule::SLIP_FORCE);
+            self.number(format_args!("{path}.post_yield_ratio"), slip.ratio, rule::POST_YIELD_RATIO);
+        }
+        let needs_spring = match link.slip {
+            Some(_) => Some("a stiffness > 0, that of the spring that slips"),
+            None => (link.dashpot == 0.0).then_some("a stiffness > 0, or a dashpot > 0: nothing would be there"),
+        };
+        if let Some(expected) = needs_spring.filter(|_| link.stiffness == 0.0) {
+            self.refuse(format_args!("{path}.stiffness"), problem::number(link.stiffness), expected);
         }
     }
 

@@ -124,6 +124,13 @@ impl<'t> Section<'t> {
         Some(Item { document: self.document, path: join(&self.path, key), value })
     }
 
+    /// Reports a key that belongs elsewhere, if it is there; `expected` says what instead.
+    pub(super) fn refuse_key(&mut self, key: &'static str, expected: &str) {
+        if self.table.is_some_and(|table| table.contains_key(key)) {
+            self.get(key).inspect(|item| item.refuse(expected));
+        }
+    }
+
     /// The value of a key that must be there; `what` says what for.
     pub(super) fn require(&mut self, key: &'static str, what: &str) -> Option<Item<'t>> {
         let item = self.get(key);
@@ -211,12 +218,17 @@ impl<'t> Item<'t> {
 
     /// Neutral: 0.
     pub(super) fn count(&self) -> usize {
+        self.whole().unwrap_or_default()
+    }
+
+    /// A whole number, 0 included, about which nothing has been said; `None` where that has been done.
+    pub(super) fn whole(&self) -> Option<usize> {
         let integer = self.value.get_ref().as_integer();
         let value = integer.and_then(|integer| usize::from_str_radix(integer.as_str(), integer.radix()).ok());
-        value.unwrap_or_else(|| {
+        if value.is_none() {
             self.refuse("a whole number from 1 on");
-            0
-        })
+        }
+        value
     }
 
     /// Neutral: false.

@@ -1,7 +1,8 @@
-//! A contact in its scene: its reduced mass, how far it is open at the start, and what it is called.
+//! A contact in its scene: its reduced mass, how far it is open at the start, and what it is called. A link: its name.
 
 use super::contact_pair::{ContactPair, Face, Share};
 use super::data::{Building, Scene};
+use super::link::Link;
 use super::side::Side;
 use crate::figures::six_decimals;
 
@@ -54,6 +55,17 @@ impl ContactPair {
             (_, _) => format!("of {right} against {left}"),
         };
         text.trim_end_matches(',').to_owned()
+    }
+}
+
+impl Link {
+    /// What it is between, for a person: "between left floor 2 and right floor 2", "between left floor 2 and the ground".
+    pub fn meeting(&self, scene: &Scene) -> String {
+        let name = |side: Side, floor: Option<usize>| {
+            floor.map_or("the ground".to_owned(), |floor| Face::Floor(side, floor + 1).name(scene))
+        };
+        let (left, right) = (name(Side::Left, self.left), name(Side::Right, self.right));
+        format!("between {left} and {right}").trim_end_matches(',').to_owned()
     }
 }
 

@@ -53,8 +53,8 @@
 //! initial_velocity, height, base_level, yield_force, post_yield_ratio, p_delta, gravity_load, collapse_drift_ratio); did you mean mass?");
 //! ```
 //!
-//! Where things are: `data` is the scene, `contact_pair` what meets in it, [`rule`] says which numbers are allowed, `check`
-//! which shapes and combinations, `read` and `read_contacts` go through the keys of the file, `levels` adds up heights,
+//! Where things are: `data` is the scene, `contact_pair` what meets in it, `link` what joins floors, [`rule`] says which numbers are allowed, `check`
+//! which shapes and combinations, `read`, `read_contacts` and `read_links` go through the keys of the file, `levels` adds up heights,
 //! `p_delta` is gravity on storeys that lean, `facing` makes contacts of them, `meeting` says in words what meets, `document` is the file as a tree, `syntax` knows what
 //! is often written instead of TOML, `units` converts masses and forces, `files` loads scenes with their records,
 //! `lines` says on which lines its paths stand.
@@ -77,6 +77,7 @@ mod p_delta;
 mod problem;
 mod read;
 mod read_contacts;
+mod read_links;
 pub mod rule;
 mod side;
 mod syntax;

@@ -6,7 +6,7 @@ use super::levels::Heights;
 use super::problem::{Problem, SceneError, excerpt};
 use super::side::Side;
 use super::units::{self, Units};
-use super::{check, read_contacts, rule};
+use super::{check, read_contacts, read_links, rule};
 use std::collections::{HashMap, HashSet};
 
 impl Scene {
@@ -101,8 +101,11 @@ fn scene(mut root: Section<'_>) -> Scene {
     let floor_forces = inputs(root.section("inputs"));
     let (contacts, facing) =
         read_contacts::all(&mut root, [&left, right.as_ref().unwrap_or(&Building::absent())], units);
+    let links = read_links::all(&mut root, units);
     if right.is_none() && (contacts.iter().any(|pair| pair.is_with(Side::Right)) || facing.is_some()) {
         root.missing("right", "the building on the right, which contacts are with");
+    } else if right.is_none() && links.iter().any(|link| link.right.is_some()) {
+        root.missing("right", "the building on the right, which links are with");
     }
     let right = right.unwrap_or(Building::absent());
     let (energy, peaks) = outputs(root.section("outputs"));
@@ -120,7 +123,7 @@ fn scene(mut root: Section<'_>) -> Scene {
         floor_forces,
         contacts,
         facing,
-        links: Vec::new(),
+        links,
         energy,
         peaks,
         solver,

@@ -64,7 +64,7 @@ pub const MOST_TIME: f64 = 1e12;
 /// tallest buildings have less than 200.
 pub const MOST_FLOORS: usize = 1000;
 
-/// Contacts times floors of both buildings: each contact knows how every mode moves it, some hundred megabytes in all.
+/// Contacts, or links, times floors of both buildings: each contact knows how every mode moves it, some hundred megabytes in all.
 pub const MOST_CONTACTS_TIMES_FLOORS: usize = 20_000_000;
 
 /// Any finite number: entries of matrices.
@@ -86,7 +86,7 @@ pub const YIELD_FORCE: Rule = Rule {
     in_kn_t: Some("a force > 0 kN, or inf for a storey that stays elastic"),
     holds: |force| force > 0.0,
 };
-/// `post_yield_ratio` of a storey.
+/// `post_yield_ratio` of a storey or a link.
 pub const POST_YIELD_RATIO: Rule =
     Rule { expected: "0 <= r < 1", in_kn_t: None, holds: |ratio| (0.0..1.0).contains(&ratio) };
 /// `gravity_load` of a floor, N.
@@ -110,12 +110,21 @@ pub const LEVEL: Rule = Rule { expected: "a finite level in m", in_kn_t: None, h
 pub const POSITION: Rule = Rule { expected: "0 < s < 1", in_kn_t: None, holds: |s| s > 0.0 && s < 1.0 };
 /// `level_tolerance`, m.
 pub const LEVEL_TOLERANCE: Rule = Rule { expected: "a finite distance >= 0 m", in_kn_t: None, holds: |d| d >= 0.0 };
-/// `dashpots` of a storey, N s/m.
+/// `dashpots` of a storey, `dashpot` of a link, N s/m.
 pub const DASHPOT: Rule = Rule {
     expected: "a finite dashpot >= 0 N s/m",
     in_kn_t: Some("a finite dashpot >= 0 kN s/m"),
     holds: |c| c >= 0.0,
 };
+/// `stiffness` of a link, N/m.
+pub const LINK_STIFFNESS: Rule = Rule {
+    expected: "a finite stiffness >= 0 N/m",
+    in_kn_t: Some("a finite stiffness >= 0 kN/m"),
+    holds: |k| k >= 0.0,
+};
+/// `slip_force` of a link, N.
+pub const SLIP_FORCE: Rule =
+    Rule { expected: "a finite force > 0 N", in_kn_t: Some("a finite force > 0 kN"), holds: |force| force > 0.0 };
 /// `ground.scale`.
 pub const SCALE: Rule = Rule { expected: "a finite factor", in_kn_t: None, holds: |_| true };
 /// `ground.pga`, m/s2.

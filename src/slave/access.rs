@@ -52,6 +52,9 @@ impl Slave {
             Slot::Calculated(Calculated::Frequency(side, mode)) => {
                 Value::Real(self.start()?.model().natural_frequencies(side)[mode])
             }
+            Slot::Calculated(Calculated::SystemFrequency(mode)) => {
+                Value::Real(self.start()?.model().system_frequencies()[mode])
+            }
             Slot::Calculated(calculated) => Value::Real(self.settings.calculate(calculated)),
         })
     }

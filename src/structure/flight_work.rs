@@ -7,6 +7,7 @@
 //! exact motion: W(2h) = W(h) + T' W(h) T, where z becomes T z over h. The work is found from velocities, never from the
 //! energies at both ends, so that the balance of energy still tests the motion.
 
+use super::coupled_work::CoupledWork;
 use super::equations::Structure;
 use super::lanes::{LANES, Lane, from_left_to_right};
 use super::propagator::ModeIncrement;
@@ -17,13 +18,15 @@ use nalgebra::{Matrix4, Vector4};
 /// 9e-39 (2 x 3)^24 = 4e-20 of the largest power.
 const REACH: f64 = 3.0;
 
-/// The work over a flight of one length, for all modes; only where damping couples none of them.
+/// The work over a flight of one length, for all modes.
 #[derive(Clone, Debug)]
 pub struct FlightWork {
     /// s.
     pub length: f64,
     modes: Vec<ModeForms>,
-    /// Coefficients of a^2, a s and s^2 in the work of the ground motion and of damping: sums over all modes.
+    /// Bodies in which damping couples modes.
+    coupled: Vec<CoupledWork>,
+    /// Coefficients of a^2, a s and s^2 in the work of the ground motion and of damping: sums over all other modes.
     ground: [[f64; 3]; 2],
 }
 
@@ -54,18 +57,21 @@ pub struct FlightEnergy {
 }
 
 impl FlightWork {
-    /// For flights of a `length`, s; `None` where damping couples modes.
-    pub fn of(structure: &Structure, length: f64) -> Option<FlightWork> {
-        if !structure.is_classical() {
-            return None;
-        }
+    /// For flights of a `length`, s.
+    pub fn of(structure: &Structure, length: f64) -> FlightWork {
+        let bodies = structure.bodies.iter().enumerate();
         let mut work = FlightWork {
             length,
             modes: vec![ModeForms::default(); structure.lanes / LANES],
+            coupled: bodies.filter_map(|(b, body)| CoupledWork::of(structure, body, b, length)).collect(),
             ground: Default::default(),
         };
         let modes = structure.omega2.iter().zip(&structure.damping).zip(&structure.participation);
         for (m, ((w2, c), participation)) in modes.enumerate() {
+            if structure.couples(m) {
+                work.modes[m / LANES].omega2[m % LANES] = *w2;
+                continue;
+            }
             let [input, viscous] = forms(w2.sqrt(), *c, *participation, length);
             work.modes[m / LANES].set(m % LANES, *w2, &input, &viscous);
             for (ground, form) in work.ground.iter_mut().zip([&input, &viscous]) {
@@ -74,10 +80,28 @@ impl FlightWork {
                 ground[2] += form[(3, 3)];
             }
         }
-        Some(work)
+        work
     }
 
-    /// Over a flight from a motion, under the ground's acceleration, m/s2, and its slope, m/s3, at the start.
+    /// Over a flight from a motion, under the ground's acceleration, m/s2, and its slope, m/s3, at the start, where damping
+    /// may couple modes; adds the work of the dashpots of links to `dashpots`, and `z` is scratch.
+    pub fn over_all(
+        &self,
+        (q, v): (&[f64], &[f64]),
+        load: (f64, f64),
+        z: &mut Vec<f64>,
+        dashpots: &mut [f64],
+    ) -> FlightEnergy {
+        let mut flight = self.over((q.as_chunks().0, v.as_chunks().0), load);
+        for body in &self.coupled {
+            let [input, viscous] = body.over((q, v), load, z, dashpots);
+            flight.input += input;
+            flight.viscous += viscous;
+        }
+        flight
+    }
+
+    /// The same where it couples none.
     #[inline(always)]
     pub fn over(&self, (q, v): (&[Lane], &[Lane]), (a, s): (f64, f64)) -> FlightEnergy {
         let [mut held, mut rising, mut viscous, mut kinetic, mut strain] = [[0.0; LANES]; 5];

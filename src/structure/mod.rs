@@ -11,10 +11,11 @@
 //! | file | holds |
 //! |---|---|
 //! | `modes.rs`, `first_mode.rs` | frequencies, shapes and damping of one building; the first mode alone |
+//! | `bodies.rs`, `links.rs` | what moves together: buildings, and the links that join them |
 //! | `equations.rs` | both buildings mode by mode: equation of motion, forces, energies |
 //! | `floors.rs` | the same floor by floor, for shear buildings |
 //! | `propagator.rs`, `interval.rs` | exact response over a time, of one mode and of all |
-//! | `flight_work.rs` | work of the ground and of damping over a whole flight |
+//! | `flight_work.rs`, `coupled_work.rs` | work of the ground and of damping over a whole flight, of modes by themselves and of modes that damping couples |
 //! | `block_increments.rs` | the same of many modes, for one flight only |
 //! | `series/` | the motion as a power series in time: its terms, their sums |
 //! | `short_flight.rs` | a flight by one such series, without keeping the terms |
@@ -26,6 +27,7 @@ pub use crate::scene::Side;
 
 mod block_increments;
 mod bodies;
+mod coupled_work;
 mod equations;
 mod first_mode;
 mod flight_work;

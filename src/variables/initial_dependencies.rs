@@ -7,7 +7,7 @@
 use super::dependencies::floors;
 use super::slot::{Calculated, Parameter, Slot};
 use crate::contact::EpisodeForce;
-use crate::engine::{ContactOutput, EnergyOutput, Input, Output, PeakOf, Side, StoreyPeak, YieldingOf};
+use crate::engine::{ContactOutput, EnergyOutput, Input, LinkOutput, Output, PeakOf, Side, StoreyPeak, YieldingOf};
 use crate::scene::{Building, Damping, Scene, Share, Stiffness};
 
 /// Whether an unknown may depend on a known at the start time; `unknown` is an output or a calculated parameter,
@@ -22,6 +22,10 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
         }
         Slot::Calculated(Calculated::CriticalDrift(side, storey)) => {
             return is_of_storey(known, (side, storey)) || is_of_weight(scene, (side, storey), known);
+        }
+        Slot::Calculated(Calculated::SystemFrequency(_)) => {
+            let is_of_building = [Side::Left, Side::Right].into_iter().any(|side| is_of_modes(side, known));
+            return is_of_building || matches!(known, Slot::Parameter(Parameter::LinkStiffness(_)));
         }
         Slot::Output(output) => output,
         Slot::Input(_) | Slot::Parameter(_) => return false,
@@ -68,7 +72,20 @@ pub fn at_start(scene: &Scene, unknown: Slot, known: Slot) -> bool {
         Output::Contact(p, C::Force | C::PeakForce) => contact_force(scene, p, known),
         // Nothing has been done yet, and an overlap at the start has no approach velocity.
         Output::Contact(_, C::Impulse | C::DissipatedEnergy | C::ApproachVelocity) => false,
-        Output::Link(..) | Output::Peak(PeakOf::LinkDisplacement(_) | PeakOf::LinkForce(_)) => false,
+        Output::Link(l, LinkOutput::Force) | Output::Peak(PeakOf::LinkForce(l)) => link_force(scene, l, known),
+        Output::Link(l, LinkOutput::Slip) => {
+            is_of_spring(scene, l, known) && known != Slot::Parameter(Parameter::LinkPostYieldRatio(l))
+        }
+        // Neither motion nor anything that begins with the first step.
+        Output::Link(
+            _,
+            LinkOutput::Displacement
+            | LinkOutput::Velocity
+            | LinkOutput::DissipatedEnergy
+            | LinkOutput::SlipTravel
+            | LinkOutput::Slipping,
+        )
+        | Output::Peak(PeakOf::LinkDisplacement(_)) => false,
         Output::Impacts => (0..scene.contacts.len()).any(|p| is_of_distance(scene, p, known) && is_pushed(scene, p)),
         Output::Energy(term) => energy(scene, term, known),
     }
@@ -122,6 +139,8 @@ fn base_shear(scene: &Scene, side: Side, known: Slot) -> bool {
 fn acceleration(scene: &Scene, (side, floor): (Side, usize), known: Slot) -> bool {
     let building = scene.building(side);
     let contacts = || (0..scene.contacts.len()).filter(|&p| floors(scene, p).contains(&(side, floor)));
+    let is_there = |l: &usize| scene.links[*l].ends().any(|(s, f, _)| (s, f) == (side, floor));
+    let links = || (0..scene.links.len()).filter(is_there);
     let storeys = [floor, floor + 1];
     match known {
         Slot::Input(Input::Force(s, f)) => (s, f) == (side, floor),
@@ -130,15 +149,37 @@ fn acceleration(scene: &Scene, (side, floor): (Side, usize), known: Slot) -> boo
                 Stiffness::Shear(_) => storeys.into_iter().any(|storey| drifts(building, storey)),
                 Stiffness::Matrix(_) => building.initial_displacement.iter().any(|&u| u != 0.0),
             };
-            scene.floor_forces || is_strained || is_damped(building) || contacts().any(|p| is_pushed(scene, p))
+            let is_held = links().any(|l| closing(scene, l) != [0.0; 2]);
+            let is_pushed = contacts().any(|p| is_pushed(scene, p));
+            scene.floor_forces || is_strained || is_damped(building) || is_held || is_pushed
         }
         _ => {
             let is_strain = |storey| is_of_net_storey(scene, known, (side, storey)) && drifts(building, storey);
             storeys.into_iter().any(is_strain)
                 || damping_force(scene, side, known, storeys)
                 || contacts().any(|p| contact_force(scene, p, known))
+                || links().any(|l| link_force(scene, l, known))
         }
     }
+}
+
+/// Displacement and velocity of a link at the start.
+fn closing(scene: &Scene, l: usize) -> [f64; 2] {
+    let ends = || scene.links[l].ends().map(|(side, floor, weight)| (scene.building(side), floor, weight));
+    let displacement = ends().map(|(building, floor, weight)| weight * building.initial_displacement[floor]).sum();
+    let velocity = ends().map(|(building, floor, weight)| weight * building.initial_velocity[floor]).sum();
+    [displacement, velocity]
+}
+
+/// Whether a parameter changes the force of the spring of a link at the start.
+fn is_of_spring(scene: &Scene, l: usize, known: Slot) -> bool {
+    let parameters = [Parameter::LinkStiffness(l), Parameter::SlipForce(l), Parameter::LinkPostYieldRatio(l)];
+    parameters.into_iter().any(|parameter| known == Slot::Parameter(parameter)) && closing(scene, l)[0] != 0.0
+}
+
+fn link_force(scene: &Scene, l: usize, known: Slot) -> bool {
+    let is_of_dashpot = known == Slot::Parameter(Parameter::LinkDashpot(l)) && closing(scene, l)[1] != 0.0;
+    is_of_spring(scene, l, known) || is_of_dashpot
 }
 
 /// C v of some floors of a building, which storeys with dashpots of their own give.
@@ -218,6 +259,7 @@ fn energy(scene: &Scene, term: EnergyOutput, known: Slot) -> bool {
         (EnergyOutput::Strain, Slot::Parameter(parameter)) => {
             let storey = storey_of(parameter);
             storey.is_some_and(|(side, storey)| drifts(scene.building(side), storey))
+                || (0..scene.links.len()).any(|l| is_of_spring(scene, l, known))
         }
         (EnergyOutput::Gravity, Slot::Parameter(Parameter::Mass(side, floor))) => {
             let leans = |storey| is_of_weight(scene, (side, storey), known) && drifts(scene.building(side), storey);

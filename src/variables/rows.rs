@@ -4,9 +4,9 @@ use super::slot::{Calculated, Parameter, Slot};
 use super::table::{Row, Table, Type, Variability};
 use super::unit::Unit;
 use crate::contact::LawKey;
-use crate::engine::{ContactOutput, EnergyOutput, Input, Output, PeakOf, Side, StoreyPeak, YieldingOf};
+use crate::engine::{ContactOutput, EnergyOutput, Input, LinkOutput, Output, PeakOf, Side, StoreyPeak, YieldingOf};
 use crate::figures::six_decimals;
-use crate::scene::{Building, ContactPair, Damping, Scaling, Scene, Stiffness, rule};
+use crate::scene::{Building, ContactPair, Damping, Link, Scaling, Scene, Slip, Stiffness, rule};
 
 // The motion that the nominal values stand for: m, m/s and m/s2.
 const DISPLACEMENT: f64 = 0.01;
@@ -63,6 +63,14 @@ impl Table {
             table.add_law(p, pair, meeting);
             let mass = pair.row().map(|share| scene.building(share.side).mass[share.floor]).sum();
             table.add_contact_outputs(p, pair, mass, meeting);
+        }
+        for (l, link) in scene.links.iter().enumerate() {
+            let meeting = &link.meeting(scene);
+            table.add_link(l, link, meeting);
+            table.add_link_outputs((l, link), scene, meeting);
+        }
+        if !scene.links.is_empty() {
+            table.add_system(scene);
         }
         table
             .add(Output::Impacts, "impacts", Type::Integer, "contact episodes begun so far, all contacts")
@@ -328,11 +336,95 @@ impl Table {
         row.variability = Variability::Discrete;
     }
 
+    /// The parameters that a link has.
+    fn add_link(&mut self, l: usize, link: &Link, meeting: &str) {
+        let name = |quantity: &str| format!("link[{}].{quantity}", l + 1);
+        if link.stiffness > 0.0 {
+            let (ty, about) = (Type::Real(Unit::NewtonPerMetre), format!("stiffness of the link {meeting}"));
+            let row = self.add(Parameter::LinkStiffness(l), &name("stiffness"), ty, &about);
+            row.at_least(0.0).nominal(link.stiffness);
+        }
+        if link.dashpot > 0.0 {
+            let (ty, about) = (Type::Real(Unit::NewtonSecondPerMetre), format!("dashpot of the link {meeting}"));
+            self.add(Parameter::LinkDashpot(l), &name("dashpot"), ty, &about).at_least(0.0).nominal(link.dashpot);
+        }
+        let Some(Slip { force, ratio }) = link.slip else { return };
+        let about = format!("force of the spring at which the link {meeting} first slips");
+        self.add(Parameter::SlipForce(l), &name("slip_force"), NEWTON, &about).at_least(0.0).nominal(force);
+        let about = format!("stiffness while it slips over that before, of the link {meeting}");
+        let row = self.add(Parameter::LinkPostYieldRatio(l), &name("post_yield_ratio"), ONE, &about);
+        row.between(0.0, 1.0).nominal(if ratio > 0.0 { ratio } else { POST_YIELD_RATIO });
+    }
+
+    fn add_link_outputs(&mut self, (l, link): (usize, &Link), scene: &Scene, meeting: &str) {
+        use LinkOutput as L;
+        let slips = link.slip.is_some();
+        let force = link.slip.map_or(link.stiffness * DISPLACEMENT + link.dashpot * VELOCITY, |slip| slip.force);
+        let (largest, path) =
+            ("largest so far, of either sign, between communication points too, of the", "sum so far of all slips");
+        let (of_force, of_displacement) =
+            ("force, pushing its ends apart positive,", "displacement, its ends nearer positive,");
+        let velocity = "velocity, its ends coming nearer positive,";
+        let (slipped, sense) =
+            ("slip of the spring", "1 or -1 while it slips, its ends coming nearer or going apart, else 0,");
+        let dissipates = slips || link.dashpot > 0.0 && scene.energy;
+        for (output, quantity, ty, nominal, about, exists) in [
+            (Output::Link(l, L::Force), "force", NEWTON, force, of_force.to_owned(), true),
+            (Output::Link(l, L::Displacement), "displacement", METRE, DISPLACEMENT, of_displacement.to_owned(), true),
+            (Output::Link(l, L::Velocity), "velocity", METRE_PER_SECOND, VELOCITY, velocity.to_owned(), true),
+            (Output::Peak(PeakOf::LinkForce(l)), "peak_force", NEWTON, force, format!("{largest} force"), scene.peaks),
+            (
+                Output::Peak(PeakOf::LinkDisplacement(l)),
+                "peak_displacement",
+                METRE,
+                DISPLACEMENT,
+                format!("{largest} displacement"),
+                scene.peaks,
+            ),
+            (Output::Link(l, L::Slip), "slip", METRE, DISPLACEMENT, slipped.to_owned(), slips),
+            (Output::Link(l, L::SlipTravel), "slip_travel", METRE, DISPLACEMENT, path.to_owned(), slips),
+            (Output::Link(l, L::Slipping), "slipping", Type::Integer, 1.0, sense.to_owned(), slips),
+            (
+                Output::Link(l, L::DissipatedEnergy),
+                "dissipated_energy",
+                JOULE,
+                force * DISPLACEMENT,
+                "energy dissipated so far".to_owned(),
+                dissipates,
+            ),
+        ] {
+            if !exists {
+                continue;
+            }
+            let about = format!("{about} of the link {meeting}");
+            let row = self.add(output, &format!("link[{}].{quantity}", l + 1), ty, &about);
+            row.nominal(nominal);
+            match output {
+                Output::Peak(_) | Output::Link(_, L::SlipTravel) => _ = row.at_least(0.0),
+                Output::Link(_, L::Slipping) => _ = row.between(-1.0, 1.0),
+                _ => {}
+            }
+        }
+    }
+
+    /// What the buildings have together, with their links.
+    fn add_system(&mut self, scene: &Scene) {
+        let buildings = || [&scene.left, &scene.right].into_iter().filter(|building| !building.is_absent());
+        let typical = buildings().map(typical_frequency).fold(0.0, f64::max);
+        for mode in 0..buildings().map(|building| building.mass.len()).sum() {
+            let (i, ty) = (mode + 1, Type::Real(Unit::Hertz));
+            let about = format!("natural frequency {i} of the buildings with their links, without damping");
+            let row = self.add(Calculated::SystemFrequency(mode), &format!("system.frequency[{i}]"), ty, &about);
+            row.at_least(0.0).nominal(typical);
+        }
+    }
+
     fn add_energy(&mut self, scene: &Scene) {
         use EnergyOutput as E;
         let mass: f64 = scene.left.mass.iter().chain(&scene.right.mass).sum();
         let yields = |building: &Building| (0..building.mass.len()).any(|i| building.yielding_storey(i).is_some());
-        let hysteretic = [&scene.left, &scene.right].into_iter().any(yields);
+        let slips = scene.links.iter().any(|link| link.slip.is_some());
+        let hysteretic = slips || [&scene.left, &scene.right].into_iter().any(yields);
         let gravity = [&scene.left, &scene.right].into_iter().any(Building::has_gravity);
         for (term, about) in [
             (E::Input, "work of the inertia forces of the ground motion so far"),
@@ -347,7 +439,13 @@ impl Table {
             if term == E::Hysteretic && !hysteretic || term == E::Gravity && !gravity {
                 continue;
             }
-            let row = self.add(Output::Energy(term), &format!("energy.{}", term.name()), JOULE, about);
+            let links = match term {
+                E::Strain | E::Viscous if !scene.links.is_empty() => ", links included",
+                E::Hysteretic if slips => ", and by links that have slipped",
+                _ => "",
+            };
+            let name = format!("energy.{}", term.name());
+            let row = self.add(Output::Energy(term), &name, JOULE, &format!("{about}{links}"));
             row.nominal(mass * VELOCITY * VELOCITY);
             if matches!(term, E::Kinetic | E::Strain | E::Hysteretic) {
                 row.at_least(0.0); // sums of squares; the others are sums of work, rounded to either side of 0

@@ -2,7 +2,7 @@
 
 use crate::engine::{Input, Output, Side};
 
-/// What a variable stands for. Floors, storeys and contacts are counted from 0.
+/// What a variable stands for. Floors, storeys, contacts and links are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slot {
     /// Set by the master at any time.
@@ -25,6 +25,8 @@ pub enum Calculated {
     StabilityCoefficient(Side, usize),
     /// m: drift at which a storey that yields resists no push any more.
     CriticalDrift(Side, usize),
+    /// Hz: natural frequency of the buildings with their links.
+    SystemFrequency(usize),
 }
 
 /// A parameter: the master sets it before the end of initialisation.
@@ -57,6 +59,14 @@ pub enum Parameter {
     Exponent(usize),
     /// Of a free impact
     Restitution(usize),
+    /// N/m, of a link
+    LinkStiffness(usize),
+    /// N s/m, of a link
+    LinkDashpot(usize),
+    /// N, of a link
+    SlipForce(usize),
+    /// Of a link
+    LinkPostYieldRatio(usize),
     /// Error of a contact episode
     RelativeTolerance,
 }

@@ -140,6 +140,10 @@ impl Settings {
             Parameter::ContactStiffness(p) => scene.contacts[p].law.stiffness,
             Parameter::Exponent(p) => scene.contacts[p].law.exponent,
             Parameter::Restitution(p) => scene.contacts[p].law.restitution,
+            Parameter::LinkStiffness(l) => scene.links[l].stiffness,
+            Parameter::LinkDashpot(l) => scene.links[l].dashpot,
+            Parameter::SlipForce(l) => scene.links[l].slip.map_or(0.0, |slip| slip.force),
+            Parameter::LinkPostYieldRatio(l) => scene.links[l].slip.map_or(0.0, |slip| slip.ratio),
             Parameter::RelativeTolerance => scene.solver.relative_tolerance,
         })
     }
@@ -148,7 +152,7 @@ impl Settings {
     /// infinite.
     pub fn calculate(&self, calculated: Calculated) -> f64 {
         match calculated {
-            Calculated::Frequency(..) => 0.0,
+            Calculated::Frequency(..) | Calculated::SystemFrequency(_) => 0.0,
             Calculated::StabilityCoefficient(side, storey) => {
                 let building = self.scene.building(side);
                 let gravity = building.gravity_stiffness();
@@ -255,6 +259,10 @@ impl Settings {
             Parameter::ContactStiffness(p) => scene.contacts[p].law.stiffness = number,
             Parameter::Exponent(p) => scene.contacts[p].law.exponent = number,
             Parameter::Restitution(p) => scene.contacts[p].law.restitution = number,
+            Parameter::LinkStiffness(l) => scene.links[l].stiffness = number,
+            Parameter::LinkDashpot(l) => scene.links[l].dashpot = number,
+            Parameter::SlipForce(l) => scene.links[l].slip.iter_mut().for_each(|slip| slip.force = number),
+            Parameter::LinkPostYieldRatio(l) => scene.links[l].slip.iter_mut().for_each(|slip| slip.ratio = number),
             Parameter::RelativeTolerance => scene.solver.relative_tolerance = number,
         }
         Ok(())

@@ -2,7 +2,8 @@
 //! ends, and what the equation of motion integrates to.
 
 use crate::common::scene;
-use pounding::structure::{FlightWork, Interval, LANES, Lane, Structure};
+use pounding::scene::Link;
+use pounding::structure::{FlightWork, Interval, LANES, Lane, Scratch, Structure, dot};
 
 /// Two single masses of `omega`, 1/s, and damping ratio.
 fn structure([left, right]: [(f64, f64); 2]) -> Structure {
@@ -36,7 +37,7 @@ fn rounding(structure: &Structure, length: f64) -> f64 {
 fn work_of_the_ground_and_of_damping_balance_the_energy() {
     for (modes, length) in MODES.into_iter().flat_map(|modes| LENGTHS.map(|length| (modes, length))) {
         let structure = structure(modes);
-        let work = FlightWork::of(&structure, length).unwrap();
+        let work = FlightWork::of(&structure, length);
         for load in [(0.0, 0.0), (2.0, 0.0), (0.0, -30.0), (-1.0, 5.0)] {
             let over = work.over((&[START.0], &[START.1]), load);
             let (q, v) = end(&structure, START, load, length);
@@ -61,7 +62,7 @@ fn work_of_the_ground_and_of_damping_balance_the_energy() {
 fn work_of_the_ground_is_that_of_the_equation_of_motion() {
     for (modes, length) in MODES.into_iter().flat_map(|modes| LENGTHS.map(|length| (modes, length))) {
         let structure = structure(modes);
-        let work = FlightWork::of(&structure, length).unwrap();
+        let work = FlightWork::of(&structure, length);
         for (a, s) in [(2.0, 0.0), (0.0, -30.0), (-1.0, 5.0)] {
             let (q, v) = end(&structure, START, (a, s), length);
             let (mut exact, mut size) = (0.0, 0.0_f64);
@@ -81,6 +82,65 @@ fn work_of_the_ground_is_that_of_the_equation_of_motion() {
                 (input - exact).abs() <= rounding(&structure, length) * size,
                 "{modes:?} over {length} s: {input} instead of {exact}"
             );
+        }
+    }
+}
+
+/// Dashpots between storeys, and between the buildings, couple the modes: the balance of energy holds all the same, and the
+/// dashpots of links take what a quadrature of the exact velocities says.
+#[test]
+fn work_of_dashpots_that_couple_modes_balances_the_energy() {
+    let mut scene = scene(
+        "name = \"Coupled\"\n\
+         [left]\nmass = [2.0, 1.0]\nstiffness = [800.0, 300.0]\ndamping = { dashpots = [3.0, 0.0] }\n\
+         [right]\nmass = [1.0, 1.5, 0.5]\nstiffness = [500.0, 700.0, 90.0]\ndamping = { ratio = 0.05 }\n",
+    );
+    let alone = Structure::of(&scene).ok().unwrap();
+    let link = |floor: usize, dashpot: f64| {
+        let (left, right) = (Some(floor), Some(floor + 1));
+        Link { left, right, stiffness: 40.0, dashpot, slip: None }
+    };
+    scene.links = vec![link(1, 12.0), link(0, 0.0), link(0, 5.0)];
+    let joined = Structure::of(&scene).ok().unwrap();
+    for (structure, length) in [&alone, &joined].into_iter().flat_map(|of| LENGTHS.map(|length| (of, length))) {
+        let work = FlightWork::of(structure, length);
+        let start: [Vec<f64>; 2] = [0.3, -0.5]
+            .map(|size| (0..structure.lanes).map(|m| if m < 5 { size / (m + 1) as f64 } else { 0.0 }).collect());
+        for (a, s) in [(0.0, 0.0), (2.0, 0.0), (0.0, -30.0), (-1.0, 5.0)] {
+            let fly = |time: f64| {
+                let (mut q, mut v) = (vec![0.0; structure.lanes], vec![0.0; structure.lanes]);
+                let load =
+                    [a, s].map(|ground: f64| structure.participation.iter().map(|p| -p * ground).collect::<Vec<_>>());
+                let mut scratch = Scratch::new(structure.lanes);
+                Interval::new(structure, time).fly(
+                    (&start[0], &start[1]),
+                    (&load[0], &load[1]),
+                    (&mut q, &mut v),
+                    &mut scratch,
+                );
+                [q, v]
+            };
+            let mut dashpots = vec![0.0; structure.links.len()];
+            let over = work.over_all((&start[0], &start[1]), (a, s), &mut Vec::new(), &mut dashpots);
+            let [q, v] = fly(length);
+            let (before, after) = (structure.energies(&start[0], &start[1]), structure.energies(&q, &v));
+            let balance = before.0 + before.1 + over.input - over.viscous - after.0 - after.1;
+            let largest = [before.0, before.1, after.0, after.1, over.input.abs()].into_iter().fold(0.0, f64::max);
+            assert!(balance.abs() <= rounding(structure, length) * largest, "{length} s: {balance} of {largest} J");
+            for (link, work) in structure.links.iter().zip(&dashpots).filter(|_| length <= 0.02) {
+                let rate = |t: f64| dot(&link.row, &fly(t)[1]);
+                let piece = length / 32.0;
+                let of_piece = |k: usize| -> f64 {
+                    let node = |x: f64| rate(piece * (k as f64 + 0.5 * (1.0 + x))).powi(2);
+                    let far = 0.6_f64.sqrt();
+                    link.dashpot * piece / 18.0 * (5.0 * node(-far) + 8.0 * node(0.0) + 5.0 * node(far))
+                };
+                let exact: f64 = (0..32).map(of_piece).sum();
+                assert!(
+                    (work - exact).abs() <= 1e-11 * exact.abs() + 1e-15 * largest,
+                    "{length} s: {work} for {exact} J"
+                );
+            }
         }
     }
 }

@@ -22,6 +22,7 @@ mod row_symmetry;
 mod rows;
 mod shared_floors;
 mod simultaneous_impacts;
+mod slipping_links;
 mod stereomechanical;
 mod structure;
 mod tall_buildings;

@@ -1,16 +1,16 @@
-//! Frames with storeys that yield and contacts that are linear, another way: between events the floors obey y' = A y with a
+//! Frames with storeys that yield, links and contacts that are linear, another way: between events the floors obey y' = A y with a
 //! constant matrix that has the stiffness of the storeys as they are then, and y is the exponential of A t. Displacements are
 //! total ones, steps are short, events are found by bisection.
 
 use crate::common::Run;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use pounding::contact::LawKind;
-use pounding::engine::Side;
+use pounding::engine::{LinkOutput, Output, Side};
 use pounding::record::Record;
-use pounding::scene::{Building, ContactPair, Damping, Scene};
+use pounding::scene::{Building, ContactPair, Damping, Scene, Slip};
 use std::f64::consts::PI;
 
-/// A storey between two floors, counted through both buildings.
+/// A storey between two floors, counted through both buildings; then come the links.
 struct Storey {
     row: DVector<f64>,
     stiffness: f64,
@@ -86,6 +86,14 @@ impl Piecewise<'_> {
             }
             damping += damping_of(&building.damping, &mass, first(side), &storeys[own..]);
         }
+        for link in &scene.links {
+            let mut row = DVector::zeros(n);
+            link.ends().for_each(|(side, floor, weight)| row[first(side) + floor] = weight);
+            let Slip { force, ratio } = link.slip.unwrap_or(Slip { force: f64::INFINITY, ratio: 1.0 });
+            damping += link.dashpot * &row * row.transpose();
+            let (stiffness, limit) = (link.stiffness, force / link.stiffness);
+            storeys.push(Storey { row, stiffness, limit, ratio, can_yield: link.slip.is_some() });
+        }
         let pairs: Vec<_> = scene.contacts.iter().map(|pair| Pair::of(pair, &mass, first)).collect();
         let displacements = all(|building| &building.initial_displacement);
         let velocities = all(|building| &building.initial_velocity);
@@ -154,6 +162,26 @@ impl Piecewise<'_> {
             0.0 => self.plastic[i],
             sense => self.drift(i, &self.y) - sense * self.storeys[i].limit,
         }
+    }
+
+    /// Force of a storey or a link, N, with a dashpot beside it.
+    fn force(&self, i: usize, dashpot: f64) -> f64 {
+        let (Storey { stiffness, ratio, .. }, drift) = (&self.storeys[i], self.drift(i, &self.y));
+        let plastic = if self.storeys[i].can_yield { self.plastic_now(i) } else { 0.0 };
+        stiffness * drift - (1.0 - ratio) * stiffness * plastic + dashpot * self.drift_rate(i, &self.y)
+    }
+
+    /// Drift of a storey where all would come to rest with the plastic drifts of now.
+    fn residual(&self, i: usize) -> f64 {
+        let n = self.floors();
+        let (mut matrix, mut force) = (DMatrix::zeros(n, n), DVector::zeros(n));
+        for (j, Storey { row, stiffness, ratio, can_yield, .. }) in self.storeys.iter().enumerate() {
+            matrix += *stiffness * row * row.transpose();
+            if *can_yield {
+                force += (1.0 - ratio) * stiffness * self.plastic_now(j) * row;
+            }
+        }
+        matrix.lu().solve(&force).map_or(f64::NAN, |rest| self.storeys[i].row.dot(&rest))
     }
 
     pub fn cumulative_now(&self, i: usize) -> f64 {
@@ -439,6 +467,28 @@ pub fn assert_same_motion<'r>(scene: &Scene, record: &'r Record, times: &[f64], 
             near(shown.plastic, other.plastic_now(i), most, "plastic drift");
             let cumulative = other.cumulative_now(i);
             near(shown.cumulative, cumulative, most + cumulative, "cumulative plastic drift");
+            if other.storeys[i].can_yield {
+                near(shown.shear, other.force(i, 0.0), other.storeys[i].stiffness * most, "shear");
+                near(shown.residual, other.residual(i), most, "residual drift");
+            }
+        }
+        for l in 0..scene.links.len() {
+            let (i, what) = (floors.len() + l, format!("of link {l} at {time} s, {} yields", other.yields));
+            let near = |got: f64, expected: f64, size: f64, name: &str| {
+                let error = (got - expected).abs() / size;
+                assert!(error < tolerance, "{name} {what}: {got:e} not {expected:e}, off by {error:.1e}");
+            };
+            let link_of = |of| run.read(Output::Link(l, of));
+            let (stiffness, fastest_force) = (scene.links[l].stiffness, scene.links[l].dashpot * fastest);
+            near(link_of(LinkOutput::Slip), other.plastic_now(i), most, "slip");
+            near(
+                link_of(LinkOutput::Force),
+                other.force(i, scene.links[l].dashpot),
+                stiffness * most + fastest_force,
+                "force",
+            );
+            let travel = other.cumulative_now(i);
+            near(link_of(LinkOutput::SlipTravel), travel, most + travel, "slip travel");
         }
         if scene.energy {
             assert!(run.energy().residual.abs() < 1e-12, "at {time} s: {:?}", run.energy());

@@ -15,6 +15,7 @@ use crate::engine::excitation::segment::Segment;
 use crate::engine::model::Model;
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
+use crate::engine::yielding::element::ElementOf;
 use crate::structure::Side;
 
 /// The collapse of a storey, which ends a run.
@@ -96,8 +97,10 @@ impl Model {
 
     /// The collapse that has ended the run of a state, if one has.
     pub fn collapse(&self, state: &State) -> Option<Collapse> {
-        let of = &self.system.storeys[state.base.collapsed?];
-        Some(Collapse { side: of.side, storey: of.storey, time: state.time })
+        match self.system.storeys[state.base.collapsed?].place {
+            ElementOf::Storey(side, storey) => Some(Collapse { side, storey, time: state.time }),
+            ElementOf::Link(_) => None,
+        }
     }
 
     /// Advances step by step from the end of a fast flight over `flown` segments, up to the next event if it `stops` there.
@@ -254,10 +257,11 @@ impl Model {
         if !base.is_yielding() {
             return;
         }
-        for (of, storey) in self.system.storeys.iter().zip(&mut base.storeys) {
-            let Some(sense) = storey.yields else { continue };
-            let from = *storey;
-            let excess = of.excess(storey, sense, of.drift(base.coordinates, &base.q));
+        for i in 0..base.storeys.len() {
+            let (of, (&from, centre)) = self.system.element(i, &base.storeys);
+            let Some(sense) = from.yields else { continue };
+            let excess = of.excess(centre, sense, of.drift(base.coordinates, &base.q));
+            let storey = &mut base.storeys[i];
             storey.plastic += sense.sign() * excess;
             storey.furthest = storey.furthest.max(storey.plastic.abs());
             of.move_rest(base.coordinates, (&from, storey), &mut base.q);

@@ -26,7 +26,7 @@ pub(crate) struct GroundMotion {
     /// The exact flight over a segment, one for each length of a segment up to [`MOST_PREPARED`], and one for those after
     /// the record's end.
     prepared: Vec<Interval>,
-    /// The work over these flights, where an energy account is kept and damping couples no modes.
+    /// The work over these flights, where an energy account is kept.
     work: Vec<FlightWork>,
 }
 
@@ -46,7 +46,7 @@ impl GroundMotion {
             distinct.push(spacing);
         }
         let accounted = if has_account { &distinct[..] } else { &[] };
-        let work = accounted.iter().filter_map(|length| FlightWork::of(structure, *length)).collect();
+        let work = accounted.iter().map(|length| FlightWork::of(structure, *length)).collect();
         let prepared = distinct.into_iter().map(|length| Interval::new(structure, length)).collect();
         GroundMotion { times, accelerations, spacing, lengths, passed, prepared, work }
     }

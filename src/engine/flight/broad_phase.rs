@@ -69,10 +69,10 @@ impl BroadPhase {
             return together;
         }
         let mut least = u64::MAX;
-        for ((of, storey), gain) in system.storeys.iter().zip(&base.storeys).zip(&self.storeys) {
+        for ((of, present), gain) in system.elements(&base.storeys).zip(&self.storeys) {
             let seen = self.rates.see(&of.row, (&base.q, &base.v), amplitude);
             for sense in Sense::BOTH {
-                let start = of.start_of_flight(storey, sense, seen.moved) + MARGIN * (of.limit + size);
+                let start = of.start_of_flight(present, sense, seen.moved) + MARGIN * (of.limit + size);
                 least = least.min(seen.longest(gain, (sense.sign(), start), ends));
             }
             if least == 0 {

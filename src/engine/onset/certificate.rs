@@ -47,11 +47,11 @@ impl System {
         let sizes = &mut sizes[..onset.lanes];
         sum_sizes(&onset.terms[2 * onset.lanes..powers.len() * onset.lanes], beyond, sizes);
         let (x, coordinates) = (onset.powers.x, base.coordinates);
-        let are_elastic = self.storeys.iter().zip(&base.storeys).all(|(of, storey)| {
+        let are_elastic = self.elements(&base.storeys).all(|(of, (_, centre))| {
             let (drift, step_rate) = (of.drift(coordinates, &base.q), of.drift(coordinates, &base.v) * onset.scale);
             let stays = |sense: Sense| {
                 let moved = x * (sense.sign() * step_rate).max(0.0) + of.size(coordinates, sizes);
-                of.excess(storey, sense, drift) + moved < 0.0
+                of.excess(centre, sense, drift) + moved < 0.0
             };
             Sense::BOTH.into_iter().all(stays)
         });

@@ -9,7 +9,7 @@ use crate::engine::output::point::Point;
 use crate::engine::output::point_rates::PointRates;
 use crate::engine::state::State;
 use crate::engine::system::buffers::Buffers;
-use crate::engine::yielding::storey::YieldingStorey;
+use crate::engine::yielding::element::Element;
 
 impl Model {
     /// The rates of the energy account at a point, once all other rates are known; `None` without an account.
@@ -75,7 +75,7 @@ impl Model {
     fn hysteretic_rates(&self, point: &Point, motion: [&[f64]; 2]) -> Rates {
         let storeys = || self.system.storeys.iter().zip(&point.storeys);
         motion.map(|motion| {
-            let power = |(of, storey): (&YieldingStorey, &Storey)| {
+            let power = |(of, storey): (&Element, &Storey)| {
                 let sign = storey.yields.map_or(0.0, Sense::sign);
                 of.kept() * of.force * (sign * of.drift(point.coordinates, motion))
             };

@@ -6,7 +6,7 @@ use crate::engine::output::outputs::{LinkOutput, Rates};
 use crate::engine::output::point::Point;
 use crate::engine::output::point_rates::PointRates;
 use crate::engine::state::State;
-use crate::engine::yielding::storey::YieldingStorey;
+use crate::engine::yielding::element::Element;
 
 impl Model {
     /// A quantity of a link, counted from 0.
@@ -16,16 +16,15 @@ impl Model {
             let at_rest = if point.storeys.is_empty() { 0.0 } else { system.link_closing_of_floors(l, &point.rest) };
             system.link_closing(l, &point.q) + at_rest
         };
-        let of_slip = |value: fn(&YieldingStorey, &Storey) -> f64| {
-            self.slip_of(point, l).map_or(0.0, |(of, storey)| value(of, storey))
-        };
+        let of_slip =
+            |value: fn(&Element, &Storey) -> f64| self.slip_of(point, l).map_or(0.0, |(of, storey)| value(of, storey));
         match of {
             LinkOutput::Displacement => closing(),
             LinkOutput::Velocity => rate,
             LinkOutput::Force => system.link_force(&point.storeys, l, (closing(), rate)),
             LinkOutput::DissipatedEnergy => {
                 let of_dashpot = self.energy(state, point).map_or(0.0, |_| point.dashpots.borrow()[l]);
-                of_dashpot + of_slip(YieldingStorey::hysteretic_energy)
+                of_dashpot + of_slip(Element::hysteretic_energy)
             }
             LinkOutput::Slip => of_slip(|_, storey| storey.plastic),
             LinkOutput::SlipTravel => of_slip(|_, storey| storey.cumulative.exact()),
@@ -63,7 +62,7 @@ impl Model {
     }
 
     /// The spring of a link that slips.
-    fn slip_of<'a>(&'a self, point: &'a Point, l: usize) -> Option<(&'a YieldingStorey, &'a Storey)> {
+    fn slip_of<'a>(&'a self, point: &'a Point, l: usize) -> Option<(&'a Element, &'a Storey)> {
         let i = self.system.number_of_link(l)?;
         Some((&self.system.storeys[i], point.storeys.get(i)?))
     }

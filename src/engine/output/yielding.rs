@@ -8,7 +8,7 @@ use crate::engine::output::point_rates::{PEAK_ROUNDING, PointRates};
 use crate::engine::quantities::rows::PeakOf;
 use crate::engine::quantities::storeys::StoreyPeak;
 use crate::engine::state::State;
-use crate::engine::yielding::storey::YieldingStorey;
+use crate::engine::yielding::element::{Element, Present};
 use crate::structure::Side;
 
 impl Model {
@@ -21,14 +21,15 @@ impl Model {
         of: YieldingOf,
         place: (Side, usize),
     ) -> f64 {
-        let Some((storey, now)) = self.yielding_storey(point, place) else {
+        let Some((storey, present)) = self.yielding_storey(point, place) else {
             let elastic = self.storeys.per_drift(StoreyPeak::Shear, place);
             return if of == YieldingOf::Shear { elastic * self.drift(point, place) } else { 0.0 };
         };
+        let now = present.0;
         match of {
-            YieldingOf::Shear => storey.shear(now, storey.drift(point.coordinates, &point.q)),
+            YieldingOf::Shear => storey.shear(present, storey.drift(point.coordinates, &point.q)),
             YieldingOf::PlasticDrift => now.plastic,
-            YieldingOf::ResidualDrift => storey.residual_drift(now),
+            YieldingOf::ResidualDrift => storey.residual_drift(now, &point.storeys),
             YieldingOf::Ductility => {
                 storey.largest_drift(now, self.peak(state, point, PeakOf::Drift(place.0, place.1))) / storey.limit
             }
@@ -43,7 +44,7 @@ impl Model {
 
     /// The sense in which a storey yields, 1 or -1; 0 while it is elastic.
     pub(in crate::engine) fn yielding(&self, point: &Point, place: (Side, usize)) -> f64 {
-        self.yielding_storey(point, place).and_then(|(_, now)| now.yields).map_or(0.0, Sense::sign)
+        self.yielding_storey(point, place).and_then(|(_, (now, _))| now.yields).map_or(0.0, Sense::sign)
     }
 
     /// Rates of a quantity of a storey.
@@ -54,18 +55,21 @@ impl Model {
         of: YieldingOf,
         place: (Side, usize),
     ) -> Rates {
-        let Some((storey, now)) = self.yielding_storey(point, place) else {
+        let Some((storey, (now, _))) = self.yielding_storey(point, place) else {
             let elastic = self.storeys.per_drift(StoreyPeak::Shear, place);
             let factor = if of == YieldingOf::Shear { elastic } else { 0.0 };
             return self.drift_rates(point, rates, place).map(|rate| factor * rate);
         };
-        let drift = [&point.v, &rates.acceleration].map(|motion| storey.drift(point.coordinates, motion));
+        let motions = [&point.v, &rates.acceleration];
+        let drift = motions.map(|motion| storey.drift(point.coordinates, motion));
         let flow = now.yields.map_or(0.0, Sense::sign);
         let factor = match of {
             YieldingOf::Shear => storey.stiffness(now),
             YieldingOf::PlasticDrift => flow.abs(),
-            YieldingOf::ResidualDrift if storey.cannot_rest(now) => 0.0,
-            YieldingOf::ResidualDrift => flow.abs() * storey.kept(),
+            YieldingOf::ResidualDrift => {
+                let own = drift.map(|rate| flow.abs() * rate);
+                return [0, 1].map(|order| storey.residual_rate(now, own[order], self.flows(point, motions[order])));
+            }
             YieldingOf::HystereticEnergy => flow * storey.kept() * storey.force,
             YieldingOf::CumulativePlasticDrift => flow,
             // While the storey has not yielded they are shares of its peak drift.
@@ -79,13 +83,13 @@ impl Model {
 
     /// The drift, m, of which a quantity of a storey that can yield and has not is the share that the peak drift has reached.
     pub(in crate::engine) fn unused_drift(&self, point: &Point, of: YieldingOf, place: (Side, usize)) -> Option<f64> {
-        let (storey, now) = self.yielding_storey(point, place)?;
+        let (storey, (now, _)) = self.yielding_storey(point, place)?;
         drift_of_share(storey, of).filter(|_| now.furthest == 0.0)
     }
 
     /// The largest shear so far of a storey that has yielded, N, and its rates.
     pub(in crate::engine) fn yielded_shear(&self, point: &Point, place: (Side, usize)) -> Option<f64> {
-        let (storey, now) = self.yielding_storey(point, place)?;
+        let (storey, (now, _)) = self.yielding_storey(point, place)?;
         (now.furthest > 0.0).then(|| storey.peak_shear(now))
     }
 
@@ -96,24 +100,28 @@ impl Model {
         rates: &PointRates,
         place: (Side, usize),
     ) -> Option<Rates> {
-        let (storey, now) = self.yielding_storey(point, place).filter(|(_, now)| now.furthest > 0.0)?;
+        let (storey, (now, _)) = self.yielding_storey(point, place).filter(|(_, (now, _))| now.furthest > 0.0)?;
         let sign = now.yields.filter(|_| is_furthest(now)).map_or(0.0, Sense::sign);
         let rate = |motion: &[f64]| sign * storey.stiffness(now) * storey.drift(point.coordinates, motion);
         Some([rate(&point.v), rate(&rates.acceleration)])
     }
 
-    fn yielding_storey<'a>(
-        &'a self,
-        point: &'a Point,
-        place: (Side, usize),
-    ) -> Option<(&'a YieldingStorey, &'a Storey)> {
+    /// Rates of the plastic drifts of all elements, from those of the motion.
+    fn flows<'a>(&'a self, point: &'a Point, motion: &'a [f64]) -> impl Iterator<Item = f64> {
+        self.system.storeys.iter().zip(&point.storeys).map(|(of, storey)| match storey.yields {
+            Some(_) => of.drift(point.coordinates, motion),
+            None => 0.0,
+        })
+    }
+
+    fn yielding_storey<'a>(&'a self, point: &'a Point, place: (Side, usize)) -> Option<(&'a Element, Present<'a>)> {
         let i = self.system.number_of_storey(place)?;
-        Some((&self.system.storeys[i], point.storeys.get(i)?))
+        (i < point.storeys.len()).then(|| self.system.element(i, &point.storeys))
     }
 }
 
 /// The drift, m, of which a quantity is the share that the largest drift has reached.
-fn drift_of_share(storey: &YieldingStorey, of: YieldingOf) -> Option<f64> {
+fn drift_of_share(storey: &Element, of: YieldingOf) -> Option<f64> {
     match of {
         YieldingOf::Ductility => Some(storey.limit),
         YieldingOf::PeakStabilityIndex => storey.critical,

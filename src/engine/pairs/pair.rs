@@ -176,6 +176,6 @@ pub(crate) fn apart(left: f64, right: f64) -> f64 {
 }
 
 /// A sum of terms of that total size, or 0 where it is no more than their rounding.
-fn beyond_rounding(sum: f64, size: f64) -> f64 {
+pub(crate) fn beyond_rounding(sum: f64, size: f64) -> f64 {
     if sum.abs() <= 4.0 * f64::EPSILON * size { 0.0 } else { sum }
 }

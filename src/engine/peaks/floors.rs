@@ -10,6 +10,7 @@ use crate::engine::model::Model;
 use crate::engine::peaks::room::{FloorRoom, FloorState};
 use crate::engine::quantities::resistance::Resistance;
 use crate::engine::quantities::rows::PeakOf;
+use crate::engine::yielding::element::ElementOf;
 use crate::numerics::polynomial::larger;
 use crate::structure::{LANES, Side};
 
@@ -58,7 +59,9 @@ impl Model {
         for (of, _) in self.system.storeys.iter().zip(&base.storeys).filter(|(_, storey)| storey.yields.is_some()) {
             let force = of.lost * (of.drift(base.coordinates, end) - of.drift(base.coordinates, &base.q));
             of.push_apart(Coordinates::Floors, force, &mut out.resisted);
-            out.shear[of.side as usize] -= if of.storey == 0 { force } else { 0.0 };
+            if let ElementOf::Storey(side, 0) = of.place {
+                out.shear[side as usize] -= force;
+            }
         }
     }
 

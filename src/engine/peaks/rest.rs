@@ -51,7 +51,7 @@ impl Model {
         let of = &self.system.storeys[i];
         match base.coordinates {
             Coordinates::Modes => rows[0].iter_mut().zip(&of.row).for_each(|(entry, row)| *entry -= of.lost * row),
-            Coordinates::Floors => rows[0][of.floors.0] -= of.lost,
+            Coordinates::Floors => of.floors.iter().for_each(|floor| rows[0][floor.lane] -= of.lost * floor.weight),
         }
         of.lost * of.drift(base.coordinates, &base.q)
     }

@@ -4,7 +4,7 @@
 use crate::numerics::complementarity::Complementarity;
 use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS};
 use crate::numerics::powers::Powers;
-use crate::structure::{Interval, MotionSeries, Scratch, Structure};
+use crate::structure::{Interval, LANES, MotionSeries, Scratch, Structure};
 
 /// Scratch vectors, each with one number per lane of the motion.
 #[derive(Clone, Debug)]
@@ -33,6 +33,8 @@ pub struct Buffers {
     pub node_v: Vec<f64>,
     /// Energy dissipated by the dashpot of each link over a step, J.
     pub dashpots: Vec<f64>,
+    /// Motion and load of a flight, for its work.
+    pub z: Vec<f64>,
     /// Terms of one pair's penetration, m.
     pub scalar: Coefficients,
     /// Powers of the point at which a series is evaluated.
@@ -58,6 +60,7 @@ impl Buffers {
             node_q: vector(),
             node_v: vector(),
             dashpots: vec![0.0; structure.links.len()],
+            z: Vec::with_capacity(2 * lanes + 2 * LANES),
             scalar: [0.0; MAX_TERMS],
             powers: Powers::default(),
             rigid: Complementarity::new(rigid),

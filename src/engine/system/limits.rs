@@ -31,9 +31,9 @@ impl System {
                 stays_below(from, to, h)
             }
             Some(storey) => {
-                let of = &self.storeys[storey];
+                let (of, present) = self.element(storey, &base.storeys);
                 let [from, to] = [from, to].map(|(q, v)| (dot(&of.row, q), dot(&of.row, v)));
-                of.stays_elastic(&base.storeys[storey], from, to, h)
+                of.stays_elastic(present, from, to, h)
             }
         }
     }
@@ -44,10 +44,10 @@ impl System {
         let oscillation = Oscillation::of(&self.structure, motion, loads, length);
         let Some(oscillation) = oscillation.filter(|_| !cfg!(without = "envelopes")) else { return false };
         let mut pairs = self.pairs.iter().zip(&base.rest.gaps);
-        let mut storeys = self.storeys.iter().zip(&base.storeys);
+        let mut storeys = self.elements(&base.storeys);
         pairs.all(|(pair, gap)| oscillation.stays_below(&pair.row, 1.0, *gap))
-            && storeys.all(|(of, storey)| {
-                let limit = |sign: f64| of.limit + sign * of.ratio * storey.plastic;
+            && storeys.all(|(of, (_, centre))| {
+                let limit = |sign: f64| of.limit + sign * centre;
                 Sense::BOTH.map(Sense::sign).iter().all(|sign| oscillation.stays_below(&of.row, *sign, limit(*sign)))
             })
     }

@@ -2,6 +2,7 @@
 
 use crate::engine::base::storey::Storey;
 use crate::engine::system::System;
+use crate::engine::yielding::element::ElementOf;
 use crate::structure::{Side, dot};
 
 impl System {
@@ -33,8 +34,8 @@ impl System {
     }
 
     /// The number of a link among what can yield.
-    pub fn number_of_link(&self, _l: usize) -> Option<usize> {
-        None
+    pub fn number_of_link(&self, l: usize) -> Option<usize> {
+        self.number_of(ElementOf::Link(l))
     }
 
     /// What is missing of the stiffness of a link's spring while it slips, N/m.

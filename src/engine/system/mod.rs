@@ -21,7 +21,7 @@ use crate::engine::excitation::segment::Segment;
 use crate::engine::pairs::pair::Pair;
 use crate::engine::pairs::rigid::RigidPairs;
 use crate::engine::system::tolerance::Tolerance;
-use crate::engine::yielding::storey::YieldingStorey;
+use crate::engine::yielding::element::Element;
 use crate::numerics::sum::Sum;
 use crate::record::Record;
 use crate::scene::{Building, Problem, Scene, SceneError};
@@ -42,7 +42,7 @@ pub struct System {
     pub pairs: Vec<Pair>,
     pub rigid: RigidPairs,
     /// The storeys that can yield.
-    pub storeys: Vec<YieldingStorey>,
+    pub storeys: Vec<Element>,
     /// The bound on all of their drifts, as shares of their yield drifts.
     pub together: Together,
     /// The record; absent where the ground acceleration is an input.
@@ -88,11 +88,12 @@ impl System {
         let rows = || pairs.iter().map(|pair| &pair.row[..]);
         let longest = impulse_response.as_ref().and_then(ImpulseResponse::longest);
         let free_rows = longest.map(|length| FreeRows::new(&structure, rows(), length));
-        let storeys = YieldingStorey::all(scene, &structure);
-        let initial_storeys: Vec<Storey> = storeys.iter().map(|of| of.at_start(scene)).collect();
+        let storeys = Element::all(scene, &structure);
+        let floors = initial_floors(scene, &structure);
+        let initial_storeys: Vec<Storey> = storeys.iter().map(|of| of.at_start(&floors)).collect();
         let mut initial = initial_state(scene, &structure);
         for (of, storey) in storeys.iter().zip(&initial_storeys) {
-            of.lift(Coordinates::Modes, -of.kept() * storey.plastic, &mut initial[0]);
+            of.lift(Coordinates::Modes, -storey.plastic, &mut initial[0]);
         }
         let gravity =
             |building: &Building| if building.has_gravity() { building.gravity_stiffness() } else { Vec::new() };
@@ -159,7 +160,7 @@ impl System {
 
     /// The largest share of its yield drift by which the plastic drift of a storey has moved its limits.
     pub fn moved_share(&self, storeys: &[Storey]) -> f64 {
-        self.storeys.iter().zip(storeys).map(|(of, storey)| of.moved_share(storey)).fold(0.0, f64::max)
+        self.elements(storeys).map(|(of, (_, centre))| of.moved_share(centre)).fold(0.0, f64::max)
     }
 
     /// Whether windows, in which few pairs of buildings of many modes are in contact, take the motion without contact
@@ -322,6 +323,17 @@ fn initial_state(scene: &Scene, structure: &Structure) -> [Vec<f64>; 2] {
         structure.add_modal(side, &building.initial_velocity, &mut state[1]);
     }
     state
+}
+
+/// Displacements and velocities of all floors at the start.
+fn initial_floors(scene: &Scene, structure: &Structure) -> [Vec<f64>; 2] {
+    let mut motion = [vec![0.0; structure.lanes], vec![0.0; structure.lanes]];
+    for (side, building) in [(Side::Left, &scene.left), (Side::Right, &scene.right)] {
+        let lanes = structure.floors.lanes_of(side as usize);
+        motion[0][lanes.clone()].copy_from_slice(&building.initial_displacement);
+        motion[1][lanes].copy_from_slice(&building.initial_velocity);
+    }
+    motion
 }
 
 fn too_short(record: &Record) -> SceneError {

@@ -3,6 +3,7 @@
 use crate::engine::base::storey::Storey;
 use crate::engine::base::{Coordinates, Rest};
 use crate::engine::system::System;
+use crate::engine::yielding::element::{Element, ElementOf, Present};
 use crate::structure::Side;
 
 impl System {
@@ -28,7 +29,7 @@ impl System {
     pub fn set_rest_of_floors(&self, storeys: &[Storey], floors: &mut [f64]) {
         floors.fill(0.0);
         for (of, storey) in self.storeys.iter().zip(storeys) {
-            of.lift(Coordinates::Floors, of.kept() * storey.plastic, floors);
+            of.lift(Coordinates::Floors, storey.plastic, floors);
         }
     }
 
@@ -42,19 +43,34 @@ impl System {
 
     /// The same for the base shear of a building, N.
     pub fn yielded_base_shear(&self, coordinates: Coordinates, storeys: &[Storey], side: Side, motion: &[f64]) -> f64 {
-        let lowest = self.storeys.iter().zip(storeys).find(|(of, _)| of.side == side && of.storey == 0);
-        let yielding = lowest.filter(|(_, storey)| storey.yields.is_some());
-        yielding.map_or(0.0, |(of, _)| of.lost * of.drift(coordinates, motion))
+        let yielding = self.number_of_storey((side, 0)).filter(|i| storeys[*i].yields.is_some());
+        yielding.map_or(0.0, |i| self.storeys[i].lost * self.storeys[i].drift(coordinates, motion))
+    }
+
+    /// The elements, each with its state and the middle of its elastic range.
+    pub fn elements<'a>(&'a self, storeys: &'a [Storey]) -> impl Iterator<Item = (&'a Element, Present<'a>)> {
+        self.storeys.iter().zip(storeys).map(|(of, storey)| (of, (storey, of.centre(storey, storeys))))
+    }
+
+    /// One of them.
+    pub fn element<'s>(&self, i: usize, storeys: &'s [Storey]) -> (&Element, Present<'s>) {
+        let (of, storey) = (&self.storeys[i], &storeys[i]);
+        (of, (storey, of.centre(storey, storeys)))
     }
 
     /// The number of a storey of a building, counted from 0, among those that can yield.
     pub fn number_of_storey(&self, (side, storey): (Side, usize)) -> Option<usize> {
-        self.storeys.binary_search_by_key(&(side as usize, storey), |of| (of.side as usize, of.storey)).ok()
+        self.number_of(ElementOf::Storey(side, storey))
+    }
+
+    /// The number of an element among those that can yield.
+    pub fn number_of(&self, place: ElementOf) -> Option<usize> {
+        self.storeys.binary_search_by_key(&place.order(), |of| of.place.order()).ok()
     }
 
     /// What the strain energy exceeds that of the motion relative to the position of rest by, J.
     pub fn locked_energy(&self, storeys: &[Storey]) -> f64 {
-        self.storeys.iter().zip(storeys).map(|(of, storey)| of.locked_energy(storey)).sum()
+        self.elements(storeys).map(|(of, present)| of.locked_energy(present)).sum()
     }
 
     /// The storeys on whose lean gravity acts, with g, N/m.
@@ -67,11 +83,24 @@ impl System {
     /// Potential energy of the weights, J, in a motion relative to the position of rest: -1/2 sum of g drift^2.
     pub fn gravity_energy(&self, (coordinates, storeys): (Coordinates, &[Storey]), q: &[f64]) -> f64 {
         let of = |(place, g): ((Side, usize), f64)| {
-            let plastic = self.number_of_storey(place).map_or(0.0, |i| self.storeys[i].kept() * storeys[i].plastic);
-            let drift = self.drift(coordinates, place, q) + plastic;
+            let drift = self.drift(coordinates, place, q) + self.drift_at_rest(place, storeys);
             -0.5 * g * (drift * drift)
         };
         self.leaning().map(of).sum()
+    }
+
+    /// Drift of a storey in the position of rest, m.
+    fn drift_at_rest(&self, (side, storey): (Side, usize), storeys: &[Storey]) -> f64 {
+        if !self.structure.body(side).is_linked {
+            let own = self.number_of_storey((side, storey));
+            return own.map_or(0.0, |i| self.storeys[i].kept() * storeys[i].plastic);
+        }
+        let lane = |floor: usize| self.structure.floors.lane(side as usize, floor);
+        let moved = |(of, state): (&Element, &Storey)| {
+            let below = storey.checked_sub(1).map_or(0.0, |floor| of.moves_floor(lane(floor)));
+            (of.moves_floor(lane(storey)) - below) * state.plastic
+        };
+        self.storeys.iter().zip(storeys).map(moved).sum()
     }
 
     /// Drift of a storey in a motion.

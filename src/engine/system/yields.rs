@@ -33,9 +33,9 @@ impl System {
         first: Option<(f64, Event)>,
         end: f64,
     ) -> Option<(f64, Event)> {
-        let (of, storey) = (&self.storeys[i], &base.storeys[i]);
+        let (of, (storey, centre)) = self.element(i, &base.storeys);
         let mut drift = [0.0; MAX_TERMS];
-        let noise = of.noise(storey, of.project(base.coordinates, series, factors, &mut drift));
+        let noise = of.noise(centre, of.project(base.coordinates, series, factors, &mut drift));
         let count = series.order + 1;
         if is_start && storey.turned.is_some() {
             self.clear_curvature(base.coordinates, i, series, &mut drift);
@@ -43,7 +43,7 @@ impl System {
         let mut found = None;
         for sense in Sense::BOTH {
             let mut terms = drift.map(|term| sense.sign() * term);
-            terms[0] = of.excess(storey, sense, drift[0]).min(0.0);
+            terms[0] = of.excess(centre, sense, drift[0]).min(0.0);
             if is_start && storey.turned == Some(sense) {
                 (terms[0], terms[1]) = (0.0, 0.0);
             }

@@ -6,7 +6,7 @@
 
 use crate::engine::base::storey::Sense;
 use crate::engine::base::{Base, Coordinates};
-use crate::engine::yielding::storey::YieldingStorey;
+use crate::engine::yielding::element::Element;
 use crate::numerics::polynomial::{Coefficients, MAX_TERMS};
 use crate::numerics::powers::Powers;
 use crate::structure::{Lane, MotionSeries, PairForces};
@@ -29,7 +29,7 @@ impl YieldingDrifts {
     }
 
     /// Starts the series of the storeys that yield; `scale` is the time unit, s.
-    pub fn start(&mut self, base: &Base, storeys: &[YieldingStorey], scale: f64) {
+    pub fn start(&mut self, base: &Base, storeys: &[Element], scale: f64) {
         self.yielding.clear();
         self.coordinates = base.coordinates;
         for (i, (of, storey)) in storeys.iter().zip(&base.storeys).enumerate() {
@@ -43,7 +43,7 @@ impl YieldingDrifts {
 
     /// Adds to a term of the motion what power n of the yielding storeys does, times `factor`.
     #[inline(always)]
-    pub fn push(&self, storeys: &[YieldingStorey], n: usize, factor: f64, term: &mut [f64]) {
+    pub fn push(&self, storeys: &[Element], n: usize, factor: f64, term: &mut [f64]) {
         for &(i, _) in &self.yielding {
             storeys[i].push_apart(self.coordinates, factor * storeys[i].lost * self.drifts[i][n], term);
         }
@@ -51,7 +51,7 @@ impl YieldingDrifts {
 
     /// Reads power n of their drifts from the motion.
     #[inline(always)]
-    pub fn read(&mut self, storeys: &[YieldingStorey], n: usize, term: &[f64]) {
+    pub fn read(&mut self, storeys: &[Element], n: usize, term: &[f64]) {
         for &(i, _) in &self.yielding {
             self.drifts[i][n] = storeys[i].drift(self.coordinates, term);
         }
@@ -66,7 +66,7 @@ impl YieldingDrifts {
 
 /// The forces of some pairs, and those of the storeys that yield.
 pub struct WithYielding<'a, F> {
-    pub storeys: &'a [YieldingStorey],
+    pub storeys: &'a [Element],
     pub drifts: &'a mut YieldingDrifts,
     pub pairs: &'a mut F,
 }

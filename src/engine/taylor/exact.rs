@@ -67,11 +67,11 @@ impl System {
         for &(i, sense) in &solution.drifts.yielding {
             first = self.first_change(base, solution, (i, sense), first);
         }
-        for (i, (of, storey)) in self.storeys.iter().zip(&base.storeys).enumerate() {
+        for (i, (of, present)) in self.elements(&base.storeys).enumerate() {
             let at = |(q, v): (&[f64], &[f64])| (of.drift(coordinates, q), of.drift(coordinates, v));
             let (start, end) = (at((&base.q, &base.v)), at((&planned.q, &planned.v)));
             let off = deviation(h, of.size(coordinates, fourths));
-            if storey.yields.is_none() && !of.stays_elastic(storey, start, end, (h, off)) {
+            if present.0.yields.is_none() && !of.stays_elastic(present, start, end, (h, off)) {
                 let expanded = ((&solution.series, solution.end.in_time().0), None, true);
                 first = self.first_yield(base, i, expanded, first, 1.0).or(first);
             }

@@ -7,7 +7,7 @@ use crate::engine::bounds::terms::Horizon;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::engine::taylor::solution::Solution;
-use crate::engine::yielding::storey::YieldingStorey;
+use crate::engine::yielding::element::Element;
 use crate::numerics::polynomial::{ALL, COUNT, MAX_TERMS};
 use crate::numerics::roots;
 
@@ -19,7 +19,7 @@ impl System {
     /// The number of a yielding storey whose drift has the wrong sense at the base, by an impulse or by rounding: it
     /// turns at once.
     pub fn turned_at_once(&self, base: &Base) -> Option<usize> {
-        let goes_back = |(of, storey): (&YieldingStorey, &Storey)| {
+        let goes_back = |(of, storey): (&Element, &Storey)| {
             let still = STILL * of.size(base.coordinates, &base.v);
             storey.yields.is_some_and(|sense| sense.sign() * of.drift(base.coordinates, &base.v) < -still)
         };
@@ -40,11 +40,11 @@ impl System {
         }
         let Solution { series, end, substitution, .. } = solution;
         let horizon = Horizon::of(series, end.x, &mut work.node_q);
-        for (i, (of, storey)) in self.storeys.iter().zip(&base.storeys).enumerate() {
+        for (i, (of, (storey, centre))) in self.elements(&base.storeys).enumerate() {
             let [drift, step] = [0, 1].map(|n| of.drift(base.coordinates, series.term(n)));
             let wandered = of.size(base.coordinates, horizon.wandered);
             let stays_elastic =
-                |sense: Sense| horizon.is_beyond(of.excess(storey, sense, drift), sense.sign() * step, wandered);
+                |sense: Sense| horizon.is_beyond(of.excess(centre, sense, drift), sense.sign() * step, wandered);
             let is_sure = storey.yields.is_some() || Sense::BOTH.into_iter().all(stays_elastic);
             if is_sure || self.holds_storey(i, &mut work.rigid) {
                 continue;

@@ -214,7 +214,7 @@ fn no_quantity_passes_its_bounds_over_a_span() {
                 let nearest = &mut nearest[usize::from(has_forces)];
                 *nearest = nearest.min(compare::<16>(&case)).min(compare::<2>(&case));
                 truncated +=
-                    case.model.truncated.buildings.iter().filter(|building| !building.groups.is_empty()).count();
+                    case.model.truncated.bodies.iter().filter(|body| !body.groups.is_empty()).count();
             }
         }
     }

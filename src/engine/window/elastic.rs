@@ -20,10 +20,10 @@ impl Window {
         let impulses = closed.map(|(p, greatest)| (&system.pairs[*p].row[..], h * greatest));
         pushed(&system.structure.omega2, (&base.q, &base.v), (load, slope), h, impulses, amplitudes);
         system.together.largest_share(amplitudes) + system.moved_share(&base.storeys) < 1.0
-            || system.storeys.iter().zip(&base.storeys).all(|(of, storey)| {
+            || system.elements(&base.storeys).all(|(of, (_, centre))| {
                 let most: f64 = of.row.iter().zip(&*amplitudes).map(|(row, amplitude)| row.abs() * amplitude).sum();
                 let (drift, change) = (of.drift(base.coordinates, &base.q), (1.0 + MARGIN) * h * most);
-                Sense::BOTH.into_iter().all(|sense| of.excess(storey, sense, drift) + change < 0.0)
+                Sense::BOTH.into_iter().all(|sense| of.excess(centre, sense, drift) + change < 0.0)
             })
     }
 }

@@ -1,0 +1,376 @@
+//! An element that can yield, on any row of floors: the columns of a storey, or the spring of a link that slips. Its limits,
+//! its row of weights over the floors, and how its plastic drift moves the position of rest; constant during a run.
+//!
+//! The motion of a storey is that of the net storey, its columns and gravity together (`scene/p_delta.rs`); what is told of
+//! it is that of the columns. Without gravity both are the same.
+
+use crate::engine::base::Coordinates;
+use crate::engine::base::storey::{Sense, Storey};
+use crate::engine::bounds::certificate::stays_below;
+use crate::engine::pairs::pair::{FloorShare, beyond_rounding};
+use crate::engine::yielding::lift::Lift;
+use crate::numerics::polynomial::Coefficients;
+use crate::scene::{NetStorey, Scene};
+use crate::structure::{MotionSeries, Side, Structure, difference, dot};
+
+/// What an element is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ElementOf {
+    /// A storey of a building, counted from 0.
+    Storey(Side, usize),
+    /// A link, counted from 0.
+    Link(usize),
+}
+
+/// A spring with a finite yield force. Its drift is that of its row: of the ends of a link, by how much they have come
+/// nearer.
+#[derive(Clone, Debug)]
+pub(crate) struct Element {
+    pub place: ElementOf,
+    /// The columns, and gravity; of a link, its spring.
+    of: NetStorey,
+    /// Net yield force V_y', N.
+    pub force: f64,
+    /// Net post-yield ratio r', below 0 where gravity exceeds what yielding leaves of the stiffness.
+    pub ratio: f64,
+    /// Yield drift V_y / k, m.
+    pub limit: f64,
+    /// Stiffness that yielding takes away, (1 - r) k, N/m.
+    pub lost: f64,
+    /// Drift at which a storey that yields resists no push any more, m, and that at which it has collapsed.
+    pub critical: Option<f64>,
+    pub collapse: Option<f64>,
+    /// The drift as a row over the modes, kg^-1/2.
+    pub row: Vec<f64>,
+    /// The same row floor by floor; a force along it pushes against the shares' `push`.
+    pub floors: Vec<FloorShare>,
+    /// How its plastic drift moves the position of rest.
+    lift: Lift,
+}
+
+/// The state of an element, and the middle of the range in which it is elastic, m, as a drift relative to the position of rest.
+pub(crate) type Present<'a> = (&'a Storey, f64);
+
+impl ElementOf {
+    /// The order of elements: storeys from the left and the bottom, then links.
+    pub(crate) fn order(self) -> (usize, usize) {
+        match self {
+            ElementOf::Storey(side, storey) => (side as usize, storey),
+            ElementOf::Link(link) => (2, link),
+        }
+    }
+}
+
+impl Element {
+    /// All elements of a scene that can yield, in their order.
+    pub(crate) fn all(scene: &Scene, structure: &Structure) -> Vec<Element> {
+        let of = |side: Side| {
+            let storeys = 0..scene.building(side).mass.len();
+            storeys.filter_map(move |storey| Element::of_storey(scene, structure, (side, storey)))
+        };
+        let storeys = [Side::Left, Side::Right].into_iter().flat_map(of);
+        let mut all: Vec<Element> =
+            storeys.chain((0..scene.links.len()).filter_map(|link| Element::of_link(scene, structure, link))).collect();
+        Element::join(&mut all);
+        all
+    }
+
+    /// Works out how far the plastic drift of each element moves the drifts of the others at rest.
+    pub(crate) fn join(all: &mut [Element]) {
+        let lifts: Vec<Lift> = all.iter().map(|of| of.lift.clone()).collect();
+        for Element { row, lift, .. } in all {
+            lift.join(row, &lifts);
+        }
+    }
+
+    fn of_storey(scene: &Scene, structure: &Structure, (side, storey): (Side, usize)) -> Option<Element> {
+        let building = scene.building(side);
+        let of = building.net_storey(storey)?;
+        let mut row = vec![0.0; structure.lanes];
+        let ends = [Some((storey, 1.0)), storey.checked_sub(1).map(|below| (below, -1.0))];
+        let ends = ends.into_iter().flatten();
+        ends.clone().for_each(|(floor, weight)| structure.add_floor_force(side, floor, weight, &mut row));
+        let lane = |floor: usize| structure.floors.lane(side as usize, floor);
+        let lift = match structure.body(side).is_linked {
+            true => Lift::all((1.0 - of.ratio) * of.stiffness, &row, structure),
+            false => Lift::above(structure, (side, storey), 1.0 - of.net_ratio()),
+        };
+        Some(Element {
+            critical: of.critical_drift(),
+            collapse: building.collapse_drift(storey),
+            ..Element::on(
+                (ElementOf::Storey(side, storey), of),
+                (row, ends.map(|(floor, weight)| (lane(floor), weight))),
+                lift,
+                structure,
+            )
+        })
+    }
+
+    /// The spring of a link, if it slips.
+    fn of_link(scene: &Scene, structure: &Structure, number: usize) -> Option<Element> {
+        let (link, slip) = (&structure.links[number], scene.links[number].slip?);
+        let spring = NetStorey { stiffness: link.stiffness, force: slip.force, ratio: slip.ratio, gravity: 0.0 };
+        let lift = Lift::all((1.0 - slip.ratio) * link.stiffness, &link.row, structure);
+        let row = (link.row.clone(), link.floors.iter().copied());
+        Some(Element::on((ElementOf::Link(number), spring), row, lift, structure))
+    }
+
+    /// An element on a row over the modes, which is that over floors with those lanes and weights.
+    fn on(
+        (place, of): (ElementOf, NetStorey),
+        (row, floors): (Vec<f64>, impl Iterator<Item = (usize, f64)>),
+        lift: Lift,
+        structure: &Structure,
+    ) -> Element {
+        let share = |(lane, weight): (usize, f64)| FloorShare {
+            lane,
+            weight,
+            push: -weight * structure.floors.inverse_mass(lane),
+        };
+        Element {
+            place,
+            of,
+            force: of.net_force(),
+            ratio: of.net_ratio(),
+            limit: of.yield_drift(),
+            lost: (1.0 - of.ratio) * of.stiffness,
+            critical: None,
+            collapse: None,
+            row,
+            floors: floors.map(share).collect(),
+            lift,
+        }
+    }
+
+    /// The element at the start of a run, from displacements and velocities of all floors: beyond its yield drift it has been
+    /// pushed there slowly.
+    pub(crate) fn at_start(&self, [displacements, velocities]: &[Vec<f64>; 2]) -> Storey {
+        let (drift, rate) = (self.over_floors(displacements).0, self.over_floors(velocities).0);
+        if drift.abs() < self.limit {
+            return Storey::default();
+        }
+        let sense = if drift > 0.0 { Sense::Positive } else { Sense::Negative };
+        let plastic = drift - sense.sign() * self.limit;
+        let turned = (rate == 0.0).then_some(sense);
+        Storey { turned, plastic, furthest: plastic.abs(), ..Storey::default() }
+    }
+
+    /// Its drift in a motion of all floors, and the sum of the magnitudes that it is made of.
+    #[inline(always)]
+    fn over_floors(&self, motion: &[f64]) -> (f64, f64) {
+        self.floors.iter().fold((0.0, 0.0), |(sum, size), floor| {
+            let part = floor.weight * motion[floor.lane];
+            (sum + part, size + part.abs())
+        })
+    }
+
+    /// Drift, or its rate, in a motion.
+    #[inline(always)]
+    pub(crate) fn drift(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
+        match coordinates {
+            Coordinates::Modes => dot(&self.row, motion),
+            Coordinates::Floors => self.over_floors(motion).0,
+        }
+    }
+
+    /// Drift or its rate, set to 0 where it is no more than rounding of what it is made of.
+    pub(crate) fn beyond_rounding(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
+        match coordinates {
+            Coordinates::Modes => difference(&self.row, motion).0,
+            Coordinates::Floors => {
+                let (drift, size) = self.over_floors(motion);
+                beyond_rounding(drift, size)
+            }
+        }
+    }
+
+    /// Writes the series of the drift; returns the sum of the magnitudes of all that was added up, each term times its
+    /// factor, m.
+    pub(crate) fn project(
+        &self,
+        coordinates: Coordinates,
+        series: &MotionSeries,
+        factors: &[f64],
+        out: &mut Coefficients,
+    ) -> f64 {
+        if coordinates == Coordinates::Modes {
+            return series.project(&self.row, factors, out);
+        }
+        let mut sum = 0.0;
+        for (n, (out, factor)) in out.iter_mut().zip(factors).enumerate().take(series.order + 1) {
+            let (drift, size) = self.over_floors(series.term(n));
+            *out = beyond_rounding(drift, size);
+            sum += size * factor.abs();
+        }
+        sum
+    }
+
+    /// Sum of the magnitudes that a drift is made of, from those of the motion.
+    pub(crate) fn size(&self, coordinates: Coordinates, motion: &[f64]) -> f64 {
+        match coordinates {
+            Coordinates::Modes => difference(&self.row, motion).1,
+            Coordinates::Floors => self.over_floors(motion).1,
+        }
+    }
+
+    /// Adds to accelerations those by a force, N, along its row: one that pushes the floors of a storey apart.
+    #[inline(always)]
+    pub(crate) fn push_apart(&self, coordinates: Coordinates, force: f64, acceleration: &mut [f64]) {
+        match coordinates {
+            Coordinates::Modes => {
+                acceleration.iter_mut().zip(&self.row).for_each(|(acceleration, row)| *acceleration += row * force);
+            }
+            Coordinates::Floors => self.floors.iter().for_each(|floor| acceleration[floor.lane] -= floor.push * force),
+        }
+    }
+
+    /// Adds the displacements at rest by a plastic drift, m.
+    pub(crate) fn lift(&self, coordinates: Coordinates, plastic: f64, displacements: &mut [f64]) {
+        self.lift.add(coordinates, plastic, displacements);
+    }
+
+    /// The displacement of a floor at rest per unit of its plastic drift.
+    pub(crate) fn moves_floor(&self, lane: usize) -> f64 {
+        self.lift.of_floor(lane)
+    }
+
+    /// Minus the acceleration of its drift by that of the ground.
+    pub(crate) fn share_of_ground(&self) -> f64 {
+        self.floors.iter().map(|floor| floor.weight).sum()
+    }
+
+    /// Makes displacements relative to the position of rest relative to that after the plastic drift has changed.
+    pub(crate) fn move_rest(
+        &self,
+        coordinates: Coordinates,
+        (from, to): (&Storey, &Storey),
+        displacements: &mut [f64],
+    ) {
+        let change = to.plastic - from.plastic;
+        if change != 0.0 {
+            self.lift(coordinates, -change, displacements);
+        }
+    }
+
+    /// 1 - r', the share of a plastic drift that a storey keeps when no force acts on it, in a building without links.
+    pub(crate) fn kept(&self) -> f64 {
+        1.0 - self.ratio
+    }
+
+    /// Root of the share of its net stiffness that the storey pushes on with while it yields: the buildings fall at most at this
+    /// rate, relative to their fastest mode (the eigenvalues of K + the stiffnesses lost are bounded by those of K). Below 1 for
+    /// all but storeys on the brink of falling while they are elastic.
+    pub(crate) fn growth(&self) -> f64 {
+        (-self.ratio).max(0.0).sqrt()
+    }
+
+    /// The middle of the range in which it is elastic, from its own state and those of all elements, m.
+    #[inline(always)]
+    pub(crate) fn centre(&self, storey: &Storey, all: &[Storey]) -> f64 {
+        self.lift.centre(self.ratio, storey, all)
+    }
+
+    /// How far beyond the limit of one sense it is with a drift x relative to the position of rest, m: below 0 while it is
+    /// elastic.
+    #[inline(always)]
+    pub(crate) fn excess(&self, centre: f64, sense: Sense, x: f64) -> f64 {
+        sense.sign() * (x - centre) - self.limit
+    }
+
+    /// The same at the start of a step in which the storey is elastic: exactly 0 where it has just turned, never above
+    /// 0.
+    pub(crate) fn start_of_flight(&self, (storey, centre): Present, sense: Sense, x: f64) -> f64 {
+        if storey.turned == Some(sense) { 0.0 } else { self.excess(centre, sense, x).min(0.0) }
+    }
+
+    /// Whether the storey stays elastic for `h` seconds, from a drift and its rate to others, if the drift differs by
+    /// at most `deviation` from the cubic through them.
+    pub(crate) fn stays_elastic(
+        &self,
+        present: Present,
+        (start, rate): (f64, f64),
+        (end, end_rate): (f64, f64),
+        (h, deviation): (f64, f64),
+    ) -> bool {
+        Sense::BOTH.into_iter().all(|sense| {
+            let sign = sense.sign();
+            let from = (self.start_of_flight(present, sense, start), sign * rate);
+            let to = (self.excess(present.1, sense, end), sign * end_rate);
+            stays_below(from, to, (h, deviation))
+        })
+    }
+
+    /// The share of the yield drift by which plastic drifts have moved the limits.
+    pub(crate) fn moved_share(&self, centre: f64) -> f64 {
+        centre.abs() / self.limit
+    }
+
+    /// Rounding error, m, of that excess, from the `size` of all that the drift is made of.
+    pub(crate) fn noise(&self, centre: f64, size: f64) -> f64 {
+        2.0 * f64::EPSILON * (size + self.limit + centre.abs())
+    }
+
+    /// Storey shear, N, what the columns resist with, at a drift x relative to the position of rest; while it yields,
+    /// exactly on its yield line.
+    pub(crate) fn shear(&self, (storey, centre): Present, x: f64) -> f64 {
+        let NetStorey { stiffness, force, ratio, gravity } = self.of;
+        let hardened = stiffness * (ratio * storey.plastic);
+        match storey.yields {
+            Some(sense) => sense.sign() * force + hardened,
+            None if self.lift.is_of_all() => stiffness * (x - centre) + hardened,
+            None => stiffness * x + gravity * (self.kept() * storey.plastic),
+        }
+    }
+
+    /// Stiffness of the columns, N/m: what is left of it while the storey yields.
+    pub(crate) fn stiffness(&self, storey: &Storey) -> f64 {
+        if storey.yields.is_some() { self.of.ratio * self.of.stiffness } else { self.of.stiffness }
+    }
+
+    /// The largest shear so far of a storey that has yielded, N: it has been largest where the plastic drift was.
+    pub(crate) fn peak_shear(&self, storey: &Storey) -> f64 {
+        self.of.force + self.of.ratio * self.of.stiffness * storey.furthest
+    }
+
+    /// The drift at which the storey would come to rest, m: beyond a plastic drift that gravity does not let it come back
+    /// from, the critical one.
+    pub(crate) fn residual_drift(&self, storey: &Storey, all: &[Storey]) -> f64 {
+        match self.critical.filter(|_| self.cannot_rest(storey)) {
+            Some(critical) => critical.copysign(storey.plastic),
+            None => self.lift.at_rest(storey.plastic, all.iter().map(|other| other.plastic)),
+        }
+    }
+
+    /// Its rate, from the rates of the plastic drifts: its own, and those of all elements.
+    pub(crate) fn residual_rate(&self, storey: &Storey, own: f64, all: impl Iterator<Item = f64>) -> f64 {
+        if self.cannot_rest(storey) { 0.0 } else { self.lift.at_rest(own, all) }
+    }
+
+    /// Whether gravity pushes the storey on wherever it might rest; where links hold its building, whether it would do so
+    /// without them.
+    fn cannot_rest(&self, storey: &Storey) -> bool {
+        self.ratio < 0.0 && self.ratio * storey.plastic.abs() < -self.limit
+    }
+
+    /// The largest drift so far, m, from the largest one that has been watched: once the storey has yielded its drift has been
+    /// largest where the plastic drift was.
+    pub(crate) fn largest_drift(&self, storey: &Storey, peak_drift: f64) -> f64 {
+        if storey.furthest > 0.0 { self.limit + storey.furthest } else { peak_drift }
+    }
+
+    /// Energy dissipated by yielding so far, J: (1 - r) V_y times the sum of all plastic steps, exactly.
+    pub(crate) fn hysteretic_energy(&self, storey: &Storey) -> f64 {
+        self.kept() * self.force * storey.cumulative.exact()
+    }
+
+    /// Its part of the elastic energy locked in by plastic drifts, J, which no motion relative to the position of rest has:
+    /// (1 - r) k p / 2 times the middle of its elastic range. In a building without links that is r' (1 - r') k' p^2 / 2; with
+    /// x = z + r' p it is r' k' d^2/2 + (1 - r') k' z^2/2 - k' x^2/2.
+    pub(crate) fn locked_energy(&self, (storey, centre): Present) -> f64 {
+        match self.lift.is_of_all() {
+            true => 0.5 * self.lost * (storey.plastic * centre),
+            false => 0.5 * self.ratio * self.lost * (storey.plastic * storey.plastic),
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! How the plastic drift of an element moves the position of rest.
+//!
+//! In a shear building by itself it moves the floors above the storey by (1 - r) of it. Where links act on a body, it moves
+//! all of its floors, by
+//!
+//! ```text
+//! L = (1 - r) k K^-1 row      row of the other element . L = how far that moves the other's drift at rest
+//! ```
+//!
+//! with K the stiffness of the body with all of its links, of which the modes are.
+
+use crate::engine::base::Coordinates;
+use crate::engine::base::storey::Storey;
+use crate::structure::{Side, Structure, dot};
+use std::ops::Range;
+
+#[derive(Clone, Debug)]
+pub(super) enum Lift {
+    /// The floors above a storey, by a share of its plastic drift.
+    Above {
+        /// The share, 1 - r'.
+        kept: f64,
+        /// Modal displacements of a building whose floors above the storey have moved by 1 m.
+        modes: Vec<f64>,
+        /// The lanes of these floors.
+        lanes: Range<usize>,
+    },
+    /// All floors of a body with links.
+    All {
+        /// Modal displacements per unit of plastic drift, kg^1/2.
+        modes: Vec<f64>,
+        /// Displacements of all floors per unit of plastic drift.
+        floors: Vec<f64>,
+        /// The drift of the element itself at rest per unit of the plastic drift of each element.
+        by: Vec<f64>,
+    },
+}
+
+impl Lift {
+    /// Of a storey in a building by itself.
+    pub(super) fn above(structure: &Structure, (side, storey): (Side, usize), kept: f64) -> Lift {
+        let count = structure.floors(side);
+        let lifted: Vec<f64> = (0..count).map(|floor| f64::from(u8::from(floor >= storey))).collect();
+        let mut modes = vec![0.0; structure.lanes];
+        structure.add_modal(side, &lifted, &mut modes);
+        let lane = |floor: usize| structure.floors.lane(side as usize, floor);
+        Lift::Above { kept, modes, lanes: lane(storey)..lane(count - 1) + 1 }
+    }
+
+    /// Of an element in a body with links, on a row over its modes; `lost` is the stiffness that yielding takes away, N/m.
+    pub(super) fn all(lost: f64, row: &[f64], structure: &Structure) -> Lift {
+        let of_mode = |(row, omega2): (&f64, &f64)| if *row == 0.0 { 0.0 } else { lost * row / omega2 };
+        let modes: Vec<f64> = row.iter().zip(&structure.omega2).map(of_mode).collect();
+        let mut floors = vec![0.0; structure.lanes];
+        structure.to_floors(&modes, &mut floors);
+        Lift::All { modes, floors, by: Vec::new() }
+    }
+
+    /// Works out how far the plastic drifts of all elements move the drift of this one, which has that row over the modes.
+    pub(super) fn join(&mut self, row: &[f64], lifts: &[Lift]) {
+        if let Lift::All { by, .. } = self {
+            *by = lifts.iter().map(|lift| dot(row, lift.modes())).collect();
+        }
+    }
+
+    fn modes(&self) -> &[f64] {
+        let (Lift::Above { modes, .. } | Lift::All { modes, .. }) = self;
+        modes
+    }
+
+    /// Adds the displacements at rest by a plastic drift, m.
+    pub(super) fn add(&self, coordinates: Coordinates, plastic: f64, displacements: &mut [f64]) {
+        let add_all = |lift: &[f64], by: f64, displacements: &mut [f64]| {
+            displacements.iter_mut().zip(lift).for_each(|(displacement, lift)| *displacement += lift * by);
+        };
+        match (self, coordinates) {
+            (Lift::Above { kept, modes, .. }, Coordinates::Modes) => add_all(modes, kept * plastic, displacements),
+            (Lift::Above { kept, lanes, .. }, Coordinates::Floors) => {
+                displacements[lanes.clone()].iter_mut().for_each(|floor| *floor += kept * plastic);
+            }
+            (Lift::All { modes, .. }, Coordinates::Modes) => add_all(modes, plastic, displacements),
+            (Lift::All { floors, .. }, Coordinates::Floors) => add_all(floors, plastic, displacements),
+        }
+    }
+
+    /// The displacement of a floor at rest per unit of plastic drift.
+    pub(super) fn of_floor(&self, lane: usize) -> f64 {
+        match self {
+            Lift::Above { kept, lanes, .. } => {
+                if lanes.contains(&lane) {
+                    *kept
+                } else {
+                    0.0
+                }
+            }
+            Lift::All { floors, .. } => floors[lane],
+        }
+    }
+
+    /// A quantity of the element's own drift at rest, by that quantity of the plastic drift of each element: the drift from
+    /// plastic drifts, its rate from their rates.
+    pub(super) fn at_rest(&self, own: f64, all: impl Iterator<Item = f64>) -> f64 {
+        match self {
+            Lift::Above { kept, .. } => kept * own,
+            Lift::All { by, .. } => by.iter().zip(all).map(|(by, of)| by * of).sum(),
+        }
+    }
+
+    /// The middle of the range in which the element is elastic, as a drift relative to the position of rest, m: its own
+    /// plastic drift less the drift at rest. `ratio` is its post-yield ratio.
+    pub(super) fn centre(&self, ratio: f64, storey: &Storey, all: &[Storey]) -> f64 {
+        match self {
+            Lift::Above { .. } => ratio * storey.plastic,
+            Lift::All { by, .. } => {
+                by.iter().zip(all).fold(storey.plastic, |centre, (by, other)| centre - by * other.plastic)
+            }
+        }
+    }
+
+    /// Whether its element is in a body with links.
+    pub(super) fn is_of_all(&self) -> bool {
+        matches!(self, Lift::All { .. })
+    }
+}

@@ -1,0 +1,87 @@
+//! The keys of links: `[[link]]`, with its two ends, its spring and its dashpot.
+
+use super::document::{Item, KEY, Section};
+use super::link::{Link, Slip};
+use super::side::Side;
+use super::units::Units;
+
+/// By side.
+const FLOORS: [&str; 2] = ["left_floor", "right_floor"];
+const FLOOR: &str = "a floor, counted from 1";
+
+/// All links of a scene.
+pub(super) fn all(root: &mut Section<'_>, units: Units) -> Vec<Link> {
+    let tables = root.get("link").and_then(|item| match item.is_table() {
+        false => item.list("[[link]] tables"),
+        true => {
+            item.refuse("[[link]], with two brackets on either side, above every link");
+            None
+        }
+    });
+    tables.iter().flatten().map(|item| link(item.section(), units)).collect()
+}
+
+fn link(mut section: Section<'_>, units: Units) -> Link {
+    let [left, right] = ends(&mut section);
+    for key in ["left_storey", "right_storey", "left_position", "right_position", "column_shape"] {
+        section.refuse_key(key, "left_floor and right_floor: devices are anchored at floors, not at columns");
+    }
+    let (stiffness, dashpot) = (section.get("stiffness"), section.get("dashpot"));
+    let (force, ratio) = (section.get("slip_force"), section.get("post_yield_ratio"));
+    let unit = units.unit("N/m");
+    match (&stiffness, &dashpot, &force) {
+        (None, _, Some(_)) => section.missing("stiffness", &format!("that of the spring that slips, in {unit}")),
+        (None, None, None) => {
+            let what = format!("a stiffness in {unit}, or a dashpot in {}, or both", units.unit("N s/m"));
+            section.missing("stiffness", &what);
+        }
+        _ => {}
+    }
+    let ratio = match (&force, ratio) {
+        (None, Some(item)) => {
+            item.refuse("slip_force as well, at which the spring yields");
+            0.0
+        }
+        (_, ratio) => ratio.map_or(0.0, |item| item.number()),
+    };
+    section.close(KEY);
+    let quantity = |item: Option<Item<'_>>| item.map(|item| item.quantity(units));
+    Link {
+        left,
+        right,
+        stiffness: quantity(stiffness).unwrap_or_default(),
+        dashpot: quantity(dashpot).unwrap_or_default(),
+        slip: quantity(force).map(|force| Slip { force, ratio }),
+    }
+}
+
+/// The floors on the left and on the right, counted from 0; `None` is the ground, as a wall opposite of a floor.
+fn ends(section: &mut Section<'_>) -> [Option<usize>; 2] {
+    let (floors, wall) = (FLOORS.map(|key| section.get(key)), section.get("wall"));
+    match (&floors, &wall) {
+        ([None, None], _) => {
+            section.missing(FLOORS[0], &format!("{FLOOR}, and right_floor, or one of them and a wall"));
+            return [Some(0), None];
+        }
+        ([Some(_), Some(_)], Some(wall)) => wall.refuse("no wall beside left_floor and right_floor: two ends only"),
+        ([Some(_), Some(_)], None) => {}
+        ([None, _], None) => section.missing(FLOORS[0], &format!("{FLOOR}, or wall = \"left\"")),
+        ([_, None], None) => section.missing(FLOORS[1], &format!("{FLOOR}, or wall = \"right\"")),
+        ([left, _], Some(wall)) => {
+            let (floor, opposite) = if left.is_some() { (FLOORS[0], Side::Right) } else { (FLOORS[1], Side::Left) };
+            if wall.text().is_some_and(|name| name != opposite.name()) {
+                wall.refuse(format!("\"{opposite}\", the side of {floor} on which the device is"));
+            }
+        }
+    }
+    floors.map(|floor| floor.map(|item| index(&item)))
+}
+
+/// From the number of a floor, counted from 1.
+fn index(item: &Item<'_>) -> usize {
+    let Some(number) = item.whole() else { return 0 };
+    number.checked_sub(1).unwrap_or_else(|| {
+        item.refuse(format!("{FLOOR}: below the first storey there is no foundation, and the ground is a wall"));
+        0
+    })
+}
