@@ -55,7 +55,8 @@ pub fn text(outcome: &Outcome, problem: Option<Problem<'_>>, stop_reason: &str) 
     let run = Run(outcome, problem.map(|problem| problem.scene));
     let mut text = overview(&run, problem, stop_reason);
     let buildings = [run.floors(), run.buildings(), run.yielding()];
-    for table in buildings.into_iter().chain([run.contacts(), run.struck_columns(), run.energy()]).flatten() {
+    let rest = [run.contacts(), run.struck_columns(), run.links(), run.energy()];
+    for table in buildings.into_iter().chain(rest).flatten() {
         text.push('\n');
         text.push_str(&table.aligned());
     }
@@ -303,6 +304,43 @@ impl Run<'_> {
         ]);
         for (storey, force, shear) in storeys {
             table.row([storey, scale.cell(force), shear.map_or(String::new(), |shear| scale.cell(shear))]);
+        }
+        table.unless_empty()
+    }
+
+    /// Links: how far their ends have come nearer or gone apart, what they have pushed and pulled with, and what they have taken.
+    fn links(&self) -> Option<Table> {
+        let last = |link: usize, quantity: &str| self.seen(&format!("link[{link}].{quantity}")).map(|seen| seen.last);
+        let links = 1..=(1..).take_while(|link| last(*link, "force").is_some()).count();
+        let all = |quantity: &'static str| links.clone().filter_map(move |link| last(link, quantity));
+        let (force, energy) = (Scale::of("N", all("peak_force")), Scale::of("J", all("dissipated_energy")));
+        let (slips, dissipates) = (all("slip").next().is_some(), all("dissipated_energy").next().is_some());
+        let mut columns = vec![("link", "")];
+        if self.has_peaks() {
+            columns.extend([("peak displacement", "m"), ("peak force", &force.unit)]);
+        }
+        if slips {
+            columns.extend([("slip at the end", "m"), ("slip travel", "m")]);
+        }
+        if dissipates {
+            columns.push(("dissipated", &energy.unit));
+        }
+        let mut table = Table::new(&columns);
+        for link in links {
+            let cell = |quantity: &str| last(link, quantity).map_or(String::new(), digits);
+            let scaled = |quantity: &str, scale: &Scale| last(link, quantity).map_or(String::new(), |v| scale.cell(v));
+            let between = self.1.and_then(|scene| scene.links.get(link - 1)).map(|of| format!(": {}", of.brief()));
+            let mut row = vec![format!("{link}{}", between.unwrap_or_default())];
+            if self.has_peaks() {
+                row.extend([cell("peak_displacement"), scaled("peak_force", &force)]);
+            }
+            if slips {
+                row.extend([cell("slip"), cell("slip_travel")]);
+            }
+            if dissipates {
+                row.push(scaled("dissipated_energy", &energy));
+            }
+            table.row(row);
         }
         table.unless_empty()
     }

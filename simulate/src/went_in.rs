@@ -12,6 +12,7 @@ pub fn lines(outcome: &Outcome, problem: Option<Problem<'_>>) -> Vec<(&'static s
     let buildings = ["left", "right"].into_iter().filter(|side| array(outcome, side, "displacement").next().is_some());
     lines.extend(buildings.map(|side| (side, building(outcome, side))));
     lines.push(("contacts", contacts(outcome)));
+    lines.extend(links(outcome).map(|links| ("links", links)));
     lines
 }
 
@@ -46,20 +47,27 @@ fn peak(record: &Record, scaling: Scaling) -> String {
 }
 
 fn building(outcome: &Outcome, side: &str) -> String {
-    const MOST: usize = 3;
     let masses: Vec<f64> = array(outcome, side, "mass").map(|seen| seen.last).collect();
-    let frequencies: Vec<f64> = array(outcome, side, "frequency").map(|seen| seen.last).collect();
+    format!("{}, {} in all, {}", count(masses.len(), "floor"), mass(masses.iter().sum()), periods(outcome, side))
+}
+
+/// The first periods and frequencies of a building, or of both with their links.
+fn periods(outcome: &Outcome, of: &str) -> String {
+    const MOST: usize = 3;
+    let frequencies: Vec<f64> = array(outcome, of, "frequency").map(|seen| seen.last).collect();
     let list = |text: fn(f64) -> String| {
         let first: Vec<String> = frequencies.iter().take(MOST).map(|frequency| text(*frequency)).collect();
         first.join(", ") + if frequencies.len() > MOST { ", ..." } else { "" }
     };
-    format!(
-        "{}, {} in all, periods {} s (frequencies {} Hz)",
-        count(masses.len(), "floor"),
-        mass(masses.iter().sum()),
-        list(|frequency| short(1.0 / frequency)),
-        list(|frequency| format!("{frequency:.4}")),
-    )
+    let (periods, frequencies) =
+        (list(|frequency| short(1.0 / frequency)), list(|frequency| format!("{frequency:.4}")));
+    format!("periods {periods} s (frequencies {frequencies} Hz)")
+}
+
+/// How many there are, and how the buildings swing with them; `None` without links.
+fn links(outcome: &Outcome) -> Option<String> {
+    let number = (1..).take_while(|link| outcome.seen.contains_key(&format!("link[{link}].force"))).count();
+    (number > 0).then(|| format!("{number}; with them, {}", periods(outcome, "system")))
 }
 
 fn mass(kilograms: f64) -> String {

@@ -59,6 +59,14 @@ impl ContactPair {
 }
 
 impl Link {
+    /// What it is between, from left to right, for a table: "left 2 | right 2", "ground | right 1".
+    pub fn brief(&self) -> String {
+        let name = |side: Side, floor: Option<usize>| {
+            floor.map_or("ground".to_owned(), |floor| Face::Floor(side, floor + 1).brief())
+        };
+        format!("{} | {}", name(Side::Left, self.left), name(Side::Right, self.right))
+    }
+
     /// What it is between, for a person: "between left floor 2 and right floor 2", "between left floor 2 and the ground".
     pub fn meeting(&self, scene: &Scene) -> String {
         let name = |side: Side, floor: Option<usize>| {

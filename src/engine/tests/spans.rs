@@ -213,8 +213,7 @@ fn no_quantity_passes_its_bounds_over_a_span() {
                 case.fly(&mut random, 20, factor);
                 let nearest = &mut nearest[usize::from(has_forces)];
                 *nearest = nearest.min(compare::<16>(&case)).min(compare::<2>(&case));
-                truncated +=
-                    case.model.truncated.bodies.iter().filter(|body| !body.groups.is_empty()).count();
+                truncated += case.model.truncated.bodies.iter().filter(|body| !body.groups.is_empty()).count();
             }
         }
     }
