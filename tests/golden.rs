@@ -346,6 +346,14 @@ fn gravity_on_storeys_that_lean() {
     }
 }
 
+/// What links that slip do is compared in `golden_yielding.rs`.
+#[test]
+fn buildings_with_links_between_them() {
+    for (name, allowed) in [("linked", 5e-14), ("linked_friction", 1e-13), ("linked_walls", 2e-13)] {
+        compare(&format!("tests/reference/scenes/{name}.toml"), name, allowed);
+    }
+}
+
 /// What the ground does to the motion, forces on the floors do as well: the independent solution is one of linear forces
 /// too, in flight, in contact under every kind of law, and between floors that are held together.
 #[test]

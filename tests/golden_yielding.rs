@@ -1,4 +1,4 @@
-//! Storeys that yield, against the independent solution in quadruple precision (tests/reference), which knows no position
+//! Storeys that yield and links that slip, against the independent solution in quadruple precision (tests/reference), which knows no position
 //! of rest: plastic drifts are unknowns of its own. Displacements, velocities, energies and impacts of the same scenes are
 //! compared in `golden.rs`.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
@@ -6,7 +6,7 @@
 mod common;
 
 use common::Run;
-use pounding::engine::{Output, Side, YieldingOf};
+use pounding::engine::{LinkOutput, Output, Side, YieldingOf};
 use pounding::scene;
 use std::collections::HashMap;
 use std::path::Path;
@@ -31,23 +31,60 @@ fn run_of(name: &str) -> Run {
     Run::new(&scene, record.as_ref())
 }
 
-/// Side, storey counted from 0, and what is between a dot and a bracket of a column's name.
-fn parts(column: &str) -> (Side, &str, usize) {
-    let (side, rest) = column.split_once('.').unwrap();
-    let (quantity, storey) = rest.trim_end_matches(']').split_once('[').unwrap();
-    let side = if side == "left" { Side::Left } else { Side::Right };
-    (side, quantity, storey.parse::<usize>().unwrap() - 1)
+/// What yields or slips, counted from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Place {
+    Storey(Side, usize),
+    Link(usize),
+}
+
+impl Place {
+    /// Of a building, or `link`, and a number from 1.
+    fn new(of: &str, number: &str) -> Place {
+        let number = number.parse::<usize>().unwrap() - 1;
+        match of {
+            "link" => Place::Link(number),
+            "left" => Place::Storey(Side::Left, number),
+            "right" => Place::Storey(Side::Right, number),
+            _ => panic!("{of}"),
+        }
+    }
+
+    /// The sense in which it yields or slips.
+    fn sense(self) -> Output {
+        match self {
+            Place::Storey(side, storey) => Output::Yielding(side, storey),
+            Place::Link(link) => Output::Link(link, LinkOutput::Slipping),
+        }
+    }
+}
+
+/// The quantity of a column; `None`: links do not show it. The links of these scenes that slip have no dashpots.
+fn output(place: Place, quantity: &str) -> Option<Output> {
+    let (of_storey, of_link) = match quantity {
+        "yielding" => return Some(place.sense()),
+        "storey_shear" => (YieldingOf::Shear, Some(LinkOutput::Force)),
+        "plastic_drift" => (YieldingOf::PlasticDrift, Some(LinkOutput::Slip)),
+        "cumulative_plastic_drift" => (YieldingOf::CumulativePlasticDrift, Some(LinkOutput::SlipTravel)),
+        "hysteretic_energy" => (YieldingOf::HystereticEnergy, Some(LinkOutput::DissipatedEnergy)),
+        "ductility" => (YieldingOf::Ductility, None),
+        _ => panic!("{quantity}"),
+    };
+    match place {
+        Place::Storey(side, storey) => Some(Output::OfYielding(of_storey, side, storey)),
+        Place::Link(link) => of_link.map(|of| Output::Link(link, of)),
+    }
+}
+
+/// What yields or slips, and what is between a dot and a bracket of a column's name.
+fn parts(column: &str) -> (Place, &str) {
+    let (of, rest) = column.split_once('.').unwrap();
+    let (quantity, number) = rest.trim_end_matches(']').split_once('[').unwrap();
+    (Place::new(of, number), quantity)
 }
 
 /// Worst error of all quantities of all storeys, each relative to its largest value.
 fn worst_of_storeys(name: &str) -> f64 {
-    const QUANTITIES: [(&str, YieldingOf); 5] = [
-        ("storey_shear", YieldingOf::Shear),
-        ("plastic_drift", YieldingOf::PlasticDrift),
-        ("cumulative_plastic_drift", YieldingOf::CumulativePlasticDrift),
-        ("hysteretic_energy", YieldingOf::HystereticEnergy),
-        ("ductility", YieldingOf::Ductility),
-    ];
     let rows = table(&format!("{name}.storeys.csv"));
     let columns: Vec<&String> = rows[0].keys().filter(|column| column.contains('[')).collect();
     let largest = |column: &str| rows.iter().map(|row| number(row, column).abs()).fold(f64::MIN_POSITIVE, f64::max);
@@ -55,14 +92,12 @@ fn worst_of_storeys(name: &str) -> f64 {
     for row in &rows {
         run.to(number(row, "time"));
         for column in &columns {
-            let (side, quantity, storey) = parts(column);
-            let exact = number(row, column);
-            if quantity == "yielding" {
-                assert_eq!(run.read(Output::Yielding(side, storey)), exact, "{column} at {}", row["time"]);
-                continue;
+            let (place, quantity) = parts(column);
+            let Some(of) = output(place, quantity) else { continue };
+            let (got, exact) = (run.read(of), number(row, column));
+            if of == place.sense() {
+                assert_eq!(got, exact, "{column} at {}", row["time"]);
             }
-            let of = QUANTITIES.iter().find(|(name, _)| *name == quantity).unwrap().1;
-            let got = run.read(Output::OfYielding(of, side, storey));
             worst = worst.max((got - exact).abs() / largest(column));
         }
     }
@@ -71,32 +106,30 @@ fn worst_of_storeys(name: &str) -> f64 {
 
 /// A yield or a turn.
 struct Switch {
-    storey: (Side, usize),
+    place: Place,
     time: f64,
-    /// The sense in which the storey yields afterwards.
+    /// The sense in which it yields or slips afterwards.
     sense: i32,
 }
 
 /// Those of all plastic steps above 1e-9 m, in the order of time.
 fn switches(name: &str) -> Vec<Switch> {
-    let mut begun: HashMap<(bool, usize), (Switch, f64)> = HashMap::new();
+    let mut begun: HashMap<Place, (Switch, f64)> = HashMap::new();
     let mut found = Vec::new();
     for row in table(&format!("{name}.yields.csv")) {
-        let side = if row["building"] == "left" { Side::Left } else { Side::Right };
-        let storey = (side, row["storey"].parse::<usize>().unwrap() - 1);
-        let (time, plastic, key) =
-            (number(&row, "time_s"), number(&row, "plastic_drift_m"), (side == Side::Left, storey.1));
+        let place = Place::new(&row["building"], &row["storey"]);
+        let (time, plastic) = (number(&row, "time_s"), number(&row, "plastic_drift_m"));
         match row["kind"].as_str() {
             "collapses +" | "collapses -" => {}
             "unloads" => {
-                let (begin, from) = begun.remove(&key).unwrap();
+                let (begin, from) = begun.remove(&place).unwrap();
                 if (plastic - from).abs() > 1e-9 {
-                    found.extend([begin, Switch { storey, time, sense: 0 }]);
+                    found.extend([begin, Switch { place, time, sense: 0 }]);
                 }
             }
             kind => {
                 let sense = if kind == "yields +" { 1 } else { -1 };
-                begun.insert(key, (Switch { storey, time, sense }, plastic));
+                begun.insert(place, (Switch { place, time, sense }, plastic));
             }
         }
     }
@@ -107,12 +140,12 @@ fn switches(name: &str) -> Vec<Switch> {
 /// Every yield and every turn is where it should be, to some seconds; returns how many there are.
 fn check_switches(name: &str, allowed: f64) -> usize {
     let (mut run, switches) = (run_of(name), switches(name));
-    for Switch { storey, time, sense } in &switches {
+    for Switch { place, time, sense } in &switches {
         for (at, is_after) in [(time - allowed, false), (time + allowed, true)] {
             if at > run.state.time() {
                 run.to(at);
-                let is_there = run.read(Output::Yielding(storey.0, storey.1)) == f64::from(*sense);
-                assert_eq!(is_there, is_after, "{name}, storey {} at {time} s, sense {sense}", storey.1 + 1);
+                let is_there = run.read(place.sense()) == f64::from(*sense);
+                assert_eq!(is_there, is_after, "{name}, {place:?} at {time} s, sense {sense}");
             }
         }
     }
@@ -174,6 +207,16 @@ fn columns_a_wall_and_storeys_that_stay_elastic() {
 #[test]
 fn a_bilinear_isolator_with_dashpots_between_walls() {
     compare("yielding_isolator", 4e-14, 82);
+}
+
+#[test]
+fn a_friction_damper_and_storeys_that_yield() {
+    compare("linked_friction", 1e-12, 190);
+}
+
+#[test]
+fn devices_that_slip_between_floors_and_to_the_ground() {
+    compare("linked_walls", 1e-12, 226);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 """Checks the reference solver itself against closed forms: free impacts of two masses, of a mass with columns and with
-a wall, stereomechanical contact of two oscillators, impacts of three masses at once, storeys that yield.
+a wall, stereomechanical contact of two oscillators, impacts of three masses at once, storeys that yield, linked
+oscillators.
 
     python3 tests/reference/closed_forms.py
 
@@ -12,8 +13,10 @@ import sys
 import tempfile
 from decimal import Decimal
 
+import link_forms
 import yielding_forms
 
+FAMILIES = yielding_forms.FAMILIES + link_forms.FAMILIES
 HERE = pathlib.Path(__file__).parent
 M1, M2, K, V = 50000.0, 75000.0, 3.0e7, 0.5
 M = M1 * M2 / (M1 + M2)
@@ -176,7 +179,7 @@ def episodes(program, folder, scene):
 
 
 def from_tables(program, folder, scene, checks):
-    """(scene, quantity, expected, tolerance, values by quantity) for checks of yielding_forms."""
+    """(scene, quantity, expected, tolerance, values by quantity) for checks of yielding_forms and link_forms."""
     run(program, folder, scene)
     tables = {name: table(folder, name) for name in ("displacements", "impacts", "storeys", "yields")}
     for name, at, column, expected, tolerance in checks:
@@ -210,7 +213,7 @@ def main():
         for scene, expected in (case for some in scenes for case in some()):
             rows = episodes(program, folder, scene)
             checks += [(scene, *case, rows[-1]) for case in expected]
-        for scene, expected in (case for family in yielding_forms.FAMILIES for case in family()):
+        for scene, expected in (case for family in FAMILIES for case in family()):
             checks += from_tables(program, folder, scene, expected)
         for law, quantity, expected, tolerance, row in checks:
             found = row[quantity]

@@ -52,6 +52,15 @@ static void write_column(FILE *file, const Scene *scene, const char *quantity, i
     fprintf(file, ",%s.%s[%d]", left ? "left" : "right", quantity, 1 + (left ? floor : floor - scene->left_floors));
 }
 
+/* Of a storey that can yield, or a link that slips. */
+static void write_storey_column(FILE *file, const Scene *scene, const char *quantity, const Storey *storey)
+{
+    if (storey->link)
+        fprintf(file, ",link.%s[%d]", quantity, storey->link);
+    else
+        write_column(file, scene, quantity, storey->above);
+}
+
 static void write_columns(FILE *file, const Scene *scene, const char *quantity)
 {
     for (int i = 0; i < scene->floors; i++)
@@ -120,7 +129,7 @@ static void write_storeys(FILE *file, const Scene *scene, const Solution *soluti
     fprintf(file, "time");
     for (int q = 0; q < 6; q++)
         for (int s = 0; s < scene->storeys; s++)
-            write_column(file, scene, quantities[q], scene->storey[s].above);
+            write_storey_column(file, scene, quantities[q], &scene->storey[s]);
     fprintf(file, "\n");
     for (const Row *row = solution->row; row < solution->row + solution->rows; row++) {
         fprintf(file, "%.17g", (double)row->time);
@@ -141,10 +150,10 @@ static void write_yields(FILE *file, const Scene *scene, const Solution *solutio
     static const char *const kinds[] = {"collapses -", "yields -", "unloads", "yields +", "collapses +"};
     fprintf(file, "building,storey,kind,time_s,drift_m,plastic_drift_m,drift_rate_m_s\n");
     for (const Switch *at = solution->switched; at < solution->switched + solution->switches; at++) {
-        int floor = scene->storey[at->storey].above;
+        int floor = scene->storey[at->storey].above, link = scene->storey[at->storey].link;
         bool left = floor < scene->left_floors;
-        fprintf(file, "%s,%d,%s", left ? "left" : "right", 1 + (left ? floor : floor - scene->left_floors),
-                kinds[at->direction + 2]);
+        fprintf(file, "%s,%d,%s", link ? "link" : left ? "left" : "right",
+                link ? link : 1 + (left ? floor : floor - scene->left_floors), kinds[at->direction + 2]);
         put(file, at->time);
         put(file, at->drift);
         put(file, at->plastic);

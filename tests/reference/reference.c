@@ -50,7 +50,12 @@
  * LEFT and RIGHT say what is on the left and on the right of a contact: the number of a floor (of the left building on
  * the left, of the right one on the right), the columns of a storey, columns:STOREY:POSITION:SHAPE with a position
  * between 0 and 1 and the shape fixed or straight, or a wall. A floor of either building beside a wall may be on either
- * side of it: left:FLOOR, right:FLOOR. Contacts follow the buildings.
+ * side of it: left:FLOOR, right:FLOOR. Contacts follow the buildings, and so do links:
+ *
+ *   link LEFT RIGHT [stiffness K] [dashpot C] [slip_force V] [post_yield_ratio R]
+ *
+ * a spring and a dashpot side by side between floors, or a floor and a wall. With a slip_force the spring slips as a storey
+ * yields; it needs a floor on its left then.
  */
 #include "reference.h"
 

@@ -36,9 +36,11 @@ typedef struct {
 } Contact;
 
 /* A storey that can yield, bilinear with kinematic hardening: its shear is ratio k drift + (1 - ratio) k z, z being the
-   drift without the plastic drift, and |z| <= limit. */
+   drift without the plastic drift, and |z| <= limit. The spring of a link that slips is one as well. */
 typedef struct {
-    int above, below; /* its floors in the vector of all floors; below is -1 on the ground */
+    int link; /* its number, from 1, where it is the spring of a link; 0: a storey */
+    int above, below; /* its floors in the vector of all floors, those on the left and on the right of a link; below is -1
+                         on the ground */
     real k, ratio, force, limit; /* limit = force / k */
     real collapse; /* |drift| at which it has collapsed, which ends the run; 0: never */
 } Storey;
@@ -56,7 +58,8 @@ typedef struct {
     bool has_gravity;
     int contacts;
     Contact contact[MAX_CONTACTS];
-    int storeys; /* only those that can yield */
+    int storeys; /* only those that can yield; links that slip are the last */
+    int links;
     Storey storey[MAX_FLOORS];
     Record record;
     real min_approach_velocity;

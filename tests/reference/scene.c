@@ -395,6 +395,55 @@ static void read_contact(Scene *scene, const Line *line)
     prepare_law(&contact->law, contact->mass, formula);
 }
 
+/* ---- links ---- */
+
+/* Where the spring of a link slips: its floors are a storey that lies between the buildings. */
+static void add_slip(Scene *scene, const Contact *ends, const Storey *slip, int line)
+{
+    if (ends->weight[0] < 0 || !(slip->k > 0 && slip->force > 0 && slip->ratio >= 0 && slip->ratio < 1))
+        fail("line %d: what slips needs a floor on its left, stiffness > 0, slip_force > 0 and 0 <= ratio < 1", line);
+    if (scene->storeys == MAX_FLOORS)
+        fail("line %d: at most %d storeys and links that yield or slip", line, MAX_FLOORS);
+    Storey *storey = &scene->storey[scene->storeys++];
+    *storey = *slip;
+    storey->limit = slip->force / slip->k;
+    storey->above = ends->floor[0];
+    storey->below = ends->weights > 1 ? ends->floor[1] : -1;
+}
+
+/* link LEFT RIGHT [key value ...] */
+static void read_link(Scene *scene, const Line *line)
+{
+    Contact ends = {.weights = 0};
+    Storey slip = {.link = ++scene->links};
+    real dashpot = 0;
+    bool slips = false;
+    for (int side = 0; side < 2; side++)
+        add_place(scene, &ends, side, word(line, 1 + side), line->number);
+    if (ends.weights == 0)
+        fail("line %d: a wall needs a floor", line->number);
+    for (int i = 3; i < line->count; i += 2) {
+        const char *key = line->word[i];
+        if (strcmp(key, "stiffness") == 0)
+            slip.k = value(line, i + 1);
+        else if (strcmp(key, "dashpot") == 0)
+            dashpot = value(line, i + 1);
+        else if (strcmp(key, "slip_force") == 0)
+            slip.force = value(line, i + 1), slips = true;
+        else if (strcmp(key, "post_yield_ratio") == 0)
+            slip.ratio = value(line, i + 1);
+        else
+            fail("line %d: unknown key '%s'", line->number, key);
+    }
+    for (int i = 0; i < ends.weights; i++)
+        for (int j = 0; j < ends.weights; j++) {
+            scene->K[ends.floor[i]][ends.floor[j]] += ends.weight[i] * ends.weight[j] * slip.k;
+            scene->C[ends.floor[i]][ends.floor[j]] += ends.weight[i] * ends.weight[j] * dashpot;
+        }
+    if (slips)
+        add_slip(scene, &ends, &slip, line->number);
+}
+
 void read_scene(const char *path, Scene *scene)
 {
     FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "r");
@@ -422,6 +471,8 @@ void read_scene(const char *path, Scene *scene)
             begin_building(&reader, (int)value(&line, 1));
         else if (strcmp(key, "contact") == 0 && scene->left_floors)
             read_contact(scene, &line);
+        else if (strcmp(key, "link") == 0 && scene->left_floors)
+            read_link(scene, &line);
         else if (!read_building_line(&reader, &line))
             fail("line %d: '%s' not understood here", line.number, key);
     }

@@ -13,7 +13,7 @@ from decimal import Decimal
 from facing import contacts, position
 
 # What is in t or with kN where a scene says so.
-IN_KN_T = {"mass", "stiffness", "stiffness_matrix", "yield_force", "matrix", "dashpots", "gravity_load"}
+IN_KN_T = {"mass", "stiffness", "stiffness_matrix", "yield_force", "matrix", "dashpots", "gravity_load", "dashpot", "slip_force"}
 
 
 def in_si_units(value, is_scaled=False):
@@ -98,6 +98,14 @@ def contact_line(scene, contact):
     return " ".join(words)
 
 
+def link_line(scene, link):
+    words = ["link", *(place(scene, link, side) for side in ("left", "right"))]
+    for key in ("stiffness", "dashpot", "slip_force", "post_yield_ratio"):
+        if key in link:
+            words += [key, numbers([link[key]])]
+    return " ".join(words)
+
+
 def record_lines(ground, scene_folder, other_record):
     record = other_record
     if record is None and "record" in ground:
@@ -125,7 +133,8 @@ def convert(path, step, stop, record):
     for side in ("left", "right"):
         if side in scene:
             lines += building_lines(scene[side])
-    return lines + [contact_line(scene, contact) for contact in contacts(scene)]
+    lines += [contact_line(scene, contact) for contact in contacts(scene)]
+    return lines + [link_line(scene, link) for link in scene.get("link", [])]
 
 
 def main():

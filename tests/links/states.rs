@@ -1,0 +1,117 @@
+//! States that are saved while a damper slips go on to the same bits, also through bytes; forged ones are refused.
+
+use crate::common::{Run, record};
+use crate::devices::{between, bits, linked, of_link, shaken, slipping, to_wall};
+use pounding::engine::{LinkOutput, SavedState, Side};
+use pounding::record::Record;
+use pounding::scene::Scene;
+
+/// 4 s at 64 Hz that begin with 0.
+fn shaking() -> Record {
+    let t = |k: i32| f64::from(k) / 64.0;
+    record(1.0 / 64.0, &(0..=256).map(|k| 4.0 * (9.0 * t(k)).sin() + 2.0 * (31.0 * t(k)).sin()).collect::<Vec<_>>())
+}
+
+/// A friction damper, and a device to the ground that yields.
+fn scene(law: &str) -> Scene {
+    let text = format!(
+        "[left]\nmass = [4e4, 3e4]\nstiffness = [3e7, 2e7]\ndamping = {{ ratio = 0.03 }}\n\
+         [right]\nmass = [3e4, 2e4]\nstiffness = [5e7, 3e7]\ndamping = {{ ratio = 0.05 }}\n\
+         [[contact]]\nleft_floor = 2\nright_floor = 2\ngap = 0.008\n{law}\n"
+    );
+    let damper = slipping(between(2, 2, 3e7, 0.0), 4e4, 0.0);
+    linked(&text, &[damper, slipping(to_wall(Side::Left, 1, 1e7, 1e5), 3e4, 0.1)])
+}
+
+const LAWS: [&str; 2] =
+    ["law = \"kelvin_voigt\"\nstiffness = 2e8\nrestitution = 0.65", "law = \"stereomechanical\"\nrestitution = 0.6"];
+
+fn through_bytes(saved: &SavedState) -> SavedState {
+    postcard::from_bytes(&postcard::to_allocvec(saved).unwrap()).unwrap()
+}
+
+#[test]
+fn saved_while_it_slips() {
+    for law in LAWS {
+        let new = || shaken(scene(law), &shaking());
+        let expected = bits(new().to(4.0), 2);
+        let (mut run, mut other) = (new(), new());
+        let mut slipping = [0; 2];
+        for k in 1..200 {
+            run.to(0.02 * f64::from(k));
+            let senses = [0, 1].map(|link| of_link(&run, link, LinkOutput::Slipping) != 0.0);
+            slipping.iter_mut().zip(senses).for_each(|(count, slips)| *count += i32::from(slips));
+            let saved = run.save();
+            let read = through_bytes(&saved);
+            run.model.check_saved(&read).unwrap_or_else(|error| panic!("{law}, {} s: {error}", saved.time()));
+            other.model.restore(&read, &mut other.state);
+            other.to(saved.time());
+            assert!(bits(&other, 2) == bits(&run, 2), "{law}: another state is read at {} s", saved.time());
+            assert!(bits(other.to(4.0), 2) == expected, "{law}: saved at {} s", saved.time());
+        }
+        assert!(slipping.iter().all(|count| *count > 10), "{law}: slips at {slipping:?} of 200 times");
+    }
+}
+
+/// The state with each number of a value changed, as bytes: where the eight bytes of the value are.
+fn forged(saved: &SavedState, value: f64, other: f64) -> Vec<SavedState> {
+    let bytes = postcard::to_allocvec(saved).unwrap();
+    let places = (0..bytes.len() - 7).filter(|&i| bytes[i..i + 8] == value.to_le_bytes());
+    let put = |place: usize| {
+        let mut bytes = bytes.clone();
+        bytes[place..place + 8].copy_from_slice(&other.to_le_bytes());
+        postcard::from_bytes(&bytes).unwrap()
+    };
+    places.map(put).collect()
+}
+
+#[track_caller]
+fn assert_refused(run: &Run, saved: &SavedState, what: &str) {
+    let Err(error) = run.model.check_saved(saved) else { panic!("{what} at {} s is taken", saved.time()) };
+    println!("{what}: {error}");
+}
+
+/// A damper that would be beyond its slip force, slip without being at it, or have slipped less than it has.
+#[test]
+fn forged_slips_are_refused() {
+    for law in LAWS {
+        let mut run = shaken(scene(law), &shaking());
+        let (mut tried, mut while_slipping) = (0, 0);
+        for k in 50..200 {
+            run.to(0.02 * f64::from(k));
+            let saved = run.save();
+            for link in 0..2 {
+                // The state is that of the last step's start, where the slip may have been another.
+                let slip = of_link(&run, link, LinkOutput::Slip);
+                let limit = [4e4 / 3e7, 3e4 / 1e7][link];
+                let is_slipping = of_link(&run, link, LinkOutput::Slipping) != 0.0;
+                let moved = [slip + 2.1 * limit, slip - 2.1 * limit, 1e300, f64::NAN];
+                for state in moved.into_iter().flat_map(|other| forged(&saved, slip, other)) {
+                    assert_refused(&run, &state, &format!("{law}: link {link}"));
+                    tried += 1;
+                    while_slipping += i32::from(is_slipping);
+                }
+            }
+        }
+        assert!(tried > 200, "{law}: {tried} tried, {while_slipping} of them while slipping");
+    }
+}
+
+/// A state of the same buildings with other links.
+#[test]
+fn states_of_other_links_are_refused() {
+    let mut run = shaken(scene(LAWS[0]), &shaking());
+    let saved = run.to(1.0).save();
+    let mut fewer = scene(LAWS[0]);
+    fewer.links.pop();
+    let mut rigid = scene(LAWS[0]);
+    rigid.links[0].slip = None;
+    let mut more = scene(LAWS[0]);
+    more.links.push(between(1, 1, 1e6, 0.0));
+    let mut none = scene(LAWS[0]);
+    none.links.clear();
+    for (scene, what) in [(fewer, "fewer"), (rigid, "one that does not slip"), (more, "more"), (none, "none")] {
+        assert_refused(&shaken(scene, &shaking()), &saved, what);
+    }
+    run.model.check_saved(&saved).unwrap();
+}
