@@ -22,13 +22,14 @@
 //! ```
 //!
 //! A new output or input is named in the engine (`engine/output/outputs.rs`, `engine/excitation/inputs.rs`), a new
-//! parameter in `slot.rs`; its row is in `rows.rs`, and the compiler asks for the arms: of a parameter in `values.rs`,
+//! parameter in `slot.rs`; its row is in `rows.rs` (of links: `link_rows.rs`), and the compiler asks for the arms: of a parameter in `values.rs`,
 //! of an output in `initial_dependencies.rs`.
 
 mod changes;
 mod dependencies;
 mod derivatives;
 mod initial_dependencies;
+mod link_rows;
 mod rows;
 mod slot;
 mod table;

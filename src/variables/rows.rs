@@ -1,29 +1,29 @@
-//! The rows of the table: which variables a scene has, and what a user reads about them.
+//! The rows of the table: which variables a scene has, and what a user reads about them. Those of links: `link_rows.rs`.
 
 use super::slot::{Calculated, Parameter, Slot};
 use super::table::{Row, Table, Type, Variability};
 use super::unit::Unit;
 use crate::contact::LawKey;
-use crate::engine::{ContactOutput, EnergyOutput, Input, LinkOutput, Output, PeakOf, Side, StoreyPeak, YieldingOf};
+use crate::engine::{ContactOutput, EnergyOutput, Input, Output, PeakOf, Side, StoreyPeak, YieldingOf};
 use crate::figures::six_decimals;
-use crate::scene::{Building, ContactPair, Damping, Link, Scaling, Scene, Slip, Stiffness, rule};
+use crate::scene::{Building, ContactPair, Damping, Scaling, Scene, Stiffness, rule};
 
 // The motion that the nominal values stand for: m, m/s and m/s2.
-const DISPLACEMENT: f64 = 0.01;
-const VELOCITY: f64 = 0.1;
+pub(super) const DISPLACEMENT: f64 = 0.01;
+pub(super) const VELOCITY: f64 = 0.1;
 const ACCELERATION: f64 = 1.0;
 
 // Where the scene has none.
 const DAMPING_RATIO: f64 = 0.05;
-const POST_YIELD_RATIO: f64 = 0.05;
+pub(super) const POST_YIELD_RATIO: f64 = 0.05;
 
-const ONE: Type = Type::Real(Unit::One);
-const METRE: Type = Type::Real(Unit::Metre);
-const METRE_PER_SECOND: Type = Type::Real(Unit::MetrePerSecond);
+pub(super) const ONE: Type = Type::Real(Unit::One);
+pub(super) const METRE: Type = Type::Real(Unit::Metre);
+pub(super) const METRE_PER_SECOND: Type = Type::Real(Unit::MetrePerSecond);
 const METRE_PER_SECOND_SQUARED: Type = Type::Real(Unit::MetrePerSecondSquared);
-const NEWTON: Type = Type::Real(Unit::Newton);
+pub(super) const NEWTON: Type = Type::Real(Unit::Newton);
 const NEWTON_SECOND: Type = Type::Real(Unit::NewtonSecond);
-const JOULE: Type = Type::Real(Unit::Joule);
+pub(super) const JOULE: Type = Type::Real(Unit::Joule);
 const SECOND: Type = Type::Real(Unit::Second);
 
 impl Table {
@@ -336,89 +336,6 @@ impl Table {
         row.variability = Variability::Discrete;
     }
 
-    /// The parameters that a link has.
-    fn add_link(&mut self, l: usize, link: &Link, meeting: &str) {
-        let name = |quantity: &str| format!("link[{}].{quantity}", l + 1);
-        if link.stiffness > 0.0 {
-            let (ty, about) = (Type::Real(Unit::NewtonPerMetre), format!("stiffness of the link {meeting}"));
-            let row = self.add(Parameter::LinkStiffness(l), &name("stiffness"), ty, &about);
-            row.at_least(0.0).nominal(link.stiffness);
-        }
-        if link.dashpot > 0.0 {
-            let (ty, about) = (Type::Real(Unit::NewtonSecondPerMetre), format!("dashpot of the link {meeting}"));
-            self.add(Parameter::LinkDashpot(l), &name("dashpot"), ty, &about).at_least(0.0).nominal(link.dashpot);
-        }
-        let Some(Slip { force, ratio }) = link.slip else { return };
-        let about = format!("force of the spring at which the link {meeting} first slips");
-        self.add(Parameter::SlipForce(l), &name("slip_force"), NEWTON, &about).at_least(0.0).nominal(force);
-        let about = format!("stiffness while it slips over that before, of the link {meeting}");
-        let row = self.add(Parameter::LinkPostYieldRatio(l), &name("post_yield_ratio"), ONE, &about);
-        row.between(0.0, 1.0).nominal(if ratio > 0.0 { ratio } else { POST_YIELD_RATIO });
-    }
-
-    fn add_link_outputs(&mut self, (l, link): (usize, &Link), scene: &Scene, meeting: &str) {
-        use LinkOutput as L;
-        let slips = link.slip.is_some();
-        let force = link.slip.map_or(link.stiffness * DISPLACEMENT + link.dashpot * VELOCITY, |slip| slip.force);
-        let (largest, path) =
-            ("largest so far, of either sign, between communication points too, of the", "sum so far of all slips");
-        let (of_force, of_displacement) =
-            ("force, pushing its ends apart positive,", "displacement, its ends nearer positive,");
-        let velocity = "velocity, its ends coming nearer positive,";
-        let (slipped, sense) =
-            ("slip of the spring", "1 or -1 while it slips, its ends coming nearer or going apart, else 0,");
-        let dissipates = slips || link.dashpot > 0.0 && scene.energy;
-        for (output, quantity, ty, nominal, about, exists) in [
-            (Output::Link(l, L::Force), "force", NEWTON, force, of_force.to_owned(), true),
-            (Output::Link(l, L::Displacement), "displacement", METRE, DISPLACEMENT, of_displacement.to_owned(), true),
-            (Output::Link(l, L::Velocity), "velocity", METRE_PER_SECOND, VELOCITY, velocity.to_owned(), true),
-            (Output::Peak(PeakOf::LinkForce(l)), "peak_force", NEWTON, force, format!("{largest} force"), scene.peaks),
-            (
-                Output::Peak(PeakOf::LinkDisplacement(l)),
-                "peak_displacement",
-                METRE,
-                DISPLACEMENT,
-                format!("{largest} displacement"),
-                scene.peaks,
-            ),
-            (Output::Link(l, L::Slip), "slip", METRE, DISPLACEMENT, slipped.to_owned(), slips),
-            (Output::Link(l, L::SlipTravel), "slip_travel", METRE, DISPLACEMENT, path.to_owned(), slips),
-            (Output::Link(l, L::Slipping), "slipping", Type::Integer, 1.0, sense.to_owned(), slips),
-            (
-                Output::Link(l, L::DissipatedEnergy),
-                "dissipated_energy",
-                JOULE,
-                force * DISPLACEMENT,
-                "energy dissipated so far".to_owned(),
-                dissipates,
-            ),
-        ] {
-            if !exists {
-                continue;
-            }
-            let about = format!("{about} of the link {meeting}");
-            let row = self.add(output, &format!("link[{}].{quantity}", l + 1), ty, &about);
-            row.nominal(nominal);
-            match output {
-                Output::Peak(_) | Output::Link(_, L::SlipTravel) => _ = row.at_least(0.0),
-                Output::Link(_, L::Slipping) => _ = row.between(-1.0, 1.0),
-                _ => {}
-            }
-        }
-    }
-
-    /// What the buildings have together, with their links.
-    fn add_system(&mut self, scene: &Scene) {
-        let buildings = || [&scene.left, &scene.right].into_iter().filter(|building| !building.is_absent());
-        let typical = buildings().map(typical_frequency).fold(0.0, f64::max);
-        for mode in 0..buildings().map(|building| building.mass.len()).sum() {
-            let (i, ty) = (mode + 1, Type::Real(Unit::Hertz));
-            let about = format!("natural frequency {i} of the buildings with their links, without damping");
-            let row = self.add(Calculated::SystemFrequency(mode), &format!("system.frequency[{i}]"), ty, &about);
-            row.at_least(0.0).nominal(typical);
-        }
-    }
-
     fn add_energy(&mut self, scene: &Scene) {
         use EnergyOutput as E;
         let mass: f64 = scene.left.mass.iter().chain(&scene.right.mass).sum();
@@ -455,7 +372,7 @@ impl Table {
         self.add(Output::Energy(E::Residual), "energy.residual", ONE, about).nominal(1.0);
     }
 
-    fn add(&mut self, slot: impl Into<Slot>, name: &str, ty: Type, description: &str) -> &mut Row {
+    pub(super) fn add(&mut self, slot: impl Into<Slot>, name: &str, ty: Type, description: &str) -> &mut Row {
         let slot = slot.into();
         let variability = match slot {
             Slot::Parameter(_) | Slot::Calculated(_) => Variability::Fixed,
@@ -477,18 +394,18 @@ impl Row {
         (!is_inside).then(|| format!("{} = {value:?}: expected a number from {min:e} to {max:e}", self.name))
     }
 
-    fn at_least(&mut self, min: f64) -> &mut Row {
+    pub(super) fn at_least(&mut self, min: f64) -> &mut Row {
         self.min = Some(min);
         self
     }
 
-    fn between(&mut self, min: f64, max: f64) -> &mut Row {
+    pub(super) fn between(&mut self, min: f64, max: f64) -> &mut Row {
         (self.min, self.max) = (Some(min), Some(max));
         self
     }
 
     /// Reals only, and where the numbers of the scene give a magnitude that the standard accepts.
-    fn nominal(&mut self, value: f64) -> &mut Row {
+    pub(super) fn nominal(&mut self, value: f64) -> &mut Row {
         let accepted = matches!(self.ty, Type::Real(_)) && value > 0.0 && value.is_finite();
         self.nominal = accepted.then_some(value);
         self
@@ -496,7 +413,7 @@ impl Row {
 }
 
 /// Hz: that of a floor on its storeys, whatever the others do.
-fn typical_frequency(building: &Building) -> f64 {
+pub(super) fn typical_frequency(building: &Building) -> f64 {
     let stiffness: f64 = match &building.stiffness {
         Stiffness::Shear(storeys) => storeys.iter().sum(),
         Stiffness::Matrix(rows) => rows.iter().enumerate().map(|(i, row)| row[i]).sum(),

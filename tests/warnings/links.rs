@@ -23,16 +23,16 @@ fn tell(text: &str, path: &str, words: &str) {
 #[test]
 fn springs_and_dashpots_that_are_ties() {
     tell(
-        &linked(LINK, &[("5e6", "3.3e9")]),
+        &linked(LINK, &[("= 5e6", "= 3.3e9")]),
         "link[1].stiffness",
         "11 times the stiffest storey, so it ties the buildings",
     );
     let wall = ("right_floor = 3", "wall = \"right\"");
-    tell(&linked(LINK, &[("5e6", "3.3e9"), wall]), "link[1].stiffness", "ties the floor to the ground");
+    tell(&linked(LINK, &[("= 5e6", "= 3.3e9"), wall]), "link[1].stiffness", "ties the floor to the ground");
     tell(&linked(LINK, &[("1.5e6", "1.5e8")]), "link[1].dashpot", "times critical damping, so it ties the buildings");
     tell(&linked(LINK, &[("1.5e6", "1.5e9"), wall]), "link[1].dashpot", "so it ties the floor to the ground");
-    let two = linked(LINK, &[("5e6", "3.3e9")]);
-    let two = edited(&two, &[(AFTER, &format!("{}{AFTER}", edited(LINK, &[("5e6", "3.4e9")])))]);
+    let two = linked(LINK, &[("= 5e6", "= 3.3e9")]);
+    let two = edited(&two, &[(AFTER, &format!("{}{AFTER}", edited(LINK, &[("= 5e6", "= 3.4e9")])))]);
     tell(&two, "link[1].stiffness", "(likewise link[2])");
 }
 
@@ -72,7 +72,7 @@ fn springs_that_never_slip_or_always_do() {
 fn sound_links() {
     for (link, changes) in [
         (LINK, &[][..]),
-        (LINK, &[("5e6", "2.9e9")]),
+        (LINK, &[("= 5e6", "= 2.9e9")]),
         (LINK, &[("right_floor = 3", "wall = \"right\"")]),
         (LINK, &[("left_floor = 3", "wall = \"left\"")]),
         (LINK, &[("stiffness = 5e6\n", "")]),
