@@ -119,7 +119,8 @@ fn a_damper_between_equal_storeys_is_one_oscillator() {
     let (mut most, mut slips) = (0.0_f64, 0);
     for k in 1..=400 {
         let time = 0.05 * f64::from(k);
-        (pair.to(time), one.to(time));
+        pair.to(time);
+        one.to(time);
         let (moved, shown) = (one.displacement(Side::Left, 0), one.storey(Side::Left, 0));
         most = most.max(moved.abs());
         slips += i32::from(shown.sense != 0);
@@ -134,7 +135,10 @@ fn a_damper_between_equal_storeys_is_one_oscillator() {
     assert!(slips > 5, "slips at {slips} of 400 times");
 }
 
-const LINKED: [((usize, usize), (f64, f64), Option<(f64, f64)>); 2] =
+/// Floors, spring and dashpot, slip force and ratio.
+type Device = ((usize, usize), (f64, f64), Option<(f64, f64)>);
+
+const LINKED: [Device; 2] =
     [((2, 2), (3e7, 5e4), Some((6e4, 0.0))), ((3, 1), (8e6, 1e5), Some((4e4, 0.1)))];
 
 /// Frames that yield, of which one leans, with two links that slip.

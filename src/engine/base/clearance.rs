@@ -96,7 +96,7 @@ impl Clearance {
         let is_first = |due: u64| free.iter().min().is_none_or(|first| due == *first);
         free.len() == pairs
             && known.len() == pairs
-            && *next_look <= furthest
+            && (free.is_empty() || *next_look <= furthest)
             && *moves <= most_moves
             && known.iter().all(|move_| move_ <= moves)
             && free.iter().all(|first| *first <= furthest)
@@ -127,5 +127,8 @@ mod tests {
         assert!(!fits(clearance(90, &[90], 50, &[0, 50])) && !fits(clearance(90, &[90, 164], 50, &[0])), "other pairs");
         // Without pairs, before and after the first broad phase.
         assert!(clearance(0, &[], 0, &[]).fits(0, 0, 10) && clearance(u64::MAX, &[], 3, &[]).fits(0, 5, 10));
+        let mut of_none = Clearance::new(0);
+        of_none.note(of_none.first_due(), u64::MAX);
+        assert!(of_none.fits(0, 5, 10), "no pair is looked at ever again");
     }
 }
