@@ -46,8 +46,6 @@ fn apart(mut one: Run, mut other: Run) -> (f64, [Run; 2]) {
 fn the_usual_slip_force_slips() {
     let (worst, [one, _]) = apart(run(Some(slipping(brace(), USUAL, 0.0))), run(Some(brace())));
     println!("{worst:.1e}, {} m", of_link(&one, 0, LinkOutput::SlipTravel));
-    println!("{worst:e} {} {}", of_link(&one, 0, LinkOutput::SlipTravel), of_link(&one, 0, LinkOutput::Force));
-    println!("{:e}", run(Some(brace())).to(5.0).peak(pounding::engine::PeakOf::LinkForce(0)));
     assert!(worst > 0.1 && of_link(&one, 0, LinkOutput::SlipTravel) > 10.0 * USUAL / 3e7, "{worst:.1e}");
 }
 
@@ -88,13 +86,11 @@ fn braces_and_slip_forces_of_every_size() {
         for force in [USUAL * 1e-6, USUAL * 1e-3, USUAL, 1e3 * USUAL] {
             for ratio in [0.0, 0.3] {
                 let brace = slipping(between(2, 2, stiffness, 0.0), force, ratio);
-                let begun = std::time::Instant::now();
                 let mut steps = run(Some(brace.clone()));
                 let mut whole = run(Some(brace));
                 steps.in_steps(0.01, 5.0);
                 let residual = whole.to(5.0).energy().residual;
                 let what = format!("{stiffness:e} N/m, {force:e} N, ratio {ratio}");
-                println!("{what}: {:?} {residual:e} {}", begun.elapsed(), of_link(&whole, 0, LinkOutput::SlipTravel));
                 assert!(residual.abs() < 1e-11, "{what}: {residual:e}");
                 assert!(bits(&steps, 2) == bits(&whole, 2), "{what}");
             }
