@@ -215,6 +215,7 @@ fn every_scene_key_is_in_the_reference() {
     for law in LawKind::ALL {
         text += &format!("[[contact]]\nleft_floor = 1\nright_floor = 1\nlaw = \"{}\"\nx = 0\n", law.info().name);
     }
+    text += "[[link]]\nx = 0\n";
     let facing = format!("name = \"A\"\n[left]\n{building}[facing]\nlaw = \"hertz_damped\"\nx = 0\n");
     let reference = section(&read("docs/reference.md"), "## The scene");
     let cells = first_cells(&reference);
@@ -224,7 +225,7 @@ fn every_scene_key_is_in_the_reference() {
         let section = path.split('[').next().unwrap().trim_end_matches('.').replace("right", "left");
         for key in between(&problem.expected, " (", ")").next().unwrap().split(", ") {
             let is_table =
-                ["left", "right", "ground", "inputs", "contact", "facing", "outputs", "solver"].contains(&key);
+                ["left", "right", "ground", "inputs", "contact", "facing", "link", "outputs", "solver"].contains(&key);
             let name = format!("{section}.{key}");
             let known = is_table && section.is_empty()
                 || cells.contains(name.trim_start_matches('.'))
@@ -233,7 +234,7 @@ fn every_scene_key_is_in_the_reference() {
         }
         sections.insert(section);
     }
-    assert_eq!(sections.len(), 9, "{sections:?}");
+    assert_eq!(sections.len(), 10, "{sections:?}");
 }
 
 #[test]
@@ -265,13 +266,19 @@ fn the_variables_of_the_reference_are_those_of_the_table() {
     let driven = scene.lines().filter(|line| !line.starts_with("record") && !line.starts_with("pga"));
     let driven: String = driven.flat_map(|line| [line, "\n"]).collect();
     let mut variables = BTreeSet::new();
-    for scene in [&scene, &driven, &facing_buildings(), &without_outputs("yielding"), &without_outputs("leaning")] {
+    let linked = format!("{driven}{LINKS}");
+    let others = [facing_buildings(), without_outputs("yielding"), without_outputs("leaning"), linked];
+    for scene in [&scene, &driven].into_iter().chain(&others) {
         let scene =
             Scene::from_toml(&format!("{scene}[inputs]\nfloor_forces = true\n[outputs]\nenergy = true")).unwrap();
         for row in Table::new(&scene).rows {
             let name = row.name.replace("right", "left");
             let (before, rest) = name.split_once('[').unwrap_or((&name, ""));
-            let counter = if before == "contact" { "p" } else { "i" };
+            let counter = match before {
+                "contact" => "p",
+                "link" => "l",
+                _ => "i",
+            };
             let (_, after) = rest.split_once(']').unwrap_or(("", ""));
             variables.insert(if rest.is_empty() { name.clone() } else { format!("{before}[{counter}]{after}") });
         }
@@ -280,6 +287,9 @@ fn the_variables_of_the_reference_are_those_of_the_table() {
     let described: BTreeSet<String> = first_cells(&table).into_iter().map(str::to_owned).collect();
     assert_eq!(described, variables);
 }
+
+/// Of two buildings, with every variable that there is.
+const LINKS: &str = "[[link]]\nleft_floor = 1\nright_floor = 1\nstiffness = 1e3\ndashpot = 10\nslip_force = 5\n";
 
 /// An example without its outputs.
 fn without_outputs(name: &str) -> String {
@@ -304,9 +314,15 @@ fn the_derivatives_of_the_coupling_page_are_those_that_there_are() {
     let general = |name: &str| numbers.iter().fold(name.to_owned(), |name, i| name.replace(i, "[i]"));
     let facing = Scene::from_toml(&facing_buildings()).unwrap();
     let leaning = Scene::from_toml(&read("examples/scenes/leaning.toml")).unwrap();
-    let rows = [&scene, &facing, &leaning].map(|scene| Table::new(scene).rows).concat();
+    let linked = Scene::from_toml(&format!("{text}{LINKS}[outputs]\nenergy = true")).unwrap();
+    let rows = [&scene, &facing, &leaning, &linked].map(|scene| Table::new(scene).rows).concat();
     let expected: BTreeSet<String> = (rows.iter().filter(is_real_output))
-        .map(|row| general(&row.name).replace("right", "left").replace("contact[i]", "contact[p]"))
+        .map(|row| {
+            general(&row.name)
+                .replace("right", "left")
+                .replace("contact[i]", "contact[p]")
+                .replace("link[i]", "link[l]")
+        })
         .collect();
     let table = section(&read("docs/coupling.md"), "## Derivatives of outputs with respect to time");
     let described: BTreeSet<String> = first_cells(&table).into_iter().map(str::to_owned).collect();

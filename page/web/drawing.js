@@ -1,6 +1,7 @@
-// One picture of the buildings on a canvas: ground, slabs, columns, walls, contacts, and the impacts that have just
-// been.
+// One picture of the buildings on a canvas: ground, slabs, columns, walls, contacts, links, and the impacts that have
+// just been.
 
+import { Devices } from "./devices.js";
 import { bend } from "./geometry.js";
 import { SIDES } from "./motion.js";
 
@@ -8,6 +9,10 @@ const COLUMN_POINTS = 12;
 const MOST_NUMBERS = 12;
 // Pixels, the radius of a number's circle.
 const NUMBER = 8;
+// Pixels: how far from the edge of a slab a link begins, and how far from there what holds its link on the ground is, beyond the
+// farthest that a floor goes.
+const INSET = 24;
+const TO_GROUND = 30;
 
 // How a picture is laid out in a rectangle of the canvas: pixels per m across and per level upwards.
 export function layOut(geometry, box, reach, size) {
@@ -20,7 +25,7 @@ export function layOut(geometry, box, reach, size) {
   const middle = geometry.sides.includes("left") ? (two ? geometry.gap / 2 : -width / across / 2) : width / across / 2;
   const x = (metres) => box.x + box.width / 2 + (metres - middle) * across;
   const y = (level) => box.y + box.height - 36 - (level - geometry.bottom) * up;
-  return { box, up, across, x, y, width };
+  return { box, up, across, x, y, width, farthest: reach * across };
 }
 
 export class Drawing {
@@ -28,14 +33,15 @@ export class Drawing {
     Object.assign(this, { context, geometry, place, colours });
     const storeys = Math.max(geometry.floors.left, geometry.floors.right);
     const storey = ((geometry.top - geometry.bottom) * place.up) / Math.max(1, storeys);
+    this.storey = storey;
     this.largestFlash = Math.max(14, 0.5 * storey + 4);
     this.slab = Math.max(1, Math.min(11, 0.16 * storey));
     this.column = Math.max(1.5, Math.min(6, 0.035 * place.width));
     this.hatch = makeHatch(context, colours);
   }
 
-  // The moment: displacements, which storeys yield, and the flashes.
-  draw({ moved, yielding, flashes, ground, caption, numbered }) {
+  // The moment: displacements, which storeys yield, which links slip, and the flashes.
+  draw({ moved, yielding, slipping, flashes, ground, caption, numbered }) {
     const { context, place } = this;
     context.save();
     context.beginPath();
@@ -44,6 +50,7 @@ export class Drawing {
     this.#ground(ground);
     for (const wall of this.geometry.walls) this.#wall(wall);
     for (const side of this.geometry.sides) this.#building(side, moved[side], yielding);
+    this.#links(moved, slipping);
     for (const flash of flashes) this.#flash(flash, moved);
     if (numbered) this.#numbers(moved);
     if (caption) this.#text(caption, place.box.x + place.box.width / 2, place.box.y + 14, "quiet", "center");
@@ -100,8 +107,7 @@ export class Drawing {
 
   #wall(contact) {
     const { context, place, geometry, colours } = this;
-    const rest = Object.fromEntries(SIDES.map((side) => [side, geometry.levels[side].map(() => 0)]));
-    const faces = geometry.faces(contact, rest, place.width / place.across);
+    const faces = geometry.faces(contact, geometry.atRest(), place.width / place.across);
     const onLeft = contact.wall === "left";
     const face = place.x(faces[onLeft ? 0 : 1]);
     const top = place.y(contact.height) - 14;
@@ -153,6 +159,32 @@ export class Drawing {
       context.fillStyle = this.hatch.right;
       context.fillRect(x, y - slab / 2, place.width, slab);
     }
+  }
+
+  #links(moved, slipping) {
+    const { geometry, slab } = this;
+    const devices = new Devices(this.context, this.colours, this.storey);
+    geometry.links.forEach((link, at) => {
+      const rest = this.#linkAt(link, geometry.atRest());
+      const [from, to] = this.#linkAt(link, moved, rest);
+      const keys = SIDES.map((side) => `${side} ${link.surfaces[side].floor ?? link.surfaces[other(side)].floor}`);
+      const length = Math.hypot(rest[1].x - rest[0].x, rest[1].y - rest[0].y);
+      const grounded = SIDES.find((side) => link.surfaces[side].kind === "wall");
+      devices.draw({ parts: link.parts, from, to, rest: length, keys, slab, grounded, slips: slipping[at] });
+    });
+  }
+
+  // Where a link begins and ends, in pixels; what is on the ground stays where it is at rest.
+  #linkAt(link, moved, rest) {
+    const { place, geometry } = this;
+    const inset = Math.min(INSET, 0.3 * place.width);
+    const points = geometry.ends(link, moved, place.width / place.across).map((end, at) => {
+      return end && { x: place.x(end.x) + (at === 0 ? -inset : inset), y: place.y(end.level) };
+    });
+    return points.map((point, at) => {
+      const away = (at === 0 ? -1 : 1) * (inset + TO_GROUND + place.farthest);
+      return point ?? rest?.[at] ?? { x: points[1 - at].x + away, y: points[1 - at].y };
+    });
   }
 
   // The numbers of the contacts, as in the table, above what meets there; those that would cover others stand beside
@@ -232,3 +264,5 @@ function makeHatch(context, colours) {
   };
   return { right: stripes(colours.card, 0.6), quiet: stripes(colours.quiet) };
 }
+
+const other = (side) => SIDES.find((one) => one !== side);

@@ -21,6 +21,7 @@ export class Geometry {
     );
     this.gap = this.contacts.reduce((most, { gap }) => Math.max(most, Math.abs(gap)), 0);
     this.walls = this.contacts.filter((contact) => contact.wall);
+    this.links = layout.links.map(({ left, right, parts }) => ({ surfaces: { left, right }, parts }));
   }
 
   #levelsOf(building) {
@@ -55,18 +56,25 @@ export class Geometry {
     return this.levels.right.map((level) => interpolate(known, level));
   }
 
+  // Displacements of floors that are not displaced.
+  atRest() {
+    return Object.fromEntries(SIDES.map((side) => [side, this.levels[side].map(() => 0)]));
+  }
+
   // Left and right side of the gap of a contact, m across, for floors that are displaced; `width` is that of a
   // building.
   faces({ surfaces, gap }, moved, width) {
     const [left, right] = SIDES.map((on) => this.#face(surfaces[on], on, moved, width));
-    const still = (on) =>
-      this.#face(
-        surfaces[on],
-        on,
-        { left: this.levels.left.map(() => 0), right: this.levels.right.map(() => 0) },
-        width,
-      );
+    const still = (on) => this.#face(surfaces[on], on, this.atRest(), width);
     return [left ?? still("right") - gap, right ?? still("left") + gap];
+  }
+
+  // Level and place of the faces that a link joins; null for the ground.
+  ends({ surfaces }, moved, width) {
+    return SIDES.map((on) => {
+      const x = this.#face(surfaces[on], on, moved, width);
+      return x === null ? null : { x, level: this.#heightOf(surfaces[on]) };
+    });
   }
 
   // That of a building which is on the given side of the gap; null for a wall.

@@ -1,5 +1,5 @@
-// Loops: force over penetration of an impact, storey shear over drift of storeys that can yield. What one encloses is
-// lost.
+// Loops: force over penetration of an impact, storey shear over drift of storeys that can yield, force over displacement of
+// links. What one encloses is lost.
 
 import { digits, handyUnit, largestOf, quantity, seconds, withUnit } from "./format.js";
 import { element, make, onceAFrame } from "./make.js";
@@ -9,6 +9,7 @@ import { endOf, hardestOf } from "./strength.js";
 import { drawAxes } from "./xy.js";
 
 const MOST_STOREYS = 12;
+const MOST_LINKS = 12;
 
 export class Loops {
   constructor(state) {
@@ -23,9 +24,9 @@ export class Loops {
     const { run } = this.state;
     const panel = element("panel-loops");
     panel.replaceChildren();
-    this.figures = [this.#impact(), ...this.#storeys()].filter(Boolean);
+    this.figures = [this.#impact(), ...this.#links(), ...this.#storeys()].filter(Boolean);
     if (this.figures.length === 0)
-      make(panel, "p", "No impact that presses with a force over a penetration, and no storey that can yield.", {
+      make(panel, "p", "No impact that presses with a force over a penetration, no link, and no storey that can yield.", {
         class: "hint",
       });
     for (const figure of this.figures) {
@@ -61,6 +62,30 @@ export class Loops {
       units: ["m", "N"],
       ink: "ink",
     };
+  }
+
+  // Of many those with the largest force.
+  #links() {
+    const { columns, look, time } = this.state.run;
+    const of = (link, part) => columns[`link[${link}].${part}`];
+    const known = look.layout.links.map((device, at) => ({ ...device, link: at + 1 }));
+    const figures = known.flatMap(({ link, meeting, parts }) => {
+      const [force, displacement] = ["force", "displacement"].map((part) => of(link, part));
+      if (!force || !displacement) return [];
+      const largest = largestOf(force);
+      const figure = {
+        caption: `Link ${link} ${meeting}, ${parts.join(" and ")}: ${quantity(largest, "N", 3)}`,
+        x: displacement,
+        y: force,
+        times: time,
+        titles: ["displacement", "force"],
+        units: ["m", "N"],
+        ink: "ink",
+      };
+      return [{ largest, figure }];
+    });
+    figures.sort((a, b) => b.largest - a.largest);
+    return figures.slice(0, MOST_LINKS).map(({ figure }) => figure);
   }
 
   // Of many those with the largest ductility.

@@ -1,5 +1,5 @@
-// The largest values of a run, as long as the scene keeps them: of each floor and storey, the top first, with the
-// times at which they were reached; a time goes there.
+// The largest values of a run, as long as the scene keeps them: of each floor and storey, the top first, and of each link,
+// with the times at which they were reached; a time goes there.
 
 import { GRAVITY, digits, handyUnit, largestOf, plural, seconds, withUnit } from "./format.js";
 import { element, make } from "./make.js";
@@ -10,6 +10,11 @@ const QUANTITIES = [
   { part: "peak_displacement", title: "displacement", unit: "m" },
   { part: "peak_acceleration", title: "acceleration", unit: "m/s2", inG: true },
   { part: "peak_drift_ratio", title: "drift / height", unit: "1", percent: true },
+];
+
+const OF_LINKS = [
+  { part: "peak_force", title: "force", unit: "N" },
+  { part: "peak_displacement", title: "displacement", unit: "m" },
 ];
 
 export class Peaks {
@@ -33,6 +38,7 @@ export class Peaks {
         { class: "hint" },
       );
     for (const side of sides) this.#building(panel, side);
+    this.#links(panel);
     this.#yielding(panel);
   }
 
@@ -44,7 +50,7 @@ export class Peaks {
     make(table, "caption", `${side}, ${plural(floors, "storey", "storeys")}`, { class: `of-${side}` });
     const head = make(make(table, "thead"), "tr");
     make(head, "th", "floor", { scope: "col" });
-    const looks = present.map((quantity) => this.#unitOf(side, floors, quantity));
+    const looks = present.map((quantity) => this.#unitOf((floor) => `${side}.${quantity.part}[${floor}]`, floors, quantity));
     present.forEach(({ title }, at) => make(head, "th", withUnit(title, looks[at]), { scope: "col" }));
     const body = make(table, "tbody");
     for (let floor = floors; floor > 0; floor--) {
@@ -56,12 +62,34 @@ export class Peaks {
     if (shear) this.#shear(panel, shear);
   }
 
-  #unitOf(side, floors, { part, unit, inG, percent }) {
+  // A row for each link that keeps its peaks.
+  #links(panel) {
+    const { columns, look } = this.state.run;
+    const { links } = look.layout;
+    if (!columns["link[1].peak_force"]) return;
+    const table = make(panel, "table", "", { class: "numbers" });
+    make(table, "caption", "Links");
+    const head = make(make(table, "thead"), "tr");
+    for (const title of ["link", "what it joins"]) make(head, "th", title, { scope: "col" });
+    const name = (part, link) => `link[${link}].${part}`;
+    const looks = OF_LINKS.map((quantity) => this.#unitOf((link) => name(quantity.part, link), links.length, quantity));
+    OF_LINKS.forEach(({ title }, at) => make(head, "th", withUnit(title, looks[at]), { scope: "col" }));
+    const body = make(table, "tbody");
+    links.forEach(({ meeting }, at) => {
+      const row = make(body, "tr");
+      make(row, "th", String(at + 1), { scope: "row" });
+      make(row, "td", meeting.replace("between ", ""));
+      OF_LINKS.forEach(({ part }, place) => this.#cell(row, columns[name(part, at + 1)], looks[place]));
+    });
+  }
+
+  // What shows the largest of so many columns in handy numbers.
+  #unitOf(nameOf, count, { unit, inG, percent }) {
     if (inG) return { name: "g", factor: 1 / GRAVITY };
     if (percent) return { name: "%", factor: 100 };
     let most = 0;
-    for (let floor = 1; floor <= floors; floor++)
-      most = Math.max(most, largestOf(this.state.run.columns[`${side}.${part}[${floor}]`]?.subarray(-1)));
+    for (let number = 1; number <= count; number++)
+      most = Math.max(most, largestOf(this.state.run.columns[nameOf(number)]?.subarray(-1)));
     return handyUnit(most, unit);
   }
 

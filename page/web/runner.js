@@ -28,6 +28,7 @@ const MOST_IMPACTS = 200_000;
 const SILENCE = 1200;
 const MOST_NUMBERS_KEPT = 4e6;
 const MOST_CONTACTS_SHOWN = 40;
+const MOST_LINKS_SHOWN = 40;
 
 export class Runner {
   constructor(state, engine) {
@@ -271,23 +272,26 @@ const problemsOf = (error) =>
 export function wishes(look) {
   const floors = (look.left?.floors ?? 0) + (look.right?.floors ?? 0);
   const contacts = look.layout.contacts.length;
-  const columns = 11 * floors + 10 * contacts + 12;
+  const links = look.layout.links.length;
+  const columns = 11 * floors + 10 * contacts + 9 * links + 12;
   const most = MOST_NUMBERS_KEPT / columns;
   const isTall = most < FEWEST_ROWS;
   const step = Math.max(look.stop / Math.max(most, FEWEST_ROWS), Math.min(look.stop / ROWS, LONGEST_STEP));
   return {
     step,
     rowsPerImpact: look.stop > LONG_RUN ? undefined : IN_IMPACTS,
-    outputs: isTall ? drawn(look, floors, contacts) : undefined,
+    outputs: isTall ? drawn(look, contacts, links) : undefined,
   };
 }
 
-function drawn(look, floors, contacts) {
+function drawn(look, contacts, links) {
   const names = look.ground ? ["ground.acceleration"] : [];
   for (const side of ["left", "right"]) {
     for (let floor = 1; floor <= (look[side]?.floors ?? 0); floor++) names.push(`${side}.displacement[${floor}]`);
   }
   for (let contact = 1; contact <= Math.min(contacts, MOST_CONTACTS_SHOWN); contact++)
     names.push(`contact[${contact}].force`, `contact[${contact}].penetration`);
+  for (let link = 1; link <= Math.min(links, MOST_LINKS_SHOWN); link++)
+    names.push(`link[${link}].force`, `link[${link}].displacement`);
   return names;
 }

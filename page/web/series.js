@@ -14,10 +14,23 @@ function columnsOf(run, whole, part) {
     .filter(([, number]) => number > 0);
 }
 
-function contactColumns(run, part) {
-  const count = run.look.contacts.length;
-  return Array.from({ length: count }, (_, at) => [`contact[${at + 1}].${part}`, at + 1]).filter(
+// Those of the contacts or links of a run.
+function numbered(run, what, part) {
+  const count = { contact: run.look.contacts, link: run.look.layout.links }[what].length;
+  return Array.from({ length: count }, (_, at) => [`${what}[${at + 1}].${part}`, at + 1]).filter(
     ([name]) => run.columns[name],
+  );
+}
+
+// Links with the largest of a quantity.
+function linkLines(run, part) {
+  const most = ([name]) => largestOf(run.columns[name]);
+  const largest = numbered(run, "link", part)
+    .sort((a, b) => most(b) - most(a))
+    .slice(0, MOST_LINES);
+  return others(
+    largest.sort(([, a], [, b]) => a - b),
+    (number) => `link ${number}`,
   );
 }
 
@@ -58,7 +71,7 @@ export function chartsOf(run, floors) {
   const energies = ENERGIES.map((name) => [`energy.${name}`, name]).filter(
     ([name]) => largestOf(run.columns[name]) > 0,
   );
-  const opening = others(telling(run, contactColumns(run, "penetration")), (number) => `contact ${number}`);
+  const opening = others(telling(run, numbered(run, "contact", "penetration")), (number) => `contact ${number}`);
   const charts = [
     {
       id: "displacement",
@@ -73,8 +86,10 @@ export function chartsOf(run, floors) {
       title: "Contact force",
       unit: "N",
       impacts: true,
-      lines: others(telling(run, contactColumns(run, "force")), (number) => `contact ${number}`),
+      lines: others(telling(run, numbered(run, "contact", "force")), (number) => `contact ${number}`),
     },
+    { id: "link-force", title: "Link force", unit: "N", lines: linkLines(run, "force") },
+    { id: "link-displacement", title: "Link displacement", unit: "m", lines: linkLines(run, "displacement") },
     {
       id: "ground",
       title: "Ground acceleration",

@@ -77,6 +77,7 @@ export class Stage {
     new Drawing(context, geometry, place, colours()).draw({
       moved: motion.at(time),
       yielding: this.#yielding(motion, geometry),
+      slipping: geometry.links.map((_, at) => Math.abs(motion.value(`link[${at + 1}].slipping`, time)) > 0.5),
       flashes: this.#flashes(impacts),
       ground: this.groundPeak > 0 ? { share } : null,
       caption,
@@ -118,7 +119,10 @@ export class Stage {
     const yields = SIDES.some((side) => this.state.run.look[side]?.yields.some(Boolean))
       ? "; dashed: yields at this moment"
       : "";
-    const text = `${bar < 1 ? `${digits(1e3 * bar)} mm` : `${digits(bar)} m`}; ${drawn}${yields}`;
+    const slips = this.shown.geometry.links.some(({ parts }) => parts.includes("friction"))
+      ? "; a filled block: the link slips at this moment"
+      : "";
+    const text = `${bar < 1 ? `${digits(1e3 * bar)} mm` : `${digits(bar)} m`}; ${drawn}${yields}${slips}`;
     if (scale.textContent !== text) scale.textContent = text;
     element("size").setAttribute("aria-valuetext", drawn);
     this.canvas.setAttribute("aria-label", this.#inWords());

@@ -6,10 +6,13 @@ import matplotlib
 import numpy as np
 import pounding_fmu
 import pytest
+from matplotlib.figure import Figure
 from pounding_fmu._scenes import read_scene
 from pounding_fmu.__main__ import carry_out
 from pounding_fmu.plots.animation import FRAMES_PER_SECOND
 from pounding_fmu.plots.command import PICTURES, draw
+from pounding_fmu.plots.devices import APART, BELOW, DRAWN
+from pounding_fmu.plots.elevation import Elevation
 from pounding_fmu.plots.layout import Layout, clamped
 from pounding_fmu.plots.runs import Run, Runs
 from PIL import Image
@@ -49,6 +52,15 @@ def rigid():
 def yields():
     left, right = building([0.5, 0.5], yield_force=[30.0, 40.0], post_yield_ratio=0.05), building([0.5, 0.5])
     return scene_of(left, right, contact=[{"left_floor": 2, "right_floor": 2, **LAW}])
+
+
+def linked():
+    """Friction between the roofs, a spring and a dashpot from left floor 1 to the ground on its right."""
+    links = [
+        {"left_floor": 2, "right_floor": 2, "stiffness": 3000.0, "slip_force": 2.0},
+        {"left_floor": 1, "wall": "right", "stiffness": 100.0, "dashpot": 5.0},
+    ]
+    return {**yields(), "link": links}
 
 
 def told(scene):
@@ -160,6 +172,51 @@ def test_loops_are_those_of_the_storeys_that_yield():
         assert f"{runs.run['left.ductility[1]'][-1]:.1f} ({runs.alone['left.ductility[1]'][-1]:.1f})" in axes.get_title(loc="left")
 
 
+def test_links_of_a_scene():
+    scene = told(linked())
+    assert [link.name for link in scene.links] == ["floor 2 of both", "left floor 1, ground on its right"]
+    assert [link.parts for link in scene.links] == [["friction"], ["spring", "dashpot"]]
+    assert told(yields()).links == []
+
+
+def test_loops_of_links_show_their_forces():
+    """Friction without hardening pushes with its slip force at most; it reaches that both ways."""
+    runs = runs_of(linked())
+    figure = draw(runs, "loops")
+    titles = [axes.get_title(loc="left").splitlines() for axes in figure.axes]
+    (axes,) = (axes for axes, title in zip(figure.axes, titles) if title and title[0] == "Link 1, floor 2 of both")
+    displacement, force = curves(axes)["link, pounding"]
+    moved = [runs.run[f"{side}.displacement[2]"] for side in ("left", "right")]
+    assert displacement == pytest.approx(1e3 * (moved[0] - moved[1]), abs=1e-9)
+    assert force.max() == pytest.approx(2.0, rel=1e-12) and force.min() == pytest.approx(-2.0, rel=1e-12)
+    assert ["Link 1, floor 2 of both", "friction: 2 N (2 N)"] in titles
+    assert [title for title in titles if title and title[0].startswith("Link 2, left floor 1, ground")]
+    assert sum(bool(title) and "storey" in title[0] for title in titles) == 2
+    assert not any(axes.get_title(loc="left").startswith("Link") for axes in draw(runs_of(yields()), "loops").axes)
+
+
+def test_links_are_drawn_between_the_floors_and_move_with_them():
+    """The gap is 4 mm at rest. An end on the ground stays where it is; a link below another one hangs lower."""
+    scene = told({**linked(), "link": [*linked()["link"], {"left_floor": 2, "right_floor": 1, "dashpot": 1.0}]})
+    elevation = Elevation(Figure().subplots(), scene, 100.0)
+    across = [device.line.get_xdata() for device in elevation.devices]
+    elevation.place({"left": np.array([3.0, 7.0]), "right": np.array([-2.0, -5.0])})
+    for device, before, (left, right) in zip(elevation.devices, across, [(7.0, -5.0), (3.0, 0.0), (7.0, -2.0)]):
+        after = device.line.get_xdata()
+        assert np.nanmin(after) - np.nanmin(before) == pytest.approx(left)
+        assert np.nanmax(after) - np.nanmax(before) == pytest.approx(right)
+    assert np.nanmin(across[0]) < 0.0 and np.nanmax(across[0]) > 4.0
+    first, _, third = (device.line.get_ydata() for device in elevation.devices)
+    assert np.nanmax(first) == 1.0 and np.nanmin(third) == pytest.approx(0.5 - 0.5 * (BELOW + APART))
+
+
+@pytest.mark.parametrize("length", [5.0, 10.0, 20.0])
+def test_a_piston_stays_in_its_cup(length):
+    (_, end), piston, cup, (bottom, _) = DRAWN["dashpot"](length, 10.0)
+    assert cup[0][0] < piston[0][0] == end[0] < cup[1][0] == bottom[0] < length
+    assert length != 10.0 or end[0] == pytest.approx((cup[0][0] + cup[1][0]) / 2)
+
+
 def test_rigid_contacts_are_drawn_by_impulses():
     runs = runs_of(rigid())
     largest = runs.run.impacts["impulse"].max()
@@ -171,7 +228,7 @@ def test_rigid_contacts_are_drawn_by_impulses():
     assert np.array_equal(tops, runs.run.impacts["impulse"])
 
 
-@pytest.mark.parametrize("make", [facing, walls, rigid, yields])
+@pytest.mark.parametrize("make", [facing, walls, rigid, yields, linked])
 def test_nothing_runs_off_a_picture(make):
     runs = runs_of(make())
     for name in PICTURES:

@@ -1,8 +1,8 @@
-//! What stands where: the floors of both buildings with their levels, and what meets at each contact.
+//! What stands where: the floors of both buildings with their levels, what meets at each contact, what each link joins.
 //!
 //! Pictures are drawn from it: what faces what is worked out in one place, the scene.
 
-use pounding::scene::{Building, ContactPair, Face, Scene};
+use pounding::scene::{Building, ContactPair, Face, Link, Scene, Side};
 use serde::Serialize;
 
 /// As `--layout` writes it, and in the data of the page.
@@ -12,6 +12,7 @@ pub struct Layout<'a> {
     left: Standing,
     right: Standing,
     contacts: Vec<Contact>,
+    links: Vec<Device>,
 }
 
 /// A building; one without floors is not there.
@@ -36,7 +37,29 @@ struct Contact {
     law: &'static str,
 }
 
-/// What is on one side of a gap.
+/// A link.
+#[derive(Serialize)]
+struct Device {
+    /// What it is between, in words.
+    meeting: String,
+    /// Its ends: floors, or the ground as a wall.
+    left: Surface,
+    right: Surface,
+    /// What it is made of, side by side.
+    parts: Vec<Part>,
+}
+
+/// A part as engineers draw it.
+#[derive(Clone, Copy, Serialize)]
+#[serde(rename_all = "lowercase")]
+enum Part {
+    Spring,
+    /// A spring that slips.
+    Friction,
+    Dashpot,
+}
+
+/// What is on one side of a gap or at one end of a link.
 #[derive(Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 enum Surface {
@@ -49,7 +72,8 @@ impl Layout<'_> {
     /// Of a scene.
     pub fn of(scene: &Scene) -> Layout<'_> {
         let contacts = scene.contacts.iter().map(|pair| contact(scene, pair)).collect();
-        Layout { name: &scene.name, left: standing(&scene.left), right: standing(&scene.right), contacts }
+        let links = scene.links.iter().map(|link| device(scene, link)).collect();
+        Layout { name: &scene.name, left: standing(&scene.left), right: standing(&scene.right), contacts, links }
     }
 }
 
@@ -75,5 +99,19 @@ fn surface(face: Face) -> Surface {
         Face::Floor(side, floor) => Surface::Floor { side: side.name(), floor },
         Face::Columns { side, storey, position, .. } => Surface::Columns { side: side.name(), storey, position },
         Face::Wall => Surface::Wall,
+    }
+}
+
+fn device(scene: &Scene, link: &Link) -> Device {
+    let end = |side: Side, floor: Option<usize>| {
+        floor.map_or(Surface::Wall, |floor| Surface::Floor { side: side.name(), floor: floor + 1 })
+    };
+    let spring = if link.slip.is_some() { Part::Friction } else { Part::Spring };
+    let parts = [(spring, link.stiffness), (Part::Dashpot, link.dashpot)];
+    Device {
+        meeting: link.meeting(scene),
+        left: end(Side::Left, link.left),
+        right: end(Side::Right, link.right),
+        parts: parts.into_iter().filter(|(_, strength)| *strength > 0.0).map(|(part, _)| part).collect(),
     }
 }

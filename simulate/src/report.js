@@ -42,6 +42,7 @@ for (const column of run.columns) {
   column.quantity = whole === "ground" ? "ground acceleration" : whole === "energy" ? "energy" : part || whole;
   if (column.name === "energy.residual") column.quantity = "energy residual";
   if (whole === "contact") column.quantity = { force: "contact force" }[part] || part.replaceAll("_", " ");
+  else if (whole === "link") column.quantity = `link ${part.replaceAll("_", " ")}`;
   else if (part && whole !== "ground" && whole !== "energy") column.quantity = part.replaceAll("_", " ");
   column.rows = column.steps && rowsOf(column.steps);
   column.largest = column.values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
@@ -127,7 +128,7 @@ function nearest(chart, series, index) {
 
 // Its quantity stands above the chart.
 function shortName(column) {
-  return column.of in COLOURS || column.of === "contact" ? `${column.of} ${column.index || ""}`.trim() : column.name;
+  return column.of in COLOURS || ["contact", "link"].includes(column.of) ? `${column.of} ${column.index || ""}`.trim() : column.name;
 }
 
 function drawChart(quantity) {
@@ -237,13 +238,14 @@ function usual() {
   const top = { left: Math.max(...tops[0]), right: Math.max(...tops[1]) };
   // Top floors, and those that can hit: of many, as many as lines can be told apart.
   const facing = run.contacts.length <= 3 ? run.contacts : [run.contacts.at(-1)];
-  const forces = groups.get("contact force") ?? [];
-  const hardest = [...forces].sort((a, b) => b.largest - a.largest).slice(0, COLOURS.others.length);
+  const largest = (quantity) =>
+    [...(groups.get(quantity) ?? [])].sort((a, b) => b.largest - a.largest).slice(0, COLOURS.others.length);
+  const others = ["contact force", "link force", "link displacement"].flatMap(largest);
   const isShown = (c) =>
     c.of in top
       ? ["displacement", "acceleration"].includes(c.quantity) &&
         (c.index === top[c.of] || facing.some(({ row }) => row.some(([side, floor]) => side === c.of && floor === c.index)))
-      : hardest.includes(c);
+      : others.includes(c);
   choose(run.columns.filter(isShown), true);
 }
 

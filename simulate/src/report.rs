@@ -34,7 +34,7 @@ const PARTS: [(&str, &str); 6] = [
     ("@licence of uPlot@", include_str!("uplot/LICENSE")),
     ("/*uPlot.js*/", include_str!("uplot/uPlot.iife.min.js")),
     ("/*report.js*/", include_str!("report.js")),
-    ("/*report_yielding.js*/", include_str!("report_yielding.js")),
+    ("/*report_loops.js*/", include_str!("report_loops.js")),
 ];
 const DATA: &str = "/*data*/";
 

@@ -1,21 +1,18 @@
 //! Gaps and the numbers of the laws. What several contacts have in common is one slip, told of the first of them.
 
 use super::facts::{Facts, Pace, median};
-use super::found::Found;
+use super::found::{Found, Odd};
 use super::touch::{Touch, exponent, lightest};
 use super::whole::IN_KN_T;
 use crate::contact::LawKey;
 use crate::figures::short;
 use crate::record::STANDARD_GRAVITY;
-use crate::scene::{ContactPair, Scene, Units, law_key};
+use crate::scene::{ContactPair, Scene, Side, Units, law_key};
 use std::cmp::Ordering;
-use std::f64::consts::PI;
 
 /// Widest gap of neighbouring buildings, m; from [`FAR_AWAY`] on a gap is meant to be out of reach.
 const WIDEST_GAP: f64 = 1.0;
 const FAR_AWAY: f64 = 1000.0;
-/// What begins the list of other contacts of which the same is to be said.
-pub(super) const LIKEWISE: &str = " (likewise ";
 /// Largest `min_approach_velocity` without a warning, m/s: impacts of buildings begin at 0.1 to 1 m/s.
 const MOST_LEAST_APPROACH: f64 = 0.02;
 
@@ -23,23 +20,24 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     look_for_contacts(facts, found);
     look_for_crossed_floors(facts.scene, found);
     let scene = facts.scene;
+    let contacts = ("contact", scene.contacts.as_slice());
     if !found.has("left.initial_displacement") && !found.has("right.initial_displacement") {
-        group(facts, found, "gap", |pair| overlap(facts, pair));
+        found.group(contacts, "gap", |pair| overlap(facts, pair));
     }
     let ground_is_odd = found.has("ground");
-    group(facts, found, "gap", |pair| wide_gap(facts, pair, ground_is_odd));
+    found.group(contacts, "gap", |pair| wide_gap(facts, pair, ground_is_odd));
     // A gap that has been told of makes the others look small.
     if !(1..=scene.contacts.len()).any(|contact| found.has(&format!("contact[{contact}].gap"))) {
-        group(facts, found, "gap", |pair| lost_gap(facts, pair));
+        found.group(contacts, "gap", |pair| lost_gap(facts, pair));
     }
-    group(facts, found, "exponent", |pair| high_exponent(pair, scene.units));
+    found.group(contacts, "exponent", |pair| high_exponent(pair, scene.units));
     if !has_odd_building(found) {
         // Another exponent gives the stiffness another meaning.
-        group(facts, found, "stiffness", |pair| {
+        found.group(contacts, "stiffness", |pair| {
             high_exponent(pair, scene.units).is_none().then(|| duration(facts, pair)).flatten()
         });
     }
-    group(facts, found, "restitution", low_restitution);
+    found.group(contacts, "restitution", low_restitution);
     let least = scene.solver.min_approach_velocity;
     if least > MOST_LEAST_APPROACH {
         let text = "impacts of buildings begin at 0.1 to 1 m/s, so this changes the damping of real ones; it is in m/s, \
@@ -48,14 +46,15 @@ pub(super) fn look(facts: &Facts<'_>, found: &mut Found) {
     }
 }
 
-/// A scene without contacts is sound where two FMUs are coupled through their floor forces, or where a building swings
-/// freely from its initial motion.
+/// A scene without contacts is sound where links join the buildings or there is one building only that links hold, where
+/// two FMUs are coupled through their floor forces, or where a building swings freely from its initial motion.
 fn look_for_contacts(facts: &Facts<'_>, found: &mut Found) {
     let scene = facts.scene;
     // Levels tell why `[facing]` has found none.
     let is_by_levels = scene.facing.is_some();
     let swings_freely = scene.ground.record.is_none() && facts.starts_moving();
-    if scene.contacts.is_empty() && !scene.floor_forces && !swings_freely && !is_by_levels {
+    let is_linked = scene.links.iter().any(|link| link.joins_buildings() || scene.right.is_absent());
+    if scene.contacts.is_empty() && !scene.floor_forces && !swings_freely && !is_by_levels && !is_linked {
         let text = "no contact: the buildings pass through each other; each pair of floors that may collide needs a \
                     [[contact]] table";
         found.add("contact", "[]".to_owned(), text);
@@ -101,29 +100,6 @@ fn has_odd_building(found: &Found) -> bool {
         .any(|path| found.has(path))
 }
 
-/// What is odd about one number of a contact: the number and a text.
-type Odd = Option<(f64, String)>;
-
-/// One warning for all contacts that have the same to be said about a key; none about a contact and key of which
-/// something has been said.
-fn group(facts: &Facts<'_>, found: &mut Found, key: &str, odd: impl Fn(&ContactPair) -> Odd) {
-    let path = |index: usize| format!("contact[{}].{key}", index + 1);
-    let pairs = facts.scene.contacts.iter().enumerate();
-    let mut all = pairs.filter(|(index, _)| !found.has(&path(*index))).filter_map(|(i, pair)| Some((i, odd(pair)?)));
-    let Some((first, (value, text))) = all.next() else { return };
-    let more: Vec<String> = all.map(|(index, _)| format!("contact[{}]", index + 1)).collect();
-    let also = match more.as_slice() {
-        [] => String::new(),
-        [one] => format!("{LIKEWISE}{one})"),
-        [one, .., last] => format!("{LIKEWISE}{} more, {one} to {last})", more.len()),
-    };
-    let text = format!("{text}{also}");
-    match key {
-        "stiffness" => found.quantity(path(first), value, text),
-        _ => found.number(path(first), value, text),
-    }
-}
-
 /// Floors that are deep in each other at the start.
 fn overlap(facts: &Facts<'_>, pair: &ContactPair) -> Odd {
     let (overlap, _) = pair.at_start(facts.scene);
@@ -164,9 +140,8 @@ fn wide_gap(facts: &Facts<'_>, pair: &ContactPair, ground_is_odd: bool) -> Odd {
         );
         return Some((gap, text));
     }
-    let peak = facts.peak.filter(|_| !ground_is_odd)?;
-    let sway = |period: f64| 3.0 * peak * (period / (2.0 * PI)).powi(2);
-    let reach: f64 = facts.usual_periods().map(|(_, period)| sway(period)).sum();
+    facts.peak.filter(|_| !ground_is_odd)?;
+    let reach: f64 = [Side::Left, Side::Right].into_iter().filter_map(|side| facts.sway(side)).sum();
     let is_known = !facts.pace.iter().any(|pace| !matches!(pace, Pace::Usual | Pace::Wall));
     let is_wide = is_known && gap > 5.0 * reach && gap > 0.02 && gap < FAR_AWAY;
     is_wide.then(|| {

@@ -57,6 +57,12 @@ impl<'a> Facts<'a> {
         self.first[side as usize].as_ref().map(|first| 2.0 * PI / first.omega)
     }
 
+    /// How far a building that swings as buildings do sways under the ground motion, m, if not by more than usual.
+    pub(super) fn sway(&self, side: Side) -> Option<f64> {
+        let (_, period) = self.usual_periods().find(|(usual, _)| *usual == side)?;
+        Some(3.0 * self.peak? * (period / (2.0 * PI)).powi(2))
+    }
+
     /// Whether any floor is displaced or moves at the start.
     pub(super) fn starts_moving(&self) -> bool {
         let buildings = [&self.scene.left, &self.scene.right];

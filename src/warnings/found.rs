@@ -23,6 +23,12 @@ impl fmt::Display for Warning {
     }
 }
 
+/// What begins the list of others of which the same is to be said.
+pub(super) const LIKEWISE: &str = " (likewise ";
+
+/// What is odd about one number of a contact or a link: the number and a text.
+pub(super) type Odd = Option<(f64, String)>;
+
 /// What has been found so far.
 #[derive(Default)]
 pub(super) struct Found {
@@ -64,6 +70,26 @@ impl Found {
 
     pub(super) fn add(&mut self, path: impl Into<String>, value: String, text: impl Into<String>) {
         self.warnings.push(Warning { path: path.into(), value, text: text.into() });
+    }
+
+    /// One warning for all tables of that name that have the same to be said about a key; none about a table and key of
+    /// which something has been said.
+    pub(super) fn group<T>(&mut self, (name, tables): (&str, &[T]), key: &str, odd: impl Fn(&T) -> Odd) {
+        let path = |index: usize| format!("{name}[{}].{key}", index + 1);
+        let new = tables.iter().enumerate().filter(|(index, _)| !self.has(&path(*index)));
+        let mut all = new.filter_map(|(i, table)| Some((i, odd(table)?)));
+        let Some((first, (value, text))) = all.next() else { return };
+        let more: Vec<String> = all.map(|(index, _)| format!("{name}[{}]", index + 1)).collect();
+        let also = match more.as_slice() {
+            [] => String::new(),
+            [one] => format!("{LIKEWISE}{one})"),
+            [one, .., last] => format!("{LIKEWISE}{} more, {one} to {last})", more.len()),
+        };
+        let text = format!("{text}{also}");
+        match key {
+            "stiffness" | "dashpot" | "slip_force" => self.quantity(path(first), value, text),
+            _ => self.number(path(first), value, text),
+        }
     }
 
     /// Whether anything has been found at a path or below it.

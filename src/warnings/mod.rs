@@ -1,6 +1,6 @@
 //! What is allowed in a scene and looks like a slip all the same: a wrong unit, a lost decimal point, a key left out.
 //!
-//! Rules compare the scene with itself wherever that says enough: a period with the number of storeys, a contact with a
+//! Rules compare the scene with itself wherever that says enough: a period with the number of storeys, a contact or a link with a
 //! storey, a storey with the next one. Laboratory frames, towers and isolated buildings are no slips, nor are walls
 //! and floors that nothing holds. All rules judge numbers of the SI; texts show masses and forces in the units of the scene.
 //!
@@ -30,6 +30,7 @@
 //! | `whole.rs` | scenes in which every mass and stiffness is in other units |
 //! | `ground.rs` | the record, its scaling, `stop_time` |
 //! | `contacts.rs` | gaps and numbers of the laws |
+//! | `links.rs` | devices that act as ties, springs that never slip or always do |
 //! | `order.rs` | lists with the top floor first, levels in place of heights |
 //! | `levels.rs` | levels of what meets |
 //! | `touch.rs` | how long a contact lasts |
@@ -43,6 +44,7 @@ mod found;
 mod gravity;
 mod ground;
 mod levels;
+mod links;
 mod order;
 mod touch;
 mod whole;
@@ -68,6 +70,7 @@ pub fn of(scene: &Scene, record: Option<&Record>) -> Vec<Warning> {
     gravity::look(&facts, &mut found);
     order::look(&facts, &mut found);
     contacts::look(&facts, &mut found);
+    links::look(&facts, &mut found);
     levels::look(&facts, &mut found);
     found.warnings
 }
@@ -80,7 +83,7 @@ pub fn of_file(scene: &Scene, record: Option<&Record>) -> Vec<Warning> {
             let key = warning.path.strip_prefix("contact[1].").filter(|key| !key.ends_with("_position"));
             if let Some(key) = key.map(|key| format!("facing.{key}")) {
                 warning.path = key;
-                warning.text.truncate(warning.text.find(contacts::LIKEWISE).unwrap_or(warning.text.len()));
+                warning.text.truncate(warning.text.find(found::LIKEWISE).unwrap_or(warning.text.len()));
             }
         }
     }

@@ -22,6 +22,23 @@ ROOT = Path(__file__).resolve().parents[2]
 SCENES = ROOT / "examples/scenes"
 FOLDER = ROOT / "target/browser"
 SIMULATE = shlex.split(os.environ.get("SIMULATE", "cargo run --release --quiet --example simulate --"))
+# Friction between the roofs, a spring and a dashpot to the ground, and a dashpot between the buildings, in kN and m.
+LINKS = """
+[[link]]
+left_floor = 3
+right_floor = 3
+stiffness = 30e3
+slip_force = 60
+[[link]]
+left_floor = 2
+wall = "right"
+stiffness = 5e3
+dashpot = 500
+[[link]]
+left_floor = 1
+right_floor = 1
+dashpot = 600
+"""
 HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)> & <b>bold</b>"
 
 
@@ -34,9 +51,10 @@ def main():
         for look in [reads, tells_apart, hovers, zooms, chooses, sorts, finds_an_impact, is_narrow]:
             look(page, scene, impacts)
             print(f"{look.__name__.replace('_', ' ')}: well")
-        for look, name in [(has_levels, "neighbours"), (stands_alone, "isolated"), (yields, "yielding")]:
+        pages = [(has_levels, "neighbours", ""), (stands_alone, "isolated", ""), (yields, "yielding", "")]
+        for look, name, more in [*pages, (is_linked, "yielding", LINKS)]:
             page.set_viewport_size({"width": 1300, "height": 900})
-            html, _, impacts = make_report(name)
+            html, _, impacts = make_report(name, more)
             page.goto(html.as_uri())
             look(page, impacts)
             print(f"{look.__name__.replace('_', ' ')}: well")
@@ -44,11 +62,11 @@ def main():
         print("nothing loaded, no error")
 
 
-def make_report(name):
-    """The report of an example with a description that would like to be markup; its text and its impacts."""
+def make_report(name, more=""):
+    """The report of an example with a description that would like to be markup, and more keys; its text and its impacts."""
     FOLDER.mkdir(parents=True, exist_ok=True)
     text = (SCENES / f"{name}.toml").read_text().replace("../records", str(ROOT / "examples/records"))
-    text = re.sub(r'description = ".*"', f'description = "{HOSTILE}"', text)
+    text = re.sub(r'description = ".*"', f'description = "{HOSTILE}"', text) + more
     scene, html, impacts = (FOLDER / f"{name}.{ending}" for ending in ["toml", "html", "csv"])
     scene.write_text(text)
     subprocess.run([*SIMULATE, scene, "--html", html, "--impacts", impacts], cwd=ROOT, check=True, stdout=sys.stderr)
@@ -189,7 +207,8 @@ def has_levels(page, impacts):
     headings, rows = table(page, "peak")
     assert [row[0] for row in rows] == [*"654321"]
     # Nothing of what is not there.
-    assert not page.locator("#yielding, nav a[href='#yielding']").first.is_visible()
+    for section in ("yielding", "links"):
+        assert not page.locator(f"#{section}").is_visible() and not page.locator(f"nav a[href='#{section}']").is_visible()
     for side, levels in [("left", ["20.2 m", "17 m", "13.8 m"]), ("right", ["", "", "15 m"])]:
         assert [row[headings.index(f"{side} level")] for row in rows[:3]] == levels
     meetings = [row[1] for row in table(page, "contact")[1]]
@@ -231,6 +250,36 @@ def yields(page, impacts):
         if row[0] in yields_at:
             assert abs(float(texts[2]) / (ductility * yields_at[row[0]]) - 1.0) < 6e-3, (row, texts)
     page.screenshot(path=FOLDER / "yielding.png", full_page=True)
+
+
+def is_linked(page, impacts):
+    """Links: a row, a loop and curves each, and what friction without hardening can only be: its force stays at that at which
+    it slips, and it dissipates this force times the sum of all slips."""
+    headings, rows = table(page, "link")
+    assert [row[0] for row in rows] == ["1", "2", "3"]
+    assert [row[2] for row in rows] == ["friction", "spring, dashpot", "dashpot"]
+    assert rows[1][1].startswith("left floor 2") and rows[1][1].endswith("the ground"), rows[1]
+    number = lambda row, heading: float(row[headings.index(heading)])  # noqa: E731
+    assert number(rows[0], "peak force [kN]") == 60.0
+    travel, dissipated = number(rows[0], "slip travel [mm]"), number(rows[0], "dissipated [kJ]")
+    assert travel > 100.0 and abs(dissipated / (60.0 * travel * 1e-3) - 1.0) < 1e-3, (travel, dissipated)
+    assert rows[2][headings.index("slip travel [mm]")] == ""
+    figures = page.locator("#link-loops figure")
+    assert figures.count() == 3 and page.locator("#loops figure").count() == 7
+    at_the_top = []
+    for at in range(3):
+        points = figures.nth(at).locator("polyline").get_attribute("points").split()
+        ups = [float(point.split(",")[1]) for point in points]
+        texts = figures.nth(at).locator("text").all_text_contents()
+        assert len(points) > 2000 and texts[4:] == ["displacement [mm]", "force [kN]"]
+        assert abs(float(texts[2]) / number(rows[at], "peak displacement [mm]") - 1.0) < 1e-2, texts
+        at_the_top.append(sum(abs(up - min(ups)) < 0.2 for up in ups))
+    assert at_the_top[0] > 100 > 20 > max(at_the_top[1:]), at_the_top
+    charts = page.locator(".chart h3").all_inner_texts()
+    assert charts == ["displacement [mm]", "acceleration [g]", "contact force [kN]", "link force [kN]", "link displacement [mm]"]
+    legend = page.locator(".chart", has_text="link force").locator(".u-legend .u-label").all_inner_texts()
+    assert legend[1:] == ["link 1", "link 2", "link 3"], legend
+    page.screenshot(path=FOLDER / "linked.png", full_page=True)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ mod scenes;
 use fmi::model_description::fmi2::{Causality, ModelDescription, ScalarVariable, Variability, VariableType};
 use pounding::FmiVersion;
 use pounding::description::Package;
-use scenes::{NO_CONTACT, RECORD_SCENE, SCENE, package};
+use scenes::{LINKED, NO_CONTACT, RECORD_SCENE, SCENE, package};
 use std::sync::Mutex;
 
 fn describe(scene_text: &str) -> ModelDescription {
@@ -18,7 +18,7 @@ fn describe(scene_text: &str) -> ModelDescription {
 
 #[test]
 fn another_importer_finds_it_valid() {
-    for scene in [SCENE, RECORD_SCENE, NO_CONTACT] {
+    for scene in [SCENE, RECORD_SCENE, NO_CONTACT, LINKED] {
         for version in FmiVersion::ALL {
             assert_eq!(problems(&package(scene).model_description(version), version), [""; 0]);
         }
@@ -115,6 +115,32 @@ fn in_words(variable: &ScalarVariable) -> String {
         _ => String::new(),
     };
     format!("{} {causality} {}{unit}", variable.name, variable.variableType.name())
+}
+
+#[test]
+fn links_have_these_variables() {
+    let description = describe(LINKED);
+    let found = description.modelVariables.iter().filter(|v| v.name.starts_with("link[4]")).map(in_words);
+    let expected = [
+        "stiffness parameter Real N/m",
+        "dashpot parameter Real N.s/m",
+        "slip_force parameter Real N",
+        "post_yield_ratio parameter Real 1",
+        "force output Real N",
+        "displacement output Real m",
+        "velocity output Real m/s",
+        "peak_force output Real N",
+        "peak_displacement output Real m",
+        "slip output Real m",
+        "slip_travel output Real m",
+        "slipping output Integer",
+        "dissipated_energy output Real J",
+    ];
+    assert_eq!(found.collect::<Vec<_>>(), expected.map(|line| format!("link[4].{line}")));
+    let about = |name: &str| description.variable_by_name(name).unwrap().description.clone().unwrap();
+    assert_eq!(about("link[1].stiffness"), "stiffness of the link between left floor 2 and right floor 2");
+    assert_eq!(about("link[4].dashpot"), "dashpot of the link between the ground and right floor 2");
+    assert!(about("energy.strain").ends_with(", links included"));
 }
 
 #[test]

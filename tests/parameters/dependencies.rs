@@ -1,7 +1,7 @@
 //! The model structure of the description, against what the library does: an unknown changes with the knowns that it is
 //! said to depend on, and with no others.
 
-use crate::support::{Fmu, Instance, OK, RICH, SCENE, UNEVEN, YIELDING};
+use crate::support::{Fmu, Instance, LINKED, OK, RICH, SCENE, UNEVEN, YIELDING};
 use fmi::model_description::fmi2::{Causality, ModelDescription, ScalarVariable, Unknown};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -128,9 +128,17 @@ fn initial_unknowns_depend_on_what_they_are_said_to_depend_on() {
         lines.collect::<Vec<_>>().join("\n")
     };
     let leaning = leaning();
-    for scene in
-        [RICH, SCENE, UNEVEN, YIELDING, &leaning, &at_rest, &only("initial_velocity"), &only("initial_displacement")]
-    {
+    for scene in [
+        RICH,
+        SCENE,
+        UNEVEN,
+        YIELDING,
+        LINKED,
+        &leaning,
+        &at_rest,
+        &only("initial_velocity"),
+        &only("initial_displacement"),
+    ] {
         let fmu = Fmu::new(scene);
         let record = fmu.directory.path().join("other.csv");
         fs::write(&record, "time_s,accel_m_s2\n0.0,0.5\n1.0,0.0\n").unwrap();
@@ -143,7 +151,7 @@ fn initial_unknowns_depend_on_what_they_are_said_to_depend_on() {
 fn outputs_answer_at_once_to_what_they_are_said_to_depend_on() {
     let rigid = SCENE.replace("law = \"hertz\"\nstiffness = 1.0e6", "law = \"stereomechanical\"\nrestitution = 0.0");
     assert_ne!(rigid, SCENE);
-    for scene in [SCENE, YIELDING, &rigid] {
+    for scene in [SCENE, YIELDING, LINKED, &rigid] {
         let fmu = Fmu::new(scene);
         let instance = fmu.instance();
         let variables = &fmu.description.modelVariables;

@@ -34,7 +34,7 @@ fn run(instance: &Instance<'_>) -> Vec<Vec<u64>> {
 }
 
 /// Sets parameters in one of the phases in which it is allowed, and runs.
-fn run_with(fmu: &Fmu, parameters: &[(&str, f64)], in_initialization: bool) -> Vec<Vec<u64>> {
+pub fn run_with(fmu: &Fmu, parameters: &[(&str, f64)], in_initialization: bool) -> Vec<Vec<u64>> {
     let instance = fmu.instance();
     let set = || {
         let references = parameters.iter().map(|(name, _)| fmu.vr(name)).collect::<Vec<_>>();

@@ -7,5 +7,6 @@ mod support;
 mod dependencies;
 mod effect;
 mod limits;
+mod links;
 mod refusals;
 mod scene;

@@ -8,7 +8,7 @@ mod state;
 use fmi::model_description::fmi2::ModelDescription;
 use libloading::Library;
 use pounding::description::Package;
-pub use scenes::{NO_CONTACT, RECORD_SCENE, RICH, SCENE, UNEVEN, YIELDING, record};
+pub use scenes::{LINKED, NO_CONTACT, RECORD_SCENE, RICH, SCENE, UNEVEN, YIELDING, record};
 use serde_json::Value;
 pub use state::State;
 use std::cell::RefCell;

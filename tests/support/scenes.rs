@@ -113,3 +113,52 @@ stiffness = 1.0e5
 restitution = 0.6
 damping_formula = "exact"
 "#;
+
+/// Every kind of link: one that slips at the start, one that is stretched but does not, a dashpot, one to the ground.
+pub const LINKED: &str = r#"
+name = "Linked"
+[left]
+mass = [3.65, 4.2]
+stiffness = [2910.0, 2000.0]
+damping = { ratio = 0.02 }
+initial_displacement = [0.01, 0.02]
+initial_velocity = [0.3, 0.5]
+[right]
+mass = [3.0, 2.5, 2.2]
+stiffness = [2500.0, 2200.0, 1800.0]
+damping = { dashpots = [2.0, 1.5, 1.0] }
+initial_displacement = [-0.012, -0.009, 0.004]
+initial_velocity = [-0.2, -0.1, 0.1]
+[inputs]
+floor_forces = true
+[outputs]
+energy = true
+[[link]]
+left_floor = 2
+right_floor = 2
+stiffness = 900.0
+slip_force = 10.0
+post_yield_ratio = 0.1
+[[link]]
+left_floor = 1
+right_floor = 1
+stiffness = 500.0
+dashpot = 12.0
+[[link]]
+left_floor = 1
+right_floor = 3
+dashpot = 7.0
+[[link]]
+right_floor = 2
+wall = "left"
+stiffness = 300.0
+dashpot = 3.0
+slip_force = 1.5
+[[contact]]
+left_floor = 1
+right_floor = 1
+gap = 0.03
+law = "kelvin_voigt"
+stiffness = 1.0e4
+restitution = 0.65
+"#;

@@ -4,6 +4,7 @@
 mod buildings;
 mod gravity;
 mod levels;
+mod links;
 mod order;
 mod yielding;
 

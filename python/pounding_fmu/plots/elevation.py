@@ -1,4 +1,4 @@
-"""Buildings, walls and ground of a scene as they stand: upright to the scale of their levels, across in mm, with widths
+"""Buildings, links, walls and ground of a scene as they stand: upright to the scale of their levels, across in mm, with widths
 that fit. The animation moves them."""
 
 from __future__ import annotations
@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.patches import Polygon, Rectangle
 
-from .layout import SIDES, Contact, Layout, clamped
+from .devices import Device, stacked
+from .layout import SIDES, Contact, Layout, Link, clamped, slabs_of
 from .style import BUILDINGS, GREY, SOLID
 
 if TYPE_CHECKING:
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
 # mm between buildings of which no contact says how far apart they are.
 USUAL_GAP = 50.0
+# Shares of the width of a building: from the edge of a slab to its link, and to what holds the link on the ground.
+INSET, TO_GROUND = 0.2, 0.3
 
 
 class Elevation:
@@ -29,6 +32,10 @@ class Elevation:
         self.inner = inner_edges(scene)
         self.buildings = {side: Building(axes, scene, side, edges, width) for side, edges in self.inner.items()}
         self.faces = [self.left_face(pair) for pair in scene.contacts]
+        storey = float(np.mean([np.mean(np.diff(levels)) for levels in scene.levels.values()]))
+        self.devices = [
+            Device(axes, link, self.ends_of(link), storey, hung) for link, hung in zip(scene.links, stacked(scene.links))
+        ]
 
     def ends(self) -> tuple[float, float]:
         """mm, from wall to wall or from edge to edge."""
@@ -41,6 +48,20 @@ class Elevation:
         """Moves the floors of each building, mm."""
         for side, building in self.buildings.items():
             building.place(displacements[side])
+        for device in self.devices:
+            moved = {side: float(displacements[side][floor - 1]) for side, floor in slabs_of(device.link)}
+            device.place((moved.get("left", 0.0), moved.get("right", 0.0)))
+
+    def ends_of(self, link: Link) -> list[NDArray[Any]]:
+        """mm and level of the points that a link is between, at rest."""
+        inset, ends = INSET * self.width, {}
+        for side, floor in slabs_of(link):
+            across = self.inner[side][floor - 1] + (-inset if side == "left" else inset)
+            ends[side] = np.array([across, self.scene.levels[side][floor]])
+        for side, other, away in (("left", "right", -1), ("right", "left", 1)):
+            if side not in ends:
+                ends[side] = ends[other] + [away * (inset + TO_GROUND * self.width), 0.0]
+        return [ends[side] for side in SIDES]
 
     def left_face(self, pair: Contact) -> float:
         left, right = pair.surfaces["left"], pair.surfaces["right"]
@@ -56,6 +77,12 @@ class Elevation:
     def draw_surroundings(self, axes: Axes, xlim: tuple[float, float]) -> None:
         """The ground at the level of each building, and walls up to a little above what hits them."""
         scene = self.scene
+        for device in self.devices:
+            for (x, level), side in zip(device.ends, SIDES):
+                if device.link.surfaces[side]["kind"] == "wall":
+                    far = -0.03 * self.width if side == "left" else 0.03 * self.width
+                    low = level - device.depth(len(device.link.parts) - 1) - 0.1 * device.storey
+                    axes.add_patch(Rectangle((x, low), far, level - low, **SOLID))
         step = self.inner["right"][0] / 2 if "right" in self.inner else xlim[1]
         levels = [scene.levels[side][0] for side in scene.floors]
         axes.plot([xlim[0], step, step, xlim[1]], np.repeat(levels, 4 // len(levels)), color=GREY, linewidth=3)

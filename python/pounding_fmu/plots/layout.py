@@ -1,4 +1,4 @@
-"""What stands where in a scene: floors at their levels, what meets at each contact. The engine says it."""
+"""What stands where in a scene: floors at their levels, what meets at each contact, what links join. The engine says it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .runs import Run
 
 SIDES = ("left", "right")
-Surface = dict[str, Any]  # what meets on one side of a gap; its `kind` is floor, columns or wall
+Surface = dict[str, Any]  # on one side of a gap or at one end of a link; its `kind` is floor, columns or wall
 Levels = dict[str, "NDArray[Any]"]
 
 
@@ -34,6 +34,7 @@ class Layout:
             for side, count in self.floors.items()
         }
         self.contacts = [Contact(contact, self) for contact in told["contacts"]]
+        self.links = [Link(link) for link in told["links"]]
 
     @property
     def top(self) -> float:
@@ -73,6 +74,21 @@ class Contact:
         """Where a building is touched, or None where it is not."""
         own = [surface for surface in self.surfaces.values() if surface.get("side") == side]
         return height(own[0], levels) if own else None
+
+
+class Link:
+    """What a link joins, and its parts: spring, friction, dashpot. An end on the ground is a wall."""
+
+    def __init__(self, told: dict[str, Any]) -> None:
+        self.parts: list[str] = told["parts"]
+        self.surfaces: dict[str, Surface] = {side: told[side] for side in SIDES}
+        self.name = in_words(*self.surfaces.values()).replace("wall", "ground")
+        self.made_of = " and ".join(self.parts)
+
+
+def slabs_of(link: Link) -> list[tuple[str, int]]:
+    """Side and number of the floors that a link joins."""
+    return [(side, surface["floor"]) for side, surface in link.surfaces.items() if surface["kind"] == "floor"]
 
 
 def height(surface: Surface, levels: Levels) -> float:

@@ -53,7 +53,7 @@ def draw_meetings(axes: Axes, scene: Layout, most: int = 100, always: int | None
 
 
 def words(scene: Layout) -> list[str]:
-    """A line for each contact, and the floors that have none."""
+    """A line for each contact, the floors that have none, and a line for each link."""
     lines = []
     for p, pair in enumerate(scene.contacts, 1):
         at = [f" at {surface['position']:.3g}" for surface in pair.surfaces.values() if surface["kind"] == "columns"]
@@ -63,7 +63,8 @@ def words(scene: Layout) -> list[str]:
         alone = [i for i in range(1, count + 1) if {"kind": "floor", "side": side, "floor": i} not in faces]
         if alone:
             lines += ["", f"no contact: {side} floor {', '.join(map(str, alone))}"]
-    return lines
+    links = [f"link {at}   {link.name}: {link.made_of}" for at, link in enumerate(scene.links, 1)]
+    return [*lines, "", *links] if links else lines
 
 
 def write_levels(axes: Axes, elevation: Elevation, side: str, lowest: int) -> None:

@@ -1,4 +1,5 @@
-"""Pictures of storeys: drifts over the height, and of those that yield hysteresis loops and what is left of drifts."""
+"""Pictures of storeys: drifts over the height, and of those that yield hysteresis loops and what is left of drifts; loops of
+links beside them."""
 
 from __future__ import annotations
 
@@ -9,7 +10,7 @@ from matplotlib.figure import Figure
 
 from .elevation import prepare_height
 from .layout import Layout
-from .pictures import force_unit, legend_of_all
+from .pictures import force_unit, handy, legend_of_all
 from .runs import Run, Runs
 from .style import ALONE, BLACK, BUILDINGS, GREY, Look
 
@@ -19,14 +20,21 @@ if TYPE_CHECKING:
 
 # As many storeys of a building as one picture can show: those with the largest ductility.
 MOST_STOREYS = 4
+# As many links: those with the largest force.
+MOST_LINKS = 4
+LINK: Look = {"color": BLACK, "linewidth": 1.4}
 
 
 def both(runs: Runs, side: str) -> list[tuple[Run, str, Look]]:
     """The run and that without contacts, and how their lines are called and look."""
-    look = {**BUILDINGS[side], "linestyle": "-"}
+    return with_and_without(runs, side, BUILDINGS[side])
+
+
+def with_and_without(runs: Runs, name: str, look: Look) -> list[tuple[Run, str, Look]]:
+    look = {**look, "linestyle": "-"}
     if not runs.scene.contacts:
-        return [(runs.run, side, look)]
-    return [(runs.run, f"{side}, pounding", look), (runs.alone, "without contact", ALONE)]
+        return [(runs.run, name, look)]
+    return [(runs.run, f"{name}, pounding", look), (runs.alone, "without contact", ALONE)]
 
 
 def drift_of(run: Run, side: str, storey: int) -> NDArray[Any]:
@@ -89,27 +97,67 @@ def most_ductile(runs: Runs, most: int) -> dict[str, list[int]]:
     return found
 
 
+def strongest_links(runs: Runs, most: int) -> list[int]:
+    """The links with the largest forces, counted from 1, in their order."""
+    largest = {at: link_force(runs.run, at) for at in range(1, len(runs.scene.links) + 1)}
+    return sorted(sorted(largest, key=largest.__getitem__)[-most:])
+
+
+def link_force(run: Run, link: int) -> float:
+    """N, the largest of either sign."""
+    return float(np.abs(run[f"link[{link}].force"]).max())
+
+
 def loops(runs: Runs) -> Figure | None:
-    """Storey shear against drift: what loops enclose is dissipated. In brackets the ductility without contact."""
-    shown = most_ductile(runs, MOST_STOREYS)
-    if not shown:
+    """Storey shear against drift, and force of links against displacement: what loops enclose is dissipated. In brackets the
+    ductility, or the largest force, without contact."""
+    shown, links = most_ductile(runs, MOST_STOREYS), strongest_links(runs, MOST_LINKS)
+    if not shown and not links:
         return None
-    rows, columns = max(map(len, shown.values())), len(shown)
+    rows, columns = max(len(own) for own in (*shown.values(), links)), len(shown) + bool(links)
     figure = Figure(figsize=(4.1 * columns, 1.9 * rows + 0.8))
     panels = figure.subplots(rows, columns, squeeze=False)
     for axes in panels.flat:
         axes.axis("off")
-    largest = max(np.abs(runs.run[f"{side}.storey_shear[{i}]"]).max() for side, own in shown.items() for i in own)
-    factor, unit = force_unit(largest)
-    for column, (side, own) in zip(panels.T, shown.items()):
-        # As the storeys stand: the first one at the bottom.
+    draw_storeys(panels.T, runs, shown)
+    if links:
+        draw_links(panels[rows - len(links) :, -1], runs, links)
+    legend_of_all(figure, panels.flat)
+    return figure
+
+
+def draw_storeys(columns: NDArray[Any], runs: Runs, shown: dict[str, list[int]]) -> None:
+    """A column for each building, as its storeys stand: the first one at the bottom."""
+    shears = [np.abs(runs.run[f"{side}.storey_shear[{i}]"]).max() for side, own in shown.items() for i in own]
+    factor, unit = force_unit(max(shears, default=0.0))
+    for column, (side, own) in zip(columns, shown.items()):
         for axes, storey in zip(column[::-1], own):
             axes.axis("on")
             draw_loops(axes, runs, side, storey, factor)
-        column[rows - len(own)].set_ylabel(f"storey shear [{unit}]")
+        column[len(column) - len(own)].set_ylabel(f"storey shear [{unit}]")
         column[-1].set_xlabel("drift [mm]")
-    legend_of_all(figure, panels.flat)
-    return figure
+
+
+def draw_links(panels: NDArray[Any], runs: Runs, links: list[int]) -> None:
+    """A panel for each."""
+    factor, unit = force_unit(max(link_force(runs.run, link) for link in links))
+    for axes, link in zip(panels, links):
+        axes.axis("on")
+        draw_link_loops(axes, runs, link, factor)
+    panels[0].set_ylabel(f"link force [{unit}]")
+    panels[-1].set_xlabel("displacement, nearer positive [mm]")
+
+
+def draw_link_loops(axes: Axes, runs: Runs, link: int, factor: float) -> None:
+    lines = with_and_without(runs, "link", LINK)
+    for one, label, line in lines[::-1]:
+        displacement, force = 1e3 * one[f"link[{link}].displacement"], one[f"link[{link}].force"] / factor
+        axes.plot(displacement, force, label=label, **{**line, "linewidth": 1.0})
+    draw_zero(axes)
+    pounding, *alone = (handy(link_force(one, link), "N") for one, _, _ in lines)
+    compared = f" ({alone[0]})" if alone else ""
+    told = runs.scene.links[link - 1]
+    axes.set_title(f"Link {link}, {told.name}\n{told.made_of}: {pounding}{compared}")
 
 
 def draw_loops(axes: Axes, runs: Runs, side: str, storey: int, factor: float) -> None:
@@ -117,11 +165,15 @@ def draw_loops(axes: Axes, runs: Runs, side: str, storey: int, factor: float) ->
     for one, label, line in lines[::-1]:
         shear = one[f"{side}.storey_shear[{storey}]"] / factor
         axes.plot(drift_of(one, side, storey), shear, label=label, **{**line, "linewidth": 1.0})
-    axes.axhline(0, color=GREY, linewidth=0.8)
-    axes.axvline(0, color=GREY, linewidth=0.8)
+    draw_zero(axes)
     pounding, *alone = (reached(runs, one, side, storey) for one, _, _ in lines)
     compared = f" ({alone[0]})" if alone else ""
     axes.set_title(f"{side.capitalize()} storey {storey}: ductility {pounding}{compared}")
+
+
+def draw_zero(axes: Axes) -> None:
+    axes.axhline(0, color=GREY, linewidth=0.8)
+    axes.axvline(0, color=GREY, linewidth=0.8)
 
 
 def reached(runs: Runs, run: Run, side: str, storey: int) -> str:

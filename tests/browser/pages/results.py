@@ -7,6 +7,19 @@ from .visit import FOLDER, KNOWN, impacts_of, line_at, lines, now, pixels, says,
 # Two undamped frames that hit each other for ever, and hours of it.
 LONG = [("stop_time = 20.0", "stop_time = 2e5"), ("ratio = 0.01", "ratio = 0.0"), ('"kelvin_voigt"', '"linear"'), ("restitution = 0.65", "")]
 
+# Friction between the roofs of frames that yield, a dashpot between their first floors, in kN and m.
+LINKS = """
+[[link]]
+left_floor = 3
+right_floor = 3
+stiffness = 30e3
+slip_force = 60
+[[link]]
+left_floor = 1
+right_floor = 1
+dashpot = 600
+"""
+
 
 def plays_and_stands_still(browser):
     with visit(browser) as page:
@@ -161,6 +174,54 @@ def draws_loops_where_storeys_yield(browser):
         page.screenshot(path=FOLDER / "page_loops.png")
 
 
+def draws_links(browser):
+    """Devices in the picture, which move with the floors and show when they slip; charts, loops and peaks of them."""
+    with visit(browser) as page:
+        page.locator("#example").select_option(label="Frames of four and three storeys that yield, 20 mm apart")
+        says(page, "^4 impacts in 31.18 s")
+        assert page.locator("[data-chart^=link]").count() == 0
+        # No impact, whose star has the colour of a block that slips.
+        page.locator("#scene").fill(page.locator("#scene").input_value().replace("gap = 0.02 ", "gap = 0.4 ") + LINKS)
+        says(page, "^0 impacts in 31.18 s")
+        assert "the link slips" in page.locator("#scale").inner_text()
+        seen = [devices_at(page, 0.05 * step) for step in range(1, 160)]
+        assert seen[0]["filled"] == 0 and any(one["filled"] > 20 for one in seen), "a block that slips is filled"
+        farthest = max(seen, key=lambda one: one["roof"])
+        assert farthest["roof"] > 20 and farthest["leftmost"] > seen[0]["leftmost"] + 4, (farthest, seen[0])
+        page.screenshot(path=FOLDER / "page_links.png")
+        charts = [f"[data-chart=link-{part}] .u-legend" for part in ("force", "displacement")]
+        assert all("link 1" in page.locator(chart).inner_text() for chart in charts)
+        page.locator("#tab-peaks").click()
+        cells = page.locator("#panel-peaks table", has_text="what it joins").locator("tbody tr").all_inner_texts()
+        assert len(cells) == 2 and "left floor 3" in cells[0] and re.search(r"\b60(\.0)?\b", cells[0]), cells
+        page.locator("#tab-loops").click()
+        captions = page.locator("#panel-loops figcaption").all_inner_texts()
+        assert len(captions) == 9 and sum(caption.startswith("Link") for caption in captions) == 2, captions
+        friction = next(caption for caption in captions if "friction" in caption)
+        assert friction.startswith("Link 1 between") and friction.endswith("60 kN"), friction
+        page.wait_for_timeout(300)
+        page.screenshot(path=FOLDER / "page_link_loops.png")
+
+
+def devices_at(page, time):
+    """At a time: the leftmost pixel of lines of devices, how many pixels are filled as a block that slips, and the displacement of
+    the left roof, mm."""
+    page.locator("#time").evaluate("(bar, time) => { bar.value = time; bar.dispatchEvent(new Event('input')); }", time)
+    found = page.evaluate("""() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
+        const canvas = document.querySelector("#buildings"), [width, height] = [canvas.width, canvas.height - 60];
+        const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
+        let [leftmost, filled] = [width, 0];
+        for (let at = 0; at < data.length; at += 4) {
+            const is = (r, g, b) => data[at] === r && data[at + 1] === g && data[at + 2] === b;
+            if (Math.max(data[at], data[at + 1], data[at + 2]) < 130) leftmost = Math.min(leftmost, (at / 4) % width);
+            if (is(240, 228, 66)) filled++;
+        }
+        done({ leftmost, filled });
+    })))""")
+    roof = re.search(r"left roof (\S+) mm", page.locator("#buildings").get_attribute("aria-label"))[1]
+    return {**found, "roof": float(roof)}
+
+
 def studies_the_gap(browser):
     with visit(browser) as page:
         page.locator("#tab-study").click()
@@ -237,5 +298,6 @@ def is_fast_with_many_impacts(browser):
 
 LOOKS = [
     plays_and_stands_still, shows_both_with_and_without_contact, zooms_all_charts_together, sorts_impacts_and_goes_to_them,
-    says_the_peaks, draws_loops_where_storeys_yield, studies_the_gap, stops_a_long_run, is_fast_with_many_impacts,
+    says_the_peaks, draws_loops_where_storeys_yield, draws_links, studies_the_gap, stops_a_long_run,
+    is_fast_with_many_impacts,
 ]  # fmt: skip

@@ -3,6 +3,7 @@
 mod buildings;
 mod contacts;
 mod gravity;
+mod links;
 mod meant;
 mod meetings;
 

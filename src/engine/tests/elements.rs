@@ -1,0 +1,110 @@
+//! Elements in a body with links: where the body rests, and what that does to limits and energies, from the stiffness of its
+//! floors.
+
+use crate::engine::base::Coordinates;
+use crate::engine::base::peaks::Peaks;
+use crate::engine::base::storey::Storey;
+use crate::engine::system::System;
+use crate::engine::yielding::element::{Element, ElementOf};
+use crate::scene::{Link, Scene, Side, Slip};
+use nalgebra::{DMatrix, DVector};
+
+/// Two storeys beside one, with a link between the upper floors: all yield.
+fn linked() -> System {
+    let text = "name = \"Linked\"\n\
+                left = { mass = [3e4, 2e4], stiffness = [2e7, 1.5e7], damping = { ratio = 0.02 }, \
+                         yield_force = [1e5, 8e4], post_yield_ratio = [0.1, 0.0] }\n\
+                right = { mass = [4e4], stiffness = [1e7], damping = { ratio = 0.02 }, yield_force = [5e4], \
+                          post_yield_ratio = 0.05 }\n";
+    let mut scene = Scene::from_toml(text).unwrap();
+    let slip = Some(Slip { force: 6e4, ratio: 0.0 });
+    scene.links.push(Link { left: Some(0), right: None, stiffness: 1e6, dashpot: 0.0, slip: None });
+    scene.links.push(Link { left: Some(1), right: Some(0), stiffness: 3e7, dashpot: 1e5, slip });
+    System::of(&scene, None).unwrap()
+}
+
+#[test]
+fn plastic_drifts_move_the_whole_body_and_all_limits() {
+    let system = linked();
+    let places = [
+        ElementOf::Storey(Side::Left, 0),
+        ElementOf::Storey(Side::Left, 1),
+        ElementOf::Storey(Side::Right, 0),
+        ElementOf::Link(1),
+    ];
+    assert_eq!(system.storeys.iter().map(|of| of.place).collect::<Vec<_>>(), places);
+    assert_eq!(places.map(|place| system.number_of(place)), [0, 1, 2, 3].map(Some));
+    assert_eq!((system.number_of_link(0), system.number_of_link(1)), (None, Some(3)));
+    // Of the ground's acceleration, drifts between two floors get nothing.
+    assert_eq!(system.storeys.iter().map(Element::share_of_ground).collect::<Vec<_>>(), [1.0, 0.0, 1.0, 0.0]);
+    // (row, k, (1 - r) k) of the elements, and the link that does not slip.
+    let elements = [
+        ([1.0, 0.0, 0.0], 2e7, 0.9 * 2e7),
+        ([-1.0, 1.0, 0.0], 1.5e7, 1.5e7),
+        ([0.0, 0.0, 1.0], 1e7, 0.95 * 1e7),
+        ([0.0, 1.0, -1.0], 3e7, 3e7),
+        ([1.0, 0.0, 0.0], 1e6, 0.0),
+    ]
+    .map(|(row, k, lost)| (DVector::from_row_slice(&row), k, lost));
+    let stiffness: DMatrix<f64> = elements.iter().map(|(row, k, _)| *k * row * row.transpose()).sum();
+    let plastic = [0.004, -0.007, 0.01, -0.003];
+    let storeys = plastic.map(|plastic| Storey { plastic, ..Storey::default() });
+    let forces: DVector<f64> = elements.iter().zip(&plastic).map(|((row, _, lost), p)| lost * *p * row).sum();
+    let rest = stiffness.clone().lu().solve(&forces).unwrap();
+    let found = system.rest_of(&storeys).floors;
+    for (i, rest) in rest.iter().enumerate() {
+        assert!((found[i] - rest).abs() < 1e-16, "floor {i}: {} not {rest}", found[i]);
+    }
+    let mut locked = -0.5 * rest.dot(&(&stiffness * &rest));
+    for (i, (row, k, lost)) in elements.iter().enumerate().take(4) {
+        let (of, (storey, centre)) = system.element(i, &storeys);
+        let at_rest = row.dot(&rest);
+        assert!((centre - (plastic[i] - at_rest)).abs() < 1e-16, "{i}: {centre}");
+        assert!((of.residual_drift(storey, &storeys) - at_rest).abs() < 1e-16, "{i}");
+        // At rest: x = 0.
+        let shear = k * at_rest - lost * plastic[i];
+        assert!((of.shear((storey, centre), 0.0) - shear).abs() < 1e-9, "{i}: not {shear} N");
+        assert_eq!(of.noise(centre, 0.0), 2.0 * f64::EPSILON * (of.limit + centre.abs()));
+        assert_eq!(of.moved_share(centre), centre.abs() / of.limit);
+        locked += 0.5 * lost * plastic[i] * plastic[i];
+    }
+    let found = system.locked_energy(&storeys);
+    assert!((found - locked).abs() < 1e-12 * locked, "{found} not {locked} J");
+}
+
+/// A change of plastic drift is taken from the motion relative to the position of rest: floors stay where they are, and with
+/// them all other elements within their limits.
+#[test]
+fn only_its_own_elastic_part_follows_a_plastic_drift() {
+    let system = linked();
+    let mut storeys = [0.004, -0.007, 0.01, -0.003].map(|plastic| Storey { plastic, ..Storey::default() });
+    let mut q: Vec<f64> = (0..system.structure.lanes).map(|m| if m < 3 { 0.5 - 0.3 * m as f64 } else { 0.0 }).collect();
+    let parts = |storeys: &[Storey], q: &[f64]| -> Vec<f64> {
+        system.elements(storeys).map(|(of, (_, centre))| of.drift(Coordinates::Modes, q) - centre).collect()
+    };
+    for i in 0..4 {
+        let (before, from) = (parts(&storeys, &q), storeys[i]);
+        storeys[i] = from.after(0.002);
+        system.storeys[i].move_rest(Coordinates::Modes, (&from, &storeys[i]), &mut q);
+        for (j, (before, after)) in before.iter().zip(parts(&storeys, &q)).enumerate() {
+            let expected = if j == i { before - 0.002 } else { *before };
+            assert!((after - expected).abs() < 1e-16, "{j} after {i}: {after} not {expected}");
+        }
+    }
+}
+
+/// At rest a body stays within its limits for ever as long as plastic drifts leave it within them, in either sense.
+#[test]
+fn envelopes_know_where_the_limits_are() {
+    let system = linked();
+    let mut base = system.start(0.0, Peaks::default(), None);
+    let still = vec![0.0; system.structure.lanes];
+    base.storeys[3].plastic = 1.0;
+    let (of, (_, per_unit)) = system.element(3, &base.storeys);
+    let farthest = of.limit / per_unit;
+    for (share, stays) in [(0.999, true), (1.001, false), (-0.999, true), (-1.001, false)] {
+        base.storeys[3].plastic = share * farthest;
+        let found = system.envelopes_stay_within(&base, (&still, &still), (&still, &still), 1.0);
+        assert_eq!(found, stays, "{share} of {farthest} m");
+    }
+}
