@@ -1,7 +1,7 @@
 //! Events with both flags: where steps stop, what is read before and after, and masters that do not follow.
 
 use crate::linked_3::*;
-use crate::support::{RECORD_SCENE, RICH, SCENE, UNEVEN, YIELDING};
+use crate::support::{LINKED, RECORD_SCENE, RICH, SCENE, UNEVEN, YIELDING};
 use pounding::variables::Slot;
 
 /// Steps to the next event, which must come before a time.
@@ -72,6 +72,47 @@ fn motion_does_not_jump_where_a_soft_contact_begins() {
     assert_eq!(instance.real("time"), time);
 }
 
+/// A step ends where a link begins to slip and where it sticks: its force does not jump there, and a slip is seen from the
+/// event on.
+#[test]
+fn slips_of_links_are_events() {
+    let fmu = Fmu::new(LINKED);
+    let instance = started(&fmu);
+    let senses = || [1, 4].map(|link| instance.integer(&format!("link[{link}].slipping")));
+    let (mut time, mut slips, mut sticks) = (0.0, 0, 0);
+    while time < 1.0 {
+        let (status, stepped) = instance.step(time, 1.0 - time);
+        assert_eq!(status, OK);
+        let (from, before) = (time, senses());
+        time = stepped.last;
+        if stepped.event == 0 {
+            break;
+        }
+        let forces = || [1, 4].map(|link| instance.real(&format!("link[{link}].force")));
+        let force = forces();
+        instance.handle();
+        for (after, before) in forces().into_iter().zip(force) {
+            assert!((after - before).abs() < 1e-11, "{before} N and {after} N at {time} s");
+        }
+        let after = senses();
+        assert!(from < time || before != after);
+        slips += before.iter().zip(after).filter(|(before, after)| **before == 0 && *after != 0).count();
+        sticks += before.iter().zip(after).filter(|(before, after)| **before != 0 && *after == 0).count();
+    }
+    assert!(slips > 5 && sticks > 5, "{slips} slips and {sticks} sticks are stopped at");
+    // Of the whole run, as a master sees it that looks ten thousand times: none but the shortest is missed.
+    let watched = fmu.instance(false, false);
+    watched.initialize();
+    let (mut last, mut seen) = ([0; 2], 0);
+    for k in 0..10_000 {
+        assert_eq!(watched.step(1e-4 * f64::from(k), 1e-4).0, OK);
+        let now = [1, 4].map(|link| watched.integer(&format!("link[{link}].slipping")));
+        seen += last.iter().zip(now).filter(|(last, now)| **last == 0 && *now != 0).count();
+        last = now;
+    }
+    assert!(seen <= slips + 2 && slips <= seen + 2, "{slips} slips are stopped at, {seen} seen");
+}
+
 /// Steps to a communication point as a master does that follows what it is told, and sets its inputs at every stop.
 /// Number of early returns and events.
 fn follow(instance: &Instance<'_>, inputs: &[(u32, f64)], from: f64, end: f64) -> usize {
@@ -97,7 +138,7 @@ fn follow(instance: &Instance<'_>, inputs: &[(u32, f64)], from: f64, end: f64) -
 
 #[test]
 fn whatever_the_flags_the_bits_are_the_same() {
-    for (scene, text) in [SCENE, RECORD_SCENE, RICH, UNEVEN, YIELDING].into_iter().enumerate() {
+    for (scene, text) in [SCENE, RECORD_SCENE, RICH, UNEVEN, YIELDING, LINKED].into_iter().enumerate() {
         let fmu = Fmu::new(text);
         let inputs = fmu.table.iter().filter(|(_, row)| matches!(row.slot, Slot::Input(_)));
         let inputs = inputs.map(|(reference, _)| reference).collect::<Vec<_>>();

@@ -3,7 +3,7 @@
 
 use crate::linked_3::*;
 use crate::sequence::{TABLE, call};
-use crate::support::{RICH, SCENE, UNEVEN, YIELDING};
+use crate::support::{LINKED, RICH, SCENE, UNEVEN, YIELDING};
 use pounding::FmiVersion;
 use pounding::description::Package;
 use pounding::slave::{Interface, Log, Slave};
@@ -136,7 +136,7 @@ fn a_line_goes_on_to_the_same_bits_over_early_returns() {
 
 #[test]
 fn each_event_gives_a_turn_to_read() {
-    for (scene, text) in [SCENE, RICH, UNEVEN, YIELDING].into_iter().enumerate() {
+    for (scene, text) in [SCENE, RICH, UNEVEN, YIELDING, LINKED].into_iter().enumerate() {
         let fmu = Fmu::new(text);
         let plain = fmu.instance(false, false);
         plain.initialize();
