@@ -1,5 +1,5 @@
-// Links as engineers draw them, on a canvas: springs as zigzags, dashpots as pistons in cups, friction as a block between
-// two plates behind its spring; side by side what is parallel, hung below the slabs that they join.
+// Links as engineers draw them, on a canvas: springs as zigzags, dashpots as pistons in cups, friction as a block
+// between two plates behind its spring; side by side what is parallel, hung below the slabs that they join.
 
 const TEETH = 4;
 const LINE = 1.6;
@@ -22,8 +22,8 @@ export class Devices {
     this.hung = new Map();
   }
 
-  // A link between two points of slabs, `rest` pixels long at rest; `keys` say which slabs, so that the next one there hangs
-  // lower. `grounded`: the side of an end that is held by the ground; `slips`: its block does at this moment.
+  // A link between two points of slabs, `rest` pixels long at rest; `keys` say which slabs, so that the next one there
+  // hangs lower. `grounded`: the side of an end that the ground holds; `slips`: its block does at this moment.
   draw({ parts, from, to, rest, keys, slab, grounded, slips }) {
     const { context, colours } = this;
     context.strokeStyle = colours.ink;

@@ -276,7 +276,7 @@ def is_linked(page, impacts):
         at_the_top.append(sum(abs(up - min(ups)) < 0.2 for up in ups))
     assert at_the_top[0] > 100 > 20 > max(at_the_top[1:]), at_the_top
     charts = page.locator(".chart h3").all_inner_texts()
-    assert charts == ["displacement [mm]", "acceleration [g]", "contact force [kN]", "link force [kN]", "link displacement [mm]"]
+    assert {"link force [kN]", "link displacement [mm]"} <= set(charts) and len(charts) == 5, charts
     legend = page.locator(".chart", has_text="link force").locator(".u-legend .u-label").all_inner_texts()
     assert legend[1:] == ["link 1", "link 2", "link 3"], legend
     page.screenshot(path=FOLDER / "linked.png", full_page=True)
