@@ -261,6 +261,7 @@ def is_linked(page, impacts):
     assert rows[1][1].startswith("left floor 2") and rows[1][1].endswith("the ground"), rows[1]
     number = lambda row, heading: float(row[headings.index(heading)])  # noqa: E731
     assert number(rows[0], "peak force [kN]") == 60.0
+    # In the unit of all lengths, which such a sum does not change.
     travel, dissipated = number(rows[0], "slip travel [mm]"), number(rows[0], "dissipated [kJ]")
     assert travel > 100.0 and abs(dissipated / (60.0 * travel * 1e-3) - 1.0) < 1e-3, (travel, dissipated)
     assert rows[2][headings.index("slip travel [mm]")] == ""
