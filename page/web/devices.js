@@ -1,8 +1,8 @@
-// Links as engineers draw them, on a canvas: springs as zigzags, dashpots as pistons in cups, friction as a block between
-// two plates behind its spring; side by side what is parallel, hung below the slabs that they join.
+// Links as engineers draw them, on a canvas: springs as zigzags, dashpots as pistons in cups, friction as a block
+// between two plates behind its spring; side by side what is parallel, hung below the slabs that they join.
 
 const TEETH = 4;
-const LINE = 1.6;
+const DEVICE_LINE = 1.6;
 // Pixels: half the height of a part, the room between two of them, how far below a slab the first one hangs.
 const HALF = 6;
 const BETWEEN = 5;
@@ -13,7 +13,7 @@ const LOWEST_STOREY = 26;
 const CUP = 20;
 const BLOCK = 12;
 // Pixels that a part has to be drawn in; a line where there are fewer.
-const SHORTEST = 30;
+const NARROWEST_PART = 30;
 
 export class Devices {
   // `storey` is the height of a storey in pixels.
@@ -22,12 +22,12 @@ export class Devices {
     this.hung = new Map();
   }
 
-  // A link between two points of slabs, `rest` pixels long at rest; `keys` say which slabs, so that the next one there hangs
-  // lower. `grounded`: the side of an end that is held by the ground; `slips`: its block does at this moment.
+  // A link between two points of slabs, `rest` pixels long at rest; `keys` say which slabs, so that the next one there
+  // hangs lower. `grounded`: the side of an end that the ground holds; `slips`: its block does at this moment.
   draw({ parts, from, to, rest, keys, slab, grounded, slips }) {
     const { context, colours } = this;
     context.strokeStyle = colours.ink;
-    context.lineWidth = LINE;
+    context.lineWidth = DEVICE_LINE;
     context.setLineDash([]);
     const first = Math.max(...keys.map((key) => this.hung.get(key) ?? 0));
     for (const key of keys) this.hung.set(key, first + parts.length);
@@ -47,7 +47,7 @@ export class Devices {
     const away = side === "left" ? -1 : 1;
     context.lineWidth = 1;
     for (let at = y; at <= y + lowest; at += 7) this.#line([x, at], [x + 6 * away, at + 6]);
-    context.lineWidth = LINE;
+    context.lineWidth = DEVICE_LINE;
   }
 
   #part(part, from, to, rest, slips) {
@@ -56,7 +56,7 @@ export class Devices {
     context.save();
     context.translate(from.x, from.y);
     context.rotate(Math.atan2(to.y - from.y, to.x - from.x));
-    if (this.isSmall || length < SHORTEST) this.#line([0, 0], [length, 0]);
+    if (this.isSmall || length < NARROWEST_PART) this.#line([0, 0], [length, 0]);
     else if (part === "spring") this.#spring(length);
     else if (part === "dashpot") this.#dashpot(length, rest);
     else this.#friction(length, slips);

@@ -9,7 +9,7 @@ const COLUMN_POINTS = 12;
 const MOST_NUMBERS = 12;
 // Pixels, the radius of a number's circle.
 const NUMBER = 8;
-// Pixels: how far from the edge of a slab a link begins, and how far from there what holds its link on the ground is, beyond the
+// Pixels: how far from the edge of a slab a link begins, and how far from the edge the ground holds a link, beyond the
 // farthest that a floor goes.
 const INSET = 24;
 const TO_GROUND = 30;

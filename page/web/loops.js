@@ -1,5 +1,5 @@
-// Loops: force over penetration of an impact, storey shear over drift of storeys that can yield, force over displacement of
-// links. What one encloses is lost.
+// Loops: force over penetration of an impact, storey shear over drift of storeys that can yield, force over displacement
+// of links. What one encloses is lost.
 
 import { digits, handyUnit, largestOf, quantity, seconds, withUnit } from "./format.js";
 import { element, make, onceAFrame } from "./make.js";

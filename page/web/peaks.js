@@ -1,5 +1,5 @@
-// The largest values of a run, as long as the scene keeps them: of each floor and storey, the top first, and of each link,
-// with the times at which they were reached; a time goes there.
+// The largest values of a run, as long as the scene keeps them: of each floor and storey, the top first, and of each
+// link, with the times at which they were reached; a time goes there.
 
 import { GRAVITY, digits, handyUnit, largestOf, plural, seconds, withUnit } from "./format.js";
 import { element, make } from "./make.js";
@@ -50,7 +50,9 @@ export class Peaks {
     make(table, "caption", `${side}, ${plural(floors, "storey", "storeys")}`, { class: `of-${side}` });
     const head = make(make(table, "thead"), "tr");
     make(head, "th", "floor", { scope: "col" });
-    const looks = present.map((quantity) => this.#unitOf((floor) => `${side}.${quantity.part}[${floor}]`, floors, quantity));
+    const looks = present.map((quantity) =>
+      this.#unitOf((floor) => `${side}.${quantity.part}[${floor}]`, floors, quantity),
+    );
     present.forEach(({ title }, at) => make(head, "th", withUnit(title, looks[at]), { scope: "col" }));
     const body = make(table, "tbody");
     for (let floor = floors; floor > 0; floor--) {

@@ -61,9 +61,11 @@ function rowsOf(steps) {
 }
 
 // Each unit is shown as itself or as its display unit, whichever has the handier numbers, and the same on the whole page.
+// Ways that add up over the run have no say in that of lengths.
+const SUMS = ["link slip travel", "cumulative plastic drift"];
 const units = new Map();
-for (const { unit, display, largest } of run.columns) {
-  if (!unit || unit === "1" || !display) continue;
+for (const { unit, display, largest, quantity } of run.columns) {
+  if (!unit || unit === "1" || !display || SUMS.includes(quantity)) continue;
   const known = units.get(unit) ?? { display, largest: 0 };
   units.set(unit, { ...known, largest: Math.max(known.largest, largest) });
 }

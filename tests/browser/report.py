@@ -261,6 +261,7 @@ def is_linked(page, impacts):
     assert rows[1][1].startswith("left floor 2") and rows[1][1].endswith("the ground"), rows[1]
     number = lambda row, heading: float(row[headings.index(heading)])  # noqa: E731
     assert number(rows[0], "peak force [kN]") == 60.0
+    # In the unit of all lengths, which such a sum does not change.
     travel, dissipated = number(rows[0], "slip travel [mm]"), number(rows[0], "dissipated [kJ]")
     assert travel > 100.0 and abs(dissipated / (60.0 * travel * 1e-3) - 1.0) < 1e-3, (travel, dissipated)
     assert rows[2][headings.index("slip travel [mm]")] == ""
@@ -276,7 +277,7 @@ def is_linked(page, impacts):
         at_the_top.append(sum(abs(up - min(ups)) < 0.2 for up in ups))
     assert at_the_top[0] > 100 > 20 > max(at_the_top[1:]), at_the_top
     charts = page.locator(".chart h3").all_inner_texts()
-    assert charts == ["displacement [mm]", "acceleration [g]", "contact force [kN]", "link force [kN]", "link displacement [mm]"]
+    assert {"link force [kN]", "link displacement [mm]"} <= set(charts) and len(charts) == 5, charts
     legend = page.locator(".chart", has_text="link force").locator(".u-legend .u-label").all_inner_texts()
     assert legend[1:] == ["link 1", "link 2", "link 3"], legend
     page.screenshot(path=FOLDER / "linked.png", full_page=True)
