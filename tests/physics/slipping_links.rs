@@ -138,8 +138,7 @@ fn a_damper_between_equal_storeys_is_one_oscillator() {
 /// Floors, spring and dashpot, slip force and ratio.
 type Device = ((usize, usize), (f64, f64), Option<(f64, f64)>);
 
-const LINKED: [Device; 2] =
-    [((2, 2), (3e7, 5e4), Some((6e4, 0.0))), ((3, 1), (8e6, 1e5), Some((4e4, 0.1)))];
+const LINKED: [Device; 2] = [((2, 2), (3e7, 5e4), Some((6e4, 0.0))), ((3, 1), (8e6, 1e5), Some((4e4, 0.1)))];
 
 /// Frames that yield, of which one leans, with two links that slip.
 fn frames() -> Scene {
