@@ -78,8 +78,8 @@ fn a_ratio_beside_one_is_a_spring() {
     assert!(worst < 1e-11, "off by {worst:.1e}");
 }
 
-/// From braces that are hardly there to a hundred times the usual, slip forces from a millionth to a thousand times: each run ends with its energy accounted for, the
-/// same in one step and in many.
+/// From braces that are hardly there to a hundred times the usual, slip forces from a millionth of the usual to a thousand
+/// times: each run ends with its energy accounted for, the same in one step and in many.
 #[test]
 fn braces_and_slip_forces_of_every_size() {
     for stiffness in [3e1, 3e4, 3e7, 3e9] {
