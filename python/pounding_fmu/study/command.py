@@ -29,7 +29,7 @@ the parameters of the fragility curves, and pictures, where matplotlib is: what 
 EXAMPLE = """\
 examples:
   pounding-fmu study SCENE.toml --records A.AT2 B.csv --gaps 0.01 0.03 0.1 --pga 1 2 4 -o office
-  pounding-fmu study SCENE.toml --vary 'link[*].dashpot=0,1e6,2e6' --gaps 0.03"""
+  pounding-fmu study SCENE.toml --vary 'link[*].dashpot=3e5,1e6,3e6' --gaps 0.03"""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -139,7 +139,7 @@ def axis(text: str) -> tuple[str, list[float]]:
     try:
         return name.strip(), [float(value) for value in values.split(",")]
     except ValueError:
-        wanted = "expected NAME=VALUE,VALUE such as link[*].dashpot=0,1e6"
+        wanted = "expected NAME=VALUE,VALUE such as link[*].dashpot=3e5,1e6"
         raise argparse.ArgumentTypeError(f"{text!r}: {wanted}") from None
 
 
