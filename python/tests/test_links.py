@@ -15,6 +15,7 @@ STEP = ([0.0, 30.0], [-2.0, -2.0])  # m/s2, to the left: the floors go to the ri
 OFFICES = (fmus.EXAMPLES / "scenes/offices.toml").read_text()
 NOTHING = 1.0  # N s/m, against 1e7 that would be critical
 DASHPOTS = [NOTHING, 1e6]
+LINK_COLUMNS = {"force_n": "peak_force", "displacement_m": "peak_displacement", "energy_j": "dissipated_energy"}
 NEVER_CLOSES = 1000.0
 PGA = 3.43  # m/s2
 SCALE = PGA / np.abs(np.loadtxt(fmus.RECORD, delimiter=",", comments=("#", "t"), usecols=1)).max()
@@ -66,7 +67,8 @@ def test_the_gap_of_linked_buildings_is_the_largest_approach_of_their_modes():
 
 def test_the_command_says_what_links_are_to_the_gap(tmp_path):
     (tmp_path / "linked.toml").write_text(linked(3e6))
-    done = subprocess.run([sys.executable, "-m", "pounding_fmu", "gap", tmp_path / "linked.toml"], capture_output=True, text=True)
+    command = [sys.executable, "-m", "pounding_fmu", "gap", tmp_path / "linked.toml"]
+    done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert done.stdout.split("\n")[1].split()[-3:] == ["-", "-", "-"] and "links     are in all runs" in done.stdout
 
@@ -89,7 +91,7 @@ def test_its_rows_are_runs_of_scenes_that_have_these_dampers(study):
         assert rows.column("impacts", **chosen).tolist() == [run["impacts"][-1]]
         forces = [run[f"contact[{p}].peak_force"][-1] for p in (1, 2, 3)]
         assert rows.column("peak_force_n", **chosen) == pytest.approx([max(forces)], rel=1e-4)
-        for column, what in [("force_n", "peak_force"), ("displacement_m", "peak_displacement"), ("energy_j", "dissipated_energy")]:
+        for column, what in LINK_COLUMNS.items():
             for i in (1, 2, 3):
                 found = rows.column(f"link_{column}[{i}]", **chosen)
                 if value == NOTHING:
@@ -121,7 +123,7 @@ def test_what_cannot_be_varied_is_said_at_once():
     with pytest.raises(ValueError) as error:
         run_study(linked(2e6), [fmus.RECORD], vary=vary)
     said = str(error.value)
-    for text in ("link[1].dashpt: the scene has no such parameter", "contact[1].gap is what gaps", "link[3].dashpot = -1", "impacts is computed"):
+    for text in ("link[1].dashpt: the scene has no such", "contact[1].gap is what", "link[3].dashpot = -1", "impacts is computed"):
         assert text in said, said
     with pytest.raises(ValueError, match=r"vary: link\[1\].dashpot: expected at least one value"):
         run_study(linked(2e6), [fmus.RECORD], vary={"link[1].dashpot": []})
@@ -134,6 +136,7 @@ def test_the_command_draws_what_a_damper_does(tmp_path):
     done = subprocess.run([*command, "link[*].dashpot=1,1e6", "--vary", "link[1].dashpot=1"], capture_output=True, text=True)
     assert done.returncode == 0 and "Traceback" not in done.stderr, done.stderr
     pictures = {path.name for path in tmp_path.glob("*.png")}
-    assert pictures == {"gaps_Offices_1.png", "gaps_Offices_2.png", "fragility_Offices_1.png", "fragility_Offices_2.png", "varied_Offices_1.png"}
+    each = {f"{what}_Offices_{i}.png" for what in ("gaps", "fragility") for i in (1, 2)}
+    assert pictures == each | {"varied_Offices_1.png"}
     wrong = subprocess.run([*command, "link[1].dashpot=a"], capture_output=True, text=True)
     assert wrong.returncode == 2 and "expected NAME=VALUE,VALUE" in wrong.stderr

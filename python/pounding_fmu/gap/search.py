@@ -54,7 +54,8 @@ class RequiredGap:
     """root of a2 + b2: Eurocode 8, and ASCE 7 [ASCE2016, section 12.12.3], for two buildings on one property; None where
     links join the buildings, as it is for those that move independently"""
     eurocode: float | None
-    """0.7 times that, if there is one, which Eurocode 8 allows where all contacts are between floors at the same levels; else None"""
+    """0.7 times that, if there is one, which Eurocode 8 allows where all contacts are between floors at the same levels;
+    else None"""
     ddc: float | None
     """root of a2 + b2 - 2 rho a b, rho the correlation of the first modes of both buildings [JengKasaiMaison1992]; None
     where there are links, which change these modes"""

@@ -94,7 +94,8 @@ class Study(Sequence[Row]):
         if self.rows and name not in self.rows[0]:
             raise KeyError(unknown(name, self.rows[0], "the study has no such column"))
         wanted: Row = {"scene": scene, "gap_m": gap, "pga_m_s2": pga}
-        wanted["varied"] = None if varied is None else varied_text({key: float(value) for key, value in varied.items()})
+        if varied is not None:
+            wanted["varied"] = varied_text({key: float(value) for key, value in varied.items()})
         rows = [row for row in self.rows if all(value in (None, row[of]) for of, value in wanted.items())]
         values = [row[name] for row in rows]
         return np.array([np.nan if value is None else value for value in values])

@@ -21,10 +21,11 @@ INTERRUPTED = 130  # what a shell calls the end of a program by Ctrl-C
 ABOUT = """\
 Gap width against peak force and drift, over many scenes, records and intensities.
 
-Every case sets its gap (of all contacts), its record, the peak ground acceleration and what --vary names. Each case runs a second time
-with a gap that never closes, for comparison. Results are in results.csv of the output folder, a row per case; a study
-that was stopped goes on from there with the same command. At the end come results.parquet, where pyarrow is installed,
-the parameters of the fragility curves, and pictures, where matplotlib is: what the gap does, and fragility curves.
+Every case sets its gap (of all contacts), its record, the peak ground acceleration and what --vary names. Each case
+runs a second time with a gap that never closes, for comparison. Results are in results.csv of the output folder, a row
+per case; a study that was stopped goes on from there with the same command. At the end come results.parquet, where
+pyarrow is installed, the parameters of the fragility curves, and pictures, where matplotlib is: what the gap does,
+fragility curves, and what the parameter does that --vary names first.
 """
 EXAMPLE = """\
 examples:
@@ -104,14 +105,15 @@ def draw_varied(rows: Sequence[Row], scene: str, options: argparse.Namespace) ->
     first = next(iter(vary(options)))
     others: dict[str, list[Row]] = {}
     for row in rows:
-        rest = [f"{name}={value:g}" for name, value in varied_values(row["varied"]).items() if name != first]
-        others.setdefault(", ".join(rest), []).append(row)
+        values = varied_values(row["varied"])
+        others.setdefault(", ".join(f"{name}={values[name]:g}" for name in values if name != first), []).append(row)
     for number, (rest, group) in enumerate(others.items(), 1):
         path = options.output / (f"varied_{scene}_{number}.png" if rest else f"varied_{scene}.png")
         pictures.varied(group, first, f"{scene}, {rest}" if rest else scene, path, (options.show_gaps, options.show_pga))
 
 
 def draw_rows(rows: Sequence[Row], name: str, options: argparse.Namespace) -> None:
+    """Fragility and pictures of rows that differ in gap, record and intensity, in files of this name."""
     limits = {name: getattr(options, f"{name.replace(' ', '_')}_limit") for name in LIMITS}
     found = curves(rows, demands(rows, limits), options.intensity)
     write(found, options.output / f"fragility_{name}.csv")
