@@ -140,7 +140,7 @@ def simulate(
             scaled as the scene says.
         rows_per_impact: as many further rows within each contact, beside those at its beginning, its largest force and
             its end; none where nothing is said.
-        without_contacts: leaves out all contacts: how each building moves by itself.
+        without_contacts: leaves out all contacts: how each building moves by itself, or with its links.
 
     Returns:
         ``result["time"]`` and a column for each output, of shape (rows,), at the multiples of ``step`` and at ``stop``;

@@ -65,7 +65,7 @@ impl Scene {
         self.0.with_parameters(&parameters).map(Scene).map_err(|error| refusal(&error))
     }
 
-    /// The same without any contact: how each building moves by itself.
+    /// The same without any contact: how each building moves by itself, or with its links.
     fn without_contacts(&self) -> Scene {
         Scene(self.0.without_contacts())
     }

@@ -85,8 +85,8 @@ def test_a_ratio_needs_the_run_without_contact(tmp_path):
 @pytest.mark.parametrize(
     "damage, said",
     [
-        (lambda lines: [*lines[:2], b"", *lines[2:]], ["line 3: expected 56 cells, found a blank line"]),
-        (lambda lines: [*lines[:2], b"hello", *lines[2:]], ["line 3: expected 56 cells, found 1"]),
+        (lambda lines: [*lines[:2], b"", *lines[2:]], ["line 3: expected 57 cells, found a blank line"]),
+        (lambda lines: [*lines[:2], b"hello", *lines[2:]], ["line 3: expected 57 cells, found 1"]),
         (lambda lines: [*lines[:2], b"\xff\xfe", *lines[2:]], ["line 3: no text: byte 0xff at 1"]),
         (lambda lines: [b"\x00\xc3" + lines[0], *lines[1:]], ["line 1: no text: byte 0xc3 at 2"]),
         (lambda lines: [b"a,b,c", *lines[1:]], ["line 1: no table of this version's studies"]),
@@ -97,7 +97,7 @@ def test_a_ratio_needs_the_run_without_contact(tmp_path):
         ),
         (lambda lines: [*lines[:2], lines[2].replace(b",0.01,", b",,")], ["line 3: gap_m: expected a value"]),
         (lambda lines: [*lines[:2], b'"' + lines[2], *lines[3:]], ["line "]),
-        (lambda lines: [lines[0], *[b"x"] * 1000], ["line 2: expected 56", "line 11: expected 56", "and 990 more"]),
+        (lambda lines: [lines[0], *[b"x"] * 1000], ["line 2: expected 57", "line 11: expected 57", "and 990 more"]),
     ],
 )
 def test_a_damaged_table_is_told_by_its_lines(tmp_path, damage, said):

@@ -7,7 +7,7 @@
 >>> print(f"{1e3 * row.gap:.1f} mm, where the root of the sum of squares says {1e3 * row.srss:.1f} mm")
 80.4 mm, where the root of the sum of squares says 90.3 mm
 
-The gap is the same at all contacts, whatever theirs are in the scene.
+The gap is the same at all contacts, whatever theirs are in the scene. Links between the buildings are in all runs.
 """
 
 from __future__ import annotations

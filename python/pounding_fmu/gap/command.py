@@ -17,7 +17,7 @@ ABOUT = """\
 How wide a gap keeps the buildings apart, in each ground motion and in all, beside the rules of codes.
 
 The gap is the same at all contacts, whatever theirs are in the scene. It is found to a thousandth of a millimetre. A run
-goes to the end of its record, or to the scene's stop_time where that is later.
+goes to the end of its record, or to the scene's stop_time where that is later. Links of the scene are in all runs.
 """
 EXAMPLE = "example:\n  pounding-fmu gap offices.toml --records A.AT2 B.AT2 --pga 2 4 --force 1e6"
 RULES = """\
@@ -25,6 +25,9 @@ sum       of the largest displacements a and b of both buildings where they meet
 SRSS      root of a2 + b2: Eurocode 8 and ASCE 7 for two buildings on one property, by the displacements of design
 0.7 SRSS  what Eurocode 8 allows where floors are at the same levels, in place of SRSS
 DDC       root of a2 + b2 - 2 rho a b, with the correlation rho of the first modes of both buildings"""
+
+LINKED = """\
+links     are in all runs; a and b are displacements with them, and rules for buildings that move without them have no value"""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -49,7 +52,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     widest = max(row.gap for row in rows)
     costs = search.costs(widest) if widest > 0 else []
     progress.end(quietly=True)
-    parts = [tell(rows, options.force), RULES, *tell_collapses(rows)]
+    parts = [tell(rows, options.force), RULES, *([LINKED] * search.is_linked), *tell_collapses(rows)]
     print(*parts, *(["", tell_costs(costs, len(rows))] * bool(costs)), sep="\n")
     if options.output:
         write(rows, options.output)

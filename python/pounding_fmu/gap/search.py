@@ -1,7 +1,8 @@
 """The search for the gap that two buildings need: runs of a scene under each ground motion, with one gap after another.
 
 Until floors meet the motion is that without contact, so where the buildings do not meet they do not with a wider gap
-either: the gap that they need is enclosed between one with impacts and one without. Impacts and forces are those of
+either: the gap that they need is enclosed between one with impacts and one without. That holds with links, too, which are
+in every run; but rules of codes are for buildings that move apart from each other. Impacts and forces are those of
 continuous time. The largest force has no such order, so gaps are scanned for it first.
 """
 
@@ -49,12 +50,15 @@ class RequiredGap:
     """that closes first with a smaller one, counted from 1; None where no gap is needed"""
     absolute_sum: float
     """sum of the largest displacements a and b of both buildings at a contact"""
-    srss: float
-    """root of a2 + b2: Eurocode 8, and ASCE 7 [ASCE2016, section 12.12.3], for two buildings on one property"""
+    srss: float | None
+    """root of a2 + b2: Eurocode 8, and ASCE 7 [ASCE2016, section 12.12.3], for two buildings on one property; None where
+    links join the buildings, as it is for those that move independently"""
     eurocode: float | None
-    """0.7 times that, which Eurocode 8 allows where all contacts are between floors at the same levels; else None"""
-    ddc: float
-    """root of a2 + b2 - 2 rho a b, rho the correlation of the first modes of both buildings [JengKasaiMaison1992]"""
+    """0.7 times that, if there is one, which Eurocode 8 allows where all contacts are between floors at the same levels;
+    else None"""
+    ddc: float | None
+    """root of a2 + b2 - 2 rho a b, rho the correlation of the first modes of both buildings [JengKasaiMaison1992]; None
+    where there are links, which change these modes"""
     force_gap: float | None = None
     """from which on no gap has a larger force than the limit, to 1e-6 m on the safe side; None without a limit"""
     hardest_force: float | None = None
@@ -110,6 +114,8 @@ class Search:
         self.scene, self.force, self.threads, self.progress = scene, force, threads, progress
         read = read_scene(scene)
         self.warnings, self.modes, self.layout = read.warnings(), read.first_modes(), json.loads(read.layout())
+        self.is_linked = bool(self.layout["links"])
+        self.is_joined = any(link["left"]["kind"] == link["right"]["kind"] == "floor" for link in self.layout["links"])
         self.motions = _motions(read, records, None if pga is None else [float(value) for value in pga])
         self.names = list(variables_of(read))
         self.contacts = range(1, len(self.layout["contacts"]) + 1)
@@ -234,13 +240,13 @@ class Search:
             pairs.append((moves["left"], moves["right"]))
         left, right = self.modes
         rho = correlation(left, right) if left and right else 0.0
-        srss = max(math.hypot(a, b) for a, b in pairs)
+        srss = None if self.is_joined else max(math.hypot(a, b) for a, b in pairs)
         kinds = {contact[side]["kind"] for contact in self.layout["contacts"] for side in ("left", "right")}
         return {
             "absolute_sum": max(a + b for a, b in pairs),
             "srss": srss,
-            "eurocode": EUROCODE * srss if kinds == {"floor"} else None,
-            "ddc": max(math.sqrt(max(a * a + b * b - 2 * rho * a * b, 0.0)) for a, b in pairs),
+            "eurocode": EUROCODE * srss if srss is not None and kinds == {"floor"} else None,
+            "ddc": None if self.is_linked else max(difference(a, b, rho) for a, b in pairs),
         }
 
     def costs(self, widest: float) -> list[Cost]:
@@ -260,6 +266,11 @@ class Search:
             impacts, force = at[:, 0], float(at[:, 1 + len(names) :].max())
             found.append(Cost(gap, int((impacts > 0).sum()), int(impacts.max()), force, ratios))
         return found
+
+
+def difference(a: float, b: float, rho: float) -> float:
+    """Of two motions with this correlation, as a combination of their largest values."""
+    return math.sqrt(max(a * a + b * b - 2 * rho * a * b, 0.0))
 
 
 def correlation(one: tuple[float, float], other: tuple[float, float]) -> float:

@@ -8,7 +8,8 @@
 >>> study.column("peak_force_n", gap=0.01, pga=3.0).round()
 array([1057.,  919.,  757.])
 
-A case sets its gap (of all contacts), its record and the peak ground acceleration. Each runs a second time with a gap
+A case sets its gap (of all contacts), its record, the peak ground acceleration and, where `vary` says so, other
+parameters of the scene, such as the dashpots of its links. Each runs a second time with a gap
 that never closes, for comparison. `docs/study.md` of the project says what the columns of the table mean.
 """
 
@@ -24,7 +25,7 @@ from typing import TYPE_CHECKING, Any
 
 from .._data import DATA
 from .._scenes import refuse, unknown, warn
-from .cases import NEVER_CLOSES, Row
+from .cases import NEVER_CLOSES, Row, varied_text
 
 if TYPE_CHECKING:
     import numpy as np
@@ -72,9 +73,16 @@ class Study(Sequence[Row]):
         return list(dict.fromkeys(row["scene"] for row in [*self.rows, *self.failures]))
 
     def column(
-        self, name: str, *, scene: str | None = None, gap: float | None = None, pga: float | None = None
+        self,
+        name: str,
+        *,
+        scene: str | None = None,
+        gap: float | None = None,
+        pga: float | None = None,
+        varied: Mapping[str, float] | None = None,
     ) -> NDArray[Any]:
-        """The values of a column in the order of the rows: of all, or of one scene, gap (m) and intensity (m/s2).
+        """The values of a column in the order of the rows: of all, or of one scene, gap (m), intensity (m/s2) and of
+        these values of the parameters that were varied.
 
         Numbers that a building does not have are NaN.
 
@@ -85,7 +93,9 @@ class Study(Sequence[Row]):
 
         if self.rows and name not in self.rows[0]:
             raise KeyError(unknown(name, self.rows[0], "the study has no such column"))
-        wanted = {"scene": scene, "gap_m": gap, "pga_m_s2": pga}
+        wanted: Row = {"scene": scene, "gap_m": gap, "pga_m_s2": pga}
+        if varied is not None:
+            wanted["varied"] = varied_text({key: float(value) for key, value in varied.items()})
         rows = [row for row in self.rows if all(value in (None, row[of]) for of, value in wanted.items())]
         values = [row[name] for row in rows]
         return np.array([np.nan if value is None else value for value in values])
@@ -104,6 +114,7 @@ def run_study(
     synthetic: int = SYNTHETIC,
     seed: int = 1,
     stop: float | None = None,
+    vary: Mapping[str, Iterable[float]] | None = None,
     output: str | os.PathLike[str] | None = None,
     scheduler: str | None = None,
     workers: int | None = None,
@@ -120,6 +131,8 @@ def run_study(
         synthetic: how many synthetic motions, where no records are given.
         seed: of the first of them.
         stop: s, end of each run; where nothing is said the end of its record, or the scene's ``stop_time`` if later.
+        vary: values of other parameters, by FMU variable name; ``link[*].dashpot`` sets it at all links. Of several
+            parameters every combination is run.
         output: folder of the table ``results.csv``. Rows are there as soon as they are done, and a study that was
             stopped goes on from them. Without a folder the table is returned alone.
         scheduler: address of a Dask cluster whose workers have this package, or ``local`` for one on this machine.
@@ -127,7 +140,7 @@ def run_study(
         progress: called with (cases done, all cases), those included that were done before.
 
     Returns:
-        A ``Study``: rows in the order scene, record, intensity, gap; the last gap of each is the run without contact.
+        A ``Study``: rows in the order scene, record, varied parameters, intensity, gap; the last gap of each is the run without contact.
 
     Raises:
         ValueError: everything that is wrong with arguments, scenes and records; a damaged table in ``output``.
@@ -140,13 +153,15 @@ def run_study(
     from .plan import plan
 
     chosen_gaps, chosen_pga = _numbers(gaps, pga, (synthetic, seed, stop, workers))
+    axes = {name: [float(value) + 0.0 for value in values] for name, values in (vary or {}).items()}
+    refuse([f"vary: {name}: expected at least one value" for name, values in axes.items() if not values])
     of_scenes: list[Scene] = [scenes] if isinstance(scenes, (str, os.PathLike, Mapping)) else list(scenes)
     if not of_scenes:
         raise ValueError("scenes: expected at least one")
     with tempfile.TemporaryDirectory(prefix="study") as temporary:
         folder = Path(temporary if output is None else output)
         chosen = _records(records, folder, range(seed, seed + synthetic))
-        planned = plan(of_scenes, chosen, chosen_gaps, chosen_pga, stop)
+        planned = plan(of_scenes, chosen, chosen_gaps, chosen_pga, stop, axes)
         warn(planned.warnings)
         rows = _fill(planned, folder / "results.csv", scheduler, workers or os.cpu_count() or 1, progress)
     return Study(rows, None if output is None else folder / "results.csv")

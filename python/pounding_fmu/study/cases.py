@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import functools
 import itertools
+import re
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -36,6 +37,9 @@ OF_STOREYS = {
     "acceleration_m_s2": "peak_acceleration",
     "column_force_n": "peak_column_force",
 }
+# Of each link; the energy of a dashpot is there with `outputs.energy` alone.
+OF_LINKS = {"force_n": "peak_force", "displacement_m": "peak_displacement", "energy_j": "dissipated_energy"}
+LINK = "link"
 OF_YIELDING = {"ductility": "ductility", "residual_drift_m": "residual_drift"}
 STRENGTH = ("stiffness", "yield_force", "post_yield_ratio")
 
@@ -54,6 +58,8 @@ class Case:
     """m, of all contacts"""
     stop: float
     """s"""
+    varied: str = ""
+    """The other parameters that it sets, as `varied_text` writes them."""
 
 
 @dataclass(frozen=True)
@@ -70,25 +76,29 @@ class Readings:
     """What is read at the end of a run of a scene, and the row of a table that is made of it."""
 
     def __init__(self, names: Sequence[str]) -> None:
-        def numbered(side: str, what: str) -> dict[int, str]:
-            start = f"{side}.{what}["
-            return {int(name[len(start) : -1]): name for name in names if name.startswith(start)}
-
         self.gaps = _of_contacts(names, "gap")
         self.contacts = {what: _of_contacts(names, what) for what, _ in OF_CONTACTS.values()}
         of_storeys = [*OF_STOREYS.values(), *OF_YIELDING.values(), *STRENGTH]
-        self.storeys = {(side, what): numbered(side, what) for side in SIDES for what in of_storeys}
+        self.storeys = {(side, what): _numbered(names, f"{side}.{what}[", "]") for side in SIDES for what in of_storeys}
+        self.links = {what: _numbered(names, f"{LINK}[", f"].{what}") for what in OF_LINKS.values()}
+        self.names = list(names)
         # One building may stand alone, between walls.
         self.sides = [side for side in SIDES if self.storeys[side, "peak_acceleration"]]
         self.outputs = ["impacts", *itertools.chain(*self.contacts.values())]
         self.outputs += [name for of_side in self.storeys.values() for name in of_side.values()]
+        self.outputs += [name for of_link in self.links.values() for name in of_link.values()]
         self.outputs += [f"{side}.peak_base_shear" for side in self.sides]
         self.collapses = {side: f"{side}.collapsed" for side in SIDES if f"{side}.collapsed" in names}
         self.outputs += self.collapses.values()
 
-    def count(self, side: str) -> int:
-        """Storeys of a building."""
-        return len(self.storeys[side, "peak_drift"])
+    def counts(self) -> dict[str, int]:
+        """Storeys of each building, and links."""
+        return {side: len(self.storeys[side, "peak_drift"]) for side in SIDES} | {LINK: len(self.links["peak_force"])}
+
+    def meant(self, name: str) -> list[str]:
+        """The variables that a name stands for, in which `*` is any number."""
+        pattern = re.compile(re.escape(name).replace(r"\*", r"\d+"))
+        return [variable for variable in self.names if pattern.fullmatch(variable)]
 
     def row(self, values: Sequence[float]) -> Row:
         """The results of a case of the values of the outputs at its end."""
@@ -96,6 +106,8 @@ class Readings:
         row: Row = {"impacts": int(value["impacts"])}
         for column, (what, summary) in OF_CONTACTS.items():
             row[column] = summary(value[name] for name in self.contacts[what])
+        for column, what in OF_LINKS.items():
+            row |= {f"{LINK}_{column}[{i}]": value[name] for i, name in self.links[what].items()}
         for side in self.sides:
             row[f"{side}_base_shear_n"] = value[f"{side}.peak_base_shear"]
             of_side = {
@@ -113,6 +125,23 @@ class Readings:
 def collapsed(row: Row) -> bool:
     """Whether the run has ended by a collapse."""
     return any(row.get(f"{side}_collapsed") for side in SIDES)
+
+
+def _numbered(names: Sequence[str], start: str, end: str) -> dict[int, str]:
+    """By their numbers the variables whose names are a number between these texts."""
+    found = {name: name.removeprefix(start).removesuffix(end) for name in names if name.startswith(start)}
+    return {int(number): name for name, number in found.items() if number.isdecimal()}
+
+
+def varied_text(values: Mapping[str, float]) -> str:
+    """Parameters and their values as the table has them."""
+    return "; ".join(f"{name}={value!r}" for name, value in values.items())
+
+
+def varied_values(text: str) -> dict[str, float]:
+    """Parameters and their values of that text."""
+    pairs = (setting.split("=") for setting in text.split("; ") if setting)
+    return {name: float(value) for name, value in pairs}
 
 
 def _of_contacts(names: Sequence[str], what: str) -> list[str]:
@@ -172,6 +201,8 @@ def _run(
     read = readings(scene)
     motions = [records[case.record_id] for case in cases]
     parameters: dict[str, Any] = dict.fromkeys(read.gaps, [case.gap for case in cases])
+    varied = [varied_values(case.varied) for case in cases]  # of the same parameters
+    parameters |= {name: [of[key] for of in varied] for key in varied[0] for name in read.meant(key)}
     parameters["ground.scale"] = [case.pga / np.abs(motion[1]).max() for case, motion in zip(cases, motions)]
     failures: Mapping[int, str] = {}
     try:

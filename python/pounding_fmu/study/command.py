@@ -12,7 +12,7 @@ from pathlib import Path
 from .. import _terminal
 from .._data import DATA
 from . import GAPS, PGA, SYNTHETIC, Study, run_study
-from .cases import collapsed
+from .cases import Row, collapsed, varied_values
 from .fragility import INTENSITIES, LIMITS, curves, demands, write
 
 MOST_SHOWN = 7  # lines that can be told apart
@@ -21,12 +21,16 @@ INTERRUPTED = 130  # what a shell calls the end of a program by Ctrl-C
 ABOUT = """\
 Gap width against peak force and drift, over many scenes, records and intensities.
 
-Every case sets its gap (of all contacts), its record and the peak ground acceleration. Each case runs a second time
-with a gap that never closes, for comparison. Results are in results.csv of the output folder, a row per case; a study
-that was stopped goes on from there with the same command. At the end come results.parquet, where pyarrow is installed,
-the parameters of the fragility curves, and pictures, where matplotlib is: what the gap does, and fragility curves.
+Every case sets its gap (of all contacts), its record, the peak ground acceleration and what --vary names. Each case
+runs a second time with a gap that never closes, for comparison. Results are in results.csv of the output folder, a row
+per case; a study that was stopped goes on from there with the same command. At the end come results.parquet, where
+pyarrow is installed, the parameters of the fragility curves, and pictures, where matplotlib is: what the gap does,
+fragility curves, and what the parameter does that --vary names first.
 """
-EXAMPLE = "example:\n  pounding-fmu study SCENE.toml --records A.AT2 B.csv --gaps 0.01 0.03 0.1 --pga 1 2 4 -o office"
+EXAMPLE = """\
+examples:
+  pounding-fmu study SCENE.toml --records A.AT2 B.csv --gaps 0.01 0.03 0.1 --pga 1 2 4 -o office
+  pounding-fmu study SCENE.toml --vary 'link[*].dashpot=3e5,1e6,3e6' --gaps 0.03"""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -64,6 +68,7 @@ def run(options: argparse.Namespace) -> Study:
         synthetic=options.synthetic,
         seed=options.seed,
         stop=options.stop,
+        vary=vary(options),
         output=options.output,
         scheduler=options.scheduler,
         workers=options.workers,
@@ -80,22 +85,64 @@ def run(options: argparse.Namespace) -> Study:
 
 
 def draw(study: Study, options: argparse.Namespace) -> None:
-    """Fragility and pictures of every scene, in the folder of the table."""
-    limits = {name: getattr(options, f"{name.replace(' ', '_')}_limit") for name in LIMITS}
+    """Fragility and pictures of every scene, and of every choice of what was varied, in the folder of the table."""
     for scene in study.scenes:
-        rows = [row for row in study.rows if row["scene"] == scene]
-        if not rows:
-            continue
-        found = curves(rows, demands(rows, limits), options.intensity)
-        write(found, options.output / f"fragility_{scene}.csv")
-        if importlib.util.find_spec("matplotlib") is None:
-            _terminal.say('no pictures without matplotlib: pip install "pounding-fmu[plot]"')
-            continue
-        from . import pictures
+        of_scene = [row for row in study.rows if row["scene"] == scene]
+        for number, varied in enumerate(dict.fromkeys(row["varied"] for row in of_scene), 1):
+            rows = [row for row in of_scene if row["varied"] == varied]
+            named = [{**row, "scene": f"{scene}, {varied}"} for row in rows] if varied else rows
+            draw_rows(named, f"{scene}_{number}" if varied else scene, options)
+        if vary(options) and of_scene:
+            draw_varied(of_scene, scene, options)
 
-        records = len({row["record_id"] for row in rows})
-        pictures.gaps(rows, options.output / f"gaps_{scene}.png", options.show_pga)
-        pictures.fragility(found, records, options.output / f"fragility_{scene}.png", options.show_gaps)
+
+def draw_varied(rows: Sequence[Row], scene: str, options: argparse.Namespace) -> None:
+    """What the parameter does that was named first; a picture for each choice of the others."""
+    if importlib.util.find_spec("matplotlib") is None:
+        return
+    from . import pictures
+
+    first = next(iter(vary(options)))
+    others: dict[str, list[Row]] = {}
+    for row in rows:
+        values = varied_values(row["varied"])
+        others.setdefault(", ".join(f"{name}={values[name]:g}" for name in values if name != first), []).append(row)
+    for number, (rest, group) in enumerate(others.items(), 1):
+        path = options.output / (f"varied_{scene}_{number}.png" if rest else f"varied_{scene}.png")
+        pictures.varied(group, first, f"{scene}, {rest}" if rest else scene, path, (options.show_gaps, options.show_pga))
+
+
+def draw_rows(rows: Sequence[Row], name: str, options: argparse.Namespace) -> None:
+    """Fragility and pictures of rows that differ in gap, record and intensity, in files of this name."""
+    limits = {name: getattr(options, f"{name.replace(' ', '_')}_limit") for name in LIMITS}
+    found = curves(rows, demands(rows, limits), options.intensity)
+    write(found, options.output / f"fragility_{name}.csv")
+    if importlib.util.find_spec("matplotlib") is None:
+        _terminal.say('no pictures without matplotlib: pip install "pounding-fmu[plot]"')
+        return
+    from . import pictures
+
+    records = len({row["record_id"] for row in rows})
+    pictures.gaps(rows, options.output / f"gaps_{name}.png", options.show_pga)
+    pictures.fragility(found, records, options.output / f"fragility_{name}.png", options.show_gaps)
+
+
+def vary(options: argparse.Namespace) -> dict[str, list[float]]:
+    """Parameters and values of all --vary; of a name given twice both."""
+    found: dict[str, list[float]] = {}
+    for name, values in options.vary:
+        found.setdefault(name, []).extend(values)
+    return found
+
+
+def axis(text: str) -> tuple[str, list[float]]:
+    """What --vary says: NAME=VALUE,VALUE."""
+    name, _, values = text.partition("=")
+    try:
+        return name.strip(), [float(value) for value in values.split(",")]
+    except ValueError:
+        wanted = "expected NAME=VALUE,VALUE such as link[*].dashpot=3e5,1e6"
+        raise argparse.ArgumentTypeError(f"{text!r}: {wanted}") from None
 
 
 def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
@@ -110,6 +157,8 @@ def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--records", nargs="+", metavar="FILE", help="ground motions, instead of the usual ones")
     add_numbers(parser, "--gaps", "M", f"m (default: {' '.join(f'{gap:g}' for gap in GAPS)})", GAPS)
     add_numbers(parser, "--pga", "A", f"m/s2 (default: {' '.join(f'{peak:g}' for peak in PGA)})", PGA)
+    about = "values of another parameter of the scene by its FMU name, * for any number; may be given several times"
+    parser.add_argument("--vary", action="append", type=axis, default=[], metavar="NAME=VALUES", help=about)
     parser.add_argument("-o", "--output", type=Path, default=Path("study"), metavar="FOLDER", help="default: %(default)s")
     parser.add_argument("--stop", type=float, metavar="S", help="s, end of each run; default: end of record or stop_time")
     parser.add_argument(

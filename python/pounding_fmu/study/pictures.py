@@ -11,7 +11,7 @@ import numpy as np
 
 from .._extras import require
 from ..plots.style import ALONE, BLACK, CYCLE, LOOK, save
-from .cases import NEVER_CLOSES, SIDES, Row, collapsed
+from .cases import LINK, NEVER_CLOSES, SIDES, Row, collapsed, varied_values
 from .fragility import INTENSITIES, Curve, force_unit, lognormal, points
 
 Chosen = Sequence[float] | None  # gaps or intensities to draw; without any as many as can be told apart
@@ -36,6 +36,14 @@ def fragility(curves: Sequence[Curve], records: int, path: Path, shown: Chosen =
     """Share of the runs that exceed a limit, against intensity, one curve for each of some gaps."""
     if any(curve.gap != NEVER_CLOSES for curve in curves):
         _draw(path, lambda: _fragility(curves, records, shown))
+
+
+def varied(rows: Sequence[Row], name: str, scene: str, path: Path, shown: tuple[Chosen, Chosen] = (None, None)) -> None:
+    """Impacts, contact force and the largest force of a link against a parameter, a column of panels for each of some gaps:
+    medians over the records, of runs that do not collapse."""
+    closing = [row for row in rows if row["gap_m"] != NEVER_CLOSES and not collapsed(row)]
+    if closing:
+        _draw(path, lambda: _varied(closing, name, scene, shown))
 
 
 def _draw(path: Path, draw: Callable[[], Any]) -> None:
@@ -111,20 +119,59 @@ def _gaps(closing: Sequence[Row], shown: Chosen, apart: str) -> Any:
     return figure
 
 
+def _varied(closing: Sequence[Row], name: str, scene: str, shown: tuple[Chosen, Chosen]) -> Any:
+    def parameter(row: Row) -> float:
+        return varied_values(row["varied"])[name]
+
+    def of_links(row: Row) -> float | None:
+        forces = [value for column, value in row.items() if column.startswith(f"{LINK}_force_n[") and value is not None]
+        return max(forces) / 1e3 if forces else None
+
+    panels: dict[str, Callable[[Row], Any]] = {"impacts": lambda row: row["impacts"]}
+    panels["largest contact force [kN]"] = lambda row: row["peak_force_n"] / 1e3
+    if any(of_links(row) is not None for row in closing):
+        panels["largest force of a link [kN]"] = of_links
+    widths, drawn = (some((row[of] for row in closing), which) for of, which in zip(("gap_m", "pga_m_s2"), shown))
+    figure, axes = _panels(len(panels), len(widths), max(4 * len(widths), 6), 2.6 * len(panels) + 1, sharex=True, sharey="row")
+    for column, width in zip(axes.T, widths):
+        for panel, (title, demand) in zip(column, panels.items()):
+            for pga, style in zip(drawn, CYCLE):
+                of_line = [row for row in closing if row["gap_m"] == width and row["pga_m_s2"] == pga]
+                _demand(panel, of_line, demand, {**style, "label": in_g(pga)}, shaded=True, along=parameter)
+            panel.set_title(f"{title}, gap {in_mm(width)}")
+            panel.set_ylim(bottom=0)
+        column[-1].set_xlabel(name)
+    records = len({row["record_id"] for row in closing})
+    _title(figure, f"{scene}: medians of {records} records (shaded: the middle 68 %)")
+    lines = axes[0, 0].get_legend_handles_labels()
+    figure.legend(*lines, loc="outside lower center", ncols=len(CYCLE), title="peak ground acceleration")
+    return figure
+
+
+def gap_in_mm(row: Row) -> float:
+    return 1e3 * float(row["gap_m"])
+
+
 def _demand(
-    panel: Any, rows: Sequence[Row], demand: Callable[[Row], Any], style: Mapping[str, Any], shaded: bool
+    panel: Any,
+    rows: Sequence[Row],
+    demand: Callable[[Row], Any],
+    style: Mapping[str, Any],
+    shaded: bool,
+    along: Callable[[Row], float] = gap_in_mm,
 ) -> None:
-    widths, found = [], []
-    for width in sorted({row["gap_m"] for row in rows}):
-        values = [demand(row) for row in rows if row["gap_m"] == width and demand(row) is not None]
+    """Median and middle 68 % of a demand, along the gap or whatever it is that is varied."""
+    places, found = [], []
+    for place in sorted({along(row) for row in rows}):
+        values = [demand(row) for row in rows if along(row) == place and demand(row) is not None]
         if values:
-            widths.append(1e3 * width)
+            places.append(place)
             found.append(np.percentile(values, [16, 50, 84]))
     if found:
         low, middle, high = np.array(found).T
         if shaded:
-            panel.fill_between(widths, low, high, color=style["color"], alpha=0.15, linewidth=0)
-        panel.plot(widths, middle, **style, markersize=4)
+            panel.fill_between(places, low, high, color=style["color"], alpha=0.15, linewidth=0)
+        panel.plot(places, middle, **style, markersize=4)
 
 
 def _fragility(curves: Sequence[Curve], records: int, shown: Chosen) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import itertools
 import json
 import os
 from collections.abc import Iterable, Mapping, Sequence
@@ -12,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _native, spectra
-from .._scenes import read_record, read_scene, refuse
-from .cases import NEVER_CLOSES, SIDES, Case, Materials, Motion, Readings, Row, readings
+from .._scenes import Names, read_record, read_scene, refuse, unknown
+from .cases import NEVER_CLOSES, SIDES, Case, Materials, Motion, Readings, Row, readings, varied_text
 from .records import label, read_records
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ class Plan:
     cases: list[Case]
     materials: Materials
     storeys: dict[str, int]
-    """Of each building, in the tallest scene."""
+    """Of each building in the tallest scene, and links in that with the most."""
     warnings: list[str]
     strengths: dict[tuple[str, str], dict[str, tuple[float, float]]] = field(default_factory=dict)
     """By fingerprints of scene and record, of each building: period, s, and spectral acceleration there for a peak of 1."""
@@ -37,7 +38,7 @@ class Plan:
     def with_intensity(self, case: Case, row: Row) -> Row:
         """The row of a case with its case and with how strong the ground motion is for each building."""
         known: Row = {"scene": case.scene, "scene_id": case.scene_id, "record": case.record, "record_id": case.record_id}
-        known |= {"pga_m_s2": case.pga, "gap_m": case.gap, "stop_s": case.stop}
+        known |= {"pga_m_s2": case.pga, "gap_m": case.gap, "stop_s": case.stop, "varied": case.varied}
         for side, (period, strength) in self.strengths[case.scene_id, case.record_id].items():
             known |= {f"{side}_period_s": period, f"{side}_sa_m_s2": case.pga * strength}
         return known | row
@@ -64,6 +65,7 @@ def plan(
     gaps: Sequence[float],
     pga: Sequence[float],
     stop: float | None,
+    vary: Mapping[str, Sequence[float]],
 ) -> Plan:
     """All cases, and what they need.
 
@@ -72,20 +74,25 @@ def plan(
     """
     problems: list[str] = []
     found = _scenes(scenes, problems)
+    settings = [dict(zip(vary, values)) for values in itertools.product(*vary.values())]
+    for scene in found:
+        problems += [f"{scene.label}: {text}" for text in _not_varied(scene, vary)]
     motions = {key: record.samples() for key, record in read_records(records, problems).items()}
     refuse(problems)
     ids = {name: _fingerprint(*(column.tobytes() for column in motion)) for name, motion in motions.items()}
     cases = [
-        Case(scene.name, scene.fingerprint, name, ids[key], peak, gap, stop or _end(scene, motions[key]))
+        Case(scene.name, scene.fingerprint, name, ids[key], peak, gap, stop or _end(scene, motions[key]), varied)
         for scene in found
         for key, name in ((key, label(key)) for key in motions)
+        for varied in dict.fromkeys(map(varied_text, settings))
         for peak in dict.fromkeys(pga)
         for gap in dict.fromkeys([*gaps, NEVER_CLOSES])
     ]
     materials = Materials(
         {scene.fingerprint: scene.text for scene in found}, {ids[key]: motion for key, motion in motions.items()}
     )
-    storeys = {side: max(scene.readings.count(side) for scene in found) for side in SIDES}
+    counts = [scene.readings.counts() for scene in found]
+    storeys = {of: max(count[of] for count in counts) for of in counts[0]}
     # The same record twice, by two paths, is one.
     planned = Plan(list(dict.fromkeys(cases)), materials, storeys, _warnings(found))
     for scene in found:
@@ -128,6 +135,25 @@ def studied(label: str, scene: Scene) -> ReadScene:
     if lacking:
         raise ValueError(f"expected a scene with {' and '.join(lacking)}")
     return ReadScene(label, json.loads(read.layout())["name"], text, read, of)
+
+
+def _not_varied(scene: ReadScene, vary: Mapping[str, Sequence[float]]) -> list[str]:
+    """What is wrong with the parameters that are to be varied, and with their values."""
+    names, problems = Names(scene.read), []
+    for key, values in vary.items():
+        meant = scene.readings.meant(key)
+        if not meant:
+            problems.append(unknown(key, names.variables, "the scene has no such parameter"))
+        elif key == "ground.scale" or key.endswith("].gap"):
+            problems.append(f"{key} is what gaps and pga set: expected another parameter")
+        else:
+            for value in values:
+                try:
+                    names.check(meant, [])
+                    scene.read.with_parameters([(names.references[name], value) for name in meant])
+                except ValueError as error:
+                    problems += str(error).split("\n")
+    return list(dict.fromkeys(problems))
 
 
 def _end(scene: ReadScene, motion: Motion) -> float:

@@ -19,7 +19,7 @@ TEMPORARY = ".new"
 class Results:
     """A row for each case, in the file alone: while a study runs, only their keys are kept in memory.
 
-    `storeys` are those of each building that there must be room for.
+    `storeys` are those of each building, and the links, that there must be room for.
     """
 
     def __init__(self, path: Path, storeys: Mapping[str, int]) -> None:
@@ -107,7 +107,7 @@ def lock(file: IO[str], path: Path) -> None:
 
 
 def columns_of(case: Case) -> Row:
-    values = (case.scene, case.scene_id, case.record, case.record_id, case.pga, case.gap, case.stop)
+    values = (case.scene, case.scene_id, case.record, case.record_id, case.pga, case.gap, case.stop, case.varied)
     return dict(zip(CASE, values, strict=True))
 
 

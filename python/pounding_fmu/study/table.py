@@ -14,12 +14,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from .cases import NEVER_CLOSES, OF_STOREYS, OF_YIELDING, SIDES, Row, collapsed
+from .cases import LINK, NEVER_CLOSES, OF_LINKS, OF_STOREYS, OF_YIELDING, SIDES, Row, collapsed
 
 Kind = type  # of a column: str, int or float
 
 CASE: dict[str, Kind] = {
-    "scene": str, "scene_id": str, "record": str, "record_id": str, "pga_m_s2": float, "gap_m": float, "stop_s": float
+    "scene": str, "scene_id": str, "record": str, "record_id": str, "pga_m_s2": float, "gap_m": float, "stop_s": float,
+    "varied": str,
 }  # fmt: skip
 INTENSITY: dict[str, Kind] = {f"{side}_{what}": float for what in ("period_s", "sa_m_s2") for side in SIDES}
 RESULT: dict[str, Kind] = {
@@ -41,15 +42,17 @@ MOST_PROBLEMS = 10
 
 
 def columns(storeys: Mapping[str, int]) -> dict[str, Kind]:
-    """Name and kind of every column, for buildings of up to so many storeys."""
+    """Name and kind of every column, for buildings of up to so many storeys, and so many links."""
+    of_links = [f"{LINK}_{what}[{i}]" for what in OF_LINKS for i in range(1, storeys.get(LINK, 0) + 1)]
     of_storeys = [f"{side}_{what}[{i}]" for what in EACH for side in SIDES for i in range(1, storeys[side] + 1)]
-    return CASE | INTENSITY | RESULT | SOME | RATIOS | dict.fromkeys(of_storeys, float) | {"error": str}
+    return CASE | INTENSITY | RESULT | SOME | RATIOS | dict.fromkeys(of_storeys + of_links, float) | {"error": str}
 
 
 def storeys_of(names: Iterable[str]) -> dict[str, int]:
-    """Of each building, as many as a table with these columns has room for."""
+    """Of each building, and links, as many as a table with these columns has room for."""
     known = list(names)
-    return {side: sum(name.startswith(f"{side}_drift_m[") for name in known) for side in SIDES}
+    firsts = {side: f"{side}_drift_m[" for side in SIDES} | {LINK: f"{LINK}_force_n["}
+    return {of: sum(name.startswith(first) for name in known) for of, first in firsts.items()}
 
 
 def text(value: object) -> str:
