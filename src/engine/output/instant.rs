@@ -72,7 +72,7 @@ impl<'a> Instant<'a> {
             Output::Velocity(side, floor) => model.velocity(point, side, floor),
             Output::Acceleration(side, floor) => model.acceleration(point, side, floor),
             Output::BaseShear(side) => model.base_shear(point, side),
-            Output::Peak(of) => model.peak(state, point, of),
+            Output::Peak(of) => model.peak_shown(state, point, of),
             Output::OfStorey(of, side, storey) => model.storey_peak(state, point, of, (side, storey)),
             Output::OfYielding(of, side, storey) => model.of_yielding(state, point, of, (side, storey)),
             Output::Yielding(side, storey) => model.yielding(point, (side, storey)),

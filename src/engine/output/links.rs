@@ -5,6 +5,7 @@ use crate::engine::model::Model;
 use crate::engine::output::outputs::{LinkOutput, Rates};
 use crate::engine::output::point::Point;
 use crate::engine::output::point_rates::PointRates;
+use crate::engine::quantities::rows::PeakOf;
 use crate::engine::state::State;
 use crate::engine::yielding::element::Element;
 
@@ -21,7 +22,10 @@ impl Model {
         match of {
             LinkOutput::Displacement => closing(),
             LinkOutput::Velocity => rate,
-            LinkOutput::Force => system.link_force(&point.storeys, l, (closing(), rate)),
+            LinkOutput::Force => match self.slipping_force(point, l) {
+                Some(force) => force + system.structure.links[l].dashpot * rate,
+                None => system.link_force(&point.storeys, l, (closing(), rate)),
+            },
             LinkOutput::DissipatedEnergy => {
                 let of_dashpot = self.energy(state, point).map_or(0.0, |_| point.dashpots.borrow()[l]);
                 of_dashpot + of_slip(Element::hysteretic_energy)
@@ -30,6 +34,24 @@ impl Model {
             LinkOutput::SlipTravel => of_slip(|_, storey| storey.cumulative.exact()),
             LinkOutput::Slipping => of_slip(|_, storey| storey.yields.map_or(0.0, Sense::sign)),
         }
+    }
+
+    /// Force of the spring of a link that slips now, N: exactly on its yield line.
+    fn slipping_force(&self, point: &Point, l: usize) -> Option<f64> {
+        let i = self.system.number_of_link(l)?;
+        point.storeys.get(i).filter(|storey| storey.yields.is_some())?;
+        let (of, present) = self.system.element(i, &point.storeys);
+        Some(of.shear(present, 0.0))
+    }
+
+    /// The largest magnitude so far of a quantity; that of the force of a spring that has slipped is no less than its yield
+    /// line, on which no sum rounds.
+    pub(in crate::engine) fn peak_shown(&self, state: &State, point: &Point, of: PeakOf) -> f64 {
+        let peak = self.peak(state, point, of);
+        let PeakOf::LinkForce(l) = of else { return peak };
+        let has_slipped = |storey: &Storey| storey.furthest > 0.0 && self.system.structure.links[l].dashpot == 0.0;
+        let line = self.slip_of(point, l).filter(|(_, storey)| has_slipped(storey) && !self.peak_rows.are_none());
+        line.map_or(peak, |(of, storey)| peak.max(of.peak_shear(storey)))
     }
 
     /// Its rates.
