@@ -154,6 +154,7 @@ wall = "left"
 stiffness = 300.0
 dashpot = 3.0
 slip_force = 1.5
+post_yield_ratio = 0.2
 [[contact]]
 left_floor = 1
 right_floor = 1
