@@ -24,7 +24,7 @@ fn parameters_of_links_work_as_if_the_scene_had_said_so() {
         ("link[4].stiffness", 310.0, "stiffness = 300.0", "stiffness = 310.0"),
         ("link[4].dashpot", 4.5, "dashpot = 3.0", "dashpot = 4.5"),
         ("link[4].slip_force", 1.6, "slip_force = 1.5", "slip_force = 1.6"),
-        ("link[4].post_yield_ratio", 0.4, "slip_force = 1.5", "slip_force = 1.5\npost_yield_ratio = 0.4"),
+        ("link[4].post_yield_ratio", 0.4, "ratio = 0.2", "ratio = 0.4"),
     ] {
         let other = Fmu::new(&edited(from, to));
         let expected = run_with(&other, &[], false);
