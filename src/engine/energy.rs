@@ -65,12 +65,12 @@ impl System {
             return;
         }
         let length = step.planned.length;
-        work.dashpots.fill(0.0);
         if let Some(of_segment) = self.work_of_segment(base, step) {
+            work.dashpots.fill(0.0);
             let load = (base.segment.acceleration_at(0.0), base.segment.slope);
             let flight = of_segment.over_all((&base.q, &base.v), load, &mut work.z, &mut work.dashpots);
             let impact = base.dissipated_by_contacts();
-            base.dashpots.iter_mut().zip(&work.dashpots).for_each(|(sum, done)| sum.add(*done));
+            base.add_work_of_dashpots(&work.dashpots);
             counters.energy_steps += 1;
             base.energy.iter_mut().for_each(|account| account.add_flight(&flight, impact));
             return;
@@ -80,7 +80,7 @@ impl System {
         let impact = base.dissipated_by_contacts();
         let [kinetic, strain, gravity] = self.energies((base.coordinates, &base.storeys), &base.q, &base.v);
         let hysteretic = self.hysteretic_energy(&base.storeys);
-        base.dashpots.iter_mut().zip(&work.dashpots).for_each(|(sum, done)| sum.add(*done));
+        base.add_work_of_dashpots(&work.dashpots);
         if let Some(account) = &mut base.energy {
             account.add(&done);
             account.update_largest([kinetic, strain, gravity, impact, hysteretic]);

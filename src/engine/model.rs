@@ -12,7 +12,7 @@ use crate::engine::system::System;
 use crate::engine::window::kernels::Windows;
 use crate::record::Record;
 use crate::scene::{Scene, SceneError};
-use crate::structure::{LANES, Side};
+use crate::structure::{LANES, Side, Structure};
 use std::f64::consts::PI;
 
 /// The scene, prepared for the engine; constant during a run.
@@ -29,6 +29,8 @@ pub struct Model {
     pub(in crate::engine) storeys: Storeys,
     /// Natural frequencies of the left and the right building, ascending, Hz.
     pub(in crate::engine) frequencies: [Vec<f64>; 2],
+    /// Those of all bodies, ascending, Hz.
+    pub(in crate::engine) system_frequencies: Vec<f64>,
     /// Limit on the work of one communication step, in flights.
     pub(in crate::engine) most_flights: f64,
 }
@@ -53,6 +55,7 @@ impl Model {
             resistance: FloorResistance::of(structure),
             frequencies: [Side::Left, Side::Right]
                 .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
+            system_frequencies: system_frequencies(structure),
             storeys: Storeys::of(scene),
             energy: scene.energy,
             most_flights: most_flights(structure, system.pairs.len(), MOST_WORK),
@@ -78,4 +81,12 @@ impl Model {
     pub fn contacts(&self) -> usize {
         self.system.pairs.len()
     }
+}
+
+/// Natural frequencies of all bodies, ascending, Hz.
+fn system_frequencies(structure: &Structure) -> Vec<f64> {
+    let of_bodies = structure.bodies.iter().flat_map(|body| body.modes.omega.iter());
+    let mut frequencies: Vec<f64> = of_bodies.map(|omega| omega / (2.0 * PI)).collect();
+    frequencies.sort_by(f64::total_cmp);
+    frequencies
 }

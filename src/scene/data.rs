@@ -2,6 +2,7 @@
 
 use super::contact_pair::ContactPair;
 use super::levels::Heights;
+use super::link::Link;
 use super::problem::{Problem, number};
 use super::rule;
 use super::units::Units;
@@ -30,7 +31,7 @@ pub struct Scene {
     /// What may collide.
     pub contacts: Vec<ContactPair>,
     /// Devices between the buildings, or between a floor and the ground.
-    pub links: Vec<super::link::Link>,
+    pub links: Vec<Link>,
     /// m, `facing.level_tolerance` where `[facing]` has made the contacts.
     pub facing: Option<f64>,
     /// `outputs.energy`: the energy account exists.

@@ -53,10 +53,11 @@
 //! initial_velocity, height, base_level, yield_force, post_yield_ratio, p_delta, gravity_load, collapse_drift_ratio); did you mean mass?");
 //! ```
 //!
-//! Where things are: `data` is the scene, `contact_pair` what meets in it, `link` what joins floors, [`rule`] says which numbers are allowed, `check`
-//! which shapes and combinations, `read`, `read_contacts` and `read_links` go through the keys of the file, `levels` adds up heights,
-//! `p_delta` is gravity on storeys that lean, `facing` makes contacts of them, `meeting` says in words what meets, `document` is the file as a tree, `syntax` knows what
-//! is often written instead of TOML, `units` converts masses and forces, `files` loads scenes with their records,
+//! Where things are: `data` is the scene, `contact_pair` what meets in it, `link` what joins floors, [`rule`] says which
+//! numbers are allowed, `check` which shapes and combinations, `read`, `read_contacts` and `read_links` go through the keys
+//! of the file, `levels` adds up heights, `p_delta` is gravity on storeys that lean, `facing` makes contacts of them,
+//! `meeting` says in words what meets, `document` is the file as a tree, `syntax` knows what is often written instead of
+//! TOML, `units` converts masses and forces, `files` loads scenes with their records,
 //! `lines` says on which lines its paths stand.
 
 mod check;

@@ -1,5 +1,6 @@
 //! Both buildings in modal coordinates: their equation of motion, forces and energies.
 
+use super::base_shear::BaseShear;
 use super::bodies::Body;
 use super::floors::Floors;
 use super::lane_matrix::{LaneMatrix, block_of_all};
@@ -17,16 +18,14 @@ const AT_ONCE: usize = 8;
 pub struct Structure {
     /// What moves together, in the order of their modes and floors.
     pub bodies: Vec<Body>,
-    /// The body of each building, and the row of its lowest floor there.
-    places: [(usize, usize); 2],
+    /// The number of each building's body.
+    body_of: [usize; 2],
     /// The modes of each building by itself, where links act on it.
     alone: [Option<Modes>; 2],
     /// Base shears of the buildings on which links act.
     shears: [Option<BaseShear>; 2],
     /// The links of the scene.
     pub links: Vec<LinkRow>,
-    /// Number of floors of each building.
-    counts: [usize; 2],
     /// Length of a modal vector.
     pub lanes: usize,
     /// w^2 of each mode, 1/s^2; 0 in the padding, as everywhere below.
@@ -58,14 +57,6 @@ struct Coupling {
     matrix: DMatrix<f64>,
 }
 
-/// The force of one building of a body on the ground: rows over displacements and velocities of its floors, and of all
-/// modes.
-#[derive(Clone, Debug)]
-struct BaseShear {
-    of_floors: [Vec<f64>; 2],
-    of_modes: [Vec<f64>; 2],
-}
-
 impl Structure {
     /// Solves the eigenproblems of all bodies of a scene.
     pub fn of(scene: &Scene) -> Result<Structure, (Side, NotPositiveDefinite)> {
@@ -78,39 +69,18 @@ impl Structure {
         let is_linked = |side: Side| bodies.iter().any(|body| body.is_linked && body.has(side));
         let [left, right] = modes;
         let alone = [(Side::Left, left), (Side::Right, right)].map(|(side, of)| is_linked(side).then_some(of));
-        let mut structure = Structure::of_bodies(bodies, floors, buildings.map(|building| building.mass.len()));
+        let mut structure = Structure::of_bodies(bodies, floors);
         structure.links =
             scene.links.iter().map(|link| LinkRow::of(link, &structure.bodies, &structure.floors)).collect();
-        structure.shears =
-            [0, 1].map(|side| alone[side].as_ref().map(|modes| structure.shear_beside_links(side, modes)));
+        structure.shears = [Side::Left, Side::Right].map(|side| {
+            let modes = alone[side as usize].as_ref()?;
+            Some(BaseShear::of((side, modes), structure.body(side), &structure.floors))
+        });
         structure.alone = alone;
         Ok(structure)
     }
 
-    /// The base shear of a building on which links act, from its modes by itself.
-    fn shear_beside_links(&self, side: usize, modes: &Modes) -> BaseShear {
-        let of = if side == 0 { Side::Left } else { Side::Right };
-        let mass = self.floors.of_building(side, self.floors.mass());
-        let (count, shape) = (mass.len(), &modes.shape);
-        let damped = |m: usize| match &modes.damping {
-            ModalDamping::Diagonal(c) => c[m] * modes.participation[m],
-            ModalDamping::Coupled(c) => (0..count).map(|k| c[(k, m)] * modes.participation[k]).sum(),
-        };
-        let pulled = |m: usize| modes.omega[m] * modes.omega[m] * modes.participation[m];
-        let over_floors = |of_mode: &dyn Fn(usize) -> f64| -> Vec<f64> {
-            let of_modes: Vec<f64> = (0..count).map(of_mode).collect();
-            (0..count).map(|j| mass[j] * (0..count).map(|m| of_modes[m] * shape[(j, m)]).sum::<f64>()).collect()
-        };
-        let of_floors = [over_floors(&pulled), over_floors(&damped)];
-        let of_modes = of_floors.each_ref().map(|row| {
-            let mut modal = vec![0.0; self.lanes];
-            row.iter().enumerate().for_each(|(floor, force)| self.add_floor_force(of, floor, *force, &mut modal));
-            modal
-        });
-        BaseShear { of_floors, of_modes }
-    }
-
-    fn of_bodies(bodies: Vec<Body>, floors: Floors, counts: [usize; 2]) -> Structure {
+    fn of_bodies(bodies: Vec<Body>, floors: Floors) -> Structure {
         let lanes = floors.mass().len();
         let to_floors = |body: &Body| {
             let shape = |i: usize, m: usize| body.modes.shape[(i, m)];
@@ -120,9 +90,9 @@ impl Structure {
             let weighted = |m: usize, i: usize| body.modes.shape[(i, m)] * floors.mass()[body.lanes.start + i];
             LaneMatrix::new(body.modes.omega.len(), body.lanes.start, body.range.start, weighted)
         };
-        let mut places = [(0, 0); 2];
+        let mut body_of = [0; 2];
         for (b, body) in bodies.iter().enumerate() {
-            body.buildings.iter().for_each(|part| places[part.side as usize] = (b, part.floors.start));
+            body.buildings.iter().for_each(|part| body_of[part.side as usize] = b);
         }
         let mut structure = Structure {
             lanes,
@@ -137,8 +107,7 @@ impl Structure {
             to_modes: bodies.iter().map(to_modes).collect(),
             floors,
             floor_shapes: Vec::new(),
-            places,
-            counts,
+            body_of,
             alone: [None, None],
             shears: [None, None],
             links: Vec::new(),
@@ -176,12 +145,7 @@ impl Structure {
 
     /// The body of a building.
     pub fn body(&self, side: Side) -> &Body {
-        &self.bodies[self.places[side as usize].0]
-    }
-
-    /// The row of a floor in the shapes of its body.
-    pub fn row(&self, side: Side, floor: usize) -> usize {
-        self.places[side as usize].1 + floor
+        &self.bodies[self.body_of[side as usize]]
     }
 
     /// The modes of one building by itself.
@@ -201,7 +165,7 @@ impl Structure {
 
     /// Number of floors of one building.
     pub fn floors(&self, side: Side) -> usize {
-        self.counts[side as usize]
+        self.floors.lanes_of(side as usize).len()
     }
 
     /// Number of a floor among those of both buildings, the left one's first.
@@ -237,14 +201,15 @@ impl Structure {
     pub fn add_modal(&self, side: Side, floors: &[f64], modal: &mut [f64]) {
         let (body, mass) = (self.body(side), self.floors.of_building(side as usize, self.floors.mass()));
         for (modal, column) in modal[body.range.clone()].iter_mut().zip(body.modes.shape.column_iter()) {
-            let own = column.iter().skip(self.row(side, 0));
+            let own = column.iter().skip(body.row(side, 0));
             *modal += own.zip(mass).zip(floors).map(|((shape, m), u)| shape * m * u).sum::<f64>();
         }
     }
 
     /// Adds the modal load of a force, N, on one floor.
     pub fn add_floor_force(&self, side: Side, floor: usize, force: f64, load: &mut [f64]) {
-        let (Body { modes, range, .. }, row) = (self.body(side), self.row(side, floor));
+        let body = self.body(side);
+        let (Body { modes, range, .. }, row) = (body, body.row(side, floor));
         let shapes = self.floor_shapes.get(row * self.lanes..).and_then(|row| row.get(range.clone()));
         match shapes {
             Some(row) => add_multiple(row, force, &mut load[range.clone()]),
@@ -258,7 +223,7 @@ impl Structure {
 
     /// Adds the modal load of forces, N, on some floors of a building: to the same bits as one after the other.
     pub fn add_floor_forces(&self, side: Side, forces: impl Iterator<Item = (usize, f64)>, load: &mut [f64]) {
-        let (range, first) = (self.body(side).range.clone(), self.row(side, 0));
+        let (range, first) = (self.body(side).range.clone(), self.body(side).row(side, 0));
         let (mut group, mut count) = ([(0, 0.0); AT_ONCE], 0);
         for force in forces {
             group[count] = force;

@@ -12,6 +12,7 @@
 //! |---|---|
 //! | `modes.rs`, `first_mode.rs` | frequencies, shapes and damping of one building; the first mode alone |
 //! | `bodies.rs`, `links.rs` | what moves together: buildings, and the links that join them |
+//! | `base_shear.rs` | the force on the ground of a building on which links act |
 //! | `equations.rs` | both buildings mode by mode: equation of motion, forces, energies |
 //! | `floors.rs` | the same floor by floor, for shear buildings |
 //! | `propagator.rs`, `interval.rs` | exact response over a time, of one mode and of all |
@@ -25,6 +26,7 @@
 
 pub use crate::scene::Side;
 
+mod base_shear;
 mod block_increments;
 mod bodies;
 mod coupled_work;
@@ -45,7 +47,7 @@ mod series;
 mod short_flight;
 
 pub use block_increments::ModeIncrements;
-pub use bodies::{Body, Part};
+pub use bodies::Body;
 pub use equations::{Scratch, Structure};
 pub use first_mode::FirstMode;
 pub use flight_work::{FlightEnergy, FlightWork};

@@ -100,6 +100,11 @@ impl Base {
         self.contacts.iter().filter(is_pressed).count() as u64
     }
 
+    /// Adds the work of the dashpot of each link, J.
+    pub(super) fn add_work_of_dashpots(&mut self, done: &[f64]) {
+        self.dashpots.iter_mut().zip(done).for_each(|(sum, done)| sum.add(*done));
+    }
+
     /// Energy dissipated by all contacts so far, J.
     pub(super) fn dissipated_by_contacts(&self) -> f64 {
         self.contacts.iter().map(Contact::dissipated_energy).sum()

@@ -33,7 +33,9 @@ impl Model {
             account.add(&done);
         }
         let dashpots = state.base.dashpots.iter().zip(&work.dashpots).map(|(sum, done)| sum.exact() + done);
-        point.dashpots.replace(dashpots.collect());
+        let mut shown = point.dashpots.borrow_mut();
+        shown.clear();
+        shown.extend(dashpots);
         let [kinetic, strain, gravity] = self.system.energies((point.coordinates, &point.storeys), &point.q, &point.v);
         let hysteretic = self.system.hysteretic_energy(&point.storeys);
         let contacts = 0..self.system.pairs.len();

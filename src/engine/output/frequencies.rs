@@ -2,7 +2,6 @@
 
 use crate::engine::model::Model;
 use crate::structure::{Modes, Side};
-use std::f64::consts::TAU;
 
 impl Model {
     /// Natural frequencies of one building alone, ascending, Hz.
@@ -12,11 +11,8 @@ impl Model {
 
     /// Natural frequencies of all that links join, without damping, ascending, Hz; those of both buildings alone where there
     /// are no links.
-    pub fn system_frequencies(&self) -> Vec<f64> {
-        let of_bodies = self.system.structure.bodies.iter().flat_map(|body| body.modes.omega.iter());
-        let mut frequencies: Vec<f64> = of_bodies.map(|omega| omega / TAU).collect();
-        frequencies.sort_by(f64::total_cmp);
-        frequencies
+    pub fn system_frequencies(&self) -> &[f64] {
+        &self.system_frequencies
     }
 
     /// Derivative of a mode's natural frequency with respect to the mass of a floor, Hz/kg, which weighs

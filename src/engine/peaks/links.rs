@@ -38,7 +38,8 @@ impl Model {
         }
     }
 
-    /// Displacement, velocity and force of a link in a motion of the floors; `softened` is what the force has lost since the base, N.
+    /// Displacement, velocity and force of a link in a motion of the floors; `softened` is what the force has lost since the
+    /// base, N.
     fn link_at(&self, l: usize, base: &Base, floors: &FloorState, softened: f64) -> [f64; 3] {
         let [closing, rate] = [&floors.u, &floors.v].map(|motion| self.system.link_closing_of_floors(l, motion));
         let force = self.system.link_force(&base.storeys, l, (closing, rate)) - softened;
