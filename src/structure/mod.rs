@@ -29,6 +29,7 @@ pub use crate::scene::Side;
 mod base_shear;
 mod block_increments;
 mod bodies;
+mod complex_modes;
 mod coupled_work;
 mod equations;
 mod first_mode;
