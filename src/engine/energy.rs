@@ -50,6 +50,21 @@ impl System {
         [kinetic, if strain < 0.0 { 0.0 } else { strain }, gravity]
     }
 
+    /// A motion as that of the modes, where it oscillates; `modal` is memory.
+    pub(super) fn motion_of_modes<'a>(
+        &self,
+        (oscillates, q, v): (bool, &'a [f64], &'a [f64]),
+        [of_q, of_v]: &'a mut [Vec<f64>; 2],
+    ) -> (&'a [f64], &'a [f64]) {
+        match self.structure.oscillators().filter(|_| oscillates) {
+            Some(oscillators) => {
+                oscillators.to_modes((q, v), (of_q, of_v));
+                (of_q, of_v)
+            }
+            None => (q, v),
+        }
+    }
+
     /// Opens the account with the energy at the start.
     pub(super) fn open_account(&self, base: &mut Base) {
         let [kinetic, strain, gravity] = self.energies((base.coordinates, &base.storeys), &base.q, &base.v);
@@ -68,7 +83,9 @@ impl System {
         if let Some(of_segment) = self.work_of_segment(base, step) {
             work.dashpots.fill(0.0);
             let load = (base.segment.acceleration_at(0.0), base.segment.slope);
-            let flight = of_segment.over_all((&base.q, &base.v), load, &mut work.z, &mut work.dashpots);
+            let Buffers { modal, z, dashpots, .. } = &mut *work;
+            let motion = self.motion_of_modes((base.oscillates, &base.q, &base.v), modal);
+            let flight = of_segment.over_all(motion, load, z, dashpots);
             let impact = base.dissipated_by_contacts();
             base.add_work_of_dashpots(&work.dashpots);
             counters.energy_steps += 1;
@@ -78,7 +95,8 @@ impl System {
         counters.energy_steps += if step.is_flight() { self.pieces(length).min(MOST_PIECES as u64) } else { 1 };
         let done = self.work_over(base, step, inputs, work, length);
         let impact = base.dissipated_by_contacts();
-        let [kinetic, strain, gravity] = self.energies((base.coordinates, &base.storeys), &base.q, &base.v);
+        let (q, v) = self.motion_of_modes((base.oscillates, &base.q, &base.v), &mut work.modal);
+        let [kinetic, strain, gravity] = self.energies((base.coordinates, &base.storeys), q, v);
         let hysteretic = self.hysteretic_energy(&base.storeys);
         base.add_work_of_dashpots(&work.dashpots);
         if let Some(account) = &mut base.energy {
@@ -151,8 +169,12 @@ impl System {
     fn integrate_quiet_flight(&self, base: &Base, work: &mut Buffers, length: f64, done: &mut Work) {
         let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
         self.fly(base, length, work, (&mut q, &mut v));
-        let moved = dot(&self.structure.participation, &q) - dot(&self.structure.participation, &base.q);
-        done.input -= base.segment.acceleration_at(base.elapsed) * moved;
+        let modal = &mut work.modal;
+        let [from, to] = [(&base.q, &base.v), (&q, &v)].map(|(q, v)| {
+            let (q, _) = self.motion_of_modes((base.oscillates, q, v), modal);
+            dot(&self.structure.participation, q)
+        });
+        done.input -= base.segment.acceleration_at(base.elapsed) * (to - from);
         (work.q, work.v) = (q, v);
     }
 
@@ -185,10 +207,10 @@ impl System {
     fn integrate_flight(&self, base: &Base, inputs: &Inputs, work: &mut Buffers, length: f64, done: &mut Work) {
         // The account needs fewer digits than the motion, which does not depend on it.
         const REMAINDER: f64 = 1e-16;
-        let pieces = self.pieces(length);
+        let (pieces, flying) = (self.pieces(length), self.structure.in_flight());
         let h = length / pieces as f64;
         let order =
-            flight_order(self.structure.fastest * h, REMAINDER).unwrap_or(crate::numerics::polynomial::MAX_ORDER);
+            flight_order(flying.fastest * h, REMAINDER).unwrap_or(crate::numerics::polynomial::MAX_ORDER);
         self.load(base, inputs, &mut work.load, &mut work.slope);
         if length > self.longest_pieces() {
             return self.integrate_quiet_flight(base, work, length, done);
@@ -198,7 +220,7 @@ impl System {
         let mut series = std::mem::take(&mut work.series);
         for i in 0..pieces {
             let start = (work.q.as_slice(), work.v.as_slice());
-            series.expand_flight(&self.structure, start, (&work.load, &work.slope), (h, order));
+            series.expand_flight(flying, start, (&work.load, &work.slope), (h, order));
             self.integrate_series(base, &series, (i as f64 * h, h), work, done);
             work.powers.set(1.0, series.order);
             series.evaluate(&work.powers, &mut work.q, &mut work.v);
@@ -248,9 +270,10 @@ impl System {
         work: &mut Buffers,
         done: &mut Work,
     ) {
-        let Buffers { node_q: q, node_v: v, v: damped, force_slope, powers, dashpots, .. } = work;
+        let Buffers { node_q, node_v, v: damped, force_slope, powers, dashpots, modal, .. } = work;
         for (t, weight) in nodes {
-            motion(t, powers, q, v);
+            motion(t, powers, node_q, node_v);
+            let (_, v) = self.motion_of_modes((base.oscillates, node_q, node_v), modal);
             let acceleration = base.segment.acceleration_at(base.elapsed + from + t);
             let (momentum, viscous) = match base.coordinates {
                 Coordinates::Modes => (dot(&self.structure.participation, v), self.structure.viscous_power(v)),

@@ -24,6 +24,8 @@ pub struct Model {
     pub(in crate::engine) flight: Flight,
     pub(in crate::engine) windows: Option<Windows>,
     pub(in crate::engine) peak_rows: PeakRows,
+    /// The same over the oscillators that move in flights, where these are not the modes.
+    pub(in crate::engine) oscillating_rows: Option<PeakRows>,
     pub(in crate::engine) truncated: TruncatedRows,
     pub(in crate::engine) resistance: FloorResistance,
     pub(in crate::engine) storeys: Storeys,
@@ -46,12 +48,15 @@ impl Model {
         let system = System::of(scene, record)?;
         let structure = &system.structure;
         let peak_rows = PeakRows::of(structure, scene.peaks);
+        let oscillating_rows = peak_rows.in_flight(structure);
+        let flight_rows = oscillating_rows.as_ref().unwrap_or(&peak_rows);
         let usual = system.ground.as_ref().map(GroundMotion::usual_length);
         Ok(Model {
             flight: Flight::new(&system),
             windows: Windows::of(&system),
-            truncated: TruncatedRows::of(structure, &peak_rows, usual, scene.floor_forces),
+            truncated: TruncatedRows::of(structure, flight_rows, usual, scene.floor_forces),
             peak_rows,
+            oscillating_rows,
             resistance: FloorResistance::of(structure),
             frequencies: [Side::Left, Side::Right]
                 .map(|side| structure.modes(side).omega.iter().map(|w| w / (2.0 * PI)).collect()),
@@ -61,6 +66,11 @@ impl Model {
             most_flights: most_flights(structure, system.pairs.len(), MOST_WORK),
             system,
         })
+    }
+
+    /// The rows of what is watched in flights.
+    pub(in crate::engine) fn flight_rows(&self) -> &PeakRows {
+        self.oscillating_rows.as_ref().unwrap_or(&self.peak_rows)
     }
 
     /// Sets the position of rest to that of the storeys.

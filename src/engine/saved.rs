@@ -4,7 +4,7 @@
 //! scratch vectors hold nothing, and all that follows from the scene is in the model.
 
 use crate::contact::EpisodeForce;
-use crate::engine::base::Base;
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::base::contact::Phase;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::Event;
@@ -147,6 +147,7 @@ impl Model {
         let SavedState { base, inputs, .. } = saved;
         let fits = base.q.len() == fresh.base.q.len()
             && base.v.len() == fresh.base.v.len()
+            && (!base.oscillates || self.system.structure.oscillators().is_some() && base.coordinates == Coordinates::Modes)
             && base.contacts.len() == self.system.pairs.len()
             && base.storeys.len() == self.system.storeys.len()
             && base.energy.is_some() == self.energy
@@ -187,8 +188,8 @@ impl Model {
     /// An element is not beyond its limits, and at one of them where it yields or has just turned.
     fn check_storeys(&self, base: &Base) -> Result<(), EngineError> {
         for (of, (storey, centre)) in self.system.elements(&base.storeys) {
-            let drift = of.drift(base.coordinates, &base.q);
-            let rounding = AT_LIMIT * (of.limit + of.size(base.coordinates, &base.q));
+            let (drift, size) = of.drift_at(base);
+            let rounding = AT_LIMIT * (of.limit + size);
             let is_within = Sense::BOTH.into_iter().all(|sense| of.excess(centre, sense, drift) <= rounding);
             let is_at = |sense: Sense| of.excess(centre, sense, drift).abs() <= rounding;
             let is_at_limit = storey.yields.is_none_or(is_at) && storey.turned.is_none_or(is_at);

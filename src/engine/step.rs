@@ -178,8 +178,9 @@ impl Step {
             _ => return false,
         };
         let left = length - elapsed;
-        let reach = system.structure.fastest * left;
-        if !(system.structure.is_classical() && left > 0.0 && reach <= NEARLY_OVER) {
+        let flying = system.structure.in_flight();
+        let reach = flying.fastest * left;
+        if !(flying.is_classical() && left > 0.0 && reach <= NEARLY_OVER) {
             return false;
         }
         let Some(order) = exact_order(reach) else { return false };
@@ -194,7 +195,7 @@ impl Step {
         for (load, slope) in work.load.iter_mut().zip(&work.slope) {
             *load += slope * length;
         }
-        fly_in_one_series(&system.structure, end, (&work.load, &work.slope), (-left, order), (q, v));
+        fly_in_one_series(flying, end, (&work.load, &work.slope), (-left, order), (q, v));
         true
     }
 

@@ -2,6 +2,7 @@
 
 use super::base_shear::BaseShear;
 use super::bodies::Body;
+use super::flight_modes::FlightModes;
 use super::floors::Floors;
 use super::lane_matrix::{LaneMatrix, block_of_all};
 use super::lanes::{LANES, Lane, dot};
@@ -41,6 +42,8 @@ pub struct Structure {
     /// Largest w or c of all modes, 1/s: the highest rate in the structure.
     pub fastest: f64,
     coupling: Vec<Coupling>,
+    /// What moves in flights, where that is not the modes.
+    flight: Option<Box<FlightModes>>,
     /// The buildings floor by floor.
     pub floors: Floors,
     /// From modes to floors and back, for each body.
@@ -77,10 +80,13 @@ impl Structure {
             Some(BaseShear::of((side, modes), structure.body(side), &structure.floors))
         });
         structure.alone = alone;
+        if flies_by_oscillators(scene) {
+            structure.flight = FlightModes::of(&structure).map(Box::new);
+        }
         Ok(structure)
     }
 
-    fn of_bodies(bodies: Vec<Body>, floors: Floors) -> Structure {
+    pub(super) fn of_bodies(bodies: Vec<Body>, floors: Floors) -> Structure {
         let lanes = floors.mass().len();
         let to_floors = |body: &Body| {
             let shape = |i: usize, m: usize| body.modes.shape[(i, m)];
@@ -103,6 +109,7 @@ impl Structure {
             weight: vec![0.0; lanes],
             fastest: 0.0,
             coupling: Vec::new(),
+            flight: None,
             to_floors: bodies.iter().map(to_floors).collect(),
             to_modes: bodies.iter().map(to_modes).collect(),
             floors,
@@ -141,6 +148,16 @@ impl Structure {
             }
         }
         self.coupling.extend(body.coupling().map(|matrix| Coupling { offset, matrix }));
+    }
+
+    /// The oscillators that move in flights, where these are not the modes.
+    pub fn oscillators(&self) -> Option<&FlightModes> {
+        self.flight.as_deref()
+    }
+
+    /// What moves in flights.
+    pub fn in_flight(&self) -> &Structure {
+        self.oscillators().map_or(self, |flight| &flight.oscillators)
     }
 
     /// The body of a building.
@@ -382,6 +399,12 @@ impl Structure {
         let energy: f64 = (0..self.lanes).map(|m| jerk[m] * jerk[m] + self.omega2[m] * y[m] * y[m]).sum();
         2.0 * self.fastest * energy.sqrt() * weights.iter().sum::<f64>()
     }
+}
+
+/// Whether nothing but the ground pushes on the buildings in flights: forces on floors, and rigid pairs that have just parted,
+/// ask for the modes.
+fn flies_by_oscillators(scene: &Scene) -> bool {
+    !scene.floor_forces && !scene.contacts.iter().any(|contact| contact.law.is_rigid())
 }
 
 /// `out` -= a square matrix, column by column, times `factor` times a vector.

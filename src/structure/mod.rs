@@ -12,6 +12,7 @@
 //! |---|---|
 //! | `modes.rs`, `first_mode.rs` | frequencies, shapes and damping of one building; the first mode alone |
 //! | `bodies.rs`, `links.rs` | what moves together: buildings, and the links that join them |
+//! | `complex_modes.rs`, `flight_modes.rs` | where damping couples modes: their complex modes, and the motion in these |
 //! | `base_shear.rs` | the force on the ground of a building on which links act |
 //! | `equations.rs` | both buildings mode by mode: equation of motion, forces, energies |
 //! | `floors.rs` | the same floor by floor, for shear buildings |
@@ -33,6 +34,7 @@ mod complex_modes;
 mod coupled_work;
 mod equations;
 mod first_mode;
+mod flight_modes;
 mod flight_work;
 mod floors;
 mod free_rows;
@@ -51,6 +53,7 @@ pub use block_increments::ModeIncrements;
 pub use bodies::Body;
 pub use equations::{Scratch, Structure};
 pub use first_mode::FirstMode;
+pub use flight_modes::FlightModes;
 pub use flight_work::{FlightEnergy, FlightWork};
 pub use floors::Floors;
 pub use free_rows::FreeRows;

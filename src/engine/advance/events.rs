@@ -20,7 +20,7 @@ impl Model {
         let time = base.time();
         match event {
             Event::Entry(p) if self.system.pairs[p].law.is_rigid() => {
-                self.system.convert(base, Coordinates::Modes, &mut work.q);
+                self.system.convert(base, Coordinates::Modes, [&mut work.q, &mut work.v]);
                 self.system.resolve_contact(base, p, work, on_episode);
             }
             Event::Entry(p) => {

@@ -3,7 +3,7 @@
 //! It is an optimisation only: `plan` and `take` do the same segment by segment, bit for bit.
 
 use crate::engine::base::counters::Counters;
-use crate::engine::base::{Base, Coordinates};
+use crate::engine::base::Base;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::excitation::segment::Segment;
 use crate::engine::flight::fast_account::{EnergyAccount, NoAccount, SegmentAccount};
@@ -12,6 +12,7 @@ use crate::engine::peaks::LEFT;
 use crate::engine::peaks::log::{Logged, PeakLog};
 use crate::engine::state::{State, Workspace};
 use crate::engine::step::{Step, StepKind};
+use crate::engine::system::buffers::Buffers;
 use crate::structure::{LANES, Lane};
 use std::ops::Range;
 
@@ -74,16 +75,16 @@ impl Model {
         until: f64,
     ) -> u64 {
         if !self.logs_flights() {
-            return fly_over(self, ground, (base, step), segments, until, None);
+            return fly_over(self, ground, (base, step, &mut work.buffers), segments, until, None);
         }
         if work.log.room() <= LEFT {
             let (log, mut peaks) = work.for_log();
             self.fold_log(base, (log, &mut peaks));
         }
-        let log = &mut work.log;
+        let Workspace { log, buffers, .. } = work;
         let segments = segments.start..segments.end.min(segments.start + (log.room() - 1) as u64);
         let before = log.count();
-        let flown = fly_over(self, ground, (base, step), segments, until, Some(log));
+        let flown = fly_over(self, ground, (base, step, buffers), segments, until, Some(log));
         log.truncate(before + flown as usize);
         flown
     }
@@ -102,8 +103,8 @@ impl Model {
         let is_plain = !cfg!(without = "fast_flight")
             && matches!(step.kind, StepKind::NotPlanned | StepKind::Deferred | StepKind::Flight)
             && base.elapsed == 0.0
-            && base.coordinates == Coordinates::Modes
-            && self.system.structure.is_classical()
+            && self.system.is_in_flight(base)
+            && self.system.structure.in_flight().is_classical()
             && !base.contacts.iter().any(|contact| contact.in_contact() || contact.at_surface)
             && !base.storeys.iter().any(|storey| storey.yields.is_some() || storey.turned.is_some());
         if is_plain { self.system.watched_segment(base) } else { None }
@@ -134,12 +135,12 @@ impl Model {
 fn fly_over(
     model: &Model,
     ground: &GroundMotion,
-    (base, step): (&mut Base, &mut Step),
+    (base, step, buffers): (&mut Base, &mut Step, &mut Buffers),
     segments: Range<u64>,
     until: f64,
     log: Option<&mut PeakLog>,
 ) -> u64 {
-    let (account, length) = (EnergyAccount::of(ground, base), base.segment.length);
+    let (account, length) = (EnergyAccount::of(&model.system, ground, base, buffers), base.segment.length);
     match (account, log) {
         (Some(account), None) => fly_cleared(model, ground, (base, step), account, segments, until),
         (None, None) => fly_cleared(model, ground, (base, step), NoAccount, segments, until),
@@ -201,7 +202,7 @@ fn fly_segment(model: &Model, ground: &GroundMotion, segment: &Segment, base: &B
     let Some(interval) = ground.prepared(segment) else { return false };
     interval.fly_on_ground(
         (&base.q, &base.v),
-        (&model.system.structure.participation, (segment.acceleration_at(0.0), segment.slope)),
+        (&model.system.structure.in_flight().participation, (segment.acceleration_at(0.0), segment.slope)),
         (&mut step.planned.q, &mut step.planned.v),
     )
 }
@@ -220,7 +221,7 @@ fn fly_few<const WIDTH: usize>(
 ) -> u64 {
     let Some(interval) = ground.prepared(&ground.segment(segments.start)) else { return 0 };
     let Some(modes) = interval.blocks::<WIDTH>() else { return 0 };
-    let participation = few::<WIDTH>(&model.system.structure.participation);
+    let participation = few::<WIDTH>(&model.system.structure.in_flight().participation);
     let (mut q, mut v) = (few::<WIDTH>(&base.q), few::<WIDTH>(&base.v));
     let mut flown = 0;
     for (end, length, load) in ground.of_record(segments) {

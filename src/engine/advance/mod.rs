@@ -227,6 +227,8 @@ impl Model {
             base.clearance.restart();
             work.log.close((&base.q, &base.v));
             work.note(event, base.time());
+            let Base { oscillates, q, v, .. } = base;
+            self.system.to_modes((oscillates, q, v), [&mut work.buffers.q, &mut work.buffers.v]);
             self.handle(base, event, &mut work.buffers, on_episode);
         }
         // The base has moved: the step that was planned from the old one means nothing.
@@ -291,9 +293,9 @@ impl Model {
         }
         base.clearance.move_on(1);
         base.clearance.set_all_known();
-        let (coordinates, q, v) = (base.coordinates, &base.q, &base.v);
+        let mut contacts = std::mem::take(&mut base.contacts);
         for ((p, contact), (pair, tracked)) in
-            base.contacts.iter_mut().enumerate().zip(self.system.pairs.iter().zip(&planned.tracked))
+            contacts.iter_mut().enumerate().zip(self.system.pairs.iter().zip(&planned.tracked))
         {
             contact.at_surface = false;
             contact.let_go = false;
@@ -304,14 +306,14 @@ impl Model {
             contact.tracked = false;
             if let Some((penetration, rate)) = *tracked {
                 (contact.penetration, contact.rate) = (penetration, rate);
-                contact.tracked = self.system.is_close(p, penetration, coordinates, q);
+                contact.tracked = self.system.is_close(p, penetration, base.coordinates, &base.q);
                 continue;
             }
-            if !contact.in_contact() {
-                contact.penetration = pair.relative(coordinates, q) - base.rest.gaps[p];
-            }
-            contact.rate = pair.relative(coordinates, v);
+            let (penetration, rate) = pair.penetration_at(base.rest.gaps[p], base);
+            contact.penetration = if contact.in_contact() { contact.penetration } else { penetration };
+            contact.rate = rate;
         }
+        base.contacts = contacts;
     }
 
     /// Moves the contacts through the step to its end, and logs it or raises the peaks over it.

@@ -33,7 +33,7 @@ impl Model {
     /// Apart: the exact motion, until the limit or the first entry.
     fn plan_flight(&self, at: &mut At, step: &mut Step, work: &mut Workspace, limit: f64) -> StepKind {
         let Workspace { buffers, look, .. } = work;
-        self.system.convert(at.base, Coordinates::Modes, &mut buffers.q);
+        self.system.convert_to_flight(at.base, [&mut buffers.q, &mut buffers.v]);
         self.system.load(at.base, at.inputs, &mut buffers.load, &mut buffers.slope);
         let whole = limit - at.base.elapsed;
         let longest = self.system.accounted_flight(at.base, (&buffers.load, &buffers.slope), whole);
@@ -51,7 +51,7 @@ impl Model {
         let Step { planned, taylor, onset, window, .. } = step;
         let is_near_rigid = self.system.has_close_rigid_pair(at.base);
         let coordinates = if is_near_rigid { Coordinates::Modes } else { self.system.contact_coordinates };
-        self.system.convert(at.base, coordinates, &mut buffers.q);
+        self.system.convert(at.base, coordinates, [&mut buffers.q, &mut buffers.v]);
         at.base.velocity_scale = at.base.velocity_scale.max(self.system.present_velocity(at.base));
         let (remaining, is_cut) =
             match self.system.time_for_rigid_pairs(at.base, at.inputs, buffers, limit - at.base.elapsed) {

@@ -38,6 +38,9 @@ pub(super) struct Base {
     pub elapsed: f64,
     /// The coordinates of `q` and `v`.
     pub coordinates: Coordinates,
+    /// Whether `q` and `v` are the coordinates of the oscillators and their rates, which stand for modes in flights where
+    /// damping couples these (`structure/flight_modes.rs`). Outputs, and all that knows of forces, get modes.
+    pub oscillates: bool,
     /// Displacements relative to the position of rest, m (modal coordinates: m kg^1/2).
     pub q: Vec<f64>,
     /// Velocities, m/s (modal coordinates: m kg^1/2/s).

@@ -12,6 +12,7 @@ impl Base {
             segment: _, // compared as a whole
             elapsed,
             coordinates: _,
+            oscillates: _, // looked at with the sizes
             q,
             v,
             contacts,

@@ -26,6 +26,7 @@
 //! each none gets beyond the share sum over modes of (largest |row| / (w L)) (e + A) of it: [`Together`].
 
 use crate::engine::excitation::record::Ahead;
+use crate::engine::quantities::flight_row::FlightRow;
 use crate::numerics::polynomial::each;
 use crate::structure::{LANES, Lane, Structure, from_left_to_right};
 use std::ops::Range;
@@ -52,6 +53,8 @@ pub struct ModeRates {
     pub gains: Vec<f64>,
     /// Ranges of the modes of bodies in which damping couples modes.
     coupled: Vec<Range<usize>>,
+    /// Whether oscillators move in flights: then quantities have rows over rates, too.
+    oscillates: bool,
 }
 
 /// Rates of [`LANES`] modes, side by side.
@@ -129,6 +132,8 @@ impl Ends {
 impl ModeRates {
     /// For a structure; `weight` is the largest |row| entry of each mode over all rows.
     pub fn of(structure: &Structure, weight: &[f64]) -> ModeRates {
+        let oscillates = structure.oscillators().is_some();
+        let structure = structure.in_flight();
         let coupled = structure.bodies.iter().filter(|body| body.is_coupled());
         let coupled: Vec<Range<usize>> = coupled.map(|body| body.range.clone()).collect();
         let mut gains: Vec<f64> = structure.participation.iter().map(|p| p.abs()).collect();
@@ -153,14 +158,18 @@ impl ModeRates {
                 weight: lane(weight),
             }
         };
-        ModeRates { blocks: (0..structure.lanes / LANES).map(block).collect(), gains, coupled }
+        ModeRates { blocks: (0..structure.lanes / LANES).map(block).collect(), gains, coupled, oscillates }
     }
 
     /// What the bounds of a row with that share of the ground gain.
-    pub fn gain(&self, structure: &Structure, row: &[f64], share_of_ground: f64) -> Gain {
-        let of_modes = row.iter().zip(&structure.damping).zip(&structure.participation);
-        let dragged = of_modes.map(|((row, c), participation)| (row * c * participation).abs()).sum();
-        let at_rest = vec![0.0; row.len()];
+    pub fn gain(&self, structure: &Structure, row: FlightRow, share_of_ground: f64) -> Gain {
+        let Structure { damping, participation, .. } = structure.in_flight();
+        let pulls = |m: usize| match row {
+            FlightRow::OfModes(row) => row[m] * damping[m] * participation[m],
+            FlightRow::OfOscillators(rows) => rows.pull_by_rates()[m] * participation[m],
+        };
+        let dragged = (0..participation.len()).map(|m| pulls(m).abs()).sum();
+        let at_rest = vec![0.0; participation.len()];
         let Seen { sums, .. } = self.see(row, (&at_rest, &at_rest), &self.gains);
         Gain { sums, dragged, shaken: share_of_ground.abs() }
     }
@@ -180,6 +189,10 @@ impl ModeRates {
             let less = each(|i| if a[i] > b[i] { b[i] } else { a[i] });
             *amplitude = each(|i| more[i] + CHORD * less[i]);
             size = each(|i| size[i] + mode.weight[i] * moved[i]);
+            if self.oscillates {
+                // |A| |x| + |B| |x'|, with (w + c) |B| in the weight.
+                size = each(|i| size[i] + mode.weight[i] * if mode.omega[i] > 0.0 { a[i] / mode.omega[i] } else { 0.0 });
+            }
         }
         for range in &self.coupled {
             share(&mut amplitude[range.clone()]);
@@ -189,7 +202,19 @@ impl ModeRates {
 
     /// For one row, its quantity in a motion, and the sums over modes in its bounds for those amplitudes.
     #[inline(always)]
-    pub fn see(&self, row: &[f64], (q, v): (&[f64], &[f64]), amplitude: &[f64]) -> Seen {
+    pub fn see(&self, row: FlightRow, motion: (&[f64], &[f64]), amplitude: &[f64]) -> Seen {
+        let seen = self.see_modes(row.sizes(), motion, amplitude);
+        match row {
+            FlightRow::OfModes(_) => seen,
+            FlightRow::OfOscillators(rows) => {
+                Seen { pull: rows.pull(motion), moved: row.value(motion), rate: row.rate(motion), ..seen }
+            }
+        }
+    }
+
+    /// The same of a row over the modes.
+    #[inline(always)]
+    fn see_modes(&self, row: &[f64], (q, v): (&[f64], &[f64]), amplitude: &[f64]) -> Seen {
         let [row, amplitude, q, v] = [row, amplitude, q, v].map(|all| all.as_chunks::<LANES>().0);
         // Equal lengths: no bounds checks below.
         let count = self.blocks.len();
@@ -272,10 +297,11 @@ pub struct Together {
 
 impl Together {
     /// Of rows, each with the limit of its magnitude, m.
-    pub fn of<'a>(structure: &Structure, rows: impl Iterator<Item = (&'a [f64], f64)>) -> Together {
+    pub fn of<'a>(structure: &Structure, rows: impl Iterator<Item = (FlightRow<'a>, f64)>) -> Together {
+        let structure = structure.in_flight();
         let mut of_modes = vec![0.0_f64; structure.lanes];
         for (row, limit) in rows {
-            for (m, row) in row.iter().enumerate().filter(|(_, row)| **row != 0.0) {
+            for (m, row) in row.sizes().iter().enumerate().filter(|(_, row)| **row != 0.0) {
                 of_modes[m] = of_modes[m].max(row.abs() / (structure.omega2[m].sqrt() * limit));
             }
         }

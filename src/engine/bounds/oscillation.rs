@@ -7,9 +7,11 @@
 //! ```
 //!
 //! and the envelope R = sqrt(h^2 + (h' / w)^2) never grows. Hence the quantity of a row exceeds the one by s alone,
-//! which is largest at one of the ends, at most by the sum over modes of |row| R. So a motion that has died out needs
+//! which is largest at one of the ends, at most by the sum over modes of |row| R; with a row A over q and one B over q' by
+//! that of (|A| + w |B|) R. So a motion that has died out needs
 //! no further tests, nor does one that oscillates for ever without reaching a limit.
 
+use crate::engine::quantities::flight_row::FlightRow;
 use crate::structure::{Body, Structure};
 
 /// Margin for rounding, relative to the terms of a quantity.
@@ -52,16 +54,19 @@ impl<'a> Oscillation<'a> {
     }
 
     /// Whether `sign` times the quantity of a row stays below a limit, m.
-    pub fn stays_below(&self, row: &[f64], sign: f64, limit: f64) -> bool {
+    pub fn stays_below(&self, row: FlightRow, sign: f64, limit: f64) -> bool {
         let (mut start, mut change, mut swing, mut size) = (0.0, 0.0, 0.0, limit.abs());
         for body in &self.structure.bodies {
             for m in body.range.clone() {
                 let [quasi_static, drift, radius] = self.of_mode(m);
                 let radius = if self.structure.is_classical() { radius } else { self.shared_radius(body, m) };
-                start += row[m] * quasi_static;
-                change += row[m] * drift;
-                swing += row[m].abs() * radius;
-                size += (row[m] * quasi_static).abs() + (row[m] * drift).abs();
+                let ([a, b], w2) = (row.entries(m), self.structure.omega2[m]);
+                let by_rate = if b == 0.0 { 0.0 } else { b * self.loads.1[m] / w2 };
+                let held = a * quasi_static + by_rate;
+                start += held;
+                change += a * drift;
+                swing += (a.abs() + b.abs() * w2.sqrt()) * radius;
+                size += held.abs() + (a * drift).abs();
             }
         }
         // Written so that a NaN never counts as below.

@@ -2,8 +2,8 @@
 //! (`quantities/truncated.rs`).
 //!
 //! Between two ends a quantity deviates from the chord by at most h^2/8 max|y''|. A mode's q'' is a free oscillation while the
-//! load is linear in time, so that E = sqrt(q'''^2 + w^2 q''^2) never grows: |y''| <= sum |A| E / w for a row over q, and sum
-//! |A| (w + c) E for a row over w^2 q + c q'. The quick modes' share of the ground's acceleration is linear in time, and
+//! load is linear in time, so that E = sqrt(q'''^2 + w^2 q''^2) never grows: |y''| <= sum |A| E / w for a row over q, sum
+//! |A| (w + c) E for a row over w^2 q + c q', and sum |A| E for one over q' of oscillators. The quick modes' share of the ground's acceleration is linear in time, and
 //! has no deviation; what is left of them is bounded over parts of a span, from the motion at the start of the part and
 //! the changes of the ground's slope within. The accelerations that forces give to the floors on which they act are linear,
 //! too.
@@ -100,12 +100,12 @@ impl<const N: usize> Span<N> {
     }
 
     /// Reads the slow modes of a building, whose modes are `offset` and on, and which are all of them where forces may act on
-    /// floors: writes q and w^2 q + c q' at the ends, and the bounds on them. Returns a size by which spans are put in order.
+    /// floors: writes q and w^2 q + c q', of oscillators q', at the ends, and the bounds on them. Returns a size by which spans are put in order.
     pub fn read(
         &self,
         flights: &Flights,
         offset: usize,
-        modes: &[Mode],
+        (modes, oscillates): (&[Mode], bool),
         out: &mut [[[f64; N]; 2]],
         sizes: &mut [ModeSizes],
     ) -> f64 {
@@ -131,7 +131,7 @@ impl<const N: usize> Span<N> {
             }
             None => Some((&self.ground[0], &self.slopes)),
         };
-        read_modes(modes, load, 0.125 * self.longest * self.longest, out, sizes)
+        read_modes((modes, oscillates), load, 0.125 * self.longest * self.longest, out, sizes)
     }
 
     /// Bounds on R of each group of quick modes, for each part: `out` has the groups of the first part first, and after those
@@ -212,9 +212,8 @@ impl<const N: usize> Span<N> {
                 }
             }
         }
-        let kind = usize::from(block.pulls);
-        let sag = sum_sags(&block.row, sizes, kind);
-        let values = values_at(&block.row, (motion, kind), at_rest);
+        let sag = sum_sags(&block.rows, sizes);
+        let values = values_at(&block.rows, motion, at_rest);
         let mut highest = match block.pushed.filter(|_| self.is_pushed) {
             Some(floors) => highest_of_pushed(&values, &self.pushes(flights, &floors)),
             None => highest_at(&values, &block.per_ground, &self.ground),
@@ -252,7 +251,7 @@ impl<const N: usize> BlockBounds<N> {
 
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn read_modes<const N: usize>(
-    modes: &[Mode],
+    (modes, oscillates): (&[Mode], bool),
     load: Option<(&[f64; N], &[f64; N])>,
     chord: f64,
     motion: &mut [[[f64; N]; 2]],
@@ -268,18 +267,22 @@ fn read_modes<const N: usize>(
                 let jerk = -share * slopes[t] - c * acceleration - w2 * v[t];
                 energy[t] = jerk * jerk + w2 * acceleration * acceleration;
                 moved[t] = q[t].abs();
-                v[t] = pull;
+                if !oscillates {
+                    v[t] = pull;
+                }
             }
             sizes.sag[0] = largest(&energy);
         } else {
             for t in 0..N {
                 moved[t] = q[t].abs();
-                v[t] = w2 * q[t] + c * v[t];
+                if !oscillates {
+                    v[t] = w2 * q[t] + c * v[t];
+                }
             }
         }
         let sag = chord * sizes.sag[0].sqrt();
         let pulled = largest(&v.map(f64::abs));
-        sizes.sag = [sag / w, sag * (w + c)];
+        sizes.sag = [sag / w, if oscillates { sag } else { sag * (w + c) }];
         sizes.most = [largest(&moved) + sizes.sag[0], pulled + sizes.sag[1]];
         total += pulled * share.abs();
     }
@@ -315,16 +318,17 @@ fn swing_of(modes: &[Mode], (q, v): (&[f64], &[f64]), [ground, slope]: [f64; 2])
 /// modes, and the quick modes' with the largest R of each group and the ground's largest acceleration and slope.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn bound_block(
-    TruncatedBlock { pulls, row, per_ground, per_slope, left, pushed: _ }: &TruncatedBlock,
+    TruncatedBlock { rows, per_ground, per_slope, left, pushed: _ }: &TruncatedBlock,
     at_rest: &Lane,
     (sizes, quick): (&[ModeSizes], &[f64]),
     [strongest, steepest]: [f64; 2],
 ) -> Lane {
-    let kind = usize::from(*pulls);
     let mut sum = each(|i| at_rest[i].abs() + per_ground[i].abs() * strongest + per_slope[i] * steepest);
-    for (row, sizes) in row.iter().zip(sizes) {
-        for i in 0..LANES {
-            sum[i] += row[i].abs() * sizes.most[kind];
+    for (kind, row) in rows.iter().enumerate() {
+        for (row, sizes) in row.iter().zip(sizes) {
+            for i in 0..LANES {
+                sum[i] += row[i].abs() * sizes.most[kind];
+            }
         }
     }
     for (row, most) in left.iter().zip(quick) {
@@ -337,11 +341,13 @@ fn bound_block(
 
 /// The sums of |A| times the modes' deviations from the chord.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn sum_sags(row: &[Lane], sizes: &[ModeSizes], kind: usize) -> Lane {
+fn sum_sags(rows: &[Vec<Lane>; 2], sizes: &[ModeSizes]) -> Lane {
     let mut sum = [0.0; LANES];
-    for (row, sizes) in row.iter().zip(sizes) {
-        for i in 0..LANES {
-            sum[i] += row[i].abs() * sizes.sag[kind];
+    for (kind, row) in rows.iter().enumerate() {
+        for (row, sizes) in row.iter().zip(sizes) {
+            for i in 0..LANES {
+                sum[i] += row[i].abs() * sizes.sag[kind];
+            }
         }
     }
     sum
@@ -349,8 +355,8 @@ fn sum_sags(row: &[Lane], sizes: &[ModeSizes], kind: usize) -> Lane {
 
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn values_at<const N: usize>(
-    row: &[Lane],
-    (motion, kind): (&[[[f64; N]; 2]], usize),
+    rows: &[Vec<Lane>; 2],
+    motion: &[[[f64; N]; 2]],
     at_rest: &Lane,
 ) -> [[f64; N]; LANES] {
     let mut all = [[0.0; N]; LANES];
@@ -358,10 +364,12 @@ fn values_at<const N: usize>(
     for (pair, out) in all.chunks_exact_mut(2).enumerate() {
         let (i, j) = (2 * pair, 2 * pair + 1);
         let (mut one, mut other) = ([at_rest[i]; N], [at_rest[j]; N]);
-        for (row, motion) in row.iter().zip(motion) {
-            for t in 0..N {
-                one[t] += row[i] * motion[kind][t];
-                other[t] += row[j] * motion[kind][t];
+        for (kind, row) in rows.iter().enumerate() {
+            for (row, motion) in row.iter().zip(motion) {
+                for t in 0..N {
+                    one[t] += row[i] * motion[kind][t];
+                    other[t] += row[j] * motion[kind][t];
+                }
             }
         }
         (out[0], out[1]) = (one, other);

@@ -47,7 +47,7 @@ impl GroundMotion {
         }
         let accounted = if has_account { &distinct[..] } else { &[] };
         let work = accounted.iter().map(|length| FlightWork::of(structure, *length)).collect();
-        let prepared = distinct.into_iter().map(|length| Interval::new(structure, length)).collect();
+        let prepared = distinct.into_iter().map(|length| Interval::new(structure.in_flight(), length)).collect();
         GroundMotion { times, accelerations, spacing, lengths, passed, prepared, work }
     }
 

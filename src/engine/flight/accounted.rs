@@ -17,7 +17,7 @@ const QUIET: f64 = 1e-20;
 impl System {
     /// Number of pieces, each within reach of one series, of a flight of that length, s.
     pub fn pieces(&self, length: f64) -> u64 {
-        (self.structure.fastest * length / REACH).ceil().max(1.0) as u64
+        (self.structure.in_flight().fastest * length / REACH).ceil().max(1.0) as u64
     }
 
     /// Length, s, of the flight from the base, at most `length`, under a load and its slope: limited to some thousand
@@ -39,7 +39,7 @@ impl System {
 
     /// Length of the longest flight that is integrated in one step, s.
     pub fn longest_pieces(&self) -> f64 {
-        MOST_PIECES * REACH / self.structure.fastest
+        MOST_PIECES * REACH / self.structure.in_flight().fastest
     }
 
     /// Whether damping dissipates nothing from now on: there is none, or the oscillation about the static displacement
@@ -48,11 +48,12 @@ impl System {
         if slope.iter().any(|slope| *slope != 0.0) {
             return false;
         }
-        let (w2, damping) = (&self.structure.omega2, &self.structure.damping);
+        let flying = self.structure.in_flight();
+        let (w2, damping) = (&flying.omega2, &flying.damping);
         let quasi_static = |m: usize| if w2[m] > 0.0 { load[m] / w2[m] } else { base.q[m] };
         let swing =
             |m: usize| w2[m] * (base.q[m] - quasi_static(m)) * (base.q[m] - quasi_static(m)) + base.v[m] * base.v[m];
         let moving: f64 = (0..damping.len()).filter(|m| damping[*m] > 0.0).map(swing).sum();
-        moving <= QUIET * largest && self.structure.is_classical() || moving == 0.0
+        moving <= QUIET * largest && flying.is_classical() || moving == 0.0
     }
 }

@@ -23,8 +23,8 @@ impl BroadPhase {
     pub fn of(System { structure, pairs, storeys, together, .. }: &System, weight: &[f64]) -> BroadPhase {
         let rates = ModeRates::of(structure, weight);
         BroadPhase {
-            pairs: pairs.iter().map(|of| rates.gain(structure, &of.row, of.share_of_ground())).collect(),
-            storeys: storeys.iter().map(|of| rates.gain(structure, &of.row, of.share_of_ground())).collect(),
+            pairs: pairs.iter().map(|of| rates.gain(structure, of.in_flight(), of.share_of_ground())).collect(),
+            storeys: storeys.iter().map(|of| rates.gain(structure, of.in_flight(), of.share_of_ground())).collect(),
             together: together.largest_share(&rates.gains),
             rates,
         }
@@ -70,7 +70,7 @@ impl BroadPhase {
         }
         let mut least = u64::MAX;
         for ((of, present), gain) in system.elements(&base.storeys).zip(&self.storeys) {
-            let seen = self.rates.see(&of.row, (&base.q, &base.v), amplitude);
+            let seen = self.rates.see(of.in_flight(), (&base.q, &base.v), amplitude);
             for sense in Sense::BOTH {
                 let start = of.start_of_flight(present, sense, seen.moved) + MARGIN * (of.limit + size);
                 least = least.min(seen.longest(gain, (sense.sign(), start), ends));
@@ -99,7 +99,7 @@ fn look_ahead(
         if base.clearance.is_free(p, segment) {
             continue;
         }
-        let seen = of.rates.see(&pair.row, (&base.q, &base.v), amplitude);
+        let seen = of.rates.see(pair.in_flight(), (&base.q, &base.v), amplitude);
         let contact = &mut base.contacts[p];
         if !base.clearance.is_known(p) {
             counters.pairs_evaluated += 1;

@@ -2,7 +2,9 @@
 
 use crate::engine::base::{Account, Base};
 use crate::engine::excitation::record::GroundMotion;
-use crate::structure::{FlightWork, Lane};
+use crate::engine::system::System;
+use crate::engine::system::buffers::Buffers;
+use crate::structure::{FlightModes, FlightWork, Lane};
 
 /// What is added up over segments that follow each other.
 pub trait SegmentAccount {
@@ -23,16 +25,25 @@ pub struct NoAccount;
 pub struct EnergyAccount<'a> {
     work: &'a FlightWork,
     account: Account,
+    /// The oscillators that move, where these are not the modes, and memory for the motion of the modes.
+    oscillators: Option<(&'a FlightModes, &'a mut Buffers)>,
     /// Energy that the contacts have dissipated, J.
     impact: f64,
 }
 
 impl EnergyAccount<'_> {
     /// From the base on; `None` where no account is kept.
-    pub fn of<'a>(ground: &'a GroundMotion, base: &Base) -> Option<EnergyAccount<'a>> {
+    pub fn of<'a>(
+        system: &'a System,
+        ground: &'a GroundMotion,
+        base: &Base,
+        room: &'a mut Buffers,
+    ) -> Option<EnergyAccount<'a>> {
         let account = base.energy?;
         let work = ground.work_over(&base.segment)?;
-        Some(EnergyAccount { work, account, impact: base.dissipated_by_contacts() })
+        room.dashpot_sums.clone_from(&base.dashpots);
+        let oscillators = system.structure.oscillators().map(|oscillators| (oscillators, room));
+        Some(EnergyAccount { work, account, oscillators, impact: base.dissipated_by_contacts() })
     }
 }
 
@@ -57,11 +68,24 @@ impl SegmentAccount for EnergyAccount<'_> {
 
     #[inline(always)]
     fn add(&mut self, motion: (&[Lane], &[Lane]), load: (f64, f64)) {
-        self.account.add_flight(&self.work.over(motion, load), self.impact);
+        let flight = match &mut self.oscillators {
+            None => self.work.over(motion, load),
+            Some((oscillators, Buffers { modal: [q, v], z, dashpots, dashpot_sums, .. })) => {
+                oscillators.to_modes((motion.0.as_flattened(), motion.1.as_flattened()), (q, v));
+                dashpots.fill(0.0);
+                let flight = self.work.over_all((q, v), load, z, dashpots);
+                dashpot_sums.iter_mut().zip(dashpots).for_each(|(sum, done)| sum.add(*done));
+                flight
+            }
+        };
+        self.account.add_flight(&flight, self.impact);
     }
 
     #[inline(always)]
     fn store(self, base: &mut Base) {
         base.energy = Some(self.account);
+        if let Some((_, room)) = self.oscillators {
+            base.dashpots.clone_from(&room.dashpot_sums);
+        }
     }
 }

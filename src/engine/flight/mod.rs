@@ -16,6 +16,7 @@ use crate::engine::excitation::record::GroundMotion;
 use crate::engine::flight::broad_phase::BroadPhase;
 use crate::engine::flight::search::Search;
 use crate::engine::flight::workspace::Look;
+use crate::engine::quantities::flight_row::FlightRow;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 
@@ -29,7 +30,7 @@ pub struct Flight {
 impl Flight {
     /// For the pairs and storeys of a system.
     pub fn new(system: &System) -> Flight {
-        let certificate = Certificate::of(&system.structure, system.limited_rows());
+        let certificate = Certificate::of(&system.structure, system.limited_rows().map(FlightRow::sizes));
         Flight { broad_phase: BroadPhase::of(system, &certificate.weight), certificate }
     }
 
@@ -97,7 +98,7 @@ impl Flight {
     ) -> bool {
         let (h, start, loads) = (planned.length, (&base.q[..], &base.v[..]), (&work.load[..], &work.slope[..]));
         let end = (&planned.q[..], &planned.v[..]);
-        let deviation = self.certificate.deviation(&system.structure, start, loads, h, &mut work.scratch);
+        let deviation = self.certificate.deviation(system.structure.in_flight(), start, loads, h, &mut work.scratch);
         let is_cleared = |base: &Base, p: usize| segment.is_some_and(|segment| base.clearance.is_free(p, segment));
         for (p, pair) in system.pairs.iter().enumerate() {
             if is_cleared(base, p) {

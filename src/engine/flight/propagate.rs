@@ -16,7 +16,7 @@ impl System {
     /// Writes to q, v the motion `h` seconds after the base, under `work.load` and its slope.
     pub fn fly(&self, base: &Base, h: f64, work: &mut Buffers, (q, v): (&mut [f64], &mut [f64])) {
         let Buffers { load, slope, scratch, interval, .. } = work;
-        if self.structure.is_classical() && !cfg!(without = "short_flight") {
+        if self.structure.in_flight().is_classical() && !cfg!(without = "short_flight") {
             return self.fly_uncoupled(base, h, (load, slope), interval, (q, v));
         }
         let prepared = self.prepared(base, h);
@@ -45,10 +45,11 @@ impl System {
         if let Some(prepared) = self.prepared(base, h) {
             return prepared.fly_uncoupled(start, loads, end);
         }
-        if let Some(order) = exact_order(self.structure.fastest * h) {
-            return fly_in_one_series(&self.structure, start, loads, (h, order), end);
+        let flying = self.structure.in_flight();
+        if let Some(order) = exact_order(flying.fastest * h) {
+            return fly_in_one_series(flying, start, loads, (h, order), end);
         }
-        interval.prepare(&self.structure, h);
+        interval.prepare(flying, h);
         interval.fly_uncoupled(start, loads, end);
     }
 

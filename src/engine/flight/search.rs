@@ -6,7 +6,7 @@
 
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::{Event, Planned};
-use crate::engine::base::{Base, Coordinates};
+use crate::engine::base::Base;
 use crate::engine::bounds::certificate::Certificate;
 use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
@@ -39,9 +39,9 @@ impl Search<'_> {
     /// Finds the first event in the planned flight and ends the step there.
     pub fn first_event(&mut self, planned: &mut Planned, counters: &mut Counters) {
         let Search { system, base, .. } = *self;
-        let remaining = planned.length;
+        let (remaining, flying) = (planned.length, system.structure.in_flight());
         let mut unit =
-            if system.structure.fastest * remaining > REACH { REACH / system.structure.fastest } else { remaining };
+            if flying.fastest * remaining > REACH { REACH / flying.fastest } else { remaining };
         let is_tracked = base.contacts.iter().any(|contact| contact.tracked);
         let are_elastic = self.look.is_free[system.pairs.len()..].iter().all(|is_elastic| *is_elastic);
         if let Some(rows) =
@@ -132,16 +132,19 @@ impl Search<'_> {
     /// The first event in a piece by its power series: (share of the piece, event).
     fn first_upcrossing_in(&mut self, length: f64) -> Option<(f64, Event)> {
         let Search { system, base, look, work, .. } = self;
-        let order = flight_order(system.structure.fastest * length, EXACT).unwrap_or(MAX_ORDER);
+        let flying = system.structure.in_flight();
+        let order = flight_order(flying.fastest * length, EXACT).unwrap_or(MAX_ORDER);
+        // Series of oscillators lose a term where their rates enter.
+        let order = (order + usize::from(system.structure.oscillators().is_some())).min(MAX_ORDER);
         let Look { from, q, v, load, is_free, .. } = &*look;
-        work.series.expand_flight(&system.structure, (q, v), (load, &work.slope), (length, order));
+        work.series.expand_flight(flying, (q, v), (load, &work.slope), (length, order));
         let mut first: Option<(f64, Event)> = None;
         for (p, (pair, contact)) in system.pairs.iter().zip(&base.contacts).enumerate() {
             if is_free[p] {
                 continue;
             }
             let terms = &mut work.scalar[..=work.series.order];
-            let mut noise = pair.noise(system.pairs[p].project(Coordinates::Modes, &work.series, &ALL, terms));
+            let mut noise = pair.noise(pair.in_flight().project(&work.series, &ALL, terms));
             if *from == 0.0 {
                 noise = contact.begin_flight(terms, length, noise);
             } else {
@@ -164,7 +167,7 @@ impl Search<'_> {
     fn piece_stays_within(&mut self, length: f64) -> bool {
         let Search { certificate, system, look, work, .. } = self;
         let (motion, loads) = ((&look.q[..], &look.v[..]), (&look.load[..], &work.slope[..]));
-        let deviation = certificate.deviation(&system.structure, motion, loads, length, &mut work.scratch);
+        let deviation = certificate.deviation(system.structure.in_flight(), motion, loads, length, &mut work.scratch);
         self.fly(length);
         let Search { system, base, look, work, .. } = self;
         let ends = [(&look.q[..], &look.v[..]), (&look.end_q, &look.end_v)];

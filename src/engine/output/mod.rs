@@ -52,6 +52,13 @@ impl Model {
         let elapsed = state.since_base();
         let mut work = self.take_buffers(point);
         step.evaluate(&self.system, (base, inputs), elapsed, &mut work, (&mut point.q, &mut point.v));
+        if let (true, Some(oscillators)) = (base.oscillates, structure.oscillators()) {
+            let Point { q, v, oscillating, .. } = &mut *point;
+            let [of_q, of_v] = oscillating.get_or_insert_with(|| [vec![0.0; q.len()], vec![0.0; v.len()]]);
+            std::mem::swap(q, of_q);
+            std::mem::swap(v, of_v);
+            oscillators.to_modes((of_q, of_v), (q, v));
+        }
         self.note_storeys(state, elapsed, &mut work, point);
         // In a flight no contact has a force.
         let is_flight = step.is_flight();
@@ -89,6 +96,7 @@ impl Model {
     #[cold]
     fn make_room(&self, point: &mut Point) {
         let lanes = self.system.structure.lanes;
+        point.oscillating = None;
         (point.q, point.v, point.rest) = (vec![0.0; lanes], vec![0.0; lanes], vec![0.0; lanes]);
         point.contacts = vec![Cell::default(); self.system.pairs.len()];
         point.storeys = vec![Storey::default(); self.system.storeys.len()];

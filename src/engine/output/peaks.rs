@@ -95,7 +95,7 @@ impl Model {
         let State { base, inputs, .. } = state;
         let (acceleration, slope) = (base.segment.acceleration_at(base.elapsed), base.segment.slope);
         let loads = [Load { acceleration, slope, length: elapsed }];
-        let (lanes, end) = (self.system.structure.lanes, (&point.q[..], &point.v[..]));
+        let (lanes, end) = (self.system.structure.lanes, point.motion_of_step(base));
         let part = Flights { lanes, q: &base.q, v: &base.v, loads: &loads, end, forces: None };
         if ahead.stay_below(&part, &base.rest.watched, peaks) {
             return;

@@ -1,6 +1,6 @@
 //! The solution at one time, by floors and contacts.
 
-use crate::engine::base::Coordinates;
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::base::storey::Storey;
 use crate::engine::output::known::{FloorMotions, PeakCell};
 use crate::engine::output::outputs::{ContactPoint, EnergyPoint};
@@ -22,6 +22,8 @@ pub struct Point {
     pub(in crate::engine) q: Vec<f64>,
     /// Velocities, of which `floors` is made.
     pub(in crate::engine) v: Vec<f64>,
+    /// The same motion as that of oscillators, where these move at that time.
+    pub(in crate::engine) oscillating: Option<[Vec<f64>; 2]>,
     pub(in crate::engine) floors: FloorMotions,
     /// The storeys that can yield.
     pub(in crate::engine) storeys: Vec<Storey>,
@@ -35,6 +37,16 @@ pub struct Point {
     pub(in crate::engine) dashpots: RefCell<Vec<f64>>,
     pub(in crate::engine) work: RefCell<Option<Box<Buffers>>>,
     pub(in crate::engine) peaks: PeakCell,
+}
+
+impl Point {
+    /// The motion in the coordinates of the step's base.
+    pub(in crate::engine) fn motion_of_step(&self, base: &Base) -> (&[f64], &[f64]) {
+        match &self.oscillating {
+            Some([q, v]) if base.oscillates => (q, v),
+            _ => (&self.q, &self.v),
+        }
+    }
 }
 
 /// Outputs, and the number of the observation to which they belong.

@@ -1,8 +1,9 @@
 //! One contact: the row of weights that gives its penetration from the floors' displacements.
 
 use crate::contact::{EpisodeForce, Force, ImpactLaw};
-use crate::engine::base::Coordinates;
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::base::contact::{Contact, Episode, Phase};
+use crate::engine::quantities::flight_row::{FlightRow, OscillatorRows};
 use crate::scene::Scene;
 use crate::structure::{FEW_BLOCKS, LANES, Lane, Structure};
 
@@ -12,6 +13,8 @@ pub(crate) struct Pair {
     /// Row of the modal Jacobian, kg^-1/2: penetration = row . q - gap, and a contact force F loads the modes with -row
     /// F.
     pub row: Vec<f64>,
+    /// The penetration over oscillators, where these move in flights.
+    oscillating: Option<OscillatorRows>,
     /// Gap at rest, m.
     pub gap: f64,
     pub law: ImpactLaw,
@@ -52,7 +55,8 @@ impl Pair {
         for (first, row) in first_blocks.as_flattened_mut().iter_mut().zip(&row) {
             *first = *row;
         }
-        Pair { row, gap: pair.gap, law: pair.law, mass: pair.reduced_mass(scene), floors, first_blocks }
+        let oscillating = OscillatorRows::of(structure, &row);
+        Pair { row, oscillating, gap: pair.gap, law: pair.law, mass: pair.reduced_mass(scene), floors, first_blocks }
     }
 
     /// Whether its force is a power of the penetration with a fractional exponent.
@@ -65,10 +69,23 @@ impl Pair {
         matches!(EpisodeForce::new(&self.law, self.mass, None).engaged, Force::Power { .. })
     }
 
-    /// Penetration, m, and its rate, m/s, for a modal motion relative to a position of rest in which it has that gap.
-    pub(crate) fn penetration(&self, gap: f64, (q, v): (&[f64], &[f64])) -> (f64, f64) {
-        use crate::structure::dot;
-        (dot(&self.row, q) - gap, dot(&self.row, v))
+    /// The row of its penetration in flights.
+    pub(crate) fn in_flight(&self) -> FlightRow<'_> {
+        FlightRow::of(&self.row, self.oscillating.as_ref())
+    }
+
+    /// Penetration, m, and its rate, m/s, for the motion in a flight relative to a position of rest in which it has that gap.
+    pub(crate) fn penetration(&self, gap: f64, motion: (&[f64], &[f64])) -> (f64, f64) {
+        let row = self.in_flight();
+        (row.value(motion) - gap, row.rate(motion))
+    }
+
+    /// The same at the base of a step.
+    pub(crate) fn penetration_at(&self, gap: f64, Base { coordinates, oscillates, q, v, .. }: &Base) -> (f64, f64) {
+        match oscillates {
+            true => self.penetration(gap, (q, v)),
+            false => (self.relative(*coordinates, q) - gap, self.relative(*coordinates, v)),
+        }
     }
 
     /// The gap in another position of rest, in which all floors have those displacements, m.
@@ -85,7 +102,7 @@ impl Pair {
     /// The contact at the start of a run, for a modal motion and the gap in its position of rest. A pair that overlaps there begins an episode without
     /// approach velocity.
     pub(crate) fn at_start(&self, index: usize, time: f64, gap: f64, (q, v): (&[f64], &[f64])) -> Contact {
-        let (penetration, rate) = self.penetration(gap, (q, v));
+        let (penetration, rate) = (crate::structure::dot(&self.row, q) - gap, crate::structure::dot(&self.row, v));
         let force = EpisodeForce::new(&self.law, self.mass, None);
         let mut contact = Contact {
             phase: Phase::Apart,

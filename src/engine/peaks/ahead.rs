@@ -5,7 +5,7 @@
 //! under the same load.
 
 use crate::engine::base::peaks::Peaks;
-use crate::engine::base::{Base, Coordinates};
+use crate::engine::base::Base;
 use crate::engine::bounds::flights::{Flights, Load};
 use crate::engine::model::Model;
 use crate::engine::peaks::fold::is_below;
@@ -102,9 +102,9 @@ impl Model {
         if log.room() == 0 {
             *log = PeakLog::with_room((self.system.structure.lanes, 0), AHEAD + 1);
         }
-        let is_flight = base.coordinates == Coordinates::Modes && base.elapsed == 0.0 && !base.is_forced();
+        let is_flight = self.system.is_in_flight(base) && base.elapsed == 0.0 && !base.is_forced();
         let Some((ground, first)) = self.system.watched_segment(base).filter(|_| is_flight) else { return };
-        let participation = &self.system.structure.participation;
+        let participation = &self.system.structure.in_flight().participation;
         let [mut q, mut v, mut end_q, mut end_v] = std::mem::take(&mut work.peaks.pieces);
         q.copy_from_slice(&base.q);
         v.copy_from_slice(&base.v);

@@ -364,7 +364,7 @@ impl Model {
         let span = self.span_of(self.peak_rows.body_of(self.peak_rows.place(of) / LANES), part.base.coordinates);
         let step = part.step;
         let at_rest = part.base.rest.watched[self.peak_rows.place(of)] + self.soften_row(of, part.base, &mut rows);
-        let quantity = Quantity { of, rows: &rows, lanes, span, at_rest, ground: part.ground() };
+        let quantity = Quantity { of, rows: &rows, lanes, span, at_rest, ground: part.ground(), oscillates: false };
         let peak = match step.dense() {
             Dense::Flight => known,
             Dense::Onset(onset) => highest_in_onset(&quantity, known, onset, part),

@@ -22,9 +22,9 @@ impl Model {
     /// Raises the peaks over a flight.
     pub(in crate::engine) fn check_blocks(&self, flight: &Stretch, peaks: &mut Peaks, work: &mut PeakWork) {
         work.peaks.start_flight();
-        for body in &self.peak_rows.bodies {
+        for body in &self.flight_rows().bodies {
             let jerk = &mut work.buffers.node_v;
-            work.peaks.bounds.set(&self.system.structure, body.modes.clone(), flight, jerk);
+            work.peaks.bounds.set(self.system.structure.in_flight(), body.modes.clone(), flight, jerk);
             for b in 0..body.blocks.len() {
                 self.check_block(body, b, (flight, None), peaks, work);
             }
@@ -32,10 +32,11 @@ impl Model {
         self.search_flight(flight, peaks, work);
     }
 
-    /// Raises peaks to the motion of the base, on modes and without contact forces. An input that has just been set
+    /// Raises peaks to the motion of the base, without contact forces. An input that has just been set
     /// does not count yet: it acts in the next step.
     pub(in crate::engine) fn raise_to_motion(&self, base: &Base, peaks: &mut Peaks) {
-        for body in &self.peak_rows.bodies {
+        let rows = if base.oscillates { self.flight_rows() } else { &self.peak_rows };
+        for body in &rows.bodies {
             let [q, v] = [&base.q, &base.v].map(|vector| &vector[body.modes.clone()]);
             for b in 0..body.blocks.len() {
                 for (i, value) in self.values_at((body, b), &base.rest.watched, (q, v)).into_iter().enumerate() {

@@ -63,7 +63,7 @@ impl Model {
             true => room.short.part(flights),
             false => room.long.part(flights),
         }
-        for (rows, truncated) in self.peak_rows.bodies.iter().zip(&self.truncated.bodies) {
+        for (rows, truncated) in self.flight_rows().bodies.iter().zip(&self.truncated.bodies) {
             let of_body = rows.first..rows.first + rows.blocks.len();
             let fold = Fold { flights, rows, truncated, rest: &rest.as_chunks::<LANES>().0[of_body.clone()], rise };
             let known = &mut peaks.values.as_chunks_mut::<LANES>().0[of_body];
@@ -102,7 +102,7 @@ impl Model {
             if is_below(&survivor.upper, known) {
                 return false;
             }
-            let rows = &self.peak_rows.bodies[self.peak_rows.body_of(survivor.block)];
+            let rows = &self.flight_rows().bodies[self.peak_rows.body_of(survivor.block)];
             let at_rest = &rest.as_chunks::<LANES>().0[survivor.block];
             let [push, rate] = self.pushes(flights, survivor);
             let times = [0.0, flights.load(survivor.flight).length];
@@ -152,7 +152,7 @@ impl Model {
             || {
                 let (load, rate) =
                     own.insert((std::mem::take(&mut work.buffers.load), std::mem::take(&mut work.buffers.slope)));
-                self.system.load_of(Coordinates::Modes, ground, load, rate);
+                self.system.load_in_flight(ground, load, rate);
                 if let Some((forces, rates)) = forces {
                     self.system.add_forces(forces.iter().copied(), Coordinates::Modes, load);
                     self.system.add_forces(rates.iter().copied(), Coordinates::Modes, rate);
@@ -183,13 +183,13 @@ impl Model {
 
     fn search_stretch(&self, stretch: &Stretch, survivors: &[Survivor], peaks: &mut Peaks, work: &mut PeakWork) {
         work.peaks.start_flight();
-        for body in &self.peak_rows.bodies {
+        for body in &self.flight_rows().bodies {
             let own = body.first..body.first + body.blocks.len();
             let mut is_bounded = false;
             for survivor in survivors.iter().filter(|survivor| own.contains(&survivor.block)) {
                 if !std::mem::replace(&mut is_bounded, true) {
                     let jerk = &mut work.buffers.node_v;
-                    work.peaks.bounds.set(&self.system.structure, body.modes.clone(), stretch, jerk);
+                    work.peaks.bounds.set(self.system.structure.in_flight(), body.modes.clone(), stretch, jerk);
                 }
                 let known_ends = Some(survivor.ends);
                 self.check_block(body, survivor.block - body.first, (stretch, known_ends), peaks, work);
@@ -250,7 +250,7 @@ impl Fold<'_> {
     fn read_modes<const N: usize>(&self, (number, span): (usize, &Span<N>), room: &mut SpanRoom<N>) -> f64 {
         let SpanRoom { motion, sizes, .. } = room;
         let slow = &self.truncated.modes[..self.truncated.slow];
-        span.read(self.flights, self.rows.modes.start, slow, motion, &mut sizes[self.sizes_of(number)])
+        span.read(self.flights, self.rows.modes.start, (slow, self.truncated.oscillates), motion, &mut sizes[self.sizes_of(number)])
     }
 
     /// Reads the blocks that may exceed their peaks over a span at the ends of its flights.

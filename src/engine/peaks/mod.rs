@@ -72,7 +72,7 @@ impl Model {
 
     /// Whether flights are logged, and the peaks raised over them later.
     pub(in crate::engine) fn logs_flights(&self) -> bool {
-        !self.peak_rows.are_none() && self.system.structure.is_classical()
+        !self.peak_rows.are_none() && self.system.structure.in_flight().is_classical()
     }
 
     /// Logs the planned flight.

@@ -21,6 +21,8 @@ pub struct Quantity<'a> {
     pub at_rest: f64,
     /// Ground acceleration at the start of the series, m/s2, and its slope, m/s3.
     pub ground: (f64, f64),
+    /// Whether its rows are over oscillators: then the second one counts for every quantity.
+    pub oscillates: bool,
 }
 
 impl Quantity<'_> {
@@ -56,19 +58,28 @@ impl Quantity<'_> {
             }
             None => series.dot_each_in(self.span(), &self.rows[0], 0, &mut of_q),
         }
+        let mut highest = series.order;
+        if self.oscillates && !matches!(self.of, PeakOf::BaseShear(_) | PeakOf::LinkForce(_)) {
+            let mut of_v = [0.0; MAX_TERMS];
+            series.dot_each_in(self.span(), &self.rows[1], 0, &mut of_v);
+            for n in 0..highest {
+                of_q[n] += (n + 1) as f64 * of_v[n + 1] * per_unit;
+            }
+            highest -= 1;
+        }
         // Each derivative loses a power.
         let order = match self.of {
             PeakOf::Displacement(..) | PeakOf::Drift(..) | PeakOf::LinkDisplacement(_) => {
                 terms = of_q;
-                series.order
+                highest
             }
             PeakOf::Acceleration(..) => {
-                for n in 2..count {
+                for n in 2..=highest {
                     terms[n - 2] = (n * (n - 1)) as f64 * (of_q[n] * per_unit * per_unit);
                 }
                 terms[0] += self.ground.0;
                 terms[1] += self.ground.1 * series.scale;
-                series.order - 2
+                highest - 2
             }
             PeakOf::BaseShear(_) | PeakOf::LinkForce(_) => {
                 let mut of_v = [0.0; MAX_TERMS];

@@ -8,7 +8,7 @@ use crate::engine::bounds::stretch::{ModeBounds, Stretch};
 use crate::engine::model::Model;
 use crate::engine::peaks::quantity::{Quantity, highest};
 use crate::engine::peaks::room::{LEAVES, MOST_FLOWN, PeakRoom, PeakWork, Suspect};
-use crate::engine::quantities::rows::{Block, BodyRows, PeakOf, values_of};
+use crate::engine::quantities::rows::{Block, BodyRows, PeakOf, PeakRows, values_of};
 use crate::engine::system::buffers::Buffers;
 use crate::numerics::polynomial::{MAX_ORDER, larger};
 use crate::structure::{EXACT, LANES, Lane, flight_order};
@@ -90,7 +90,7 @@ impl Model {
                 _ => suspect.pieces_left -= 1,
             }
         }
-        if are_any_left(suspects) && self.system.structure.fastest * (to - from) > LONG && halvings > 0 {
+        if are_any_left(suspects) && self.system.structure.in_flight().fastest * (to - from) > LONG && halvings > 0 {
             self.clear_by_amplitudes(flight, piece, suspects, work);
             if are_any_left(suspects) {
                 piece.halves().into_iter().for_each(|half| self.search_piece(flight, half, until, suspects, work));
@@ -106,7 +106,7 @@ impl Model {
     /// Searches a piece, in leaves that one series reaches. The peaks are raised to the values at the ends of all leaves
     /// first: then few leaves are left that may exceed them.
     fn search_leaves(&self, flight: &Stretch, piece: Piece, until: f64, suspects: &mut [Suspect], work: &mut PeakWork) {
-        let reach = self.system.structure.fastest * (piece.to - piece.from);
+        let reach = self.system.structure.in_flight().fastest * (piece.to - piece.from);
         if piece.from >= until {
             return;
         }
@@ -206,8 +206,8 @@ impl Model {
         let (loads, length) = ((&peaks.load[..], flight.loads.1), piece.to - piece.from);
         let own =
             Stretch { start: (q, v), end: (end_q, end_v), loads, length, is_suspect: false, whole: None, ..*flight };
-        for body in &self.peak_rows.bodies {
-            peaks.piece.set(&self.system.structure, body.modes.clone(), &own, jerk);
+        for body in &self.flight_rows().bodies {
+            peaks.piece.set(self.system.structure.in_flight(), body.modes.clone(), &own, jerk);
         }
         for suspects in suspects.chunk_by_mut(are_of_one_block) {
             let (place, (body, block)) = (suspects[0].place / LANES * LANES, self.block_of(suspects[0].place));
@@ -237,8 +237,8 @@ impl Model {
         self.set_load(flight, from, work);
         let PeakRoom { pieces: [q, v, end_q, end_v], load, piece: ends, bounds, direct, .. } = &mut *work.peaks;
         let own = Stretch { start: (q, v), end: (end_q, end_v), loads: (load, flight.loads.1), length, ..*flight };
-        for body in &self.peak_rows.bodies {
-            ends.set_accelerations(&self.system.structure, body.modes.clone(), &own);
+        for body in &self.flight_rows().bodies {
+            ends.set_accelerations(self.system.structure.in_flight(), body.modes.clone(), &own);
         }
         for suspects in suspects.chunk_by_mut(are_of_one_block).filter(|suspects| are_any_left(suspects)) {
             let (body, block) = self.block_of(suspects[0].place);
@@ -257,8 +257,7 @@ impl Model {
 
     /// The body and the block of a quantity.
     fn block_of(&self, place: usize) -> (&BodyRows, &Block) {
-        let body = &self.peak_rows.bodies[self.peak_rows.body_of(place / LANES)];
-        (body, &body.blocks[place / LANES - body.first])
+        self.flight_rows().block_of(place)
     }
 
     /// Finds the largest magnitudes within a leaf by its series.
@@ -271,6 +270,7 @@ impl Model {
         work: &mut PeakWork,
     ) {
         let (mut rows, (ground, slope)) = (std::mem::take(&mut work.peaks.rows), flight.ground);
+        let oscillates = self.oscillating_rows.is_some();
         let end = if until < to { (until - from) / (to - from) } else { 1.0 };
         for suspects in suspects.chunk_by_mut(|one, next| self.body_of(one) == self.body_of(next)) {
             if !are_any_left(suspects) {
@@ -280,10 +280,10 @@ impl Model {
             self.expand_leaf(flight, (from, to), span, work);
             for suspect in suspects.iter_mut().filter(|suspect| suspect.cleared_in.is_none()) {
                 let of = suspect.of;
-                let lanes = self.set_rows(of, Coordinates::Modes, &mut rows);
+                self.set_flight_rows(of, &mut rows);
                 let at_rest = flight.rest[suspect.place];
                 let quantity =
-                    Quantity { of, rows: &rows, lanes, span, at_rest, ground: (ground + slope * from, slope) };
+                    Quantity { of, rows: &rows, lanes: None, span, at_rest, ground: (ground + slope * from, slope), oscillates };
                 let (terms, order) = quantity.terms(&work.buffers.series, None);
                 suspect.peak = highest(&terms, (end, order), suspect.peak, &mut work.buffers.powers);
             }
@@ -295,12 +295,12 @@ impl Model {
     fn expand_leaf(&self, flight: &Stretch, (from, to): (f64, f64), modes: (usize, usize), work: &mut PeakWork) {
         self.fly_to(flight, from, [0, 1], work);
         self.set_load(flight, from, work);
-        let order = flight_order(self.system.structure.fastest * (to - from), EXACT).unwrap_or(MAX_ORDER);
+        let order = flight_order(self.system.structure.in_flight().fastest * (to - from), EXACT).unwrap_or(MAX_ORDER);
         let PeakWork { buffers: Buffers { series, .. }, peaks } = work;
         let ([q, v, ..], load) = (&peaks.pieces, &peaks.load);
         series.expand_flight_of(
             modes.0..modes.1,
-            &self.system.structure,
+            self.system.structure.in_flight(),
             (q, v),
             (load, flight.loads.1),
             (to - from, order),
@@ -319,7 +319,7 @@ impl Model {
                     let place = peaks.next_flown;
                     peaks.next_flown = (place + 1) % MOST_FLOWN;
                     let flown = &mut peaks.flown[place];
-                    let interval = peaks.parts.of(&self.system.structure, time);
+                    let interval = peaks.parts.of(self.system.structure.in_flight(), time);
                     interval.fly(flight.start, flight.loads, (&mut flown.q, &mut flown.v), scratch);
                     flown.time = time;
                     place
@@ -365,18 +365,29 @@ impl Model {
         if coordinates == Coordinates::Floors {
             return self.set_rows_of_floors(of, rows);
         }
-        let place = self.peak_rows.place(match of {
+        self.set_rows_of_modes(of, &self.peak_rows, rows);
+        None
+    }
+
+    /// The same for a flight.
+    fn set_flight_rows(&self, of: PeakOf, rows: &mut [Vec<f64>; 2]) {
+        rows.iter_mut().for_each(|row| row.fill(0.0));
+        self.set_rows_of_modes(of, self.flight_rows(), rows);
+    }
+
+    /// The same over modes or oscillators, from rows of zeros.
+    fn set_rows_of_modes(&self, of: PeakOf, all: &PeakRows, [row, row_v]: &mut [Vec<f64>; 2]) {
+        let place = all.place(match of {
             PeakOf::Acceleration(side, floor) => PeakOf::Displacement(side, floor),
             _ => of,
         });
-        let ([row, row_v], (body, block)) = (rows, self.block_of(place));
+        let (body, block) = all.block_of(place);
         for (m, a) in body.modes.clone().zip(&block.on_q) {
             row[m] = a[place % LANES];
         }
         for (m, b) in body.modes.clone().zip(&block.on_v) {
             row_v[m] = b[place % LANES];
         }
-        None
     }
 
     /// The same over the floors, from rows of zeros.

@@ -12,7 +12,7 @@
 //! force of link        A = stiffness times that                   B = dashpot times that
 //! ```
 
-use crate::structure::{Body, LANES, Lane, ModalDamping, Side, Structure};
+use crate::structure::{Body, FlightModes, LANES, Lane, ModalDamping, Side, Structure};
 use std::ops::Range;
 
 /// A quantity whose largest magnitude is kept. Floors and storeys count from 0.
@@ -99,6 +99,20 @@ impl PeakRows {
         rows
     }
 
+    /// The same over what moves in flights; `None` where that is the modes.
+    pub(crate) fn in_flight(&self, structure: &Structure) -> Option<PeakRows> {
+        let oscillators = structure.oscillators()?;
+        let PeakRows { buildings, links, .. } = self;
+        let bodies = self.bodies.iter().map(|body| body.over(oscillators, structure.lanes)).collect();
+        Some(PeakRows { bodies, buildings: *buildings, links: links.clone() })
+    }
+
+    /// The body and the block of a quantity.
+    pub(crate) fn block_of(&self, place: usize) -> (&BodyRows, &Block) {
+        let body = &self.bodies[self.body_of(place / LANES)];
+        (body, &body.blocks[place / LANES - body.first])
+    }
+
     /// Whether no quantity is watched.
     pub(crate) fn are_none(&self) -> bool {
         self.bodies.is_empty()
@@ -151,6 +165,24 @@ impl BodyRows {
         };
         let blocks = moving.chunks(LANES).chain(pulling.chunks(LANES)).map(block).collect();
         BodyRows { modes: body.range.clone(), first, blocks, moving, pulling }
+    }
+
+    /// The same over oscillators instead of modes.
+    fn over(&self, oscillators: &FlightModes, lanes: usize) -> BodyRows {
+        let spread = |rows: &[Lane], i: usize| {
+            let mut row = vec![0.0; lanes];
+            row[self.modes.clone()].iter_mut().zip(rows).for_each(|(entry, of)| *entry = of[i]);
+            row
+        };
+        let over = |block: &Block| {
+            let of: [_; LANES] = std::array::from_fn(|i| {
+                oscillators.rows([&spread(&block.on_q, i), &spread(&block.on_v, i)])
+            });
+            Block::of(self.modes.len(), |i, m| [0, 1].map(|part| of[i][part][self.modes.start + m]))
+        };
+        let BodyRows { modes, first, moving, pulling, .. } = self;
+        let blocks = self.blocks.iter().map(over).collect();
+        BodyRows { modes: modes.clone(), first: *first, blocks, moving: moving.clone(), pulling: pulling.clone() }
     }
 
     /// Index of the first quantity that follows from forces.

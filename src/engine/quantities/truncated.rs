@@ -12,6 +12,9 @@
 //! sum |A| R / w^2 and a number times |a'| where the quantity is a row A over q, and by sum |A| (1 + c/w) R where it is a row A
 //! over w^2 q + c q', as accelerations and base shears are. R is bounded by groups of modes.
 //!
+//! Where oscillators move in flights each quantity is a row A over q and one B over q', and what is left of the quick ones is
+//! bounded by sum (|A| / w^2 + |B| / w) R.
+//!
 //! Where forces may act on floors all modes are taken for slow: the quick ones follow each force by itself. The absolute
 //! acceleration of a floor is then the sum over all modes and its own force by its mass.
 
@@ -46,6 +49,8 @@ pub(crate) struct TruncatedBody {
     pub slow: usize,
     /// Groups of the quick modes.
     pub groups: Vec<Group>,
+    /// Whether the modes are oscillators.
+    pub oscillates: bool,
     /// The blocks of the body's rows.
     pub blocks: Vec<TruncatedBlock>,
 }
@@ -74,10 +79,8 @@ pub(crate) struct Group {
 /// [`LANES`] quantities.
 #[derive(Debug)]
 pub(crate) struct TruncatedBlock {
-    /// Whether A is over w^2 q + c q', otherwise over q.
-    pub pulls: bool,
-    /// A over the slow modes.
-    pub row: Vec<Lane>,
+    /// Over the slow modes a row over q, and one over w^2 q + c q', or over q' of oscillators; empty where it is 0.
+    pub rows: [Vec<Lane>; 2],
     /// The quick modes' part per unit of the ground's acceleration.
     pub per_ground: Lane,
     /// A bound on their part per unit of its slope.
@@ -112,7 +115,7 @@ impl TruncatedRows {
         // So short that no mode is quick.
         let usual = if has_forces { 0.0 } else { usual.unwrap_or(USUAL) };
         let mut bodies: Vec<TruncatedBody> =
-            rows.bodies.iter().map(|body| TruncatedBody::of(structure, body, usual)).collect();
+            rows.bodies.iter().enumerate().map(|(b, body)| TruncatedBody::of((structure, b), body, usual)).collect();
         for (body, of) in bodies.iter_mut().zip(&rows.bodies).filter(|_| has_forces) {
             for (block, number) in body.blocks.iter_mut().zip(of.first..) {
                 block.pushed = pushed_floors(structure, rows, number);
@@ -136,7 +139,9 @@ fn pushed_floors(structure: &Structure, rows: &PeakRows, block: usize) -> Option
 }
 
 impl TruncatedBody {
-    fn of(structure: &Structure, rows: &BodyRows, usual: f64) -> TruncatedBody {
+    fn of((structure, b): (&Structure, usize), rows: &BodyRows, usual: f64) -> TruncatedBody {
+        let oscillates = structure.oscillators().is_some() && structure.bodies[b].is_coupled();
+        let structure = structure.in_flight();
         let modes: Vec<Mode> = rows
             .modes
             .clone()
@@ -153,8 +158,8 @@ impl TruncatedBody {
             },
         };
         let groups = group(&modes, slow);
-        let blocks = rows.blocks.iter().map(|block| TruncatedBlock::of(block, (&modes, slow), &groups)).collect();
-        TruncatedBody { modes, slow, groups, blocks }
+        let blocks = rows.blocks.iter().map(|block| TruncatedBlock::of((block, oscillates), (&modes, slow), &groups)).collect();
+        TruncatedBody { modes, slow, groups, oscillates, blocks }
     }
 }
 
@@ -177,7 +182,40 @@ fn group(modes: &[Mode], slow: usize) -> Vec<Group> {
 }
 
 impl TruncatedBlock {
-    fn of(block: &Block, (modes, slow): (&[Mode], usize), groups: &[Group]) -> TruncatedBlock {
+    fn of(
+        (block, oscillates): (&Block, bool),
+        (modes, slow): (&[Mode], usize),
+        groups: &[Group],
+    ) -> TruncatedBlock {
+        match oscillates {
+            true => TruncatedBlock::of_oscillators(block, (modes, slow), groups),
+            false => TruncatedBlock::of_modes(block, (modes, slow), groups),
+        }
+    }
+
+    fn of_oscillators(
+        Block { on_q, on_v }: &Block,
+        (modes, slow): (&[Mode], usize),
+        groups: &[Group],
+    ) -> TruncatedBlock {
+        let (mut per_ground, mut per_slope) = ([0.0; LANES], [0.0; LANES]);
+        let mut left = vec![[0.0; LANES]; groups.len()];
+        for (group, left) in groups.iter().zip(&mut left) {
+            for m in group.modes.clone() {
+                let Mode { w2, w, c, share } = modes[m];
+                for i in 0..LANES {
+                    let (a, b) = (on_q[m][i], on_v.get(m).map_or(0.0, |of| of[i]));
+                    per_ground[i] -= a * share / w2;
+                    per_slope[i] += (a * c / w2 - b) * share / w2;
+                    left[i] += a.abs() / w2 + b.abs() / w;
+                }
+            }
+        }
+        let rows = [on_q, on_v].map(|rows| rows.iter().take(slow).copied().collect());
+        TruncatedBlock { rows, per_ground, per_slope: per_slope.map(f64::abs), left, pushed: None }
+    }
+
+    fn of_modes(block: &Block, (modes, slow): (&[Mode], usize), groups: &[Group]) -> TruncatedBlock {
         let pulls = !block.on_v.is_empty();
         let row = |m: usize, i: usize| block.on_q[m][i] / if pulls { modes[m].w2 } else { 1.0 };
         let (mut per_ground, mut per_slope) = ([0.0; LANES], [0.0; LANES]);
@@ -193,7 +231,8 @@ impl TruncatedBlock {
                 }
             }
         }
-        let row = (0..slow).map(|m| std::array::from_fn(|i| row(m, i))).collect();
-        TruncatedBlock { pulls, row, per_ground, per_slope: per_slope.map(f64::abs), left, pushed: None }
+        let row: Vec<Lane> = (0..slow).map(|m| std::array::from_fn(|i| row(m, i))).collect();
+        let rows = if pulls { [Vec::new(), row] } else { [row, Vec::new()] };
+        TruncatedBlock { rows, per_ground, per_slope: per_slope.map(f64::abs), left, pushed: None }
     }
 }

@@ -4,6 +4,7 @@
 use crate::numerics::complementarity::Complementarity;
 use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS};
 use crate::numerics::powers::Powers;
+use crate::numerics::sum::Sum;
 use crate::structure::{Interval, LANES, MotionSeries, Scratch, Structure};
 
 /// Scratch vectors, each with one number per lane of the motion.
@@ -33,6 +34,10 @@ pub struct Buffers {
     pub node_v: Vec<f64>,
     /// Energy dissipated by the dashpot of each link over a step, J.
     pub dashpots: Vec<f64>,
+    /// The same since the start, while fast flight passes over many segments.
+    pub dashpot_sums: Vec<Sum>,
+    /// Displacements and velocities of the modes where oscillators move in flights.
+    pub modal: [Vec<f64>; 2],
     /// Motion and load of a flight, for its work.
     pub z: Vec<f64>,
     /// Terms of one pair's penetration, m.
@@ -60,6 +65,8 @@ impl Buffers {
             node_q: vector(),
             node_v: vector(),
             dashpots: vec![0.0; structure.links.len()],
+            dashpot_sums: Vec::with_capacity(structure.links.len()),
+            modal: [(); 2].map(|()| if structure.oscillators().is_some() { vector() } else { Vec::new() }),
             z: Vec::with_capacity(2 * lanes + 2 * LANES),
             scalar: [0.0; MAX_TERMS],
             powers: Powers::default(),

@@ -5,8 +5,10 @@ use crate::engine::base::Base;
 use crate::engine::base::storey::Sense;
 use crate::engine::bounds::certificate::stays_below;
 use crate::engine::bounds::oscillation::Oscillation;
+use crate::engine::pairs::pair::Pair;
+use crate::engine::quantities::flight_row::FlightRow;
 use crate::engine::system::System;
-use crate::structure::dot;
+use crate::engine::yielding::element::Element;
 
 /// Displacements and velocities of all modes.
 pub type Motion<'a> = (&'a [f64], &'a [f64]);
@@ -18,8 +20,8 @@ impl System {
     }
 
     /// All rows with limits.
-    pub fn limited_rows(&self) -> impl Iterator<Item = &[f64]> {
-        self.pairs.iter().map(|pair| &pair.row[..]).chain(self.storeys.iter().map(|storey| &storey.row[..]))
+    pub fn limited_rows(&self) -> impl Iterator<Item = FlightRow<'_>> {
+        self.pairs.iter().map(Pair::in_flight).chain(self.storeys.iter().map(Element::in_flight))
     }
 
     /// Whether the quantity of row `i` stays within its limits for `h` seconds from one motion to another, if it is off
@@ -32,7 +34,7 @@ impl System {
             }
             Some(storey) => {
                 let (of, present) = self.element(storey, &base.storeys);
-                let [from, to] = [from, to].map(|(q, v)| (dot(&of.row, q), dot(&of.row, v)));
+                let [from, to] = [from, to].map(|motion| (of.in_flight().value(motion), of.in_flight().rate(motion)));
                 of.stays_elastic(present, from, to, h)
             }
         }
@@ -41,14 +43,14 @@ impl System {
     /// Whether no quantity reaches a limit within `length` seconds from a modal motion on, under a load and its slope,
     /// by the envelopes of the oscillations. Gaps and limits are those of the base.
     pub fn envelopes_stay_within(&self, base: &Base, motion: Motion, loads: (&[f64], &[f64]), length: f64) -> bool {
-        let oscillation = Oscillation::of(&self.structure, motion, loads, length);
+        let oscillation = Oscillation::of(self.structure.in_flight(), motion, loads, length);
         let Some(oscillation) = oscillation.filter(|_| !cfg!(without = "envelopes")) else { return false };
         let mut pairs = self.pairs.iter().zip(&base.rest.gaps);
         let mut storeys = self.elements(&base.storeys);
-        pairs.all(|(pair, gap)| oscillation.stays_below(&pair.row, 1.0, *gap))
+        pairs.all(|(pair, gap)| oscillation.stays_below(pair.in_flight(), 1.0, *gap))
             && storeys.all(|(of, (_, centre))| {
                 let limit = |sign: f64| of.limit + sign * centre;
-                Sense::BOTH.map(Sense::sign).iter().all(|sign| oscillation.stays_below(&of.row, *sign, limit(*sign)))
+                Sense::BOTH.map(Sense::sign).iter().all(|sign| oscillation.stays_below(of.in_flight(), *sign, limit(*sign)))
             })
     }
 }

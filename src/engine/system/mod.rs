@@ -102,7 +102,7 @@ impl System {
             fastest: storeys.iter().fold(structure.fastest, |most, of| most.max(of.growth() * structure.fastest)),
             initial,
             initial_storeys,
-            together: Together::of(&structure, storeys.iter().map(|of| (&of.row[..], of.limit))),
+            together: Together::of(&structure, storeys.iter().map(|of| (of.in_flight(), of.limit))),
             storeys,
             rigid: RigidPairs::of(&pairs),
             floor_forces: scene.floor_forces,
@@ -142,6 +142,7 @@ impl System {
             impacts: contacts.iter().map(|contact| contact.impacts).sum(),
             collapsed: None,
             coordinates: Coordinates::Modes,
+            oscillates: false,
             contacts,
             q,
             v,
@@ -184,16 +185,20 @@ impl System {
     /// The load at the base per unit of mass, in its coordinates, and its rate of change until the segment's end.
     pub fn load(&self, base: &Base, inputs: &Inputs, load: &mut [f64], slope: &mut [f64]) {
         let Base { segment, elapsed, coordinates, .. } = base;
-        self.load_of(*coordinates, (segment.acceleration_at(*elapsed), segment.slope), load, slope);
+        let ground = (segment.acceleration_at(*elapsed), segment.slope);
+        match base.oscillates {
+            true => self.load_in_flight(ground, load, slope),
+            false => set_load(self.participation(*coordinates), ground, load, slope),
+        }
         if self.floor_forces {
             self.add_floor_forces(inputs, *coordinates, |force| force.after(segment.start, *elapsed), load);
             self.add_floor_forces(inputs, *coordinates, LinearInput::slope, slope);
         }
     }
 
-    /// The same by the ground's acceleration and its slope alone.
-    pub fn load_of(&self, coordinates: Coordinates, ground: (f64, f64), load: &mut [f64], slope: &mut [f64]) {
-        set_load(self.participation(coordinates), ground, load, slope);
+    /// The load in flights by the ground's acceleration and its slope alone.
+    pub fn load_in_flight(&self, ground: (f64, f64), load: &mut [f64], slope: &mut [f64]) {
+        set_load(&self.structure.in_flight().participation, ground, load, slope);
     }
 
     /// The load per unit of mass by a ground acceleration of -1 m/s2.
@@ -259,18 +264,53 @@ impl System {
         }
     }
 
-    /// Converts the base to other coordinates; `room` is a scratch vector of the same length.
-    pub fn convert(&self, base: &mut Base, coordinates: Coordinates, room: &mut Vec<f64>) {
-        if base.coordinates == coordinates {
+    /// Makes the motion of the base one of modes or floors, for steps with forces; `room` are scratch vectors of the same
+    /// length.
+    pub fn convert(&self, base: &mut Base, coordinates: Coordinates, [room_q, room_v]: [&mut Vec<f64>; 2]) {
+        let Base { coordinates: from, oscillates, q, v, .. } = base;
+        self.to_modes((oscillates, q, v), [room_q, room_v]);
+        if *from == coordinates {
             return;
         }
-        base.coordinates = coordinates;
-        for motion in [&mut base.q, &mut base.v] {
+        *from = coordinates;
+        for motion in [q, v] {
             match coordinates {
-                Coordinates::Modes => self.structure.to_modes(motion, room),
-                Coordinates::Floors => self.structure.to_floors(motion, room),
+                Coordinates::Modes => self.structure.to_modes(motion, room_q),
+                Coordinates::Floors => self.structure.to_floors(motion, room_q),
             }
-            std::mem::swap(motion, room);
+            std::mem::swap(motion, room_q);
+        }
+    }
+
+    /// Makes a motion that oscillates one of modes.
+    pub fn to_modes(
+        &self,
+        (oscillates, q, v): (&mut bool, &mut Vec<f64>, &mut Vec<f64>),
+        [room_q, room_v]: [&mut Vec<f64>; 2],
+    ) {
+        if let (true, Some(flight)) = (std::mem::take(oscillates), self.structure.oscillators()) {
+            flight.to_modes((q, v), (room_q, room_v));
+            std::mem::swap(q, room_q);
+            std::mem::swap(v, room_v);
+        }
+    }
+
+    /// Whether the motion of the base is that of a flight.
+    pub fn is_in_flight(&self, base: &Base) -> bool {
+        base.coordinates == Coordinates::Modes && base.oscillates == self.structure.oscillators().is_some()
+    }
+
+    /// Makes the motion of the base that of a flight.
+    pub fn convert_to_flight(&self, base: &mut Base, [room_q, room_v]: [&mut Vec<f64>; 2]) {
+        if base.oscillates {
+            return;
+        }
+        self.convert(base, Coordinates::Modes, [room_q, room_v]);
+        if let Some(flight) = self.structure.oscillators() {
+            flight.from_modes((&base.q, &base.v), (room_q, room_v));
+            std::mem::swap(&mut base.q, room_q);
+            std::mem::swap(&mut base.v, room_v);
+            base.oscillates = true;
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::engine::base::planned::Event;
 use crate::engine::base::storey::Sense;
-use crate::engine::base::{Base, Coordinates};
+use crate::engine::base::Base;
 use crate::engine::system::System;
 use crate::numerics::polynomial::{Coefficients, MAX_TERMS};
 use crate::numerics::roots;
@@ -13,11 +13,18 @@ use crate::structure::MotionSeries;
 pub type Expanded<'a> = ((&'a MotionSeries, &'a Coefficients), Option<&'a Substitution>, bool);
 
 impl System {
-    /// Sets the power 2 of a drift to 0 where it is no more than rounding of the accelerations that it is made of.
-    pub fn clear_curvature(&self, coordinates: Coordinates, i: usize, series: &MotionSeries, drift: &mut Coefficients) {
+    /// Sets the power 2 of a drift to 0 where it is no more than rounding of the accelerations that it is made of: those of
+    /// a motion with that highest rate, which has that size at the start.
+    pub fn clear_curvature(
+        &self,
+        (fastest, size): (f64, f64),
+        i: usize,
+        series: &MotionSeries,
+        drift: &mut Coefficients,
+    ) {
         let of = &self.storeys[i];
-        let reach = self.structure.fastest * series.scale;
-        let rounding = 8.0 * f64::EPSILON * reach * reach * (of.size(coordinates, series.term(0)) + of.limit);
+        let reach = fastest * series.scale;
+        let rounding = 8.0 * f64::EPSILON * reach * reach * (size + of.limit);
         drift[2] = if drift[2].abs() <= rounding { 0.0 } else { drift[2] };
     }
 
@@ -35,10 +42,18 @@ impl System {
     ) -> Option<(f64, Event)> {
         let (of, (storey, centre)) = self.element(i, &base.storeys);
         let mut drift = [0.0; MAX_TERMS];
-        let noise = of.noise(centre, of.project(base.coordinates, series, factors, &mut drift));
+        let size = match base.oscillates {
+            true => of.in_flight().project(series, factors, &mut drift),
+            false => of.project(base.coordinates, series, factors, &mut drift),
+        };
+        let noise = of.noise(centre, size);
         let count = series.order + 1;
         if is_start && storey.turned.is_some() {
-            self.clear_curvature(base.coordinates, i, series, &mut drift);
+            let rate_and_size = match base.oscillates {
+                true => (self.structure.in_flight().fastest, of.in_flight().size_at_start(series)),
+                false => (self.structure.fastest, of.size(base.coordinates, series.term(0))),
+            };
+            self.clear_curvature(rate_and_size, i, series, &mut drift);
         }
         let mut found = None;
         for sense in Sense::BOTH {

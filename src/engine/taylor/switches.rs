@@ -110,7 +110,8 @@ impl System {
             let mut drift = [0.0; MAX_TERMS];
             self.storeys[i].project(drifts.coordinates, series, &ALL, &mut drift);
             drift[1] = if drift[1].abs() <= still { 0.0 } else { drift[1] };
-            self.clear_curvature(drifts.coordinates, i, series, &mut drift);
+            let size = self.storeys[i].size(drifts.coordinates, series.term(0));
+            self.clear_curvature((self.structure.fastest, size), i, series, &mut drift);
             let first = drift[1..=count].iter().find(|term| **term != 0.0);
             if first.is_none_or(|term| sense.sign() * term < 0.0) {
                 return Some((0.0, Event::Turn(i)));

@@ -4,10 +4,11 @@
 //! The motion of a storey is that of the net storey, its columns and gravity together (`scene/p_delta.rs`); what is told of
 //! it is that of the columns. Without gravity both are the same.
 
-use crate::engine::base::Coordinates;
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::base::storey::{Sense, Storey};
 use crate::engine::bounds::certificate::stays_below;
 use crate::engine::pairs::pair::{FloorShare, beyond_rounding};
+use crate::engine::quantities::flight_row::{FlightRow, OscillatorRows};
 use crate::engine::yielding::lift::Lift;
 use crate::numerics::polynomial::Coefficients;
 use crate::scene::{NetStorey, Scene};
@@ -42,6 +43,8 @@ pub(crate) struct Element {
     pub collapse: Option<f64>,
     /// The drift as a row over the modes, kg^-1/2.
     pub row: Vec<f64>,
+    /// The drift over oscillators, where these move in flights.
+    oscillating: Option<OscillatorRows>,
     /// The same row floor by floor; a force along it pushes against the shares' `push`.
     pub floors: Vec<FloorShare>,
     /// How its plastic drift moves the position of rest.
@@ -137,6 +140,7 @@ impl Element {
             lost: (1.0 - of.ratio) * of.stiffness,
             critical: None,
             collapse: None,
+            oscillating: OscillatorRows::of(structure, &row),
             row,
             floors: floors.map(share).collect(),
             lift,
@@ -163,6 +167,20 @@ impl Element {
             let part = floor.weight * motion[floor.lane];
             (sum + part, size + part.abs())
         })
+    }
+
+    /// The row of its drift in flights.
+    pub(crate) fn in_flight(&self) -> FlightRow<'_> {
+        FlightRow::of(&self.row, self.oscillating.as_ref())
+    }
+
+    /// The drift at the base of a step, and the sum of the magnitudes that it is made of.
+    pub(crate) fn drift_at(&self, base: &Base) -> (f64, f64) {
+        let (coordinates, motion) = (base.coordinates, (&base.q[..], &base.v[..]));
+        match base.oscillates {
+            true => (self.in_flight().value(motion), self.in_flight().size(motion)),
+            false => (self.drift(coordinates, &base.q), self.size(coordinates, &base.q)),
+        }
     }
 
     /// Drift, or its rate, in a motion.

@@ -1,0 +1,145 @@
+//! A quantity in a flight, as rows over what moves there: modes, or the oscillators of complex modes.
+//!
+//! Of modes one row is enough, y = A q and y' = A q'. Of oscillators there is a row over the coordinates and one over their
+//! rates: with x'' = -c x' - w^2 x and a part by the ground that cancels in the sum over all oscillators, as the rate of no
+//! displacement jumps with the ground's acceleration,
+//!
+//! ```text
+//! y = A x + B x',    y' = -w^2 B x + (A - c B) x'
+//! ```
+//!
+//! For bounds by amplitudes e = sqrt(x'^2 + w^2 x^2) the size |A| + (w + c) |B| stands for |A|: it times e bounds |y'|, it
+//! times (w + c) e bounds |y''|, and so on.
+
+use crate::numerics::polynomial::{Coefficients, MAX_TERMS};
+use crate::structure::{MotionSeries, Structure, difference, dot};
+
+/// The rows of a quantity over oscillators.
+#[derive(Clone, Debug)]
+pub(crate) struct OscillatorRows {
+    /// A and B.
+    value: [Vec<f64>; 2],
+    /// The same of its rate, and of its second derivative without the ground.
+    rate: [Vec<f64>; 2],
+    pull: [Vec<f64>; 2],
+    sizes: Vec<f64>,
+}
+
+/// A row over displacements of the modes, with those over the oscillators, if these move in flights.
+#[derive(Clone, Copy)]
+pub(crate) enum FlightRow<'a> {
+    OfModes(&'a [f64]),
+    OfOscillators(&'a OscillatorRows),
+}
+
+/// Displacements and velocities, or the coordinates of oscillators and their rates.
+type Motion<'a> = (&'a [f64], &'a [f64]);
+
+impl OscillatorRows {
+    /// Of a row over displacements of the modes; `None` where modes move in flights.
+    pub(crate) fn of(structure: &Structure, row: &[f64]) -> Option<OscillatorRows> {
+        let flight = structure.oscillators()?;
+        let value = flight.rows([row, &vec![0.0; row.len()]]);
+        let Structure { omega2, damping, quickness, .. } = &flight.oscillators;
+        let rate_of = |[a, b]: &[Vec<f64>; 2]| {
+            let of = |m: usize| [-omega2[m] * b[m], a[m] - damping[m] * b[m]];
+            [0, 1].map(|part| (0..row.len()).map(|m| of(m)[part]).collect::<Vec<f64>>())
+        };
+        let rate = rate_of(&value);
+        let pull = rate_of(&rate);
+        let sizes = (0..row.len()).map(|m| value[0][m].abs() + quickness[m] * value[1][m].abs()).collect();
+        Some(OscillatorRows { value, rate, pull, sizes })
+    }
+
+    /// Its second derivative, without the part by the ground.
+    #[inline(always)]
+    pub(crate) fn pull(&self, motion: Motion) -> f64 {
+        both(&self.pull, motion)
+    }
+
+    /// The row over the rates in its second derivative, which dashpots and springs make of the ground's push.
+    pub(crate) fn pull_by_rates(&self) -> &[f64] {
+        &self.pull[1]
+    }
+}
+
+#[inline(always)]
+fn both([a, b]: &[Vec<f64>; 2], (q, v): Motion) -> f64 {
+    dot(a, q) + dot(b, v)
+}
+
+impl<'a> FlightRow<'a> {
+    /// A row over the modes, or that over the oscillators, where they move in flights.
+    pub(crate) fn of(row: &'a [f64], oscillating: Option<&'a OscillatorRows>) -> FlightRow<'a> {
+        oscillating.map_or(FlightRow::OfModes(row), FlightRow::OfOscillators)
+    }
+
+    #[inline(always)]
+    pub(crate) fn value(self, motion: Motion) -> f64 {
+        match self {
+            FlightRow::OfModes(row) => dot(row, motion.0),
+            FlightRow::OfOscillators(rows) => both(&rows.value, motion),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn rate(self, motion: Motion) -> f64 {
+        match self {
+            FlightRow::OfModes(row) => dot(row, motion.1),
+            FlightRow::OfOscillators(rows) => both(&rows.rate, motion),
+        }
+    }
+
+    /// Entries for bounds by amplitudes; of modes with signs.
+    pub(crate) fn sizes(self) -> &'a [f64] {
+        match self {
+            FlightRow::OfModes(row) => row,
+            FlightRow::OfOscillators(rows) => &rows.sizes,
+        }
+    }
+
+    /// A and B of one mode or oscillator.
+    #[inline(always)]
+    pub(crate) fn entries(self, m: usize) -> [f64; 2] {
+        match self {
+            FlightRow::OfModes(row) => [row[m], 0.0],
+            FlightRow::OfOscillators(rows) => [rows.value[0][m], rows.value[1][m]],
+        }
+    }
+
+    /// Sum of the magnitudes that a value is made of.
+    pub(crate) fn size(self, (q, v): Motion) -> f64 {
+        match self {
+            FlightRow::OfModes(row) => difference(row, q).1,
+            FlightRow::OfOscillators(rows) => difference(&rows.value[0], q).1 + difference(&rows.value[1], v).1,
+        }
+    }
+
+    /// The same at the start of a series.
+    pub(crate) fn size_at_start(self, series: &MotionSeries) -> f64 {
+        match self {
+            FlightRow::OfModes(row) => difference(row, series.term(0)).1,
+            FlightRow::OfOscillators(rows) => {
+                let [of_x, of_rate] = [0, 1].map(|n| difference(&rows.value[n], series.term(n)).1);
+                of_x + of_rate / series.scale
+            }
+        }
+    }
+
+    /// Writes the power series of the quantity; returns the sum of the magnitudes of all that was added up, each term times
+    /// its factor. Of oscillators the last term lacks the next one of their series, which is rounding in a flight.
+    pub(crate) fn project(self, series: &MotionSeries, factors: &[f64], out: &mut [f64]) -> f64 {
+        match self {
+            FlightRow::OfModes(row) => series.project(row, factors, out),
+            FlightRow::OfOscillators(rows) => {
+                let (mut of_rates, mut shifted): (Coefficients, Coefficients) = ([0.0; MAX_TERMS], [0.0; MAX_TERMS]);
+                let per_time = |n: usize| n as f64 / series.scale;
+                (1..=series.order).for_each(|n| shifted[n] = per_time(n) * factors[n - 1]);
+                let size = series.project(&rows.value[0], factors, out);
+                let more = series.project(&rows.value[1], &shifted, &mut of_rates);
+                (1..=series.order).for_each(|n| out[n - 1] += per_time(n) * of_rates[n]);
+                size + more
+            }
+        }
+    }
+}

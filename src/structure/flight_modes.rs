@@ -1,0 +1,104 @@
+//! What moves in a flight: the modes, or, where damping couples some, the oscillators of their complex modes.
+
+use super::bodies::Body;
+use super::complex_modes::Oscillators;
+use super::equations::Structure;
+use super::modes::{ModalDamping, Modes};
+use nalgebra::DMatrix;
+
+/// The oscillators of the bodies in which damping couples modes; the modes of the others are theirs.
+#[derive(Clone, Debug)]
+pub struct FlightModes {
+    /// Their frequencies, damping and participation, as if they were modes; shapes are rows over both of their coordinates,
+    /// and stand elsewhere.
+    pub oscillators: Structure,
+    maps: Vec<Map>,
+}
+
+/// From the coordinates of one body's oscillators to its modes and back.
+#[derive(Clone, Debug)]
+struct Map {
+    /// First mode and number of modes.
+    offset: usize,
+    count: usize,
+    to_modes: DMatrix<f64>,
+    from_modes: DMatrix<f64>,
+}
+
+impl FlightModes {
+    /// Those of a structure; `None` where damping couples no modes, or couples them so that they have none.
+    pub(super) fn of(structure: &Structure) -> Option<FlightModes> {
+        let (mut bodies, mut maps) = (Vec::new(), Vec::new());
+        for body in &structure.bodies {
+            if !body.is_coupled() {
+                bodies.push(body.clone());
+                continue;
+            }
+            let count = body.range.len();
+            let Oscillators { omega, damping, participation, to_modes, from_modes } = Oscillators::of(&body.modes)?;
+            let damping = ModalDamping::Diagonal(damping);
+            let modes = Modes { omega, shape: DMatrix::zeros(count, count), participation, damping };
+            bodies.push(Body { modes, ..body.clone() });
+            maps.push(Map { offset: body.range.start, count, to_modes, from_modes });
+        }
+        let oscillators = Structure::of_bodies(bodies, structure.floors.clone());
+        (!maps.is_empty()).then_some(FlightModes { oscillators, maps })
+    }
+
+    /// Writes displacements and velocities of the modes from the oscillators' coordinates and their rates.
+    pub fn to_modes(&self, from: (&[f64], &[f64]), to: (&mut [f64], &mut [f64])) {
+        self.convert(|map| &map.to_modes, from, to);
+    }
+
+    /// Writes the oscillators' coordinates and their rates from displacements and velocities of the modes.
+    pub fn from_modes(&self, from: (&[f64], &[f64]), to: (&mut [f64], &mut [f64])) {
+        self.convert(|map| &map.from_modes, from, to);
+    }
+
+    fn convert(
+        &self,
+        matrix: impl Fn(&Map) -> &DMatrix<f64>,
+        from: (&[f64], &[f64]),
+        (q, v): (&mut [f64], &mut [f64]),
+    ) {
+        q.copy_from_slice(from.0);
+        v.copy_from_slice(from.1);
+        for map in &self.maps {
+            let own = map.offset..map.offset + map.count;
+            let to = (&mut q[own.clone()], &mut v[own.clone()]);
+            multiply(matrix(map).as_slice(), (&from.0[own.clone()], &from.1[own]), to);
+        }
+    }
+
+    /// A row over displacements and one over velocities of the modes, as rows over the oscillators' coordinates and their
+    /// rates.
+    pub fn rows(&self, [on_q, on_v]: [&[f64]; 2]) -> [Vec<f64>; 2] {
+        let mut rows = [on_q.to_vec(), on_v.to_vec()];
+        for Map { offset, count, to_modes, .. } in &self.maps {
+            let whole: Vec<f64> =
+                on_q[*offset..offset + count].iter().chain(&on_v[*offset..offset + count]).copied().collect();
+            let of = |column: usize| to_modes.column(column).iter().zip(&whole).map(|(t, row)| t * row).sum();
+            for (part, row) in rows.iter_mut().enumerate() {
+                (0..*count).for_each(|k| row[offset + k] = of(part * count + k));
+            }
+        }
+        rows
+    }
+}
+
+/// A square matrix, column by column, times a vector in two parts.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn multiply(matrix: &[f64], (q, v): (&[f64], &[f64]), (to_q, to_v): (&mut [f64], &mut [f64])) {
+    let count = to_q.len();
+    to_q.fill(0.0);
+    to_v.fill(0.0);
+    for (column, factor) in matrix.chunks_exact((2 * count).max(1)).zip(q.iter().chain(v)) {
+        let (on_q, on_v) = column.split_at(count);
+        for (to, entry) in to_q.iter_mut().zip(on_q) {
+            *to += entry * factor;
+        }
+        for (to, entry) in to_v.iter_mut().zip(on_v) {
+            *to += entry * factor;
+        }
+    }
+}
