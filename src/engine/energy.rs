@@ -15,7 +15,7 @@ use crate::engine::window::free::FreeMotion;
 use crate::engine::window::solution::Window;
 use crate::numerics::powers::Powers;
 use crate::numerics::quadrature::{TWELVE, TWELVE_POINTS, gauss, graded};
-use crate::structure::{FlightWork, MotionSeries, dot, flight_order};
+use crate::structure::{FlightWork, MotionSeries, WorkRoom, dot, flight_order};
 
 /// Work over an interval of time, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -81,13 +81,11 @@ impl System {
         }
         let length = step.planned.length;
         if let Some(of_segment) = self.work_of_segment(base, step) {
-            work.dashpots.fill(0.0);
             let load = (base.segment.acceleration_at(0.0), base.segment.slope);
-            let Buffers { modal, z, dashpots, .. } = &mut *work;
-            let motion = self.motion_of_modes((base.oscillates, &base.q, &base.v), modal);
-            let flight = of_segment.over_all(motion, load, z, dashpots);
+            let (motion, largest) = ((&base.q[..], &base.v[..]), base.energy.map_or(0.0, |account| account.largest));
+            let flight = of_segment.over_all(&self.structure, motion, load, largest, &mut work.account);
             let impact = base.dissipated_by_contacts();
-            base.add_work_of_dashpots(&work.dashpots);
+            base.add_work_of_dashpots(&work.account.dashpots);
             counters.energy_steps += 1;
             base.energy.iter_mut().for_each(|account| account.add_flight(&flight, impact));
             return;
@@ -95,10 +93,10 @@ impl System {
         counters.energy_steps += if step.is_flight() { self.pieces(length).min(MOST_PIECES as u64) } else { 1 };
         let done = self.work_over(base, step, inputs, work, length);
         let impact = base.dissipated_by_contacts();
-        let (q, v) = self.motion_of_modes((base.oscillates, &base.q, &base.v), &mut work.modal);
+        let (q, v) = self.motion_of_modes((base.oscillates, &base.q, &base.v), &mut work.account.modal);
         let [kinetic, strain, gravity] = self.energies((base.coordinates, &base.storeys), q, v);
         let hysteretic = self.hysteretic_energy(&base.storeys);
-        base.add_work_of_dashpots(&work.dashpots);
+        base.add_work_of_dashpots(&work.account.dashpots);
         if let Some(account) = &mut base.energy {
             account.add(&done);
             account.update_largest([kinetic, strain, gravity, impact, hysteretic]);
@@ -109,14 +107,14 @@ impl System {
     /// floors, and has been prepared.
     fn work_of_segment(&self, base: &Base, step: &Step) -> Option<&FlightWork> {
         let is_whole = step.is_flight() && base.elapsed == 0.0 && step.planned.length == base.segment.length;
-        let (ground, _) = self.watched_segment(base).filter(|_| is_whole && base.coordinates == Coordinates::Modes)?;
+        let (ground, _) = self.watched_segment(base).filter(|_| is_whole && self.is_in_flight(base))?;
         ground.work_over(&base.segment)
     }
 
     /// The work from the base over `length` seconds; that of the dashpots of links is left in `work`.
     pub(super) fn work_over(&self, base: &Base, step: &Step, inputs: &Inputs, work: &mut Buffers, length: f64) -> Work {
         let mut done = Work::default();
-        work.dashpots.fill(0.0);
+        work.account.dashpots.fill(0.0);
         self.find_force_slopes(inputs, base.coordinates, work);
         match step.dense() {
             _ if length == 0.0 => return done,
@@ -169,7 +167,7 @@ impl System {
     fn integrate_quiet_flight(&self, base: &Base, work: &mut Buffers, length: f64, done: &mut Work) {
         let (mut q, mut v) = (std::mem::take(&mut work.q), std::mem::take(&mut work.v));
         self.fly(base, length, work, (&mut q, &mut v));
-        let modal = &mut work.modal;
+        let modal = &mut work.account.modal;
         let [from, to] = [(&base.q, &base.v), (&q, &v)].map(|(q, v)| {
             let (q, _) = self.motion_of_modes((base.oscillates, q, v), modal);
             dot(&self.structure.participation, q)
@@ -270,7 +268,8 @@ impl System {
         work: &mut Buffers,
         done: &mut Work,
     ) {
-        let Buffers { node_q, node_v, v: damped, force_slope, powers, dashpots, modal, .. } = work;
+        let Buffers { node_q, node_v, v: damped, force_slope, powers, account, .. } = work;
+        let WorkRoom { dashpots, modal, .. } = account;
         for (t, weight) in nodes {
             motion(t, powers, node_q, node_v);
             let (_, v) = self.motion_of_modes((base.oscillates, node_q, node_v), modal);

@@ -48,6 +48,8 @@ pub(super) struct Oscillators {
     pub to_modes: DMatrix<f64>,
     /// (x, y) from (q, v).
     pub from_modes: DMatrix<f64>,
+    /// The energy of the modes is at most so many times the sum of (y^2 + w^2 x^2) / 2.
+    pub most_energy: f64,
 }
 
 /// One of them, with A and B, and the rows that give x and y from (q, v).
@@ -99,6 +101,7 @@ impl Oscillators {
             participation: all.iter().map(|one| one.participation).collect(),
             to_modes,
             from_modes,
+            most_energy: f64::NAN,
         };
         oscillators.sharpened(&modes.omega)
     }
@@ -117,6 +120,7 @@ impl Oscillators {
         let off = DMatrix::from_fn(2 * n, 2 * n, |i, k| off[(i, k)] * size(&self.omega, i) / size(&self.omega, k));
         let values = scaled.try_svd(false, false, f64::EPSILON, 1000)?.singular_values;
         let condition = values.max() / values.min();
+        self.most_energy = (1.0 + 1e-9) * values.max() * values.max();
         // Written so that a NaN is not good.
         (condition <= MOST_CONDITION && off.amax() <= 1e-11).then_some(self)
     }

@@ -8,12 +8,12 @@
 //!
 //! and the work of a damping matrix D over h seconds is z' W z with W the integral of exp(A t)' D exp(A t), whose power
 //! series has the terms L of L <- A' L + L A. A short time is doubled with the exact motion: W(2h) = W(h) + T' W(h) T, where
-//! z becomes T z over h. The work is found from velocities, never from the energies at both ends, so that the balance of
+//! z becomes T z over h. Where oscillators move in flights (`flight_modes.rs`) their coordinates and rates stand in z. The work is found from velocities, never from the energies at both ends, so that the balance of
 //! energy still tests the motion.
 
 use super::bodies::Body;
 use super::equations::Structure;
-use super::lanes::{LANES, dot};
+use super::lanes::{LANES, Lane, dot, from_left_to_right};
 use super::modes::ModalDamping;
 use nalgebra::{DMatrix, RowDVector};
 
@@ -29,12 +29,25 @@ pub(super) struct CoupledWork {
     /// First mode and number of modes.
     offset: usize,
     count: usize,
-    /// Work of all damping, as a matrix over z.
-    viscous: DMatrix<f64>,
+    /// Work of all damping.
+    viscous: Form,
     /// Work of the dashpots of links, each with the number of its link.
-    links: Vec<(usize, DMatrix<f64>)>,
+    links: Vec<(usize, Form)>,
     /// Work of the ground motion: rows over z that are multiplied by its acceleration and its slope.
     input: [RowDVector<f64>; 2],
+}
+
+/// The same as matrices over z, while a short time is doubled.
+struct Matrices {
+    viscous: DMatrix<f64>,
+    links: Vec<(usize, DMatrix<f64>)>,
+    input: [RowDVector<f64>; 2],
+}
+
+/// z' X z for a symmetric X: block of rows after block of rows, each from its diagonal block on, with all beyond it twice.
+#[derive(Clone, Debug)]
+struct Form {
+    entries: Vec<Lane>,
 }
 
 /// A of one body.
@@ -61,29 +74,25 @@ impl CoupledWork {
             let row = RowDVector::from_row_slice(&link.row[range.clone()]);
             (l, rates.form(&(link.dashpot * row.transpose() * row), h))
         });
-        let mut work = CoupledWork {
-            offset: range.start,
-            count: n,
-            links: forms.collect(),
-            viscous: rates.form(damping, h),
-            input: rates.input(h),
-        };
+        let mut work = Matrices { links: forms.collect(), viscous: rates.form(damping, h), input: rates.input(h) };
         let mut onward = rates.transition(h);
         for _ in 0..doublings {
             work.double(&onward, h);
             onward = &onward * &onward;
             h *= 2.0;
         }
-        Some(work)
-    }
-
-    fn double(&mut self, onward: &DMatrix<f64>, h: f64) {
-        for form in self.links.iter_mut().map(|(_, form)| form).chain([&mut self.viscous]) {
-            *form += onward.tr_mul(&(&*form * onward));
+        if let Some(to_modes) = structure.oscillators().and_then(|flight| flight.map_of(range.start)) {
+            let mut over = DMatrix::identity(rates.size(), rates.size());
+            over.view_mut((0, 0), (2 * n, 2 * n)).copy_from(to_modes);
+            work.change_coordinates(&over);
         }
-        let [held, rising] = &mut self.input;
-        *rising += (&*rising + &*held * h) * onward;
-        *held += &*held * onward;
+        Some(CoupledWork {
+            offset: range.start,
+            count: n,
+            links: work.links.iter().map(|(l, matrix)| (*l, Form::of(matrix))).collect(),
+            viscous: Form::of(&work.viscous),
+            input: work.input,
+        })
     }
 
     /// Work of the ground motion and of damping over a flight from a motion, under the ground's acceleration, m/s2, and its
@@ -98,12 +107,31 @@ impl CoupledWork {
         let own = self.offset..self.offset + self.count;
         z.clear();
         z.extend(q[own.clone()].iter().chain(&v[own]).chain(&[a, s]));
-        z.resize(self.viscous.nrows(), 0.0);
+        z.resize(z.len().next_multiple_of(LANES), 0.0);
         for (l, form) in &self.links {
-            dashpots[*l] += product(form.as_slice(), z);
+            dashpots[*l] += form.of_vector(z);
         }
         let [held, rising] = self.input.each_ref().map(|row| dot(row.as_slice(), z));
-        [a * held + s * rising, product(self.viscous.as_slice(), z)]
+        [a * held + s * rising, self.viscous.of_vector(z)]
+    }
+}
+
+impl Matrices {
+    /// Over z = P y instead of z.
+    fn change_coordinates(&mut self, over: &DMatrix<f64>) {
+        for form in self.links.iter_mut().map(|(_, form)| form).chain([&mut self.viscous]) {
+            *form = over.tr_mul(&(&*form * over));
+        }
+        self.input.iter_mut().for_each(|row| *row = &*row * over);
+    }
+
+    fn double(&mut self, onward: &DMatrix<f64>, h: f64) {
+        for form in self.links.iter_mut().map(|(_, form)| form).chain([&mut self.viscous]) {
+            *form += onward.tr_mul(&(&*form * onward));
+        }
+        let [held, rising] = &mut self.input;
+        *rising += (&*rising + &*held * h) * onward;
+        *held += &*held * onward;
     }
 }
 
@@ -169,12 +197,43 @@ impl Rates<'_> {
     }
 }
 
-/// z' X z for a matrix X column by column.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn product(matrix: &[f64], z: &[f64]) -> f64 {
-    let mut sum = 0.0;
-    for (column, z_j) in matrix.chunks_exact(z.len().max(1)).zip(z) {
-        sum += z_j * dot(column, z);
+impl Form {
+    fn of(matrix: &DMatrix<f64>) -> Form {
+        let size = matrix.nrows();
+        let entry = |i: usize, j: usize, block: usize| -> f64 {
+            let mean = 0.5 * (matrix[(i, j)] + matrix[(j, i)]);
+            if j < (block + 1) * LANES { mean } else { 2.0 * mean }
+        };
+        let blocks = (0..size / LANES).flat_map(|block| {
+            (block * LANES..size).map(move |j| std::array::from_fn(|i| entry(block * LANES + i, j, block)))
+        });
+        Form { entries: blocks.collect() }
     }
-    sum
+
+    fn of_vector(&self, z: &[f64]) -> f64 {
+        product(&self.entries, z)
+    }
+}
+
+/// See [`Form`]; four sums side by side, so that none has to wait for the one before.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn product(mut entries: &[Lane], z: &[f64]) -> f64 {
+    let mut whole = [0.0; LANES];
+    for (block, of_rows) in z.as_chunks::<LANES>().0.iter().enumerate() {
+        let columns = z[block * LANES..].as_chunks::<LANES>().0;
+        let (own, rest) = entries.split_at(columns.len() * LANES);
+        let mut sums = [[0.0; LANES]; LANES];
+        for (four, factors) in own.as_chunks::<LANES>().0.iter().zip(columns) {
+            for k in 0..LANES {
+                for i in 0..LANES {
+                    sums[k][i] += four[k][i] * factors[k];
+                }
+            }
+        }
+        for i in 0..LANES {
+            whole[i] += of_rows[i] * ((sums[0][i] + sums[1][i]) + (sums[2][i] + sums[3][i]));
+        }
+        entries = rest;
+    }
+    from_left_to_right(whole)
 }

@@ -12,6 +12,8 @@ pub struct FlightModes {
     /// Their frequencies, damping and participation, as if they were modes; shapes are rows over both of their coordinates,
     /// and stand elsewhere.
     pub oscillators: Structure,
+    /// The energy of the modes is at most so many times the sum of (x'^2 + w^2 x^2) / 2 over the oscillators.
+    pub most_energy: f64,
     maps: Vec<Map>,
 }
 
@@ -28,21 +30,28 @@ struct Map {
 impl FlightModes {
     /// Those of a structure; `None` where damping couples no modes, or couples them so that they have none.
     pub(super) fn of(structure: &Structure) -> Option<FlightModes> {
-        let (mut bodies, mut maps) = (Vec::new(), Vec::new());
+        let (mut bodies, mut maps, mut most) = (Vec::new(), Vec::new(), 1.0_f64);
         for body in &structure.bodies {
             if !body.is_coupled() {
                 bodies.push(body.clone());
                 continue;
             }
             let count = body.range.len();
-            let Oscillators { omega, damping, participation, to_modes, from_modes } = Oscillators::of(&body.modes)?;
+            let of_body = Oscillators::of(&body.modes)?;
+            let Oscillators { omega, damping, participation, to_modes, from_modes, most_energy } = of_body;
+            most = most.max(most_energy);
             let damping = ModalDamping::Diagonal(damping);
             let modes = Modes { omega, shape: DMatrix::zeros(count, count), participation, damping };
             bodies.push(Body { modes, ..body.clone() });
             maps.push(Map { offset: body.range.start, count, to_modes, from_modes });
         }
         let oscillators = Structure::of_bodies(bodies, structure.floors.clone());
-        (!maps.is_empty()).then_some(FlightModes { oscillators, maps })
+        (!maps.is_empty()).then_some(FlightModes { oscillators, most_energy: most, maps })
+    }
+
+    /// The matrix that gives displacements and velocities of the modes of a body, of which this is the first.
+    pub(super) fn map_of(&self, offset: usize) -> Option<&DMatrix<f64>> {
+        self.maps.iter().find(|map| map.offset == offset).map(|map| &map.to_modes)
     }
 
     /// Writes displacements and velocities of the modes from the oscillators' coordinates and their rates.

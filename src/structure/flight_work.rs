@@ -43,6 +43,29 @@ struct ModeForms {
     omega2: Lane,
 }
 
+/// Memory for the work over flights.
+#[derive(Clone, Debug)]
+pub struct WorkRoom {
+    /// Motion and load of a flight.
+    z: Vec<f64>,
+    /// Energy dissipated by the dashpot of each link over a step, J.
+    pub dashpots: Vec<f64>,
+    /// Displacements and velocities of the modes where oscillators move in flights.
+    pub modal: [Vec<f64>; 2],
+}
+
+impl WorkRoom {
+    /// For a structure.
+    pub fn new(structure: &Structure) -> WorkRoom {
+        let count = structure.oscillators().map_or(0, |_| structure.lanes);
+        WorkRoom {
+            z: Vec::with_capacity(2 * structure.lanes + 2 * LANES),
+            dashpots: vec![0.0; structure.links.len()],
+            modal: [(); 2].map(|()| vec![0.0; count]),
+        }
+    }
+}
+
 /// What a flight does, and the energy at its start, J.
 #[derive(Clone, Copy, Debug)]
 pub struct FlightEnergy {
@@ -69,7 +92,7 @@ impl FlightWork {
         let modes = structure.omega2.iter().zip(&structure.damping).zip(&structure.participation);
         for (m, ((w2, c), participation)) in modes.enumerate() {
             if structure.couples(m) {
-                work.modes[m / LANES].omega2[m % LANES] = *w2;
+                work.modes[m / LANES].omega2[m % LANES] = structure.in_flight().omega2[m];
                 continue;
             }
             let [input, viscous] = forms(w2.sqrt(), *c, *participation, length);
@@ -84,19 +107,32 @@ impl FlightWork {
     }
 
     /// Over a flight from a motion, under the ground's acceleration, m/s2, and its slope, m/s3, at the start, where damping
-    /// may couple modes; adds the work of the dashpots of links to `dashpots`, and `z` is scratch.
+    /// may couple modes. Energies that cannot exceed the `largest` so far may be 0 instead: where oscillators move, theirs cost
+    /// as much as the work.
     pub fn over_all(
         &self,
+        structure: &Structure,
         (q, v): (&[f64], &[f64]),
         load: (f64, f64),
-        z: &mut Vec<f64>,
-        dashpots: &mut [f64],
+        largest: f64,
+        WorkRoom { z, dashpots, modal: [of_q, of_v] }: &mut WorkRoom,
     ) -> FlightEnergy {
+        dashpots.fill(0.0);
         let mut flight = self.over((q.as_chunks().0, v.as_chunks().0), load);
         for body in &self.coupled {
             let [input, viscous] = body.over((q, v), load, z, dashpots);
             flight.input += input;
             flight.viscous += viscous;
+        }
+        if let Some(oscillators) = structure.oscillators() {
+            let most = oscillators.most_energy * (flight.kinetic + flight.strain);
+            (flight.kinetic, flight.strain) = match most <= largest {
+                true => (0.0, 0.0),
+                false => {
+                    oscillators.to_modes((q, v), (of_q, of_v));
+                    structure.energies(of_q, of_v)
+                }
+            };
         }
         flight
     }

@@ -4,7 +4,7 @@ use crate::engine::base::{Account, Base};
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
-use crate::structure::{FlightModes, FlightWork, Lane};
+use crate::structure::{FlightWork, Lane, Structure};
 
 /// What is added up over segments that follow each other.
 pub trait SegmentAccount {
@@ -25,8 +25,8 @@ pub struct NoAccount;
 pub struct EnergyAccount<'a> {
     work: &'a FlightWork,
     account: Account,
-    /// The oscillators that move, where these are not the modes, and memory for the motion of the modes.
-    oscillators: Option<(&'a FlightModes, &'a mut Buffers)>,
+    /// The structure where its oscillators move, and memory for their work.
+    oscillating: Option<(&'a Structure, &'a mut Buffers)>,
     /// Energy that the contacts have dissipated, J.
     impact: f64,
 }
@@ -42,8 +42,8 @@ impl EnergyAccount<'_> {
         let account = base.energy?;
         let work = ground.work_over(&base.segment)?;
         room.dashpot_sums.clone_from(&base.dashpots);
-        let oscillators = system.structure.oscillators().map(|oscillators| (oscillators, room));
-        Some(EnergyAccount { work, account, oscillators, impact: base.dissipated_by_contacts() })
+        let oscillating = system.structure.oscillators().map(|_| (&system.structure, room));
+        Some(EnergyAccount { work, account, oscillating, impact: base.dissipated_by_contacts() })
     }
 }
 
@@ -68,13 +68,12 @@ impl SegmentAccount for EnergyAccount<'_> {
 
     #[inline(always)]
     fn add(&mut self, motion: (&[Lane], &[Lane]), load: (f64, f64)) {
-        let flight = match &mut self.oscillators {
+        let flight = match &mut self.oscillating {
             None => self.work.over(motion, load),
-            Some((oscillators, Buffers { modal: [q, v], z, dashpots, dashpot_sums, .. })) => {
-                oscillators.to_modes((motion.0.as_flattened(), motion.1.as_flattened()), (q, v));
-                dashpots.fill(0.0);
-                let flight = self.work.over_all((q, v), load, z, dashpots);
-                dashpot_sums.iter_mut().zip(dashpots).for_each(|(sum, done)| sum.add(*done));
+            Some((structure, Buffers { account: room, dashpot_sums, .. })) => {
+                let motion = (motion.0.as_flattened(), motion.1.as_flattened());
+                let flight = self.work.over_all(structure, motion, load, self.account.largest, room);
+                dashpot_sums.iter_mut().zip(&room.dashpots).for_each(|(sum, done)| sum.add(*done));
                 flight
             }
         };
@@ -84,7 +83,7 @@ impl SegmentAccount for EnergyAccount<'_> {
     #[inline(always)]
     fn store(self, base: &mut Base) {
         base.energy = Some(self.account);
-        if let Some((_, room)) = self.oscillators {
+        if let Some((_, room)) = self.oscillating {
             base.dashpots.clone_from(&room.dashpot_sums);
         }
     }

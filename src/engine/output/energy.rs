@@ -27,12 +27,12 @@ impl Model {
     #[inline(never)]
     fn read_energy(&self, mut account: Account, state: &State, work: &mut Buffers, point: &Point) -> EnergyPoint {
         let elapsed = state.since_base();
-        work.dashpots.fill(0.0);
+        work.account.dashpots.fill(0.0);
         if elapsed > 0.0 {
             let done = self.system.work_over(&state.base, &state.step, &state.inputs, work, elapsed);
             account.add(&done);
         }
-        let dashpots = state.base.dashpots.iter().zip(&work.dashpots).map(|(sum, done)| sum.exact() + done);
+        let dashpots = state.base.dashpots.iter().zip(&work.account.dashpots).map(|(sum, done)| sum.exact() + done);
         let mut shown = point.dashpots.borrow_mut();
         shown.clear();
         shown.extend(dashpots);

@@ -21,6 +21,7 @@ use crate::engine::base::contact::{Contact, Episode};
 use crate::engine::base::storey::Storey;
 use crate::engine::model::Model;
 use crate::engine::output::instant::Instant;
+use crate::engine::output::known::PeakCell;
 use crate::engine::output::outputs::ContactPoint;
 use crate::engine::output::point::{Known, Point};
 use crate::engine::state::State;
@@ -102,6 +103,7 @@ impl Model {
         point.storeys = vec![Storey::default(); self.system.storeys.len()];
         point.floors.make_room(lanes);
         point.work.replace(None);
+        point.peaks = PeakCell::default();
     }
 
     /// Works out the closed contacts.

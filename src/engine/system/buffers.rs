@@ -5,7 +5,7 @@ use crate::numerics::complementarity::Complementarity;
 use crate::numerics::polynomial::{Coefficients, MAX_ORDER, MAX_TERMS};
 use crate::numerics::powers::Powers;
 use crate::numerics::sum::Sum;
-use crate::structure::{Interval, LANES, MotionSeries, Scratch, Structure};
+use crate::structure::{Interval, MotionSeries, Scratch, Structure, WorkRoom};
 
 /// Scratch vectors, each with one number per lane of the motion.
 #[derive(Clone, Debug)]
@@ -32,14 +32,10 @@ pub struct Buffers {
     /// Velocities at the nodes of a quadrature (`energy.rs`). Elsewhere: bounds on the modal amplitudes, m kg^1/2/s
     /// (`flight`), third derivatives of the modes (`peaks`), or a term of a series.
     pub node_v: Vec<f64>,
-    /// Energy dissipated by the dashpot of each link over a step, J.
-    pub dashpots: Vec<f64>,
-    /// The same since the start, while fast flight passes over many segments.
+    /// Memory for the work over a flight, with the energy that the dashpots of links dissipate over any step.
+    pub account: WorkRoom,
+    /// That energy since the start, J, while fast flight passes over many segments.
     pub dashpot_sums: Vec<Sum>,
-    /// Displacements and velocities of the modes where oscillators move in flights.
-    pub modal: [Vec<f64>; 2],
-    /// Motion and load of a flight, for its work.
-    pub z: Vec<f64>,
     /// Terms of one pair's penetration, m.
     pub scalar: Coefficients,
     /// Powers of the point at which a series is evaluated.
@@ -64,10 +60,8 @@ impl Buffers {
             interval: Interval::room(structure),
             node_q: vector(),
             node_v: vector(),
-            dashpots: vec![0.0; structure.links.len()],
             dashpot_sums: Vec::with_capacity(structure.links.len()),
-            modal: [(); 2].map(|()| if structure.oscillators().is_some() { vector() } else { Vec::new() }),
-            z: Vec::with_capacity(2 * lanes + 2 * LANES),
+            account: WorkRoom::new(structure),
             scalar: [0.0; MAX_TERMS],
             powers: Powers::default(),
             rigid: Complementarity::new(rigid),
