@@ -207,8 +207,7 @@ impl System {
         const REMAINDER: f64 = 1e-16;
         let (pieces, flying) = (self.pieces(length), self.structure.in_flight());
         let h = length / pieces as f64;
-        let order =
-            flight_order(flying.fastest * h, REMAINDER).unwrap_or(crate::numerics::polynomial::MAX_ORDER);
+        let order = flight_order(flying.fastest * h, REMAINDER).unwrap_or(crate::numerics::polynomial::MAX_ORDER);
         self.load(base, inputs, &mut work.load, &mut work.slope);
         if length > self.longest_pieces() {
             return self.integrate_quiet_flight(base, work, length, done);

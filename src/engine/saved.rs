@@ -4,12 +4,12 @@
 //! scratch vectors hold nothing, and all that follows from the scene is in the model.
 
 use crate::contact::EpisodeForce;
-use crate::engine::base::{Base, Coordinates};
 use crate::engine::base::contact::Phase;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::Event;
 use crate::engine::base::stop::Stop;
 use crate::engine::base::storey::Sense;
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::error::EngineError;
 use crate::engine::excitation::inputs::Inputs;
 use crate::engine::model::Model;
@@ -147,7 +147,8 @@ impl Model {
         let SavedState { base, inputs, .. } = saved;
         let fits = base.q.len() == fresh.base.q.len()
             && base.v.len() == fresh.base.v.len()
-            && (!base.oscillates || self.system.structure.oscillators().is_some() && base.coordinates == Coordinates::Modes)
+            && (!base.oscillates
+                || self.system.structure.oscillators().is_some() && base.coordinates == Coordinates::Modes)
             && base.contacts.len() == self.system.pairs.len()
             && base.storeys.len() == self.system.storeys.len()
             && base.energy.is_some() == self.energy

@@ -113,9 +113,8 @@ impl Oscillators {
         let correction = &unit * 2.0 - &self.from_modes * &self.to_modes;
         self.from_modes = correction * &self.from_modes;
         let size = |of: &[f64], i: usize| if i < n { of[i] } else { 1.0 };
-        let scaled = DMatrix::from_fn(2 * n, 2 * n, |i, k| {
-            self.to_modes[(i, k)] * size(omega, i) / size(&self.omega, k)
-        });
+        let scaled =
+            DMatrix::from_fn(2 * n, 2 * n, |i, k| self.to_modes[(i, k)] * size(omega, i) / size(&self.omega, k));
         let off = &self.from_modes * &self.to_modes - unit;
         let off = DMatrix::from_fn(2 * n, 2 * n, |i, k| off[(i, k)] * size(&self.omega, i) / size(&self.omega, k));
         let values = scaled.try_svd(false, false, f64::EPSILON, 1000)?.singular_values;
@@ -298,7 +297,9 @@ mod tests {
         };
         let linked = |(left, right): (usize, usize), dashpot: f64| {
             let links = (1..=left.min(right)).map(|floor| {
-                format!("[[link]]\nleft_floor = {floor}\nright_floor = {floor}\nstiffness = 1e6\ndashpot = {dashpot:e}\n")
+                format!(
+                    "[[link]]\nleft_floor = {floor}\nright_floor = {floor}\nstiffness = 1e6\ndashpot = {dashpot:e}\n"
+                )
             });
             let (one, other) = (building(left, 2.4e7), building(right, 5.1e7));
             format!("name = \"Two\"\n[left]\n{one}\n[right]\n{other}\n{}", links.collect::<String>())

@@ -13,7 +13,8 @@
 
 use super::bodies::Body;
 use super::equations::Structure;
-use super::lanes::{LANES, Lane, dot, from_left_to_right};
+use super::form::Form;
+use super::lanes::{LANES, dot};
 use super::modes::ModalDamping;
 use nalgebra::{DMatrix, RowDVector};
 
@@ -42,19 +43,6 @@ struct Matrices {
     viscous: DMatrix<f64>,
     links: Vec<(usize, DMatrix<f64>)>,
     input: [RowDVector<f64>; 2],
-}
-
-/// z' X z for a symmetric X: block of rows after block of rows, each from its diagonal block on, with all beyond it twice.
-#[derive(Clone, Debug)]
-struct Form {
-    entries: Vec<Lane>,
-}
-
-/// A of one body.
-struct Rates<'a> {
-    omega2: &'a [f64],
-    participation: &'a [f64],
-    damping: &'a DMatrix<f64>,
 }
 
 impl CoupledWork {
@@ -89,8 +77,8 @@ impl CoupledWork {
         Some(CoupledWork {
             offset: range.start,
             count: n,
-            links: work.links.iter().map(|(l, matrix)| (*l, Form::of(matrix))).collect(),
-            viscous: Form::of(&work.viscous),
+            links: work.links.iter().map(|(l, matrix)| (*l, Form::of(matrix, 0))).collect(),
+            viscous: Form::of(&work.viscous, 0),
             input: work.input,
         })
     }
@@ -133,6 +121,13 @@ impl Matrices {
         *rising += (&*rising + &*held * h) * onward;
         *held += &*held * onward;
     }
+}
+
+/// A of one body.
+struct Rates<'a> {
+    omega2: &'a [f64],
+    participation: &'a [f64],
+    damping: &'a DMatrix<f64>,
 }
 
 impl Rates<'_> {
@@ -195,45 +190,4 @@ impl Rates<'_> {
         }
         sum
     }
-}
-
-impl Form {
-    fn of(matrix: &DMatrix<f64>) -> Form {
-        let size = matrix.nrows();
-        let entry = |i: usize, j: usize, block: usize| -> f64 {
-            let mean = 0.5 * (matrix[(i, j)] + matrix[(j, i)]);
-            if j < (block + 1) * LANES { mean } else { 2.0 * mean }
-        };
-        let blocks = (0..size / LANES).flat_map(|block| {
-            (block * LANES..size).map(move |j| std::array::from_fn(|i| entry(block * LANES + i, j, block)))
-        });
-        Form { entries: blocks.collect() }
-    }
-
-    fn of_vector(&self, z: &[f64]) -> f64 {
-        product(&self.entries, z)
-    }
-}
-
-/// See [`Form`]; four sums side by side, so that none has to wait for the one before.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn product(mut entries: &[Lane], z: &[f64]) -> f64 {
-    let mut whole = [0.0; LANES];
-    for (block, of_rows) in z.as_chunks::<LANES>().0.iter().enumerate() {
-        let columns = z[block * LANES..].as_chunks::<LANES>().0;
-        let (own, rest) = entries.split_at(columns.len() * LANES);
-        let mut sums = [[0.0; LANES]; LANES];
-        for (four, factors) in own.as_chunks::<LANES>().0.iter().zip(columns) {
-            for k in 0..LANES {
-                for i in 0..LANES {
-                    sums[k][i] += four[k][i] * factors[k];
-                }
-            }
-        }
-        for i in 0..LANES {
-            whole[i] += of_rows[i] * ((sums[0][i] + sums[1][i]) + (sums[2][i] + sums[3][i]));
-        }
-        entries = rest;
-    }
-    from_left_to_right(whole)
 }

@@ -4,6 +4,7 @@ use super::base_shear::BaseShear;
 use super::bodies::Body;
 use super::flight_modes::FlightModes;
 use super::floors::Floors;
+use super::form::Form;
 use super::lane_matrix::{LaneMatrix, block_of_all};
 use super::lanes::{LANES, Lane, dot};
 use super::links::LinkRow;
@@ -58,6 +59,8 @@ pub struct Structure {
 struct Coupling {
     offset: usize,
     matrix: DMatrix<f64>,
+    /// Power that it takes from velocities.
+    power: Form,
 }
 
 impl Structure {
@@ -147,7 +150,8 @@ impl Structure {
                 self.fastest = self.fastest.max(c.abs().row_sum().max());
             }
         }
-        self.coupling.extend(body.coupling().map(|matrix| Coupling { offset, matrix }));
+        let coupling = |matrix: DMatrix<f64>| Coupling { offset, power: Form::of(&matrix, offset), matrix };
+        self.coupling.extend(body.coupling().map(coupling));
     }
 
     /// The oscillators that move in flights, where these are not the modes.
@@ -313,7 +317,7 @@ impl Structure {
 
     /// `out` -= factor * (off-diagonal damping) * `velocity`.
     pub fn subtract_coupling(&self, velocity: &[f64], factor: f64, out: &mut [f64]) {
-        for Coupling { offset, matrix } in &self.coupling {
+        for Coupling { offset, matrix, .. } in &self.coupling {
             let own = *offset..*offset + matrix.nrows();
             subtract_product(matrix.as_slice(), factor, &velocity[own.clone()], &mut out[own]);
         }
@@ -354,8 +358,8 @@ impl Structure {
             }
         }
         let mut power: f64 = lanes.iter().sum();
-        for Coupling { offset, matrix } in &self.coupling {
-            power += form(matrix.as_slice(), &v[*offset..*offset + matrix.nrows()]);
+        for coupling in &self.coupling {
+            power += coupling.power.of_vector(v);
         }
         power
     }
@@ -408,32 +412,24 @@ fn flies_by_oscillators(scene: &Scene) -> bool {
 /// `out` -= a square matrix, column by column, times `factor` times a vector.
 #[multiversion::multiversion(targets("x86_64+avx2"))]
 fn subtract_product(matrix: &[f64], factor: f64, vector: &[f64], out: &mut [f64]) {
-    for (column, x) in matrix.chunks_exact(out.len().max(1)).zip(vector) {
+    // Four columns at a time: `out` is read and written once for them.
+    let (count, (fours, rest)) = (out.len(), vector.as_chunks::<LANES>());
+    let (of_fours, of_rest) = matrix.split_at(fours.len() * LANES * count);
+    for (columns, x) in of_fours.chunks_exact((LANES * count).max(1)).zip(fours) {
+        // Without closures, whose code would not be compiled for wide instructions.
+        let [x0, x1, x2, x3] = [factor * x[0], factor * x[1], factor * x[2], factor * x[3]];
+        let (first, last) = columns.split_at(2 * count);
+        let ((c0, c1), (c2, c3)) = (first.split_at(count), last.split_at(count));
+        for i in 0..count {
+            out[i] = (((out[i] - c0[i] * x0) - c1[i] * x1) - c2[i] * x2) - c3[i] * x3;
+        }
+    }
+    for (column, x) in of_rest.chunks_exact(count.max(1)).zip(rest) {
         let x = factor * x;
         for (out, c) in out.iter_mut().zip(column) {
             *out -= c * x;
         }
     }
-}
-
-/// v' C v of a square matrix, column by column; no sum has to wait for the one before.
-#[multiversion::multiversion(targets("x86_64+avx2"))]
-fn form(matrix: &[f64], v: &[f64]) -> f64 {
-    let mut sums = [[0.0; LANES]; 2];
-    for (column, factor) in matrix.chunks_exact(v.len().max(1)).zip(v) {
-        let (blocks, rest) = column.as_chunks::<{ 2 * LANES }>();
-        let (of_v, rest_of_v) = v.as_chunks::<{ 2 * LANES }>();
-        for (block, v) in blocks.iter().zip(of_v) {
-            for i in 0..LANES {
-                sums[0][i] += factor * (block[i] * v[i]);
-                sums[1][i] += factor * (block[LANES + i] * v[LANES + i]);
-            }
-        }
-        for (i, (c, v)) in rest.iter().zip(rest_of_v).enumerate() {
-            sums[i / LANES][i % LANES] += factor * (c * v);
-        }
-    }
-    sums.as_flattened().iter().sum()
 }
 
 /// Modal vectors for intermediate results.

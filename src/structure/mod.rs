@@ -37,6 +37,7 @@ mod first_mode;
 mod flight_modes;
 mod flight_work;
 mod floors;
+mod form;
 mod free_rows;
 mod impulse_response;
 mod interval;

@@ -2,8 +2,8 @@
 //!
 //! It is an optimisation only: `plan` and `take` do the same segment by segment, bit for bit.
 
-use crate::engine::base::counters::Counters;
 use crate::engine::base::Base;
+use crate::engine::base::counters::Counters;
 use crate::engine::excitation::record::GroundMotion;
 use crate::engine::excitation::segment::Segment;
 use crate::engine::flight::fast_account::{EnergyAccount, NoAccount, SegmentAccount};

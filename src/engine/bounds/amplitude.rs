@@ -191,7 +191,8 @@ impl ModeRates {
             size = each(|i| size[i] + mode.weight[i] * moved[i]);
             if self.oscillates {
                 // |A| |x| + |B| |x'|, with (w + c) |B| in the weight.
-                size = each(|i| size[i] + mode.weight[i] * if mode.omega[i] > 0.0 { a[i] / mode.omega[i] } else { 0.0 });
+                size =
+                    each(|i| size[i] + mode.weight[i] * if mode.omega[i] > 0.0 { a[i] / mode.omega[i] } else { 0.0 });
             }
         }
         for range in &self.coupled {

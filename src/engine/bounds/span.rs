@@ -354,11 +354,7 @@ fn sum_sags(rows: &[Vec<Lane>; 2], sizes: &[ModeSizes]) -> Lane {
 }
 
 #[multiversion::multiversion(targets("x86_64+avx2"))]
-fn values_at<const N: usize>(
-    rows: &[Vec<Lane>; 2],
-    motion: &[[[f64; N]; 2]],
-    at_rest: &Lane,
-) -> [[f64; N]; LANES] {
+fn values_at<const N: usize>(rows: &[Vec<Lane>; 2], motion: &[[[f64; N]; 2]], at_rest: &Lane) -> [[f64; N]; LANES] {
     let mut all = [[0.0; N]; LANES];
     // Two quantities at a time stay in registers.
     for (pair, out) in all.chunks_exact_mut(2).enumerate() {

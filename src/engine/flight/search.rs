@@ -4,9 +4,9 @@
 //! The search does not change the motion: a flight without an entry ends at the exact solution, to the same bits
 //! whether it was searched or not. So pairs that never meet do not affect the results.
 
+use crate::engine::base::Base;
 use crate::engine::base::counters::Counters;
 use crate::engine::base::planned::{Event, Planned};
-use crate::engine::base::Base;
 use crate::engine::bounds::certificate::Certificate;
 use crate::engine::flight::workspace::Look;
 use crate::engine::system::System;
@@ -40,8 +40,7 @@ impl Search<'_> {
     pub fn first_event(&mut self, planned: &mut Planned, counters: &mut Counters) {
         let Search { system, base, .. } = *self;
         let (remaining, flying) = (planned.length, system.structure.in_flight());
-        let mut unit =
-            if flying.fastest * remaining > REACH { REACH / flying.fastest } else { remaining };
+        let mut unit = if flying.fastest * remaining > REACH { REACH / flying.fastest } else { remaining };
         let is_tracked = base.contacts.iter().any(|contact| contact.tracked);
         let are_elastic = self.look.is_free[system.pairs.len()..].iter().all(|is_elastic| *is_elastic);
         if let Some(rows) =

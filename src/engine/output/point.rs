@@ -1,7 +1,7 @@
 //! The solution at one time, by floors and contacts.
 
-use crate::engine::base::{Base, Coordinates};
 use crate::engine::base::storey::Storey;
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::output::known::{FloorMotions, PeakCell};
 use crate::engine::output::outputs::{ContactPoint, EnergyPoint};
 use crate::engine::system::buffers::Buffers;

@@ -1,8 +1,8 @@
 //! One contact: the row of weights that gives its penetration from the floors' displacements.
 
 use crate::contact::{EpisodeForce, Force, ImpactLaw};
-use crate::engine::base::{Base, Coordinates};
 use crate::engine::base::contact::{Contact, Episode, Phase};
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::quantities::flight_row::{FlightRow, OscillatorRows};
 use crate::scene::Scene;
 use crate::structure::{FEW_BLOCKS, LANES, Lane, Structure};

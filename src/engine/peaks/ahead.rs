@@ -4,8 +4,8 @@
 //! What has been flown ahead is a guess. It counts only for flights that start with the same motion, to the last bit, and
 //! under the same load.
 
-use crate::engine::base::peaks::Peaks;
 use crate::engine::base::Base;
+use crate::engine::base::peaks::Peaks;
 use crate::engine::bounds::flights::{Flights, Load};
 use crate::engine::model::Model;
 use crate::engine::peaks::fold::is_below;

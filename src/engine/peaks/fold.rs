@@ -250,7 +250,13 @@ impl Fold<'_> {
     fn read_modes<const N: usize>(&self, (number, span): (usize, &Span<N>), room: &mut SpanRoom<N>) -> f64 {
         let SpanRoom { motion, sizes, .. } = room;
         let slow = &self.truncated.modes[..self.truncated.slow];
-        span.read(self.flights, self.rows.modes.start, (slow, self.truncated.oscillates), motion, &mut sizes[self.sizes_of(number)])
+        span.read(
+            self.flights,
+            self.rows.modes.start,
+            (slow, self.truncated.oscillates),
+            motion,
+            &mut sizes[self.sizes_of(number)],
+        )
     }
 
     /// Reads the blocks that may exceed their peaks over a span at the ends of its flights.

@@ -282,8 +282,15 @@ impl Model {
                 let of = suspect.of;
                 self.set_flight_rows(of, &mut rows);
                 let at_rest = flight.rest[suspect.place];
-                let quantity =
-                    Quantity { of, rows: &rows, lanes: None, span, at_rest, ground: (ground + slope * from, slope), oscillates };
+                let quantity = Quantity {
+                    of,
+                    rows: &rows,
+                    lanes: None,
+                    span,
+                    at_rest,
+                    ground: (ground + slope * from, slope),
+                    oscillates,
+                };
                 let (terms, order) = quantity.terms(&work.buffers.series, None);
                 suspect.peak = highest(&terms, (end, order), suspect.peak, &mut work.buffers.powers);
             }

@@ -175,9 +175,8 @@ impl BodyRows {
             row
         };
         let over = |block: &Block| {
-            let of: [_; LANES] = std::array::from_fn(|i| {
-                oscillators.rows([&spread(&block.on_q, i), &spread(&block.on_v, i)])
-            });
+            let of: [_; LANES] =
+                std::array::from_fn(|i| oscillators.rows([&spread(&block.on_q, i), &spread(&block.on_v, i)]));
             Block::of(self.modes.len(), |i, m| [0, 1].map(|part| of[i][part][self.modes.start + m]))
         };
         let BodyRows { modes, first, moving, pulling, .. } = self;

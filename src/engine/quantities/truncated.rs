@@ -158,7 +158,8 @@ impl TruncatedBody {
             },
         };
         let groups = group(&modes, slow);
-        let blocks = rows.blocks.iter().map(|block| TruncatedBlock::of((block, oscillates), (&modes, slow), &groups)).collect();
+        let blocks =
+            rows.blocks.iter().map(|block| TruncatedBlock::of((block, oscillates), (&modes, slow), &groups)).collect();
         TruncatedBody { modes, slow, groups, oscillates, blocks }
     }
 }
@@ -182,11 +183,7 @@ fn group(modes: &[Mode], slow: usize) -> Vec<Group> {
 }
 
 impl TruncatedBlock {
-    fn of(
-        (block, oscillates): (&Block, bool),
-        (modes, slow): (&[Mode], usize),
-        groups: &[Group],
-    ) -> TruncatedBlock {
+    fn of((block, oscillates): (&Block, bool), (modes, slow): (&[Mode], usize), groups: &[Group]) -> TruncatedBlock {
         match oscillates {
             true => TruncatedBlock::of_oscillators(block, (modes, slow), groups),
             false => TruncatedBlock::of_modes(block, (modes, slow), groups),

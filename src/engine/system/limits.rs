@@ -50,7 +50,10 @@ impl System {
         pairs.all(|(pair, gap)| oscillation.stays_below(pair.in_flight(), 1.0, *gap))
             && storeys.all(|(of, (_, centre))| {
                 let limit = |sign: f64| of.limit + sign * centre;
-                Sense::BOTH.map(Sense::sign).iter().all(|sign| oscillation.stays_below(of.in_flight(), *sign, limit(*sign)))
+                Sense::BOTH
+                    .map(Sense::sign)
+                    .iter()
+                    .all(|sign| oscillation.stays_below(of.in_flight(), *sign, limit(*sign)))
             })
     }
 }

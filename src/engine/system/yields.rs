@@ -1,8 +1,8 @@
 //! The first instant at which an elastic storey yields, by a power series of the motion.
 
+use crate::engine::base::Base;
 use crate::engine::base::planned::Event;
 use crate::engine::base::storey::Sense;
-use crate::engine::base::Base;
 use crate::engine::system::System;
 use crate::numerics::polynomial::{Coefficients, MAX_TERMS};
 use crate::numerics::roots;

@@ -15,7 +15,6 @@ use crate::engine::flight::workspace::Look;
 use crate::engine::taylor::exact::plan_exact;
 use crate::engine::taylor::solution::Solution;
 use crate::numerics::roots::highest_of_cubic;
-use crate::structure::dot;
 
 #[test]
 fn both_ends_tell_how_far_from_a_cubic_a_quantity_goes() {
@@ -24,25 +23,26 @@ fn both_ends_tell_how_far_from_a_cubic_a_quantity_goes() {
     let mut coupled = Comparison::of("cubic, coupled modes");
     for _ in 0..1500 {
         let (storeys, frequencies) = any_system(&mut random);
-        let damping = random.one_of(&[Damping::None, Damping::Classical, Damping::Coupled]);
+        let damping = random.one_of(&[Damping::None, Damping::Classical, Damping::Coupled, Damping::Oscillating]);
         let ground = random.one_of(&[Ground::Still, Ground::Any]);
         let mut case = Case::new(&mut random, storeys, frequencies, damping, (ground, 0.01));
         let p = random.one_of(&[0, 1, 2, 3]);
         let row = case.rows()[p].clone();
         let start = random.one_of(&[Start::Aside, Start::Any]);
         case.start(&mut random, start, &row);
-        let h = random.between(0.2, 3.0) / case.system.structure.fastest;
+        let h = random.between(0.2, 3.0) / case.system.structure.in_flight().fastest;
         let [load, slope] = case.load(3);
         let from = [case.base.q.clone(), case.base.v.clone()];
         let motion = case.motion(from, [load.clone(), slope.clone()], (h, 16));
         let Case { system, base, work, .. } = &mut case;
-        let certificate = Certificate::of(&system.structure, [&row[..]].into_iter());
-        let bound = certificate.deviation(&system.structure, (&base.q, &base.v), (&load, &slope), h, &mut work.scratch);
-        let [from, to] = [&motion[0], &motion[16]].map(|[q, v]| (dot(&row, q), dot(&row, v)));
+        let flying = system.structure.in_flight();
+        let certificate = Certificate::of(&system.structure, [&row.sizes[..]].into_iter());
+        let bound = certificate.deviation(flying, (&base.q, &base.v), (&load, &slope), h, &mut work.scratch);
+        let [from, to] = [&motion[0], &motion[16]].map(|[q, v]| (row.value(q, v), row.rate(q, v)));
         let cubic = |x: f64| hermite(from, to, h, x);
         let off = course(&row, &motion).enumerate().map(|(i, value)| (value - cubic(i as f64 / 16.0)).abs());
         let what = || format!("{start:?}, row {p}, {storeys:?} storeys, {damping:?}, {h:e} s");
-        let comparison = match (system.structure.is_classical(), start) {
+        let comparison = match (flying.is_classical(), start) {
             (false, _) => &mut coupled,
             (true, Start::Aside) if ground == Ground::Still => &mut pulled,
             _ => &mut any,
@@ -86,23 +86,23 @@ fn both_ends_show_that_a_flight_is_free() {
     let mut comparison = Comparison::of("certificate");
     for _ in 0..1000 {
         let (storeys, frequencies) = any_system(&mut random);
-        let damping = random.one_of(&[Damping::None, Damping::Classical, Damping::Coupled]);
+        let damping = random.one_of(&[Damping::None, Damping::Classical, Damping::Coupled, Damping::Oscillating]);
         let mut case = Case::new(&mut random, storeys, frequencies, damping, (Ground::Any, 0.01));
         let (p, start) = (random.one_of(&[0, 1, 2, 3]), random.one_of(&[Start::Moving, Start::Pulled, Start::Any]));
         let row = case.rows()[p].clone();
         case.start(&mut random, start, &row);
-        let h = random.power_of_ten(-1.5, 0.3) / case.system.structure.fastest;
+        let h = random.power_of_ten(-1.5, 0.3) / case.system.structure.in_flight().fastest;
         let [load, slope] = case.load(0);
         let motion = case.motion([case.base.q.clone(), case.base.v.clone()], [load.clone(), slope.clone()], (h, 16));
         let value = |x: f64| if p == 3 { x.abs() } else { x };
-        let now = value(dot(&row, &case.base.q));
+        let now = value(row.value(&case.base.q, &case.base.v));
         let Case { system, base, work, .. } = &mut case;
         (work.load, work.slope) = (load, slope);
-        let mut planned = Planned::new(row.len(), 3);
+        let mut planned = Planned::new(row.sizes.len(), 3);
         planned.length = h;
         [planned.q, planned.v] = motion[16].clone();
         let flight = Flight::new(system);
-        let mut look = Look::new(row.len(), 4);
+        let mut look = Look::new(row.sizes.len(), 4);
         let bound = threshold(now, |limit| {
             base.rest.gaps.fill(1e9);
             system.storeys[0].limit = 1e9;
@@ -128,7 +128,7 @@ fn searches_find_what_passes_a_limit_and_nothing_else() {
     let (mut flights, mut series) = (Comparison::of("search in flights"), Comparison::of("search in series"));
     for i in 0..500 {
         let (storeys, frequencies) = any_system(&mut random);
-        let damping = random.one_of(&[Damping::None, Damping::Classical, Damping::Coupled]);
+        let damping = random.one_of(&[Damping::None, Damping::Classical, Damping::Coupled, Damping::Oscillating]);
         let segment = random.power_of_ten(-2.0, 0.0);
         let mut case = Case::new(&mut random, storeys, frequencies, damping, (Ground::Any, segment));
         let p = random.one_of(&[0, 1, 2, 3]);
@@ -138,13 +138,13 @@ fn searches_find_what_passes_a_limit_and_nothing_else() {
         let time = if is_flight {
             case.segment(0).length
         } else {
-            case.segment(0).length.min(1.9 / case.system.structure.fastest)
+            case.segment(0).length.min(1.9 / case.system.structure.in_flight().fastest)
         };
         let [load, slope] = case.load(0);
         let motion =
             case.motion([case.base.q.clone(), case.base.v.clone()], [load.clone(), slope.clone()], (time, 4 * 64));
         let value = |x: f64| if p == 3 { x.abs() } else { x };
-        let now = value(dot(&row, &case.base.q));
+        let now = value(row.value(&case.base.q, &case.base.v));
         let bound = threshold(now, |limit| {
             case.base.rest.gaps.fill(1e9);
             limit_storey(&mut case.system, 1e9);
@@ -152,17 +152,16 @@ fn searches_find_what_passes_a_limit_and_nothing_else() {
                 limit_storey(&mut case.system, limit);
             }
             let mut base = case.for_contact(p.min(2), if p == 3 { 1e9 } else { limit });
-            let mut planned = Planned::new(row.len(), 3);
+            let mut planned = Planned::new(row.sizes.len(), 3);
             let (inputs, mut counters) = (Inputs::of([1, 1], false), Counters::default());
             if is_flight {
-                base =
-                    Base { q: case.base.q.clone(), v: case.base.v.clone(), coordinates: case.base.coordinates, ..base };
+                base = Base { contacts: base.contacts, rest: base.rest, ..case.base.clone() };
             }
             let Case { system, work, .. } = &mut case;
             system.load(&base, &inputs, &mut work.load, &mut work.slope);
             let mut at = At { base: &mut base, inputs: &inputs, counters: &mut counters };
             if is_flight {
-                let mut look = Look::new(row.len(), 4);
+                let mut look = Look::new(row.sizes.len(), 4);
                 Flight::new(system).plan(system, &mut at, time, &mut planned, &mut look, work);
             } else {
                 assert!(plan_exact(system, &mut at, (time, false), &mut planned, &mut Solution::new(system), work));
@@ -174,7 +173,7 @@ fn searches_find_what_passes_a_limit_and_nothing_else() {
         let what = || format!("row {p}, {storeys:?} storeys, {damping:?}, {time:e} s");
         comparison.note(reached - now, bound - now, ROUNDING * size(&row, &motion), &what);
         // Between the instants that are looked at it may be a little higher.
-        let h = case.system.structure.fastest * time / 256.0;
+        let h = case.system.structure.in_flight().fastest * time / 256.0;
         assert!(bound <= reached + (h * h + 1e-8) * size(&row, &motion), "found {bound:e}, {reached:e}: {}", what());
     }
     flights.comes_within(0.9999);
@@ -189,14 +188,14 @@ fn no_open_pair_meets_that_its_terms_keep_apart() {
     for _ in 0..600 {
         let (storeys, frequencies) = any_system(&mut random);
         // Ratios of damping leave no floor with its neighbours alone.
-        let damping = random.one_of(&[Damping::None, Damping::Classical, Damping::Coupled]);
+        let damping = random.one_of(&[Damping::None, Damping::Classical, Damping::Coupled, Damping::Oscillating]);
         let mut case = Case::new(&mut random, storeys, frequencies, damping, (Ground::Any, 0.1));
         let (p, start) = (random.one_of(&[0, 1, 2]), random.one_of(&[Start::Moving, Start::Pulled, Start::Any]));
         let row = case.rows()[p].clone();
         case.start(&mut random, start, &row);
-        let time = random.power_of_ten(-2.0, 0.2) / case.system.structure.fastest;
+        let time = random.power_of_ten(-2.0, 0.2) / case.system.structure.in_flight().fastest;
         let motion = case.motion([case.base.q.clone(), case.base.v.clone()], case.load(0), (time, 64));
-        let now = dot(&row, &case.base.q);
+        let now = row.value(&case.base.q, &case.base.v);
         let bound = threshold(now, |gap| {
             let base = case.for_contact(p, gap);
             let Case { system, work, .. } = &mut case;
@@ -235,9 +234,9 @@ fn terms_bound_fourth_derivatives_and_drifts() {
         let mut case = Case::new(&mut random, storeys, frequencies, damping, (Ground::Still, 0.1));
         let (row, start) = (case.rows()[0].clone(), random.one_of(&[Start::Moving, Start::Aside, Start::Any]));
         case.start(&mut random, start, &row);
-        let time = random.power_of_ten(-1.2, 0.2) / case.system.structure.fastest;
+        let time = random.power_of_ten(-1.2, 0.2) / case.system.structure.in_flight().fastest;
         let motion = case.motion([case.base.q.clone(), case.base.v.clone()], case.load(0), (time, 16));
-        let [from, to] = [&motion[0], &motion[16]].map(|[q, v]| (dot(&row, q), dot(&row, v)));
+        let [from, to] = [&motion[0], &motion[16]].map(|[q, v]| (row.value(q, v), row.rate(q, v)));
         let off = course(&row, &motion).enumerate();
         let off = largest(off.map(|(i, value)| (value - hermite(from, to, time, i as f64 / 16.0)).abs()));
         let (base, rounding) = (case.for_contact(0, from.0), 1e-13 * size(&row, &motion));
@@ -257,14 +256,15 @@ fn terms_bound_fourth_derivatives_and_drifts() {
             let lane = open.members[*block].lanes().find(|(_, pair)| *pair == 0);
             lane.iter().for_each(|(lane, _)| own.note(off, deviation(1.0, bounds.fourth[*lane]), rounding, &what));
         }
-        let row = system.storeys[0].row.clone();
-        let bound = threshold(dot(&row, &motion[0][0]).abs(), |limit| {
+        let row = case.rows()[3].clone();
+        let Case { system, work, .. } = &mut case;
+        let bound = threshold(row.value(&motion[0][0], &motion[0][1]).abs(), |limit| {
             limit_storey(system, limit);
             system.first_switch(&base, &mut solution, work).is_none()
         });
         let reached = largest(course(&row, &motion).map(f64::abs));
         switches.note(reached, bound, ROUNDING * size(&row, &motion), &what);
-        let h = system.structure.fastest * time / 16.0;
+        let h = system.structure.in_flight().fastest * time / 16.0;
         assert!(bound <= reached + (h * h + 1e-8) * size(&row, &motion), "{bound:e}, {reached:e}: {}", what());
     }
     sizes.comes_within(0.99);

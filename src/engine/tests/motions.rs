@@ -12,7 +12,7 @@ use crate::engine::system::System;
 use crate::engine::system::buffers::Buffers;
 use crate::record::Record;
 use crate::scene::Scene;
-use crate::structure::{Interval, Scratch, dot};
+use crate::structure::{Interval, Scratch, Structure, dot};
 
 /// Random numbers that are the same in every run (splitmix64).
 pub struct Random(pub u64);
@@ -62,6 +62,8 @@ pub enum Damping {
     Classical,
     /// By dashpots, which couple the modes.
     Coupled,
+    /// The same, where oscillators stand for the modes.
+    Oscillating,
 }
 
 /// How the motion starts that a quantity, a row over the modes, is in.
@@ -109,7 +111,7 @@ fn building(random: &mut Random, side: &str, storeys: usize, frequency: f64, dam
     let damping = match damping {
         Damping::None => "ratio = 0.0".to_owned(),
         Damping::Classical => format!("ratio = {:?}", random.between(0.0, 0.2)),
-        Damping::Coupled => {
+        Damping::Coupled | Damping::Oscillating => {
             let of = |k: &f64| k * 0.02 / w * random.between(0.1, 2.0);
             format!("dashpots = {:?}", stiffness.iter().map(of).collect::<Vec<_>>())
         }
@@ -134,7 +136,9 @@ impl Case {
     ) -> Case {
         let left = building(random, "left", storeys[0], frequencies[0], damping, true);
         let right = building(random, "right", storeys[1], frequencies[1], damping, false);
-        let mut text = format!("name = \"Any\"\n{left}{right}");
+        // Forces on floors ask for the modes themselves.
+        let forces = if damping == Damping::Coupled { "inputs = { floor_forces = true }\n" } else { "" };
+        let mut text = format!("name = \"Any\"\n{forces}{left}{right}");
         let floor = |random: &mut Random, count: usize| 1 + (random.share() * count as f64) as usize;
         let rows = [
             format!("left_floor = {}\nright_floor = {}", floor(random, storeys[0]), floor(random, storeys[1])),
@@ -169,22 +173,30 @@ impl Case {
         let times = (0..=SEGMENTS).map(|k| if k == 0 { 0.0 } else { first + segment * (k - 1) as f64 }).collect();
         let record = Record { accelerations: samples, times };
         let system = System::of(&scene, Some(&record)).unwrap();
-        let base = system.start(0.0, Peaks::default(), None);
-        let work = Buffers::new(&system.structure, system.rigid.pairs.len());
+        let mut base = system.start(0.0, Peaks::default(), None);
+        let mut work = Buffers::new(&system.structure, system.rigid.pairs.len());
+        system.convert_to_flight(&mut base, [&mut work.q, &mut work.v]);
         Case { system, base, work }
     }
 
     /// The rows of all pairs, and that of the storey.
-    pub fn rows(&self) -> Vec<Vec<f64>> {
-        let pairs = self.system.pairs.iter().map(|pair| pair.row.clone());
-        pairs.chain([self.system.storeys[0].row.clone()]).collect()
+    pub fn rows(&self) -> Vec<Row> {
+        let rows = self.system.limited_rows().map(|row| {
+            let entries = |part: usize| (0..self.system.structure.lanes).map(|m| row.entries(m)[part]).collect();
+            let (of_q, of_v): (Vec<f64>, Vec<f64>) = (entries(0), entries(1));
+            let Structure { omega2, damping, .. } = self.system.structure.in_flight();
+            let rate_of_q = of_v.iter().zip(omega2).map(|(b, w2)| -w2 * b).collect();
+            let rate_of_v = of_q.iter().zip(&of_v).zip(damping).map(|((a, b), c)| a - c * b).collect();
+            Row { rate: [rate_of_q, rate_of_v], of_q, of_v, sizes: row.sizes().to_vec() }
+        });
+        rows.collect()
     }
 
     /// Sets the motion at the base as a row's quantity has to start, with modal velocities up to 1; returns whether
     /// there is such a start.
-    pub fn start(&mut self, random: &mut Random, start: Start, row: &[f64]) -> bool {
+    pub fn start(&mut self, random: &mut Random, start: Start, Row { of_q: row, .. }: &Row) -> bool {
         let Case { system, base: Base { q, v, .. }, .. } = self;
-        let w = |m: usize| system.structure.omega2[m].sqrt();
+        let w = |m: usize| system.structure.in_flight().omega2[m].sqrt();
         let modes: Vec<usize> = (0..row.len()).filter(|m| row[*m] != 0.0 && w(*m) > 0.0).collect();
         q.fill(0.0);
         v.fill(0.0);
@@ -215,7 +227,7 @@ impl Case {
     /// The modal load at the start of a segment and its slope.
     pub fn load(&self, segment: usize) -> [Vec<f64>; 2] {
         let Segment { slope, .. } = self.segment(segment);
-        let of = |a: f64| self.system.structure.participation.iter().map(|share| -share * a).collect();
+        let of = |a: f64| self.system.structure.in_flight().participation.iter().map(|share| -share * a).collect();
         [of(self.segment(segment).acceleration_at(0.0)), of(slope)]
     }
 
@@ -236,7 +248,7 @@ impl Case {
         [load, slope]: [Vec<f64>; 2],
         (time, pieces): (f64, usize),
     ) -> Vec<[Vec<f64>; 2]> {
-        let structure = &self.system.structure;
+        let structure = self.system.structure.in_flight();
         let (piece, mut scratch) = (time / pieces as f64, Scratch::new(structure.lanes));
         let interval = Interval::new(structure, piece);
         let mut states = vec![from];
@@ -271,8 +283,8 @@ impl Case {
         base.rest.gaps[p] = gap;
         (base.contacts[p].penetration, base.contacts[p].rate) =
             self.system.pairs[p].penetration(gap, (&base.q, &base.v));
-        let mut room = vec![0.0; base.q.len()];
-        self.system.convert(&mut base, self.system.contact_coordinates, &mut room);
+        let mut room = [(); 2].map(|()| vec![0.0; base.q.len()]);
+        self.system.convert(&mut base, self.system.contact_coordinates, room.each_mut());
         base
     }
 
@@ -285,12 +297,33 @@ impl Case {
 /// Gives the storey that can yield another yield drift, m.
 pub fn limit_storey(system: &mut System, limit: f64) {
     system.storeys[0].limit = limit;
-    system.together = Together::of(&system.structure, system.storeys.iter().map(|of| (&of.row[..], of.limit)));
+    system.together = Together::of(&system.structure, system.storeys.iter().map(|of| (of.in_flight(), of.limit)));
+}
+
+/// A quantity in flights: a row over modes or the coordinates of oscillators, and one over their rates.
+#[derive(Clone)]
+pub struct Row {
+    pub of_q: Vec<f64>,
+    pub of_v: Vec<f64>,
+    /// The same of its rate, but for what the ground adds to that and takes from it again.
+    rate: [Vec<f64>; 2],
+    /// Entries for bounds by amplitudes.
+    pub sizes: Vec<f64>,
+}
+
+impl Row {
+    pub fn value(&self, q: &[f64], v: &[f64]) -> f64 {
+        dot(&self.of_q, q) + dot(&self.of_v, v)
+    }
+
+    pub fn rate(&self, q: &[f64], v: &[f64]) -> f64 {
+        dot(&self.rate[0], q) + dot(&self.rate[1], v)
+    }
 }
 
 /// The quantity of a row at all of some states.
-pub fn course<'a>(row: &'a [f64], states: &'a [[Vec<f64>; 2]]) -> impl Iterator<Item = f64> + 'a {
-    states.iter().map(|[q, _]| dot(row, q))
+pub fn course<'a>(row: &'a Row, states: &'a [[Vec<f64>; 2]]) -> impl Iterator<Item = f64> + 'a {
+    states.iter().map(|[q, v]| row.value(q, v))
 }
 
 /// The largest of some numbers.
@@ -299,8 +332,9 @@ pub fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// Sum of the magnitudes that the quantity of a row is made of.
-pub fn size(row: &[f64], states: &[[Vec<f64>; 2]]) -> f64 {
-    largest(states.iter().map(|[q, _]| row.iter().zip(q).map(|(row, q)| (row * q).abs()).sum()))
+pub fn size(row: &Row, states: &[[Vec<f64>; 2]]) -> f64 {
+    let sum = |row: &[f64], of: &[f64]| row.iter().zip(of).map(|(row, of)| (row * of).abs()).sum::<f64>();
+    largest(states.iter().map(|[q, v]| sum(&row.of_q, q) + sum(&row.of_v, v)))
 }
 
 /// The least limit above `low` for which a bound says that a quantity stays below it: the bound as a number.

@@ -4,8 +4,8 @@
 //! The motion of a storey is that of the net storey, its columns and gravity together (`scene/p_delta.rs`); what is told of
 //! it is that of the columns. Without gravity both are the same.
 
-use crate::engine::base::{Base, Coordinates};
 use crate::engine::base::storey::{Sense, Storey};
+use crate::engine::base::{Base, Coordinates};
 use crate::engine::bounds::certificate::stays_below;
 use crate::engine::pairs::pair::{FloorShare, beyond_rounding};
 use crate::engine::quantities::flight_row::{FlightRow, OscillatorRows};
