@@ -3,7 +3,7 @@
 
 use crate::common::scene;
 use pounding::scene::Link;
-use pounding::structure::{FlightWork, Interval, LANES, Lane, Scratch, Structure, dot};
+use pounding::structure::{FlightWork, Interval, LANES, Lane, Scratch, Structure, WorkRoom, dot};
 
 /// Two single masses of `omega`, 1/s, and damping ratio.
 fn structure([left, right]: [(f64, f64); 2]) -> Structure {
@@ -102,7 +102,13 @@ fn work_of_dashpots_that_couple_modes_balances_the_energy() {
     };
     scene.links = vec![link(1, 12.0), link(0, 0.0), link(0, 5.0)];
     let joined = Structure::of(&scene).ok().unwrap();
-    for (structure, length) in [&alone, &joined].into_iter().flat_map(|of| LENGTHS.map(|length| (of, length))) {
+    // Where a master may push on floors, flights are those of the modes themselves.
+    scene.floor_forces = true;
+    let of_modes = Structure::of(&scene).ok().unwrap();
+    assert!(joined.oscillators().is_some() && of_modes.oscillators().is_none());
+    for (structure, length) in
+        [&alone, &joined, &of_modes].into_iter().flat_map(|of| LENGTHS.map(|length| (of, length)))
+    {
         let work = FlightWork::of(structure, length);
         let start: [Vec<f64>; 2] = [0.3, -0.5]
             .map(|size| (0..structure.lanes).map(|m| if m < 5 { size / (m + 1) as f64 } else { 0.0 }).collect());
@@ -120,10 +126,16 @@ fn work_of_dashpots_that_couple_modes_balances_the_energy() {
                 );
                 [q, v]
             };
-            let mut dashpots = vec![0.0; structure.links.len()];
-            let over = work.over_all((&start[0], &start[1]), (a, s), &mut Vec::new(), &mut dashpots);
+            let (mut room, mut moving) = (WorkRoom::new(structure), start.clone());
+            if let Some(oscillators) = structure.oscillators() {
+                let [q, v] = &mut moving;
+                oscillators.from_modes((&start[0], &start[1]), (q, v));
+            }
+            let over = work.over_all(structure, (&moving[0], &moving[1]), (a, s), 0.0, &mut room);
+            let dashpots = room.dashpots;
             let [q, v] = fly(length);
             let (before, after) = (structure.energies(&start[0], &start[1]), structure.energies(&q, &v));
+            assert!((over.kinetic - before.0).abs() + (over.strain - before.1).abs() <= 1e-14 * (before.0 + before.1));
             let balance = before.0 + before.1 + over.input - over.viscous - after.0 - after.1;
             let largest = [before.0, before.1, after.0, after.1, over.input.abs()].into_iter().fold(0.0, f64::max);
             assert!(balance.abs() <= rounding(structure, length) * largest, "{length} s: {balance} of {largest} J");

@@ -209,7 +209,10 @@ fn peaks_are_those_of_the_readings() {
         for (read, (output, of)) in read.iter_mut().zip(outputs) {
             *read = read.max(run.read(output).abs());
             let peak = run.peak(of);
-            assert!(peak >= *read * (1.0 - 1e-12), "{output:?} at {k}: {peak} below {read}");
+            // In the first instants all of this is next to nothing, and of the coordinates of complex modes, which are not, it
+            // has the rounding.
+            let rounding = if k < 100 { 1e-10 } else { 1e-12 };
+            assert!(peak >= *read * (1.0 - rounding), "{output:?} at {k}: {peak} below {read}");
         }
     }
     for (read, (_, of)) in read.iter().zip(outputs) {

@@ -46,8 +46,10 @@
 //! few flights that are left are bounded in blocks of four rows, on a [`stretch`] of exact motion: [`cubic`] (both ends)
 //! and [`envelope`] (oscillation).
 //!
-//! Where damping couples modes they exchange energy, and each gets the amplitude of all together
-//! ([`amplitude::share`]). Jerk is not bounded there, nor is oscillation while the load changes.
+//! Where damping couples modes, the oscillators of their complex modes stand for them (`structure/flight_modes.rs`), with rows
+//! over q and q' (`quantities/flight_row.rs`): all bounds hold, with |A| + (w + c) |B| for |row|. Where there are none, coupled modes
+//! exchange energy, and each gets the amplitude of all together ([`amplitude::share`]). Jerk is not bounded there, nor is
+//! oscillation while the load changes.
 //!
 //! # Which one is asked when
 //!
