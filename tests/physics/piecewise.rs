@@ -143,6 +143,8 @@ impl Piecewise<'_> {
         // No frequency is above the root of the trace.
         let springs = storeys.iter().map(|s| (&s.row, s.stiffness)).chain(pairs.iter().map(|p| (&p.row, p.stiffness)));
         let trace: f64 = springs.map(|(row, k)| k.abs() * row.zip_map(&mass, |w, m| w * w / m).sum()).sum();
+        // Nor is any rate of damping above the largest sum of a row.
+        let damped = damping.row_iter().zip(mass.iter()).map(|(row, m)| row.abs().sum() / m).fold(0.0, f64::max);
         Piecewise {
             plastic: plastic.collect(),
             cumulative: vec![0.0; storeys.len()],
@@ -150,7 +152,7 @@ impl Piecewise<'_> {
             closed: vec![false; pairs.len()],
             struck: vec![f64::NEG_INFINITY; pairs.len()],
             is_over: false,
-            step: 0.05 / trace.sqrt(),
+            step: (0.05 / trace.sqrt()).min(1.0 / damped),
             time: 0.0,
             yields: 0,
             impacts: 0,

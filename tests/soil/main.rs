@@ -6,6 +6,7 @@ mod closed_forms;
 #[path = "../common/mod.rs"]
 mod common;
 mod frames;
+mod invariants;
 #[path = "../physics/piecewise.rs"]
 mod piecewise;
 mod reference;
