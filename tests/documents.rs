@@ -215,7 +215,7 @@ fn every_scene_key_is_in_the_reference() {
     for law in LawKind::ALL {
         text += &format!("[[contact]]\nleft_floor = 1\nright_floor = 1\nlaw = \"{}\"\nx = 0\n", law.info().name);
     }
-    text += "[[link]]\nx = 0\n";
+    text += "[[link]]\nx = 0\n[left.foundation]\nx = 0\nsway = { x = 0 }\nrocking = { x = 0 }\n";
     let facing = format!("name = \"A\"\n[left]\n{building}[facing]\nlaw = \"hertz_damped\"\nx = 0\n");
     let reference = section(&read("docs/reference.md"), "## The scene");
     let cells = first_cells(&reference);
@@ -234,7 +234,7 @@ fn every_scene_key_is_in_the_reference() {
         }
         sections.insert(section);
     }
-    assert_eq!(sections.len(), 10, "{sections:?}");
+    assert_eq!(sections.len(), 13, "{sections:?}");
 }
 
 #[test]
@@ -267,7 +267,7 @@ fn the_variables_of_the_reference_are_those_of_the_table() {
     let driven: String = driven.flat_map(|line| [line, "\n"]).collect();
     let mut variables = BTreeSet::new();
     let linked = format!("{driven}{LINKS}");
-    let others = [facing_buildings(), without_outputs("yielding"), without_outputs("leaning"), linked];
+    let others = [facing_buildings(), without_outputs("yielding"), without_outputs("leaning"), linked, on_soil()];
     for scene in [&scene, &driven].into_iter().chain(&others) {
         let scene =
             Scene::from_toml(&format!("{scene}[inputs]\nfloor_forces = true\n[outputs]\nenergy = true")).unwrap();
@@ -290,6 +290,13 @@ fn the_variables_of_the_reference_are_those_of_the_table() {
 
 /// Of two buildings, with every variable that there is.
 const LINKS: &str = "[[link]]\nleft_floor = 1\nright_floor = 1\nstiffness = 1e3\ndashpot = 10\nslip_force = 5\n";
+
+/// A building on soil.
+fn on_soil() -> String {
+    "name = \"Soil\"\n[left]\nmass = [1e5]\nheight = [3.0]\nstiffness = [1e8]\ndamping = { ratio = 0.05 }\n[left.foundation]\n\
+     mass = 5e4\ninertia = 1e6\nsway = { stiffness = 2e8, dashpot = 3e6 }\nrocking = { stiffness = 5e9 }\n"
+        .to_owned()
+}
 
 /// An example without its outputs.
 fn without_outputs(name: &str) -> String {
@@ -315,7 +322,8 @@ fn the_derivatives_of_the_coupling_page_are_those_that_there_are() {
     let facing = Scene::from_toml(&facing_buildings()).unwrap();
     let leaning = Scene::from_toml(&read("examples/scenes/leaning.toml")).unwrap();
     let linked = Scene::from_toml(&format!("{text}{LINKS}[outputs]\nenergy = true")).unwrap();
-    let rows = [&scene, &facing, &leaning, &linked].map(|scene| Table::new(scene).rows).concat();
+    let soil = Scene::from_toml(&format!("{}[outputs]\nenergy = true", on_soil())).unwrap();
+    let rows = [&scene, &facing, &leaning, &linked, &soil].map(|scene| Table::new(scene).rows).concat();
     let expected: BTreeSet<String> = (rows.iter().filter(is_real_output))
         .map(|row| {
             general(&row.name)

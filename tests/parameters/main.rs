@@ -10,3 +10,4 @@ mod limits;
 mod links;
 mod refusals;
 mod scene;
+mod soil;

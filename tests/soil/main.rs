@@ -1,0 +1,13 @@
+//! Buildings whose foundations sway and rock: against an independent solution in quadruple precision, closed forms,
+//! matrices, and the same run told in another way.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod closed_forms;
+#[path = "../common/mod.rs"]
+mod common;
+mod frames;
+mod invariants;
+#[path = "../physics/piecewise.rs"]
+mod piecewise;
+mod reference;
+mod soil;
