@@ -315,7 +315,9 @@ fn frames_that_lean_on_columns_and_a_wall() {
 
 #[test]
 fn an_isolated_building_between_the_walls_of_its_moat() {
-    compare("tests/reference/scenes/moat.toml", "moat", 1.5e-14);
+    // At 11.95 s it meets a wall at a twentieth of its largest speed, which takes on rounding in the distance multiplied with
+    // acceleration over speed: 4e-15 by matrices over all modes, 1.6e-14 by complex modes; all other entries are below 4e-15.
+    compare("tests/reference/scenes/moat.toml", "moat", 3e-14);
 }
 
 #[test]

@@ -108,7 +108,13 @@ fn the_drift_from_which_a_storey_falls_moves_with_what_holds_it() {
                 right = { mass = [4e4], stiffness = [1e7], damping = { ratio = 0.02 } }\n";
     let mut scene = Scene::from_toml(text).unwrap();
     let slip = Some(Slip { force: 6e4, ratio: 0.0 });
-    scene.links.push(Link { left: Some(Place::Floor(0)), right: Some(Place::Floor(0)), stiffness: 2e6, dashpot: 0.0, slip });
+    scene.links.push(Link {
+        left: Some(Place::Floor(0)),
+        right: Some(Place::Floor(0)),
+        stiffness: 2e6,
+        dashpot: 0.0,
+        slip,
+    });
     let system = System::of(&scene, None).unwrap();
     let told = |plastic: [f64; 2]| {
         let storeys = plastic.map(|plastic| Storey { plastic, ..Storey::default() });
